@@ -1,0 +1,54 @@
+# Every target makes the environment that it needs from nothing: plain python3 (3.11 or newer) and wheels.
+PYTHON ?= python3
+JOBS ?= 2
+DEMO := .venv-demo
+TEST := .venv-test
+DOCS := .venv-docs
+
+.PHONY: help demo test check bench docs clean
+
+help:
+	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
+	@echo "make test   unit tests, verification cases, doctests"
+	@echo "make check  ruff, mypy, import-linter, house rules"
+	@echo "make bench  cost of a slab"
+	@echo "make docs   the documentation as HTML in docs/_build/html"
+
+# $(call environment,folder,extras): build beside, then rename the stamp last, so that an interrupted install is repeated
+define environment
+	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "softway needs Python 3.11 or newer")'
+	test -x $(1)/bin/python || $(PYTHON) -m venv $(1)
+	$(1)/bin/python -m pip install --quiet --constraint constraints.txt --editable '.$(2)'
+	touch $(1)/ready
+endef
+
+$(DEMO)/ready: pyproject.toml constraints.txt
+	$(call environment,$(DEMO),)
+
+$(TEST)/ready: pyproject.toml constraints.txt
+	$(call environment,$(TEST),[dev])
+
+$(DOCS)/ready: pyproject.toml constraints.txt
+	$(call environment,$(DOCS),[docs])
+
+demo: $(DEMO)/ready
+	$(DEMO)/bin/python examples/demo.py
+
+test: $(TEST)/ready
+	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope
+
+check: $(TEST)/ready
+	$(TEST)/bin/ruff check .
+	$(TEST)/bin/ruff format --check .
+	$(TEST)/bin/mypy
+	$(TEST)/bin/lint-imports
+	$(TEST)/bin/python -m pytest -q tests/house
+
+bench: $(TEST)/ready
+	$(TEST)/bin/python benchmarks/bench_slab.py
+
+docs: $(DOCS)/ready
+	$(DOCS)/bin/python -m sphinx --fail-on-warning --keep-going -q -b html docs docs/_build/html
+
+clean:
+	rm -rf $(DEMO) $(TEST) $(DOCS) docs/_build demo

@@ -1,0 +1,22 @@
+"""softway: dynamic contact of solids, with the velocity as unknown and contact as a constraint on it."""
+
+from softway.bodies.fields import Affine, FieldSum, OnTag, Profile, Uniform
+from softway.bodies.force import AverageField, DiscreteGradient, Weighted
+from softway.bodies.loads import Gravity, Traction
+from softway.bodies.mass import Consistent, Lumped
+from softway.bodies.placement import Placement, Rotation
+from softway.bodies.section import Axisymmetric, Bar, PlaneStrain, PlaneStress, Volume
+from softway.bodies.solid import Fixed, Solid, Tool
+from softway.contact.contact import Contact
+from softway.contact.timing import Energy, Impulse, Paper
+from softway.errors import InputError, NumericsError, SoftwayError
+from softway.laws.bulk import LinearElastic, NeoHookean, StVenantKirchhoff
+from softway.march.march import march
+from softway.model import build
+from softway.scene import AsGiven, Scene, State, StaticStart
+from softway.solve.fixed_point import FixedPoint
+from softway.solve.newton import Newton
+from softway.space.mesh import Mesh
+from softway.space.obstacles import HalfSpace
+from softway.space.sources import Ball, Box, Cylinder, Disc, Interval, MeshFile, Rectangle
+from softway.time.weight import Collocation, EndPeaks, Momentum

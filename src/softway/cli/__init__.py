@@ -1,0 +1,3 @@
+"""The command ``softway``."""
+
+from softway.cli.commands import main as main

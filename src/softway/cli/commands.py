@@ -1,0 +1,206 @@
+"""Verbs over a scenario: new, check, run, show, plot.
+
+Exit codes: 0 done, 2 input wrong, 3 numerics failed, 130 interrupted.
+"""
+
+import logging
+import sys
+from collections.abc import Sequence
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import App, CycloptsError, Parameter
+from rich.console import Console
+from rich.logging import RichHandler
+from rich.markup import escape
+
+from softway.cli.progress import progress_of
+from softway.cli.tables import scales, summary
+from softway.errors import InputError, NumericsError
+from softway.execute import run as execute
+from softway.record.run import Run
+from softway.record.view import pictures
+from softway.scenario.check import check as examine
+from softway.scenario.codec import load
+from softway.scenario.templates import templates
+
+DONE, WRONG_INPUT, FAILED, INTERRUPTED = 0, 2, 3, 130
+
+
+def _version() -> str:
+    try:
+        return version("softway")
+    except PackageNotFoundError:
+        return "not installed"
+
+
+app = App(
+    name="softway",
+    help="Transient contact of solids, from a scenario file.",
+    version=_version,
+    suppress_keyboard_interrupt=False,
+)
+Set = Annotated[tuple[str, ...], Parameter(name="--set", negative=())]
+Quiet = Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())]
+
+
+@app.command
+def new(
+    name: str | None = None,
+    *,
+    out: Path | None = None,
+    list_: Annotated[bool, Parameter(name="--list", negative=())] = False,
+) -> None:
+    """Write a scenario to start from.
+
+    Parameters
+    ----------
+    name
+        Which one; without a name they are listed.
+    out
+        File to write, by default NAME.toml here.
+    list_
+        List what there is.
+    """
+    console, known = Console(), templates()
+    if list_ or name is None:
+        for key, text in known.items():
+            console.print(f"[bold]{escape(key)}[/]  {escape(_headline(text))}")
+        return
+    if name not in known:
+        raise InputError("NAME", f"no template '{name}'", f"one of {', '.join(known)}")
+    file = out or Path(f"{name}.toml")
+    if file.exists():
+        raise InputError("--out", f"'{file}' exists", "another name: --out FILE")
+    try:
+        file.write_text(known[name], encoding="utf-8")
+    except OSError as error:
+        raise InputError("--out", f"cannot write '{file}': {error.strerror}", "a folder that exists") from None
+    console.print(f"{escape(str(file))} written; next: softway run {escape(str(file))} --out runs/{escape(name)}")
+
+
+@app.command
+def check(file: Path, /, *, set_: Set = (), quiet: Quiet = False) -> None:
+    """Look for every mistake in a scenario without computing, and show its scales.
+
+    Parameters
+    ----------
+    file
+        Scenario in TOML.
+    set_
+        Change before reading: path=value, any number of times.
+    quiet
+        Print nothing when all is right.
+    """
+    checked = examine(load(file, set_))
+    if not quiet:
+        scales(checked, Console())
+
+
+@app.command
+def run(
+    file: Path,
+    /,
+    *,
+    out: Path | None = None,
+    set_: Set = (),
+    quiet: Quiet = False,
+    overwrite: Annotated[bool, Parameter(negative=())] = False,
+) -> None:
+    """Compute a scenario.
+
+    Parameters
+    ----------
+    file
+        Scenario in TOML.
+    out
+        Folder to make for the records; by default runs/ and the name of the file, numbered when that exists.
+    set_
+        Change before reading: path=value, any number of times.
+    quiet
+        Print errors only.
+    overwrite
+        Replace an earlier run of the same name.
+    """
+    checked = examine(load(file, set_))
+    folder, console = out or _free(Path("runs") / file.stem), Console(quiet=quiet)
+    scales(checked, console)
+    try:
+        with progress_of(checked, console) as progress:
+            done = execute(checked, folder, progress=progress, overwrite=overwrite)
+    except (NumericsError, KeyboardInterrupt):
+        if folder.is_dir():
+            Console(stderr=True).print(f"what was computed until then: {escape(str(folder))}", soft_wrap=True)
+        raise
+    summary(done, console)
+
+
+@app.command
+def show(folder: Path, /) -> None:
+    """Show the summary of a run, also of one that goes on or was interrupted.
+
+    Parameters
+    ----------
+    folder
+        Run folder.
+    """
+    summary(Run(folder), Console())
+
+
+@app.command
+def plot(folder: Path, /, *, out: Path | None = None) -> None:
+    """Draw the bodies and the history of a run.
+
+    Parameters
+    ----------
+    folder
+        Run folder.
+    out
+        File of the first picture (.png, .pdf, .svg), the second beside it; by default both go into the run folder.
+    """
+    for file in pictures(Run(folder), out):
+        Console().print(escape(str(file)), soft_wrap=True)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; returns the exit code."""
+    errors = Console(stderr=True)
+    handler = RichHandler(console=errors, show_time=False, show_path=False)
+    logging.basicConfig(level=logging.WARNING, format="%(message)s", handlers=[handler])
+    try:
+        app(
+            sys.argv[1:] if arguments is None else arguments,
+            exit_on_error=False,
+            print_error=False,
+            result_action="return_value",
+        )
+    except (CycloptsError, InputError) as error:
+        return _failed(errors, error, WRONG_INPUT)
+    except NumericsError as error:
+        return _failed(errors, error, FAILED)
+    except KeyboardInterrupt:
+        errors.print("interrupted")
+        return INTERRUPTED
+    return DONE
+
+
+def _failed(console: Console, error: Exception, code: int) -> int:
+    console.print(f"[bold red]error[/] {escape(str(error))}", soft_wrap=True, highlight=False)
+    return code
+
+
+def _free(folder: Path) -> Path:
+    """The folder, or the first of folder-2, folder-3, ... that does not exist."""
+    number = 1
+    free = folder
+    while free.exists():
+        number += 1
+        free = folder.with_name(f"{folder.name}-{number}")
+    return free
+
+
+def _headline(text: str) -> str:
+    """First comment of a template, or its title."""
+    first = next((line for line in text.splitlines() if line.startswith(("#", "title"))), "")
+    return first.lstrip("# ").removeprefix("title").strip(' ="')

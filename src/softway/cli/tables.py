@@ -1,0 +1,70 @@
+"""Tables on the terminal: the scales of a scenario, the summary of a run."""
+
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table as Grid
+
+from softway.record.run import Run
+
+UNITS = {
+    "wave_speed": "m/s", "length": "m", "transit": "s", "edge": "m", "stable_step": "s", "gap": "m", "approach": "m/s",
+    "duration": "s", "first_touch": "s", "last_release": "s", "impulse": "N s", "peak_force": "N",
+    "peak_force_time": "s", "penetration_worst": "m", "power_residual_worst": "J", "time_end": "s",
+    "energy_error_worst": "J", "dissipation": "J", "work_external": "J", "wall_time": "s",
+}  # fmt: skip
+WORDS = {
+    "stable_step": "stable step (Momentum)", "duration": "expected contact time", "approach": "approach speed",
+    "transit": "wave transit time", "edge": "smallest edge", "dofs": "free components",
+}  # fmt: skip
+COLUMNS = 6
+"""Greatest number of bodies or contacts beside each other."""
+
+
+def scales(checked: Any, console: Console) -> None:
+    """Echo what follows from a scenario: sizes, speeds, times, and the slabs."""
+    title = checked.scenario.title
+    if title:
+        console.print(title, style="bold", markup=False)
+    _columns({f"body {n}": _numbers(b) for n, b in checked.bodies.items()}, console)
+    _columns({f"contact {n}": _numbers(c) for n, c in checked.contacts.items()}, console)
+    end = checked.scenario.time.end
+    console.print(f"{checked.slabs} slabs of {checked.step:.6g} s until {end:.6g} s\n", markup=False)
+
+
+def summary(run: Run, console: Console) -> None:
+    """The numbers of a run and why it stopped."""
+    found, stop, title = run.summary, run.stop, run.provenance.get("title", "")
+    if title:
+        console.print(title, style="bold", markup=False)
+    plain = {k: v for k, v in found.items() if isinstance(v, int | float) and not isinstance(v, bool)}
+    _columns({"run": plain}, console)
+    _columns({f"contact {n}": c for n, c in found["contacts"].items()}, console)
+    console.print(f"{stop.reason}{': ' if stop.message else ''}{stop.message}", markup=False, soft_wrap=True)
+    console.print(f"records: {run.path}", markup=False, soft_wrap=True, highlight=False)
+
+
+def _numbers(item: Any) -> dict[str, Any]:
+    return {f.name: getattr(item, f.name) for f in fields(item)} if is_dataclass(item) else dict(item)
+
+
+def _columns(items: dict[str, dict[str, Any]], console: Console) -> None:
+    """One column for each item, one line for each number."""
+    names = list(items)
+    for start in range(0, len(names), COLUMNS):
+        chosen = names[start : start + COLUMNS]
+        grid = Grid(box=None, pad_edge=False, header_style="bold")
+        grid.add_column("")
+        for name in chosen:
+            grid.add_column(name, justify="right", overflow="fold")
+        grid.add_column("")
+        for key in dict.fromkeys(k for name in chosen for k in items[name]):
+            cells = [_cell(items[name].get(key)) for name in chosen]
+            grid.add_row(WORDS.get(key, key.replace("_", " ")), *cells, UNITS.get(key, ""))
+        console.print(grid)
+        console.print()
+
+
+def _cell(value: Any) -> str:
+    return "-" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value)

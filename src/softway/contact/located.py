@@ -1,0 +1,139 @@
+"""The Energy rule with located instants: the exact slab average of massless contact nodes at small strain.
+
+Along the chord of the nodes with inertia, ``u_i(s) = u_i0 + s (u_i1 - u_i0)``, the free equilibrium position of the
+nodes without inertia is affine in s, and so is the free gap ``gamma(s)``.  On an active set A the multipliers are
+``lambda_A(s) = -W_AA^-1 gamma_A(s)`` with the compliance ``W = N K_cc^-1 N^T``; the set changes where a multiplier or a
+gap vanishes.  Marching over these instants gives the mean multiplier without quadrature error, and the instants of
+touch and release (docs/theory/energy.md).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.contact.candidates import Candidates
+from softway.typing import Array, BoolArray, IntArray
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Branch:
+    """A change of one row inside the slab: ``instant`` in [0, 1], ``row``, and whether it ``closes``."""
+
+    instant: float
+    row: int
+    closes: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class LocatedMean:
+    """Slab averages of a linear solid with massless contact nodes.
+
+    Parameters
+    ----------
+    rows
+        Contact rows.
+    still
+        (k,) free components (flat) of the nodes without inertia.
+    stiffness
+        (k, n d) rows of the stiffness.
+    load
+        (k,) dead load on them.
+    flexibility
+        (k, k) inverse of the stiffness among them.
+    normals
+        (m, k) contact rows on them.
+    """
+
+    rows: Candidates
+    still: IntArray
+    stiffness: sp.csr_array
+    load: Array
+    flexibility: Array
+    normals: Array
+
+    def mean(self, u0: Array, u1: Array) -> Array:
+        """Average displacement (n, d) over the slab between the end values."""
+        out = 0.5 * (u0 + u1)
+        w0, w1 = self._free(u0), self._free(u1)
+        force, _ = self._march(w0, w1)
+        flat = out.ravel()
+        flat[self.still] = 0.5 * (w0 + w1) + self.flexibility @ (self.normals.T @ force)
+        return flat.reshape(out.shape)
+
+    def branches(self, u0: Array, u1: Array) -> list[Branch]:
+        """The touches and releases inside the slab, in order."""
+        return self._march(self._free(u0), self._free(u1))[1]
+
+    def _free(self, u: Array) -> Array:
+        """Equilibrium (k,) of the massless components without contact."""
+        flat = u.ravel().copy()
+        flat[self.still] = 0.0
+        return self.flexibility @ (self.load - self.stiffness @ flat)
+
+    def _march(self, w0: Array, w1: Array) -> tuple[Array, list[Branch]]:
+        """Mean multipliers (m,) over s in [0, 1] and the changes of the active set."""
+        first = self.rows.offset + self.normals @ w0
+        slope = self.normals @ (w1 - w0)
+        w = self.normals @ self.flexibility @ self.normals.T
+        mean, s, found = np.zeros(len(first)), 0.0, []
+        active = lcp(w, first + 1e-10 * slope)
+        while s < 1.0:
+            index = np.flatnonzero(active)
+            push = np.zeros(len(first)), np.zeros(len(first))
+            inner = w[np.ix_(index, index)]
+            push[0][index] = np.linalg.solve(inner, -first[index])
+            push[1][index] = np.linalg.solve(inner, -slope[index])
+            value = np.where(active, push[0], first + w @ push[0])
+            rate = np.where(active, push[1], slope + w @ push[1])
+            with np.errstate(divide="ignore", invalid="ignore"):
+                zero = np.where(rate < 0.0, -value / rate, np.inf)
+            zero[zero <= s + 1e-12] = np.inf
+            row = int(np.argmin(zero)) if len(zero) else 0
+            end = min(float(zero[row]), 1.0) if len(zero) else 1.0
+            mean += (end - s) * (push[0] + 0.5 * (s + end) * push[1])
+            s = end
+            if s < 1.0:
+                found.append(Branch(instant=s, row=row, closes=not active[row]))
+                active = lcp(w, first + (s + 1e-10) * slope)
+        return mean, found
+
+
+def lcp(compliance: Array, gap: Array) -> BoolArray:
+    """Active rows (m,) of 0 <= P _|_ gap + W P >= 0, W symmetric positive definite (Murty's least index at the end).
+
+    Examples
+    --------
+    >>> lcp(np.eye(2), np.array([-1.0, 1.0]))
+    array([ True, False])
+    """
+    active = gap < 0.0
+    for sweep in range(30 + 4 * len(gap)):
+        index = np.flatnonzero(active)
+        force = np.zeros(len(gap))
+        force[index] = np.linalg.solve(compliance[np.ix_(index, index)], -gap[index])
+        wrong = (active & (force < 0.0)) | (~active & (gap + compliance @ force < 0.0))
+        if not wrong.any():
+            break
+        change = np.flatnonzero(wrong)[:1] if sweep >= 30 else np.flatnonzero(wrong)
+        active = active.copy()
+        active[change] = ~active[change]
+    return active
+
+
+def located_mean(rows: Candidates, free: BoolArray, massive: BoolArray, load: Array, stiffness: sp.csc_array) -> LocatedMean:
+    """The averages for a stiffness (n d, n d); ``free`` (n, d), ``massive`` (n,), ``load`` (n, d)."""
+    still = np.flatnonzero((free & ~massive[:, None]).ravel())
+    d = free.shape[1]
+    normals = np.zeros((len(rows.node), free.size))
+    for k in range(d):
+        normals[np.arange(len(rows.node)), rows.node * d + k] = rows.normal[:, k]
+    strip = sp.csr_array(stiffness)[still]
+    return LocatedMean(
+        rows=rows,
+        still=still,
+        stiffness=strip,
+        load=load.ravel()[still],
+        flexibility=np.linalg.inv(strip[:, still].toarray()) if len(still) else np.zeros((0, 0)),
+        normals=normals[:, still],
+    )

@@ -1,0 +1,156 @@
+"""The motion of all nodes inside a slab, with the extra time nodes of those that touch or let go.
+
+Without events the velocity is linear, ``v(tau) = v0 (1 - tau) + q tau`` with the unknown ``q = v1``, and
+
+    u(tau) = u0 + h (v0 tau + (q - v0) tau^2 / 2),        u1 = base + (h/2) q.
+
+A node without inertia moves at the constant rate ``q / 2``; the same formula for ``u1`` holds with ``base = u0``.
+A touch at ``tau_c`` freezes the normal component at the obstacle; a release at ``tau_r`` frees it again from rest:
+
+    n . (u1 - u0) = -gap0 + (1 - tau_r) (h/2) n . q.
+
+A velocity jump ``J`` of every node at ``tau_c`` (the Impulse rule) adds ``h J (1/2 - tau_c)`` to ``u1``.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.contact.candidates import Candidates
+from softway.typing import Array, BoolArray
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Passage:
+    """What each contact row does in a slab.
+
+    Parameters
+    ----------
+    closed
+        (m,) rows whose normal velocity is eliminated up to the end of the slab.
+    touch
+        (m,) instants tau_c, nan where the row does not touch in this slab.
+    speed, slope
+        (m,) normal velocity at t0 [m/s] and its change over the slab [m/s], before the touch.
+    release
+        (m,) instants tau_r, nan where the row does not let go in this slab.
+    """
+
+    closed: BoolArray
+    touch: Array
+    speed: Array
+    slope: Array
+    release: Array
+
+    @property
+    def kinked(self) -> BoolArray:
+        """Rows (m,) whose normal motion is not the smooth one."""
+        return self.closed | np.isfinite(self.touch) | np.isfinite(self.release)
+
+    @property
+    def freedom(self) -> Array:
+        """Share (m,) of the slab in which a kinked row moves freely at the end."""
+        return np.where(np.isfinite(self.release) & ~self.closed, 1.0 - self.release, 0.0)
+
+    @property
+    def approach(self) -> Array:
+        """Normal velocity (m,) just before the touch; zero without one [m/s]."""
+        return np.where(np.isfinite(self.touch), self.speed + np.nan_to_num(self.touch) * self.slope, 0.0)
+
+
+def passage(closed: BoolArray) -> Passage:
+    """The passage without events: closed rows stay closed, open ones open."""
+    m = len(closed)
+    none = np.full(m, np.nan)
+    return Passage(closed=closed, touch=none, speed=np.zeros(m), slope=np.zeros(m), release=none)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Path:
+    """Positions inside the slab as a function of the unknown q (n, d).
+
+    Parameters
+    ----------
+    span
+        h [s].
+    start, velocity
+        (n, d) displacement and velocity at t0.
+    massive
+        (n,) nodes with inertia.
+    rows, way
+        Contact rows and what they do.
+    jumps
+        Pairs (tau, J (n, d)) of velocity jumps of the whole field.
+    """
+
+    span: float
+    start: Array
+    velocity: Array
+    massive: BoolArray
+    rows: Candidates
+    way: Passage
+    jumps: tuple[tuple[float, Array], ...] = ()
+
+    def end(self, q: Array) -> Array:
+        """Displacement (n, d) at the end of the slab."""
+        return self.at(1.0, q)
+
+    def at(self, tau: float, q: Array) -> Array:
+        """Displacement (n, d) at ``tau``."""
+        h, v = self.span, self.velocity
+        rate = np.where(self.massive[:, None], tau * v + 0.5 * tau**2 * (q - v), 0.5 * tau * q)
+        for instant, jump in self.jumps:
+            rate = rate + (max(tau - instant, 0.0) - 0.5 * tau**2) * jump
+        return self._kinked(self.start + h * rate, self._normal_motion(tau, q))
+
+    def mean(self, q: Array) -> Array:
+        """Average displacement (n, d) over the slab, exact for every kink."""
+        h, v = self.span, self.velocity
+        rate = np.where(self.massive[:, None], v / 2.0 + (q - v) / 6.0, 0.25 * q)
+        for instant, jump in self.jumps:
+            rate = rate + (0.5 * (1.0 - instant) ** 2 - 1.0 / 6.0) * jump
+        return self._kinked(self.start + h * rate, self._normal_mean(q))
+
+    def _normal_motion(self, tau: float, q: Array) -> Array:
+        """n . (u(tau) - u0) of the kinked rows (m,)."""
+        h, way = self.span, self.way
+        gap = self.rows.gap(self.start)
+        touch = np.where(np.isfinite(way.touch), way.touch, 0.0)
+        before = h * (way.speed * tau + 0.5 * way.slope * tau**2)
+        run = np.maximum(tau - np.nan_to_num(way.release, nan=1.0), 0.0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            after = np.where(way.freedom > 0.0, 0.5 * h * self.rows.along(q) * run**2 / way.freedom, 0.0)
+        return np.where(tau < touch, before, -gap + after)
+
+    def _normal_mean(self, q: Array) -> Array:
+        """The integral over tau of the normal motion (m,)."""
+        h, way = self.span, self.way
+        gap = self.rows.gap(self.start)
+        c = np.where(np.isfinite(way.touch), way.touch, 0.0)
+        return (
+            h * (way.speed * c**2 / 2.0 + way.slope * c**3 / 6.0)
+            - gap * (1.0 - c)
+            + h * self.rows.along(q) * way.freedom**2 / 6.0
+        )
+
+    def _kinked(self, smooth: Array, normal: Array) -> Array:
+        """The smooth motion with the normal components of the kinked rows replaced."""
+        rows = np.flatnonzero(self.way.kinked)
+        if not len(rows):
+            return smooth
+        node, n = self.rows.node[rows], self.rows.normal[rows]
+        wanted = normal[rows] - np.einsum("mi,mi->m", n, (smooth - self.start)[node])
+        if len(np.unique(node)) == len(node):
+            out = smooth.copy()
+            out[node] += wanted[:, None] * n
+            return out
+        return smooth + corner_correction(node, n, wanted, smooth.shape)
+
+
+def corner_correction(node: Array, normal: Array, wanted: Array, shape: tuple[int, ...]) -> Array:
+    """Least nodal motion (n, d) with the normal components ``wanted`` where a node faces several obstacles."""
+    out = np.zeros(shape)
+    for i in np.unique(node):
+        here = node == i
+        out[i] = np.linalg.lstsq(normal[here], wanted[here], rcond=1e-12)[0]
+    return out

@@ -1,0 +1,42 @@
+"""What can go wrong, said so that a person can act: where, what, and what to try."""
+
+
+class SoftwayError(Exception):
+    """Base of every error that softway raises on purpose."""
+
+
+class InputError(SoftwayError):
+    """The description of the problem is wrong; nothing was computed.
+
+    Parameters
+    ----------
+    where
+        Path in the scenario, as ``bodies.bar.material.nu``.
+    problem
+        What is wrong, with the value.
+    remedy
+        What to write instead.
+    """
+
+    def __init__(self, where: str, problem: str, remedy: str = "") -> None:
+        self.where, self.problem, self.remedy = where, problem, remedy
+        super().__init__(": ".join(p for p in (where, problem) if p) + (f"\n  try: {remedy}" if remedy else ""))
+
+    def within(self, prefix: str) -> "InputError":
+        """The same error seen from one level further out: ``prefix`` is put before its path."""
+        path = f"{prefix}.{self.where}" if self.where else prefix
+        return InputError(path, self.problem, self.remedy)
+
+
+class NumericsError(SoftwayError):
+    """The computation failed; every step accepted before stays valid.
+
+    Parameters
+    ----------
+    what, when, remedy
+        What failed (with numbers), at which time, and what to try.
+    """
+
+    def __init__(self, what: str, when: float, remedy: str = "") -> None:
+        self.what, self.when, self.remedy = what, when, remedy
+        super().__init__(f"t = {when:.6g} s: {what}" + (f"\n  try: {remedy}" if remedy else ""))

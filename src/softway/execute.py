@@ -1,0 +1,84 @@
+"""Execute: a scenario checked, marched and recorded, in one call."""
+
+from functools import partial
+from pathlib import Path
+
+from softway.errors import InputError
+from softway.march.begin import begin
+from softway.march.ledger import opening as audit
+from softway.march.march import march
+from softway.march.situation import parted
+from softway.model import build
+from softway.record.conduct import Place, Progress, conduct
+from softway.record.probes import readings
+from softway.record.recorder import Opening
+from softway.record.run import Run
+from softway.scenario.check import Checked, check
+from softway.scenario.codec import resolved
+from softway.scenario.scenario import Scenario
+
+FRAMES = 100
+"""Number of stored fields when the scenario leaves it open."""
+
+
+def run(
+    scenario: Scenario | Checked,
+    out: str | Path | None = None,
+    *,
+    progress: Progress | None = None,
+    overwrite: bool = False,
+) -> Run:
+    """March a scenario to its end and record it.
+
+    Parameters
+    ----------
+    scenario
+        What to compute; as :class:`Checked` if it has been checked before.
+    out
+        Folder of the records; without one they live in a temporary folder as long as the returned object.
+    progress
+        Called with each accepted step.
+    overwrite
+        Whether ``out`` may replace an earlier run.
+
+    Raises
+    ------
+    InputError
+        Something in the scenario is wrong; no folder is left.
+    NumericsError, KeyboardInterrupt
+        The folder ``out`` holds what was computed until then.
+    """
+    place = Place(out=None if out is None else Path(out), overwrite=overwrite)
+    place.check()
+    checked = scenario if isinstance(scenario, Checked) else check(scenario)
+    given = checked.scenario
+    model = build(checked.scene)
+    start = begin(model)
+    initial = parted(model, start)
+    opening = Opening(
+        scene=checked.scene,
+        meshes=model.meshes,
+        stresses={name: partial(model.stress, name) for name in model.meshes},
+        initial=initial,
+        ledger=audit(model, start),
+        until=given.time.end,
+        fields_every=_every(given),
+        readings=readings(given.output.probes, model.meshes),
+    )
+    time = given.time
+    steps = march(model, until=time.end, step=checked.step, weight=time.weight, method=given.solver, state=initial)
+    return conduct(steps, opening, place, title=given.title, scenario=_text(given), progress=progress)
+
+
+def _every(scenario: Scenario) -> float:
+    """Time between stored fields [s]."""
+    every = scenario.output.fields_every
+    return scenario.time.end / FRAMES if isinstance(every, str) else every
+
+
+def _text(scenario: Scenario) -> str:
+    """The resolved scenario; a comment when parts of it were built in Python."""
+    try:
+        return resolved(scenario)
+    except InputError as error:
+        return f"# {error.where}: {error.problem}\n"

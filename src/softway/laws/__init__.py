@@ -1,0 +1,1 @@
+"""Material laws: what a point of matter answers to its strain."""

@@ -1,0 +1,82 @@
+"""Free lateral faces: the strain a law takes where nothing holds it.
+
+In a bar or a plate the lateral normal strains are those that make the stored energy least, so that the lateral stress
+vanishes.  They are found by Newton's method on the energy, in logarithmic strains for Green's measure (where the
+neo-Hookean energy is convex and no iterate can turn matter inside out).
+"""
+
+import numpy as np
+
+from softway.laws.law import StoredEnergy
+from softway.typing import Array
+
+_TOLERANCE = 1e-9  # last correction of a lateral strain; Newton is quadratic: the error left is about its square
+_LIMIT = 50  # Newton needs 1-6 steps wherever a lateral strain exists
+
+
+def completed(law: StoredEnergy, E: Array, free: tuple[int, ...]) -> Array:
+    """Complete strain (..., 3, 3) of the strain (..., m, m) along the cell.
+
+    The axes ``free`` carry no normal stress; others beyond the cell are held.  Where no lateral strain exists the
+    result is ``nan``.
+
+    Examples
+    --------
+    >>> from softway.laws.bulk import LinearElastic
+    >>> completed(LinearElastic(E=1.0, nu=0.25), np.array([[0.4]]), (1, 2)).diagonal().tolist()
+    [0.4, -0.1, -0.1]
+    """
+    m = E.shape[-1]
+    full = np.zeros((*E.shape[:-2], 3, 3))
+    full[..., :m, :m] = E
+    if not free:
+        return full
+    axes = np.array(free)
+    with np.errstate(all="ignore"):
+        y = _first_guess(law, E, axes)
+        for _ in range(_LIMIT):
+            full[..., axes, axes], slope, curvature = law.measure.lateral(y)
+            gradient = law.stress(full)[..., axes, axes]
+            moduli = law.tangent(full)[..., axes, axes, :, :][..., axes, axes]
+            hessian = moduli * slope[..., :, None] * slope[..., None, :]
+            hessian += (gradient * curvature)[..., None] * np.eye(len(free))
+            step = np.linalg.solve(_regular(hessian), (gradient * slope)[..., None])[..., 0]
+            y = y - step
+            if not np.any(np.abs(step) > _TOLERANCE):
+                break
+        y = np.where(np.abs(step) > _TOLERANCE, np.nan, y)
+        full[..., axes, axes] = law.measure.lateral(y)[0]
+    return full
+
+
+def condensed(C: Array, m: int, free: tuple[int, ...]) -> Array:
+    """Moduli (..., m, m, m, m) along the cell of the complete moduli (..., 3, 3, 3, 3) with ``free`` lateral faces.
+
+    Examples
+    --------
+    >>> from softway.kernels.tensors import isotropic
+    >>> float(condensed(isotropic(1.0, 1.0), 1, (1, 2))[0, 0, 0, 0])
+    2.5
+    """
+    inside = C[..., :m, :m, :m, :m]
+    if not free:
+        return inside
+    axes = np.array(free)
+    coupling = C[..., :m, :m, axes, axes]
+    stiffness = C[..., axes, axes, :, :][..., axes, axes]
+    follow = np.linalg.solve(_regular(stiffness)[..., None, None, :, :], coupling[..., None])[..., 0]
+    return inside - np.einsum("...ijf,...klf->...ijkl", coupling, follow)
+
+
+def _first_guess(law: StoredEnergy, E: Array, axes: Array) -> Array:
+    """Parameters of the lateral strains from the moduli of the undeformed material; exact for a linear law."""
+    C = law.tangent(np.zeros((3, 3)))
+    ratio = np.linalg.solve(C[axes[:, None], axes[:, None], axes, axes], C[axes, axes, 0, 0])
+    return -ratio * law.measure.volumetric(E)[..., None]
+
+
+def _regular(A: Array) -> Array:
+    """A with ``nan`` for singular or unbounded matrices, which the solver would refuse."""
+    det = A[..., 0, 0] if A.shape[-1] == 1 else A[..., 0, 0] * A[..., 1, 1] - A[..., 0, 1] * A[..., 1, 0]
+    bad = ~(np.isfinite(det) & (det != 0.0))
+    return np.where(bad[..., None, None], np.nan, A) if np.any(bad) else A

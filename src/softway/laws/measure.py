@@ -1,0 +1,128 @@
+"""Strain measures: what a law means by strain, and what its stress does to the body.
+
+A point of a body is seen through ``m`` orthonormal reference directions ``g_J`` (rows of (m, D)) and the derivatives
+``H_J = du/dX_J`` of the displacement along them (rows of (m, D)).  A volume has three directions, a plate two, a bar
+one; nothing else distinguishes them here.
+
+=========  ==============================================  =====================
+measure    strain E_JL                                     carrier f_J of the stress
+=========  ==============================================  =====================
+Small      (g_J.H_L + g_L.H_J)/2                           g_J
+Green      (g_J.H_L + g_L.H_J + H_J.H_L)/2                 g_J + H_J
+=========  ==============================================  =====================
+
+The stress S = dW/dE acts on the body by the flux ``dW/dH_J = S_JL f_L`` (first Piola-Kirchhoff).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.kernels import tensors
+from softway.typing import Array, BoolArray
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Small:
+    """Linearised strain: exact for small displacement gradients, blind to rotations.
+
+    Examples
+    --------
+    >>> Small().strain(np.array([[0.1, 0.2], [0.0, 0.0]]), np.eye(2)).tolist()
+    [[0.1, 0.1], [0.1, 0.0]]
+    """
+
+    def strain(self, H: Array, g: Array) -> Array:
+        """Strain (..., m, m)."""
+        return tensors.symmetric(H @ np.swapaxes(g, -1, -2))
+
+    def carrier(self, H: Array, g: Array) -> Array:
+        """Vectors (..., m, D) along which the stress pulls."""
+        return np.broadcast_to(g, H.shape)
+
+    def geometric(self, S: Array, size: int) -> Array:
+        """Moduli (..., m, D, m, D) that the stress (..., m, m) itself contributes; D = ``size``."""
+        m = S.shape[-1]
+        return np.zeros((*S.shape[:-2], m, size, m, size))
+
+    def admissible(self, H: Array, g: Array) -> BoolArray:
+        """Whether matter can be there, (...,): always."""
+        return np.ones(H.shape[:-2], bool)
+
+    def ratio(self, H: Array, g: Array, E: Array) -> Array:
+        """Volume ratio det F, (...,), with the complete strain E (..., 3, 3)."""
+        m = H.shape[-2]
+        return _in_plane(H, g, 1.0 + E[..., 0, 0]) * _product(1.0 + E, m)
+
+    def dilation(self, E: Array) -> Array:
+        """Ratio of volumes by which stresses are referred to the present, (...,): one."""
+        return np.ones(E.shape[:-2])
+
+    def lateral(self, y: Array) -> tuple[Array, Array, Array]:
+        """Normal strain as a function of its parameter y, with first and second derivative."""
+        return y, np.ones_like(y), np.zeros_like(y)
+
+    def volumetric(self, E: Array) -> Array:
+        """Sum of the parameters y of the normal strains (..., m, m), (...,)."""
+        return np.trace(E, axis1=-2, axis2=-1)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Green:
+    """Green-Lagrange strain ``(F^T F - I)/2``: exact for every deformation, zero for rotations.
+
+    Examples
+    --------
+    >>> turn = np.array([[-1.0, 1.0], [-1.0, -1.0]])  # rotation by a quarter turn, minus the identity
+    >>> float(abs(Green().strain(turn, np.eye(2))).max())
+    0.0
+    """
+
+    def strain(self, H: Array, g: Array) -> Array:
+        """Strain (..., m, m)."""
+        return tensors.symmetric((H @ np.swapaxes(g, -1, -2)) + 0.5 * (H @ np.swapaxes(H, -1, -2)))
+
+    def carrier(self, H: Array, g: Array) -> Array:
+        """Vectors (..., m, D) along which the stress pulls: the deformed directions."""
+        return g + H
+
+    def geometric(self, S: Array, size: int) -> Array:
+        """Moduli (..., m, D, m, D) that the stress (..., m, m) itself contributes; D = ``size``."""
+        return S[..., :, None, :, None] * np.eye(size)[:, None, :]
+
+    def admissible(self, H: Array, g: Array) -> BoolArray:
+        """Whether matter can be there, (...,): not where it is turned inside out."""
+        return _in_plane(H, g, np.ones(H.shape[:-2])) > 0.0
+
+    def ratio(self, H: Array, g: Array, E: Array) -> Array:
+        """Volume ratio det F, (...,), with the complete strain E (..., 3, 3)."""
+        m = H.shape[-2]
+        stretch = np.sqrt(np.maximum(1.0 + 2.0 * np.diagonal(E, axis1=-2, axis2=-1), 0.0))
+        return _in_plane(H, g, stretch[..., 0]) * np.prod(stretch[..., m:], axis=-1)
+
+    def dilation(self, E: Array) -> Array:
+        """Ratio of volumes by which stresses are referred to the present, (...,): det F."""
+        return np.sqrt(tensors.determinant(tensors.IDENTITY + 2.0 * E))
+
+    def lateral(self, y: Array) -> tuple[Array, Array, Array]:
+        """Normal strain as a function of its logarithmic strain y, with first and second derivative."""
+        E = 0.5 * np.expm1(2.0 * y)
+        return E, 1.0 + 2.0 * E, 2.0 + 4.0 * E
+
+    def volumetric(self, E: Array) -> Array:
+        """Sum of the logarithmic strains of (..., m, m), (...,)."""
+        return 0.5 * np.log(tensors.determinant(np.eye(E.shape[-1]) + 2.0 * E))
+
+
+Measure = Small | Green
+
+
+def _in_plane(H: Array, g: Array, stretch: Array) -> Array:
+    """Ratio of the measures of a cell, signed where it fills its space; the ``stretch`` of a line that does not."""
+    if H.shape[-2] == H.shape[-1]:
+        return tensors.determinant(g + H) * tensors.determinant(g)
+    return stretch
+
+
+def _product(E: Array, m: int) -> Array:
+    return np.prod(np.diagonal(E, axis1=-2, axis2=-1)[..., m:], axis=-1)

@@ -1,0 +1,102 @@
+"""One slab with contact nodes that carry inertia: the Paper and Impulse rules on one path.
+
+The slab is solved with the rows that were closed, and again on the same operator with the touches and releases that
+the solution asks for, until it asks for none.
+"""
+
+import numpy as np
+
+from softway.contact.path import Path
+from softway.contact.timing import Paper
+from softway.march.course import Course, revised, undisturbed
+from softway.march.jumps import Jump, jumps, loss
+from softway.march.outcome import Outcome, contact_event
+from softway.march.situation import Situation
+from softway.march.step import Event
+from softway.model import Model
+from softway.solve.driver import Solution, drive
+from softway.solve.fixed_point import FixedPoint
+from softway.solve.frozen import Carry
+from softway.solve.newton import Newton
+from softway.solve.normal import Rows
+from softway.solve.reaction import Reaction
+from softway.solve.system import SlabSystem
+from softway.time.slab import Slab
+from softway.typing import Array
+
+
+def solve_carrying(
+    model: Model, now: Situation, slab: Slab, carry: Carry, method: FixedPoint | Newton, inertia: Reaction
+) -> tuple[Outcome, Carry]:
+    """Solve the slab, adding touches and releases until it asks for no more."""
+    known = undisturbed(now)
+    guess = now.start.velocity + slab.span * now.acceleration
+    passes = iterations = 0
+    while True:
+        found = jumps(model, known.way, now.closed, inertia)
+        system = _system(model, now, slab, known, found)
+        solution = drive(system, method.iterate(system, guess, carry, known.way.closed), method.tolerance, method.limit)
+        passes, iterations, carry = passes + 1, iterations + solution.iterations, solution.last.carry
+        revision = revised(model, now, system, known, solution, inertia)
+        if revision is None:
+            return _outcome(now, slab, system, known, solution, found, inertia, passes, iterations), carry
+        known, guess = revision, solution.last.q
+
+
+def _system(model: Model, now: Situation, slab: Slab, known: Course, found: tuple[Jump, ...]) -> SlabSystem:
+    """The equations of the slab for a course of events."""
+    rows, way, literal = model.candidates, known.way, isinstance(model.timing, Paper)
+    balanced = () if literal else found
+    kicks = sum((j.impulse for j in balanced), np.zeros(len(way.closed)))
+    impulses = known.impulse * slab.span + np.where(way.closed, 0.0, kicks)
+    path = Path(
+        span=slab.span, start=now.start.displacement, velocity=now.start.velocity, massive=model.massive, rows=rows,
+        way=way, jumps=tuple((j.instant, j.field) for j in balanced),
+    )  # fmt: skip
+    none = np.zeros(len(way.closed))
+    return SlabSystem(
+        model=model, start=now.start, weight=slab.weight, path=path,
+        rows=Rows(target=none, equal=way.closed, unilateral=none > 0.0),
+        unbalanced=sum((j.field for j in found if literal), np.zeros(model.shape)),
+        impulses=rows.spread(impulses, model.shape),
+    )  # fmt: skip
+
+
+def _outcome(
+    now: Situation, slab: Slab, system: SlabSystem, known: Course, solution: Solution, found: tuple[Jump, ...],
+    inertia: Reaction, passes: int, iterations: int,
+) -> Outcome:  # fmt: skip
+    model, h, way, q = system.model, slab.span, known.way, solution.last.q
+    rows = model.candidates
+    jumped = sum((j.field for j in found), np.zeros(model.shape))
+    slope = (q - now.start.velocity - jumped) / h
+    with np.errstate(divide="ignore", invalid="ignore"):
+        released = np.where(way.freedom > 0.0, rows.along(q) / (h * way.freedom), 0.0)
+    kinked = np.where(way.kinked, released - rows.along(slope), 0.0)
+    kicks = sum((j.impulse for j in found), np.zeros(len(way.closed)))
+    literal = isinstance(model.timing, Paper)
+    through = known.impulse * h + np.where(way.closed, solution.last.impulse, 0.0) + np.where(way.closed & (not literal), 0.0, kicks)
+    pull = inertia.multiplier(solution.end.force, way.closed)
+    return Outcome(
+        system=system, solution=solution, velocity=q, acceleration=slope + rows.spread(kinked, model.shape),
+        closed=way.closed, pressure=np.maximum(pull, 0.0), force=through / h,
+        dissipation=loss(model, way, found, now.start.velocity, q),
+        events=_events(now, slab, system, known, solution, found), passes=passes, iterations=iterations,
+    )  # fmt: skip
+
+
+def _events(
+    now: Situation, slab: Slab, system: SlabSystem, known: Course, solution: Solution, found: tuple[Jump, ...]
+) -> tuple[Event, ...]:
+    model, way, end = system.model, known.way, solution.end.displacement
+    after: Array = model.candidates.along(solution.last.q)
+    events = [
+        contact_event(model, now, slab, end, int(r), "touch", j.instant, (float(j.speed[r]), 0.0), float(j.impulse[r]))
+        for j in found
+        for r in np.flatnonzero(j.hits)
+    ]
+    events += [
+        contact_event(model, now, slab, end, int(r), "release", float(way.release[r]), (0.0, float(after[r])))
+        for r in np.flatnonzero(np.isfinite(way.release))
+    ]
+    return tuple(sorted(events, key=lambda e: (e.time, e.contact, e.node, e.kind == "release")))

@@ -1,0 +1,115 @@
+"""The contact events of a slab as they become known, for nodes with inertia.
+
+Nodes that end below the obstacle get a touch, closed rows whose reaction ends in tension a release, both located
+inside the slab.  A row touches once and is released once a slab; one that would come back is held instead.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from softway.contact.path import Passage, passage
+from softway.contact.timing import Paper
+from softway.kernels.impact import crossing, fading
+from softway.march.jumps import instants
+from softway.march.situation import Situation
+from softway.model import Model
+from softway.solve.driver import Solution
+from softway.solve.reaction import Reaction
+from softway.solve.system import SlabSystem
+from softway.typing import Array, BoolArray
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Course:
+    """What is known of a slab.
+
+    ``way`` is what each row does; ``reaction`` (m,) the force at the start of its closed phase; ``held`` (m,) rows
+    that may not let go again.
+    """
+
+    way: Passage
+    reaction: Array
+    held: BoolArray
+
+    @property
+    def impulse(self) -> Array:
+        """Share of the slab times force (m,) between the start of contact and the release, the force fading linearly."""
+        begin = np.nan_to_num(self.way.touch)
+        length = np.where(np.isfinite(self.way.release), np.nan_to_num(self.way.release) - begin, 0.0)
+        return 0.5 * np.maximum(self.reaction, 0.0) * length
+
+
+def undisturbed(now: Situation) -> Course:
+    """The course without events."""
+    return Course(way=passage(now.closed), reaction=now.pressure, held=np.zeros(len(now.closed), bool))
+
+
+def revised(
+    model: Model, now: Situation, system: SlabSystem, known: Course, found: Solution, inertia: Reaction
+) -> Course | None:
+    """The course with the touches and releases that the solution asks for; None when it asks for none."""
+    rows, way, end = model.candidates, known.way, found.end
+    gap = rows.gap(end.displacement)
+    below = ~way.closed & (gap < -rounding(model, end.displacement))
+    if below.any():
+        return _touching(model, now, system, known, found.last.q, below)
+    pull = inertia.multiplier(end.force, way.closed)
+    floor = 1e-11 * max(float(np.abs(end.force).max(initial=0.0)), float(np.abs(pull).max(initial=0.0)))
+    tense = way.closed & ~known.held & (pull < -floor)
+    if tense.any():
+        return _releasing(model, system, known, found.last.q, tense, pull, inertia)
+    return None
+
+
+def rounding(model: Model, u: Array) -> float:
+    """A length [m] below which a gap is rounding: a few units in the last place of the coordinates."""
+    reach = max(float(np.abs(p.mesh.points).max()) for p in model.parts)
+    return 4e-16 * (reach + float(np.abs(u).max(initial=0.0)) + float(np.abs(model.candidates.offset).max(initial=0.0)))
+
+
+def _touching(model: Model, now: Situation, system: SlabSystem, known: Course, q: Array, below: BoolArray) -> Course:
+    """Close the rows that end below the obstacle; one that was released in this slab is held instead."""
+    rows, way, h = model.candidates, known.way, system.path.span
+    back = below & np.isfinite(way.release)
+    fresh = below & ~back
+    gap = rows.gap(now.start.displacement)
+    speed, solved = rows.along(now.start.velocity), rows.along(q - now.start.velocity)
+    slope = solved
+    if isinstance(model.timing, Paper):
+        slope = h * rows.along(now.acceleration) if model.timing.approach == "extrapolated" else np.zeros_like(solved)
+    tau = crossing(gap, h * speed, h * slope)
+    missed = ~np.isfinite(tau)
+    slope = np.where(missed, solved, slope)
+    tau = np.where(missed, crossing(gap, h * speed, h * slope), tau)
+    tau = np.where(np.isfinite(tau), tau, np.where(gap <= 0.0, 0.0, 1.0))
+    return replace(
+        known,
+        way=Passage(
+            closed=way.closed | below,
+            touch=np.where(fresh, tau, way.touch),
+            speed=np.where(fresh, speed, way.speed),
+            slope=np.where(fresh, slope, way.slope),
+            release=np.where(back, np.nan, way.release),
+        ),
+        held=known.held | back,
+    )
+
+
+def _releasing(
+    model: Model, system: SlabSystem, known: Course, q: Array, tense: BoolArray, pull: Array, inertia: Reaction
+) -> Course:
+    """Let go of the closed rows whose reaction ends in tension, at the instant where it vanishes."""
+    way = known.way
+    first = known.reaction.copy()
+    for instant in instants(np.where(tense, way.touch, np.nan)):
+        here = tense & (way.touch == instant)
+        after = way.closed & ~(way.touch > instant)
+        first[here] = inertia.multiplier(model.force(system.path.at(instant, q)), after)[here]
+    begin = np.nan_to_num(way.touch)
+    release = np.minimum(begin + (1.0 - begin) * fading(first, pull), 1.0 - 1e-9)
+    return replace(
+        known,
+        way=replace(way, closed=way.closed & ~tense, release=np.where(tense, release, way.release)),
+        reaction=np.where(tense, first, known.reaction),
+    )

@@ -1,0 +1,66 @@
+"""Velocity jumps of nodes with inertia at the instants of touch: literal (Paper) or mass-consistent (Impulse)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.contact.path import Passage
+from softway.contact.timing import Paper
+from softway.model import Model
+from softway.solve.reaction import Reaction
+from softway.typing import Array, BoolArray
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Jump:
+    """One jump: its ``instant`` tau, the rows that are hit (m,), the velocity change (n, d), the normal impulses (m,)
+    and the normal velocities (m,) of the rows that are hit, just before."""
+
+    instant: float
+    hits: BoolArray
+    field: Array
+    impulse: Array
+    speed: Array
+
+
+def instants(tau: Array) -> list[float]:
+    """The distinct finite instants in order."""
+    return [float(t) for t in np.unique(tau[np.isfinite(tau)])]
+
+
+def jumps(model: Model, way: Passage, closed: BoolArray, inertia: Reaction) -> tuple[Jump, ...]:
+    """The jumps of a slab in order of time; ``closed`` (m,) are the rows closed at its start.
+
+    The Paper rule resets the normal velocity of the node alone; the momentum that leaves is that of its row of the
+    mass matrix.  The Impulse rule moves every node, so that momentum is balanced.
+    """
+    rows, speed, found = model.candidates, way.approach, []
+    for instant in instants(way.touch):
+        hits = way.touch == instant
+        approach = np.where(hits, speed, 0.0)
+        if isinstance(model.timing, Paper):
+            field = -rows.spread(approach, model.shape)
+            impulse = -approach * np.asarray(model.mass.sum(axis=1)).ravel()[rows.node]
+        else:
+            gone = way.release <= instant
+            stopped = ((closed | (way.touch < instant)) & ~gone) | hits
+            field, impulse = inertia.jump(approach, stopped)
+            later = np.isfinite(way.touch) & (way.touch > instant)
+            speed = speed + np.where(later, rows.along(field), 0.0)
+        found.append(Jump(instant=instant, hits=hits, field=field, impulse=impulse, speed=approach))
+    return tuple(found)
+
+
+def loss(model: Model, way: Passage, found: tuple[Jump, ...], v0: Array, v1: Array) -> float:
+    """Kinetic energy lost in the jumps [J]: ``-(v . M J + J . M J / 2)`` with v just before each."""
+    rows, total = model.candidates, 0.0
+    for jump in found:
+        if isinstance(model.timing, Paper):
+            v = v0 + jump.instant * (v1 - v0)
+            stopped = (way.closed & ~np.isfinite(way.touch)) | (way.touch < jump.instant)
+            normal = np.where(jump.hits, jump.speed, np.where(stopped, 0.0, rows.along(v)))
+            v = v + rows.spread(np.where(way.kinked, normal - rows.along(v), 0.0), model.shape)
+            total -= float(np.sum((v + 0.5 * jump.field) * (model.mass @ jump.field)))
+        else:
+            total -= 0.5 * float(jump.impulse @ jump.speed)
+    return total

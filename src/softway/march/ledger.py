@@ -1,0 +1,78 @@
+"""The audit of a slab: energies, works, momentum, and the power of the contact force (eq. 3.9)."""
+
+import numpy as np
+
+from softway.march.outcome import Outcome
+from softway.march.situation import Situation
+from softway.march.step import ContactLedger, Ledger
+from softway.model import Model
+from softway.typing import Array
+
+
+def opening(model: Model, now: Situation) -> Ledger:
+    """The ledger at the start: energies and momentum, no work yet."""
+    rows = model.candidates
+    gap = rows.gap(now.start.displacement)
+    contacts = {
+        name: ContactLedger(
+            force_n=float(now.pressure[rows.of(k)].sum()),
+            force_t=0.0,
+            min_gap=float(gap[rows.of(k)].min(initial=np.inf)),
+            power_residual=0.0,
+            count=int(now.closed[rows.of(k)].sum()),
+        )
+        for k, name in enumerate(rows.labels)
+    }
+    return Ledger(
+        energy_kinetic=float(model.kinetic(now.start.velocity).sum()),
+        energy_strain=float(now.start.energy.sum()),
+        work_external=0.0,
+        dissipation=0.0,
+        energy_error=0.0,
+        momentum=momentum(model, now.start.velocity),
+        contacts=contacts,
+    )
+
+
+def momentum(model: Model, v: Array) -> Array:
+    """Linear momentum (3,) [kg m/s]."""
+    out = np.zeros(3)
+    out[: v.shape[1]] = (model.mass @ v).sum(axis=0)
+    return out
+
+
+def audited(model: Model, initial: Ledger, last: Ledger, before: Situation, out: Outcome, after: Situation) -> Ledger:
+    """The ledger after a slab, continuing the one before it."""
+    moved = after.start.displacement - before.start.displacement
+    work = last.work_external + float(np.sum(model.load * moved))
+    lost = last.dissipation + out.dissipation
+    kinetic = float(model.kinetic(after.start.velocity).sum())
+    strain = float(after.start.energy.sum())
+    first = initial.energy_kinetic + initial.energy_strain
+    return Ledger(
+        energy_kinetic=kinetic,
+        energy_strain=strain,
+        work_external=work,
+        dissipation=lost,
+        energy_error=kinetic + strain - first - work + lost,
+        momentum=momentum(model, after.start.velocity),
+        contacts=_contacts(model, before, out, after),
+    )
+
+
+def _contacts(model: Model, before: Situation, out: Outcome, after: Situation) -> dict[str, ContactLedger]:
+    """Force, least gap and power of each contact; the power is that of the phases in which a row is closed."""
+    rows, h = model.candidates, after.time - before.time
+    gap0, gap1 = rows.gap(before.start.displacement), rows.gap(after.start.displacement)
+    drift = np.where(after.closed, gap1, 0.0) - np.where(before.closed, gap0, 0.0)
+    power = np.abs(out.force * drift)
+    return {
+        name: ContactLedger(
+            force_n=float(out.force[rows.of(k)].sum()),
+            force_t=0.0,
+            min_gap=float(gap1[rows.of(k)].min(initial=np.inf)),
+            power_residual=float(power[rows.of(k)].sum() if h > 0.0 else 0.0),
+            count=int(after.closed[rows.of(k)].sum()),
+        )
+        for k, name in enumerate(rows.labels)
+    }

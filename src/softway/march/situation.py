@@ -1,0 +1,55 @@
+"""The state as arrays over the whole model, and back."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.model import Model
+from softway.scene import State
+from softway.solve.system import Start
+from softway.typing import Array, BoolArray
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Situation:
+    """A :class:`~softway.scene.State` joined over the model, with the force and energy that belong to it.
+
+    ``start`` holds displacement, velocity, internal force and stored energy; ``acceleration`` (n, d) the slope of
+    the velocity in the slab before; ``closed`` and ``pressure`` (m,) the contact rows.
+    """
+
+    time: float
+    start: Start
+    acceleration: Array
+    closed: BoolArray
+    pressure: Array
+
+
+def joined(model: Model, state: State) -> Situation:
+    """The situation of a state; recomputes force and energy."""
+    u = model.join(state.displacement)
+    energy, force = model.energy_and_force(u)
+    labels = model.candidates.labels
+    return Situation(
+        time=state.time,
+        start=Start(displacement=u, velocity=model.join(state.velocity), force=force, energy=energy),
+        acceleration=model.join(state.acceleration),
+        closed=np.concatenate([state.closed[n] for n in labels]) if labels else np.zeros(0, bool),
+        pressure=np.concatenate([state.pressure[n] for n in labels]) if labels else np.zeros(0),
+    )
+
+
+def parted(model: Model, situation: Situation) -> State:
+    """The state by bodies and contacts, its arrays read-only."""
+    rows = model.candidates
+    fields = {
+        "displacement": model.split(situation.start.displacement),
+        "velocity": model.split(situation.start.velocity),
+        "acceleration": model.split(situation.acceleration),
+        "closed": {n: situation.closed[rows.of(k)] for k, n in enumerate(rows.labels)},
+        "pressure": {n: situation.pressure[rows.of(k)] for k, n in enumerate(rows.labels)},
+    }
+    for group in fields.values():
+        for array in group.values():
+            array.flags.writeable = False
+    return State(time=situation.time, **fields)

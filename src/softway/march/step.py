@@ -1,0 +1,91 @@
+"""One accepted slab: the situation before and after, its audit, and what happened inside."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from softway.scene import State
+from softway.time.slab import Slab
+from softway.typing import Array
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Event:
+    """A contact node that touched or let go inside a slab.
+
+    Parameters
+    ----------
+    time
+        Instant located inside the slab [s].
+    contact, kind, node
+        Contact label; ``touch`` or ``release``; node number in its body.
+    position
+        (d,) where it happened [m].
+    velocity_before, velocity_after
+        Normal velocity on both sides of the instant, negative towards the obstacle [m/s].
+    impulse
+        Normal impulse of the velocity jump [N s]; zero at a release.
+    """
+
+    time: float
+    contact: str
+    kind: str
+    node: int
+    position: Array
+    velocity_before: float
+    velocity_after: float
+    impulse: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactLedger:
+    """Audit of one contact over one slab.
+
+    ``force_n``, ``force_t``: resultant force over the slab (impulse / h) [N]; ``min_gap``: least gap at the slab's
+    end [m]; ``power_residual``: sum of F_n v_n dt, eq. (3.9) [J]; ``count``: closed nodes at the end.
+    """
+
+    force_n: float
+    force_t: float
+    min_gap: float
+    power_residual: float
+    count: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ledger:
+    """Energies at the slab's end, works accumulated from the start [J]; momentum (3,) [kg m/s].
+
+    ``energy_error = kinetic + strain - initial - work_external + dissipation``.
+    """
+
+    energy_kinetic: float
+    energy_strain: float
+    work_external: float
+    dissipation: float
+    energy_error: float
+    momentum: Array
+    contacts: Mapping[str, ContactLedger]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Report:
+    """How the solution was found: iterations, factorisations, passes of the active set, rejected tries."""
+
+    iterations: int
+    factorisations: int
+    passes: int
+    rejections: tuple[str, ...] = ()
+    scalars: Mapping[str, float] | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Step:
+    """An accepted slab. ``reactions``: body -> (n, d) mean force of the supports on the nodes [N]."""
+
+    before: State
+    after: State
+    slab: Slab
+    ledger: Ledger
+    events: tuple[Event, ...]
+    reactions: Mapping[str, Array]
+    report: Report

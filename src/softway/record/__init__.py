@@ -1,0 +1,1 @@
+"""Recorders: consumers of steps, and the reader of what they wrote."""

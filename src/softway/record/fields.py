@@ -1,0 +1,156 @@
+"""fields.vtkhdf: deformed solids with their fields at a series of instants, in one file for ParaView, PyVista and h5py.
+
+The file follows VTK's HDF format 2.0 for a transient unstructured grid whose cells stay the same.  Data are written
+before the counts that announce them, so a run that is killed leaves the frames written until then.
+Reference: VTK documentation, *VTKHDF file format*.
+"""
+
+import json
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from math import floor
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from softway.bodies.solid import Tool
+from softway.march.step import Step
+from softway.record.layout import Layout, components, layout, von_mises
+from softway.record.recorder import Opening
+from softway.scene import Scene, State
+from softway.typing import Array
+
+FILE = "fields.vtkhdf"
+POINT_DATA = {"displacement": "m", "velocity": "m/s", "contact_force": "N"}
+CELL_DATA = {"stress": "Pa", "von_mises": "Pa"}
+PACKED = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
+CHUNK = 65536
+SIZES = ("NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds")
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Frames:
+    """The open file; a frame is taken whenever the time passes a multiple of ``every``, and at the end."""
+
+    file: h5py.File
+    layout: Layout
+    opening: Opening
+
+    def take(self, step: Step) -> None:
+        """Write a frame if one is due at the end of the slab."""
+        every, until = self.opening.fields_every, self.opening.until
+        due = floor(step.after.time / every + 1e-9) > floor(step.before.time / every + 1e-9)
+        if due or step.after.time >= until * (1.0 - 1e-12):
+            _append(self.file, self.layout.reference, _frame(self.layout, self.opening, step.after), step.after.time)
+
+    def close(self) -> None:
+        """Close the file."""
+        self.file.close()
+
+
+def open_fields(folder: Path, opening: Opening) -> Frames:
+    """Start ``fields.vtkhdf`` with the cells and the frame of the initial situation."""
+    cells = layout(opening.meshes, opening.scene)
+    file = h5py.File(folder / FILE, "w", locking=False)
+    _write_cells(file, cells, opening.scene)
+    _append(file, cells.reference, _frame(cells, opening, opening.initial), opening.initial.time)
+    return Frames(file=file, layout=cells, opening=opening)
+
+
+def _frame(cells: Layout, opening: Opening, state: State) -> dict[str, dict[str, Array]]:
+    stress = np.concatenate([opening.stresses[name](state.displacement[name]) for name in cells.names])
+    return {
+        "PointData": {
+            "displacement": cells.nodal(state.displacement),
+            "velocity": cells.nodal(state.velocity),
+            "contact_force": cells.forces(state.pressure),
+        },
+        "CellData": {"stress": components(stress), "von_mises": von_mises(stress)},
+    }
+
+
+def _write_cells(file: h5py.File, cells: Layout, scene: Scene) -> None:
+    """Everything that stays the same, and empty series for everything that changes."""
+    n, e = len(cells.reference), len(cells.types)
+    root = file.create_group("VTKHDF")
+    root.attrs["Version"] = np.array([2, 0])
+    root.attrs["Type"] = np.bytes_("UnstructuredGrid")
+    for name, size in zip(SIZES, (n, e, len(cells.connectivity)), strict=True):
+        root[name] = np.array([size])
+    root["Connectivity"], root["Offsets"] = cells.connectivity, cells.offsets
+    root["Types"] = cells.types.astype(np.uint8)
+    _series(root, "Points", (3,), n, "m")
+    steps = root.create_group("Steps")
+    _series(steps, "Values", (), 1, "s")
+    for name in ("PartOffsets", "NumberOfParts", "PointOffsets"):
+        _series(steps, name, (), 1, dtype=np.int64)
+    for name in ("CellOffsets", "ConnectivityIdOffsets"):
+        _series(steps, name, (1,), 1, dtype=np.int64)
+    for group, units, rows in (("PointData", POINT_DATA, n), ("CellData", CELL_DATA, e)):
+        for name, unit in units.items():
+            shape = {"displacement": (3,), "velocity": (3,), "stress": (6,)}.get(name, ())
+            _series(root.require_group(group), name, shape, rows, unit)
+            _series(steps.require_group(f"{group}Offsets"), name, (), 1, dtype=np.int64)
+    root["CellData/body"] = cells.body.astype(np.int32)
+    _series(steps["CellDataOffsets"], "body", (), 1, dtype=np.int64)
+    file.attrs["bodies"] = json.dumps(list(cells.names))
+    file.attrs["obstacles"] = json.dumps(_obstacles(scene))
+    file.attrs["dimension"] = cells.dimension
+    file["reference"] = cells.reference
+    steps.attrs["NSteps"] = np.int64(0)
+
+
+def _series(
+    group: h5py.Group, name: str, shape: tuple[int, ...], rows: int, unit: str = "", dtype: Any = float
+) -> None:
+    """An empty array that grows along its first axis by ``rows`` a frame."""
+    chunks = (max(1, min(rows if rows > 1 else 256, CHUNK)), *shape)
+    packed = PACKED if rows > 1 else {}
+    made = group.create_dataset(name, (0, *shape), dtype, maxshape=(None, *shape), chunks=chunks, **packed)
+    if unit:
+        made.attrs["unit"] = unit
+
+
+def _append(file: h5py.File, reference: Array, frame: Mapping[str, Mapping[str, Array]], time: float) -> None:
+    """Write one frame: data, then where they lie, then the number of frames."""
+    root = file["VTKHDF"]
+    steps, k = root["Steps"], int(root["Steps"].attrs["NSteps"])
+    n, e = (int(root[name][0]) for name in SIZES[:2])
+    _put(root["Points"], k * n, reference + frame["PointData"]["displacement"])
+    for group, rows in (("PointData", n), ("CellData", e)):
+        for name, data in frame[group].items():
+            _put(root[group][name], k * rows, data)
+            _put(steps[f"{group}Offsets"][name], k, np.array([k * rows]))
+    _put(steps["CellDataOffsets/body"], k, np.array([0]))
+    _put(steps["PartOffsets"], k, np.array([0]))
+    _put(steps["NumberOfParts"], k, np.array([1]))
+    _put(steps["PointOffsets"], k, np.array([k * n]))
+    for name in ("CellOffsets", "ConnectivityIdOffsets"):
+        _put(steps[name], k, np.array([[0]]))
+    _put(steps["Values"], k, np.array([time]))
+    file.flush()
+    steps.attrs["NSteps"] = np.int64(k + 1)
+    file.flush()
+
+
+def _put(series: h5py.Dataset, start: int, data: Array) -> None:
+    series.resize(start + len(data), axis=0)
+    series[start:] = data
+
+
+def _obstacles(scene: Scene) -> dict[str, dict[str, list[float]]]:
+    return {
+        name: {part: np.atleast_1d(getattr(tool.shape, part)).astype(float).tolist() for part in ("point", "normal")}
+        for name, tool in scene.bodies.items()
+        if isinstance(tool, Tool)
+    }
+
+
+@contextmanager
+def reading(path: Path) -> Iterator[h5py.File]:
+    """The file for reading, also while a run still writes to it."""
+    with h5py.File(path, "r", locking=False) as file:
+        yield file

@@ -1,0 +1,154 @@
+"""Frames of the fields read back: light objects of plain arrays."""
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from softway.errors import InputError
+from softway.record.fields import CELL_DATA, POINT_DATA, SIZES, reading
+from softway.record.layout import VTK
+from softway.typing import Array, IntArray
+
+if TYPE_CHECKING:
+    import pyvista
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Cells:
+    """What all frames share.
+
+    Parameters
+    ----------
+    bodies
+        Names of the solids.
+    obstacles
+        Tool -> ``point`` and ``normal`` of its half-space.
+    dimension
+        Dimension d of space.
+    reference
+        (n, 3) reference coordinates [m].
+    connectivity, offsets, types, body
+        Cells (e of them) as VTK stores them, and the number of the solid of each.
+    """
+
+    bodies: tuple[str, ...]
+    obstacles: Mapping[str, Mapping[str, list[float]]]
+    dimension: int
+    reference: Array
+    connectivity: IntArray
+    offsets: IntArray
+    types: IntArray
+    body: IntArray
+
+    def blocks(self) -> dict[str, IntArray]:
+        """Cell name -> (cells, nodes) connectivity."""
+        return {name: self._nodes(kind) for name, kind in VTK.items() if (self.types == kind).any()}
+
+    def numbers(self, name: str) -> IntArray:
+        """Numbers (cells,) in the grid of the cells of one name, in the order of ``blocks``."""
+        return np.flatnonzero(self.types == VTK[name])
+
+    def _nodes(self, kind: int) -> IntArray:
+        mine = np.flatnonzero(self.types == kind)
+        width = int(self.offsets[mine[0] + 1] - self.offsets[mine[0]])
+        return self.connectivity[self.offsets[mine][:, None] + np.arange(width)]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Frame:
+    """The solids at one instant.
+
+    Parameters
+    ----------
+    time
+        [s].
+    points, displacement, velocity
+        (n, 3) deformed positions [m], displacements [m], velocities [m/s].
+    contact_force
+        (n,) normal force of the obstacles [N].
+    stress, von_mises
+        (e, 6) mean Cauchy stress of the cells, xx yy zz xy yz xz, and (e,) its equivalent [Pa].
+    """
+
+    time: float
+    points: Array
+    displacement: Array
+    velocity: Array
+    contact_force: Array
+    stress: Array
+    von_mises: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Fields:
+    """The frames of a run; ``fields[k]`` reads one, negative numbers count from the end.
+
+    ``keep`` is whatever must live as long as the file does.
+    """
+
+    path: Path
+    keep: object = None
+
+    def __len__(self) -> int:
+        with reading(self.path) as file:
+            return int(file["VTKHDF/Steps"].attrs["NSteps"])
+
+    def __iter__(self) -> Iterator[Frame]:
+        return (self[k] for k in range(len(self)))
+
+    def __getitem__(self, k: int) -> Frame:
+        with reading(self.path) as file:
+            root = file["VTKHDF"]
+            count = int(root["Steps"].attrs["NSteps"])
+            if not -count <= k < count:
+                raise IndexError(f"frame {k} of {count}")
+            n, e = (int(root[name][0]) for name in SIZES[:2])
+            at, k = slice(k % count * n, (k % count + 1) * n), k % count
+            point = {name: root["PointData"][name][at] for name in POINT_DATA}
+            cell = {name: root["CellData"][name][k * e : (k + 1) * e] for name in CELL_DATA}
+            return Frame(time=float(root["Steps/Values"][k]), points=root["Points"][at], **point, **cell)
+
+    @property
+    def times(self) -> Array:
+        """Instants (frames,) [s]."""
+        with reading(self.path) as file:
+            return np.asarray(file["VTKHDF/Steps/Values"][: int(file["VTKHDF/Steps"].attrs["NSteps"])])
+
+    @property
+    def cells(self) -> Cells:
+        """What all frames share."""
+        with reading(self.path) as file:
+            root = file["VTKHDF"]
+            whole = {name: np.asarray(root[name.title()][:], int) for name in ("connectivity", "offsets", "types")}
+            return Cells(
+                bodies=tuple(json.loads(file.attrs["bodies"])),
+                obstacles=json.loads(file.attrs["obstacles"]),
+                dimension=int(file.attrs["dimension"]),
+                reference=file["reference"][:],
+                body=np.asarray(root["CellData/body"][:], int),
+                **whole,
+            )
+
+    def to_pyvista(self, k: int) -> "pyvista.UnstructuredGrid":
+        """Frame ``k`` as a grid of PyVista, deformed, with all its fields."""
+        try:
+            import pyvista
+        except ImportError:
+            raise InputError("fields", "PyVista is not installed", "pip install pyvista") from None
+        frame, cells = self[k], self.cells
+        grid = pyvista.UnstructuredGrid(_padded(cells), cells.types.astype(np.uint8), frame.points)
+        for name in POINT_DATA:
+            grid.point_data[name] = getattr(frame, name)
+        data: dict[str, Any] = {name: getattr(frame, name) for name in CELL_DATA}
+        for name, values in {**data, "body": cells.body}.items():
+            grid.cell_data[name] = values
+        return grid
+
+
+def _padded(cells: Cells) -> IntArray:
+    """Connectivity with the number of nodes before each cell."""
+    return np.insert(cells.connectivity, cells.offsets[:-1], np.diff(cells.offsets))

@@ -1,0 +1,55 @@
+"""history.csv: one line for each accepted slab, on the disk before the next slab starts."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TextIO
+
+from softway.march.step import Ledger, Step
+from softway.record import table
+from softway.record.probes import Reading
+from softway.record.recorder import Opening
+
+FILE = "history.csv"
+COLUMNS = (
+    ("time", "s"), ("h", "s"), ("iterations", table.COUNT),
+    ("energy_kinetic", "J"), ("energy_strain", "J"), ("work_external", "J"), ("dissipation", "J"),
+    ("energy_error", "J"),
+    ("momentum_x", "kg m/s"), ("momentum_y", "kg m/s"), ("momentum_z", "kg m/s"),
+)  # fmt: skip
+CONTACT = (("force_n", "N"), ("force_t", "N"), ("min_gap", "m"), ("power_residual", "J"))
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class History:
+    """The open file; ``contacts`` and ``readings`` are its columns after those of ``COLUMNS``."""
+
+    stream: TextIO
+    contacts: tuple[str, ...]
+    readings: tuple[Reading, ...]
+
+    def take(self, step: Step) -> None:
+        """Write the line of one slab: its audit, and the probes at its end."""
+        start = [step.after.time, step.slab.span, step.report.iterations]
+        probes = [r.value(step.after, step.reactions) for r in self.readings]
+        table.write(self.stream, [*start, *_audit(step.ledger, self.contacts), *probes])
+
+    def close(self) -> None:
+        """Close the file."""
+        self.stream.close()
+
+
+def open_history(folder: Path, opening: Opening) -> History:
+    """Start ``history.csv``; its first line is the initial situation, with ``h = 0``."""
+    contacts = tuple(c.label for c in opening.scene.contacts)
+    columns = [*COLUMNS, *((f"contact.{c}.{name}", unit) for c in contacts for name, unit in CONTACT)]
+    stream = (folder / FILE).open("w", encoding="utf-8", newline="")
+    table.write(stream, table.header([*columns, *((r.name, r.unit) for r in opening.readings)]))
+    probes = [r.value(opening.initial, {}) for r in opening.readings]
+    table.write(stream, [opening.initial.time, 0.0, 0, *_audit(opening.ledger, contacts), *probes])
+    return History(stream=stream, contacts=contacts, readings=opening.readings)
+
+
+def _audit(ledger: Ledger, contacts: tuple[str, ...]) -> list[float]:
+    energies = [getattr(ledger, name) for name, unit in COLUMNS if unit == "J"]
+    rows = [[getattr(ledger.contacts[c], name) for name, _ in CONTACT] for c in contacts]
+    return [float(x) for x in (*energies, *ledger.momentum, *(x for row in rows for x in row))]

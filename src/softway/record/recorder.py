@@ -1,0 +1,60 @@
+"""What every recorder is given at the start, and what it must be able to do."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+from softway.march.step import Ledger, Step
+from softway.record.probes import Reading
+from softway.scene import Scene, State
+from softway.space.mesh import Mesh
+from softway.typing import Array
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Opening:
+    """The start of a run, as far as records need it.
+
+    Parameters
+    ----------
+    scene
+        What there is.
+    meshes
+        Mesh of each solid.
+    stresses
+        Solid -> function from displacements (n, d) [m] to the mean Cauchy stress of its cells (e, 3, 3) [Pa].
+    initial, ledger
+        Situation and audit at the start.
+    until
+        End of the march [s].
+    fields_every
+        Time between two frames of the fields [s].
+    readings
+        Resolved probes.
+    """
+
+    scene: Scene
+    meshes: Mapping[str, Mesh]
+    stresses: Mapping[str, Callable[[Array], Array]]
+    initial: State
+    ledger: Ledger
+    until: float
+    fields_every: float
+    readings: tuple[Reading, ...] = ()
+
+
+class Recorder(Protocol):
+    """Takes every accepted step, in order; valid files lie on the disk after each of them."""
+
+    def take(self, step: Step) -> None:
+        """Record one accepted slab."""
+        ...
+
+    def close(self) -> None:
+        """End the record; nothing is taken afterwards."""
+        ...
+
+
+Opener = Callable[[Path, Opening], Recorder]
+"""Starts a recorder in a folder: it writes the initial situation and returns what takes the steps."""

@@ -1,0 +1,98 @@
+"""Run: the reader of a run folder, finished, interrupted or still growing."""
+
+import json
+import shutil
+import tempfile
+import weakref
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from softway.errors import InputError
+from softway.record import events, fields, history, provenance, summary, table
+from softway.record.frames import Fields
+from softway.record.provenance import Stop
+from softway.record.table import Table
+
+SCENARIO = "scenario.toml"
+
+
+@dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
+class Scratch:
+    """A temporary folder that vanishes with the last object that holds it."""
+
+    path: Path
+
+
+def scratch() -> Scratch:
+    """A new temporary folder for a run without a name."""
+    made = Scratch(Path(tempfile.mkdtemp(prefix="softway-")))
+    weakref.finalize(made, shutil.rmtree, made.path, ignore_errors=True)
+    return made
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Run:
+    """A run folder; every property reads the files as they are at that moment.
+
+    Parameters
+    ----------
+    path
+        The folder.
+    keep
+        Whatever must live as long as the folder does (temporary folders).
+
+    Raises
+    ------
+    InputError
+        When ``path`` is no run folder.
+    """
+
+    path: Path
+    keep: object = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "path", Path(self.path))
+        if not (self.path / provenance.FILE).is_file():
+            raise InputError("", f"no run folder: '{self.path}'", "a folder that 'softway run --out' has written")
+
+    @property
+    def history(self) -> Table:
+        """A row per accepted slab; the first is the initial situation."""
+        return table.read(self.path / history.FILE)
+
+    @property
+    def events(self) -> Table:
+        """A row per touch or release of a node."""
+        return table.read(self.path / events.FILE)
+
+    @property
+    def fields(self) -> Fields:
+        """The frames: ``len``, ``[k]``, ``times``, ``cells``, ``to_pyvista(k)``."""
+        return Fields(self.path / fields.FILE, self.keep)
+
+    @property
+    def provenance(self) -> Mapping[str, Any]:
+        """Versions, platform, start, stop and its reason."""
+        return dict(json.loads((self.path / provenance.FILE).read_text(encoding="utf-8")))
+
+    @property
+    def summary(self) -> Mapping[str, Any]:
+        """The run in a few numbers; computed on the spot while the run has not ended."""
+        written = self.path / summary.FILE
+        if written.is_file():
+            return dict(json.loads(written.read_text(encoding="utf-8")))
+        return summary.summarise(self.history, self.events)
+
+    @property
+    def scenario(self) -> str:
+        """Text of the resolved scenario."""
+        written = self.path / SCENARIO
+        return written.read_text(encoding="utf-8") if written.is_file() else ""
+
+    @property
+    def stop(self) -> Stop:
+        """Why the run stopped, or that it is running."""
+        found = self.provenance
+        return Stop(found["stop_reason"], found["message"])

@@ -1,0 +1,77 @@
+"""summary.json: a run in a few numbers, computed from its history and its events."""
+
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+from softway.record.table import Table
+
+FILE = "summary.json"
+
+
+def summarise(history: Table, events: Table) -> dict[str, Any]:
+    """The numbers of a run, also of one that is still going on.
+
+    ``energy_error_worst`` is the greatest ``|energy_error|`` [J], ``energy_error_relative`` the same against the
+    greatest kinetic plus strain energy; ``penetration_worst`` the greatest depth at the end of a slab [m].
+    """
+    if history.rows == 0:
+        return {"slabs": 0, "contacts": {}}
+    worst = float(np.abs(history["energy_error"]).max())
+    scale = float((history["energy_kinetic"] + history["energy_strain"]).max())
+    contacts = {label: _contact(label, history, events) for label in contacts_of(history)}
+    return {
+        "slabs": int((history["h"] > 0.0).sum()),
+        "time_end": float(history["time"][-1]),
+        "iterations": int(history["iterations"].sum()),
+        "energy_error_worst": worst,
+        "energy_error_relative": worst / scale if scale > 0.0 else None,
+        "dissipation": float(history["dissipation"][-1]),
+        "work_external": float(history["work_external"][-1]),
+        "penetration_worst": max((c["penetration_worst"] for c in contacts.values()), default=0.0),
+        "power_residual_worst": max((c["power_residual_worst"] for c in contacts.values()), default=0.0),
+        "contacts": contacts,
+        "units": {"time": "s", "energy": "J", "penetration": "m", "impulse": "N s", "force": "N"},
+    }
+
+
+def contacts_of(history: Table) -> tuple[str, ...]:
+    """Names of the contacts that a history has columns of.
+
+    Examples
+    --------
+    >>> contacts_of(Table({"time": np.zeros(1), "contact.bar.right-wall.force_n": np.zeros(1)}))
+    ('bar.right-wall',)
+    """
+    head, tail = "contact.", ".force_n"
+    return tuple(c[len(head) : -len(tail)] for c in history if c.startswith(head) and c.endswith(tail))
+
+
+def _contact(label: str, history: Table, events: Table) -> dict[str, Any]:
+    force, gap = history[f"contact.{label}.force_n"], history[f"contact.{label}.min_gap"]
+    peak = int(np.argmax(np.abs(force)))
+    return {
+        "first_touch": _instant(label, "touch", 0, events),
+        "last_release": _instant(label, "release", -1, events),
+        "touches": _count(label, "touch", events),
+        "releases": _count(label, "release", events),
+        "impulse": float((force * history["h"]).sum()),
+        "peak_force": float(force[peak]),
+        "peak_force_time": float(history["time"][peak]),
+        "penetration_worst": max(0.0, -float(gap.min())) if isfinite(gap.min()) else 0.0,
+        "power_residual_worst": float(np.abs(history[f"contact.{label}.power_residual"]).max()),
+    }
+
+
+def _chosen(label: str, kind: str, events: Table) -> np.ndarray[Any, np.dtype[np.bool_]]:
+    return np.asarray((events["contact"] == label) & (events["kind"] == kind))
+
+
+def _instant(label: str, kind: str, which: int, events: Table) -> float | None:
+    times = np.sort(events["time"][_chosen(label, kind, events)])
+    return float(times[which]) if len(times) else None
+
+
+def _count(label: str, kind: str, events: Table) -> int:
+    return int(_chosen(label, kind, events).sum())

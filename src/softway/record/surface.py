@@ -1,0 +1,116 @@
+"""Surface of a deformed body as many small flat triangles, with values interpolated on them."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.record.frames import Cells, Frame
+from softway.space.mesh import Mesh
+from softway.typing import Array, IntArray
+
+MOST = 60000
+"""Greatest number of small triangles on a surface."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Patches:
+    """Facets (f, b) of one kind with the shape functions (p, b) at their lattice points and its triangles (t, 3)."""
+
+    facets: IntArray
+    shape: Array
+    triangles: IntArray
+
+    def spread(self, nodal: Array) -> Array:
+        """Corners of all small triangles (f t, 3, ...) from a nodal field (n, ...)."""
+        at = np.einsum("pb,fb...->fp...", self.shape, nodal[self.facets])
+        corners = at[:, self.triangles]
+        return np.asarray(corners.reshape(-1, 3, *nodal.shape[1:]))
+
+
+def mesh_of(cells: Cells) -> Mesh:
+    """The reference mesh of all solids together."""
+    return Mesh(points=cells.reference[:, : cells.dimension], blocks=cells.blocks())
+
+
+def patches(mesh: Mesh) -> tuple[Patches, ...]:
+    """What of a mesh can be seen: the boundary of volumes, the cells of plane bodies."""
+    seen: Mapping[str, IntArray] = mesh.boundary() if mesh.dim == 3 else mesh.blocks
+    count = sum(len(f) for f in seen.values())
+    return tuple(_patches(name, facets, count) for name, facets in seen.items())
+
+
+def _patches(name: str, facets: IntArray, count: int) -> Patches:
+    flat = name == "tri3"
+    k = 1 if flat else int(np.clip(np.sqrt(MOST / (2.0 * max(count, 1))), 1, 8))
+    points, triangles = _triangle(k) if name.startswith("tri") else _square(k)
+    return Patches(facets=facets, shape=SHAPES[name](points[:, 0], points[:, 1]), triangles=triangles)
+
+
+def _triangle(k: int) -> tuple[Array, IntArray]:
+    """Lattice of the unit triangle, k small triangles along an edge."""
+    number = {(i, j): n for n, (i, j) in enumerate((i, j) for j in range(k + 1) for i in range(k + 1 - j))}
+    up = [(number[i, j], number[i + 1, j], number[i, j + 1]) for i, j in number if i + j < k]
+    down = [(number[i + 1, j], number[i + 1, j + 1], number[i, j + 1]) for i, j in number if i + j < k - 1]
+    return np.array(list(number), float) / k, np.array(up + down)
+
+
+def _square(k: int) -> tuple[Array, IntArray]:
+    """Lattice of the unit square."""
+    number = {(i, j): n for n, (i, j) in enumerate((i, j) for j in range(k + 1) for i in range(k + 1))}
+    low = [(number[i, j], number[i + 1, j], number[i + 1, j + 1]) for i in range(k) for j in range(k)]
+    high = [(number[i, j], number[i + 1, j + 1], number[i, j + 1]) for i in range(k) for j in range(k)]
+    return np.array(list(number), float) / k, np.array(low + high)
+
+
+def _tri3(x: Array, y: Array) -> Array:
+    return np.stack([1 - x - y, x, y], axis=-1)
+
+
+def _tri6(x: Array, y: Array) -> Array:
+    z = 1 - x - y
+    return np.stack([z * (2 * z - 1), x * (2 * x - 1), y * (2 * y - 1), 4 * z * x, 4 * x * y, 4 * y * z], axis=-1)
+
+
+def _quad4(x: Array, y: Array) -> Array:
+    return np.stack([(1 - x) * (1 - y), x * (1 - y), x * y, (1 - x) * y], axis=-1)
+
+
+def _quad9(x: Array, y: Array) -> Array:
+    a, b = (np.stack([(1 - t) * (1 - 2 * t), t * (2 * t - 1), 4 * t * (1 - t)]) for t in (x, y))
+    pairs = ((0, 0), (1, 0), (1, 1), (0, 1), (2, 0), (1, 2), (2, 1), (0, 2), (2, 2))
+    return np.stack([a[i] * b[j] for i, j in pairs], axis=-1)
+
+
+SHAPES: Mapping[str, Callable[[Array, Array], Array]] = {
+    "tri3": _tri3, "tri6": _tri6, "quad4": _quad4, "quad9": _quad9,
+}  # fmt: skip
+
+
+def at_nodes(cells: Cells, values: Array) -> Array:
+    """Nodal means (n,) of cell values (e,)."""
+    owner = np.repeat(np.arange(len(values)), np.diff(cells.offsets))
+    count = np.bincount(cells.connectivity, minlength=len(cells.reference))
+    return np.bincount(cells.connectivity, values[owner], len(cells.reference)) / np.maximum(count, 1)
+
+
+def rigid(reference: Array, points: Array) -> Array:
+    """The reference points (n, 3) moved rigidly as near to ``points`` as they can be (least squares).
+
+    Reference: W. Kabsch, Acta Cryst. A32 (1976) 922.
+    """
+    middle, centre = reference.mean(axis=0), points.mean(axis=0)
+    u, _, vt = np.linalg.svd((reference - middle).T @ (points - centre))
+    sign = np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ vt)) or 1.0])
+    return np.asarray((reference - middle) @ (u @ sign @ vt) + centre)
+
+
+def exaggeration(reference: Array, frame: Frame) -> float:
+    """Factor 1, 2 or 5 times a power of ten that makes the deformation visible; 1 when it is large by itself."""
+    size = float(np.linalg.norm(np.ptp(reference, axis=0)))
+    depth = float(np.linalg.norm(frame.points - rigid(reference, frame.points), axis=1).max())
+    if depth <= 1e-14 * size or 0.05 * size / depth < 2.0:
+        return 1.0
+    wanted = 0.05 * size / depth
+    power = 10.0 ** np.floor(np.log10(wanted))
+    return float(power * max(m for m in (1, 2, 5) if m * power <= wanted * (1 + 1e-9)))

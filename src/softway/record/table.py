@@ -1,0 +1,96 @@
+"""Tables with units: comma-separated text that grows by whole lines, and its reader."""
+
+import csv
+import io
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, TextIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+TEXT = "-"
+"""Unit written in the header of a column of words."""
+COUNT = "1"
+"""Unit written in the header of a column of whole numbers."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Table(Mapping[str, NDArray[Any]]):
+    r"""Columns by name, each with a unit; arrays (rows,) are read-only.
+
+    Examples
+    --------
+    >>> table = parse("time [s],contact [-]\n0.5,floor\n")
+    >>> table["time"], table.units["time"], str(table["contact"][0]), table.rows
+    (array([0.5]), 's', 'floor', 1)
+    """
+
+    columns: Mapping[str, NDArray[Any]]
+    units: Mapping[str, str] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        return self.columns[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.columns)
+
+    def __len__(self) -> int:
+        return len(self.columns)
+
+    def __repr__(self) -> str:
+        return f"Table({self.rows} rows: {', '.join(self.columns)})"
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return len(next(iter(self.columns.values()), ()))
+
+
+def header(columns: Sequence[tuple[str, str]]) -> list[str]:
+    """Cells ``name [unit]`` of the first line.
+
+    Examples
+    --------
+    >>> header([("time", "s"), ("kind", TEXT)])
+    ['time [s]', 'kind [-]']
+    """
+    return [f"{name} [{unit}]" for name, unit in columns]
+
+
+def write(stream: TextIO, cells: Sequence[str | int | float]) -> None:
+    """Append one line in one piece and push it to the disk; floats keep all their digits."""
+    line = io.StringIO()
+    csv.writer(line, lineterminator="\n").writerow([format(c, ".17g") if isinstance(c, float) else c for c in cells])
+    stream.write(line.getvalue())
+    stream.flush()
+
+
+def read(path: Path) -> Table:
+    """The table in a file, which may still grow: a last line without its end is left out."""
+    return parse(path.read_text(encoding="utf-8"))
+
+
+def parse(text: str) -> Table:
+    """The table in a text."""
+    lines = list(csv.reader(text[: text.rfind("\n") + 1].splitlines()))
+    if not lines:
+        return Table({})
+    names, units = zip(*(_split(cell) for cell in lines[0]), strict=True)
+    rows = [line for line in lines[1:] if len(line) == len(names)]
+    columns = {name: _column([row[k] for row in rows], units[k]) for k, name in enumerate(names)}
+    return Table(MappingProxyType(columns), MappingProxyType(dict(zip(names, units, strict=True))))
+
+
+def _split(cell: str) -> tuple[str, str]:
+    name, _, unit = cell.rpartition(" [")
+    return name, unit.rstrip("]")
+
+
+def _column(cells: list[str], unit: str) -> NDArray[Any]:
+    kinds: Mapping[str, type] = {TEXT: str, COUNT: np.int64}
+    column: NDArray[Any] = np.array(cells, dtype=kinds.get(unit, float))
+    column.flags.writeable = False
+    return column

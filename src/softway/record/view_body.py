@@ -1,0 +1,157 @@
+"""The deformed bodies, coloured by von Mises stress, at the instant of greatest strain energy.
+
+Volumes are drawn by the painter's algorithm: small flat triangles of the surface in parallel projection, the far ones
+first, shaded by a lamp beside the eye.
+"""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from softway.record.frames import Cells, Frame
+from softway.record.run import Run
+from softway.record.surface import at_nodes, exaggeration, mesh_of, patches, rigid
+from softway.record.view import canvas, library, scaled
+from softway.record.view_scene import Camera, camera, edges, ground, ruler, strokes, unit
+from softway.space.mesh import Mesh
+from softway.typing import Array, IntArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+MAP = "viridis"
+WIDTH = 7.6
+"""Of the picture [inches]."""
+LAMP = np.array([-0.35, 0.75, 0.6])
+"""Direction to the lamp in the axes of the picture: right, up, towards the eye."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Shown:
+    """What is drawn: positions (n, 3) with the deformation enlarged, the rigid shape (n, 3), nodal stress (n,)."""
+
+    frame: Frame
+    cells: Cells
+    points: Array
+    shape: Array
+    stress: Array
+    factor: float
+
+
+def bodies(run: Run) -> "Figure":
+    """The bodies with their stress at the instant of greatest strain energy, the floor, and the undeformed outline."""
+    shown = _shown(run)
+    colour, stress_unit = scaled(shown.stress, "Pa")
+    figure = canvas(WIDTH, 6.0)
+    axis = figure.subplots()
+    view = camera(shown.cells, shown.points)
+    ground(axis, shown.cells, shown.points, view)
+    norm = library().colors.Normalize(0.0, float(colour * shown.stress.max()) or 1.0)
+    mapped = library().cm.ScalarMappable(norm, MAP)
+    _paint(axis, shown, view, mapped, colour)
+    ruler(axis, shown.cells.reference, view)
+    axis.set_aspect("equal")
+    axis.set_axis_off()
+    axis.margins(0.02)
+    bar = figure.colorbar(mapped, ax=axis, shrink=0.8, pad=0.02, aspect=28)
+    bar.set_label(f"von Mises stress [{stress_unit}]")
+    bar.outline.set_visible(False)  # type: ignore[operator]
+    box = axis.dataLim
+    figure.set_size_inches(WIDTH, float(np.clip(0.8 * WIDTH * box.height / box.width + 1.0, 3.4, 8.5)))
+    _words(figure, run, shown)
+    return figure
+
+
+def _words(figure: "Figure", run: Run, shown: Shown) -> None:
+    """Title above, and below it what is shown."""
+    second, unit = scaled(shown.frame.time, "s")
+    enlarged = "to scale" if shown.factor == 1.0 else f"enlarged {shown.factor:g} times"
+    title = run.provenance.get("title", "") or "Deformed body"
+    figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold")
+    figure.supxlabel(
+        f"t = {second * shown.frame.time:.4g} {unit}, at the greatest strain energy. Deformation {enlarged}; "
+        "dashed: undeformed shape.\nStress: mean of the cells at a node.",
+        x=0.01, ha="left", fontsize=8.5,
+    )  # fmt: skip
+
+
+def _shown(run: Run) -> Shown:
+    """The frame nearest to the greatest strain energy, placed so that it touches the obstacles as it really does."""
+    history, fields, cells = run.history, run.fields, run.fields.cells
+    peak = history["time"][int(np.argmax(history["energy_strain"]))]
+    frame = fields[int(np.argmin(np.abs(fields.times - peak)))]
+    factor = exaggeration(cells.reference, frame)
+    shape, points = frame.points.copy(), frame.points.copy()
+    for number in range(len(cells.bodies)):
+        mine = _nodes_of(cells, number)
+        shape[mine] = rigid(cells.reference[mine], frame.points[mine])
+        points[mine] = shape[mine] + factor * (frame.points[mine] - shape[mine])
+        points[mine] += _back(cells, frame.points[mine], points[mine])
+        shape[mine] += _back(cells, frame.points[mine], shape[mine])
+    stress = at_nodes(cells, frame.von_mises)
+    return Shown(frame=frame, cells=cells, points=points, shape=shape, stress=stress, factor=factor)
+
+
+def _nodes_of(cells: Cells, body: int) -> IntArray:
+    mine = np.repeat(cells.body == body, np.diff(cells.offsets))
+    return np.unique(cells.connectivity[mine])
+
+
+def _back(cells: Cells, real: Array, drawn: Array) -> Array:
+    """Shift (3,) that gives the drawn body the real least gap to each obstacle near it."""
+    shift = np.zeros(3)
+    for tool in cells.obstacles.values():
+        normal = unit(tool["normal"])
+        gap = (real @ normal).min() - normal[: len(tool["point"])] @ np.array(tool["point"])
+        if gap < 0.5 * np.linalg.norm(np.ptp(real, axis=0)):
+            shift += ((real @ normal).min() - (drawn @ normal).min()) * normal
+    return shift
+
+
+def _paint(axis: "Axes", shown: Shown, view: Camera, mapped: object, colour: float) -> None:
+    """Draw the small triangles and the outlines, far ones first."""
+    mesh = mesh_of(shown.cells)
+    corners, values = [], []
+    for patch in patches(mesh):
+        corners.append(view.seen(patch.spread(shown.points)))
+        values.append(patch.spread(shown.stress).mean(axis=1))
+    triangles, stress = np.concatenate(corners), np.concatenate(values)
+    rgb = mapped.to_rgba(colour * stress)[:, :3]  # type: ignore[attr-defined]
+    if mesh.dim == 3:
+        triangles, rgb = _lit(triangles, rgb)
+    lines, dashes = _outlines(shown, mesh, view)
+    pieces = np.concatenate([triangles, lines, dashes])
+    groups = np.repeat([0, 1, 2], [len(triangles), len(lines), len(dashes)])
+    colours = np.concatenate([rgb, np.zeros((len(lines), 3)), np.full((len(dashes), 3), 0.1)])
+    order = np.argsort(pieces[:, :, 2].mean(axis=1), kind="stable")
+    polygons = library().collections.PolyCollection(
+        pieces[order][:, :, :2],
+        facecolors=colours[order],
+        edgecolors=colours[order],
+        linewidths=np.array([0.7, 0.45, 0.75])[groups[order]],
+        capstyle="butt",
+        zorder=3,
+    )
+    axis.add_collection(polygons)
+
+
+def _lit(triangles: Array, rgb: Array) -> tuple[Array, Array]:
+    """The triangles that face the eye, and their colours under the lamp."""
+    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
+    front = normal[:, 2] > 0.0
+    light = 0.86 + 0.18 * (normal[front] @ (LAMP / np.linalg.norm(LAMP)))
+    return triangles[front], np.clip(rgb[front] * light[:, None], 0.0, 1.0)
+
+
+def _outlines(shown: Shown, mesh: Mesh, view: Camera) -> tuple[Array, Array]:
+    """Edges of the deformed body, dashes of the undeformed one: triangles without width, a hair nearer the eye."""
+    size = float(np.linalg.norm(np.ptp(shown.cells.reference, axis=0)))
+    found = []
+    for points, every in ((shown.points, 1), (shown.shape, 2)):
+        dash = strokes(points, edges(mesh, points, view), size / 90.0)[:, ::every].reshape(-1, 2, 3)
+        flat = view.seen(dash)[:, [0, 1, 1]]
+        found.append(flat + np.array([0.0, 0.0, 0.006 * size * every]))
+    return found[0], found[1]

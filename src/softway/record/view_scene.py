@@ -1,0 +1,148 @@
+"""Around the body in a picture: the eye, the floor with a shadow, outlines, a ruler."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from softway.record.frames import Cells
+from softway.record.surface import mesh_of, patches
+from softway.record.view import library, scaled
+from softway.space.mesh import Mesh
+from softway.typing import Array, IntArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+FLOOR, SHADOW, LINE = "#ececec", "#d3d3d3", "#8a8a8a"
+SHARP = np.cos(np.radians(50.0))
+"""Two facets that meet at more than 50 degrees have a feature edge between them."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Camera:
+    """Parallel projection: the rows of ``axes`` (3, 3) are right, up, and towards the eye."""
+
+    axes: Array
+
+    def seen(self, points: Array) -> Array:
+        """Points (..., 3) in the axes of the picture."""
+        return np.asarray(points @ self.axes.T)
+
+
+def camera(cells: Cells, points: Array) -> Camera:
+    """Plane bodies from the front; volumes from 18 degrees above the first obstacle.
+
+    Of four directions around its normal the one is taken from which the point nearest to the obstacle is seen best.
+    """
+    if cells.dimension < 3:
+        return Camera(np.eye(3))
+    up = unit(next(iter(cells.obstacles.values()), {"normal": [0.0, 0.0, 1.0]})["normal"])
+    side = np.cross(up, np.eye(3)[int(np.argmin(np.abs(up)))])
+    side /= np.linalg.norm(side)
+    across, rise = np.cross(up, side), np.radians(18.0)
+    nearest = points[int(np.argmin(points @ up))] - points.mean(axis=0)
+    levels = [np.cos(a) * side + np.sin(a) * across for a in np.radians([35.0, 125.0, 215.0, 305.0])]
+    level = max(levels, key=lambda direction: round(float(nearest @ direction / np.ptp(points, axis=0).max()), 6))
+    eye = np.cos(rise) * level + np.sin(rise) * up
+    right = np.cross(up, eye) / np.linalg.norm(np.cross(up, eye))
+    return Camera(np.array([right, np.cross(eye, right), eye]))
+
+
+def ground(axis: "Axes", cells: Cells, points: Array, view: Camera) -> None:
+    """Each obstacle near the body: a plate with the body's shadow, or in the plane a hatched band."""
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    for tool in cells.obstacles.values():
+        normal, point = unit(tool["normal"]), np.zeros(3)
+        point[: len(tool["point"])] = tool["point"]
+        if ((points - point) @ normal).min() > 0.75 * size:
+            continue
+        centre = points.mean(axis=0) - ((points.mean(axis=0) - point) @ normal) * normal
+        if cells.dimension == 3:
+            _plate(axis, cells, points, view, (normal, point, centre))
+        else:
+            _band(axis, normal, centre, 0.75 * size)
+
+
+def _plate(axis: "Axes", cells: Cells, points: Array, view: Camera, plane: tuple[Array, Array, Array]) -> None:
+    normal, point, centre = plane
+    if normal @ view.axes[2] <= 0.0:
+        return
+    flat = points - ((points - point) @ normal)[:, None] * normal
+    reach = 1.25 * np.linalg.norm(flat - centre, axis=1).max()
+    first = view.axes[0] - (view.axes[0] @ normal) * normal
+    first /= np.linalg.norm(first)
+    angle = np.linspace(0.0, 2.0 * np.pi, 97)[:, None]
+    rim = centre + reach * (np.cos(angle) * first + np.sin(angle) * np.cross(normal, first))
+    axis.fill(*view.seen(rim).T[:2], facecolor=FLOOR, edgecolor="none", zorder=0)
+    shadow = np.concatenate([view.seen(patch.spread(flat)) for patch in patches(mesh_of(cells))])
+    collection = library().collections.PolyCollection
+    axis.add_collection(collection(shadow[:, :, :2], facecolors=SHADOW, edgecolors=SHADOW, linewidths=0.4, zorder=1))
+
+
+def _band(axis: "Axes", normal: Array, centre: Array, reach: float) -> None:
+    along = np.array([-normal[1], normal[0], 0.0])
+    ends = centre + reach * np.array([[-1.0], [1.0]]) * along
+    below = ends[::-1] - 0.12 * reach * normal
+    corners = np.concatenate([ends, below])[:, :2]
+    axis.fill(*corners.T, facecolor=FLOOR, edgecolor=LINE, hatch="////", lw=0.0, zorder=0)
+    axis.plot(*ends[:, :2].T, color="#444444", lw=1.4, zorder=1)
+
+
+def edges(mesh: Mesh, shape: Array, view: Camera) -> IntArray:
+    """Nodes (k, 3), ends around the middle, of what outlines a shape (n, 3).
+
+    Of volumes: sharp edges and the silhouette, on the side of the eye; of plane bodies: the boundary.
+    """
+    if mesh.dim == 2:
+        return np.concatenate([f[:, [0, 0 if f.shape[1] == 2 else 2, 1]] for f in mesh.boundary().values()])
+    sides, normals = [], []
+    for name, facets in mesh.boundary().items():
+        c = 3 if name.startswith("tri") else 4
+        normal = np.cross(shape[facets[:, 1]] - shape[facets[:, 0]], shape[facets[:, 2]] - shape[facets[:, 0]])
+        normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
+        sides.append(_sides(facets, c).reshape(-1, 3))
+        normals.append(np.repeat(normal, c, axis=0))
+    side, normal = np.concatenate(sides), np.concatenate(normals)
+    order = np.lexsort(side.T)
+    side, normal = side[order], normal[order]
+    same = np.flatnonzero((side[1:] == side[:-1]).all(axis=1))
+    one, other = normal[same], normal[same + 1]
+    ahead, behind = one @ view.axes[2] > 0.0, other @ view.axes[2] > 0.0
+    sharp = np.einsum("ki,ki->k", one, other) < SHARP
+    return np.asarray(side[same[(sharp & (ahead | behind)) | (ahead != behind)]])
+
+
+def strokes(points: Array, lines: IntArray, length: float) -> Array:
+    """Straight pieces (k, p, 2, 3) of the lines (k, 3) through nodes at ``points``, each about ``length`` long."""
+    first, middle, last = (points[lines[:, j]] for j in range(3))
+    middle = np.where((lines[:, 0] == lines[:, 1])[:, None], 0.5 * (first + last), middle)
+    mean = float(np.linalg.norm(last - first, axis=1).mean()) if len(lines) else 0.0
+    t = np.linspace(0.0, 1.0, 2 * max(1, round(0.5 * mean / length)) + 1)[:, None]
+    at = first[:, None] * (1 - t) * (1 - 2 * t) + middle[:, None] * 4 * t * (1 - t) + last[:, None] * t * (2 * t - 1)
+    return np.stack([at[:, :-1], at[:, 1:]], axis=2)
+
+
+def _sides(facets: IntArray, corners: int) -> IntArray:
+    """Nodes (f, corners, 3) of the sides: the lower corner, the middle (of a linear side a corner again), the other."""
+    ends = np.sort(np.stack([facets[:, :corners], np.roll(facets[:, :corners], -1, axis=1)], axis=-1), axis=-1)
+    middle = facets[:, corners : 2 * corners] if facets.shape[1] > corners else ends[..., 0]
+    return np.stack([ends[..., 0], middle, ends[..., 1]], axis=-1)
+
+
+def ruler(axis: "Axes", reference: Array, view: Camera) -> None:
+    """A bar of round length at the lower left, since the axes have no numbers."""
+    size = float(np.linalg.norm(np.ptp(reference, axis=0)))
+    power = 10.0 ** np.floor(np.log10(0.4 * size))
+    length = float(power * max(m for m in (1, 2, 5) if m * power <= 0.4 * size))
+    factor, metre = scaled(length, "m")
+    x, y = axis.dataLim.x0, axis.dataLim.y0 - 0.06 * size
+    axis.plot([x, x + length], [y, y], color="#222222", lw=2.0, solid_capstyle="butt", zorder=5)
+    axis.annotate(f"{factor * length:g} {metre}", (x, y), (0, -4), textcoords="offset points", va="top", fontsize=9)
+
+
+def unit(given: list[float]) -> Array:
+    """Unit vector (3,) of up to three components."""
+    normal = np.zeros(3)
+    normal[: len(given)] = given
+    return normal / np.linalg.norm(normal)

@@ -1,0 +1,148 @@
+"""What a type hint admits in a scenario: the kinds of a union, the unit of a number."""
+
+import collections.abc
+import difflib
+import importlib
+import types
+from collections.abc import Iterable, Mapping
+from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
+from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+from softway.errors import InputError
+from softway.laws.law import StoredEnergy
+
+REGISTRIES: Mapping[type, str] = {StoredEnergy: "softway.laws.bulk"}
+
+
+@dataclass(frozen=True, slots=True)
+class Hint:
+    """A type hint without its unit, and the unit that bare numbers inside have.
+
+    Examples
+    --------
+    >>> Hint.of(Annotated[float, "m"], None)
+    Hint(type=<class 'float'>, unit='m')
+    """
+
+    type: Any
+    unit: str | None
+
+    @classmethod
+    def of(cls, hint: Any, outer: str | None) -> "Hint":
+        """Take the unit off a hint; ``outer`` holds where the hint has none, and stands for ``*`` in its unit."""
+        if get_origin(hint) is not Annotated:
+            return cls(hint, outer)
+        kind, unit = get_args(hint)[:2]
+        return cls(kind, combined(unit, outer) if isinstance(unit, str) else outer)
+
+
+def combined(unit: str, outer: str | None) -> str:
+    """The unit with ``*`` replaced by the unit of the surrounding quantity.
+
+    Examples
+    --------
+    >>> combined("*/m", "m/s"), combined("*/m", "m"), combined("Pa", "m")
+    ('1/s', '', 'Pa')
+    """
+    if "*" not in unit or outer is None:
+        return unit
+    return {"m": {"*/m": ""}, "m/s": {"*/m": "1/s"}}.get(outer, {}).get(unit, unit.replace("*", outer))
+
+
+def members(hint: Any) -> tuple[Any, ...]:
+    """The alternatives of a union, flat; the hint itself otherwise.
+
+    Examples
+    --------
+    >>> members(int | str)
+    (<class 'int'>, <class 'str'>)
+    """
+    if get_origin(hint) in (Union, types.UnionType):
+        return tuple(m for part in get_args(hint) for m in members(part))
+    return (hint,)
+
+
+def hints(cls: type) -> dict[str, Any]:
+    """Type hints of a dataclass with units."""
+    return get_type_hints(cls, include_extras=True)
+
+
+def inputs(cls: type) -> dict[str, Field[Any]]:
+    """The fields that its constructor takes, by name."""
+    return {f.name: f for f in fields(cls) if f.init}
+
+
+def required(field: Field[Any]) -> bool:
+    """Whether a field has no default."""
+    return field.default is MISSING and field.default_factory is MISSING
+
+
+def kinds(options: Iterable[Any]) -> dict[str, type]:
+    """Dataclasses among the alternatives that text can describe, by name; protocols stand for their package."""
+    found: dict[str, type] = {}
+    for option in options:
+        option = Hint.of(option, None).type
+        if option in REGISTRIES:
+            found.update(_exported(REGISTRIES[option]))
+        elif isinstance(option, type) and is_dataclass(option) and not _holds_arrays(option):
+            found[option.__name__] = option
+    return found
+
+
+def open_protocol(options: Iterable[Any]) -> bool:
+    """Whether a kind may come from the user's own module."""
+    return any(Hint.of(o, None).type in REGISTRIES for o in options)
+
+
+def imported(kind: str, where: str) -> type:
+    """The dataclass named ``module:Class``."""
+    module, _, name = kind.partition(":")
+    try:
+        cls = getattr(importlib.import_module(module), name)
+    except (ImportError, AttributeError) as error:
+        raise InputError(where, f"{kind!r}: {error}", "package.module:Class of something importable") from error
+    if not (isinstance(cls, type) and is_dataclass(cls)):
+        raise InputError(where, f"{kind!r} is no dataclass", "a frozen dataclass")
+    return cls
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """A remedy: the closest known word, then all of them.
+
+    Examples
+    --------
+    >>> nearest("nuu", ["E", "nu"])
+    "did you mean 'nu'? known: E, nu"
+    """
+    words = list(known)
+    close = difflib.get_close_matches(word, words, n=1, cutoff=0.5) or [w for w in words if w.lower() == word.lower()]
+    guess = f"did you mean {close[0]!r}? " if close else ""
+    return f"{guess}known: {', '.join(words) or 'none'}"
+
+
+def is_tuple(hint: Any) -> bool:
+    """Whether the hint is a tuple."""
+    return get_origin(hint) is tuple or hint is tuple
+
+
+def is_mapping(hint: Any) -> bool:
+    """Whether the hint is a mapping."""
+    return get_origin(hint) in (dict, Mapping, collections.abc.Mapping)
+
+
+def _exported(package: str) -> dict[str, type]:
+    """The dataclasses that a package exports."""
+    module = importlib.import_module(package)
+    names = getattr(module, "__all__", None) or [n for n in vars(module) if not n.startswith("_")]
+    found = {n: getattr(module, n) for n in names}
+    return {n: c for n, c in found.items() if isinstance(c, type) and is_dataclass(c)}
+
+
+def _holds_arrays(cls: type) -> bool:
+    """Whether a field without default is an array, so that no text can describe the class."""
+    known = hints(cls)
+    needed = [Hint.of(known[n], None).type for n, f in inputs(cls).items() if required(f)]
+    inner = [get_args(h)[1] if is_mapping(h) else h for h in needed]
+    return any(get_origin(h) is np.ndarray for h in inner)

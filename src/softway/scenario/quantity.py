@@ -1,0 +1,124 @@
+"""The door of units: text such as ``"210 GPa"`` becomes an SI float, with an error that names the place."""
+
+import math
+import re
+from dataclasses import dataclass
+from typing import Any, Self
+
+import pint
+
+from softway.errors import InputError
+
+_NUMBER = re.compile(r"^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
+_EXAMPLES = {
+    "m": ("a length", "5 mm"),
+    "m^2": ("an area", "314 mm^2"),
+    "s": ("a time", "2 ms"),
+    "Pa": ("a stress", "210 GPa"),
+    "kg/m^3": ("a density", "7850 kg/m^3"),
+    "m/s": ("a velocity", "4.4 m/s"),
+    "m/s^2": ("an acceleration", "-9.81 m/s^2"),
+    "1/s": ("a velocity gradient", "2 1/s"),
+    "rad": ("an angle", "30 deg"),
+    "N": ("a force", "2 kN"),
+    "": ("a pure number", "0.3"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Units:
+    """Reads quantities; holds the table of units of pint.
+
+    Examples
+    --------
+    >>> units = Units.standard()
+    >>> units.number("210 GPa", "Pa", "bodies.bar.material.E")
+    210000000000.0
+    >>> units.number(7850, "kg/m^3", "bodies.bar.density")
+    7850.0
+    """
+
+    registry: pint.UnitRegistry[Any]
+
+    @classmethod
+    def standard(cls) -> Self:
+        """The units that pint knows."""
+        return cls(pint.UnitRegistry())
+
+    def number(self, value: object, unit: str, where: str) -> float:
+        """SI value of a number or of a text with unit.
+
+        Parameters
+        ----------
+        value
+            A bare number (SI), or text such as ``"5 mm"``.
+        unit
+            SI unit that the value must be convertible to; empty for pure numbers.
+        where
+            Path in the scenario, for the error.
+        """
+        if isinstance(value, bool) or not isinstance(value, int | float | str):
+            raise InputError(where, f"{value!r} is not {expected(unit)}", example(unit))
+        if not isinstance(value, str):
+            return _finite(float(value), value, where, unit)
+        found = _NUMBER.match(value)
+        if found is None:
+            raise InputError(where, f"{value!r} is not {expected(unit)}", example(unit))
+        return _finite(float(found[1]) * self._factor(found[2], unit, value, where), value, where, unit)
+
+    def _factor(self, given: str, unit: str, value: str, where: str) -> float:
+        """Factor from the given unit to the SI unit."""
+        if given == unit:
+            return 1.0
+        if not given:
+            raise InputError(where, f"{value!r} has no unit; expected {expected(unit)}", example(unit))
+        try:
+            source, target = self.registry.Unit(given), self.registry.Unit(unit)
+        except Exception as error:  # the parser of pint raises a dozen unrelated types
+            raise InputError(where, f"{value!r}: unknown unit {given!r}", example(unit)) from error
+        if source.dimensionality != target.dimensionality or _angle(self.registry, source) != _angle(
+            self.registry, target
+        ):
+            raise InputError(
+                where, f"{value!r} is of dimension {source.dimensionality}; expected {expected(unit)}", example(unit)
+            )
+        zero, one = (self.registry.Quantity(x, source).to(target).magnitude for x in (0.0, 1.0))
+        if zero != 0.0:
+            raise InputError(where, f"{value!r} is on a scale with an offset", example(unit))
+        return float(one)
+
+
+def expected(unit: str) -> str:
+    """What a quantity in ``unit`` is called.
+
+    Examples
+    --------
+    >>> expected("Pa")
+    'a stress [Pa]'
+    """
+    name = _EXAMPLES.get(unit, ("a quantity", ""))[0]
+    return f"{name} [{unit}]" if unit else name
+
+
+def example(unit: str) -> str:
+    """How a quantity in ``unit`` is written.
+
+    Examples
+    --------
+    >>> example("m")
+    'a length such as "5 mm", or a bare number in m'
+    """
+    name, sample = _EXAMPLES.get(unit, ("a quantity", f"1 {unit}"))
+    return f'{name} such as "{sample}", or a bare number in {unit}' if unit else f"{name} such as {sample}"
+
+
+def _angle(registry: pint.UnitRegistry[Any], unit: Any) -> bool:
+    """Whether a dimensionless unit measures an angle: degrees are no share of anything."""
+    root = registry.get_root_units(unit)[1]
+    return any(str(part) == "radian" for part in root._units)
+
+
+def _finite(number: float, value: object, where: str, unit: str) -> float:
+    if not math.isfinite(number):
+        raise InputError(where, f"{value!r} is not finite", example(unit))
+    return number

@@ -1,0 +1,158 @@
+"""Every name in a scenario that points at something else: bodies, tags, components, dimensions."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from math import isfinite
+
+import numpy as np
+
+from softway.bodies.fields import components, sample
+from softway.bodies.loads import Gravity, Load, Traction
+from softway.bodies.section import check_section
+from softway.bodies.solid import Fixed, Solid, Tool
+from softway.contact.contact import Contact
+from softway.errors import InputError
+from softway.scenario.kinds import nearest
+from softway.scenario.scales import section_of
+from softway.scene import Scene
+from softway.space.mesh import Mesh
+from softway.typing import Array, BoolArray, IntArray
+
+
+@contextmanager
+def at(path: str) -> Iterator[None]:
+    """Put ``path`` before the place of an InputError raised inside.
+
+    Examples
+    --------
+    >>> try:
+    ...     with at("bodies.bar"):
+    ...         raise InputError("density", "-1 kg/m^3 is not positive")
+    ... except InputError as error:
+    ...     error.where
+    'bodies.bar.density'
+    """
+    try:
+        yield
+    except InputError as error:
+        raise error.within(path) from None
+
+
+def mesh_of(solid: Solid) -> Mesh:
+    """The mesh of a solid whose mesh has been made."""
+    if not isinstance(solid.mesh, Mesh):
+        raise TypeError("the mesh has not been made: softway.scenario.scenario.built makes it")
+    return solid.mesh
+
+
+def solid_named(bodies: Mapping[str, Solid | Tool], name: str, where: str) -> Solid:
+    """The deformable body of that name."""
+    solids = [n for n, b in bodies.items() if isinstance(b, Solid)]
+    if name not in bodies:
+        raise InputError(where, f"there is no body {name!r}", nearest(name, solids))
+    body = bodies[name]
+    if not isinstance(body, Solid):
+        raise InputError(where, f"{name!r} is a Tool, which has no nodes", nearest(name, solids))
+    return body
+
+
+def tool_named(bodies: Mapping[str, Solid | Tool], name: str, where: str) -> Tool:
+    """The rigid obstacle of that name."""
+    tools = [n for n, b in bodies.items() if isinstance(b, Tool)]
+    if name not in bodies:
+        raise InputError(where, f"there is no body {name!r}", nearest(name, tools))
+    body = bodies[name]
+    if not isinstance(body, Tool):
+        raise InputError(where, f"{name!r} is not a Tool; contact is with a rigid obstacle", nearest(name, tools))
+    return body
+
+
+def entries(value: Iterable[float] | float, dim: int, where: str) -> Array:
+    """A vector (d,), refused if it has another number of entries."""
+    vector = np.atleast_1d(np.asarray(value, float))
+    if vector.shape != (dim,):
+        raise InputError(where, f"{vector.tolist()} has {vector.size} entries in {dim}D", f"{dim} numbers")
+    return vector
+
+
+def check_density(density: float, where: str) -> None:
+    """Refuse a density that is not positive."""
+    if not (isfinite(density) and density > 0.0):
+        raise InputError(where, f"{density:g} kg/m^3 is not positive", 'a density such as "7850 kg/m^3"')
+
+
+def check_dimensions(scene: Scene, solids: Mapping[str, Solid]) -> None:
+    """Refuse bodies and obstacles that live in spaces of different dimension."""
+    first = next(iter(solids))
+    dim = mesh_of(solids[first]).dim
+    for name, solid in solids.items():
+        if mesh_of(solid).dim != dim:
+            problem = f"a mesh in {mesh_of(solid).dim}D beside {first!r} in {dim}D"
+            raise InputError(f"bodies.{name}.mesh", problem, "all bodies in the same space")
+    for name, body in scene.bodies.items():
+        if isinstance(body, Tool):
+            entries(body.shape.point, dim, f"bodies.{name}.shape.point")
+            entries(body.shape.normal, dim, f"bodies.{name}.shape.normal")
+
+
+def check_solid(solid: Solid, where: str) -> BoolArray:
+    """Look at section, fields and supports; returns the supported components (n, d)."""
+    mesh = mesh_of(solid)
+    with at(where):
+        check_section(mesh, section_of(solid, mesh))
+    for name in ("velocity", "displacement"):
+        with at(f"{where}.{name}"):
+            sample(getattr(solid, name), mesh)
+    fixed = np.zeros((mesh.n_nodes, mesh.dim), bool)
+    for k, support in enumerate(solid.supports):
+        _support(support, mesh, fixed, f"{where}.supports[{k}]")
+    return fixed
+
+
+def _support(support: Fixed, mesh: Mesh, fixed: BoolArray, where: str) -> None:
+    """Mark the components that a support holds."""
+    axes = "xyz"[: mesh.dim]
+    letters = axes if support.components == "all" else support.components
+    if not letters or set(letters) - set(axes):
+        raise InputError(
+            f"{where}.components", f"{support.components!r} in {mesh.dim}D", f"letters of {axes!r}, or 'all'"
+        )
+    with at(f"{where}.on"):
+        nodes = mesh.nodes(support.on)
+    for letter in letters:
+        fixed[nodes, axes.index(letter)] = True
+
+
+def check_loads(loads: tuple[Load, ...], where: str, solids: Mapping[str, Solid]) -> None:
+    """Refuse loads of another dimension, or on what does not exist."""
+    dim = mesh_of(next(iter(solids.values()))).dim
+    for k, load in enumerate(loads):
+        path = f"{where}[{k}]"
+        if isinstance(load, Gravity):
+            with at(path):
+                load.vector(dim)
+        elif isinstance(load, Traction):
+            mesh = mesh_of(solid_named(solids, load.body, f"{path}.on"))
+            with at(path):
+                components("value", load.value, dim)
+            with at(f"{path}.on"):
+                covered = mesh.facets_on(load.tag)
+            if not covered:
+                raise InputError(f"{path}.on", f"{load.on!r} holds no whole facet", "a tag that covers a surface")
+
+
+def check_timings(contacts: tuple[Contact, ...]) -> None:
+    """Refuse a second timing rule, and a second contact of the same name."""
+    for k, contact in enumerate(contacts):
+        if contact.timing != contacts[0].timing:
+            problem = f"{contact.timing} beside {contacts[0].timing} of contacts[0]"
+            raise InputError(f"contacts[{k}].timing", problem, "the same rule for all contacts of a scene")
+        if contact.label in [c.label for c in contacts[:k]]:
+            raise InputError(f"contacts[{k}].name", f"{contact.label!r} is taken", "another name")
+
+
+def candidate_nodes(scene: Scene, contact: Contact, where: str) -> IntArray:
+    """Nodes (c,) that may touch, in a scene whose meshes are made."""
+    solid = solid_named(scene.bodies, contact.body, f"{where}.between")
+    with at(f"{where}.between"):
+        return mesh_of(solid).nodes(contact.tag)

@@ -1,0 +1,67 @@
+"""Scene (what there is) and State (how it stands at one time)."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from softway.bodies.loads import Load
+from softway.bodies.solid import Solid, Tool
+from softway.contact.contact import Contact
+from softway.typing import Array, BoolArray
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AsGiven:
+    """The march starts from the initial fields of the solids."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StaticStart:
+    """The march starts from the static equilibrium under ``loads``, which are then let go."""
+
+    loads: tuple[Load, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scene:
+    """Bodies, the contacts between them, and the loads: an immutable description.
+
+    Parameters
+    ----------
+    bodies
+        Solids and tools by name.
+    contacts
+        Which tagged nodes may touch which tool, and by which rule.
+    loads
+        Dead loads: gravity, tractions.
+    start
+        How the march starts.
+    """
+
+    bodies: Mapping[str, Solid | Tool]
+    contacts: tuple[Contact, ...] = ()
+    loads: tuple[Load, ...] = ()
+    start: AsGiven | StaticStart = AsGiven()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class State:
+    """The situation at one time; arrays are read-only.
+
+    Parameters
+    ----------
+    time
+        [s].
+    displacement, velocity, acceleration
+        Body name -> (n, d) nodal arrays [m], [m/s], [m/s^2]; the acceleration is the velocity's slope in the slab before.
+    closed
+        Contact name -> (c,) which candidate nodes touch.
+    pressure
+        Contact name -> (c,) normal force of the obstacle on each candidate node, >= 0 [N].
+    """
+
+    time: float
+    displacement: Mapping[str, Array]
+    velocity: Mapping[str, Array]
+    acceleration: Mapping[str, Array]
+    closed: Mapping[str, BoolArray]
+    pressure: Mapping[str, Array]

@@ -1,0 +1,74 @@
+"""The only loop with a tolerance in it: run a method until its iterates stand still."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.solve.frozen import Carry
+from softway.solve.system import Evaluation, SlabSystem
+from softway.typing import Array, BoolArray
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Iterate:
+    """One iterate of a method.
+
+    ``q`` (n, d) satisfies the contact rows; ``change`` is its distance from the point where the residual was taken;
+    ``impulse`` (m,) are the multipliers of the rows, ``active`` (m,) the rows that carry one; ``free`` (m,) is the
+    normal component of the free solution.
+    """
+
+    q: Array
+    change: float
+    impulse: Array
+    active: BoolArray
+    free: Array
+    carry: Carry
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Solution:
+    """A converged slab: the last iterate, its evaluation, the free normal components (m,) of the first iterate."""
+
+    last: Iterate
+    end: Evaluation
+    predicted: Array
+    iterations: int
+
+
+class NoConvergence(Exception):
+    """A method did not settle; the message says how far it was."""
+
+
+Method = Callable[[SlabSystem, Array, Carry, BoolArray], Iterator[Iterate]]
+
+
+def drive(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float, limit: int) -> Solution:
+    """Consume iterates until the change of velocity is below ``tolerance`` times the greatest velocity.
+
+    An iteration whose change no longer decreases is accepted when it is within 1000 times the tolerance: that is
+    the rounding level of the problem.
+
+    Raises
+    ------
+    NoConvergence
+        After ``limit`` iterations, or at the first value that is not finite.
+    """
+    best, since = np.inf, 0
+    predicted: Array | None = None
+    it: Iterate | None = None
+    scale = 1.0
+    for count, it in enumerate(iterates, 1):
+        if not np.isfinite(it.change):
+            raise NoConvergence("the iteration left the admissible configurations (inverted cell or overflow)")
+        predicted = it.free if predicted is None else predicted
+        scale = max(np.abs(it.q).max(initial=0.0), np.abs(system.start.velocity).max(initial=0.0), 1e-300)
+        best, since = (it.change, 0) if it.change < 0.5 * best else (best, since + 1)
+        settled = it.change <= tolerance * scale or (since >= 6 and it.change <= 1e3 * tolerance * scale)
+        if settled:
+            return Solution(last=it, end=system.evaluate(it.q), predicted=predicted, iterations=count)
+        if count >= limit:
+            break
+    change = it.change / scale if it is not None else np.inf
+    raise NoConvergence(f"{limit} iterations leave a relative change of {change:.1e} (tolerance {tolerance:.0e})")

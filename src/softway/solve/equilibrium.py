@@ -1,0 +1,54 @@
+"""Static equilibrium of some components with unilateral contact: how a march starts."""
+
+import numpy as np
+
+from softway.errors import NumericsError
+from softway.model import Model
+from softway.solve.frozen import freeze
+from softway.solve.linear import SuperLU
+from softway.solve.normal import Rows, constrain
+from softway.typing import Array, BoolArray
+
+
+def equilibrium(model: Model, u: Array, unknown: BoolArray, load: Array, limit: int = 60) -> tuple[Array, Array]:
+    """Displacement (n, d) and contact forces (m,) with ``f(u) = load + G^T lambda`` on the unknown components.
+
+    Newton's method with the contact rows as inequalities on the gap; the other components keep their value.
+
+    Parameters
+    ----------
+    u
+        (n, d) first guess.
+    unknown
+        (n, d) components to find; the stiffness among them must be regular.
+    load
+        (n, d) [N].
+
+    Raises
+    ------
+    NumericsError
+        If it does not settle.
+    """
+    rows = model.candidates
+    pressure = np.zeros(len(rows.node))
+    if not unknown.any():
+        return u, pressure
+    matrix, keep = rows.matrix(unknown), np.flatnonzero(unknown.ravel())
+    reachable = np.asarray(abs(matrix).sum(axis=1)).ravel() > 1e-12
+    active = np.zeros(len(rows.node), bool)
+    u = u.copy()
+    for _ in range(limit):
+        force = model.force(u)
+        frozen = freeze(model.tangent(u)[keep][:, keep], matrix, SuperLU())
+        free = -frozen.solve((force - load)[unknown])
+        conditions = Rows(target=-rows.gap(u), equal=active & False, unilateral=reachable)
+        step, pressure, active = constrain(free, frozen, conditions, active)
+        u[unknown] += step
+        change = float(np.abs(step).max())
+        if not np.isfinite(change):
+            break
+        if change <= 1e-13 * max(float(np.abs(u).max()), float(np.abs(rows.offset).max(initial=0.0))) or model.linear:
+            return u, pressure
+    raise NumericsError(
+        "no static equilibrium found at the start", 0.0, "a smaller load or initial displacement, or more supports"
+    )

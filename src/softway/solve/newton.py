@@ -1,0 +1,64 @@
+"""Newton's method: the operator is renewed at every iterate, for comparison with the fixed point."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.errors import InputError
+from softway.solve.driver import Iterate
+from softway.solve.frozen import Carry, freeze
+from softway.solve.linear import LinearSolver, SuperLU
+from softway.solve.normal import constrain
+from softway.solve.system import SlabSystem
+from softway.typing import Array, BoolArray
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Newton:
+    """``q <- q - A(q)^-1 r(q)`` with contact on the compliance of the current operator.
+
+    The scalar of the Energy rule is lagged in the operator.
+
+    Parameters
+    ----------
+    tolerance
+        Change of velocity, relative to the greatest velocity, at which an iterate is accepted.
+    limit
+        Iterations after which the slab is rejected.
+
+    Examples
+    --------
+    >>> Newton().limit
+    40
+    """
+
+    tolerance: float = 1e-11
+    limit: int = 40
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.tolerance < 1e-2:
+            raise InputError("tolerance", f"{self.tolerance:g}", "a number between 1e-14 and 1e-2")
+        if self.limit < 1:
+            raise InputError("limit", f"{self.limit} iterations", "at least 1")
+
+    def iterate(
+        self, system: SlabSystem, q: Array, carry: Carry, active: BoolArray, solver: LinearSolver = SuperLU()
+    ) -> Iterator[Iterate]:
+        """Iterates from q (n, d), with the contact rows that were active before as first guess."""
+        keep = system.model.free
+        rows = system.path.rows.matrix(keep)
+        while True:
+            end = system.evaluate(q)
+            if not np.isfinite(end.residual).all():
+                yield Iterate(q=q, change=np.inf, impulse=active * 0.0, active=active, free=active * 0.0, carry=carry)
+                return
+            frozen = freeze(system.operator(end.displacement), rows, solver)
+            carry = Carry(frozen=frozen, span=system.path.span, stale=True, factorisations=carry.factorisations + 1)
+            free = q[keep] - frozen.solve(end.residual[keep])
+            solved, impulse, active = constrain(free, frozen, system.rows, active)
+            new = np.zeros_like(q)
+            new[keep] = solved
+            change = float(np.abs(new - q).max(initial=0.0))
+            yield Iterate(q=new, change=change, impulse=impulse, active=active, free=rows @ free, carry=carry)
+            q = new

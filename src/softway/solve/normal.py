@@ -1,0 +1,64 @@
+"""Normal contact on the frozen operator: a dual active set on the compliance of the contact rows.
+
+Given the free solution ``y`` of A y = b, find multipliers P such that ``z = y + A^-1 G^T P`` satisfies
+
+    G z = c  on closed rows,     G z >= c,  P >= 0,  P (G z - c) = 0  on unilateral rows.
+
+The closed degrees of freedom are thereby eliminated through their Schur complement, and the factor of A serves
+every contact status.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.solve.frozen import Frozen
+from softway.typing import Array, BoolArray
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Rows:
+    """Conditions of one slab on the contact rows: ``target`` (m,), which are ``equal`` (m,), which ``unilateral`` (m,)."""
+
+    target: Array
+    equal: BoolArray
+    unilateral: BoolArray
+
+
+def constrain(free: Array, frozen: Frozen, rows: Rows, guess: BoolArray) -> tuple[Array, Array, BoolArray]:
+    """Solution (f,), multipliers (m,) and active rows (m,) of the contact problem for the free solution.
+
+    Primal-dual sweeps from the ``guess``; after 30 of them single exchanges of least index (Murty), which end for
+    every symmetric positive definite compliance.
+    """
+    active = rows.equal | (guess & rows.unilateral)
+    slack = frozen.rows @ free - rows.target
+    floor = 1e-14 * max(np.abs(slack).max(initial=0.0), np.abs(rows.target).max(initial=0.0), 1e-300)
+    for sweep in range(30 + 4 * len(active)):
+        index = np.flatnonzero(active)
+        columns = frozen.compliance(index)
+        delassus = frozen.rows[index] @ columns if len(index) else np.zeros((0, 0))
+        force = _solve(delassus, -slack[index])
+        gap = slack + frozen.rows @ (columns @ force)
+        multiplier = np.zeros(len(active))
+        multiplier[index] = force
+        wrong = rows.unilateral & ((active & (multiplier < 0.0)) | (~active & (gap < -floor)))
+        if not wrong.any():
+            break
+        change = np.flatnonzero(wrong)[:1] if sweep >= 30 else np.flatnonzero(wrong)
+        active = active.copy()
+        active[change] = ~active[change]
+    return free + columns @ force, multiplier, active
+
+
+def _solve(matrix: Array, b: Array) -> Array:
+    """Solve a dense symmetric positive (semi)definite system; redundant rows share the force."""
+    if not len(b):
+        return b
+    try:
+        x = np.linalg.solve(matrix, b)
+        if np.isfinite(x).all() and np.abs(matrix @ x - b).max() <= 1e-8 * max(np.abs(b).max(), 1e-300):
+            return x
+    except np.linalg.LinAlgError:
+        pass
+    return np.linalg.lstsq(matrix, b, rcond=1e-12)[0]

@@ -1,0 +1,64 @@
+"""The stability limit of a slab: the greatest frequency of the free system against that of the time weight."""
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.linalg import eigh
+from scipy.sparse.linalg import LinearOperator, eigsh, splu
+
+from softway.errors import InputError
+from softway.model import Model
+from softway.time.weight import TimeWeight, limit
+from softway.typing import Array
+
+DENSE = 600
+
+
+def greatest_frequency(model: Model, u: Array) -> float:
+    """Greatest angular frequency of the components with inertia at the displacement u [rad/s].
+
+    Components without inertia are condensed: they follow in equilibrium.
+    """
+    d = model.shape[1]
+    free = model.free.ravel()
+    heavy = np.flatnonzero(free & np.repeat(model.massive, d))
+    light = np.flatnonzero(free & ~np.repeat(model.massive, d))
+    mass = sp.csc_array(sp.kron(model.mass, sp.eye_array(d), format="csc")[heavy][:, heavy])
+    stiffness = model.tangent(u)
+    inner, cross = stiffness[heavy][:, heavy], stiffness[heavy][:, light]
+    soft = splu(sp.csc_matrix(stiffness[light][:, light])) if len(light) else None
+    if len(heavy) <= DENSE:
+        k = inner.toarray() - (cross @ soft.solve(cross.T.toarray()) if soft is not None else 0.0)
+        return float(np.sqrt(max(eigh(k, mass.toarray(), eigvals_only=True)[-1], 0.0)))
+
+    def condensed(x: Array) -> Array:
+        y: Array = inner @ x
+        return y - cross @ soft.solve(cross.T @ x) if soft is not None else y
+
+    inverse = splu(sp.csc_matrix(mass))
+    operator = LinearOperator(mass.shape, matvec=condensed, dtype=float)
+    weak = LinearOperator(mass.shape, matvec=inverse.solve, dtype=float)
+    start = np.random.default_rng(0).standard_normal(len(heavy))
+    value = eigsh(operator, k=1, M=mass, Minv=weak, which="LA", v0=start, tol=1e-5, return_eigenvectors=False)
+    return float(np.sqrt(max(value[0], 0.0)))
+
+
+def stable_step(model: Model, u: Array, weight: TimeWeight) -> float:
+    """Greatest stable slab of the weight [s]; infinite for peaks at the two ends."""
+    bound = limit(weight)
+    if np.isinf(bound):
+        return np.inf
+    omega = greatest_frequency(model, u)
+    return bound / omega if omega > 0.0 else np.inf
+
+
+def require_stable(model: Model, u: Array, weight: TimeWeight, span: float) -> None:
+    """Refuse a slab beyond the stability limit of its weight, naming the limit."""
+    if limit(weight) == 0.0:
+        raise InputError("time.weight", f"{weight} grows at every step", "peaks whose mean instant is at least 1/2")
+    greatest = stable_step(model, u, weight)
+    if span > greatest * (1.0 + 1e-9):
+        raise InputError(
+            "time.step",
+            f"{span:.6g} s is beyond the stability limit {greatest:.6g} s of {type(weight).__name__}",
+            f"a step of at most {greatest:.4g} s, or the weight EndPeaks, which is stable for every step",
+        )

@@ -1,0 +1,1 @@
+"""Meshes: cells, elements as tables, shapes, files, obstacles."""

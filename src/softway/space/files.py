@@ -1,0 +1,144 @@
+"""Mesh files, read through meshio; the only module that knows it."""
+
+import contextlib
+import io
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import meshio
+import numpy as np
+
+from softway.errors import InputError
+from softway.space.cells import CELLS, FACETS
+from softway.space.deck import plain_deck
+from softway.space.mesh import Mesh
+from softway.typing import Array, IntArray
+
+NAMES = {
+    "line": "bar2",
+    "line3": "bar3",
+    "triangle": "tri3",
+    "triangle6": "tri6",
+    "quad": "quad4",
+    "quad9": "quad9",
+    "tetra": "tet4",
+    "tetra10": "tet10",
+    "hexahedron": "hex8",
+    "hexahedron27": "hex27",
+}
+"""Meshio's name -> ours; both number nodes in the order of VTK."""
+
+_READERS = {".msh": "gmsh", ".inp": "abaqus"}
+_DIMS = {"vertex": 0, "line": 1, "triangle": 2, "quad": 2, "tetra": 3, "hexahedron": 3, "wedge": 3, "pyramid": 3}
+
+
+def read_mesh(path: str | Path, scale: float = 1.0, *, cells: Sequence[str] | None = None) -> Mesh:
+    """Read a Gmsh ``.msh`` or an Abaqus/CalculiX ``.inp`` file.
+
+    Physical groups of any dimension, node sets and element sets become tags: the nodes of what they name. Cells of
+    lower dimension only serve the tags. Points of no cell are dropped, and of plane meshes the constant third
+    coordinate.
+
+    Parameters
+    ----------
+    path
+        Of the file.
+    scale
+        Metres in a length unit of the file.
+    cells
+        Cell names to keep; by default all of the highest dimension.
+    """
+    raw, sets = _read(Path(path))
+    dim = max((_dim(block.type) for block in raw.cells), default=0)
+    blocks = _blocks(raw, dim, cells)
+    tags = _groups(raw) if Path(path).suffix.lower() == ".msh" else {**_element_sets(raw, sets), **_node_sets(raw)}
+    points = np.asarray(raw.points, dtype=float) * scale
+    if dim == 2 and points.shape[1] == 3 and np.ptp(points[:, 2]) <= 1e-12 * np.ptp(points, axis=0).max():
+        points = points[:, :2]
+    return _compact(points, blocks, tags)
+
+
+def _read(path: Path) -> tuple[meshio.Mesh, list[str | None]]:
+    """Meshio's mesh, its complaints turned into ours; and the names of the sets of element blocks in a deck."""
+    if not path.is_file():
+        raise InputError("path", f"no such file: {path}", "the path of a .msh or .inp file, relative to the scenario")
+    if path.suffix.lower() not in _READERS:
+        raise InputError("path", f"{path.name} has the ending {path.suffix!r}", f"one of: {', '.join(_READERS)}")
+    reader = _READERS[path.suffix.lower()]
+    text, sets = plain_deck(path) if reader == "abaqus" else ("", [])
+    try:
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+            return meshio.read(io.StringIO(text) if text else path, file_format=reader), sets
+    except (Exception, SystemExit) as error:  # meshio raises many kinds on a damaged file, and exits on some
+        raise InputError(
+            "path", f"{path.name} cannot be read: {error or type(error).__name__}", "save the mesh again"
+        ) from error
+
+
+def _dim(name: str) -> int:
+    """Topological dimension of a cell by meshio's name."""
+    return next((dim for stem, dim in _DIMS.items() if name.rstrip("0123456789") == stem), 0)
+
+
+def _blocks(raw: meshio.Mesh, dim: int, wanted: Sequence[str] | None) -> dict[str, IntArray]:
+    """Cells of the highest dimension under our names."""
+    parts: dict[str, list[IntArray]] = {}
+    for block in raw.cells:
+        name = NAMES.get(block.type)
+        if name is None and _dim(block.type) == dim and dim > 0 and wanted is None:
+            raise InputError(
+                "path", f"cells of the kind {block.type!r} are not known", f"mesh with: {', '.join(FACETS)}"
+            )
+        if name is None or (wanted is None and CELLS[name].dim != dim) or (wanted is not None and name not in wanted):
+            continue
+        parts.setdefault(name, []).append(np.asarray(block.data, dtype=np.int64))
+    if not parts:
+        found = sorted({block.type for block in raw.cells})
+        raise InputError(
+            "cells", f"none of the wanted cells among {', '.join(found) or 'no cells'}", f"one of: {', '.join(FACETS)}"
+        )
+    return {name: np.concatenate(part) for name, part in parts.items()}
+
+
+def _groups(raw: meshio.Mesh) -> dict[str, IntArray]:
+    """Physical groups of Gmsh; one without a name is called by its number."""
+    numbers = raw.cell_data.get("gmsh:physical", [])
+    names = {(int(value[1]), int(value[0])): name for name, value in raw.field_data.items()}
+    parts: dict[str, list[IntArray]] = {}
+    for block, marks in zip(raw.cells, numbers, strict=False):
+        dim = _dim(block.type)
+        for mark in np.unique(marks):
+            if mark != 0:
+                name = names.get((dim, int(mark)), str(int(mark)))
+                parts.setdefault(name, []).append(np.asarray(block.data)[np.asarray(marks) == mark].ravel())
+    return {name: np.concatenate(part).astype(np.int64) for name, part in parts.items()}
+
+
+def _element_sets(raw: meshio.Mesh, names: Sequence[str | None]) -> dict[str, IntArray]:
+    """Element sets as node sets, under the names that the deck gives to its blocks of elements."""
+    found: dict[str, list[IntArray]] = {}
+    for name, parts in raw.cell_sets.items():
+        called = names[int(name.removeprefix("block "))] if name.startswith("block ") else name
+        for block, part in zip(raw.cells, parts, strict=False):
+            if called is not None and part is not None and len(part):
+                found.setdefault(called, []).append(np.asarray(block.data, dtype=np.int64)[np.asarray(part)].ravel())
+    return {name: np.concatenate(nodes) for name, nodes in found.items()}
+
+
+def _node_sets(raw: meshio.Mesh) -> dict[str, IntArray]:
+    sets: Mapping[str, Any] = raw.point_sets
+    return {name: np.asarray(nodes, dtype=np.int64) for name, nodes in sets.items() if len(nodes)}
+
+
+def _compact(points: Array, blocks: Mapping[str, IntArray], tags: Mapping[str, IntArray]) -> Mesh:
+    """A mesh without the points that belong to no cell."""
+    used = np.unique(np.concatenate([cells.ravel() for cells in blocks.values()]))
+    number = np.full(len(points), -1, dtype=np.int64)
+    number[used] = np.arange(len(used))
+    kept = {name: number[nodes][number[nodes] >= 0] for name, nodes in tags.items()}
+    return Mesh(
+        points=points[used],
+        blocks={name: number[cells] for name, cells in blocks.items()},
+        tags={name: nodes for name, nodes in kept.items() if len(nodes)},
+    )

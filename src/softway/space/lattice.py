@@ -1,0 +1,125 @@
+"""Blocks of cells on integer lattices, and what is made of them: simplices, quadratic cells.
+
+A lattice point is a row of integers. Cells are made from the points of their own reference cell, so one routine serves
+every dimension and order, and points that blocks share are merged exactly.
+"""
+
+from collections.abc import Callable
+from itertools import permutations
+
+import numpy as np
+
+from softway.space.cells import CELLS, FACETS
+from softway.typing import Array, IntArray
+
+SIMPLEX = {1: ("bar2", "bar3"), 2: ("tri3", "tri6"), 3: ("tet4", "tet10")}
+"""Dimension -> names of the linear and the quadratic simplex."""
+
+
+def corners_of(shape: tuple[int, ...]) -> IntArray:
+    """Lowest lattice points (e, d) of the cells of a grid of ``shape`` cells.
+
+    Examples
+    --------
+    >>> corners_of((2, 1)).tolist()
+    [[0, 0], [1, 0]]
+    """
+    grid = np.indices(shape[::-1]).reshape(len(shape), -1)
+    return np.ascontiguousarray(grid[::-1].T).astype(np.int64)
+
+
+def tensor_cells(shape: tuple[int, ...], cell: str) -> IntArray:
+    """Lattice points (e, a, d) of a grid of bars, squares or cubes, in steps of 1/p of a cell: p times ``shape`` steps.
+
+    Examples
+    --------
+    >>> tensor_cells((2,), "bar3")[..., 0].tolist()
+    [[0, 2, 1], [2, 4, 3]]
+    """
+    order = CELLS[cell].order
+    local = np.rint(CELLS[cell].nodes * order).astype(np.int64)
+    return order * corners_of(shape)[:, None, :] + local[None, :, :]
+
+
+def kuhn_cells(shape: tuple[int, ...], mirrored: Callable[[IntArray], IntArray]) -> IntArray:
+    """Lattice points (e, d+1, d) of a grid split into simplices: d! of them a cell, along the paths from one corner to
+    the opposite one.
+
+    ``mirrored`` turns the lowest points (e, d) of the cells into (e, d) zeros and ones: along which axes the split of a
+    cell is reflected. Cells that share a facet split it the same way when they differ in at most the reflection across
+    it.
+
+    Reference: Freudenthal, Ann. of Math. 43 (1942) 580; Kuhn, IBM J. Res. Dev. 4 (1960) 518.
+
+    Examples
+    --------
+    >>> kuhn_cells((1, 1), lambda low: 0 * low).tolist()
+    [[[0, 0], [1, 0], [1, 1]], [[0, 0], [1, 1], [0, 1]]]
+    """
+    d = len(shape)
+    low = corners_of(shape)
+    flip = mirrored(low)
+    parts = []
+    for path in permutations(range(d)):
+        steps = np.vstack([np.zeros(d, dtype=np.int64), np.cumsum(np.eye(d, dtype=np.int64)[list(path)], axis=0)])
+        local = np.where(flip[:, None, :] == 1, 1 - steps, steps)
+        parts.append(low[:, None, :] + local)
+    cells = np.stack(parts, axis=1).reshape(-1, d + 1, d)
+    return upright(cells.astype(float), cells)
+
+
+def upright(corners: Array, cells: IntArray) -> IntArray:
+    """Simplices (e, d+1, ...) with the last two nodes exchanged where the corners (e, d+1, d) enclose a negative
+    volume.
+    """
+    negative = np.linalg.det(corners[:, 1:] - corners[:, :1]) < 0.0
+    turned = cells.copy()
+    turned[negative, -1], turned[negative, -2] = cells[negative, -2], cells[negative, -1]
+    return turned
+
+
+def merged(cells: IntArray) -> tuple[IntArray, IntArray]:
+    """Different lattice points (n, k) of ``cells`` (e, a, k) in the order of last, ..., first coordinate, and the node
+    numbers (e, a).
+
+    Examples
+    --------
+    >>> lattice, nodes = merged(tensor_cells((2,), "bar2"))
+    >>> lattice[:, 0].tolist(), nodes.tolist()
+    ([0, 1, 2], [[0, 1], [1, 2]])
+    """
+    flat = cells.reshape(-1, cells.shape[-1])[:, ::-1]
+    lattice, inverse = np.unique(flat, axis=0, return_inverse=True)
+    return np.ascontiguousarray(lattice[:, ::-1]), inverse.reshape(cells.shape[:2])
+
+
+def quadratic_simplices(points: Array, cells: IntArray) -> tuple[Array, IntArray, IntArray]:
+    """Straight quadratic simplices from linear ones (e, d+1).
+
+    Returns
+    -------
+    points, cells, parents
+        (n, d) with the middles of the edges after the corners; (e, a); (m, 2) the ends of the edge of every middle, in
+        their order.
+    """
+    linear, quadratic = SIMPLEX[cells.shape[1] - 1]
+    edges = np.sort(cells[:, np.array(CELLS[linear].edges)], axis=2)
+    parents, inverse = np.unique(edges.reshape(-1, 2), axis=0, return_inverse=True)
+    middles = len(points) + inverse.reshape(len(cells), -1)
+    assert len(CELLS[quadratic].nodes) == cells.shape[1] + middles.shape[1]
+    return np.vstack([points, points[parents].mean(axis=1)]), np.hstack([cells, middles]), parents
+
+
+def boundary_edges(cells: IntArray, parents: IntArray, rim: IntArray) -> IntArray:
+    """Which edges ``parents`` (m, 2) lie on facets of the linear simplices ``cells`` whose nodes are all in ``rim``:
+    their numbers.
+    """
+    name = SIMPLEX[cells.shape[1] - 1][0]
+    on_rim = np.isin(cells, rim)
+    pairs = []
+    for facet, local in FACETS[name]:
+        whole = cells[on_rim[:, local].all(axis=1)][:, local]
+        pairs += [np.sort(whole[:, edge], axis=1) for edge in CELLS[facet].edges]
+    top = int(cells.max()) + 1
+    found = np.concatenate([pair[:, 0] * top + pair[:, 1] for pair in pairs])
+    return np.flatnonzero(np.isin(parents[:, 0] * top + parents[:, 1], found))

@@ -1,0 +1,167 @@
+"""Recipes of meshes: what a scenario says instead of the numbers of a mesh."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from softway.errors import InputError
+from softway.space import shapes
+from softway.space.files import read_mesh
+from softway.space.mesh import Mesh
+from softway.units import Metre, Pure
+
+UNITS = {"m": 1.0, "dm": 1e-1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "km": 1e3, "in": 0.0254, "ft": 0.3048}
+"""Length units of mesh files in metres."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Interval:
+    """A straight bar, see :func:`softway.space.shapes.interval`.
+
+    Examples
+    --------
+    >>> Interval(length=1.0, cells=2).build().n_nodes
+    3
+    """
+
+    length: Metre
+    cells: int
+    origin: tuple[Metre, ...] | Metre = 0.0
+    cell: str = "bar2"
+    direction: tuple[Pure, ...] = ()
+    dim: int | None = None
+
+    def build(self) -> Mesh:
+        """The mesh."""
+        origin = None if not isinstance(self.origin, tuple) and self.origin == 0.0 else self.origin
+        return shapes.interval(
+            self.length, self.cells, origin=origin, cell=self.cell, direction=self.direction or None, dim=self.dim
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rectangle:
+    """A rectangle along the axes, see :func:`softway.space.shapes.rectangle`.
+
+    Examples
+    --------
+    >>> Rectangle(size=(2.0, 1.0), cells=(2, 1)).build().n_cells
+    2
+    """
+
+    size: tuple[Metre, Metre]
+    cells: tuple[int, int]
+    origin: tuple[Metre, Metre] = (0.0, 0.0)
+    cell: str = "quad4"
+
+    def build(self) -> Mesh:
+        """The mesh."""
+        return shapes.rectangle(self.size, self.cells, origin=self.origin, cell=self.cell)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Box:
+    """A box along the axes, see :func:`softway.space.shapes.box`.
+
+    Examples
+    --------
+    >>> Box(size=(1.0, 1.0, 1.0), cells=(1, 1, 2), cell="tet4").build().n_cells
+    12
+    """
+
+    size: tuple[Metre, Metre, Metre]
+    cells: tuple[int, int, int]
+    origin: tuple[Metre, Metre, Metre] = (0.0, 0.0, 0.0)
+    cell: str = "hex8"
+
+    def build(self) -> Mesh:
+        """The mesh."""
+        return shapes.box(self.size, self.cells, origin=self.origin, cell=self.cell)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Disc:
+    """A disc, see :func:`softway.space.shapes.disc`.
+
+    Examples
+    --------
+    >>> Disc(radius=1.0, cells=4).build().n_cells
+    12
+    """
+
+    radius: Metre
+    cells: int
+    centre: tuple[Metre, Metre] = (0.0, 0.0)
+    cell: str = "quad4"
+
+    def build(self) -> Mesh:
+        """The mesh."""
+        return shapes.disc(self.radius, self.cells, centre=self.centre, cell=self.cell)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cylinder:
+    """A cylinder along z, see :func:`softway.space.shapes.cylinder`.
+
+    Examples
+    --------
+    >>> Cylinder(radius=1.0, height=2.0, cells=(4, 1)).build().n_cells
+    12
+    """
+
+    radius: Metre
+    height: Metre
+    cells: tuple[int, int]
+    origin: tuple[Metre, Metre, Metre] = (0.0, 0.0, 0.0)
+    cell: str = "hex8"
+
+    def build(self) -> Mesh:
+        """The mesh."""
+        return shapes.cylinder(self.radius, self.height, self.cells, origin=self.origin, cell=self.cell)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ball:
+    """A ball, see :func:`softway.space.shapes.ball`.
+
+    Examples
+    --------
+    >>> Ball(radius=1.0, cells=4).build().n_cells
+    32
+    """
+
+    radius: Metre
+    cells: int
+    centre: tuple[Metre, Metre, Metre] = (0.0, 0.0, 0.0)
+    cell: str = "hex8"
+
+    def build(self) -> Mesh:
+        """The mesh."""
+        return shapes.ball(self.radius, self.cells, centre=self.centre, cell=self.cell)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeshFile:
+    """A Gmsh ``.msh`` or Abaqus/CalculiX ``.inp`` file, see :func:`softway.space.files.read_mesh`.
+
+    Parameters
+    ----------
+    path
+        Of the file.
+    unit
+        Length unit of its numbers: m, dm, cm, mm, um, nm, km, in, ft.
+    cells
+        Cell names to keep; by default all of the highest dimension.
+    """
+
+    path: str | Path
+    unit: str = "m"
+    cells: tuple[str, ...] | None = None
+
+    def build(self) -> Mesh:
+        """The mesh."""
+        if self.unit not in UNITS:
+            raise InputError("unit", f"{self.unit!r} is not a length unit of mesh files", f"one of: {', '.join(UNITS)}")
+        return read_mesh(Path(self.path), scale=UNITS[self.unit], cells=self.cells)
+
+
+MeshSource = Interval | Rectangle | Box | Disc | Cylinder | Ball | MeshFile

@@ -1,0 +1,12 @@
+"""Physical quantities as annotated floats: the unit in the annotation is what a bare number means (SI)."""
+
+from typing import Annotated
+
+Metre = Annotated[float, "m"]
+SquareMetre = Annotated[float, "m^2"]
+Second = Annotated[float, "s"]
+Pascal = Annotated[float, "Pa"]
+KilogramPerCubicMetre = Annotated[float, "kg/m^3"]
+MetrePerSecond = Annotated[float, "m/s"]
+MetrePerSecondSquared = Annotated[float, "m/s^2"]
+Pure = Annotated[float, ""]

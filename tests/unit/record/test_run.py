@@ -1,0 +1,133 @@
+"""Runs: how they end, what they leave, how they are read back."""
+
+import gc
+import json
+import time
+
+import numpy as np
+import pytest
+
+from softway.errors import InputError, NumericsError
+from softway.record.conduct import Place, conduct
+from softway.record.history import COLUMNS
+from softway.record.provenance import Stop
+from softway.record.run import Run
+from softway.record.summary import summarise
+from softway.record.table import Table, parse
+
+
+def broken(fake, after, error):
+    """Steps that end with an error."""
+    for k, step in enumerate(fake.steps()):
+        if k == after:
+            raise error
+        yield step
+
+
+def test_a_whole_run(fake, tmp_path):
+    seen = []
+    run = conduct(
+        fake.steps(), fake.opening(), Place(out=tmp_path / "a" / "run"), title="Drop", scenario="title = 'Drop'\n",
+        progress=seen.append,
+    )  # fmt: skip
+    assert len(seen) == fake.slabs and run.history.rows == fake.slabs + 1
+    assert run.stop == Stop("done") and run.scenario == "title = 'Drop'\n"
+    assert sorted(p.name for p in run.path.iterdir()) == [
+        "events.csv", "fields.vtkhdf", "history.csv", "provenance.json", "scenario.toml", "summary.json",
+    ]  # fmt: skip
+    summary, contact = run.summary, run.summary["contacts"]["part.surface-floor"]
+    assert summary["slabs"] == fake.slabs and summary["energy_error_worst"] == 1e-12 and summary["wall_time"] > 0.0
+    assert contact["first_touch"] == 0.4 and contact["last_release"] == 0.6 and contact["touches"] == 1
+    force = run.history["contact.part.surface-floor.force_n"]
+    assert contact["peak_force"] == force.max() and contact["impulse"] == pytest.approx(0.05 * force.sum(), rel=1e-12)
+    assert contact["penetration_worst"] == -run.history["contact.part.surface-floor.min_gap"].min() > 0.0
+    assert run.provenance["versions"]["numpy"] == np.__version__ and run.provenance["stop"] >= run.provenance["start"]
+
+
+def test_wrong_input_leaves_no_folder(bar, tmp_path):
+    with pytest.raises(InputError):
+        conduct(broken(bar, 0, InputError("time.step", "too long")), bar.opening(), Place(out=tmp_path / "run"))
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("after", [0, 5])
+@pytest.mark.parametrize(
+    ("error", "reason"), [(KeyboardInterrupt(), "interrupted"), (NumericsError("no convergence", 0.25), "failed")]
+)
+def test_a_run_cut_short_keeps_what_was_computed(bar, tmp_path, after, error, reason):
+    with pytest.raises(type(error)):
+        conduct(broken(bar, after, error), bar.opening(), Place(out=tmp_path / "run"))
+    run = Run(tmp_path / "run")
+    assert run.history.rows == after + 1 and run.stop.reason == reason and run.stop.message == str(error)
+    assert run.summary["slabs"] == after and len(run.fields) == 1 + after // 2
+
+
+def test_an_interrupt_while_recording_leaves_a_readable_folder(bar, tmp_path):
+    def pressed(step):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        conduct(bar.steps(), bar.opening(), Place(out=tmp_path / "run"), progress=pressed)
+    assert Run(tmp_path / "run").history.rows == 2
+
+
+def test_a_running_folder_is_readable(bar, tmp_path):
+    lengths = []
+
+    def look(step):
+        run = Run(tmp_path / "run")
+        assert run.stop.reason == "running" and run.summary["time_end"] == step.after.time
+        lengths.append((run.history.rows, len(run.fields), run.events.rows))
+
+    conduct(bar.steps(), bar.opening(), Place(out=tmp_path / "run"), progress=look)
+    assert lengths[0] == (2, 1, 0) and lengths[-1] == (21, 11, 2)
+
+
+def test_without_a_name_the_records_live_as_long_as_what_reads_them(bar):
+    run = conduct(bar.steps(), bar.opening(), Place())
+    path, fields = run.path, run.fields
+    del run
+    gc.collect()
+    assert len(fields) == 11
+    del fields
+    gc.collect()
+    assert not path.exists()
+
+
+def test_an_earlier_run_is_not_overwritten_by_accident(bar, tmp_path):
+    place = Place(out=tmp_path / "run")
+    conduct(bar.steps(), bar.opening(), place)
+    with pytest.raises(InputError, match="already holds a run"):
+        conduct(bar.steps(), bar.opening(), place)
+    again = Place(out=place.out, overwrite=True)
+    with pytest.raises(InputError, match="wrong"):
+        conduct(broken(bar, 0, InputError("x", "wrong")), bar.opening(), again)
+    assert Run(place.out).history.rows == 21
+    (place.out / "old").touch()
+    assert not (conduct(bar.steps(), bar.opening(), again).path / "old").exists()
+
+
+def test_other_folders_are_never_overwritten(bar, tmp_path):
+    (tmp_path / "precious").touch()
+    for place in (Place(out=tmp_path, overwrite=True), Place(out=tmp_path / "precious")):
+        with pytest.raises(InputError):
+            place.check()
+    assert (tmp_path / "precious").exists()
+
+
+def test_no_run_folder(tmp_path):
+    with pytest.raises(InputError, match="no run folder"):
+        Run(tmp_path)
+
+
+def test_a_scene_without_contacts_and_nothing_yet():
+    head = ",".join(f"{name} [{unit}]" for name, unit in COLUMNS) + "\n"
+    assert summarise(Table({}), Table({})) == {"slabs": 0, "contacts": {}}
+    found = summarise(parse(head + "0,0,0,0,0,0,0,0,0,0,0\n"), Table({}))
+    assert found["energy_error_relative"] is None and found["contacts"] == {} and json.dumps(found)
+
+
+def test_recording_is_fast(bar, tmp_path):
+    begun = time.perf_counter()
+    conduct(bar.steps(), bar.opening(), Place(out=tmp_path / "run"))
+    assert time.perf_counter() - begun < 5.0

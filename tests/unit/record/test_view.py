@@ -1,0 +1,112 @@
+"""Pictures: that they are drawn from every kind of run, and the geometry behind them."""
+
+import sys
+
+import numpy as np
+import pytest
+
+from softway.errors import InputError
+from softway.record.conduct import Place, conduct
+from softway.record.frames import Frame
+from softway.record.surface import SHAPES, at_nodes, exaggeration, mesh_of, patches, rigid
+from softway.record.view import pictures, scaled
+from softway.record.view_scene import camera, edges, strokes
+
+PNG = b"\x89PNG"
+
+
+@pytest.fixture
+def run(fake, tmp_path):
+    return conduct(fake.steps(), fake.opening(), Place(out=tmp_path / "run"), title="Made up")
+
+
+def test_pictures_of_every_kind_of_body(run):
+    pytest.importorskip("matplotlib")
+    files = pictures(run)
+    assert [f.name for f in files] == ["bodies.png", "history.png"]
+    assert all(f.read_bytes().startswith(PNG) and f.stat().st_size > 10_000 for f in files)
+
+
+def test_pictures_go_where_they_are_asked(bar, tmp_path):
+    pytest.importorskip("matplotlib")
+    run = conduct(bar.steps(), bar.opening(), Place())
+    files = pictures(run, tmp_path / "made" / "a.png")
+    assert [f.name for f in files] == ["a.png", "a_history.png"] and all(f.exists() for f in files)
+    with pytest.raises(InputError, match="cannot write"):
+        pictures(run, tmp_path / "a.nonsense")
+
+
+def test_without_matplotlib_the_error_names_it(bar, monkeypatch):
+    run = conduct(bar.steps(), bar.opening(), Place())
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(InputError, match="pip install matplotlib"):
+        pictures(run)
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_shape_functions_of_facets(name):
+    """They sum to 1 and are 1 at their own node."""
+    tri = [(0, 0), (1, 0), (0, 1), (0.5, 0), (0.5, 0.5), (0, 0.5)]
+    quad = [(0, 0), (1, 0), (1, 1), (0, 1), (0.5, 0), (1, 0.5), (0.5, 1), (0, 0.5), (0.5, 0.5)]
+    nodes = np.array((tri if name.startswith("tri") else quad)[: int(name[-1])], float)
+    np.testing.assert_allclose(SHAPES[name](*nodes.T), np.eye(len(nodes)), atol=1e-15)
+    np.testing.assert_allclose(SHAPES[name](*np.random.default_rng(0).random((2, 7))).sum(axis=1), 1.0, rtol=1e-14)
+
+
+def test_small_triangles_cover_the_surface_and_face_outward(run):
+    """Area 1 of the unit square, 6 of the unit cube; the volume by the divergence theorem is 1."""
+    cells = run.fields.cells
+    mesh = mesh_of(cells)
+    if mesh.cell_dim == 1:
+        pytest.skip("bars have no surface")
+    triangles = np.concatenate([p.spread(cells.reference) for p in patches(mesh)])
+    normal = 0.5 * np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    assert np.linalg.norm(normal, axis=1).sum() == pytest.approx({2: 1.0, 3: 6.0}[mesh.dim], rel=1e-12)
+    if mesh.dim == 3:
+        assert np.einsum("ti,ti->", normal, triangles.mean(axis=1)) / 3.0 == pytest.approx(1.0, rel=1e-12)
+
+
+def test_edges_of_a_cube_or_square(run):
+    """A cube shows 9 of its edges to the eye, a square its 4 sides: lengths add up."""
+    cells = run.fields.cells
+    mesh = mesh_of(cells)
+    if mesh.cell_dim == 1:
+        pytest.skip("bars have no outline")
+    pieces = strokes(cells.reference, edges(mesh, cells.reference, camera(cells, cells.reference)), 0.05)
+    length = np.linalg.norm(pieces[..., 1, :] - pieces[..., 0, :], axis=-1).sum()
+    assert length == pytest.approx({2: 4.0, 3: 9.0}[mesh.dim], rel=1e-12)
+
+
+def test_nodal_means(run):
+    cells = run.fields.cells
+    np.testing.assert_allclose(at_nodes(cells, np.full(len(cells.types), 3.0)), 3.0, rtol=1e-15)
+
+
+def test_rigid_motion_is_taken_out():
+    rng = np.random.default_rng(1)
+    reference = rng.random((20, 3))
+    turn, _ = np.linalg.qr(rng.random((3, 3)))
+    turn *= np.linalg.det(turn)
+    moved = reference @ turn.T + [1.0, 2.0, 3.0]
+    np.testing.assert_allclose(rigid(reference, moved), moved, atol=1e-14)
+
+
+@pytest.mark.parametrize(("strain", "factor"), [(0.2, 1.0), (1.1e-3, 50.0), (1e-5, 5000.0), (0.0, 1.0)])
+def test_exaggeration_is_a_round_number(strain, factor):
+    """A bar of length 1 stretched by e moves its ends by e/2 from the rigid shape; 0.05 of the size is aimed at."""
+    reference = np.array([[0.0, 0.0, 0.0], [0.5, 0.0, 0.0], [1.0, 0.0, 0.0]])
+    empty = np.zeros(0)
+    frame = Frame(
+        time=0.0, points=(1.0 + strain) * reference, displacement=empty, velocity=empty, contact_force=empty,
+        stress=empty, von_mises=empty,
+    )  # fmt: skip
+    assert exaggeration(reference, frame) == factor
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "expected"),
+    [(2.1e11, "Pa", "GPa"), (3e-4, "s", "µs"), (0.0, "N", "N"), (1.3, "m", "m"), (20.0, "s", "s"), (4e3, "N", "kN")],
+)
+def test_prefixes(value, unit, expected):
+    factor, found = scaled(value, unit)
+    assert found == expected and 1.0 <= factor * value < 1000.0 or value == 0.0

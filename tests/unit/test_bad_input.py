@@ -1,0 +1,126 @@
+"""Bad input from the command line: exit code 2, the path, the value, a remedy, and no folder left behind."""
+
+from pathlib import Path
+
+import pytest
+
+from softway.cli import main
+
+BLOCK = """
+[bodies.block]
+kind = "Solid"
+mesh = { kind = "Box", size = ["2 cm", "2 cm", "2 cm"], cells = [2, 2, 2] }
+material = { kind = "NeoHookean", E = "210 GPa", nu = 0.3 }
+density = "7850 kg/m^3"
+velocity = [0, 0, "-1 m/s"]
+place = { bottom = "0.1 mm" }
+[bodies.floor]
+kind = "Tool"
+shape = { point = [0, 0, 0], normal = [0, 0, 1] }
+[[contacts]]
+name = "floor"
+between = ["block.bottom", "floor"]
+[time]
+end = "10 us"
+"""
+INVERTED = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+4
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+$EndNodes
+$Elements
+1
+1 4 2 1 1 1 3 2 4
+$EndElements
+"""
+# What is changed, then what the message must contain: the path, the value, the remedy.
+CASES = {
+    "unknown key": ("bodies.block.material.nuu=0.3", "bodies.block.material.nuu", "0.3", "did you mean 'nu'"),
+    "wrong unit": ("bodies.block.material.E=210 mm", "bodies.block.material.E", "210 mm", "210 GPa"),
+    "negative density": ("bodies.block.density=-7850 kg/m^3", "bodies.block.density", "-7850", "7850 kg/m^3"),
+    "missing mesh file": (
+        "bodies.block.mesh={kind='MeshFile', path='none.msh'}",
+        "bodies.block.mesh.path",
+        "none.msh",
+        ".msh or .inp",
+    ),
+    "tag that matches nothing": (
+        "contacts[0].between=['block.botom', 'floor']",
+        "contacts[0].between",
+        "botom",
+        "bottom",
+    ),
+    "inverted element": (
+        "bodies.block.mesh={kind='MeshFile', path='inverted.msh'}",
+        "bodies.block.mesh",
+        "inverted cell",
+        "positive volume",
+    ),
+    "unconstrained static start": (
+        "start={kind='StaticStart', loads=[{kind='Gravity', acceleration=[0, 0, -9.81]}]}",
+        "bodies.block.supports",
+        "translation along x",
+        "supports that hold it",
+    ),
+    "overlapping start": (
+        "bodies.block.place.bottom=-0.5 mm",
+        "contacts[0].between",
+        "0.0005 m inside",
+        "move the body",
+    ),
+    "unknown body": ("contacts[0].between=['blok.bottom', 'floor']", "contacts[0].between", "blok", "'block'"),
+    "no end": ("time.end=0", "time.end", "0 s", "2 ms"),
+    "unknown kind": ("bodies.block.material.kind=NeoHook", "bodies.block.material.kind", "NeoHook", "NeoHookean"),
+    "probe of nothing": (
+        "output.probes=[{name='p', of='block', tag='lid', component='z'}]",
+        "output.probes[0].tag",
+        "lid",
+        "top",
+    ),
+}
+
+
+@pytest.fixture
+def scenario(tmp_path: Path) -> Path:
+    (tmp_path / "inverted.msh").write_text(INVERTED)
+    file = tmp_path / "block.toml"
+    file.write_text(BLOCK)
+    return file
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_bad_input_leaves_nothing_behind(case, scenario, capsys):
+    change, where, value, remedy = CASES[case]
+    out = scenario.parent / "out"
+    assert main(["run", str(scenario), "--out", str(out), "--set", change]) == 2
+    text = "".join(capsys.readouterr())
+    for part in (where, value, remedy):
+        assert part in text
+    assert "Traceback" not in text
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_check_says_the_same(case, scenario, capsys):
+    change, where, *_ = CASES[case]
+    assert main(["check", str(scenario), "--set", change]) == 2
+    assert where in "".join(capsys.readouterr())
+
+
+def test_the_scenario_itself_is_right(scenario):
+    assert main(["check", str(scenario), "--quiet"]) == 0
+
+
+def test_a_path_that_does_not_exist(scenario, capsys):
+    assert main(["check", str(scenario), "--set", "bodies.blok.density=1"]) == 2
+    assert "bodies.blok.density" in "".join(capsys.readouterr())
+
+
+def test_a_file_that_does_not_exist(tmp_path, capsys):
+    assert main(["run", str(tmp_path / "none.toml")]) == 2
+    assert "none.toml" in "".join(capsys.readouterr())
