@@ -10,9 +10,13 @@ from softway.bodies.solid import Fixed, Solid, Tool
 from softway.contact.contact import Contact
 from softway.contact.timing import Energy, Impulse, Paper
 from softway.errors import InputError, NumericsError, SoftwayError
+from softway.execute import run
 from softway.laws.bulk import LinearElastic, NeoHookean, StVenantKirchhoff
 from softway.march.march import march
 from softway.model import build
+from softway.record.run import Run
+from softway.scenario.codec import load, resolved
+from softway.scenario.scenario import Output, Probe, Scenario, Time
 from softway.scene import AsGiven, Scene, State, StaticStart
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
@@ -20,3 +24,66 @@ from softway.space.mesh import Mesh
 from softway.space.obstacles import HalfSpace
 from softway.space.sources import Ball, Box, Cylinder, Disc, Interval, MeshFile, Rectangle
 from softway.time.weight import Collocation, EndPeaks, Momentum
+
+__all__ = [
+    "Affine",
+    "AsGiven",
+    "AverageField",
+    "Axisymmetric",
+    "Ball",
+    "Bar",
+    "Box",
+    "Collocation",
+    "Consistent",
+    "Contact",
+    "Cylinder",
+    "Disc",
+    "DiscreteGradient",
+    "EndPeaks",
+    "Energy",
+    "FieldSum",
+    "Fixed",
+    "FixedPoint",
+    "Gravity",
+    "HalfSpace",
+    "Impulse",
+    "InputError",
+    "Interval",
+    "LinearElastic",
+    "Lumped",
+    "Mesh",
+    "MeshFile",
+    "Momentum",
+    "NeoHookean",
+    "Newton",
+    "NumericsError",
+    "OnTag",
+    "Output",
+    "Paper",
+    "Placement",
+    "PlaneStrain",
+    "PlaneStress",
+    "Probe",
+    "Profile",
+    "Rectangle",
+    "Rotation",
+    "Run",
+    "Scenario",
+    "Scene",
+    "SoftwayError",
+    "Solid",
+    "StVenantKirchhoff",
+    "State",
+    "StaticStart",
+    "Time",
+    "Tool",
+    "Traction",
+    "Uniform",
+    "Volume",
+    "Weighted",
+    "build",
+    "load",
+    "march",
+    "resolved",
+    "run",
+]

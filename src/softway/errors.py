@@ -1,5 +1,8 @@
 """What can go wrong, said so that a person can act: where, what, and what to try."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 
 class SoftwayError(Exception):
     """Base of every error that softway raises on purpose."""
@@ -40,3 +43,22 @@ class NumericsError(SoftwayError):
     def __init__(self, what: str, when: float, remedy: str = "") -> None:
         self.what, self.when, self.remedy = what, when, remedy
         super().__init__(f"t = {when:.6g} s: {what}" + (f"\n  try: {remedy}" if remedy else ""))
+
+
+@contextmanager
+def within(path: str) -> Iterator[None]:
+    """Put ``path`` before the place of an :class:`InputError` raised inside.
+
+    Examples
+    --------
+    >>> try:
+    ...     with within("bodies.bar"):
+    ...         raise InputError("density", "-1 kg/m^3 is not positive")
+    ... except InputError as error:
+    ...     print(error)
+    bodies.bar.density: -1 kg/m^3 is not positive
+    """
+    try:
+        yield
+    except InputError as error:
+        raise error.within(path) from None

@@ -8,7 +8,6 @@ from softway.march.begin import begin
 from softway.march.ledger import opening as audit
 from softway.march.march import march
 from softway.march.situation import parted
-from softway.model import build
 from softway.record.conduct import Place, Progress, conduct
 from softway.record.probes import readings
 from softway.record.recorder import Opening
@@ -52,11 +51,11 @@ def run(
     place.check()
     checked = scenario if isinstance(scenario, Checked) else check(scenario)
     given = checked.scenario
-    model = build(checked.scene)
+    model = checked.model
     start = begin(model)
     initial = parted(model, start)
     opening = Opening(
-        scene=checked.scene,
+        scene=model.scene,
         meshes=model.meshes,
         stresses={name: partial(model.stress, name) for name in model.meshes},
         initial=initial,

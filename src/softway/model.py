@@ -1,8 +1,7 @@
 """Model: a scene turned into arrays, once, before the march."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeVar
 
 import numpy as np
 import scipy.sparse as sp
@@ -10,28 +9,27 @@ import scipy.sparse as sp
 from softway.bodies.fields import sample
 from softway.bodies.force import SlabForce
 from softway.bodies.internal import InternalForce, internal_force
-from softway.bodies.loads import Gravity, Traction, traction_force
+from softway.bodies.loads import Gravity, Load, Traction, traction_force
 from softway.bodies.mass import nodal_mass, redistributed
 from softway.bodies.section import default_section
 from softway.bodies.solid import Fixed, Solid, Tool
 from softway.contact.candidates import Candidates
 from softway.contact.timing import Energy, Timing
-from softway.errors import InputError
+from softway.errors import InputError, within
 from softway.scene import Scene
 from softway.space.mesh import Mesh
 from softway.typing import Array, BoolArray, IntArray
 
-T = TypeVar("T")
-
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Part:
-    """One solid as arrays; ``rows`` are its nodes among those of the model."""
+    """One solid as arrays; ``rows`` are its nodes among those of the model, ``density`` is in kg/m^3."""
 
     name: str
     mesh: Mesh
     rows: slice
     internal: InternalForce
+    density: float
     average: SlabForce
 
 
@@ -132,49 +130,31 @@ def build(scene: Scene) -> Model:
     if not solids:
         raise InputError("bodies", "no Solid among them", "at least one body of kind Solid")
     timing = _timing(scene)
-    parts, masses, fields, starts = [], [], [], {}
-    first = 0
+    parts: list[Part] = []
+    masses, fields = [], []
     for name, solid in solids.items():
-        mesh = _at(f"bodies.{name}.mesh", lambda s=solid: s.place.applied(s.mesh if isinstance(s.mesh, Mesh) else s.mesh.build()))
-        section = solid.section if solid.section is not None else default_section(mesh)
-        if solid.density <= 0.0 or not np.isfinite(solid.density):
-            raise InputError(f"bodies.{name}.density", f"{solid.density:g} kg/m^3 is not positive", "a positive density")
-        internal = _at(f"bodies.{name}", lambda s=solid, m=mesh, c=section: internal_force(m, s.material, c))
-        rows = slice(first, first + mesh.n_nodes)
-        starts[name], first = first, rows.stop
-        parts.append(Part(name=name, mesh=mesh, rows=rows, internal=internal, average=solid.force))
-        nodes = _candidate_nodes(scene, name, mesh) if isinstance(timing, Energy) else np.zeros(0, int)
-        masses.append(
-            redistributed(mesh, solid.density, section, solid.mass, nodes)
-            if len(nodes)
-            else nodal_mass(mesh, solid.density, section, solid.mass)
-        )
-        fields.append((
-            _at(f"bodies.{name}.displacement", lambda s=solid, m=mesh: sample(s.displacement, m)),
-            _at(f"bodies.{name}.velocity", lambda s=solid, m=mesh: sample(s.velocity, m)),
-            _support(name, solid.supports, mesh),
-        ))
+        with within(f"bodies.{name}"):
+            part = _part(name, solid, parts[-1].rows.stop if parts else 0)
+        nodes = _candidate_nodes(scene, part) if isinstance(timing, Energy) else np.zeros(0, int)
+        masses.append(_mass(part, solid, nodes))
+        parts.append(part)
+        fields.append(_fields(part, solid))
     if len({p.mesh.dim for p in parts}) > 1:
         raise InputError("bodies", "solids of different space dimension in one scene", "meshes of one dimension")
     mass = sp.csr_array(sp.block_diag(masses, format="csr"))
-    candidates = _candidates(scene, parts, starts)
-    massive = np.asarray(mass.diagonal()) > 0.0
-    free = np.concatenate([f[2] for f in fields])
-    load = _load(scene, parts, mass, free.shape[1])
+    free = np.concatenate([held for _, _, held in fields])
     return Model(
-        scene=scene, parts=tuple(parts), mass=mass, massive=massive, free=free, load=load,
-        displacement=np.concatenate([f[0] for f in fields]) * free,
-        velocity=np.concatenate([f[1] for f in fields]) * free,
-        candidates=candidates, timing=timing,
-    )  # fmt: skip
-
-
-def _at(path: str, make: Callable[[], T]) -> T:
-    """Run ``make``, putting ``path`` before the place of an InputError."""
-    try:
-        return make()
-    except InputError as error:
-        raise error.within(path) from None
+        scene=scene,
+        parts=tuple(parts),
+        mass=mass,
+        massive=np.asarray(mass.diagonal()) > 0.0,
+        free=free,
+        load=_load(parts, mass, scene.loads, "loads"),
+        displacement=np.concatenate([u for u, _, _ in fields]) * free,
+        velocity=np.concatenate([v for _, v, _ in fields]) * free,
+        candidates=_candidates(scene, parts),
+        timing=timing,
+    )
 
 
 def _timing(scene: Scene) -> Timing:
@@ -184,13 +164,42 @@ def _timing(scene: Scene) -> Timing:
     return rules.pop() if rules else Energy()
 
 
-def _candidate_nodes(scene: Scene, name: str, mesh: Mesh) -> IntArray:
-    found = [
-        _at(f"contacts[{k}].between", lambda c=c: mesh.nodes(c.tag))
-        for k, c in enumerate(scene.contacts)
-        if c.body == name
-    ]
-    return np.unique(np.concatenate(found)) if found else np.zeros(0, int)
+def _part(name: str, solid: Solid, first: int) -> Part:
+    """The arrays of one solid whose nodes are numbered from ``first``."""
+    with within("mesh"):
+        mesh = solid.mesh if isinstance(solid.mesh, Mesh) else solid.mesh.build()
+    with within("place"):
+        mesh = solid.place.applied(mesh)
+    section = default_section(mesh) if solid.section is None else solid.section
+    internal = internal_force(mesh, solid.material, section)
+    rows = slice(first, first + mesh.n_nodes)
+    return Part(name=name, mesh=mesh, rows=rows, internal=internal, density=solid.density, average=solid.force)
+
+
+def _mass(part: Part, solid: Solid, candidates: IntArray) -> sp.csr_array:
+    section = part.internal.section
+    with within(f"bodies.{part.name}"):
+        if len(candidates):
+            return redistributed(part.mesh, solid.density, section, solid.mass, candidates)
+        return nodal_mass(part.mesh, solid.density, section, solid.mass)
+
+
+def _fields(part: Part, solid: Solid) -> tuple[Array, Array, BoolArray]:
+    """Initial displacement and velocity (n, d), and the components without support (n, d)."""
+    with within(f"bodies.{part.name}.displacement"):
+        displacement = sample(solid.displacement, part.mesh)
+    with within(f"bodies.{part.name}.velocity"):
+        velocity = sample(solid.velocity, part.mesh)
+    return displacement, velocity, _support(part.name, solid.supports, part.mesh)
+
+
+def _candidate_nodes(scene: Scene, part: Part) -> IntArray:
+    found = [np.zeros(0, int)]
+    for k, contact in enumerate(scene.contacts):
+        if contact.body == part.name:
+            with within(f"contacts[{k}].between"):
+                found.append(part.mesh.nodes(contact.tag))
+    return np.unique(np.concatenate(found))
 
 
 def _support(name: str, supports: tuple[Fixed, ...], mesh: Mesh) -> BoolArray:
@@ -200,51 +209,65 @@ def _support(name: str, supports: tuple[Fixed, ...], mesh: Mesh) -> BoolArray:
         path = f"bodies.{name}.supports[{k}]"
         letters = axes if fixed.components == "all" else fixed.components
         if not letters or set(letters) - set(axes):
-            raise InputError(f"{path}.components", f"'{fixed.components}' in {mesh.dim}D", f"letters of '{axes}' or 'all'")
-        nodes = _at(f"{path}.on", lambda f=fixed: mesh.nodes(f.on))
+            raise InputError(
+                f"{path}.components", f"'{fixed.components}' in {mesh.dim}D", f"letters of '{axes}' or 'all'"
+            )
+        with within(f"{path}.on"):
+            nodes = mesh.nodes(fixed.on)
         for letter in letters:
             free[nodes, axes.index(letter)] = False
     return free
 
 
-def _load(scene: Scene, parts: list[Part], mass: sp.csr_array, dim: int) -> Array:
-    load = np.zeros((mass.shape[0], dim))
-    for k, item in enumerate(scene.loads):
-        path = f"loads[{k}]"
-        match item:
-            case Gravity():
-                g = np.atleast_1d(np.asarray(item.acceleration, float))
-                if g.shape != (dim,):
-                    raise InputError(f"{path}.acceleration", f"{g.size} components in {dim}D", f"{dim} components")
-                load += np.asarray(mass.sum(axis=1)).reshape(-1, 1) * g
-            case Traction():
-                body, _, tag = item.on.partition(".")
-                part = next((p for p in parts if p.name == body), None)
-                if part is None:
-                    raise InputError(f"{path}.on", f"no solid '{body}'", f"one of {[p.name for p in parts]}")
-                load[part.rows] += _at(path, lambda p=part, t=tag, i=item: traction_force(p.mesh, p.internal.section, t, i.value))
-    return load
+def _load(parts: Sequence[Part], mass: sp.csr_array, loads: Sequence[Load], where: str) -> Array:
+    """Dead nodal loads (n, d) [N]; gravity acts on the inertia, so that massless nodes have no weight."""
+    dim = parts[0].mesh.dim
+    out = np.zeros((mass.shape[0], dim))
+    for k, item in enumerate(loads):
+        with within(f"{where}[{k}]"):
+            match item:
+                case Gravity():
+                    out += np.asarray(mass.sum(axis=1)).reshape(-1, 1) * item.vector(dim)
+                case Traction():
+                    part = _solid(parts, item.body, "on")
+                    out[part.rows] += traction_force(part.mesh, part.internal.section, item.tag, item.value)
+    return out
 
 
-def _candidates(scene: Scene, parts: list[Part], starts: Mapping[str, int]) -> Candidates:
+def _solid(parts: Sequence[Part], name: str, where: str) -> Part:
+    for part in parts:
+        if part.name == name:
+            return part
+    raise InputError(where, f"no solid '{name}'", f"one of {[p.name for p in parts]}")
+
+
+def dead_load(model: Model, loads: Sequence[Load], where: str) -> Array:
+    """Nodal forces (n, d) [N] of dead loads on a model; ``where`` is their place in the scene, for errors."""
+    return _load(model.parts, model.mass, loads, where)
+
+
+def _candidates(scene: Scene, parts: Sequence[Part]) -> Candidates:
     dim = parts[0].mesh.dim
     node, number, normal, offset = [np.zeros(0, int)], [np.zeros(0, int)], [np.zeros((0, dim))], [np.zeros(0)]
     for k, contact in enumerate(scene.contacts):
-        path = f"contacts[{k}].between"
-        part = next((p for p in parts if p.name == contact.body), None)
         tool = scene.bodies.get(contact.between[1])
-        if part is None:
-            raise InputError(path, f"no solid '{contact.body}'", f"one of {[p.name for p in parts]}")
-        if not isinstance(tool, Tool):
-            tools = [n for n, b in scene.bodies.items() if isinstance(b, Tool)]
-            raise InputError(path, f"'{contact.between[1]}' is not a tool", f"one of {tools}")
-        nodes = _at(path, lambda p=part, c=contact: p.mesh.nodes(c.tag))
+        with within(f"contacts[{k}]"):
+            part = _solid(parts, contact.body, "between")
+            if not isinstance(tool, Tool):
+                tools = [n for n, b in scene.bodies.items() if isinstance(b, Tool)]
+                raise InputError("between", f"'{contact.between[1]}' is not a tool", f"one of {tools}")
+            with within("between"):
+                nodes = part.mesh.nodes(contact.tag)
         points = part.mesh.points[nodes]
-        node.append(nodes + starts[part.name])
+        with within(f"bodies.{contact.between[1]}.shape"):
+            offset.append(tool.shape.gap(points))
+            normal.append(tool.shape.normal_at(points))
+        node.append(nodes + part.rows.start)
         number.append(np.full(len(nodes), k))
-        offset.append(_at(f"bodies.{contact.between[1]}.shape", lambda t=tool, x=points: t.shape.gap(x)))
-        normal.append(tool.shape.normal_at(points))
     return Candidates(
-        node=np.concatenate(node), contact=np.concatenate(number), normal=np.concatenate(normal),
-        offset=np.concatenate(offset), labels=tuple(c.label for c in scene.contacts),
-    )  # fmt: skip
+        node=np.concatenate(node),
+        contact=np.concatenate(number),
+        normal=np.concatenate(normal),
+        offset=np.concatenate(offset),
+        labels=tuple(c.label for c in scene.contacts),
+    )

@@ -11,12 +11,29 @@ from softway.typing import Array, BoolArray
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AsGiven:
-    """The march starts from the initial fields of the solids."""
+    """The march starts from the initial fields of the solids.
+
+    Examples
+    --------
+    >>> AsGiven()
+    AsGiven()
+    """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StaticStart:
-    """The march starts from the static equilibrium under ``loads``, which are then let go."""
+    """The march starts from a static equilibrium of the supported solids.
+
+    Parameters
+    ----------
+    loads
+        Loads of the equilibrium, let go at the start; the loads of the scene if empty.
+
+    Examples
+    --------
+    >>> StaticStart()
+    StaticStart(loads=())
+    """
 
     loads: tuple[Load, ...] = ()
 
@@ -52,7 +69,7 @@ class State:
     time
         [s].
     displacement, velocity, acceleration
-        Body name -> (n, d) nodal arrays [m], [m/s], [m/s^2]; the acceleration is the velocity's slope in the slab before.
+        Body name -> (n, d) nodal arrays [m], [m/s], [m/s^2]; acceleration: slope of the velocity in the slab before.
     closed
         Contact name -> (c,) which candidate nodes touch.
     pressure

@@ -1,7 +1,8 @@
 """Compare results with a verification case: ``python check_case.py CASE.json RESULTS.json``.
 
-A case lists quantities of interest: ``name``, ``value`` (a number or nested lists of numbers), and ``tol_abs``, ``tol_rel`` or both; the
-larger of the two tolerances counts, the relative one times the largest magnitude in the value.  Results map names to values.
+A case lists quantities of interest: ``name``, ``value`` (a number or nested lists of numbers), and ``tol_abs``,
+``tol_rel`` or both; the larger of the two tolerances counts, the relative one times the largest magnitude in the
+value.  Results map names to values.
 """
 
 import json
@@ -27,8 +28,8 @@ class Row:
 def check(case: Mapping[str, Any], results: Mapping[str, Any]) -> list[Row]:
     """One row for each quantity of the case.
 
-    >>> rod = {"qoi": [{"name": "force", "value": 2.0, "tol_rel": 0.01}, {"name": "gap", "value": 0.0, "tol_abs": 1e-12}]}
-    >>> [(r.name, r.verdict) for r in check(rod, {"force": 2.019})]
+    >>> quantities = [{"name": "force", "value": 2.0, "tol_rel": 0.01}, {"name": "gap", "value": 0.0, "tol_abs": 1e-12}]
+    >>> [(r.name, r.verdict) for r in check({"qoi": quantities}, {"force": 2.019})]
     [('force', 'pass'), ('gap', 'not given')]
     """
     return [_compared(quantity, results) for quantity in case["qoi"]]

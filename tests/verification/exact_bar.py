@@ -1,21 +1,21 @@
 """Exact motion of a uniform elastic bar whose tip meets a rigid stop, by characteristics.
 
-The bar occupies 0 <= s <= L, s measured from the tip.  The displacement u(s, t) counts towards the stop, which the tip
-reaches at u = gap:
+The bar occupies 0 <= s <= L, s measured from the tip.  The displacement u(s, t) counts towards the stop, which the
+tip reaches at u = gap:
 
     u_tt = c^2 u_ss + g,     c^2 = E / rho.
 
-In the frame that takes the uniform acceleration away, v = p + q and c u_s = p - q with p a wave that runs to the tip and q
-one that leaves it.  With Z = rho c A:
+In the frame that takes the uniform acceleration away, v = p + q and c u_s = p - q with p a wave that runs to the tip
+and q one that leaves it.  With Z = rho c A:
 
-- far end:  q arriving there returns as p = k q, with k = +1 (free) or -1 (fixed), so that p at the tip repeats q after the
-  round trip 2L/c;
+- far end:  q arriving there returns as p = k q, with k = +1 (free) or -1 (fixed), so that p at the tip repeats q
+  after the round trip 2L/c;
 - open tip: no force, q = p;
 - closed tip: no velocity, q = -p - g t, and the stop pushes with N = Z (p - q) = Z (2 p + g t), which must stay >= 0.
 
-Hence the wave p(t) that arrives at the tip is the whole solution: what stands in the bar at time t is p on [t, t + 2L/c].
-When the initial data are linear by pieces, p is too, the tip's path is quadratic and the force linear on each piece, so that
-touch and release are roots of polynomials of degree two and one.
+Hence the wave p(t) that arrives at the tip is the whole solution: what stands in the bar at time t is p on [t, t +
+2L/c]. When the initial data are linear by pieces, p is too, the tip's path is quadratic and the force linear on each
+piece, so that touch and release are roots of polynomials of degree two and one.
 """
 
 from collections import deque
@@ -190,10 +190,11 @@ def solve(bar: Bar, until: float) -> Motion:
     """
     queue = deque(_initial(bar))
     heard, left, touches = list(queue), [], []
-    t, u, closed = 0.0, bar.tip, False
+    t, u, closed, largest = 0.0, bar.tip, False, max(max(abs(p0), abs(p1)) for _, _, p0, p1 in heard)
     while t < until:
         piece = queue.popleft()
-        same = _Same.of(bar, heard)
+        largest = max(largest, abs(piece[2]), abs(piece[3]), abs(bar.acceleration) * piece[1])
+        same = _Same(time=ROUND * bar.trip, velocity=ROUND * largest, displacement=ROUND * largest * bar.trip)
         if _switches(bar, piece, u, closed, same):
             closed = not closed
             u = bar.gap
@@ -229,11 +230,6 @@ class _Same:
     time: float
     velocity: float
     displacement: float
-
-    @staticmethod
-    def of(bar: Bar, heard: list[Piece]) -> "_Same":
-        largest = max(max(abs(p[2]), abs(p[3])) for p in heard) + abs(bar.acceleration) * heard[-1][1]
-        return _Same(time=ROUND * bar.trip, velocity=ROUND * largest, displacement=ROUND * largest * bar.trip)
 
 
 def _initial(bar: Bar) -> list[Piece]:

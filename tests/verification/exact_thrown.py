@@ -1,13 +1,15 @@
 """A free bar thrown at a rigid wall in closed form (d'Alembert, St Venant): cases A02, A10 and A12.
 
-At the touch a compression wave of stress rho c v starts from the tip, stops the bar on its way, returns from the free rear end as a
-release that sends the bar back, and reaches the tip after 2 L / c: the tip leaves, the bar is stress free and has the velocity -v everywhere.
+At the touch a compression wave of stress rho c v starts from the tip, stops the bar on its way, returns from the free
+rear end as a release that sends the bar back, and reaches the tip after 2 L / c: the tip leaves, the bar is stress
+free and has the velocity -v everywhere.
 """
 
 from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
+
 from exact_waves import Array
 
 

@@ -1,0 +1,1 @@
+"""Bodies: what owns velocity unknowns, and what it is made of."""

@@ -192,10 +192,12 @@ def _profile(field: Profile, mesh: Mesh) -> Array:
     along = np.zeros(mesh.dim)
     along[axis] = 1.0
     values: Sequence[Sequence[float] | float] = field.values
-    table = np.array([
-        along * value if isinstance(value, float | int) else components(f"values[{k}]", value, mesh.dim)
-        for k, value in enumerate(values)
-    ])  # fmt: skip
+    table = np.array(
+        [
+            along * value if isinstance(value, float | int) else components(f"values[{k}]", value, mesh.dim)
+            for k, value in enumerate(values)
+        ]
+    )
     return np.column_stack([np.interp(mesh.points[:, axis], at, table[:, i]) for i in range(mesh.dim)])
 
 

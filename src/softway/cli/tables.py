@@ -9,15 +9,35 @@ from rich.table import Table as Grid
 from softway.record.run import Run
 
 UNITS = {
-    "wave_speed": "m/s", "length": "m", "transit": "s", "edge": "m", "stable_step": "s", "gap": "m", "approach": "m/s",
-    "duration": "s", "first_touch": "s", "last_release": "s", "impulse": "N s", "peak_force": "N",
-    "peak_force_time": "s", "penetration_worst": "m", "power_residual_worst": "J", "time_end": "s",
-    "energy_error_worst": "J", "dissipation": "J", "work_external": "J", "wall_time": "s",
-}  # fmt: skip
+    "wave_speed": "m/s",
+    "length": "m",
+    "transit": "s",
+    "edge": "m",
+    "stable_step": "s",
+    "gap": "m",
+    "approach": "m/s",
+    "duration": "s",
+    "first_touch": "s",
+    "last_release": "s",
+    "impulse": "N s",
+    "peak_force": "N",
+    "peak_force_time": "s",
+    "penetration_worst": "m",
+    "power_residual_worst": "J",
+    "time_end": "s",
+    "energy_error_worst": "J",
+    "dissipation": "J",
+    "work_external": "J",
+    "wall_time": "s",
+}
 WORDS = {
-    "stable_step": "stable step (Momentum)", "duration": "expected contact time", "approach": "approach speed",
-    "transit": "wave transit time", "edge": "smallest edge", "dofs": "free components",
-}  # fmt: skip
+    "stable_step": "stable step (Momentum)",
+    "duration": "expected contact time",
+    "approach": "approach speed",
+    "transit": "wave transit time",
+    "edge": "smallest edge",
+    "dofs": "free components",
+}
 COLUMNS = 6
 """Greatest number of bodies or contacts beside each other."""
 

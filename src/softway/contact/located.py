@@ -15,6 +15,9 @@ import scipy.sparse as sp
 from softway.contact.candidates import Candidates
 from softway.typing import Array, BoolArray, IntArray
 
+AFTER = 1e-10
+"""Fraction of a slab after an instant at which the new active set is read off."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Branch:
@@ -61,9 +64,18 @@ class LocatedMean:
         flat[self.still] = 0.5 * (w0 + w1) + self.flexibility @ (self.normals.T @ force)
         return flat.reshape(out.shape)
 
-    def branches(self, u0: Array, u1: Array) -> list[Branch]:
-        """The touches and releases inside the slab, in order."""
-        return self._march(self._free(u0), self._free(u1))[1]
+    def branches(self, u0: Array, u1: Array, closed: BoolArray) -> list[Branch]:
+        """The touches and releases from a start with the ``closed`` rows (m,), in order."""
+        w0, w1 = self._free(u0), self._free(u1)
+        first, slope = self.rows.offset + self.normals @ w0, self.normals @ (w1 - w0)
+        at_once = lcp(self.compliance, first + AFTER * slope) != closed
+        start = [Branch(instant=0.0, row=int(r), closes=not closed[r]) for r in np.flatnonzero(at_once)]
+        return start + self._march(w0, w1)[1]
+
+    @property
+    def compliance(self) -> Array:
+        """Compliance W (m, m) of the contact rows."""
+        return self.normals @ self.flexibility @ self.normals.T
 
     def _free(self, u: Array) -> Array:
         """Equilibrium (k,) of the massless components without contact."""
@@ -75,10 +87,10 @@ class LocatedMean:
         """Mean multipliers (m,) over s in [0, 1] and the changes of the active set."""
         first = self.rows.offset + self.normals @ w0
         slope = self.normals @ (w1 - w0)
-        w = self.normals @ self.flexibility @ self.normals.T
+        w = self.compliance
         mean, s, found = np.zeros(len(first)), 0.0, []
-        active = lcp(w, first + 1e-10 * slope)
-        while s < 1.0:
+        active = lcp(w, first + AFTER * slope)
+        while s < 1.0 - AFTER:
             index = np.flatnonzero(active)
             push = np.zeros(len(first)), np.zeros(len(first))
             inner = w[np.ix_(index, index)]
@@ -88,14 +100,14 @@ class LocatedMean:
             rate = np.where(active, push[1], slope + w @ push[1])
             with np.errstate(divide="ignore", invalid="ignore"):
                 zero = np.where(rate < 0.0, -value / rate, np.inf)
-            zero[zero <= s + 1e-12] = np.inf
+            zero[zero <= s + AFTER] = np.inf
             row = int(np.argmin(zero)) if len(zero) else 0
             end = min(float(zero[row]), 1.0) if len(zero) else 1.0
             mean += (end - s) * (push[0] + 0.5 * (s + end) * push[1])
             s = end
-            if s < 1.0:
+            if s < 1.0 - AFTER:
                 found.append(Branch(instant=s, row=row, closes=not active[row]))
-                active = lcp(w, first + (s + 1e-10) * slope)
+                active = lcp(w, first + (s + AFTER) * slope)
         return mean, found
 
 
@@ -121,7 +133,9 @@ def lcp(compliance: Array, gap: Array) -> BoolArray:
     return active
 
 
-def located_mean(rows: Candidates, free: BoolArray, massive: BoolArray, load: Array, stiffness: sp.csc_array) -> LocatedMean:
+def located_mean(
+    rows: Candidates, free: BoolArray, massive: BoolArray, load: Array, stiffness: sp.csc_array
+) -> LocatedMean:
     """The averages for a stiffness (n d, n d); ``free`` (n, d), ``massive`` (n,), ``load`` (n, d)."""
     still = np.flatnonzero((free & ~massive[:, None]).ravel())
     d = free.shape[1]

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.contact.candidates import Candidates
-from softway.typing import Array, BoolArray
+from softway.typing import Array, BoolArray, IntArray
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -144,10 +144,10 @@ class Path:
             out = smooth.copy()
             out[node] += wanted[:, None] * n
             return out
-        return smooth + corner_correction(node, n, wanted, smooth.shape)
+        return smooth + corner_correction(node, n, wanted, (smooth.shape[0], smooth.shape[1]))
 
 
-def corner_correction(node: Array, normal: Array, wanted: Array, shape: tuple[int, ...]) -> Array:
+def corner_correction(node: IntArray, normal: Array, wanted: Array, shape: tuple[int, int]) -> Array:
     """Least nodal motion (n, d) with the normal components ``wanted`` where a node faces several obstacles."""
     out = np.zeros(shape)
     for i in np.unique(node):

@@ -33,7 +33,7 @@ def crossing(gap: Array, slope: Array, curvature: Array) -> Array:
 
 
 def fading(first: Array, last: Array) -> Array:
-    """Fraction s in [0, 1] at which a quantity linear between ``first`` and ``last`` < 0 becomes zero; 0 if it never was positive.
+    """Fraction s in [0, 1] at which a quantity linear from ``first`` to ``last`` < 0 becomes zero; 0 if never positive.
 
     Examples
     --------

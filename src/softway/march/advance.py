@@ -12,13 +12,14 @@ from softway.march.massless import solve_massless
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation
 from softway.model import Model
+from softway.solve.driver import NoConvergence
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.frozen import Carry
 from softway.solve.newton import Newton
 from softway.solve.reaction import Reaction, reaction
 from softway.solve.system import Start
 from softway.time.slab import Slab
-from softway.time.weight import TimeWeight, moments
+from softway.time.weight import EndPeaks, TimeWeight
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -41,18 +42,20 @@ def rule(model: Model, method: FixedPoint | Newton, weight: TimeWeight) -> Rule:
     """
     if not isinstance(model.timing, Energy):
         return Rule(model=model, method=method, inertia=reaction(model), located=None)
-    if abs(moments(weight)[0] - 0.5) > 1e-12:
+    if weight != EndPeaks() and not model.massive.all():
         raise InputError(
-            "time.weight", f"{weight} dissipates, and the Energy rule closes the balance",
-            "EndPeaks with theta = 0.5, Momentum, or the Impulse rule",
-        )  # fmt: skip
+            "time.weight",
+            f"{weight} with the Energy rule, whose contact nodes are in equilibrium at the slab's ends",
+            "EndPeaks with theta = 0.5, or the rule Impulse or Paper",
+        )
     if not model.timing.located:
         return Rule(model=model, method=method, inertia=None, located=None)
     if not model.linear:
         raise InputError(
-            "contacts[0].timing.located", "the located Energy rule is for small strain",
+            "contacts[0].timing.located",
+            "the located Energy rule is for small strain",
             "the material LinearElastic, or located = false",
-        )  # fmt: skip
+        )
     stiffness = model.tangent(np.zeros(model.shape))
     located = located_mean(model.candidates, model.free, model.massive, model.load, stiffness)
     return Rule(model=model, method=method, inertia=None, located=located)
@@ -64,13 +67,15 @@ def advance(rule: Rule, now: Situation, slab: Slab, carry: Carry) -> tuple[Situa
     Raises
     ------
     NoConvergence
-        If the method does not settle.
+        If the method does not settle, or the energy balance cannot be closed.
     """
     if rule.inertia is None:
         out, carry = solve_massless(rule.model, now, slab, carry, rule.method, rule.located)
     else:
         out, carry = solve_carrying(rule.model, now, slab, carry, rule.method, rule.inertia)
     end = out.solution.end
+    if end.clipped:
+        raise NoConvergence("the scalar that closes the energy balance leaves [-1/2, 1/2]")
     after = Situation(
         time=slab.end,
         start=Start(displacement=end.displacement, velocity=out.velocity, force=end.force, energy=end.energy),

@@ -50,22 +50,37 @@ def _system(model: Model, now: Situation, slab: Slab, known: Course, found: tupl
     kicks = sum((j.impulse for j in balanced), np.zeros(len(way.closed)))
     impulses = known.impulse * slab.span + np.where(way.closed, 0.0, kicks)
     path = Path(
-        span=slab.span, start=now.start.displacement, velocity=now.start.velocity, massive=model.massive, rows=rows,
-        way=way, jumps=tuple((j.instant, j.field) for j in balanced),
-    )  # fmt: skip
+        span=slab.span,
+        start=now.start.displacement,
+        velocity=now.start.velocity,
+        massive=model.massive,
+        rows=rows,
+        way=way,
+        jumps=tuple((j.instant, j.field) for j in balanced),
+    )
     none = np.zeros(len(way.closed))
     return SlabSystem(
-        model=model, start=now.start, weight=slab.weight, path=path,
+        model=model,
+        start=now.start,
+        weight=slab.weight,
+        path=path,
         rows=Rows(target=none, equal=way.closed, unilateral=none > 0.0),
         unbalanced=sum((j.field for j in found if literal), np.zeros(model.shape)),
         impulses=rows.spread(impulses, model.shape),
-    )  # fmt: skip
+    )
 
 
 def _outcome(
-    now: Situation, slab: Slab, system: SlabSystem, known: Course, solution: Solution, found: tuple[Jump, ...],
-    inertia: Reaction, passes: int, iterations: int,
-) -> Outcome:  # fmt: skip
+    now: Situation,
+    slab: Slab,
+    system: SlabSystem,
+    known: Course,
+    solution: Solution,
+    found: tuple[Jump, ...],
+    inertia: Reaction,
+    passes: int,
+    iterations: int,
+) -> Outcome:
     model, h, way, q = system.model, slab.span, known.way, solution.last.q
     rows = model.candidates
     jumped = sum((j.field for j in found), np.zeros(model.shape))
@@ -75,14 +90,25 @@ def _outcome(
     kinked = np.where(way.kinked, released - rows.along(slope), 0.0)
     kicks = sum((j.impulse for j in found), np.zeros(len(way.closed)))
     literal = isinstance(model.timing, Paper)
-    through = known.impulse * h + np.where(way.closed, solution.last.impulse, 0.0) + np.where(way.closed & (not literal), 0.0, kicks)
+    through = (
+        known.impulse * h
+        + np.where(way.closed, solution.last.impulse, 0.0)
+        + np.where(way.closed & (not literal), 0.0, kicks)
+    )
     pull = inertia.multiplier(solution.end.force, way.closed)
     return Outcome(
-        system=system, solution=solution, velocity=q, acceleration=slope + rows.spread(kinked, model.shape),
-        closed=way.closed, pressure=np.maximum(pull, 0.0), force=through / h,
+        system=system,
+        solution=solution,
+        velocity=q,
+        acceleration=slope + rows.spread(kinked, model.shape),
+        closed=way.closed,
+        pressure=np.maximum(pull, 0.0),
+        force=through / h,
         dissipation=loss(model, way, found, now.start.velocity, q),
-        events=_events(now, slab, system, known, solution, found), passes=passes, iterations=iterations,
-    )  # fmt: skip
+        events=_events(now, slab, system, known, solution, found),
+        passes=passes,
+        iterations=iterations,
+    )
 
 
 def _events(

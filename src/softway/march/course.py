@@ -34,7 +34,7 @@ class Course:
 
     @property
     def impulse(self) -> Array:
-        """Share of the slab times force (m,) between the start of contact and the release, the force fading linearly."""
+        """Impulse over h (m,) of the force that fades linearly between the start of contact and the release [N]."""
         begin = np.nan_to_num(self.way.touch)
         length = np.where(np.isfinite(self.way.release), np.nan_to_num(self.way.release) - begin, 0.0)
         return 0.5 * np.maximum(self.reaction, 0.0) * length

@@ -14,7 +14,8 @@ from softway.typing import Array, BoolArray
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Jump:
     """One jump: its ``instant`` tau, the rows that are hit (m,), the velocity change (n, d), the normal impulses (m,)
-    and the normal velocities (m,) of the rows that are hit, just before."""
+    and the normal velocities (m,) of the rows that are hit, just before.
+    """
 
     instant: float
     hits: BoolArray

@@ -48,7 +48,8 @@ def march(
     until
         End time [s].
     step
-        Slab length [s]; ``auto`` is the time in which a wave crosses the shortest edge.
+        Slab length [s]; ``auto`` is the time in which a wave crosses the shortest edge, over the square root of 2:
+        there the leading dispersion of a consistent mass and of the end peaks cancel (docs/theory/time.md).
     weight
         Virtual time function.
     method
@@ -82,22 +83,16 @@ def march(
 
 
 def proposed(model: Model, step: Second | Literal["auto"], weight: TimeWeight, duration: float) -> float:
-    """The slab length: the one asked for, or the crossing time of the shortest edge that divides the duration evenly."""
+    """The slab length: the one asked for, or the crossing time of the shortest edge over sqrt(2), evenly divided."""
     if duration <= 0.0:
         raise InputError("time.end", f"the march would last {duration:g} s", "an end after the start")
     if step != "auto":
         if not 0.0 < step < np.inf:
             raise InputError("time.step", f"{step:g} s", "a positive time, or 'auto'")
         return min(float(step), duration)
-    crossing = min(
-        p.mesh.edge() / wave_speed(p.internal.material, _density(model, p.name), p.internal.section) for p in model.parts
-    )
+    crossing = min(p.mesh.edge() / wave_speed(p.internal.material, p.density, p.internal.section) for p in model.parts)
     bound = 0.9 * stable_step(model, model.displacement, weight)
-    return float(duration / np.ceil(duration / min(crossing, bound) - 1e-9))
-
-
-def _density(model: Model, name: str) -> float:
-    return float(model.scene.bodies[name].density)  # type: ignore[union-attr]
+    return float(duration / np.ceil(duration / min(crossing / np.sqrt(2.0), bound) - 1e-9))
 
 
 def _steps(rules: Rule, now: Situation, until: float, span: float, weight: TimeWeight) -> Iterator[Step]:
@@ -136,22 +131,38 @@ def _accepted(
             carry = replace(carry, stale=True)
             length = length if fresh else 0.5 * length
     raise NumericsError(
-        f"no slab converges, the last of {len(reasons)} tries with {reasons[-1]}", now.time,
+        f"no slab converges, the last of {len(reasons)} tries with {reasons[-1]}",
+        now.time,
         "a smaller step, a finer mesh where the cells are crushed, or Newton",
-    )  # fmt: skip
+    )
 
 
 def _step(
-    model: Model, now: Situation, before: State, after: State, slab: Slab, out: Outcome, ledger: Ledger, made: int,
+    model: Model,
+    now: Situation,
+    before: State,
+    after: State,
+    slab: Slab,
+    out: Outcome,
+    ledger: Ledger,
+    made: int,
     rejections: tuple[str, ...],
-) -> Step:  # fmt: skip
+) -> Step:
     end = out.solution.end
     inertia = model.mass @ ((out.velocity - now.start.velocity) / slab.span)
     support = np.where(model.free, 0.0, inertia + end.mean_force - model.load)
     return Step(
-        before=before, after=after, slab=slab, ledger=ledger, events=out.events, reactions=model.split(support),
+        before=before,
+        after=after,
+        slab=slab,
+        ledger=ledger,
+        events=out.events,
+        reactions=model.split(support),
         report=Report(
-            iterations=out.iterations, factorisations=made, passes=out.passes, rejections=rejections,
+            iterations=out.iterations,
+            factorisations=made,
+            passes=out.passes,
+            rejections=rejections,
             scalars=dict(zip([p.name for p in model.parts], end.scalar.tolist(), strict=True)),
         ),
-    )  # fmt: skip
+    )

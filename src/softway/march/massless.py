@@ -31,8 +31,14 @@ def solve_massless(
     target = -2.0 * rows.gap(path.end(still)) / h
     conditions = Rows(target=target, equal=way.closed, unilateral=_reachable(model))
     system = SlabSystem(
-        model=model, start=start, weight=slab.weight, path=path, rows=conditions, balanced=located is None, located=located
-    )  # fmt: skip
+        model=model,
+        start=start,
+        weight=slab.weight,
+        path=path,
+        rows=conditions,
+        balanced=located is None,
+        located=located,
+    )
     guess = np.where(model.massive[:, None], start.velocity + h * now.acceleration, 2.0 * start.velocity)
     iterates = method.iterate(system, guess, carry, now.closed)
     solution = drive(system, iterates, method.tolerance, method.limit)
@@ -79,7 +85,9 @@ def _touches(model: Model, now: Situation, slab: Slab, solution: Solution, close
     before = 0.5 * solution.predicted
     tau = fading(gap, np.minimum(gap + h * before, -1e-300))
     return [
-        contact_event(model, now, slab, solution.end.displacement, int(r), "touch", float(tau[r]), (float(before[r]), 0.0))
+        contact_event(
+            model, now, slab, solution.end.displacement, int(r), "touch", float(tau[r]), (float(before[r]), 0.0)
+        )
         for r in np.flatnonzero(closed & ~now.closed)
     ]
 
@@ -103,13 +111,19 @@ def _releases(model: Model, now: Situation, slab: Slab, solution: Solution, clos
 
 def _branched(model: Model, now: Situation, slab: Slab, located: LocatedMean, solution: Solution) -> list[Event]:
     """The located touches and releases."""
-    branches = located.branches(now.start.displacement, solution.end.displacement)
+    branches = located.branches(now.start.displacement, solution.end.displacement, now.closed)
     speed = 0.5 * model.candidates.along(solution.last.q)
     before = model.candidates.along(now.start.velocity)
     return [
         contact_event(
-            model, now, slab, solution.end.displacement, b.row, "touch" if b.closes else "release", b.instant,
+            model,
+            now,
+            slab,
+            solution.end.displacement,
+            b.row,
+            "touch" if b.closes else "release",
+            b.instant,
             (float(before[b.row]), 0.0) if b.closes else (0.0, float(speed[b.row])),
         )
         for b in branches
-    ]  # fmt: skip
+    ]

@@ -49,9 +49,16 @@ class Outcome:
 
 
 def contact_event(
-    model: Model, now: Situation, slab: Slab, end: Array, row: int, kind: str, tau: float, speeds: tuple[float, float],
+    model: Model,
+    now: Situation,
+    slab: Slab,
+    end: Array,
+    row: int,
+    kind: str,
+    tau: float,
+    speeds: tuple[float, float],
     impulse: float = 0.0,
-) -> Event:  # fmt: skip
+) -> Event:
     """The event of a contact row at ``tau``; its place lies on the obstacle, between the positions at both slab ends."""
     rows = model.candidates
     node = int(rows.node[row])
@@ -61,6 +68,12 @@ def contact_event(
     normal = rows.normal[row]
     place = part.mesh.points[node - part.rows.start] + u - (rows.offset[row] + normal @ u) * normal
     return Event(
-        time=slab.start + tau * slab.span, contact=rows.labels[rows.contact[row]], kind=kind,
-        node=node - part.rows.start, position=place, velocity_before=speeds[0], velocity_after=speeds[1], impulse=impulse,
-    )  # fmt: skip
+        time=slab.start + tau * slab.span,
+        contact=rows.labels[rows.contact[row]],
+        kind=kind,
+        node=node - part.rows.start,
+        position=place,
+        velocity_before=speeds[0],
+        velocity_after=speeds[1],
+        impulse=impulse,
+    )

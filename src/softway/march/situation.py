@@ -42,14 +42,15 @@ def joined(model: Model, state: State) -> Situation:
 def parted(model: Model, situation: Situation) -> State:
     """The state by bodies and contacts, its arrays read-only."""
     rows = model.candidates
-    fields = {
-        "displacement": model.split(situation.start.displacement),
-        "velocity": model.split(situation.start.velocity),
-        "acceleration": model.split(situation.acceleration),
-        "closed": {n: situation.closed[rows.of(k)] for k, n in enumerate(rows.labels)},
-        "pressure": {n: situation.pressure[rows.of(k)] for k, n in enumerate(rows.labels)},
-    }
-    for group in fields.values():
-        for array in group.values():
-            array.flags.writeable = False
-    return State(time=situation.time, **fields)
+    for array in (situation.start.displacement, situation.start.velocity, situation.acceleration):
+        array.flags.writeable = False
+    situation.closed.flags.writeable = False
+    situation.pressure.flags.writeable = False
+    return State(
+        time=situation.time,
+        displacement=model.split(situation.start.displacement),
+        velocity=model.split(situation.start.velocity),
+        acceleration=model.split(situation.acceleration),
+        closed={n: situation.closed[rows.of(k)] for k, n in enumerate(rows.labels)},
+        pressure={n: situation.pressure[rows.of(k)] for k, n in enumerate(rows.labels)},
+    )

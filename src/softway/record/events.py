@@ -12,10 +12,17 @@ from softway.record.recorder import Opening
 
 FILE = "events.csv"
 COLUMNS = (
-    ("time", "s"), ("contact", table.TEXT), ("kind", table.TEXT), ("node", table.COUNT),
-    ("x", "m"), ("y", "m"), ("z", "m"),
-    ("normal_velocity_before", "m/s"), ("normal_velocity_after", "m/s"), ("impulse", "N s"),
-)  # fmt: skip
+    ("time", "s"),
+    ("contact", table.TEXT),
+    ("kind", table.TEXT),
+    ("node", table.COUNT),
+    ("x", "m"),
+    ("y", "m"),
+    ("z", "m"),
+    ("normal_velocity_before", "m/s"),
+    ("normal_velocity_after", "m/s"),
+    ("impulse", "N s"),
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

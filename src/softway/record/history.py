@@ -11,11 +11,18 @@ from softway.record.recorder import Opening
 
 FILE = "history.csv"
 COLUMNS = (
-    ("time", "s"), ("h", "s"), ("iterations", table.COUNT),
-    ("energy_kinetic", "J"), ("energy_strain", "J"), ("work_external", "J"), ("dissipation", "J"),
+    ("time", "s"),
+    ("h", "s"),
+    ("iterations", table.COUNT),
+    ("energy_kinetic", "J"),
+    ("energy_strain", "J"),
+    ("work_external", "J"),
+    ("dissipation", "J"),
     ("energy_error", "J"),
-    ("momentum_x", "kg m/s"), ("momentum_y", "kg m/s"), ("momentum_z", "kg m/s"),
-)  # fmt: skip
+    ("momentum_x", "kg m/s"),
+    ("momentum_y", "kg m/s"),
+    ("momentum_z", "kg m/s"),
+)
 CONTACT = (("force_n", "N"), ("force_t", "N"), ("min_gap", "m"), ("power_residual", "J"))
 
 

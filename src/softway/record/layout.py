@@ -11,9 +11,17 @@ from softway.space.mesh import Mesh
 from softway.typing import Array, IntArray
 
 VTK = {
-    "bar2": 3, "bar3": 21, "tri3": 5, "tri6": 22, "quad4": 9, "quad9": 28,
-    "tet4": 10, "tet10": 24, "hex8": 12, "hex27": 29,
-}  # fmt: skip
+    "bar2": 3,
+    "bar3": 21,
+    "tri3": 5,
+    "tri6": 22,
+    "quad4": 9,
+    "quad9": 28,
+    "tet4": 10,
+    "tet10": 24,
+    "hex8": 12,
+    "hex27": 29,
+}
 """Number by which VTK knows each cell; node orders agree."""
 PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
 """Order of the six components of a symmetric tensor in VTK: xx yy zz xy yz xz."""

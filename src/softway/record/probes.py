@@ -131,9 +131,14 @@ def _resolve(path: str, probe: Probe, meshes: Mapping[str, Mesh]) -> Reading:
         raise InputError(f"{path}.component", f"'{probe.component}' in {mesh.dim}D", f"one of {list(allowed)}")
     nodes = _nodes(path, probe, mesh)
     return Reading(
-        name=probe.name, unit=UNITS[probe.quantity], body=probe.of, nodes=nodes,
-        reference=mesh.points[nodes], quantity=probe.quantity, component=probe.component,
-    )  # fmt: skip
+        name=probe.name,
+        unit=UNITS[probe.quantity],
+        body=probe.of,
+        nodes=nodes,
+        reference=mesh.points[nodes],
+        quantity=probe.quantity,
+        component=probe.component,
+    )
 
 
 def _nodes(path: str, probe: Probe, mesh: Mesh) -> IntArray:

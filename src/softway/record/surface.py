@@ -83,8 +83,11 @@ def _quad9(x: Array, y: Array) -> Array:
 
 
 SHAPES: Mapping[str, Callable[[Array, Array], Array]] = {
-    "tri3": _tri3, "tri6": _tri6, "quad4": _quad4, "quad9": _quad9,
-}  # fmt: skip
+    "tri3": _tri3,
+    "tri6": _tri6,
+    "quad4": _quad4,
+    "quad9": _quad9,
+}
 
 
 def at_nodes(cells: Cells, values: Array) -> Array:

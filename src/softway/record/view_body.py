@@ -43,19 +43,21 @@ class Shown:
 def bodies(run: Run) -> "Figure":
     """The bodies with their stress at the instant of greatest strain energy, the floor, and the undeformed outline."""
     shown = _shown(run)
-    colour, stress_unit = scaled(shown.stress, "Pa")
+    top = _top(shown.stress)
+    colour, stress_unit = scaled(top, "Pa")
     figure = canvas(WIDTH, 6.0)
     axis = figure.subplots()
     view = camera(shown.cells, shown.points)
     ground(axis, shown.cells, shown.points, view)
-    norm = library().colors.Normalize(0.0, float(colour * shown.stress.max()) or 1.0)
+    norm = library().colors.Normalize(0.0, colour * top or 1.0)
     mapped = library().cm.ScalarMappable(norm, MAP)
     _paint(axis, shown, view, mapped, colour)
     ruler(axis, shown.cells.reference, view)
     axis.set_aspect("equal")
     axis.set_axis_off()
     axis.margins(0.02)
-    bar = figure.colorbar(mapped, ax=axis, shrink=0.8, pad=0.02, aspect=28)
+    peaked = "max" if top < shown.stress.max() else "neither"
+    bar = figure.colorbar(mapped, ax=axis, shrink=0.8, pad=0.02, aspect=28, extend=peaked)
     bar.set_label(f"von Mises stress [{stress_unit}]")
     bar.outline.set_visible(False)  # type: ignore[operator]
     box = axis.dataLim
@@ -72,9 +74,22 @@ def _words(figure: "Figure", run: Run, shown: Shown) -> None:
     figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold")
     figure.supxlabel(
         f"t = {second * shown.frame.time:.4g} {unit}, at the greatest strain energy. Deformation {enlarged}; "
-        "dashed: undeformed shape.\nStress: mean of the cells at a node.",
-        x=0.01, ha="left", fontsize=8.5,
-    )  # fmt: skip
+        f"dashed: undeformed shape.\nStress: mean of the cells at a node, at most {_stress(shown)}.",
+        x=0.01,
+        ha="left",
+        fontsize=8.5,
+    )
+
+
+def _top(stress: Array) -> float:
+    """Where the colours end [Pa]: at the greatest stress, or where a few nodes far above the others begin."""
+    most, usual = float(stress.max()), float(np.percentile(stress, 99.0))
+    return usual if most > 2.0 * usual > 0.0 else most
+
+
+def _stress(shown: Shown) -> str:
+    factor, unit = scaled(float(shown.stress.max()), "Pa")
+    return f"{factor * shown.stress.max():.3g} {unit}"
 
 
 def _shown(run: Run) -> Shown:

@@ -1,7 +1,7 @@
 """The scales of a scenario, before anything is computed: speeds, times, lengths, numbers."""
 
 from dataclasses import dataclass
-from math import ceil, sqrt
+from math import sqrt
 
 import numpy as np
 
@@ -100,14 +100,3 @@ def contact_duration(points: Array, normals: Array, speed: float) -> float:
     """Expected time of contact ``2 L / c`` [s]; L is the extent of the points (n, d) along the mean normal."""
     normal = normals.mean(axis=0)
     return 2.0 * float(np.ptp(points @ normal)) / speed
-
-
-def automatic_step(end: float, transits: list[float]) -> float:
-    """A slab in which a wave crosses the smallest edge, and that divides the whole time evenly.
-
-    Examples
-    --------
-    >>> automatic_step(1.0, [0.3])
-    0.25
-    """
-    return float(end / ceil(end / min(transits) - 1e-9))

@@ -1,0 +1,1 @@
+"""The equations of one slab and the methods that solve them."""

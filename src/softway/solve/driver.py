@@ -27,6 +27,12 @@ class Iterate:
     carry: Carry
 
 
+def lost(q: Array, active: BoolArray, carry: Carry) -> Iterate:
+    """The iterate that says that q is not admissible: its change is infinite."""
+    none = np.zeros(len(active))
+    return Iterate(q=q, change=np.inf, impulse=none, active=active, free=none, carry=carry)
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Solution:
     """A converged slab: the last iterate, its evaluation, the free normal components (m,) of the first iterate."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.errors import InputError
-from softway.solve.driver import Iterate
+from softway.solve.driver import Iterate, lost
 from softway.solve.frozen import Carry, freeze
 from softway.solve.linear import LinearSolver, SuperLU
 from softway.solve.normal import constrain
@@ -61,7 +61,7 @@ class FixedPoint:
         while True:
             residual = system.evaluate(q).residual[keep]
             if not np.isfinite(residual).all():
-                yield Iterate(q=q, change=np.inf, impulse=active * 0.0, active=active, free=active * 0.0, carry=carry)
+                yield lost(q, active, carry)
                 return
             free = q[keep] - frozen.solve(residual)
             solved, impulse, now = constrain(free, frozen, system.rows, active)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.errors import InputError
-from softway.solve.driver import Iterate
+from softway.solve.driver import Iterate, lost
 from softway.solve.frozen import Carry, freeze
 from softway.solve.linear import LinearSolver, SuperLU
 from softway.solve.normal import constrain
@@ -51,7 +51,7 @@ class Newton:
         while True:
             end = system.evaluate(q)
             if not np.isfinite(end.residual).all():
-                yield Iterate(q=q, change=np.inf, impulse=active * 0.0, active=active, free=active * 0.0, carry=carry)
+                yield lost(q, active, carry)
                 return
             frozen = freeze(system.operator(end.displacement), rows, solver)
             carry = Carry(frozen=frozen, span=system.path.span, stale=True, factorisations=carry.factorisations + 1)

@@ -18,7 +18,7 @@ from softway.typing import Array, BoolArray
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Rows:
-    """Conditions of one slab on the contact rows: ``target`` (m,), which are ``equal`` (m,), which ``unilateral`` (m,)."""
+    """Conditions of one slab on the contact rows: ``target`` (m,), and which are ``equal`` or ``unilateral`` (m,)."""
 
     target: Array
     equal: BoolArray
@@ -56,9 +56,9 @@ def _solve(matrix: Array, b: Array) -> Array:
     if not len(b):
         return b
     try:
-        x = np.linalg.solve(matrix, b)
+        x = np.asarray(np.linalg.solve(matrix, b), float)
         if np.isfinite(x).all() and np.abs(matrix @ x - b).max() <= 1e-8 * max(np.abs(b).max(), 1e-300):
             return x
     except np.linalg.LinAlgError:
         pass
-    return np.linalg.lstsq(matrix, b, rcond=1e-12)[0]
+    return np.asarray(np.linalg.lstsq(matrix, b, rcond=1e-12)[0], float)

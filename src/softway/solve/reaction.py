@@ -34,7 +34,7 @@ class Reaction:
         return out
 
     def jump(self, approach: Array, closed: BoolArray) -> tuple[Array, Array]:
-        """Velocity jump (n, d) and impulses (m,) that bring the ``approach`` velocity (m,) of the closed rows to zero."""
+        """Velocity jump (n, d) and impulses (m,) that bring the closed rows from ``approach`` (m,) to rest."""
         index = np.flatnonzero(closed)
         out, impulse = np.zeros(self.model.shape), np.zeros(len(closed))
         if len(index):

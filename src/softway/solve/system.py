@@ -18,7 +18,7 @@ from softway.contact.path import Path
 from softway.model import Model
 from softway.solve.normal import Rows
 from softway.time.weight import Momentum, TimeWeight, moments, peaks
-from softway.typing import Array, BoolArray
+from softway.typing import Array
 
 ROUNDING = 2e-15
 
@@ -89,8 +89,14 @@ class SlabSystem:
         still = ~model.massive
         residual[still] = h * moments(self.weight)[1] * (force - model.load)[still]
         return Evaluation(
-            residual=residual, displacement=u1, force=force, energy=energy, mean_force=mean, scalar=scalar, clipped=clipped
-        )  # fmt: skip
+            residual=residual,
+            displacement=u1,
+            force=force,
+            energy=energy,
+            mean_force=mean,
+            scalar=scalar,
+            clipped=clipped,
+        )
 
     def operator(self, u: Array) -> sp.csc_array:
         """M + h^2/2 mu2 K(u) on the free components, symmetric positive definite near equilibrium."""
@@ -105,7 +111,11 @@ class SlabSystem:
         if self.located is not None:
             return self.model.force(self.located.mean(self.start.displacement, u1))
         u0 = self.start.displacement
-        out = self._weighted(q, u1, force) if any(not _chord(p.average) for p in self.model.parts) else np.empty_like(force)
+        out = (
+            self._weighted(q, u1, force)
+            if any(not _chord(p.average) for p in self.model.parts)
+            else np.empty_like(force)
+        )
         for part in self.model.parts:
             match part.average:
                 case AverageField(points=points):
@@ -141,7 +151,8 @@ class SlabSystem:
         still = model.totals(model.load * (du - moving))
         num = energy - start.energy - work - still
         den = model.totals((force - start.force) * moving)
-        level = np.abs(energy) + np.abs(start.energy) + model.totals(np.abs(mean * moving)) + model.kinetic(start.velocity)
+        level = np.abs(energy) + np.abs(start.energy) + model.kinetic(start.velocity)
+        level += model.totals(np.abs(mean * moving)) + model.totals(np.abs(model.load * du))
         real = np.abs(num) > ROUNDING * level
         with np.errstate(divide="ignore", invalid="ignore"):
             a = np.where(real & (den != 0.0), num / den, 0.0)

@@ -1,0 +1,1 @@
+"""Time: the slab and its virtual time function."""

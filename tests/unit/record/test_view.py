@@ -10,6 +10,7 @@ from softway.record.conduct import Place, conduct
 from softway.record.frames import Frame
 from softway.record.surface import SHAPES, at_nodes, exaggeration, mesh_of, patches, rigid
 from softway.record.view import pictures, scaled
+from softway.record.view_body import _top
 from softway.record.view_scene import camera, edges, strokes
 
 PNG = b"\x89PNG"
@@ -75,6 +76,14 @@ def test_edges_of_a_cube_or_square(run):
     pieces = strokes(cells.reference, edges(mesh, cells.reference, camera(cells, cells.reference)), 0.05)
     length = np.linalg.norm(pieces[..., 1, :] - pieces[..., 0, :], axis=-1).sum()
     assert length == pytest.approx({2: 4.0, 3: 9.0}[mesh.dim], rel=1e-12)
+
+
+def test_colours_end_below_a_lonely_peak():
+    """Above twice the 99th percentile the colours stop there; otherwise at the greatest value."""
+    even = np.linspace(0.0, 1.0, 1001)
+    assert (
+        _top(even) == 1.0 and _top(np.append(even, 50.0)) == pytest.approx(0.99, abs=2e-3) and _top(0.0 * even) == 0.0
+    )
 
 
 def test_nodal_means(run):

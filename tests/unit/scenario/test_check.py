@@ -67,7 +67,7 @@ def test_scales_of_the_first_example():
 def test_the_stable_step_of_equal_bars_is_near_the_exact_one(mass):
     """The infinite mesh has the estimated frequency; a mesh of ten elements with free ends reaches it."""
     checked = check(changed(f"bodies.bar.mass={mass}", "bodies.bar.mesh.cells=10", "contacts=[]"))
-    exact = stable_step(build(checked.scene), np.zeros((11, 1)), Momentum())
+    exact = stable_step(checked.model, np.zeros((11, 1)), Momentum())
     assert checked.bodies["bar"].stable_step == pytest.approx(exact, rel=1e-9)
 
 
