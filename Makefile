@@ -5,16 +5,17 @@ DEMO := .venv-demo
 TEST := .venv-test
 DOCS := .venv-docs
 
-.PHONY: help demo test check bench docs clean
+.PHONY: help demo test coverage check bench docs clean
 
 help:
 	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
 	@echo "make test   unit tests, verification cases, doctests"
+	@echo "make coverage  the same, with the lines and branches that did not run"
 	@echo "make check  ruff, mypy, import-linter, house rules"
 	@echo "make bench  cost of a slab"
 	@echo "make docs   the documentation as HTML in docs/_build/html"
 
-# $(call environment,folder,extras): build beside, then rename the stamp last, so that an interrupted install is repeated
+# $(call environment,folder,extras): the file "ready" comes last, so that an interrupted installation is repeated
 define environment
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "softway needs Python 3.11 or newer")'
 	test -x $(1)/bin/python || $(PYTHON) -m venv $(1)
@@ -36,6 +37,9 @@ demo: $(DEMO)/ready
 
 test: $(TEST)/ready
 	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope
+
+coverage: $(TEST)/ready
+	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope --cov --cov-report=term-missing:skip-covered
 
 check: $(TEST)/ready
 	$(TEST)/bin/ruff check .

@@ -1,9 +1,12 @@
 """House rules of CONTRIBUTING.md about the modules of the package."""
 
 import ast
+import re
 import sys
+import tomllib
 from collections.abc import Callable, Iterable
 from fnmatch import fnmatch
+from pathlib import Path
 
 import pytest
 
@@ -33,13 +36,11 @@ DOORS = {
     "meshio": ("softway.space.files",),
     "h5py": ("softway.record.fields",),
     "matplotlib": ("softway.record.view*",),
-    "pyvista": ("softway.record.view*", "softway.record.frames"),
-    "pint": ("softway.scenario.*",),
-    "cattrs": ("softway.scenario.*",),
-    "attrs": ("softway.scenario.*",),
-    "tomli_w": ("softway.scenario.*",),
-    "cyclopts": ("softway.cli*",),
-    "rich": ("softway.cli*",),
+    "pyvista": ("softway.record.frames",),
+    "pint": ("softway.scenario.quantity",),
+    "tomli_w": ("softway.scenario.codec",),
+    "cyclopts": ("softway.cli.*",),
+    "rich": ("softway.cli.*",),
     "gmsh": (),
     "numpy": ("*",),
     "scipy": ("*",),
@@ -203,6 +204,14 @@ RULES: tuple[Finder, ...] = (
 def test_house_rule(rule: Finder, sources: tuple[Source, ...]) -> None:
     found = [f"{s.name}: {what}" for s in sources for what in rule(s)]
     assert not found, "\n".join(found)
+
+
+def test_every_dependency_is_imported(root: Path, sources: tuple[Source, ...]) -> None:
+    wanted = tomllib.loads((root / "pyproject.toml").read_text())["project"]["dependencies"]
+    modules = {"fenics-basix": "basix", "tomli-w": "tomli_w"}
+    names = {re.split(r"[<>=~! ]", d)[0] for d in wanted}
+    used = {name.split(".")[0] for s in sources for _, name in imported(s.tree)}
+    assert {modules.get(n, n) for n in names} <= used
 
 
 def test_the_package_was_found(sources: tuple[Source, ...]) -> None:

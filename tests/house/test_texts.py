@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-SKIPPED = {".git", "demo", "runs", "build", "dist", "__pycache__", "_build"}
+GENERATED = {"demo", "runs", "build", "dist", "__pycache__", "_build"}
 TEXT = {".py", ".md", ".toml", ".txt", ".cff", ".json", ".csv", ".cfg", ".inp", ".yml", ".yaml", "", ".run"}
 
 FORBIDDEN = {
@@ -37,7 +37,7 @@ def tracked(root: Path) -> list[Path]:
 
 
 def _generated(path: Path) -> bool:
-    return any(part in SKIPPED or part.startswith(".venv") or part.endswith("_cache") for part in path.parts)
+    return any(part in GENERATED or (part.startswith(".") and part != ".ci") for part in path.parent.parts)
 
 
 @pytest.fixture(scope="module")

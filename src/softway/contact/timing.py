@@ -6,7 +6,7 @@ from typing import Literal
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Paper:
-    """The paper's rule, literally: the node that touches gets an extra time node, where its normal velocity becomes zero.
+    """The paper's rule, literally: the touching node gets an extra time node, where its normal velocity becomes zero.
 
     Up to the instant t_c the velocity is ``kept`` or ``extrapolated`` linearly from the slab before; after it the
     normal velocity vanishes and the node is eliminated (Figs. 2 and 4).  The jump is not balanced by the

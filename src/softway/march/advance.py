@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softway.contact.fig4 import Split
 from softway.contact.located import LocatedMean, located_mean
-from softway.contact.timing import Energy
+from softway.contact.timing import Energy, Paper
 from softway.errors import InputError
 from softway.march.carrying import solve_carrying
 from softway.march.massless import solve_massless
@@ -30,6 +31,7 @@ class Rule:
     method: FixedPoint | Newton
     inertia: Reaction | None
     located: LocatedMean | None
+    split: Split | None = None
 
 
 def rule(model: Model, method: FixedPoint | Newton, weight: TimeWeight) -> Rule:
@@ -41,7 +43,9 @@ def rule(model: Model, method: FixedPoint | Newton, weight: TimeWeight) -> Rule:
         If the rule does not go with the law or the time weight.
     """
     if not isinstance(model.timing, Energy):
-        return Rule(model=model, method=method, inertia=reaction(model), located=None)
+        triangle = isinstance(model.timing, Paper) and model.timing.split == "triangle"
+        split = split_elements(model) if triangle else None
+        return Rule(model=model, method=method, inertia=reaction(model), located=None, split=split)
     if weight != EndPeaks() and not model.massive.all():
         raise InputError(
             "time.weight",
@@ -72,7 +76,7 @@ def advance(rule: Rule, now: Situation, slab: Slab, carry: Carry) -> tuple[Situa
     if rule.inertia is None:
         out, carry = solve_massless(rule.model, now, slab, carry, rule.method, rule.located)
     else:
-        out, carry = solve_carrying(rule.model, now, slab, carry, rule.method, rule.inertia)
+        out, carry = solve_carrying(rule.model, now, slab, carry, rule.method, rule.inertia, rule.split)
     end = out.solution.end
     if end.clipped:
         raise NoConvergence("the scalar that closes the energy balance leaves [-1/2, 1/2]")
@@ -84,3 +88,27 @@ def advance(rule: Rule, now: Situation, slab: Slab, carry: Carry) -> tuple[Situa
         pressure=out.pressure,
     )
     return after, out, carry
+
+
+def split_elements(model: Model) -> Split:
+    """The two-node bars beside the contact rows, for the split of Fig. 4.
+
+    Raises
+    ------
+    InputError
+        If the scene is not made of straight two-node bars of LinearElastic in one dimension, touching at their ends.
+    """
+    where = "contacts[0].timing.split"
+    bars = model.shape[1] == 1 and all(set(p.mesh.blocks) == {"bar2"} for p in model.parts)
+    if not (bars and model.linear):
+        raise InputError(where, "'triangle' is for two-node bars of LinearElastic in 1D", "split = 'product'")
+    stiffness = model.tangent(np.zeros(model.shape)).tocsr()
+    inner, value = [], []
+    for node in model.candidates.node:
+        row = stiffness[[node]].tocoo()
+        others = row.coords[1] != node
+        if others.sum() != 1:
+            raise InputError(where, f"node {node} is not the end of a bar", "contact tags at the ends of bars")
+        inner.append(int(row.coords[1][others][0]))
+        value.append(-float(row.data[others][0]))
+    return Split(inner=np.array(inner, int), stiffness=np.array(value))

@@ -4,8 +4,11 @@ The slab is solved with the rows that were closed, and again on the same operato
 the solution asks for, until it asks for none.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
+from softway.contact.fig4 import Split
 from softway.contact.path import Path
 from softway.contact.timing import Paper
 from softway.march.course import Course, revised, undisturbed
@@ -26,7 +29,13 @@ from softway.typing import Array
 
 
 def solve_carrying(
-    model: Model, now: Situation, slab: Slab, carry: Carry, method: FixedPoint | Newton, inertia: Reaction
+    model: Model,
+    now: Situation,
+    slab: Slab,
+    carry: Carry,
+    method: FixedPoint | Newton,
+    inertia: Reaction,
+    split: Split | None = None,
 ) -> tuple[Outcome, Carry]:
     """Solve the slab, adding touches and releases until it asks for no more."""
     known = undisturbed(now)
@@ -34,7 +43,7 @@ def solve_carrying(
     passes = iterations = 0
     while True:
         found = jumps(model, known.way, now.closed, inertia)
-        system = _system(model, now, slab, known, found)
+        system = replace(_system(model, now, slab, known, found), split=split)
         solution = drive(system, method.iterate(system, guess, carry, known.way.closed), method.tolerance, method.limit)
         passes, iterations, carry = passes + 1, iterations + solution.iterations, solution.last.carry
         revision = revised(model, now, system, known, solution, inertia)

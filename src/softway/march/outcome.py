@@ -59,7 +59,7 @@ def contact_event(
     speeds: tuple[float, float],
     impulse: float = 0.0,
 ) -> Event:
-    """The event of a contact row at ``tau``; its place lies on the obstacle, between the positions at both slab ends."""
+    """The event of a contact row at ``tau``; its place lies on the obstacle, between those at both slab ends."""
     rows = model.candidates
     node = int(rows.node[row])
     part = next(p for p in model.parts if p.rows.start <= node < p.rows.stop)

@@ -13,6 +13,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.bodies.force import AverageField, DiscreteGradient
+from softway.contact.fig4 import Split
 from softway.contact.located import LocatedMean
 from softway.contact.path import Path
 from softway.model import Model
@@ -64,6 +65,8 @@ class SlabSystem:
         Whether the scalar a closes the energy balance.
     located
         Exact slab averages of the located Energy rule, in place of the time weight.
+    split
+        Trapezoid and triangle in place of the product elements beside a touch (Fig. 4).
     """
 
     model: Model
@@ -75,6 +78,7 @@ class SlabSystem:
     impulses: Array | float = 0.0
     balanced: bool = False
     located: LocatedMean | None = None
+    split: Split | None = None
 
     def evaluate(self, q: Array) -> Evaluation:
         """Residual and its ingredients at q (n, d)."""
@@ -82,6 +86,8 @@ class SlabSystem:
         u1 = self.path.end(q)
         energy, force = model.energy_and_force(u1)
         mean = self._mean_force(q, u1, force)
+        if self.split is not None:
+            mean = mean + self.split.difference(self.path, q, self._product_mean(q))
         scalar, clipped = self._scalar(u1, force, energy, mean) if self.balanced else (np.zeros(len(energy)), False)
         mean = mean + self._nodal(scalar) * (force - start.force)
         inertia = model.mass @ (q - start.velocity - self.unbalanced)
@@ -130,8 +136,7 @@ class SlabSystem:
         tau, w = peaks(self.weight)
         shift: Array | float = 0.0
         if isinstance(self.weight, Momentum) and (self.path.way.kinked.any() or self.path.jumps):
-            samples = sum(wi * self.path.at(t, q) for t, wi in zip(tau, w, strict=True))
-            shift = self.path.mean(q) - samples
+            shift = self.path.mean(q) - self._sampled_mean(q)
         out = np.zeros_like(force)
         for t, wi in zip(tau, w, strict=True):
             if t == 0.0:
@@ -141,6 +146,16 @@ class SlabSystem:
             else:
                 out += wi * self.model.force(self.path.at(t, q) + shift)
         return out
+
+    def _sampled_mean(self, q: Array) -> Array:
+        """Displacement (n, d) averaged over the peaks."""
+        return sum(
+            (wi * self.path.at(float(t), q) for t, wi in zip(*peaks(self.weight), strict=True)), np.zeros_like(q)
+        )
+
+    def _product_mean(self, q: Array) -> Array:
+        """Mean displacement (n, d) that a linear force of the product form feels."""
+        return self.path.mean(q) if isinstance(self.weight, Momentum) else self._sampled_mean(q)
 
     def _scalar(self, u1: Array, force: Array, energy: Array, mean: Array) -> tuple[Array, bool]:
         """a = [V1 - V0 - mean . du - W] / [(f1 - f0) . du] over each part; du of the nodes with inertia."""

@@ -1,7 +1,8 @@
 """Virtual time functions g of eq. (2.5): the choice of the virtual velocity in time.
 
 With the velocity linear in a slab, ``v = v0 (1 - tau) + v1 tau``, and ``int g = 1``, an oscillator of frequency omega
-feels g only through two moments, ``mu1 = int g tau`` and ``mu2 = int g tau^2``.  With ``x1 = x0 + h (v0 + v1)/2`` the scheme is stable iff
+feels g only through two moments, ``mu1 = int g tau`` and ``mu2 = int g tau^2``.  With ``x1 = x0 + h (v0 + v1)/2``
+the scheme is stable iff
 
     mu1 >= 1/2   and   (omega h)^2 (mu1 - mu2) <= 2,
 
