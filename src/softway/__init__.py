@@ -13,6 +13,7 @@ from softway.errors import InputError, NumericsError, SoftwayError
 from softway.execute import run
 from softway.laws.bulk import LinearElastic, NeoHookean, StVenantKirchhoff
 from softway.march.march import march
+from softway.march.step import Event, Ledger, Step
 from softway.model import build
 from softway.record.run import Run
 from softway.scenario.codec import load, resolved
@@ -41,6 +42,7 @@ __all__ = [
     "DiscreteGradient",
     "EndPeaks",
     "Energy",
+    "Event",
     "FieldSum",
     "Fixed",
     "FixedPoint",
@@ -49,6 +51,7 @@ __all__ = [
     "Impulse",
     "InputError",
     "Interval",
+    "Ledger",
     "LinearElastic",
     "Lumped",
     "Mesh",
@@ -75,6 +78,7 @@ __all__ = [
     "StVenantKirchhoff",
     "State",
     "StaticStart",
+    "Step",
     "Time",
     "Tool",
     "Traction",

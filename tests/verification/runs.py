@@ -1,38 +1,51 @@
-"""The bars of the verification cases as scenes of softway, and their marches as arrays."""
+"""The bars of the verification cases as scenes of softway, and their marches as arrays.
 
-from collections.abc import Iterable
+In every scene the body is ``bar``, the obstacle ``stop`` and the contact ``stop``.  The tip is the node that may touch.
+"""
+
+import logging
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
 
 import softway as sw
 from exact_waves import Array
+from softway.bodies.mass import MassRule
+from softway.contact.timing import Timing
+from softway.laws.law import StoredEnergy
+from softway.march.step import Step
 
+ELASTIC = sw.LinearElastic(E=1.0)
 HAT = sw.Profile(at=(0.0, 0.5, 1.0), values=(0.0, 0.0, 1.0))
+STRUCK_TIP = sw.OnTag(tag="right", value=1.0)
+SMALL = 1e-300
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Event:
-    """A ``touch`` or ``release`` with its instant."""
+    """A ``touch`` or ``release``, its instant, and the normal impulse of the jump."""
 
     kind: str
     time: float
+    impulse: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Record:
-    """A march as arrays: m slabs, m + 1 instants, k watched nodes.
+    """A march of m slabs as arrays.
 
     Parameters
     ----------
     times, displacement
-        (m + 1,) and (m + 1, k).
-    kinetic, strain, work, error
-        (m,) energies at the ends of the slabs, work of the loads, and what the balance lacks.
-    dissipation, momentum
-        (m,) energy lost in jumps up to each end, momentum.
-    force, gap, power, scalar
-        (m,) mean force of a slab, gap at its end, |F v| dt over it, scalar of the energy rule.
+        (m + 1,) ends of the slabs, (m + 1, n) displacement of the nodes there.
+    kinetic, strain, work, dissipation, error
+        (m,) energies at the end of each slab, works up to there, and what the balance lacks.
+    momentum
+        (m,) at the end of each slab.
+    force, gap, power
+        (m,) mean force of the stop over each slab, least gap at its end, |F v| dt over it.
     events
         Touches and releases in order.
     """
@@ -42,13 +55,12 @@ class Record:
     kinetic: Array
     strain: Array
     work: Array
-    error: Array
     dissipation: Array
+    error: Array
     momentum: Array
     force: Array
     gap: Array
     power: Array
-    scalar: Array
     events: tuple[Event, ...]
 
     @property
@@ -57,24 +69,39 @@ class Record:
         return 0.5 * (self.times[1:] + self.times[:-1])
 
     @property
+    def energy(self) -> Array:
+        """Kinetic and strain energy (m,)."""
+        return self.kinetic + self.strain
+
+    @property
     def impulse(self) -> float:
-        """Impulse of the contact over the march."""
+        """Impulse of the stop over the march."""
         return float(self.force @ np.diff(self.times))
 
-    def at(self, instants: Array) -> Array:
-        """Displacement (j, k) at instants, linear between the ends of the slabs."""
-        return np.stack([np.interp(instants, self.times, u) for u in self.displacement.T], axis=1)
-
+    @property
     def kinds(self) -> list[str]:
         """Kinds of the events."""
         return [e.kind for e in self.events]
 
+    @property
     def instants(self) -> Array:
         """Instants of the events."""
         return np.array([e.time for e in self.events])
 
+    def first(self, kind: str) -> float:
+        """Instant of the first event of a kind."""
+        return next(e.time for e in self.events if e.kind == kind)
+
+    def last(self, kind: str) -> float:
+        """Instant of the last event of a kind."""
+        return next(e.time for e in reversed(self.events) if e.kind == kind)
+
+    def at(self, instants: Array | list[float]) -> Array:
+        """Displacement (j, n) at instants, linear between the ends of the slabs."""
+        return np.stack([np.interp(instants, self.times, u) for u in self.displacement.T], axis=1)
+
     def contacts(self, apart: float) -> list[tuple[float, float]]:
-        """Intervals of contact; openings shorter than ``apart`` count as contact, and an open end is nan."""
+        """Intervals of contact; openings shorter than ``apart`` belong to them, and an end that is missing is nan."""
         found: list[tuple[float, float]] = []
         for event in self.events:
             if event.kind == "release":
@@ -84,10 +111,182 @@ class Record:
         return found
 
     def mean_force(self, start: float, end: float) -> float:
-        """Mean of the force over the slabs whose middles lie in an interval."""
+        """Mean force over the slabs whose middles lie between two instants."""
         inside = (self.middles > start) & (self.middles < end)
         return float(np.average(self.force[inside], weights=np.diff(self.times)[inside]))
 
+    def force_error(self, start: float, end: float, level: float) -> float:
+        """Root mean square of force - level over the slabs whose middles lie between two instants."""
+        inside = (self.middles > start) & (self.middles < end)
+        return float(np.sqrt(np.average((self.force[inside] - level) ** 2, weights=np.diff(self.times)[inside])))
 
-def record(steps: Iterable[sw.march.__annotations__.get("return", object)], contact: str | None, nodes: slice) -> Record:
-    ...
+
+def recorded(steps: Iterable[Step]) -> Record:
+    """The march of a scene of this module."""
+    times, fields, rows, events = [0.0], [], [], []
+    for step in steps:
+        if not fields:
+            fields.append(step.before.displacement["bar"][:, 0])
+        ledger = step.ledger
+        stop = ledger.contacts.get("stop")
+        times.append(step.slab.end)
+        fields.append(step.after.displacement["bar"][:, 0])
+        rows.append(
+            (
+                ledger.energy_kinetic,
+                ledger.energy_strain,
+                ledger.work_external,
+                ledger.dissipation,
+                ledger.energy_error,
+                ledger.momentum[0],
+                *((stop.force_n, stop.min_gap, stop.power_residual) if stop else (0.0, np.inf, 0.0)),
+            )
+        )
+        events += [Event(kind=e.kind, time=e.time, impulse=e.impulse) for e in step.events]
+    names = ("kinetic", "strain", "work", "dissipation", "error", "momentum", "force", "gap", "power")
+    columns = dict(zip(names, np.array(rows).T, strict=True))
+    return Record(times=np.array(times), displacement=np.array(fields), events=tuple(events), **columns)
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Without the warning about a centre of mass that a bar of two elements cannot keep."""
+    logger = logging.getLogger("softway")
+    level = logger.level
+    logger.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        logger.setLevel(level)
+
+
+def run(
+    bar: sw.Solid,
+    stop: sw.HalfSpace | None,
+    rule: Timing,
+    *,
+    tip: str = "right",
+    until: float,
+    step: float | None = None,
+    weight: sw.EndPeaks | sw.Momentum | sw.Collocation = sw.EndPeaks(),
+    loads: tuple[sw.Gravity, ...] = (),
+    method: sw.FixedPoint | sw.Newton = sw.FixedPoint(),
+) -> Record:
+    """March a bar with a stop, or without; ``step`` is ``auto`` when it is not given."""
+    bodies: dict[str, sw.Solid | sw.Tool] = {"bar": bar}
+    contacts: tuple[sw.Contact, ...] = ()
+    if stop is not None:
+        bodies["stop"] = sw.Tool(shape=stop)
+        contacts = (sw.Contact(between=(f"bar.{tip}", "stop"), name="stop", timing=rule),)
+    scene = sw.Scene(bodies=bodies, contacts=contacts, loads=loads)
+    with quiet():
+        return recorded(
+            sw.march(scene, until=until, step="auto" if step is None else step, weight=weight, method=method)
+        )
+
+
+def thrown(
+    cells: int,
+    rule: Timing,
+    *,
+    gap: float = 0.3,
+    until: float = 4.0,
+    step: float | None = None,
+    mass: MassRule = sw.Consistent(),
+    weight: sw.EndPeaks | sw.Momentum | sw.Collocation = sw.EndPeaks(),
+    material: StoredEnergy = ELASTIC,
+    speed: float = 1.0,
+    density: float = 1.0,
+    area: float = 1.0,
+) -> Record:
+    """A free bar of unit length thrown at a wall (A02, A03, A12)."""
+    bar = sw.Solid(
+        mesh=sw.Interval(length=1.0, cells=cells),
+        material=material,
+        density=density,
+        section=sw.Bar(area=area),
+        velocity=sw.Uniform(value=speed),
+        mass=mass,
+    )
+    wall = sw.HalfSpace(point=1.0 + gap, normal=-1.0)
+    return run(bar, wall, rule, until=until, step=step, weight=weight)
+
+
+def struck(
+    cells: int,
+    rule: Timing,
+    *,
+    gap: float | None,
+    side: float = 1.0,
+    until: float = 10.0,
+    step: float | None = None,
+    mass: MassRule = sw.Consistent(),
+    weight: sw.EndPeaks | sw.Momentum | sw.Collocation = sw.EndPeaks(),
+    material: StoredEnergy = ELASTIC,
+    velocity: sw.OnTag | sw.Profile = STRUCK_TIP,
+    cell: str = "bar2",
+) -> Record:
+    """A bar of unit length fixed at its left end, with a stop at side * u_tip = gap or without (A04, A05, A06)."""
+    bar = sw.Solid(
+        mesh=sw.Interval(length=1.0, cells=cells, cell=cell),
+        material=material,
+        density=1.0,
+        velocity=velocity,
+        mass=mass,
+        supports=(sw.Fixed(on="left"),),
+    )
+    stop = None if gap is None else sw.HalfSpace(point=1.0 + side * gap, normal=-side)
+    return run(bar, stop, rule, until=until, step=step, weight=weight)
+
+
+def dropped(
+    cells: int,
+    rule: Timing,
+    *,
+    until: float,
+    step: float | None = None,
+    mass: MassRule = sw.Consistent(),
+    weight: sw.EndPeaks | sw.Momentum | sw.Collocation = sw.EndPeaks(),
+    cell: str = "bar2",
+) -> Record:
+    """The bar of A09: L = 10, E = 900, g = 10, its lower end 5 above the floor."""
+    bar = sw.Solid(
+        mesh=sw.Interval(length=10.0, cells=cells, origin=5.0, cell=cell),
+        material=sw.LinearElastic(E=900.0),
+        density=1.0,
+        mass=mass,
+    )
+    floor = sw.HalfSpace(point=0.0, normal=1.0)
+    loads = (sw.Gravity(acceleration=-10.0),)
+    return run(bar, floor, rule, tip="left", until=until, step=step, weight=weight, loads=loads)
+
+
+def pulled(
+    cells: int,
+    rule: Timing,
+    *,
+    until: float = 9.0,
+    step: float | None = None,
+    mass: MassRule = sw.Consistent(),
+    cell: str = "bar2",
+) -> Record:
+    """The bar of A11: released from u = 1/2 - x/2, x = 1 fixed, u >= 0 at x = 0."""
+    bar = sw.Solid(
+        mesh=sw.Interval(length=1.0, cells=cells, cell=cell),
+        material=ELASTIC,
+        density=1.0,
+        displacement=sw.Affine(value=0.5, gradient=-0.5),
+        supports=(sw.Fixed(on="right"),),
+        mass=mass,
+    )
+    return run(bar, sw.HalfSpace(point=0.0, normal=1.0), rule, tip="left", until=until, step=step)
+
+
+def order(errors: Iterable[float], steps: Iterable[float]) -> float:
+    """Least observed order between successive steps.
+
+    >>> round(order([4e-4, 1e-4, 2.5e-5], [0.04, 0.02, 0.01]), 12)
+    2.0
+    """
+    e, h = np.array(list(errors)), np.array(list(steps))
+    return float(np.min(np.log(e[:-1] / e[1:]) / np.log(h[:-1] / h[1:])))

@@ -3,8 +3,8 @@
 The element between the inner node i and the contact node c, with xi from 0 at i to 1 at c, is cut along the line from
 (c, t_c) to (i, t1).  Below it the velocity is bilinear on the trapezoid (i,t0) (c,t0) (c,t_c) (i,t1), above it linear
 on the triangle (c,t_c) (c,t1) (i,t1), where it is zero on the obstacle.  Stress follows from the velocity gradient
-inside the two elements; the jump across the line is not seen.  Compared with the product form the inertia is the same, and the
-mean elongation is greater by ``h v_c (1 - tau_c)^2 / 3`` (docs/theory/contact.md).
+inside the two elements; the jump across the line is not seen.  Compared with the product form the inertia is the
+same, and the mean elongation is greater by ``h v_c (1 - tau_c)^2 / 3`` (docs/theory/contact.md).
 """
 
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ class Split:
     stiffness: Array
 
     def difference(self, path: Path, q: Array, product: Array) -> Array:
-        """What the split adds to the mean force (n, 1) of the product form with mean displacement ``product`` (n, 1)."""
+        """What the split adds to the mean force (n, 1) of the product form, mean displacement ``product`` (n, 1)."""
         out = np.zeros_like(q)
         way, rows = path.way, path.rows
         for r in np.flatnonzero(way.closed & np.isfinite(way.touch)):
