@@ -69,7 +69,11 @@ class Ledger:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Report:
-    """How the solution was found: iterations, factorisations, passes of the active set, rejected tries."""
+    """How the solution was found.
+
+    ``iterations`` of this slab; ``factorisations`` since the start of the march; ``passes`` over the contact events;
+    ``rejections``: reasons of the tries that were dropped; ``scalars``: the scalar of the Energy rule for each body.
+    """
 
     iterations: int
     factorisations: int

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 FILE = "provenance.json"
-PACKAGES = ("softway", "numpy", "scipy", "h5py", "fenics-basix", "meshio", "cattrs", "pint")
+PACKAGES = ("softway", "numpy", "scipy", "h5py", "fenics-basix", "meshio", "pint")
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 

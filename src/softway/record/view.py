@@ -1,37 +1,18 @@
 """Pictures of a run: its history, the paths of a bar, the deformed body with its stress."""
 
 from collections.abc import Callable
-from math import floor, log10
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from softway.errors import InputError
 from softway.record.run import Run
-from softway.typing import Array
+from softway.record.view_body import bodies
+from softway.record.view_history import history
+from softway.record.view_paths import paths
+from softway.record.view_style import STYLE, library
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-BLUE, ORANGE, GREEN, PURPLE, RED, BLACK = "#0072B2", "#E69F00", "#009E73", "#CC79A7", "#D55E00", "#333333"
-"""Colours of Okabe and Ito, told apart by colour-blind readers."""
-CYCLE = (BLUE, RED, GREEN, ORANGE, PURPLE, BLACK)
-STYLE = {
-    "font.size": 10,
-    "axes.titlesize": 10.5,
-    "axes.titleweight": "bold",
-    "axes.titlelocation": "left",
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.color": "#e6e6e6",
-    "grid.linewidth": 0.7,
-    "axes.axisbelow": True,
-    "legend.frameon": False,
-    "legend.fontsize": 9,
-    "axes.edgecolor": "#666666",
-    "lines.linewidth": 1.6,
-}
-PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
 
 def pictures(run: Run, out: Path | None = None) -> tuple[Path, ...]:
@@ -45,10 +26,6 @@ def pictures(run: Run, out: Path | None = None) -> tuple[Path, ...]:
         File of the first picture, by default ``bodies.png`` in the run folder; the history goes beside it, with
         ``_history`` added to the name.
     """
-    from softway.record.view_body import bodies
-    from softway.record.view_history import history
-    from softway.record.view_paths import paths
-
     bars = set(run.fields.cells.blocks()) <= {"bar2", "bar3"}
     first = out or run.path / "bodies.png"
     second = first.with_name(f"{first.stem}_history{first.suffix}") if out else run.path / "history.png"
@@ -66,35 +43,3 @@ def save(draw: "Callable[[Run], Figure]", run: Run, file: Path) -> Path:
         except (OSError, ValueError) as error:
             raise InputError("out", f"cannot write '{file}': {error}", "a file such as picture.png") from None
     return file
-
-
-def library():  # type: ignore[no-untyped-def]  # the module object
-    """Matplotlib, or what to do when it is missing."""
-    try:
-        import matplotlib
-        import matplotlib.figure
-    except ImportError:
-        raise InputError("plot", "Matplotlib is not installed", "pip install matplotlib") from None
-    return matplotlib
-
-
-def canvas(width: float, height: float) -> "Figure":
-    """An empty figure [inches] without any window."""
-    made: Figure = library().figure.Figure(figsize=(width, height), layout="constrained")
-    return made
-
-
-def scaled(values: Array | float, unit: str) -> tuple[float, str]:
-    """Factor and unit with prefix that make the greatest of ``values`` legible.
-
-    Examples
-    --------
-    >>> scaled(3.2e8, "Pa")
-    (1e-06, 'MPa')
-    """
-    greatest = float(abs(values)) if isinstance(values, float | int) else float(abs(values).max(initial=0.0))
-    power = 3 * floor(log10(greatest) / 3 + 1e-9) if greatest > 0.0 else 0
-    power = min(max(power, -12), 0 if unit == "s" else 12)
-    if unit == "m" and power == 0 and greatest < 10.0 or unit in ("m", "s") and greatest == 0.0:
-        power = 0
-    return 10.0**-power, PREFIXES[power] + unit

@@ -12,8 +12,8 @@ import numpy as np
 from softway.record.frames import Cells, Frame
 from softway.record.run import Run
 from softway.record.surface import at_nodes, exaggeration, mesh_of, patches, rigid
-from softway.record.view import canvas, library, scaled
 from softway.record.view_scene import Camera, camera, edges, ground, ruler, strokes, unit
+from softway.record.view_style import canvas, library, scaled
 from softway.space.mesh import Mesh
 from softway.typing import Array, IntArray
 

@@ -7,7 +7,7 @@ import numpy as np
 from softway.record.run import Run
 from softway.record.summary import contacts_of
 from softway.record.table import Table
-from softway.record.view import BLACK, BLUE, CYCLE, GREEN, ORANGE, PURPLE, RED, canvas, scaled
+from softway.record.view_style import BLACK, BLUE, CYCLE, GREEN, ORANGE, PURPLE, RED, canvas, scaled
 from softway.typing import Array
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from softway.record.run import Run
-from softway.record.view import BLACK, CYCLE, GREEN, RED, canvas, scaled
+from softway.record.view_style import BLACK, CYCLE, GREEN, RED, canvas, scaled
 from softway.typing import Array
 
 if TYPE_CHECKING:

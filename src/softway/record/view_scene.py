@@ -7,7 +7,7 @@ import numpy as np
 
 from softway.record.frames import Cells
 from softway.record.surface import mesh_of, patches
-from softway.record.view import library, scaled
+from softway.record.view_style import library, scaled
 from softway.space.mesh import Mesh
 from softway.typing import Array, IntArray
 

@@ -9,9 +9,10 @@ from softway.errors import InputError
 from softway.record.conduct import Place, conduct
 from softway.record.frames import Frame
 from softway.record.surface import SHAPES, at_nodes, exaggeration, mesh_of, patches, rigid
-from softway.record.view import pictures, scaled
+from softway.record.view import pictures
 from softway.record.view_body import _top
 from softway.record.view_scene import camera, edges, strokes
+from softway.record.view_style import scaled
 
 PNG = b"\x89PNG"
 

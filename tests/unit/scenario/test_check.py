@@ -14,7 +14,6 @@ from softway.contact.contact import Contact
 from softway.contact.timing import Impulse
 from softway.errors import InputError
 from softway.laws.bulk import LinearElastic
-from softway.model import build
 from softway.scenario.check import check
 from softway.scenario.codec import load, loads, resolved
 from softway.scenario.quantity import Units

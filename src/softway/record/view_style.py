@@ -1,0 +1,63 @@
+"""What all pictures share: the library, a canvas, colours, and units with prefixes."""
+
+from math import floor, log10
+from typing import TYPE_CHECKING
+
+from softway.errors import InputError
+from softway.typing import Array
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+BLUE, ORANGE, GREEN, PURPLE, RED, BLACK = "#0072B2", "#E69F00", "#009E73", "#CC79A7", "#D55E00", "#333333"
+"""Colours of Okabe and Ito, told apart by colour-blind readers."""
+CYCLE = (BLUE, RED, GREEN, ORANGE, PURPLE, BLACK)
+STYLE = {
+    "font.size": 10,
+    "axes.titlesize": 10.5,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e6e6e6",
+    "grid.linewidth": 0.7,
+    "axes.axisbelow": True,
+    "legend.frameon": False,
+    "legend.fontsize": 9,
+    "axes.edgecolor": "#666666",
+    "lines.linewidth": 1.6,
+}
+PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
+
+
+def library():  # type: ignore[no-untyped-def]  # the module object
+    """Matplotlib, or what to do when it is missing."""
+    try:
+        import matplotlib
+        import matplotlib.figure
+    except ImportError:
+        raise InputError("plot", "Matplotlib is not installed", "pip install matplotlib") from None
+    return matplotlib
+
+
+def canvas(width: float, height: float) -> "Figure":
+    """An empty figure [inches] without any window."""
+    made: Figure = library().figure.Figure(figsize=(width, height), layout="constrained")
+    return made
+
+
+def scaled(values: Array | float, unit: str) -> tuple[float, str]:
+    """Factor and unit with prefix that make the greatest of ``values`` legible.
+
+    Examples
+    --------
+    >>> scaled(3.2e8, "Pa")
+    (1e-06, 'MPa')
+    """
+    greatest = float(abs(values)) if isinstance(values, float | int) else float(abs(values).max(initial=0.0))
+    power = 3 * floor(log10(greatest) / 3 + 1e-9) if greatest > 0.0 else 0
+    power = min(max(power, -12), 0 if unit == "s" else 12)
+    if unit == "m" and power == 0 and greatest < 10.0 or unit in ("m", "s") and greatest == 0.0:
+        power = 0
+    return 10.0**-power, PREFIXES[power] + unit
