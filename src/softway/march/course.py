@@ -11,7 +11,7 @@ import numpy as np
 from softway.contact.path import Passage, passage
 from softway.contact.timing import Paper
 from softway.kernels.impact import crossing, fading
-from softway.march.jumps import instants
+from softway.march.jumps import at, instants
 from softway.march.situation import Situation
 from softway.model import Model
 from softway.solve.driver import Solution
@@ -103,8 +103,8 @@ def _releasing(
     way = known.way
     first = known.reaction.copy()
     for instant in instants(np.where(tense, way.touch, np.nan)):
-        here = tense & (way.touch == instant)
-        after = way.closed & ~(way.touch > instant)
+        here = tense & at(way.touch, instant)
+        after = way.closed & (~(way.touch > instant) | here)
         first[here] = inertia.multiplier(model.force(system.path.at(instant, q)), after)[here]
     begin = np.nan_to_num(way.touch)
     release = np.minimum(begin + (1.0 - begin) * fading(first, pull), 1.0 - 1e-9)

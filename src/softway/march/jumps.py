@@ -24,9 +24,28 @@ class Jump:
     speed: Array
 
 
+SIMULTANEOUS = 1e-9
+"""Fraction of a slab within which touches are one jump."""
+
+
 def instants(tau: Array) -> list[float]:
-    """The distinct finite instants in order."""
-    return [float(t) for t in np.unique(tau[np.isfinite(tau)])]
+    """The distinct finite instants in order; those within ``SIMULTANEOUS`` of the first of them are one.
+
+    Examples
+    --------
+    >>> instants(np.array([0.5, np.nan, 0.25, 0.5 + 1e-12]))
+    [0.25, 0.5]
+    """
+    found: list[float] = []
+    for t in np.unique(tau[np.isfinite(tau)]):
+        if not found or t > found[-1] + SIMULTANEOUS:
+            found.append(float(t))
+    return found
+
+
+def at(tau: Array, instant: float) -> BoolArray:
+    """Rows (m,) whose ``tau`` belongs to the instant."""
+    return np.asarray((tau >= instant) & (tau <= instant + SIMULTANEOUS))
 
 
 def jumps(model: Model, way: Passage, closed: BoolArray, inertia: Reaction) -> tuple[Jump, ...]:
@@ -37,7 +56,7 @@ def jumps(model: Model, way: Passage, closed: BoolArray, inertia: Reaction) -> t
     """
     rows, speed, found = model.candidates, way.approach, []
     for instant in instants(way.touch):
-        hits = way.touch == instant
+        hits = at(way.touch, instant)
         approach = np.where(hits, speed, 0.0)
         if isinstance(model.timing, Paper):
             field = -rows.spread(approach, model.shape)
@@ -46,7 +65,7 @@ def jumps(model: Model, way: Passage, closed: BoolArray, inertia: Reaction) -> t
             gone = way.release <= instant
             stopped = ((closed | (way.touch < instant)) & ~gone) | hits
             field, impulse = inertia.jump(approach, stopped)
-            later = np.isfinite(way.touch) & (way.touch > instant)
+            later = np.isfinite(way.touch) & (way.touch > instant) & ~hits
             speed = speed + np.where(later, rows.along(field), 0.0)
         found.append(Jump(instant=instant, hits=hits, field=field, impulse=impulse, speed=approach))
     return tuple(found)

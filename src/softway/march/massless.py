@@ -39,7 +39,8 @@ def solve_massless(
         balanced=located is None,
         located=located,
     )
-    guess = np.where(model.massive[:, None], start.velocity + h * now.acceleration, 2.0 * start.velocity)
+    rate = start.velocity + h * now.acceleration
+    guess = np.where(model.massive[:, None], rate, 2.0 * rate)
     iterates = method.iterate(system, guess, carry, now.closed)
     solution = drive(system, iterates, method.tolerance, method.limit)
     return _outcome(model, now, slab, system, solution), solution.last.carry
@@ -55,6 +56,7 @@ def _outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solut
     h, rows = slab.span, model.candidates
     q, end = solution.last.q, solution.end
     massive = model.massive[:, None]
+    velocity = np.where(massive, q, 0.5 * q)
     closed = solution.last.impulse > 0.0
     pressure = solution.last.impulse / (h * moments(slab.weight)[1])
     force = rows.along((end.mean_force - model.load) * ~massive)
@@ -66,8 +68,8 @@ def _outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solut
     return Outcome(
         system=system,
         solution=solution,
-        velocity=np.where(massive, q, 0.5 * q),
-        acceleration=np.where(massive, (q - now.start.velocity) / h, 0.0),
+        velocity=velocity,
+        acceleration=(velocity - now.start.velocity) / h,
         closed=closed,
         pressure=pressure,
         force=force,
@@ -99,7 +101,7 @@ def _releases(model: Model, now: Situation, slab: Slab, solution: Solution, clos
     frozen = solution.last.carry.frozen
     if not len(left) or frozen is None:
         return []
-    give = np.einsum("km,mk->k", frozen.rows[left].toarray(), frozen.compliance(left))
+    give = np.diag(frozen.delassus(left))
     tension = rows.gap(solution.end.displacement)[left] * 2.0 / (h * give) / (h * moments(slab.weight)[1])
     tau = fading(now.pressure[left], -np.maximum(tension, 1e-300))
     after = 0.5 * rows.along(solution.last.q)

@@ -36,9 +36,9 @@ def constrain(free: Array, frozen: Frozen, rows: Rows, guess: BoolArray) -> tupl
     floor = 1e-14 * max(np.abs(slack).max(initial=0.0), np.abs(rows.target).max(initial=0.0), 1e-300)
     for sweep in range(30 + 4 * len(active)):
         index = np.flatnonzero(active)
-        columns = frozen.compliance(index)
-        delassus = frozen.rows[index] @ columns if len(index) else np.zeros((0, 0))
-        force = _solve(delassus, -slack[index])
+        compliance = frozen.compliance(index)
+        columns = compliance.columns
+        force = _solve(compliance.delassus, -slack[index])
         gap = slack + frozen.rows @ (columns @ force)
         multiplier = np.zeros(len(active))
         multiplier[index] = force

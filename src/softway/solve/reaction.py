@@ -28,9 +28,8 @@ class Reaction:
         index = np.flatnonzero(closed)
         out = np.zeros(len(closed))
         if len(index):
-            columns = self.mass.compliance(index)
-            unbalanced = (force - self.model.load)[self.model.free]
-            out[index] = np.linalg.solve(self.mass.rows[index] @ columns, columns.T @ unbalanced)
+            pull = self.mass.rows @ self.mass.solve((force - self.model.load)[self.model.free])
+            out[index] = np.linalg.solve(self.mass.delassus(index), pull[index])
         return out
 
     def jump(self, approach: Array, closed: BoolArray) -> tuple[Array, Array]:
@@ -38,9 +37,8 @@ class Reaction:
         index = np.flatnonzero(closed)
         out, impulse = np.zeros(self.model.shape), np.zeros(len(closed))
         if len(index):
-            columns = self.mass.compliance(index)
-            impulse[index] = np.linalg.solve(self.mass.rows[index] @ columns, -approach[index])
-            out[self.model.free] = columns @ impulse[index]
+            impulse[index] = np.linalg.solve(self.mass.delassus(index), -approach[index])
+            out[self.model.free] = self.mass.solve(self.mass.rows.T @ impulse)
         return out, impulse
 
 
