@@ -13,7 +13,7 @@ from softway.march.massless import solve_massless
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation
 from softway.model import Model
-from softway.solve.driver import NoConvergence
+from softway.solve.failure import NoConvergence
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.frozen import Carry
 from softway.solve.newton import Newton

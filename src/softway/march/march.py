@@ -17,7 +17,7 @@ from softway.march.situation import Situation, joined, parted
 from softway.march.step import Ledger, Report, Step
 from softway.model import Model, build
 from softway.scene import Scene, State
-from softway.solve.driver import NoConvergence
+from softway.solve.failure import NoConvergence
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.frozen import Carry
 from softway.solve.newton import Newton
@@ -27,7 +27,8 @@ from softway.time.weight import EndPeaks, TimeWeight
 from softway.units import Second
 
 log = logging.getLogger("softway")
-HALVINGS = 12
+LEAST = 1e-4
+"""Slabs are not cut below this fraction of the length asked for."""
 
 
 def march(
@@ -48,8 +49,9 @@ def march(
     until
         End time [s].
     step
-        Slab length [s]; ``auto`` is the time in which a wave crosses the shortest edge, over the square root of 2:
-        there the leading dispersion of a consistent mass and of the end peaks cancel (docs/theory/time.md).
+        Slab length [s], shortened so that the slabs divide the duration evenly; ``auto`` is the time in which a wave
+        crosses the shortest edge, over the square root of 2: there the leading dispersion of a consistent mass and of
+        the end peaks cancel (docs/theory/time.md).
     weight
         Virtual time function.
     method
@@ -83,16 +85,33 @@ def march(
 
 
 def proposed(model: Model, step: Second | Literal["auto"], weight: TimeWeight, duration: float) -> float:
-    """The slab length: the one asked for, or the crossing time of the shortest edge over sqrt(2), evenly divided."""
+    """The slab length: the one asked for, or the crossing time of the shortest edge over sqrt(2), evenly divided.
+
+    Raises
+    ------
+    InputError
+        If the duration or the step is not positive.
+    """
     if duration <= 0.0:
         raise InputError("time.end", f"the march would last {duration:g} s", "an end after the start")
     if step != "auto":
         if not 0.0 < step < np.inf:
             raise InputError("time.step", f"{step:g} s", "a positive time, or 'auto'")
-        return min(float(step), duration)
+        return evenly(duration, step)
     crossing = min(p.mesh.edge() / wave_speed(p.internal.material, p.density, p.internal.section) for p in model.parts)
     bound = 0.9 * stable_step(model, model.displacement, weight)
-    return float(duration / np.ceil(duration / min(crossing / np.sqrt(2.0), bound) - 1e-9))
+    return evenly(duration, min(crossing / np.sqrt(2.0), bound))
+
+
+def evenly(duration: float, step: float) -> float:
+    """The greatest length up to ``step`` that divides the duration evenly; equal slabs share one operator.
+
+    Examples
+    --------
+    >>> evenly(1.0, 0.3)
+    0.25
+    """
+    return float(duration / np.ceil(duration / step - 1e-9))
 
 
 def _steps(rules: Rule, now: Situation, until: float, span: float, weight: TimeWeight) -> Iterator[Step]:
@@ -101,8 +120,8 @@ def _steps(rules: Rule, now: Situation, until: float, span: float, weight: TimeW
     carry, current, before = Carry(), span, parted(model, now)
     while now.time < until - 1e-9 * span:
         length = min(current, until - now.time)
-        length = until - now.time if until - now.time - length < 1e-6 * span else length
-        after, out, carry, slab, rejections = _accepted(rules, now, length, until, weight, carry)
+        length = until - now.time if until - now.time - length < LEAST * span else length
+        after, out, carry, slab, rejections = _accepted(rules, now, length, LEAST * span, until, weight, carry)
         made = carry.factorisations
         ledger = audited(model, initial, ledger, now, out, after)
         state = parted(model, after)
@@ -113,11 +132,15 @@ def _steps(rules: Rule, now: Situation, until: float, span: float, weight: TimeW
 
 
 def _accepted(
-    rules: Rule, now: Situation, length: float, until: float, weight: TimeWeight, carry: Carry
+    rules: Rule, now: Situation, length: float, least: float, until: float, weight: TimeWeight, carry: Carry
 ) -> tuple[Situation, Outcome, Carry, Slab, tuple[str, ...]]:
-    """Advance by the length, or by half of it as often as it takes; a rejected slab leaves no trace but its reason."""
+    """Advance by the length, or by half of it as often as it takes; a rejected slab leaves no trace but its reason.
+
+    A slab that fails on an old operator is first tried again on a new one.
+    """
     reasons: list[str] = []
-    for attempt in range(2 * HALVINGS):
+    fresh = carry.frozen is None
+    while length > least:
         end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
         slab = Slab(start=now.time, end=end, weight=weight)
         try:
@@ -127,9 +150,8 @@ def _accepted(
         except NoConvergence as failure:
             reasons.append(f"h = {length:.3g} s: {failure}")
             log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
-            fresh = attempt % 2 == 0 and carry.frozen is not None
-            carry = replace(carry, stale=True)
-            length = length if fresh else 0.5 * length
+            length = 0.5 * length if fresh else length
+            fresh, carry = True, replace(carry, stale=True)
     raise NumericsError(
         f"no slab converges, the last of {len(reasons)} tries with {reasons[-1]}",
         now.time,

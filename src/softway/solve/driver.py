@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softway.solve.failure import NoConvergence
 from softway.solve.frozen import Carry
 from softway.solve.system import Evaluation, SlabSystem
 from softway.typing import Array, BoolArray
@@ -41,10 +42,6 @@ class Solution:
     end: Evaluation
     predicted: Array
     iterations: int
-
-
-class NoConvergence(Exception):
-    """A method did not settle; the message says how far it was."""
 
 
 Method = Callable[[SlabSystem, Array, Carry, BoolArray], Iterator[Iterate]]

@@ -4,10 +4,13 @@ import numpy as np
 
 from softway.errors import NumericsError
 from softway.model import Model
+from softway.solve.failure import NoConvergence
 from softway.solve.frozen import freeze
 from softway.solve.linear import SuperLU
 from softway.solve.normal import Rows, constrain
 from softway.typing import Array, BoolArray
+
+REMEDY = "a smaller load or initial displacement, or more supports"
 
 
 def equilibrium(model: Model, u: Array, unknown: BoolArray, load: Array, limit: int = 60) -> tuple[Array, Array]:
@@ -39,7 +42,10 @@ def equilibrium(model: Model, u: Array, unknown: BoolArray, load: Array, limit: 
     u = u.copy()
     for _ in range(limit):
         force = model.force(u)
-        frozen = freeze(model.tangent(u)[keep][:, keep], matrix, SuperLU())
+        try:
+            frozen = freeze(model.tangent(u)[keep][:, keep], matrix, SuperLU())
+        except NoConvergence as failure:
+            raise NumericsError(f"no static equilibrium at the start: {failure}", 0.0, REMEDY) from None
         free = -frozen.solve((force - load)[unknown])
         conditions = Rows(target=-rows.gap(u), equal=active & False, unilateral=reachable)
         step, pressure, active = constrain(free, frozen, conditions, active)
@@ -49,6 +55,4 @@ def equilibrium(model: Model, u: Array, unknown: BoolArray, load: Array, limit: 
             break
         if change <= 1e-13 * max(float(np.abs(u).max()), float(np.abs(rows.offset).max(initial=0.0))) or model.linear:
             return u, pressure
-    raise NumericsError(
-        "no static equilibrium found at the start", 0.0, "a smaller load or initial displacement, or more supports"
-    )
+    raise NumericsError("no static equilibrium at the start", 0.0, REMEDY)

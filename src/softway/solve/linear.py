@@ -6,6 +6,7 @@ from typing import Any, Protocol
 import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
+from softway.solve.failure import NoConvergence
 from softway.typing import Array
 
 
@@ -37,11 +38,20 @@ class SuperLU:
     """
 
     def factor(self, matrix: sp.csc_array) -> Factor:
-        """Factor a sparse symmetric matrix (f, f)."""
-        lu: Any = splu(
-            sp.csc_matrix(matrix),
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.0,
-            options={"SymmetricMode": True},
-        )
+        """Factor a sparse symmetric matrix (f, f).
+
+        Raises
+        ------
+        NoConvergence
+            If it is singular.
+        """
+        try:
+            lu: Any = splu(
+                sp.csc_matrix(matrix),
+                permc_spec="MMD_AT_PLUS_A",
+                diag_pivot_thresh=0.0,
+                options={"SymmetricMode": True},
+            )
+        except RuntimeError as error:
+            raise NoConvergence(f"the operator of {matrix.shape[0]} unknowns cannot be factored ({error})") from None
         return lu
