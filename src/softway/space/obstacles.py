@@ -8,6 +8,9 @@ from softway.errors import InputError
 from softway.typing import Array
 from softway.units import Metre, Pure
 
+UNIT = 1e-15
+"""A length that differs less from 1 is that of a unit vector, and is left as it is."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HalfSpace:
@@ -48,7 +51,7 @@ class HalfSpace:
             raise InputError(
                 "normal", f"{self.normal!r} has length zero", "a vector out of the obstacle into free space"
             )
-        unit = tuple(float(value) for value in normal / length)
+        unit = tuple(float(value) for value in (normal if abs(length - 1.0) <= UNIT else normal / length))
         scalar = np.ndim(self.point) == 0
         object.__setattr__(self, "point", float(point[0]) if scalar else tuple(float(value) for value in point))
         object.__setattr__(self, "normal", unit[0] if scalar else unit)

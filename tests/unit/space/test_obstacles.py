@@ -38,3 +38,10 @@ def test_what_is_no_half_space_is_refused(point, normal, where: str) -> None:  #
 def test_points_of_another_dimension_are_refused() -> None:
     with pytest.raises(InputError, match="3 dimensions"):
         HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)).gap(np.zeros(3))
+
+
+def test_a_unit_normal_is_kept_to_the_last_digit():
+    """What was made a unit vector once stays the same when it is read again."""
+    for direction in np.random.default_rng(0).standard_normal((500, 3)):
+        once = HalfSpace(point=(0.0, 0.0, 0.0), normal=tuple(direction)).normal
+        assert HalfSpace(point=(0.0, 0.0, 0.0), normal=once).normal == once
