@@ -1,0 +1,53 @@
+"""Small scenes for the solvers."""
+
+from collections.abc import Callable
+
+import pytest
+
+from softway.bodies.fields import Uniform
+from softway.bodies.solid import Fixed, Solid, Tool
+from softway.contact.contact import Contact
+from softway.contact.timing import Energy, Timing
+from softway.laws.bulk import LinearElastic, NeoHookean
+from softway.model import Model, build
+from softway.scene import Scene
+from softway.space.obstacles import HalfSpace
+from softway.space.shapes import interval, rectangle
+
+NEO = NeoHookean(E=1.0, nu=0.3)
+ENERGY = Energy()
+
+
+@pytest.fixture
+def bar() -> Callable[..., Model]:
+    """A bar of unit data along x, by default free, with a wall at ``wall`` before its right end."""
+
+    def make(cells: int = 4, wall: float | None = None, timing: Timing = ENERGY, held: str = "", **changes) -> Model:
+        solid = {
+            "mesh": interval(1.0, cells), "material": LinearElastic(E=1.0), "density": 1.0,
+            "supports": (Fixed(on=held),) if held else (), **changes,
+        }  # fmt: skip
+        bodies: dict[str, Solid | Tool] = {"bar": Solid(**solid)}
+        contacts: tuple[Contact, ...] = ()
+        if wall is not None:
+            bodies["wall"] = Tool(shape=HalfSpace(point=wall, normal=-1.0))
+            contacts = (Contact(between=("bar.right", "wall"), timing=timing),)
+        return build(Scene(bodies=bodies, contacts=contacts))
+
+    return make
+
+
+@pytest.fixture
+def block() -> Callable[..., Model]:
+    """A square of side one, its bottom above the floor y = 0."""
+
+    def make(cells: int = 3, timing: Timing = ENERGY, tag: str = "bottom", **changes) -> Model:
+        solid = {
+            "mesh": rectangle((1.0, 1.0), (cells, cells)), "material": NEO, "density": 1.0,
+            "velocity": Uniform(value=(0.0, -0.1)), **changes,
+        }  # fmt: skip
+        floor = Tool(shape=HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
+        contact = Contact(between=(f"block.{tag}", "floor"), timing=timing)
+        return build(Scene(bodies={"block": Solid(**solid), "floor": floor}, contacts=(contact,)))
+
+    return make

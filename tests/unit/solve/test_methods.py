@@ -1,0 +1,138 @@
+"""Fixed point, Newton, and the loop that drives them."""
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+
+from softway.bodies.solid import Fixed
+from softway.contact.path import Path, passage
+from softway.contact.timing import Impulse
+from softway.errors import InputError
+from softway.laws.bulk import LinearElastic
+from softway.model import Model
+from softway.solve.driver import Iterate, Solution, drive, lost
+from softway.solve.failure import NoConvergence
+from softway.solve.fixed_point import FixedPoint
+from softway.solve.frozen import Carry
+from softway.solve.newton import Newton
+from softway.solve.normal import Rows
+from softway.solve.system import SlabSystem, Start
+from softway.time.weight import EndPeaks
+
+METHODS = [FixedPoint(), FixedPoint(depth=0), FixedPoint(depth=2), Newton()]
+methods = pytest.mark.parametrize("method", METHODS, ids=["anderson", "plain", "short", "newton"])
+
+
+def slab(model: Model, span: float = 0.2) -> SlabSystem:
+    """A body deformed and moving at random, with its contact rows as inequalities at the end of the slab."""
+    rng = np.random.default_rng(0)
+    u = 0.02 * rng.normal(size=model.shape) * model.free
+    u[:, 1] += 0.03 * model.free[:, 1]
+    v = (0.1 * rng.normal(size=model.shape) - [0.0, 0.5]) * model.free
+    energy, force = model.energy_and_force(u)
+    none = np.zeros(len(model.candidates.node), bool)
+    path = Path(span=span, start=u, velocity=v, massive=model.massive, rows=model.candidates, way=passage(none))
+    target = -2.0 * model.candidates.gap(path.end(np.zeros(model.shape))) / span
+    return SlabSystem(
+        model=model, start=Start(displacement=u, velocity=v, force=force, energy=energy), weight=EndPeaks(),
+        path=path, rows=Rows(target=target, equal=none, unilateral=~none), balanced=not model.massive.all(),
+    )  # fmt: skip
+
+
+def solve(system: SlabSystem, method: FixedPoint | Newton, start: np.ndarray | None = None) -> Solution:
+    q = system.start.velocity if start is None else start
+    active = np.zeros(len(system.rows.target), bool)
+    return drive(system, method.iterate(system, q, Carry(), active), method.tolerance, method.limit)
+
+
+@methods
+@pytest.mark.parametrize("timing", ["energy", "impulse"])
+def test_a_method_solves_the_slab(method: FixedPoint | Newton, timing: str, block: Callable[..., Model]) -> None:
+    model = block(supports=(Fixed(on="top"),), **({"timing": Impulse()} if timing == "impulse" else {}))
+    system = slab(model)
+    solution = solve(system, method)
+    pushed = model.candidates.spread(solution.last.impulse, model.shape)
+    left = (solution.end.residual - pushed)[model.free]
+    np.testing.assert_allclose(left, 0.0, atol=1e-11 * np.abs(model.mass @ system.start.velocity).max())
+    gap = model.candidates.gap(solution.end.displacement)
+    assert gap.min() >= -1e-15
+    assert solution.last.impulse.min() >= 0.0
+    assert solution.last.impulse.max() > 0.0
+    assert np.abs(solution.last.impulse * gap).max() <= 1e-15
+    assert not solution.last.q[~model.free].any()
+
+
+@methods
+def test_a_linear_slab_takes_two_iterations(method: FixedPoint | Newton, block: Callable[..., Model]) -> None:
+    model = block(timing=Impulse(), material=LinearElastic(E=1.0, nu=0.3))
+    solution = solve(slab(model), method)
+    assert solution.iterations <= 2
+
+
+def test_newton_takes_fewer_iterations_and_anderson_no_more_than_plain(block: Callable[..., Model]) -> None:
+    model = block(timing=Impulse())
+    taken = [solve(slab(model, 0.4), m).iterations for m in (Newton(), FixedPoint(), FixedPoint(depth=0, limit=200))]
+    assert taken == sorted(taken)
+
+
+def test_the_answer_does_not_depend_on_the_first_guess(block: Callable[..., Model]) -> None:
+    system = slab(block())
+    far = system.start.velocity + 0.3 * np.random.default_rng(5).normal(size=system.model.shape)
+    near, other = (solve(system, FixedPoint(), q).last.q for q in (None, far))
+    np.testing.assert_allclose(other, near, atol=1e-9)
+
+
+@methods
+def test_a_limit_that_is_too_small_is_a_failure(method: FixedPoint | Newton, block: Callable[..., Model]) -> None:
+    system = slab(block(timing=Impulse()))
+    with pytest.raises(NoConvergence, match="1 iterations leave a relative change"):
+        drive(system, method.iterate(system, system.start.velocity, Carry(), system.rows.equal), method.tolerance, 1)
+
+
+@pytest.mark.filterwarnings("error")
+@methods
+def test_an_inverted_guess_is_a_failure_without_warnings(
+    method: FixedPoint | Newton, block: Callable[..., Model]
+) -> None:
+    system = slab(block())
+    crushed = -20.0 * system.model.parts[0].mesh.points * [1.0, 0.0] / system.path.span
+    with pytest.raises(NoConvergence, match="admissible"):
+        solve(system, method, crushed)
+
+
+def test_an_iteration_at_the_rounding_level_is_accepted(block: Callable[..., Model]) -> None:
+    system = slab(block())
+    q = system.start.velocity
+    scale = np.abs(q).max()
+
+    def stuck(change: float) -> Iterator[Iterate]:
+        none = np.zeros(len(system.rows.target))
+        while True:
+            yield Iterate(q=q, change=change * scale, impulse=none, active=none > 0, free=none, carry=Carry())
+
+    assert drive(system, stuck(5e-9), 1e-11, 60).iterations <= 10
+    with pytest.raises(NoConvergence):
+        drive(system, stuck(5e-8), 1e-11, 60)
+
+
+def test_a_lost_iterate_has_an_infinite_change() -> None:
+    it = lost(np.zeros((1, 1)), np.zeros(2, bool), Carry())
+    assert it.change == np.inf
+    assert it.impulse.tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "where"),
+    [
+        (lambda: FixedPoint(depth=-1), "depth"),
+        (lambda: FixedPoint(tolerance=0.0), "tolerance"),
+        (lambda: FixedPoint(limit=0), "limit"),
+        (lambda: Newton(tolerance=1.0), "tolerance"),
+        (lambda: Newton(limit=0), "limit"),
+    ],
+)
+def test_wrong_parameters_are_refused(wrong: Callable[[], object], where: str) -> None:
+    with pytest.raises(InputError) as error:
+        wrong()
+    assert error.value.where == where

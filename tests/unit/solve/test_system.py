@@ -1,0 +1,144 @@
+"""The equations of one slab: residual, operator, and the scalar that closes the energy balance."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from softway.bodies.force import AverageField, DiscreteGradient, Weighted
+from softway.bodies.loads import Gravity
+from softway.bodies.solid import Fixed
+from softway.contact.path import Path, passage
+from softway.contact.timing import Impulse
+from softway.laws.bulk import LinearElastic
+from softway.model import Model, dead_load
+from softway.solve.normal import Rows
+from softway.solve.system import SlabSystem, Start
+from softway.time.weight import Collocation, EndPeaks, Momentum, TimeWeight, moments
+
+WEIGHTS = [
+    EndPeaks(),
+    EndPeaks(theta=0.8),
+    Momentum(),
+    Momentum(points=4),
+    Collocation(at=(0.3, 0.8), weights=(0.4, 0.6)),
+]
+LINEAR = LinearElastic(E=1.0, nu=0.3)
+
+
+def system(model: Model, weight: TimeWeight, span: float = 0.3, balanced: bool = False, seed: int = 0) -> SlabSystem:
+    """A slab without contact from a random start, with massless nodes wherever they are."""
+    rng = np.random.default_rng(seed)
+    u = 0.02 * rng.normal(size=model.shape) * model.free
+    energy, force = model.energy_and_force(u)
+    m = len(model.candidates.node)
+    none = np.zeros(m, bool)
+    v = 0.1 * rng.normal(size=model.shape) * model.free
+    return SlabSystem(
+        model=model, start=Start(displacement=u, velocity=v, force=force, energy=energy), weight=weight,
+        path=Path(
+            span=span, start=u, velocity=v, massive=model.massive, rows=model.candidates, way=passage(none)
+        ),
+        rows=Rows(target=np.zeros(m), equal=none, unilateral=none), balanced=balanced,
+    )  # fmt: skip
+
+
+def random_q(model: Model, seed: int = 1) -> np.ndarray:
+    return 0.1 * np.random.default_rng(seed).normal(size=model.shape) * model.free
+
+
+@pytest.mark.parametrize("weight", WEIGHTS, ids=str)
+def test_the_residual_is_the_weighted_momentum_balance(weight: TimeWeight, block: Callable[..., Model]) -> None:
+    """Of a linear body: M (q - v0) + h K (u0 + h (mu1 v0 + mu2 (q - v0) / 2)) - h load."""
+    model = block(material=LINEAR, timing=Impulse(), supports=(Fixed(on="left"),))
+    s, q = system(model, weight), random_q(model)
+    mu1, mu2 = moments(weight)
+    h, v0 = s.path.span, s.start.velocity
+    mean = s.start.displacement + h * (mu1 * v0 + mu2 * (q - v0) / 2)
+    stiffness = model.tangent(model.displacement)
+    expected = model.mass @ (q - v0) + h * (stiffness @ mean.ravel()).reshape(model.shape) - h * model.load
+    np.testing.assert_allclose(s.evaluate(q).residual, expected, atol=1e-14)
+
+
+@pytest.mark.parametrize("weight", WEIGHTS, ids=str)
+def test_the_operator_is_the_derivative_for_a_linear_body(weight: TimeWeight, block: Callable[..., Model]) -> None:
+    model = block(material=LINEAR, timing=Impulse(), supports=(Fixed(on="left"),))
+    s, q = system(model, weight), random_q(model)
+    step = random_q(model, 2)
+    change = s.evaluate(q + step).residual - s.evaluate(q).residual
+    np.testing.assert_allclose(s.operator(q) @ step[model.free], change[model.free], atol=1e-13)
+
+
+def test_massless_nodes_are_in_equilibrium_at_the_end(block: Callable[..., Model]) -> None:
+    model = block()
+    s, q = system(model, EndPeaks(), balanced=True), random_q(model)
+    end = s.evaluate(q)
+    still = ~model.massive
+    np.testing.assert_allclose(end.residual[still], 0.5 * 0.3 * end.force[still], atol=1e-16)
+    np.testing.assert_array_equal(end.displacement, s.path.end(q))
+    np.testing.assert_allclose(end.displacement[still], s.start.displacement[still] + 0.15 * q[still], atol=1e-16)
+
+
+@pytest.mark.parametrize("force", [Weighted(), AverageField(points=2), DiscreteGradient()], ids=str)
+def test_the_scalar_makes_work_equal_to_stored_energy(block: Callable[..., Model], force: object) -> None:
+    model = block(force=force)
+    s, q = system(model, EndPeaks(), balanced=True), random_q(model)
+    end = s.evaluate(q)
+    moved = (end.displacement - s.start.displacement) * model.massive[:, None]
+    assert end.scalar[0] != 0.0
+    assert not end.clipped
+    assert np.sum(end.mean_force * moved) == pytest.approx((end.energy - s.start.energy)[0], rel=1e-12)
+
+
+def test_a_scalar_out_of_bounds_is_told(block: Callable[..., Model]) -> None:
+    """Massless nodes that move alone store energy that no work of the others accounts for."""
+    model = block()
+    s = system(model, EndPeaks(), balanced=True)
+    alone = np.where(model.massive[:, None], -s.start.velocity + 1e-3 * random_q(model), random_q(model))
+    end = s.evaluate(alone)
+    assert end.clipped
+    assert np.abs(end.scalar).tolist() == [0.5]
+
+
+def test_a_slab_at_rest_has_no_scalar(block: Callable[..., Model]) -> None:
+    model = block()
+    s = system(model, EndPeaks(), balanced=True)
+    end = s.evaluate(np.where(model.massive[:, None], -s.start.velocity, 0.0))
+    assert end.scalar.tolist() == [0.0]
+
+
+def test_the_chord_average_does_work_equal_to_stored_energy(block: Callable[..., Model]) -> None:
+    for force in (AverageField(points=6), DiscreteGradient()):
+        model = block(timing=Impulse(), force=force)
+        s, q = system(model, EndPeaks()), random_q(model)
+        end = s.evaluate(q)
+        work = np.sum(end.mean_force * (end.displacement - s.start.displacement))
+        assert work == pytest.approx((end.energy - s.start.energy)[0], rel=1e-11)
+
+
+def test_a_quadratic_path_is_sampled_exactly_by_two_points(block: Callable[..., Model]) -> None:
+    model = block(material=LINEAR, timing=Impulse())
+    q = random_q(model)
+    means = [system(model, Momentum(points=p)).evaluate(q).mean_force for p in (2, 5)]
+    np.testing.assert_allclose(*means, atol=1e-15)
+
+
+def test_loads_and_known_impulses_enter_the_balance(block: Callable[..., Model]) -> None:
+    model = block(timing=Impulse())
+    s, q = system(model, EndPeaks()), random_q(model)
+    kick, jump = np.random.default_rng(3).normal(size=(2, *model.shape))
+    plain = s.evaluate(q).residual
+    np.testing.assert_allclose(replace(s, impulses=kick).evaluate(q).residual, plain - kick, atol=1e-14)
+    np.testing.assert_allclose(replace(s, unbalanced=jump).evaluate(q).residual, plain - model.mass @ jump, atol=1e-14)
+    load = dead_load(model, (Gravity(acceleration=(0.0, -1.0)),), "loads")
+    heavy = replace(s, model=replace(model, load=load))
+    np.testing.assert_allclose(heavy.evaluate(q).residual, plain - 0.3 * load, atol=1e-14)
+
+
+def test_the_mass_in_the_operator(block: Callable[..., Model]) -> None:
+    model = block()
+    s = system(model, EndPeaks(), span=1e-9)
+    heavy = sp.kron(model.mass, sp.eye_array(2)).toarray()
+    np.testing.assert_allclose(s.operator(model.displacement).toarray(), heavy, atol=1e-15)
