@@ -21,12 +21,18 @@ from softway.scenario.scenario import Output, Probe, Scenario, Time
 from softway.scene import AsGiven, Scene, State, StaticStart
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
+from softway.space.curved import Block, Cavity, Roller, Sphere, Torus
 from softway.space.mesh import Mesh
 from softway.space.obstacles import HalfSpace
 from softway.space.sources import Ball, Box, Cylinder, Disc, Interval, MeshFile, Rectangle
 from softway.time.weight import Collocation, EndPeaks, Momentum
 
 __all__ = [
+    "Block",
+    "Cavity",
+    "Roller",
+    "Sphere",
+    "Torus",
     "Affine",
     "AsGiven",
     "AverageField",
