@@ -1,6 +1,8 @@
 """Rigid obstacles with curved or cornered surfaces: signed distance and its gradient, positive outside."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, is_dataclass
+from typing import Any
 
 import numpy as np
 
@@ -226,6 +228,37 @@ class Cavity:
 
 
 Shape = HalfSpace | Sphere | Roller | Block | Torus | Cavity
+
+
+KINDS: dict[str, type] = {k.__name__: k for k in (HalfSpace, Sphere, Roller, Block, Torus, Cavity)}
+"""The obstacles by name."""
+
+
+def described(shape: Shape) -> dict[str, Any]:
+    """A shape as plain numbers with its ``kind``; :func:`recovered` turns them back.
+
+    Examples
+    --------
+    >>> described(HalfSpace(point=1.0, normal=-1.0))
+    {'kind': 'HalfSpace', 'point': 1.0, 'normal': -1.0}
+    """
+    values = {f.name: getattr(shape, f.name) for f in fields(shape)}
+    plain = {n: described(v) if is_dataclass(v) else v for n, v in values.items()}  # type: ignore[arg-type]
+    return {"kind": type(shape).__name__, **plain}
+
+
+def recovered(data: Mapping[str, Any]) -> Shape:
+    """The shape from what :func:`described` made of it.
+
+    Examples
+    --------
+    >>> recovered(described(Sphere(centre=(0.0, 1.0), radius=2.0)))
+    Sphere(centre=(0.0, 1.0), radius=2.0)
+    """
+    values = {n: recovered(v) if isinstance(v, Mapping) else v for n, v in data.items() if n != "kind"}
+    values = {n: tuple(v) if isinstance(v, list) else v for n, v in values.items()}
+    made: Shape = KINDS[data["kind"]](**values)
+    return made
 
 
 def _unit(v: Array) -> Array:
