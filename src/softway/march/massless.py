@@ -17,7 +17,7 @@ from softway.solve.newton import Newton
 from softway.solve.normal import Rows
 from softway.solve.system import SlabSystem
 from softway.time.slab import Slab
-from softway.time.weight import moments
+from softway.time.weight import EndPeaks, moments
 from softway.typing import BoolArray
 
 
@@ -38,7 +38,7 @@ def solve_massless(
         weight=slab.weight,
         path=path,
         rows=conditions,
-        balanced=located is None,
+        balanced=located is None and slab.weight == EndPeaks(),
         located=located,
         pairs=None if model.pairs.flat else model.pairs,
     )
