@@ -9,9 +9,10 @@ import softway as sw
 
 BLOCK = sw.Box(size=(1.0, 1.0, 1.0), cells=(4, 4, 4), origin=(-0.3, -0.4, 0.05))
 RUBBER = sw.NeoHookean(E=1.0, nu=0.3)
+UPRIGHT = sw.Placement()
 
 
-def dropped(shape, *, mesh=BLOCK, velocity=(0.0, 0.0, -0.2), tag="bottom", place=sw.Placement(), until=2.6, step=0.1):
+def dropped(shape, *, mesh=BLOCK, velocity=(0.0, 0.0, -0.2), tag="bottom", place=UPRIGHT, until=3.0, step=0.1):
     """Steps of a block thrown at a shape."""
     body = sw.Solid(
         mesh=mesh,
