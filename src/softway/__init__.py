@@ -21,6 +21,7 @@ from softway.scenario.scenario import Output, Probe, Scenario, Time
 from softway.scene import AsGiven, Scene, State, StaticStart
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
+from softway.space.curved import Block, Cavity, Roller, Sphere, Torus
 from softway.space.mesh import Mesh
 from softway.space.obstacles import HalfSpace
 from softway.space.sources import Ball, Box, Cylinder, Disc, Interval, MeshFile, Rectangle
@@ -33,7 +34,9 @@ __all__ = [
     "Axisymmetric",
     "Ball",
     "Bar",
+    "Block",
     "Box",
+    "Cavity",
     "Collocation",
     "Consistent",
     "Contact",
@@ -69,18 +72,21 @@ __all__ = [
     "Probe",
     "Profile",
     "Rectangle",
+    "Roller",
     "Rotation",
     "Run",
     "Scenario",
     "Scene",
     "SoftwayError",
     "Solid",
+    "Sphere",
     "StVenantKirchhoff",
     "State",
     "StaticStart",
     "Step",
     "Time",
     "Tool",
+    "Torus",
     "Traction",
     "Uniform",
     "Volume",

@@ -14,6 +14,7 @@ from softway.bodies.mass import nodal_mass, redistributed
 from softway.bodies.section import default_section
 from softway.bodies.solid import Fixed, Solid, Tool
 from softway.contact.candidates import Candidates
+from softway.contact.pairs import Pairs, linear
 from softway.contact.timing import Energy, Timing
 from softway.errors import InputError, within
 from softway.scene import Scene
@@ -51,7 +52,7 @@ class Model:
         (n, d) dead loads [N].
     displacement, velocity
         (n, d) initial fields as described.
-    candidates
+    pairs
         Contact rows.
     timing
         The contact rule of the scene.
@@ -65,13 +66,18 @@ class Model:
     load: Array
     displacement: Array
     velocity: Array
-    candidates: Candidates
+    pairs: Pairs
     timing: Timing
 
     @property
     def shape(self) -> tuple[int, int]:
         """Shape (n, d) of the nodal fields."""
         return self.free.shape[0], self.free.shape[1]
+
+    @property
+    def candidates(self) -> Candidates:
+        """The contact rows in their linear form at the reference configuration."""
+        return self.pairs.reference
 
     @property
     def meshes(self) -> Mapping[str, Mesh]:
@@ -141,6 +147,11 @@ def build(scene: Scene) -> Model:
         fields.append(_fields(part, solid))
     if len({p.mesh.dim for p in parts}) > 1:
         raise InputError("bodies", "solids of different space dimension in one scene", "meshes of one dimension")
+    pairs = _pairs(scene, parts)
+    if not (pairs.flat or isinstance(timing, Energy)):
+        raise InputError(
+            "contacts[0].timing", f"{timing} with a curved obstacle", "Energy, or obstacles of kind HalfSpace"
+        )
     mass = sp.csr_array(sp.block_diag(masses, format="csr"))
     free = np.concatenate([held for _, _, held in fields])
     return Model(
@@ -152,7 +163,7 @@ def build(scene: Scene) -> Model:
         load=_load(parts, mass, scene.loads, "loads"),
         displacement=np.concatenate([u for u, _, _ in fields]) * free,
         velocity=np.concatenate([v for _, v, _ in fields]) * free,
-        candidates=_candidates(scene, parts),
+        pairs=pairs,
         timing=timing,
     )
 
@@ -246,9 +257,9 @@ def dead_load(model: Model, loads: Sequence[Load], where: str) -> Array:
     return _load(model.parts, model.mass, loads, where)
 
 
-def _candidates(scene: Scene, parts: Sequence[Part]) -> Candidates:
+def _pairs(scene: Scene, parts: Sequence[Part]) -> Pairs:
     dim = parts[0].mesh.dim
-    node, number, normal, offset = [np.zeros(0, int)], [np.zeros(0, int)], [np.zeros((0, dim))], [np.zeros(0)]
+    node, number, points, shapes = [np.zeros(0, int)], [np.zeros(0, int)], [np.zeros((0, dim))], []
     for k, contact in enumerate(scene.contacts):
         tool = scene.bodies.get(contact.between[1])
         with within(f"contacts[{k}]"):
@@ -258,16 +269,13 @@ def _candidates(scene: Scene, parts: Sequence[Part]) -> Candidates:
                 raise InputError("between", f"'{contact.between[1]}' is not a tool", f"one of {tools}")
             with within("between"):
                 nodes = part.mesh.nodes(contact.tag)
-        points = part.mesh.points[nodes]
         with within(f"bodies.{contact.between[1]}.shape"):
-            offset.append(tool.shape.gap(points))
-            normal.append(tool.shape.normal_at(points))
+            tool.shape.gap(part.mesh.points[nodes])
         node.append(nodes + part.rows.start)
         number.append(np.full(len(nodes), k))
-    return Candidates(
-        node=np.concatenate(node),
-        contact=np.concatenate(number),
-        normal=np.concatenate(normal),
-        offset=np.concatenate(offset),
-        labels=tuple(c.label for c in scene.contacts),
-    )
+        points.append(part.mesh.points[nodes])
+        shapes.append(tool.shape)
+    rows = np.concatenate(node), np.concatenate(number), np.concatenate(points)
+    labels = tuple(c.label for c in scene.contacts)
+    reference = linear(*rows, np.zeros_like(rows[2]), tuple(shapes), labels)
+    return Pairs(node=rows[0], contact=rows[1], points=rows[2], shapes=tuple(shapes), reference=reference)

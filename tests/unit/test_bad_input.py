@@ -16,7 +16,7 @@ velocity = [0, 0, "-1 m/s"]
 place = { bottom = "0.1 mm" }
 [bodies.floor]
 kind = "Tool"
-shape = { point = [0, 0, 0], normal = [0, 0, 1] }
+shape = { kind = "HalfSpace", point = [0, 0, 0], normal = [0, 0, 1] }
 [[contacts]]
 name = "floor"
 between = ["block.bottom", "floor"]

@@ -9,8 +9,8 @@ from softway.bodies.mass import Consistent, MassRule
 from softway.bodies.placement import Placement
 from softway.bodies.section import Section
 from softway.laws.law import StoredEnergy
+from softway.space.curved import Shape
 from softway.space.mesh import Mesh
-from softway.space.obstacles import HalfSpace
 from softway.space.sources import MeshSource
 from softway.units import KilogramPerCubicMetre
 
@@ -68,4 +68,4 @@ class Solid:
 class Tool:
     """A rigid obstacle without unknowns."""
 
-    shape: HalfSpace
+    shape: Shape

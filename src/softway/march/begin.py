@@ -69,7 +69,7 @@ def require_supported(model: Model) -> None:
 def require_apart(model: Model, u: Array) -> None:
     """Refuse a start inside an obstacle, naming body, obstacle, depth and place."""
     rows = model.candidates
-    gap = rows.gap(u)
+    gap = model.pairs.gap(u)
     if not len(gap) or gap.min() >= -OVERLAP * _reach(model, u):
         return
     worst = int(np.argmin(gap))

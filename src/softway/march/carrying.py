@@ -44,7 +44,9 @@ def solve_carrying(
     while True:
         found = jumps(model, known.way, now.closed, inertia)
         system = replace(_system(model, now, slab, known, found), split=split)
-        solution = drive(system, method.iterate(system, guess, carry, known.way.closed), method.tolerance, method.limit)
+        solution = drive(
+            system, method.iterate(system, guess, carry, known.way.closed.astype(float)), method.tolerance, method.limit
+        )
         passes, iterations, carry = passes + 1, iterations + solution.iterations, solution.last.carry
         revision = revised(model, now, system, known, solution, inertia)
         if revision is None:

@@ -12,7 +12,7 @@ from softway.typing import Array
 def opening(model: Model, now: Situation) -> Ledger:
     """The ledger at the start: energies and momentum, no work yet."""
     rows = model.candidates
-    gap = rows.gap(now.start.displacement)
+    gap = model.pairs.gap(now.start.displacement)
     contacts = {
         name: ContactLedger(
             force_n=float(now.pressure[rows.of(k)].sum()),
@@ -63,7 +63,7 @@ def audited(model: Model, initial: Ledger, last: Ledger, before: Situation, out:
 def _contacts(model: Model, before: Situation, out: Outcome, after: Situation) -> dict[str, ContactLedger]:
     """Force, least gap and power of each contact; the power is that of the phases in which a row is closed."""
     rows, h = model.candidates, after.time - before.time
-    gap0, gap1 = rows.gap(before.start.displacement), rows.gap(after.start.displacement)
+    gap0, gap1 = model.pairs.gap(before.start.displacement), model.pairs.gap(after.start.displacement)
     drift = np.where(after.closed, gap1, 0.0) - np.where(before.closed, gap0, 0.0)
     power = np.abs(out.force * drift)
     return {

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from softway.contact.candidates import Candidates
 from softway.contact.located import LocatedMean
 from softway.contact.path import Path, passage
 from softway.kernels.impact import fading
@@ -24,12 +25,13 @@ def solve_massless(
     model: Model, now: Situation, slab: Slab, carry: Carry, method: FixedPoint | Newton, located: LocatedMean | None
 ) -> tuple[Outcome, Carry]:
     """Solve the slab; the contact rows are inequalities on the gap at its end."""
-    h, rows, start = slab.span, model.candidates, now.start
+    h, start = slab.span, now.start
+    rows = model.pairs.at(start.displacement)
     way = passage(np.zeros(len(rows.node), bool))
     path = Path(span=h, start=start.displacement, velocity=start.velocity, massive=model.massive, rows=rows, way=way)
     still = np.zeros(model.shape)
     target = -2.0 * rows.gap(path.end(still)) / h
-    conditions = Rows(target=target, equal=way.closed, unilateral=_reachable(model))
+    conditions = Rows(target=target, equal=way.closed, unilateral=_reachable(model, rows))
     system = SlabSystem(
         model=model,
         start=start,
@@ -38,23 +40,24 @@ def solve_massless(
         rows=conditions,
         balanced=located is None and slab.weight == EndPeaks(),
         located=located,
+        pairs=None if model.pairs.flat else model.pairs,
     )
     rate = start.velocity + h * now.acceleration
     guess = np.where(model.massive[:, None], rate, 2.0 * rate)
-    iterates = method.iterate(system, guess, carry, now.closed)
+    iterates = method.iterate(system, guess, carry, now.pressure * h * moments(slab.weight)[1])
     solution = drive(system, iterates, method.tolerance, method.limit)
     return _outcome(model, now, slab, system, solution), solution.last.carry
 
 
-def _reachable(model: Model) -> BoolArray:
+def _reachable(model: Model, rows: Candidates) -> BoolArray:
     """Rows (m,) with at least one free component along their normal."""
-    rows = model.candidates
     return (np.abs(rows.normal) * model.free[rows.node]).sum(axis=1) > 1e-12
 
 
 def _outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solution: Solution) -> Outcome:
-    h, rows = slab.span, model.candidates
+    h = slab.span
     q, end = solution.last.q, solution.end
+    rows = model.pairs.at(end.displacement)
     massive = model.massive[:, None]
     velocity = np.where(massive, q, 0.5 * q)
     closed = solution.last.impulse > 0.0
@@ -82,8 +85,7 @@ def _outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solut
 
 def _touches(model: Model, now: Situation, slab: Slab, solution: Solution, closed: BoolArray) -> list[Event]:
     """Touches at the root of the gap along the free motion, exact in free flight."""
-    rows, h = model.candidates, slab.span
-    gap = rows.gap(now.start.displacement)
+    h, gap = slab.span, model.pairs.gap(now.start.displacement)
     before = 0.5 * solution.predicted
     tau = fading(gap, np.minimum(gap + h * before, -1e-300))
     return [
@@ -96,13 +98,13 @@ def _touches(model: Model, now: Situation, slab: Slab, solution: Solution, close
 
 def _releases(model: Model, now: Situation, slab: Slab, solution: Solution, closed: BoolArray) -> list[Event]:
     """Releases at the root of the reaction, continued into tension by the compliance of the row."""
-    rows, h = model.candidates, slab.span
+    rows, h = model.pairs.at(solution.end.displacement), slab.span
     left = np.flatnonzero(now.closed & ~closed)
     frozen = solution.last.carry.frozen
     if not len(left) or frozen is None:
         return []
     give = np.diag(frozen.delassus(left))
-    tension = rows.gap(solution.end.displacement)[left] * 2.0 / (h * give) / (h * moments(slab.weight)[1])
+    tension = model.pairs.gap(solution.end.displacement)[left] * 2.0 / (h * give) / (h * moments(slab.weight)[1])
     tau = fading(now.pressure[left], -np.maximum(tension, 1e-300))
     after = 0.5 * rows.along(solution.last.q)
     return [

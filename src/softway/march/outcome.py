@@ -60,16 +60,17 @@ def contact_event(
     impulse: float = 0.0,
 ) -> Event:
     """The event of a contact row at ``tau``; its place lies on the obstacle, between those at both slab ends."""
-    rows = model.candidates
-    node = int(rows.node[row])
+    pairs = model.pairs
+    node, contact = int(pairs.node[row]), int(pairs.contact[row])
     part = next(p for p in model.parts if p.rows.start <= node < p.rows.stop)
     u0 = now.start.displacement[node]
     u = u0 + tau * (end[node] - u0)
-    normal = rows.normal[row]
-    place = part.mesh.points[node - part.rows.start] + u - (rows.offset[row] + normal @ u) * normal
+    place = pairs.points[row] + u
+    shape = pairs.shapes[contact]
+    place = place - shape.gap(place) * shape.normal_at(place)
     return Event(
         time=slab.start + tau * slab.span,
-        contact=rows.labels[rows.contact[row]],
+        contact=pairs.reference.labels[contact],
         kind=kind,
         node=node - part.rows.start,
         position=place,

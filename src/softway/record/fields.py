@@ -21,6 +21,7 @@ from softway.march.step import Step
 from softway.record.layout import Layout, components, layout, von_mises
 from softway.record.recorder import Opening
 from softway.scene import Scene, State
+from softway.space.curved import described
 from softway.typing import Array
 
 FILE = "fields.vtkhdf"
@@ -141,12 +142,8 @@ def _put(series: h5py.Dataset, start: int, data: Array) -> None:
     series[start:] = data
 
 
-def _obstacles(scene: Scene) -> dict[str, dict[str, list[float]]]:
-    return {
-        name: {part: np.atleast_1d(getattr(tool.shape, part)).astype(float).tolist() for part in ("point", "normal")}
-        for name, tool in scene.bodies.items()
-        if isinstance(tool, Tool)
-    }
+def _obstacles(scene: Scene) -> dict[str, dict[str, Any]]:
+    return {name: described(tool.shape) for name, tool in scene.bodies.items() if isinstance(tool, Tool)}
 
 
 @contextmanager

@@ -11,6 +11,7 @@ import numpy as np
 from softway.errors import InputError
 from softway.record.fields import CELL_DATA, POINT_DATA, SIZES, reading
 from softway.record.layout import VTK
+from softway.space.curved import Shape, recovered
 from softway.typing import Array, IntArray
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ class Cells:
     bodies
         Names of the solids.
     obstacles
-        Tool -> ``point`` and ``normal`` of its half-space.
+        Tool -> its shape.
     dimension
         Dimension d of space.
     reference
@@ -36,7 +37,7 @@ class Cells:
     """
 
     bodies: tuple[str, ...]
-    obstacles: Mapping[str, Mapping[str, list[float]]]
+    obstacles: Mapping[str, Shape]
     dimension: int
     reference: Array
     connectivity: IntArray
@@ -126,7 +127,7 @@ class Fields:
             whole = {name: np.asarray(root[name.title()][:], int) for name in ("connectivity", "offsets", "types")}
             return Cells(
                 bodies=tuple(json.loads(file.attrs["bodies"])),
-                obstacles=json.loads(file.attrs["obstacles"]),
+                obstacles={n: recovered(d) for n, d in json.loads(file.attrs["obstacles"]).items()},
                 dimension=int(file.attrs["dimension"]),
                 reference=file["reference"][:],
                 body=np.asarray(root["CellData/body"][:], int),

@@ -15,6 +15,7 @@ from softway.record.surface import at_nodes, exaggeration, mesh_of, patches, rig
 from softway.record.view_scene import Camera, camera, edges, ground, ruler, strokes, unit
 from softway.record.view_style import canvas, library, scaled
 from softway.space.mesh import Mesh
+from softway.space.obstacles import HalfSpace
 from softway.typing import Array, IntArray
 
 if TYPE_CHECKING:
@@ -118,8 +119,10 @@ def _back(cells: Cells, real: Array, drawn: Array) -> Array:
     """Shift (3,) that gives the drawn body the real least gap to each obstacle near it."""
     shift = np.zeros(3)
     for tool in cells.obstacles.values():
-        normal = unit(tool["normal"])
-        gap = (real @ normal).min() - normal[: len(tool["point"])] @ np.array(tool["point"])
+        if not isinstance(tool, HalfSpace):
+            continue
+        normal = unit(tool.normal)
+        gap = float(tool.gap(real[:, : tool.dim]).min())
         if gap < 0.5 * np.linalg.norm(np.ptp(real, axis=0)):
             shift += ((real @ normal).min() - (drawn @ normal).min()) * normal
     return shift

@@ -6,6 +6,7 @@ import numpy as np
 
 from softway.record.run import Run
 from softway.record.view_style import BLACK, CYCLE, GREEN, RED, canvas, scaled
+from softway.space.obstacles import HalfSpace
 from softway.typing import Array
 
 if TYPE_CHECKING:
@@ -40,8 +41,8 @@ def paths(run: Run) -> "Figure":
     right.set(title=f"Paths of {len(chosen)} nodes", xlabel=f"position {letter} [{length}]", ylabel=f"time [{unit}]")
     right.set_ylim(bottom=second * times[0])
     for name, tool in cells.obstacles.items():
-        if axis < len(tool["normal"]) and abs(tool["normal"][axis]) > 0.99:
-            place = metre * tool["point"][axis]
+        if isinstance(tool, HalfSpace) and axis < tool.dim and abs(np.atleast_1d(tool.normal)[axis]) > 0.99:
+            place = metre * float(np.atleast_1d(tool.point)[axis])
             left.axhline(place, color=BLACK, lw=2.0, alpha=0.5, label=name)
             right.axvline(place, color=BLACK, lw=2.0, alpha=0.5)
     left.legend(loc="best")

@@ -7,8 +7,10 @@ import numpy as np
 
 from softway.record.frames import Cells
 from softway.record.surface import mesh_of, patches
+from softway.record.view_shape import draw
 from softway.record.view_style import library, scaled
 from softway.space.mesh import Mesh
+from softway.space.obstacles import HalfSpace
 from softway.typing import Array, IntArray
 
 if TYPE_CHECKING:
@@ -37,7 +39,8 @@ def camera(cells: Cells, points: Array) -> Camera:
     """
     if cells.dimension < 3:
         return Camera(np.eye(3))
-    up = unit(next(iter(cells.obstacles.values()), {"normal": [0.0, 0.0, 1.0]})["normal"])
+    middle = points.mean(axis=0)
+    up = next((tool.normal_at(middle) for tool in cells.obstacles.values()), np.array([0.0, 0.0, 1.0]))
     side = np.cross(up, np.eye(3)[int(np.argmin(np.abs(up)))])
     side /= np.linalg.norm(side)
     across, rise = np.cross(up, side), np.radians(18.0)
@@ -53,8 +56,11 @@ def ground(axis: "Axes", cells: Cells, points: Array, view: Camera) -> None:
     """Each obstacle near the body: a plate with the body's shadow, or in the plane a hatched band."""
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
     for tool in cells.obstacles.values():
-        normal, point = unit(tool["normal"]), np.zeros(3)
-        point[: len(tool["point"])] = tool["point"]
+        if not isinstance(tool, HalfSpace):
+            draw(axis, tool, points, view.axes)
+            continue
+        normal, point = unit(tool.normal), np.zeros(3)
+        point[: tool.dim] = np.atleast_1d(tool.point)
         if ((points - point) @ normal).min() > 0.75 * size:
             continue
         centre = points.mean(axis=0) - ((points.mean(axis=0) - point) @ normal) * normal
@@ -141,8 +147,8 @@ def ruler(axis: "Axes", reference: Array, view: Camera) -> None:
     axis.annotate(f"{factor * length:g} {metre}", (x, y), (0, -4), textcoords="offset points", va="top", fontsize=9)
 
 
-def unit(given: list[float]) -> Array:
+def unit(given: tuple[float, ...] | float) -> Array:
     """Unit vector (3,) of up to three components."""
     normal = np.zeros(3)
-    normal[: len(given)] = given
+    normal[: np.size(given)] = given
     return normal / np.linalg.norm(normal)

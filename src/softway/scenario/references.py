@@ -90,9 +90,9 @@ def check_dimensions(scene: Scene, solids: Mapping[str, Solid]) -> None:
             problem = f"a mesh in {mesh_of(solid).dim}D beside {first!r} in {dim}D"
             raise InputError(f"bodies.{name}.mesh", problem, "all bodies in the same space")
     for name, body in scene.bodies.items():
-        if isinstance(body, Tool):
-            entries(body.shape.point, dim, f"bodies.{name}.shape.point")
-            entries(body.shape.normal, dim, f"bodies.{name}.shape.normal")
+        if isinstance(body, Tool) and body.shape.dim != dim:
+            problem = f"{type(body.shape).__name__} in {body.shape.dim}D beside {first!r} in {dim}D"
+            raise InputError(f"bodies.{name}.shape", problem, f"{dim} coordinates")
 
 
 def check_solid(solid: Solid, where: str) -> BoolArray:

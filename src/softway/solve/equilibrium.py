@@ -32,15 +32,16 @@ def equilibrium(model: Model, u: Array, unknown: BoolArray, load: Array, limit: 
     NumericsError
         If it does not settle.
     """
-    rows = model.candidates
-    pressure = np.zeros(len(rows.node))
+    pressure = np.zeros(len(model.pairs.node))
     if not unknown.any():
         return u, pressure
-    matrix, keep = rows.matrix(unknown), np.flatnonzero(unknown.ravel())
-    reachable = np.asarray(abs(matrix).sum(axis=1)).ravel() > 1e-12
-    active = np.zeros(len(rows.node), bool)
+    keep = np.flatnonzero(unknown.ravel())
+    active = np.zeros(len(model.pairs.node), bool)
     u = u.copy()
     for _ in range(limit):
+        rows = model.pairs.at(u)
+        matrix = rows.matrix(unknown)
+        reachable = np.asarray(abs(matrix).sum(axis=1)).ravel() > 1e-12
         force = model.force(u)
         try:
             frozen = freeze(model.tangent(u)[keep][:, keep], matrix, SuperLU())
@@ -53,6 +54,8 @@ def equilibrium(model: Model, u: Array, unknown: BoolArray, load: Array, limit: 
         change = float(np.abs(step).max())
         if not np.isfinite(change):
             break
-        if change <= 1e-13 * max(float(np.abs(u).max()), float(np.abs(rows.offset).max(initial=0.0))) or model.linear:
+        if change <= 1e-13 * max(float(np.abs(u).max()), float(np.abs(rows.offset).max(initial=0.0))) or (
+            model.linear and model.pairs.flat
+        ):
             return u, pressure
     raise NumericsError("no static equilibrium at the start", 0.0, REMEDY)

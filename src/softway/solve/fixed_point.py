@@ -7,11 +7,11 @@ import numpy as np
 
 from softway.errors import InputError
 from softway.solve.driver import Iterate, lost
-from softway.solve.frozen import Carry, freeze
+from softway.solve.frozen import Carry, Frozen, freeze
 from softway.solve.linear import LinearSolver, SuperLU
 from softway.solve.normal import constrain
 from softway.solve.system import SlabSystem
-from softway.typing import Array, BoolArray
+from softway.typing import Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,21 +50,33 @@ class FixedPoint:
             raise InputError("limit", f"{self.limit} iterations", "at least 1")
 
     def iterate(
-        self, system: SlabSystem, q: Array, carry: Carry, active: BoolArray, solver: LinearSolver = SuperLU()
+        self, system: SlabSystem, q: Array, carry: Carry, guess: Array, solver: LinearSolver = SuperLU()
     ) -> Iterator[Iterate]:
-        """Iterates from q (n, d), with the contact rows that were active before as first guess."""
+        """Iterates from q (n, d), with ``guess`` (m,) as first impulses of the contact rows."""
+        active = guess != 0.0
         carry = prepared(system, carry, solver)
         frozen = carry.frozen
         assert frozen is not None
         keep = system.model.free
         memory = _Anderson(self.depth)
+        impulse = guess
         while True:
-            residual = system.evaluate(q).residual[keep]
+            end = system.evaluate(q)
+            residual = end.residual[keep]
             if not np.isfinite(residual).all():
                 yield lost(q, active, carry)
                 return
-            free = q[keep] - frozen.solve(residual)
-            solved, impulse, now = constrain(free, frozen, system.rows, active)
+            if system.pairs is None:
+                free = q[keep] - frozen.solve(residual)
+                solved, impulse, now = constrain(free, frozen, system.rows, active)
+            else:
+                matrix, rows = system.conditions(q, end.displacement)
+                held = np.flatnonzero(impulse)
+                pushed = q[keep] - frozen.solve(residual - matrix.T @ impulse)
+                answer = frozen.compliance(held).columns @ impulse[held]
+                slack = matrix @ pushed - rows.target - frozen.rows @ answer
+                free = pushed - answer
+                solved, impulse, now = constrain(free, frozen, rows, active, slack)
             new = np.zeros_like(q)
             new[keep] = solved
             change = float(np.abs(new - q).max(initial=0.0))
@@ -79,7 +91,10 @@ class FixedPoint:
 def prepared(system: SlabSystem, carry: Carry, solver: LinearSolver) -> Carry:
     """The carry with a frozen operator that fits the slab, renewed when it does not."""
     if carry.frozen is not None and not carry.stale and abs(carry.span / system.path.span - 1.0) < 1e-9:
-        return carry
+        if system.pairs is None:
+            return carry
+        rows = system.path.rows.matrix(system.model.free)
+        return replace(carry, frozen=Frozen(carry.frozen.factor, rows))
     rows = system.path.rows.matrix(system.model.free)
     frozen = freeze(system.operator(system.start.displacement), rows, solver)
     return replace(carry, frozen=frozen, span=system.path.span, stale=False, factorisations=carry.factorisations + 1)

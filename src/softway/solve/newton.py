@@ -11,7 +11,7 @@ from softway.solve.frozen import Carry, freeze
 from softway.solve.linear import LinearSolver, SuperLU
 from softway.solve.normal import constrain
 from softway.solve.system import SlabSystem
-from softway.typing import Array, BoolArray
+from softway.typing import Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,22 +43,23 @@ class Newton:
             raise InputError("limit", f"{self.limit} iterations", "at least 1")
 
     def iterate(
-        self, system: SlabSystem, q: Array, carry: Carry, active: BoolArray, solver: LinearSolver = SuperLU()
+        self, system: SlabSystem, q: Array, carry: Carry, guess: Array, solver: LinearSolver = SuperLU()
     ) -> Iterator[Iterate]:
-        """Iterates from q (n, d), with the contact rows that were active before as first guess."""
+        """Iterates from q (n, d), with ``guess`` (m,) as first impulses of the contact rows."""
+        active = guess != 0.0
         keep = system.model.free
-        rows = system.path.rows.matrix(keep)
         while True:
             end = system.evaluate(q)
             if not np.isfinite(end.residual).all():
                 yield lost(q, active, carry)
                 return
-            frozen = freeze(system.operator(end.displacement), rows, solver)
+            matrix, rows = system.conditions(q, end.displacement)
+            frozen = freeze(system.operator(end.displacement), matrix, solver)
             carry = Carry(frozen=frozen, span=system.path.span, stale=True, factorisations=carry.factorisations + 1)
             free = q[keep] - frozen.solve(end.residual[keep])
-            solved, impulse, active = constrain(free, frozen, system.rows, active)
+            solved, impulse, active = constrain(free, frozen, rows, active)
             new = np.zeros_like(q)
             new[keep] = solved
             change = float(np.abs(new - q).max(initial=0.0))
-            yield Iterate(q=new, change=change, impulse=impulse, active=active, free=rows @ free, carry=carry)
+            yield Iterate(q=new, change=change, impulse=impulse, active=active, free=matrix @ free, carry=carry)
             q = new

@@ -25,14 +25,19 @@ class Rows:
     unilateral: BoolArray
 
 
-def constrain(free: Array, frozen: Frozen, rows: Rows, guess: BoolArray) -> tuple[Array, Array, BoolArray]:
+def constrain(
+    free: Array, frozen: Frozen, rows: Rows, guess: BoolArray, slack: Array | None = None
+) -> tuple[Array, Array, BoolArray]:
     """Solution (f,), multipliers (m,) and active rows (m,) of the contact problem for the free solution.
+
+    ``slack`` (m,) is ``G y - c``; where the rows have turned since their compliance was frozen it is given, and the
+    solution is the step of an iteration.
 
     Primal-dual sweeps from the ``guess``; after 30 of them single exchanges of least index (Murty), which end for
     every symmetric positive definite compliance.
     """
     active = rows.equal | (guess & rows.unilateral)
-    slack = frozen.rows @ free - rows.target
+    slack = frozen.rows @ free - rows.target if slack is None else slack
     floor = 1e-14 * max(np.abs(slack).max(initial=0.0), np.abs(rows.target).max(initial=0.0), 1e-300)
     for sweep in range(30 + 4 * len(active)):
         index = np.flatnonzero(active)

@@ -7,7 +7,7 @@
 Energy rule (docs/theory/energy.md); ``J`` are the unbalanced jumps of the Paper rule.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -15,6 +15,7 @@ import scipy.sparse as sp
 from softway.bodies.force import AverageField, DiscreteGradient
 from softway.contact.fig4 import Split
 from softway.contact.located import LocatedMean
+from softway.contact.pairs import Pairs
 from softway.contact.path import Path
 from softway.model import Model
 from softway.solve.normal import Rows
@@ -67,6 +68,8 @@ class SlabSystem:
         Exact slab averages of the located Energy rule, in place of the time weight.
     split
         Trapezoid and triangle in place of the product elements beside a touch (Fig. 4).
+    pairs
+        Curved obstacles, whose rows are linearised again at every iterate; ``rows`` then lacks the target.
     """
 
     model: Model
@@ -79,6 +82,7 @@ class SlabSystem:
     balanced: bool = False
     located: LocatedMean | None = None
     split: Split | None = None
+    pairs: Pairs | None = None
 
     def evaluate(self, q: Array) -> Evaluation:
         """Residual and its ingredients at q (n, d)."""
@@ -103,6 +107,17 @@ class SlabSystem:
             scalar=scalar,
             clipped=clipped,
         )
+
+    def conditions(self, q: Array, u1: Array) -> tuple[sp.csr_array, Rows]:
+        """The contact rows (m, f) on the free components and their conditions, linear at the end position ``u1`` of q.
+
+        ``gap(u1) + (h/2) n . (z - q) >= 0`` gives the target of z.
+        """
+        if self.pairs is None:
+            return self.path.rows.matrix(self.model.free), self.rows
+        near = self.pairs.at(u1)
+        target = near.along(q) - 2.0 * self.pairs.gap(u1) / self.path.span
+        return near.matrix(self.model.free), replace(self.rows, target=target)
 
     def operator(self, u: Array) -> sp.csc_array:
         """M + h^2/2 mu2 K(u) on the free components, symmetric positive definite near equilibrium."""

@@ -107,8 +107,8 @@ WRONG = [
     ),
     (
         scenario(bodies={"block": square(), "wall": Tool(shape=HalfSpace(point=1.0, normal=-1.0))}),
-        "bodies.wall.shape.point",
-        "1 entries in 2D",
+        "bodies.wall.shape",
+        "HalfSpace in 1D beside 'block' in 2D",
     ),
     (scenario(loads=(Traction(on="blok.left", value=(1.0, 0.0)),)), "loads[0].on", "'blok'.*did you mean 'block'"),
     (scenario(loads=(Traction(on="block.lift", value=(1.0, 0.0)),)), "loads[0].on", "'lift' matches nothing"),

@@ -70,4 +70,4 @@ def test_an_end_is_needed():
 
 
 def test_a_kind_may_be_left_out_where_there_is_only_one():
-    assert loads(BAR, changes=["bodies.wall.shape={point=2, normal=-1}"], units=UNITS).bodies["wall"].shape.point == 2.0
+    assert loads(BAR, changes=["contacts[0].between=['bar.right', 'wall']"], units=UNITS).contacts[0].body == "bar"
