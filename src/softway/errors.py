@@ -45,6 +45,10 @@ class NumericsError(SoftwayError):
         super().__init__(f"t = {when:.6g} s: {what}" + (f"\n  try: {remedy}" if remedy else ""))
 
 
+class NoConvergence(Exception):
+    """A slab could not be solved; the march drops it and tries a shorter one. The message says what happened."""
+
+
 @contextmanager
 def within(path: str) -> Iterator[None]:
     """Put ``path`` before the place of an :class:`InputError` raised inside.

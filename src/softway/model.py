@@ -10,8 +10,8 @@ from softway.bodies.fields import sample
 from softway.bodies.force import SlabForce
 from softway.bodies.internal import InternalForce, internal_force
 from softway.bodies.loads import Gravity, Load, Traction, traction_force
-from softway.bodies.mass import nodal_mass, redistributed
-from softway.bodies.section import default_section
+from softway.bodies.mass import following, nodal_mass, redistributed
+from softway.bodies.section import default_section, wave_speed
 from softway.bodies.solid import Fixed, Solid, Tool
 from softway.contact.candidates import Candidates
 from softway.contact.pairs import Pairs, linear
@@ -44,6 +44,8 @@ class Model:
         The solids.
     mass
         (n, n) nodal mass matrix; candidate nodes of the Energy rule have empty rows.
+    follow
+        (n, n) velocities of all nodes from those with inertia: the others follow their neighbours.
     massive
         (n,) nodes with inertia.
     free
@@ -61,6 +63,7 @@ class Model:
     scene: Scene
     parts: tuple[Part, ...]
     mass: sp.csr_array
+    follow: sp.csr_array
     massive: BoolArray
     free: BoolArray
     load: Array
@@ -101,6 +104,19 @@ class Model:
         """The field over all nodes from those of the solids."""
         return np.concatenate([fields[p.name] for p in self.parts])
 
+    @property
+    def floor(self) -> Array:
+        """Stored energy (parts,) below which a body counts as undeformed: a strain of 1e-14 throughout [J]."""
+        return np.array(
+            [
+                1e-28
+                * p.density
+                * wave_speed(p.internal.material, p.density, p.internal.section) ** 2
+                * p.internal.volume.sum()
+                for p in self.parts
+            ]
+        )
+
     def totals(self, density: Array) -> Array:
         """Sum (parts,) of a nodal quantity (n, ...) over each solid."""
         return np.array([density[p.rows].sum() for p in self.parts])
@@ -137,12 +153,13 @@ def build(scene: Scene) -> Model:
         raise InputError("bodies", "no Solid among them", "at least one body of kind Solid")
     timing = _timing(scene)
     parts: list[Part] = []
-    masses, fields = [], []
+    masses, follow, fields = [], [], []
     for name, solid in solids.items():
         with within(f"bodies.{name}"):
             part = _part(name, solid, parts[-1].rows.stop if parts else 0)
         nodes = _candidate_nodes(scene, part) if isinstance(timing, Energy) else np.zeros(0, int)
         masses.append(_mass(part, solid, nodes))
+        follow.append(following(part.mesh, nodes) if len(nodes) else sp.eye_array(part.mesh.n_nodes))
         parts.append(part)
         fields.append(_fields(part, solid))
     if len({p.mesh.dim for p in parts}) > 1:
@@ -158,6 +175,7 @@ def build(scene: Scene) -> Model:
         scene=scene,
         parts=tuple(parts),
         mass=mass,
+        follow=sp.csr_array(sp.block_diag(follow, format="csr")),
         massive=np.asarray(mass.diagonal()) > 0.0,
         free=free,
         load=_load(parts, mass, scene.loads, "loads"),
@@ -277,5 +295,8 @@ def _pairs(scene: Scene, parts: Sequence[Part]) -> Pairs:
         shapes.append(tool.shape)
     rows = np.concatenate(node), np.concatenate(number), np.concatenate(points)
     labels = tuple(c.label for c in scene.contacts)
+    for k, label in enumerate(labels):
+        if label in labels[:k]:
+            raise InputError(f"contacts[{k}].name", f"'{label}' is the name of an earlier contact", "a name of its own")
     reference = linear(*rows, np.zeros_like(rows[2]), tuple(shapes), labels)
     return Pairs(node=rows[0], contact=rows[1], points=rows[2], shapes=tuple(shapes), reference=reference)

@@ -177,7 +177,6 @@ def test_one_rule_in_a_scene() -> None:
     assert "2 different timing rules" in refused(pair(contacts=contacts), "contacts").problem
 
 
-@pytest.mark.xfail(reason="two contacts of one name overwrite each other in records and states")
 def test_two_contacts_need_two_names() -> None:
     contacts = (Contact(between=("b.bottom", "floor")), Contact(between=("b.bottom", "floor")))
     refused(pair(contacts=contacts), "contacts[1].name")

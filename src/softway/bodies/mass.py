@@ -115,28 +115,28 @@ def redistributed(
     (0.0, 1.0, 0.5)
     """
     body = _body(mesh, section, density)
-    following = _following(mesh, np.unique(candidates))
+    follow = following(mesh, np.unique(candidates))
     plain = _nodal(body, Consistent(), _linear(np.eye(1 + mesh.dim)[0], np.zeros(mesh.dim)))
     total, centre = float(plain.sum()), plain @ mesh.points / plain.sum()
-    factor = _factor(body, rule, following, total, centre)
+    factor = _factor(body, rule, follow, total, centre)
     mass = _assembled(body, rule, _linear(factor, centre))
     if isinstance(rule, Lumped):
-        moved = sparse.diags_array(following.T @ mass.diagonal())
+        moved = sparse.diags_array(follow.T @ mass.diagonal())
     else:
-        moved = following.T @ mass @ following
+        moved = follow.T @ mass @ follow
     found = sparse.csr_array(moved)
     found.eliminate_zeros()
     return found
 
 
-def _factor(body: _Body, rule: MassRule, following: sparse.csr_array, total: float, centre: Array) -> Array:
+def _factor(body: _Body, rule: MassRule, follow: sparse.csr_array, total: float, centre: Array) -> Array:
     """alpha and beta (1 + d,) of the density that keeps mass and centre of mass after the velocities follow."""
     points = body.mesh.points
     size = np.ptp(points, axis=0)
     wide = np.flatnonzero(size > 1e-9 * size.max())
     constant = np.concatenate([[1.0], np.zeros(len(size))])
     shares = [_nodal(body, rule, _linear(form, centre)) for form in np.eye(1 + len(size))[[0, *(1 + wide)]]]
-    tests = np.column_stack([np.ones(len(points)), (following @ points - centre)[:, wide]])
+    tests = np.column_stack([np.ones(len(points)), (follow @ points - centre)[:, wide]])
     moments = (np.array(shares) @ tests).T
     scale = total * np.concatenate([[1.0], size[wide]])
     missing = (total * constant[[0, *(1 + wide)]] - moments[:, 0]) / scale
@@ -198,7 +198,7 @@ def _stretch(corners: Array, dN: Array) -> Array:
     return np.asarray(np.linalg.norm(jacobian[..., 0], axis=-1))
 
 
-def _following(mesh: Mesh, candidates: IntArray) -> sparse.csr_array:
+def following(mesh: Mesh, candidates: IntArray) -> sparse.csr_array:
     """T (n, n): identity on other nodes; a candidate takes the mean, with weights 1/d^2, of the nearest others through
     its cells.
     """

@@ -57,6 +57,41 @@ class Candidates:
         shape = (m, int(free.sum()))
         return sp.csr_array((self.normal[keep], (rows[keep], number[columns[keep]])), shape=shape)
 
+    def reachable(self, free: BoolArray) -> BoolArray:
+        """Rows (m,) that the free components (n, d) can move."""
+        return np.asarray(((self.normal * free[self.node]) ** 2).sum(axis=1) > 1e-12)
+
+    def motion(self, values: Array, which: BoolArray, free: BoolArray) -> Array:
+        """Least nodal field (n, d) on the free components whose normal components are ``values`` (m,) on some rows.
+
+        A node in several of the rows gets the least one that meets them all.
+        """
+        out = np.zeros(free.shape)
+        rows = np.flatnonzero(which & self.reachable(free))
+        node, n = self.node[rows], self.normal[rows] * free[self.node[rows]]
+        if len(np.unique(node)) == len(node):
+            out[node] = (values[rows] / (n**2).sum(axis=1))[:, None] * n
+            return out
+        for i in np.unique(node):
+            here = node == i
+            out[i] = np.linalg.lstsq(n[here], values[rows][here], rcond=1e-12)[0]
+        return out
+
+    def shares(self, force: Array, which: BoolArray, free: BoolArray) -> Array:
+        """Normal forces (m,) of some rows that make up nodal forces (n, d) in the free components.
+
+        Where one obstacle touches a node more than once, its contacts share the force evenly.
+        """
+        out = np.zeros(len(self.node))
+        rows = np.flatnonzero(which & self.reachable(free))
+        node, n = self.node[rows], self.normal[rows] * free[self.node[rows]]
+        pull = force[node] * free[node]
+        out[rows] = np.einsum("mi,mi->m", n, pull) / (n**2).sum(axis=1)
+        for i in np.flatnonzero(np.bincount(node, minlength=0) > 1) if len(node) else ():
+            here = node == i
+            out[rows[here]] = np.linalg.lstsq(n[here].T, pull[here][0], rcond=1e-12)[0]
+        return out
+
     def of(self, contact: int) -> BoolArray:
         """Mask (m,) of the rows of one contact."""
         return self.contact == contact

@@ -13,6 +13,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.contact.candidates import Candidates
+from softway.kernels.dense import shared
 from softway.typing import Array, BoolArray, IntArray
 
 AFTER = 1e-10
@@ -64,13 +65,17 @@ class LocatedMean:
         flat[self.still] = 0.5 * (w0 + w1) + self.flexibility @ (self.normals.T @ force)
         return flat.reshape(out.shape)
 
-    def branches(self, u0: Array, u1: Array, closed: BoolArray) -> list[Branch]:
-        """The touches and releases from a start with the ``closed`` rows (m,), in order."""
+    def branches(self, u0: Array, u1: Array, closed: BoolArray, after: BoolArray) -> list[Branch]:
+        """Touches and releases between the rows (m,) ``closed`` at the start and those closed ``after``, in order."""
         w0, w1 = self._free(u0), self._free(u1)
         first, slope = self.rows.offset + self.normals @ w0, self.normals @ (w1 - w0)
         at_once = lcp(self.compliance, first + AFTER * slope) != closed
         start = [Branch(instant=0.0, row=int(r), closes=not closed[r]) for r in np.flatnonzero(at_once)]
-        return start + self._march(w0, w1)[1]
+        found = start + self._march(w0, w1)[1]
+        told = closed.copy()
+        for branch in found:
+            told[branch.row] = branch.closes
+        return found + [Branch(instant=1.0, row=int(r), closes=bool(after[r])) for r in np.flatnonzero(told != after)]
 
     @property
     def compliance(self) -> Array:
@@ -94,8 +99,8 @@ class LocatedMean:
             index = np.flatnonzero(active)
             push = np.zeros(len(first)), np.zeros(len(first))
             inner = w[np.ix_(index, index)]
-            push[0][index] = np.linalg.solve(inner, -first[index])
-            push[1][index] = np.linalg.solve(inner, -slope[index])
+            push[0][index] = shared(inner, -first[index])
+            push[1][index] = shared(inner, -slope[index])
             value = np.where(active, push[0], first + w @ push[0])
             rate = np.where(active, push[1], slope + w @ push[1])
             with np.errstate(divide="ignore", invalid="ignore"):
@@ -119,12 +124,14 @@ def lcp(compliance: Array, gap: Array) -> BoolArray:
     >>> lcp(np.eye(2), np.array([-1.0, 1.0]))
     array([ True, False])
     """
-    active = gap < 0.0
+    movable = np.diag(compliance) > 0.0
+    floor = 1e-14 * float(np.abs(gap).max(initial=0.0))
+    active = (gap < 0.0) & movable
     for sweep in range(30 + 4 * len(gap)):
         index = np.flatnonzero(active)
         force = np.zeros(len(gap))
-        force[index] = np.linalg.solve(compliance[np.ix_(index, index)], -gap[index])
-        wrong = (active & (force < 0.0)) | (~active & (gap + compliance @ force < 0.0))
+        force[index] = shared(compliance[np.ix_(index, index)], -gap[index])
+        wrong = (active & (force < 0.0)) | (~active & (gap + compliance @ force < -floor) & movable)
         if not wrong.any():
             break
         change = np.flatnonzero(wrong)[:1] if sweep >= 30 else np.flatnonzero(wrong)

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.contact.candidates import Candidates
-from softway.typing import Array, BoolArray, IntArray
+from softway.typing import Array, BoolArray
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -75,8 +75,8 @@ class Path:
         h [s].
     start, velocity
         (n, d) displacement and velocity at t0.
-    massive
-        (n,) nodes with inertia.
+    massive, free
+        (n,) nodes with inertia; (n, d) components without support.
     rows, way
         Contact rows and what they do.
     jumps
@@ -87,6 +87,7 @@ class Path:
     start: Array
     velocity: Array
     massive: BoolArray
+    free: BoolArray
     rows: Candidates
     way: Passage
     jumps: tuple[tuple[float, Array], ...] = ()
@@ -135,22 +136,8 @@ class Path:
 
     def _kinked(self, smooth: Array, normal: Array) -> Array:
         """The smooth motion with the normal components of the kinked rows replaced."""
-        rows = np.flatnonzero(self.way.kinked)
-        if not len(rows):
+        kinked = self.way.kinked
+        if not kinked.any():
             return smooth
-        node, n = self.rows.node[rows], self.rows.normal[rows]
-        wanted = normal[rows] - np.einsum("mi,mi->m", n, (smooth - self.start)[node])
-        if len(np.unique(node)) == len(node):
-            out = smooth.copy()
-            out[node] += wanted[:, None] * n
-            return out
-        return smooth + corner_correction(node, n, wanted, (smooth.shape[0], smooth.shape[1]))
-
-
-def corner_correction(node: IntArray, normal: Array, wanted: Array, shape: tuple[int, int]) -> Array:
-    """Least nodal motion (n, d) with the normal components ``wanted`` where a node faces several obstacles."""
-    out = np.zeros(shape)
-    for i in np.unique(node):
-        here = node == i
-        out[i] = np.linalg.lstsq(normal[here], wanted[here], rcond=1e-12)[0]
-    return out
+        wanted = normal - self.rows.along(smooth - self.start)
+        return smooth + self.rows.motion(wanted, kinked, self.free)

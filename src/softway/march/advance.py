@@ -7,13 +7,12 @@ import numpy as np
 from softway.contact.fig4 import Split
 from softway.contact.located import LocatedMean, located_mean
 from softway.contact.timing import Energy, Paper
-from softway.errors import InputError
+from softway.errors import InputError, NoConvergence
 from softway.march.carrying import solve_carrying
 from softway.march.massless import solve_massless
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation
 from softway.model import Model
-from softway.solve.failure import NoConvergence
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.frozen import Carry
 from softway.solve.newton import Newton

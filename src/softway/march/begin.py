@@ -29,15 +29,13 @@ def begin(model: Model) -> Situation:
     InputError
         If a body overlaps an obstacle (named with the depth), or a static start leaves rigid motions free.
     """
-    u = model.displacement
+    u, pressure = model.displacement, np.zeros(len(model.candidates.node))
     require_apart(model, u)
     start = model.scene.start
     if isinstance(start, StaticStart):
         require_supported(model)
-        u, _ = equilibrium(
-            model, u, model.free, dead_load(model, start.loads, "start.loads") if start.loads else model.load
-        )
-    pressure = np.zeros(len(model.candidates.node))
+        load = dead_load(model, start.loads, "start.loads") if start.loads else model.load
+        u, pressure = equilibrium(model, u, model.free, load)
     if isinstance(model.timing, Energy) and not model.massive.all():
         before = float(model.energy_and_force(u)[0].sum())
         u, pressure = equilibrium(model, u, model.free & ~model.massive[:, None], model.load)

@@ -65,6 +65,7 @@ def _system(model: Model, now: Situation, slab: Slab, known: Course, found: tupl
         start=now.start.displacement,
         velocity=now.start.velocity,
         massive=model.massive,
+        free=model.free,
         rows=rows,
         way=way,
         jumps=tuple((j.instant, j.field) for j in balanced),
@@ -111,7 +112,7 @@ def _outcome(
         system=system,
         solution=solution,
         velocity=q,
-        acceleration=slope + rows.spread(kinked, model.shape),
+        acceleration=slope + rows.motion(kinked, way.kinked, model.free),
         closed=way.closed,
         pressure=np.maximum(pull, 0.0),
         force=through / h,
@@ -136,4 +137,8 @@ def _events(
         contact_event(model, now, slab, end, int(r), "release", float(way.release[r]), (0.0, float(after[r])))
         for r in np.flatnonzero(np.isfinite(way.release))
     ]
-    return tuple(sorted(events, key=lambda e: (e.time, e.contact, e.node, e.kind == "release")))
+    return tuple(
+        sorted(
+            events, key=lambda e: (round((e.time - slab.start) / slab.span, 9), e.contact, e.node, e.kind == "release")
+        )
+    )

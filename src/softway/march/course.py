@@ -51,7 +51,7 @@ def revised(
     """The course with the touches and releases that the solution asks for; None when it asks for none."""
     rows, way, end = model.candidates, known.way, found.end
     gap = rows.gap(end.displacement)
-    below = ~way.closed & (gap < -rounding(model, end.displacement))
+    below = ~way.closed & (gap < -rounding(model, end.displacement)) & rows.reachable(model.free)
     if below.any():
         return _touching(model, now, system, known, found.last.q, below)
     pull = inertia.multiplier(end.force, way.closed)
@@ -74,15 +74,15 @@ def _touching(model: Model, now: Situation, system: SlabSystem, known: Course, q
     back = below & np.isfinite(way.release)
     fresh = below & ~back
     gap = rows.gap(now.start.displacement)
-    speed, solved = rows.along(now.start.velocity), rows.along(q - now.start.velocity)
+    jumped = sum((j for _, j in system.path.jumps), np.zeros(model.shape))
+    speed, solved = rows.along(now.start.velocity), rows.along(q - now.start.velocity - jumped)
     slope = solved
     if isinstance(model.timing, Paper):
         slope = h * rows.along(now.acceleration) if model.timing.approach == "extrapolated" else np.zeros_like(solved)
     tau = crossing(gap, h * speed, h * slope)
     missed = ~np.isfinite(tau)
     slope = np.where(missed, solved, slope)
-    tau = np.where(missed, crossing(gap, h * speed, h * slope), tau)
-    tau = np.where(np.isfinite(tau), tau, np.where(gap <= 0.0, 0.0, 1.0))
+    tau = _reached(model, system, (gap, h * speed, h * slope), tau)
     return replace(
         known,
         way=Passage(
@@ -94,6 +94,20 @@ def _touching(model: Model, now: Situation, system: SlabSystem, known: Course, q
         ),
         held=known.held | back,
     )
+
+
+def _reached(model: Model, system: SlabSystem, motion: tuple[Array, Array, Array], tau: Array) -> Array:
+    """Instants (m,) at which the gap closes; jumps of earlier touches of the slab bend the path on the way."""
+    gap, speed, slope = motion
+    bent = gap
+    for _ in range(1 if not system.path.jumps else 6):
+        found = np.where(np.isfinite(tau) & (bent == gap), tau, crossing(bent, speed, slope))
+        found = np.where(np.isfinite(found), found, np.where(gap <= 0.0, 0.0, 1.0))
+        bent = gap.copy()
+        for instant, field in system.path.jumps:
+            bent += system.path.span * model.candidates.along(field) * np.maximum(found - instant, 0.0)
+        tau = np.where(bent == gap, found, np.nan)
+    return found
 
 
 def _releasing(

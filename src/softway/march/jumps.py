@@ -59,8 +59,9 @@ def jumps(model: Model, way: Passage, closed: BoolArray, inertia: Reaction) -> t
         hits = at(way.touch, instant)
         approach = np.where(hits, speed, 0.0)
         if isinstance(model.timing, Paper):
-            field = -rows.spread(approach, model.shape)
-            impulse = -approach * np.asarray(model.mass.sum(axis=1)).ravel()[rows.node]
+            field = rows.motion(-approach, hits, model.free)
+            given = np.asarray(model.mass.sum(axis=1)).reshape(-1, 1) * field
+            impulse = rows.shares(given, hits, model.free)
         else:
             gone = way.release <= instant
             stopped = ((closed | (way.touch < instant)) & ~gone) | hits
@@ -79,7 +80,7 @@ def loss(model: Model, way: Passage, found: tuple[Jump, ...], v0: Array, v1: Arr
             v = v0 + jump.instant * (v1 - v0)
             stopped = (way.closed & ~np.isfinite(way.touch)) | (way.touch < jump.instant)
             normal = np.where(jump.hits, jump.speed, np.where(stopped, 0.0, rows.along(v)))
-            v = v + rows.spread(np.where(way.kinked, normal - rows.along(v), 0.0), model.shape)
+            v = v + rows.motion(normal - rows.along(v), way.kinked, model.free)
             total -= float(np.sum((v + 0.5 * jump.field) * (model.mass @ jump.field)))
         else:
             total -= 0.5 * float(jump.impulse @ jump.speed)

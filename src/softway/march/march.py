@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 
 from softway.bodies.section import wave_speed
-from softway.errors import InputError, NumericsError
+from softway.errors import InputError, NoConvergence, NumericsError
 from softway.march.advance import Rule, advance, rule
 from softway.march.begin import begin
 from softway.march.ledger import audited, opening
@@ -17,7 +17,6 @@ from softway.march.situation import Situation, joined, parted
 from softway.march.step import Ledger, Report, Step
 from softway.model import Model, build
 from softway.scene import Scene, State
-from softway.solve.failure import NoConvergence
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.frozen import Carry
 from softway.solve.newton import Newton
@@ -172,7 +171,8 @@ def _step(
 ) -> Step:
     end = out.solution.end
     inertia = model.mass @ ((out.velocity - now.start.velocity) / slab.span)
-    support = np.where(model.free, 0.0, inertia + end.mean_force - model.load)
+    contact = model.pairs.at(end.displacement).spread(out.force, model.shape)
+    support = np.where(model.free, 0.0, inertia + end.mean_force - model.load - contact)
     return Step(
         before=before,
         after=after,

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from softway.contact.candidates import Candidates
 from softway.contact.located import LocatedMean
 from softway.contact.path import Path, passage
 from softway.kernels.impact import fading
@@ -28,10 +27,18 @@ def solve_massless(
     h, start = slab.span, now.start
     rows = model.pairs.at(start.displacement)
     way = passage(np.zeros(len(rows.node), bool))
-    path = Path(span=h, start=start.displacement, velocity=start.velocity, massive=model.massive, rows=rows, way=way)
+    path = Path(
+        span=h,
+        start=start.displacement,
+        velocity=start.velocity,
+        massive=model.massive,
+        free=model.free,
+        rows=rows,
+        way=way,
+    )
     still = np.zeros(model.shape)
     target = -2.0 * rows.gap(path.end(still)) / h
-    conditions = Rows(target=target, equal=way.closed, unilateral=_reachable(model, rows))
+    conditions = Rows(target=target, equal=way.closed, unilateral=rows.reachable(model.free))
     system = SlabSystem(
         model=model,
         start=start,
@@ -49,11 +56,6 @@ def solve_massless(
     return _outcome(model, now, slab, system, solution), solution.last.carry
 
 
-def _reachable(model: Model, rows: Candidates) -> BoolArray:
-    """Rows (m,) with at least one free component along their normal."""
-    return (np.abs(rows.normal) * model.free[rows.node]).sum(axis=1) > 1e-12
-
-
 def _outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solution: Solution) -> Outcome:
     h = slab.span
     q, end = solution.last.q, solution.end
@@ -62,8 +64,7 @@ def _outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solut
     velocity = np.where(massive, q, 0.5 * q)
     closed = solution.last.impulse > 0.0
     pressure = solution.last.impulse / (h * moments(slab.weight)[1])
-    force = rows.along((end.mean_force - model.load) * ~massive)
-    force = np.where(closed | now.closed, force, 0.0)
+    force = rows.shares((end.mean_force - model.load) * ~massive, closed | now.closed, model.free)
     if system.located is not None:
         events = _branched(model, now, slab, system.located, solution)
     else:
@@ -77,7 +78,7 @@ def _outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solut
         pressure=pressure,
         force=force,
         dissipation=0.0,
-        events=tuple(sorted(events, key=lambda e: (e.time, e.contact, e.node))),
+        events=tuple(sorted(events, key=lambda e: (round((e.time - slab.start) / slab.span, 9), e.contact, e.node))),
         passes=1,
         iterations=solution.iterations,
     )
@@ -115,7 +116,9 @@ def _releases(model: Model, now: Situation, slab: Slab, solution: Solution, clos
 
 def _branched(model: Model, now: Situation, slab: Slab, located: LocatedMean, solution: Solution) -> list[Event]:
     """The located touches and releases."""
-    branches = located.branches(now.start.displacement, solution.end.displacement, now.closed)
+    branches = located.branches(
+        now.start.displacement, solution.end.displacement, now.closed, solution.last.impulse > 0.0
+    )
     speed = 0.5 * model.candidates.along(solution.last.q)
     before = model.candidates.along(now.start.velocity)
     return [

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softway.solve.failure import NoConvergence
+from softway.errors import NoConvergence
 from softway.solve.frozen import Carry
 from softway.solve.system import Evaluation, SlabSystem
 from softway.typing import Array, BoolArray
@@ -47,11 +47,23 @@ class Solution:
 Method = Callable[[SlabSystem, Array, Carry, BoolArray], Iterator[Iterate]]
 
 
+ROUNDING = 1e-12
+"""Share of the velocity made by forces that balance each other which is rounding."""
+
+
+def _pushed(system: SlabSystem, it: Iterate) -> float:
+    """Greatest velocity that internal force and load would give in one slab, without regard to their signs [m/s]."""
+    force = (np.abs(system.start.force) + np.abs(system.model.load))[system.model.free]
+    frozen = it.carry.frozen
+    return 0.0 if frozen is None else float(np.abs(frozen.solve(system.path.span * force)).max(initial=0.0))
+
+
 def drive(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float, limit: int) -> Solution:
     """Consume iterates until the change of velocity is below ``tolerance`` times the greatest velocity.
 
-    An iteration whose change no longer decreases is accepted when it is within 1000 times the tolerance: that is
-    the rounding level of the problem.
+    An iteration whose change no longer decreases has reached the rounding level of the problem: it is accepted within
+    1000 times the tolerance, or within ``ROUNDING`` of the velocity that the forces alone would give in one slab (a
+    body at rest under load).
 
     Raises
     ------
@@ -69,7 +81,7 @@ def drive(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float, lim
         scale = max(np.abs(it.q).max(initial=0.0), np.abs(system.start.velocity).max(initial=0.0), 1e-300)
         best, since = (it.change, 0) if it.change < 0.5 * best else (best, since + 1)
         settled = it.change <= tolerance * scale or (since >= 6 and it.change <= 1e3 * tolerance * scale)
-        if settled:
+        if settled or (since >= 4 and it.change <= ROUNDING * _pushed(system, it)):
             return Solution(last=it, end=system.evaluate(it.q), predicted=predicted, iterations=count)
         if count >= limit:
             break

@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from softway.errors import NumericsError
+from softway.errors import NoConvergence, NumericsError
 from softway.model import Model
-from softway.solve.failure import NoConvergence
 from softway.solve.frozen import freeze
 from softway.solve.linear import SuperLU
 from softway.solve.normal import Rows, constrain

@@ -18,6 +18,8 @@ from softway.typing import Array
 class FixedPoint:
     """``q <- q - A0^-1 r(q)`` with contact on the compliance of A0, accelerated by Anderson mixing.
 
+    The mixing starts afresh where the contact changes, and where two steps in a row bring nothing.
+
     Parameters
     ----------
     depth
@@ -59,7 +61,7 @@ class FixedPoint:
         assert frozen is not None
         keep = system.model.free
         memory = _Anderson(self.depth)
-        impulse = guess
+        impulse, last, stuck = guess, np.inf, 0
         while True:
             end = system.evaluate(q)
             residual = end.residual[keep]
@@ -81,8 +83,10 @@ class FixedPoint:
             new[keep] = solved
             change = float(np.abs(new - q).max(initial=0.0))
             yield Iterate(q=new, change=change, impulse=impulse, active=now, free=frozen.rows @ free, carry=carry)
-            if (now != active).any():
-                memory = _Anderson(self.depth)
+            stuck = stuck + 1 if change > 0.99 * last else 0
+            if (now != active).any() or stuck >= 2:
+                memory, stuck = _Anderson(self.depth), 0
+            last = change
             active = now
             q = q.copy()
             q[keep] = memory.mix(q[keep], solved)

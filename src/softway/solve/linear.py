@@ -6,7 +6,7 @@ from typing import Any, Protocol
 import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
-from softway.solve.failure import NoConvergence
+from softway.errors import NoConvergence
 from softway.typing import Array
 
 

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softway.errors import NoConvergence
+from softway.kernels.dense import shared
 from softway.solve.frozen import Frozen
 from softway.typing import Array, BoolArray
 
@@ -43,7 +45,7 @@ def constrain(
         index = np.flatnonzero(active)
         compliance = frozen.compliance(index)
         columns = compliance.columns
-        force = _solve(compliance.delassus, -slack[index])
+        force = shared(compliance.delassus, -slack[index])
         gap = slack + frozen.rows @ (columns @ force)
         multiplier = np.zeros(len(active))
         multiplier[index] = force
@@ -53,17 +55,6 @@ def constrain(
         change = np.flatnonzero(wrong)[:1] if sweep >= 30 else np.flatnonzero(wrong)
         active = active.copy()
         active[change] = ~active[change]
+    else:
+        raise NoConvergence(f"the {len(active)} contact rows have no solution")
     return free + columns @ force, multiplier, active
-
-
-def _solve(matrix: Array, b: Array) -> Array:
-    """Solve a dense symmetric positive (semi)definite system; redundant rows share the force."""
-    if not len(b):
-        return b
-    try:
-        x = np.asarray(np.linalg.solve(matrix, b), float)
-        if np.isfinite(x).all() and np.abs(matrix @ x - b).max() <= 1e-8 * max(np.abs(b).max(), 1e-300):
-            return x
-    except np.linalg.LinAlgError:
-        pass
-    return np.asarray(np.linalg.lstsq(matrix, b, rcond=1e-12)[0], float)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from softway.kernels.dense import shared
 from softway.model import Model
 from softway.solve.frozen import Frozen, freeze
 from softway.solve.linear import SuperLU
@@ -25,19 +26,19 @@ class Reaction:
 
     def multiplier(self, force: Array, closed: BoolArray) -> Array:
         """Normal reaction (m,) of the closed rows for the internal force (n, d); zero on the others [N]."""
-        index = np.flatnonzero(closed)
+        index = np.flatnonzero(closed & self.model.candidates.reachable(self.model.free))
         out = np.zeros(len(closed))
         if len(index):
             pull = self.mass.rows @ self.mass.solve((force - self.model.load)[self.model.free])
-            out[index] = np.linalg.solve(self.mass.delassus(index), pull[index])
+            out[index] = shared(self.mass.delassus(index), pull[index])
         return out
 
     def jump(self, approach: Array, closed: BoolArray) -> tuple[Array, Array]:
         """Velocity jump (n, d) and impulses (m,) that bring the closed rows from ``approach`` (m,) to rest."""
-        index = np.flatnonzero(closed)
+        index = np.flatnonzero(closed & self.model.candidates.reachable(self.model.free))
         out, impulse = np.zeros(self.model.shape), np.zeros(len(closed))
         if len(index):
-            impulse[index] = np.linalg.solve(self.mass.delassus(index), -approach[index])
+            impulse[index] = shared(self.mass.delassus(index), -approach[index])
             out[self.model.free] = self.mass.solve(self.mass.rows.T @ impulse)
         return out, impulse
 

@@ -145,7 +145,16 @@ class SlabSystem:
                     out[part.rows] = part.internal.discrete_gradient(u0[part.rows], u1[part.rows])
                 case _:
                     pass
-        return out
+        return self._handed_on(out, force) if any(_chord(p.average) for p in self.model.parts) else out
+
+    def _handed_on(self, mean: Array, force: Array) -> Array:
+        """The mean force with what it has on massless nodes beyond their end values passed to the nodes they follow.
+
+        Massless nodes are in equilibrium at the two ends of the slab, where only contact pushes them; an average
+        along the chord would add a push of its own.
+        """
+        excess = (mean - 0.5 * (self.start.force + force)) * ~self.model.massive[:, None]
+        return np.asarray(mean - excess + self.model.follow.T @ excess)
 
     def _weighted(self, q: Array, u1: Array, force: Array) -> Array:
         tau, w = peaks(self.weight)
@@ -183,7 +192,7 @@ class SlabSystem:
         den = model.totals((force - start.force) * moving)
         level = np.abs(energy) + np.abs(start.energy) + model.kinetic(start.velocity)
         level += model.totals(np.abs(mean * moving)) + model.totals(np.abs(model.load * du))
-        real = np.abs(num) > ROUNDING * level
+        real = np.abs(num) > ROUNDING * level + model.floor
         with np.errstate(divide="ignore", invalid="ignore"):
             a = np.where(real & (den != 0.0), num / den, 0.0)
         return np.clip(a, -0.5, 0.5), bool((np.abs(a) > 0.5).any())

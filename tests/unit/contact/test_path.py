@@ -35,7 +35,8 @@ def motions(draw: st.DrawFn) -> tuple[Path, np.ndarray]:
     along = rows.along(start)
     rows = replace(rows, offset=np.where(closed | np.isfinite(release), gap - along, 1.0))
     path = Path(
-        span=h, start=start, velocity=velocity, massive=rng.random(NODES) < 0.7, rows=rows,
+        span=h, start=start, velocity=velocity, massive=rng.random(NODES) < 0.7,
+        free=np.ones(start.shape, bool), rows=rows,
         way=Passage(closed=closed, touch=touches, speed=speed, slope=slope, release=release),
         jumps=((draw(st.floats(0.0, 1.0)), jump),) if draw(st.booleans()) else (),
     )  # fmt: skip
@@ -119,7 +120,7 @@ def test_without_events_velocity_is_linear_and_massless_nodes_move_steadily() ->
     )
     path = Path(
         span=2.0, start=np.array([[1.0], [1.0]]), velocity=np.array([[3.0], [3.0]]),
-        massive=np.array([True, False]), rows=rows, way=passage(np.zeros(0, bool)),
+        massive=np.array([True, False]), free=np.ones((2, 1), bool), rows=rows, way=passage(np.zeros(0, bool)),
     )  # fmt: skip
     q = np.array([[5.0], [5.0]])
     assert path.at(0.5, q).ravel().tolist() == [1.0 + 3.0 + 0.5, 1.0 + 2.5]
@@ -133,7 +134,8 @@ def test_a_jump_enters_from_its_instant_on() -> None:
     )
     zero = np.zeros((1, 1))
     path = Path(
-        span=1.0, start=zero, velocity=zero, massive=np.array([True]), rows=rows, way=passage(np.zeros(0, bool)),
+        span=1.0, start=zero, velocity=zero, massive=np.array([True]), free=np.ones((1, 1), bool),
+        rows=rows, way=passage(np.zeros(0, bool)),
         jumps=((0.25, np.array([[1.0]])),),
     )  # fmt: skip
     q = np.array([[1.0]])  # the jump and nothing else: v = 0 before, 1 after
@@ -152,7 +154,13 @@ def test_a_node_in_a_corner_keeps_both_gaps(second: tuple[float, float]) -> None
     rng = np.random.default_rng(1)
     start, v, q = rng.normal(size=(3, 2, 2))
     path = Path(
-        span=0.3, start=start, velocity=v, massive=np.ones(2, bool), rows=rows, way=passage(np.array([True, True]))
+        span=0.3,
+        start=start,
+        velocity=v,
+        massive=np.ones(2, bool),
+        free=np.ones(start.shape, bool),
+        rows=rows,
+        way=passage(np.array([True, True])),
     )
     np.testing.assert_allclose(rows.gap(path.end(q)), 0.0, atol=1e-14)
     np.testing.assert_allclose(rows.gap(path.at(0.4, q)), 0.0, atol=1e-14)

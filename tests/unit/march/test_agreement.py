@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from softway.contact.timing import Energy, Impulse, Paper, Timing
-from softway.errors import NumericsError
+from softway.errors import NoConvergence, NumericsError
 from softway.march import march as module
-from softway.solve.failure import NoConvergence
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.frozen import Carry
 from softway.solve.newton import Newton

@@ -95,20 +95,22 @@ def test_contact_nodes_of_the_energy_rule_are_relaxed(shop) -> None:
     assert not at.closed.any()
 
 
-def test_relaxed_nodes_stay_outside_the_obstacle(shop) -> None:
-    stretched = Affine(gradient=((0.0, 0.0), (0.0, 0.1)), origin=(0.0, 0.5))
-    squeezed = Affine(gradient=((0.0, 0.0), (0.0, -0.1)))
-    for field in (stretched, squeezed):
-        solid = shop.block(height=0.06, displacement=field)
-        model = build(scene(shop, solid, shop.plane((0.0, 0.0), (0.0, 1.0))))
-        at = begin(model)
-        gap = model.candidates.gap(at.start.displacement)
-        assert gap.min() >= -1e-15
-        assert (gap[at.closed] <= 1e-15).all()
-        assert (at.pressure[at.closed] > 0.0).all()
+@pytest.mark.parametrize(("gradient", "pressed"), [(0.1, False), (-0.1, True)], ids=["stretched", "squeezed"])
+def test_relaxed_nodes_stay_outside_the_obstacle(shop, gradient: float, pressed: bool) -> None:
+    """About half its height the body is stretched or squeezed; relaxing moves the bottom back towards the floor."""
+    along = Affine(gradient=((0.0, 0.0), (0.0, gradient)), origin=(0.0, 0.56))
+    level = 0.09 if pressed else 0.0
+    model = build(scene(shop, shop.block(height=0.06, displacement=along), shop.plane((0.0, level), (0.0, 1.0))))
+    at = begin(model)
+    gap = model.candidates.gap(at.start.displacement)
+    assert gap.min() >= -1e-15
+    assert at.closed.any() == pressed
+    np.testing.assert_array_equal(at.closed, at.pressure > 0.0)
+    np.testing.assert_allclose(gap[at.closed], 0.0, atol=1e-15)
+    pushed = model.candidates.spread(at.pressure, model.shape)
+    np.testing.assert_allclose((at.start.force - pushed)[~model.massive], 0.0, atol=1e-14)
 
 
-@pytest.mark.xfail(reason="only the Energy rule takes over what the static start presses on the obstacle")
 @pytest.mark.parametrize("timing", [Impulse(), Paper()], ids=lambda r: type(r).__name__)
 def test_a_static_start_against_an_obstacle_is_closed(shop, timing: object) -> None:
     solid = shop.bar(v=0.0, supports=(Fixed(on="left"),))
@@ -211,7 +213,6 @@ def test_a_body_thrown_too_fast_is_no_warning(shop) -> None:
     assert motion.least_gap >= -1e-15
 
 
-@pytest.mark.xfail(reason="where the operator is indefinite the sweeps run out, and the slab is accepted all the same")
 def test_a_snapping_corner_does_not_penetrate(shop) -> None:
     """The massless nodes of a crushed corner may lose their equilibrium; then the march stops rather than go wrong."""
     solid = shop.block((0.05, -0.21), cells=4, cell="quad9", height=0.05, angle=0.92)

@@ -18,12 +18,6 @@ def name(rule: Timing) -> str:
     return "located" if rule == Energy(located=True) else type(rule).__name__
 
 
-def unable(which: list[Timing], reason: str, raises: type[Exception] = AssertionError) -> list[object]:
-    """The rules, those that cannot do it yet marked with the reason."""
-    mark = pytest.mark.xfail(reason=reason, raises=raises)
-    return [pytest.param(r, marks=mark, id=name(r)) if r in which else pytest.param(r, id=name(r)) for r in RULES]
-
-
 rules = pytest.mark.parametrize("rule", RULES, ids=name)
 
 
@@ -44,7 +38,7 @@ def test_a_corner_keeps_both_gaps(shop, rule: Timing, normal: tuple[float, float
         assert motion.energy_error <= 1e-12
 
 
-@pytest.mark.parametrize("rule", unable(RULES[:2], "the force is projected on each normal: both feel the other"))
+@rules
 def test_the_forces_in_an_oblique_corner_balance_momentum(shop, rule: Timing) -> None:
     assert slide_into_corner(shop, rule, (2.0, 1.0)).momentum_error <= 1e-11
 
@@ -54,7 +48,7 @@ def test_the_forces_in_a_square_corner_balance_momentum(shop, rule: Timing) -> N
     assert slide_into_corner(shop, rule, (1.0, 0.0)).momentum_error <= 1e-11
 
 
-@pytest.mark.parametrize("rule", unable(RULES[1:], "dependent rows", np.linalg.LinAlgError))
+@rules
 def test_three_obstacles_around_one_node(shop, rule: Timing) -> None:
     walls = {
         "floor": shop.plane((0.0, 0.0), (0.0, 1.0)),
@@ -72,14 +66,13 @@ def landing_twice(shop, rule: Timing):
     return list(march(build(Scene(bodies=bodies, contacts=contacts)), until=1.0, step=0.05))
 
 
-@pytest.mark.parametrize("rule", unable(RULES[1:], "dependent rows", np.linalg.LinAlgError))
+@rules
 def test_a_node_in_two_contacts_with_one_obstacle(shop, rule: Timing) -> None:
     once = shop.move(shop.block(material=shop.linear), shop.floor, timing=rule, tag="surface", until=1.0)
     twice = landing_twice(shop, rule)
     np.testing.assert_allclose(twice[-1].after.displacement["body"], once.last.after.displacement["body"], atol=1e-10)
 
 
-@pytest.mark.xfail(reason="both contacts report the whole force of the node")
 def test_two_contacts_share_the_force_of_a_node(shop) -> None:
     once = shop.move(shop.block(material=shop.linear), shop.floor, tag="surface", until=1.0)
     for a, b in zip(once.steps, landing_twice(shop, Energy()), strict=True):
@@ -94,7 +87,7 @@ def on_a_slope(shop, rule: Timing):
     return shop.move(solid, {"slope": shop.plane((0.0, -0.02), (1.0, 2.0))}, timing=rule, until=2.3)
 
 
-@pytest.mark.parametrize("rule", unable(RULES[2:], "a closed row moves the supported component", Exception))
+@rules
 def test_supported_contact_nodes_stay_on_their_supports(shop, rule: Timing) -> None:
     motion = on_a_slope(shop, rule)
     held = ~motion.model.free
@@ -106,7 +99,7 @@ def test_supported_contact_nodes_stay_on_their_supports(shop, rule: Timing) -> N
         assert motion.energy_error <= 1e-12
 
 
-@pytest.mark.parametrize("rule", unable(RULES, "what the contact leans on the support is not told", Exception))
+@rules
 def test_supports_and_contacts_of_one_node_balance_momentum(shop, rule: Timing) -> None:
     assert on_a_slope(shop, rule).momentum_error <= 1e-11
 
@@ -123,9 +116,7 @@ def test_a_candidate_that_cannot_move_is_no_contact(shop, rule: Timing) -> None:
         np.testing.assert_allclose(motion.last.after.velocity["body"], alone.last.after.velocity["body"], atol=2e-3)
 
 
-@pytest.mark.parametrize(
-    "rule", unable(RULES[1:], "rows without a free component are not left out", np.linalg.LinAlgError)
-)
+@rules
 def test_a_supported_candidate_inside_the_obstacle_by_rounding(shop, rule: Timing) -> None:
     walls = {"wall": shop.plane(2e-15, 1.0), "right": shop.plane(1.05, -1.0)}
     solid = shop.bar(supports=(Fixed(on="left"),))
@@ -133,7 +124,7 @@ def test_a_supported_candidate_inside_the_obstacle_by_rounding(shop, rule: Timin
     assert motion.momentum_error <= 1e-11
 
 
-@pytest.mark.parametrize("rule", unable(RULES[2:3], "dependent rows", np.linalg.LinAlgError))
+@rules
 def test_a_bar_between_two_walls_at_once(shop, rule: Timing) -> None:
     """One node between two obstacles that leave it no room: it is held, as if supported."""
     walls = {"before": shop.plane(1.0, -1.0), "behind": shop.plane(1.0, 1.0)}

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from softway.bodies.internal import internal_force
 from softway.bodies.section import PlaneStrain
+from softway.errors import NoConvergence
 from softway.laws.bulk import LinearElastic
-from softway.solve.failure import NoConvergence
 from softway.solve.linear import LinearSolver, SuperLU
 from softway.space.shapes import rectangle
 

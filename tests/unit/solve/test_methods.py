@@ -8,11 +8,10 @@ import pytest
 from softway.bodies.solid import Fixed
 from softway.contact.path import Path, passage
 from softway.contact.timing import Impulse
-from softway.errors import InputError
+from softway.errors import InputError, NoConvergence
 from softway.laws.bulk import LinearElastic
 from softway.model import Model
 from softway.solve.driver import Iterate, Solution, drive, lost
-from softway.solve.failure import NoConvergence
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.frozen import Carry
 from softway.solve.newton import Newton
@@ -32,7 +31,9 @@ def slab(model: Model, span: float = 0.2) -> SlabSystem:
     v = (0.1 * rng.normal(size=model.shape) - [0.0, 0.5]) * model.free
     energy, force = model.energy_and_force(u)
     none = np.zeros(len(model.candidates.node), bool)
-    path = Path(span=span, start=u, velocity=v, massive=model.massive, rows=model.candidates, way=passage(none))
+    path = Path(
+        span=span, start=u, velocity=v, massive=model.massive, free=model.free, rows=model.candidates, way=passage(none)
+    )
     target = -2.0 * model.candidates.gap(path.end(np.zeros(model.shape))) / span
     return SlabSystem(
         model=model, start=Start(displacement=u, velocity=v, force=force, energy=energy), weight=EndPeaks(),

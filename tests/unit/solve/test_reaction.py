@@ -1,6 +1,7 @@
 """The reaction that keeps closed rows at rest, and the jump that stops them."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -22,7 +23,8 @@ masses = pytest.mark.parametrize("mass", [Consistent(), Lumped()], ids=["consist
 
 @pytest.fixture(params=["free", "held"])
 def model(request: pytest.FixtureRequest, block: Callable[..., Model]) -> Model:
-    return block(timing=Impulse(), supports=(Fixed(on="left"),) if request.param == "held" else ())
+    model = block(timing=Impulse(), supports=(Fixed(on="left"),) if request.param == "held" else ())
+    return replace(model, load=np.random.default_rng(7).normal(size=model.shape))
 
 
 def dense(model: Model) -> tuple[np.ndarray, np.ndarray]:
@@ -87,7 +89,6 @@ def test_a_bar_thrown_at_a_wall_loses_a_known_share(bar: Callable[..., Model], m
         assert share == pytest.approx(1.0 / (2.0 * np.sqrt(3.0) * cells), rel=2e-2)
 
 
-@pytest.mark.xfail(raises=np.linalg.LinAlgError, reason="supported contact nodes of the Impulse and Paper rules")
 def test_rows_without_a_free_component_carry_nothing(block: Callable[..., Model]) -> None:
     model = block(timing=Impulse(), supports=(Fixed(on="left"),))
     every = np.ones(len(model.candidates.node), bool)
@@ -96,7 +97,6 @@ def test_rows_without_a_free_component_carry_nothing(block: Callable[..., Model]
     assert not found[~reachable(model)].any()
 
 
-@pytest.mark.xfail(raises=np.linalg.LinAlgError, reason="several contacts of one node in the Impulse and Paper rules")
 def test_repeated_rows_share_the_reaction() -> None:
     solid = Solid(mesh=rectangle((1.0, 1.0), (2, 2)), material=LinearElastic(E=1.0), density=1.0)
     floor = Tool(shape=HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))

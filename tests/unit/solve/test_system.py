@@ -10,7 +10,7 @@ import scipy.sparse as sp
 from softway.bodies.force import AverageField, DiscreteGradient, Weighted
 from softway.bodies.loads import Gravity
 from softway.bodies.solid import Fixed
-from softway.contact.path import Path, passage
+from softway.contact.path import Passage, Path, passage
 from softway.contact.timing import Impulse
 from softway.laws.bulk import LinearElastic
 from softway.model import Model, dead_load
@@ -39,7 +39,8 @@ def system(model: Model, weight: TimeWeight, span: float = 0.3, balanced: bool =
     return SlabSystem(
         model=model, start=Start(displacement=u, velocity=v, force=force, energy=energy), weight=weight,
         path=Path(
-            span=span, start=u, velocity=v, massive=model.massive, rows=model.candidates, way=passage(none)
+            span=span, start=u, velocity=v, massive=model.massive, free=model.free,
+            rows=model.candidates, way=passage(none)
         ),
         rows=Rows(target=np.zeros(m), equal=none, unilateral=none), balanced=balanced,
     )  # fmt: skip
@@ -123,6 +124,21 @@ def test_a_quadratic_path_is_sampled_exactly_by_two_points(block: Callable[..., 
     q = random_q(model)
     means = [system(model, Momentum(points=p)).evaluate(q).mean_force for p in (2, 5)]
     np.testing.assert_allclose(*means, atol=1e-15)
+
+
+def test_a_kinked_path_is_averaged_exactly_under_the_constant_weight(block: Callable[..., Model]) -> None:
+    """Of a linear body the mean force belongs to the mean position, though the kinks fall between the time points."""
+    model = block(material=LINEAR, timing=Impulse())
+    m = len(model.candidates.node)
+    rng = np.random.default_rng(3)
+    way = Passage(
+        closed=np.array([True, True, False, False]), touch=np.array([np.nan, 0.3, 0.6, np.nan]),
+        speed=rng.normal(size=m), slope=rng.normal(size=m), release=np.array([np.nan, np.nan, 0.9, np.nan]),
+    )  # fmt: skip
+    s, q = system(model, Momentum()), random_q(model)
+    kinked = replace(s, path=replace(s.path, way=way, jumps=((0.3, random_q(model, 4)),)))
+    expected = model.force(kinked.path.mean(q))
+    np.testing.assert_allclose(kinked.evaluate(q).mean_force, expected, atol=1e-14)
 
 
 def test_loads_and_known_impulses_enter_the_balance(block: Callable[..., Model]) -> None:
