@@ -6,13 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from softway.bodies.fields import sample
-from softway.bodies.force import SlabForce
-from softway.bodies.internal import InternalForce, internal_force
 from softway.bodies.loads import Gravity, Load, Traction, traction_force
 from softway.bodies.mass import following, nodal_mass, redistributed
-from softway.bodies.section import default_section, wave_speed
-from softway.bodies.solid import Fixed, Solid, Tool
+from softway.bodies.part import Part, initial, part_of
+from softway.bodies.section import wave_speed
+from softway.bodies.solid import Solid, Tool
 from softway.contact.candidates import Candidates
 from softway.contact.pairs import Pairs, linear
 from softway.contact.timing import Energy, Timing
@@ -20,18 +18,6 @@ from softway.errors import InputError, within
 from softway.scene import Scene
 from softway.space.mesh import Mesh
 from softway.typing import Array, BoolArray, IntArray
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Part:
-    """One solid as arrays; ``rows`` are its nodes among those of the model, ``density`` is in kg/m^3."""
-
-    name: str
-    mesh: Mesh
-    rows: slice
-    internal: InternalForce
-    density: float
-    average: SlabForce
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -156,12 +142,12 @@ def build(scene: Scene) -> Model:
     masses, follow, fields = [], [], []
     for name, solid in solids.items():
         with within(f"bodies.{name}"):
-            part = _part(name, solid, parts[-1].rows.stop if parts else 0)
+            part = part_of(name, solid, parts[-1].rows.stop if parts else 0)
         nodes = _candidate_nodes(scene, part) if isinstance(timing, Energy) else np.zeros(0, int)
         masses.append(_mass(part, solid, nodes))
         follow.append(following(part.mesh, nodes) if len(nodes) else sp.eye_array(part.mesh.n_nodes))
         parts.append(part)
-        fields.append(_fields(part, solid))
+        fields.append(initial(part, solid))
     if len({p.mesh.dim for p in parts}) > 1:
         raise InputError("bodies", "solids of different space dimension in one scene", "meshes of one dimension")
     pairs = _pairs(scene, parts)
@@ -193,33 +179,12 @@ def _timing(scene: Scene) -> Timing:
     return rules.pop() if rules else Energy()
 
 
-def _part(name: str, solid: Solid, first: int) -> Part:
-    """The arrays of one solid whose nodes are numbered from ``first``."""
-    with within("mesh"):
-        mesh = solid.mesh if isinstance(solid.mesh, Mesh) else solid.mesh.build()
-    with within("place"):
-        mesh = solid.place.applied(mesh)
-    section = default_section(mesh) if solid.section is None else solid.section
-    internal = internal_force(mesh, solid.material, section)
-    rows = slice(first, first + mesh.n_nodes)
-    return Part(name=name, mesh=mesh, rows=rows, internal=internal, density=solid.density, average=solid.force)
-
-
 def _mass(part: Part, solid: Solid, candidates: IntArray) -> sp.csr_array:
     section = part.internal.section
     with within(f"bodies.{part.name}"):
         if len(candidates):
             return redistributed(part.mesh, solid.density, section, solid.mass, candidates)
         return nodal_mass(part.mesh, solid.density, section, solid.mass)
-
-
-def _fields(part: Part, solid: Solid) -> tuple[Array, Array, BoolArray]:
-    """Initial displacement and velocity (n, d), and the components without support (n, d)."""
-    with within(f"bodies.{part.name}.displacement"):
-        displacement = sample(solid.displacement, part.mesh)
-    with within(f"bodies.{part.name}.velocity"):
-        velocity = sample(solid.velocity, part.mesh)
-    return displacement, velocity, _support(part.name, solid.supports, part.mesh)
 
 
 def _candidate_nodes(scene: Scene, part: Part) -> IntArray:
@@ -229,23 +194,6 @@ def _candidate_nodes(scene: Scene, part: Part) -> IntArray:
             with within(f"contacts[{k}].between"):
                 found.append(part.mesh.nodes(contact.tag))
     return np.unique(np.concatenate(found))
-
-
-def _support(name: str, supports: tuple[Fixed, ...], mesh: Mesh) -> BoolArray:
-    free = np.ones((mesh.n_nodes, mesh.dim), bool)
-    axes = "xyz"[: mesh.dim]
-    for k, fixed in enumerate(supports):
-        path = f"bodies.{name}.supports[{k}]"
-        letters = axes if fixed.components == "all" else fixed.components
-        if not letters or set(letters) - set(axes):
-            raise InputError(
-                f"{path}.components", f"'{fixed.components}' in {mesh.dim}D", f"letters of '{axes}' or 'all'"
-            )
-        with within(f"{path}.on"):
-            nodes = mesh.nodes(fixed.on)
-        for letter in letters:
-            free[nodes, axes.index(letter)] = False
-    return free
 
 
 def _load(parts: Sequence[Part], mass: sp.csr_array, loads: Sequence[Load], where: str) -> Array:
