@@ -100,8 +100,16 @@ def at_nodes(cells: Cells, values: Array) -> Array:
 def rigid(reference: Array, points: Array) -> Array:
     """The reference points (n, 3) moved rigidly as near to ``points`` as they can be (least squares).
 
+    Where some node stands exactly still along an axis the body is supported there: it is not turned, and shifted
+    along the other axes only.
+
     Reference: W. Kabsch, Acta Cryst. A32 (1976) 922.
     """
+    moved = points - reference
+    still = (moved == 0.0).any(axis=0)
+    lies = (points == 0.0).all(axis=0)
+    if (still & ~lies).any() and moved.any():
+        return reference + np.where(still, 0.0, moved.mean(axis=0))
     middle, centre = reference.mean(axis=0), points.mean(axis=0)
     u, _, vt = np.linalg.svd((reference - middle).T @ (points - centre))
     sign = np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ vt)) or 1.0])

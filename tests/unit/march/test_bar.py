@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import semidiscrete
+from softway.bodies.loads import Gravity
 from softway.bodies.mass import Consistent, Lumped, MassRule
 from softway.contact.timing import Energy, Impulse, Paper, Timing
 from softway.laws.bulk import NeoHookean
@@ -84,6 +85,32 @@ def test_the_instant_of_the_touch_is_exact_in_free_flight(shop, rule: Timing, ga
     assert touch.position == pytest.approx([1.0 + gap], abs=1e-12)
     assert touch.velocity_before == pytest.approx(-1.0, abs=1e-9)
     assert touch.velocity_after == 0.0
+
+
+def fallen(shop, approach: str, step: float = 0.1, **options: object):
+    """A bar that falls from rest, 0.103 above the floor, under unit gravity."""
+    loads = (Gravity(acceleration=-1.0),)
+    return shop.move(
+        shop.bar(4, 0.0), {"floor": shop.plane(-0.103, 1.0)}, timing=Paper(approach=approach), tag="left", loads=loads,
+        until=0.8, step=step, **options,
+    )  # fmt: skip
+
+
+def test_an_extrapolated_approach_is_exact_in_free_fall_and_a_kept_one_is_not(shop) -> None:
+    exact = np.sqrt(2 * 0.103)
+    assert fallen(shop, "extrapolated").events[0].time == pytest.approx(exact, abs=1e-12)
+    assert fallen(shop, "extrapolated").events[0].velocity_before == pytest.approx(-exact, abs=1e-12)
+    late = [fallen(shop, "kept", h).events[0].time - exact for h in (0.1, 0.02)]
+    assert 1e-4 < late[0] < 1e-2
+    assert abs(late[1]) < late[0]
+
+
+def test_the_slope_of_the_approach_is_part_of_the_state(shop) -> None:
+    whole = fallen(shop, "extrapolated")
+    rest = fallen(shop, "extrapolated", state=whole.steps[3].after)
+    assert whole.steps[4].events, "the touch is in the first slab after"
+    assert shop.distance(whole, rest) <= 1e-12
+    assert rest.events[0].time == pytest.approx(whole.events[0].time, abs=1e-14)
 
 
 @rules

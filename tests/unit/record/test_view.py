@@ -107,7 +107,7 @@ def test_exaggeration_is_a_round_number(strain, factor):
     reference = np.array([[0.0, 0.0, 0.0], [0.5, 0.0, 0.0], [1.0, 0.0, 0.0]])
     empty = np.zeros(0)
     frame = Frame(
-        time=0.0, points=(1.0 + strain) * reference, displacement=empty, velocity=empty, contact_force=empty,
+        time=0.0, points=(1.0 + strain) * (reference + 0.1), displacement=empty, velocity=empty, contact_force=empty,
         stress=empty, von_mises=empty,
     )  # fmt: skip
     assert exaggeration(reference, frame) == factor
@@ -120,3 +120,10 @@ def test_exaggeration_is_a_round_number(strain, factor):
 def test_prefixes(value, unit, expected):
     factor, found = scaled(value, unit)
     assert found == expected and 1.0 <= factor * value < 1000.0 or value == 0.0
+
+
+def test_a_supported_body_is_not_turned():
+    """The rigid shape of a body whose axis cannot move across it keeps that axis."""
+    reference = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]])
+    points = reference + np.array([[0.0, 0.3, 0.0], [0.2, 0.1, 0.0], [0.0, 0.2, 0.0], [0.1, 0.2, 0.0]])
+    assert np.allclose(rigid(reference, points), reference + [0.0, 0.2, 0.0], atol=1e-15)
