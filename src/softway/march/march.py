@@ -72,7 +72,7 @@ def march(
     ...                velocity=sw.Uniform(value=1.0))
     >>> wall = sw.Tool(shape=sw.HalfSpace(point=1.25, normal=-1.0))
     >>> scene = sw.Scene(bodies={"bar": bar, "wall": wall}, contacts=(sw.Contact(between=("bar.right", "wall")),))
-    >>> steps = list(sw.march(scene, until=4.0, step=0.05))
+    >>> steps = list(march(scene, until=4.0, step=0.05))
     >>> round(steps[-1].ledger.energy_error, 9)
     0.0
     """

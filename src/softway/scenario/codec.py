@@ -63,7 +63,7 @@ def loads(
     >>> loads('''
     ... [bodies.wall]
     ... kind = "Tool"
-    ... shape = { point = "1.3 m", normal = -1 }
+    ... shape = { kind = "HalfSpace", point = "1.3 m", normal = -1 }
     ... [time]
     ... end = "4 s"
     ... ''').time.end
