@@ -42,6 +42,8 @@ class Model:
         (n, d) initial fields as described.
     pairs
         Contact rows.
+    floor
+        (parts,) stored energy below which a body counts as undeformed: a strain of 1e-14 throughout [J].
     timing
         The contact rule of the scene.
     """
@@ -56,6 +58,7 @@ class Model:
     displacement: Array
     velocity: Array
     pairs: Pairs
+    floor: Array
     timing: Timing
 
     @property
@@ -89,19 +92,6 @@ class Model:
     def join(self, fields: Mapping[str, Array]) -> Array:
         """The field over all nodes from those of the solids."""
         return np.concatenate([fields[p.name] for p in self.parts])
-
-    @property
-    def floor(self) -> Array:
-        """Stored energy (parts,) below which a body counts as undeformed: a strain of 1e-14 throughout [J]."""
-        return np.array(
-            [
-                1e-28
-                * p.density
-                * wave_speed(p.internal.material, p.density, p.internal.section) ** 2
-                * p.internal.volume.sum()
-                for p in self.parts
-            ]
-        )
 
     def totals(self, density: Array) -> Array:
         """Sum (parts,) of a nodal quantity (n, ...) over each solid."""
@@ -168,6 +158,7 @@ def build(scene: Scene) -> Model:
         displacement=np.concatenate([u for u, _, _ in fields]) * free,
         velocity=np.concatenate([v for _, v, _ in fields]) * free,
         pairs=pairs,
+        floor=np.array([_floor(p) for p in parts]),
         timing=timing,
     )
 
@@ -177,6 +168,11 @@ def _timing(scene: Scene) -> Timing:
     if len(rules) > 1:
         raise InputError("contacts", f"{len(rules)} different timing rules in one scene", "the same timing for all")
     return rules.pop() if rules else Energy()
+
+
+def _floor(part: Part) -> float:
+    speed = wave_speed(part.internal.material, part.density, part.internal.section)
+    return float(1e-28 * part.density * speed**2 * part.internal.volume.sum())
 
 
 def _mass(part: Part, solid: Solid, candidates: IntArray) -> sp.csr_array:

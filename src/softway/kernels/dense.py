@@ -1,7 +1,7 @@
 """Small dense systems of contact rows, some of which may depend on others."""
 
 import numpy as np
-from scipy.linalg import LinAlgError, cho_factor, cho_solve
+from scipy.linalg.lapack import dgetrf, dgetrs
 
 from softway.errors import NoConvergence
 from softway.typing import Array
@@ -11,10 +11,11 @@ LIFT = 1e-11
 
 
 def shared(matrix: Array, b: Array) -> Array:
-    """Solution of a dense symmetric positive semidefinite system; redundant rows share the force.
+    """Solution of a dense symmetric system; redundant rows share the force.
 
     The diagonal is lifted by ``LIFT`` so that dependent rows can be told apart, and the answer is refined on the
-    matrix itself: consistent systems are met to rounding.
+    matrix itself: consistent systems are met to rounding.  The matrix need not be positive: a part that only the
+    contact holds has an indefinite compliance.
 
     Examples
     --------
@@ -23,12 +24,11 @@ def shared(matrix: Array, b: Array) -> Array:
     """
     if not len(b):
         return np.zeros(0)
-    lifted = matrix + LIFT * np.diag(matrix).max() * np.eye(len(b))
-    try:
-        factor = cho_factor(lifted, check_finite=False)
-    except LinAlgError:
-        raise NoConvergence("the compliance of the contact rows is not positive") from None
-    x = np.asarray(cho_solve(factor, b, check_finite=False), float)
+    lifted = matrix + LIFT * np.abs(np.diag(matrix)).max() * np.eye(len(b))
+    factor, pivots, failed = dgetrf(lifted)
+    if failed:
+        raise NoConvergence(f"the compliance of {len(b)} contact rows is singular")
+    x = np.asarray(dgetrs(factor, pivots, b)[0], float)
     for _ in range(3):
-        x = x + cho_solve(factor, b - matrix @ x, check_finite=False)
+        x = x + dgetrs(factor, pivots, b - matrix @ x)[0]
     return x

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softway.errors import InputError
 from softway.model import Model
 from softway.scene import State
 from softway.solve.system import Start
@@ -26,7 +27,17 @@ class Situation:
 
 
 def joined(model: Model, state: State) -> Situation:
-    """The situation of a state; recomputes force and energy."""
+    """The situation of a state; recomputes force and energy.
+
+    Raises
+    ------
+    InputError
+        If the state is that of another scene.
+    """
+    ours = {p.name: (p.mesh.n_nodes, p.mesh.dim) for p in model.parts}
+    theirs = {name: u.shape for name, u in state.displacement.items()}
+    if ours != theirs or set(state.closed) != set(model.candidates.labels):
+        raise InputError("state", f"bodies {theirs} and contacts {sorted(state.closed)}", f"a state of {ours}")
     u = model.join(state.displacement)
     energy, force = model.energy_and_force(u)
     labels = model.candidates.labels

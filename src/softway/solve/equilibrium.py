@@ -42,13 +42,13 @@ def equilibrium(model: Model, u: Array, unknown: BoolArray, load: Array, limit: 
         matrix = rows.matrix(unknown)
         reachable = np.asarray(abs(matrix).sum(axis=1)).ravel() > 1e-12
         force = model.force(u)
+        conditions = Rows(target=-model.pairs.gap(u), equal=active & False, unilateral=reachable)
         try:
             frozen = freeze(model.tangent(u)[keep][:, keep], matrix, SuperLU())
+            free = -frozen.solve((force - load)[unknown])
+            step, pressure, active = constrain(free, frozen, conditions, active)
         except NoConvergence as failure:
             raise NumericsError(f"no static equilibrium at the start: {failure}", 0.0, REMEDY) from None
-        free = -frozen.solve((force - load)[unknown])
-        conditions = Rows(target=-rows.gap(u), equal=active & False, unilateral=reachable)
-        step, pressure, active = constrain(free, frozen, conditions, active)
         u[unknown] += step
         change = float(np.abs(step).max())
         if not np.isfinite(change):

@@ -1,0 +1,26 @@
+"""What is known of a slab whose contact nodes carry inertia."""
+
+import numpy as np
+import pytest
+
+from softway.contact.path import Passage
+from softway.march.course import Course
+from softway.march.jumps import instants
+
+
+def test_the_impulse_of_a_fading_force_is_a_triangle() -> None:
+    """Rows that stay closed, let go, touch and let go, and let go at once: half of force times length."""
+    way = Passage(
+        closed=np.array([True, False, False, False]),
+        touch=np.array([np.nan, np.nan, 0.2, 0.7]),
+        speed=np.zeros(4),
+        slope=np.zeros(4),
+        release=np.array([np.nan, 0.5, 0.6, 0.7]),
+    )
+    course = Course(way=way, reaction=np.array([3.0, 4.0, 10.0, -2.0]), held=np.zeros(4, bool))
+    assert course.impulse == pytest.approx([0.0, 1.0, 2.0, 0.0])
+
+
+def test_touches_within_rounding_are_one_instant() -> None:
+    assert instants(np.array([0.3, np.nan, 0.1, 0.3 + 1e-12, 0.30001])) == [0.1, 0.3, 0.30001]
+    assert instants(np.full(3, np.nan)) == []
