@@ -44,21 +44,26 @@ def initial(part: Part, solid: Solid) -> tuple[Array, Array, BoolArray]:
         displacement = sample(solid.displacement, part.mesh)
     with within(f"bodies.{part.name}.velocity"):
         velocity = sample(solid.velocity, part.mesh)
-    return displacement, velocity, _free(part.name, solid.supports, part.mesh)
+    with within(f"bodies.{part.name}"):
+        return displacement, velocity, free_components(solid.supports, part.mesh)
 
 
-def _free(name: str, supports: tuple[Fixed, ...], mesh: Mesh) -> BoolArray:
-    """Components (n, d) without support."""
+def free_components(supports: tuple[Fixed, ...], mesh: Mesh) -> BoolArray:
+    """Components (n, d) of the nodes of a mesh that no support holds.
+
+    Raises
+    ------
+    InputError
+        With the place from ``supports[k]`` on: letters that are no axes of the mesh, a tag that matches nothing.
+    """
     free = np.ones((mesh.n_nodes, mesh.dim), bool)
     axes = "xyz"[: mesh.dim]
     for k, fixed in enumerate(supports):
-        path = f"bodies.{name}.supports[{k}]"
         letters = axes if fixed.components == "all" else fixed.components
         if not letters or set(letters) - set(axes):
-            raise InputError(
-                f"{path}.components", f"'{fixed.components}' in {mesh.dim}D", f"letters of '{axes}' or 'all'"
-            )
-        with within(f"{path}.on"):
+            where = f"supports[{k}].components"
+            raise InputError(where, f"{fixed.components!r} in {mesh.dim}D", f"letters of {axes!r}, or 'all'")
+        with within(f"supports[{k}].on"):
             nodes = mesh.nodes(fixed.on)
         for letter in letters:
             free[nodes, axes.index(letter)] = False

@@ -125,8 +125,7 @@ def _steps(rules: Rule, now: Situation, until: float, span: float, weight: TimeW
         ledger = audited(model, initial, ledger, now, out, after)
         state = parted(model, after)
         yield _step(model, now, before, state, slab, out, ledger, made, rejections)
-        current = min(span, 2.0 * slab.span) if slab.span < span * (1.0 - 1e-9) and rejections == () else slab.span
-        current = min(current, span)
+        current = min(span, slab.span if rejections else 2.0 * slab.span)
         now, before = after, state
 
 

@@ -1,41 +1,22 @@
 """Every name in a scenario that points at something else: bodies, tags, components, dimensions."""
 
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping
 from math import isfinite
 
 import numpy as np
 
 from softway.bodies.fields import components, sample
 from softway.bodies.loads import Gravity, Load, Traction
+from softway.bodies.part import free_components
 from softway.bodies.section import check_section
-from softway.bodies.solid import Fixed, Solid, Tool
+from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact
-from softway.errors import InputError
+from softway.errors import InputError, within
 from softway.scenario.kinds import nearest
 from softway.scenario.scales import section_of
 from softway.scene import Scene
 from softway.space.mesh import Mesh
 from softway.typing import Array, BoolArray, IntArray
-
-
-@contextmanager
-def at(path: str) -> Iterator[None]:
-    """Put ``path`` before the place of an InputError raised inside.
-
-    Examples
-    --------
-    >>> try:
-    ...     with at("bodies.bar"):
-    ...         raise InputError("density", "-1 kg/m^3 is not positive")
-    ... except InputError as error:
-    ...     error.where
-    'bodies.bar.density'
-    """
-    try:
-        yield
-    except InputError as error:
-        raise error.within(path) from None
 
 
 def mesh_of(solid: Solid) -> Mesh:
@@ -98,29 +79,13 @@ def check_dimensions(scene: Scene, solids: Mapping[str, Solid]) -> None:
 def check_solid(solid: Solid, where: str) -> BoolArray:
     """Look at section, fields and supports; returns the supported components (n, d)."""
     mesh = mesh_of(solid)
-    with at(where):
+    with within(where):
         check_section(mesh, section_of(solid, mesh))
     for name in ("velocity", "displacement"):
-        with at(f"{where}.{name}"):
+        with within(f"{where}.{name}"):
             sample(getattr(solid, name), mesh)
-    fixed = np.zeros((mesh.n_nodes, mesh.dim), bool)
-    for k, support in enumerate(solid.supports):
-        _support(support, mesh, fixed, f"{where}.supports[{k}]")
-    return fixed
-
-
-def _support(support: Fixed, mesh: Mesh, fixed: BoolArray, where: str) -> None:
-    """Mark the components that a support holds."""
-    axes = "xyz"[: mesh.dim]
-    letters = axes if support.components == "all" else support.components
-    if not letters or set(letters) - set(axes):
-        raise InputError(
-            f"{where}.components", f"{support.components!r} in {mesh.dim}D", f"letters of {axes!r}, or 'all'"
-        )
-    with at(f"{where}.on"):
-        nodes = mesh.nodes(support.on)
-    for letter in letters:
-        fixed[nodes, axes.index(letter)] = True
+    with within(where):
+        return ~free_components(solid.supports, mesh)
 
 
 def check_loads(loads: tuple[Load, ...], where: str, solids: Mapping[str, Solid]) -> None:
@@ -129,13 +94,13 @@ def check_loads(loads: tuple[Load, ...], where: str, solids: Mapping[str, Solid]
     for k, load in enumerate(loads):
         path = f"{where}[{k}]"
         if isinstance(load, Gravity):
-            with at(path):
+            with within(path):
                 load.vector(dim)
         elif isinstance(load, Traction):
             mesh = mesh_of(solid_named(solids, load.body, f"{path}.on"))
-            with at(path):
+            with within(path):
                 components("value", load.value, dim)
-            with at(f"{path}.on"):
+            with within(f"{path}.on"):
                 covered = mesh.facets_on(load.tag)
             if not covered:
                 raise InputError(f"{path}.on", f"{load.on!r} holds no whole facet", "a tag that covers a surface")
@@ -154,5 +119,5 @@ def check_timings(contacts: tuple[Contact, ...]) -> None:
 def candidate_nodes(scene: Scene, contact: Contact, where: str) -> IntArray:
     """Nodes (c,) that may touch, in a scene whose meshes are made."""
     solid = solid_named(scene.bodies, contact.body, f"{where}.between")
-    with at(f"{where}.between"):
+    with within(f"{where}.between"):
         return mesh_of(solid).nodes(contact.tag)
