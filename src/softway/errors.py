@@ -49,6 +49,14 @@ class NoConvergence(Exception):
     """A slab could not be solved; the march drops it and tries a shorter one. The message says what happened."""
 
 
+class Unbalanced(Exception):
+    """The energy balance of a slab needs a scalar beyond its bound; the march tries a shorter one."""
+
+
+class TooFast(Exception):
+    """A slab is too long for the approach of two surfaces; the march tries a shorter one. The message says where."""
+
+
 @contextmanager
 def within(path: str) -> Iterator[None]:
     """Put ``path`` before the place of an :class:`InputError` raised inside.

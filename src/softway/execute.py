@@ -65,7 +65,15 @@ def run(
         readings=readings(given.output.probes, model.meshes),
     )
     time = given.time
-    steps = march(model, until=time.end, step=checked.step, weight=time.weight, method=given.solver, state=initial)
+    steps = march(
+        model,
+        until=time.end,
+        step=checked.step,
+        weight=time.weight,
+        method=given.solver,
+        state=initial,
+        control=time.control,
+    )
     return conduct(steps, opening, place, title=given.title, scenario=_text(given), progress=progress)
 
 

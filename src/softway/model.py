@@ -8,11 +8,12 @@ import scipy.sparse as sp
 
 from softway.bodies.loads import Gravity, Load, Traction, traction_force
 from softway.bodies.mass import following, nodal_mass, redistributed
-from softway.bodies.part import Part, initial, part_of
+from softway.bodies.part import Part, held_components, initial, part_of
 from softway.bodies.section import wave_speed
-from softway.bodies.solid import Solid, Tool
+from softway.bodies.solid import Driven, Solid
 from softway.contact.candidates import Candidates
-from softway.contact.pairs import Pairs, linear
+from softway.contact.encounters import Encounters
+from softway.contact.pairing import pairing
 from softway.contact.timing import Energy, Timing
 from softway.errors import InputError, within
 from softway.scene import Scene
@@ -40,8 +41,16 @@ class Model:
         (n, d) dead loads [N].
     displacement, velocity
         (n, d) initial fields as described.
-    pairs
-        Contact rows.
+    encounters
+        The contacts.
+    opponents
+        (contacts, 2) numbers of the two solids of each contact; -1 for a tool.
+    touchable
+        (k,) nodes that may touch something.
+    edge
+        (n,) shortest edge at each node [m].
+    driven
+        Driven supports with the components (n, d) that they move.
     floor
         (parts,) stored energy below which a body counts as undeformed: a strain of 1e-14 throughout [J].
     timing
@@ -57,7 +66,11 @@ class Model:
     load: Array
     displacement: Array
     velocity: Array
-    pairs: Pairs
+    encounters: Encounters
+    opponents: IntArray
+    touchable: IntArray
+    edge: Array
+    driven: tuple[tuple[Driven, BoolArray], ...]
     floor: Array
     timing: Timing
 
@@ -67,9 +80,25 @@ class Model:
         return self.free.shape[0], self.free.shape[1]
 
     @property
-    def candidates(self) -> Candidates:
-        """The contact rows in their linear form at the reference configuration."""
-        return self.pairs.reference
+    def points(self) -> Array:
+        """Reference positions (n, d) [m]."""
+        return self.encounters.points
+
+    @property
+    def part_of(self) -> IntArray:
+        """Number (n,) of the solid of each node."""
+        return np.repeat(np.arange(len(self.parts)), [p.mesh.n_nodes for p in self.parts])
+
+    def rows(self, u: Array, time: float = 0.0) -> Candidates:
+        """The contact rows of the bodies at rest at the displacement ``u`` (n, d)."""
+        return self.encounters.rest(u, time).at(u)
+
+    def prescribed(self, time: float) -> Array:
+        """Velocity (n, d) of the driven components at a time [m/s]; zero on all others."""
+        out = np.zeros(self.shape)
+        for support, where in self.driven:
+            out[where] = support.at(time)
+        return out
 
     @property
     def meshes(self) -> Mapping[str, Mesh]:
@@ -96,6 +125,10 @@ class Model:
     def totals(self, density: Array) -> Array:
         """Sum (parts,) of a nodal quantity (n, ...) over each solid."""
         return np.array([density[p.rows].sum() for p in self.parts])
+
+    def nodal(self, values: Array) -> Array:
+        """Values (parts,) of the solids on their nodes, (n, 1)."""
+        return np.repeat(values, [p.mesh.n_nodes for p in self.parts])[:, None]
 
     def energy_and_force(self, u: Array) -> tuple[Array, Array]:
         """Stored energy of each solid (parts,) [J] and internal force (n, d) [N]."""
@@ -128,28 +161,18 @@ def build(scene: Scene) -> Model:
     if not solids:
         raise InputError("bodies", "no Solid among them", "at least one body of kind Solid")
     timing = _timing(scene)
-    parts: list[Part] = []
-    masses, follow, fields = [], [], []
-    for name, solid in solids.items():
-        with within(f"bodies.{name}"):
-            part = part_of(name, solid, parts[-1].rows.stop if parts else 0)
-        nodes = _candidate_nodes(scene, part) if isinstance(timing, Energy) else np.zeros(0, int)
-        masses.append(_mass(part, solid, nodes))
-        follow.append(following(part.mesh, nodes) if len(nodes) else sp.eye_array(part.mesh.n_nodes))
-        parts.append(part)
-        fields.append(initial(part, solid))
-    if len({p.mesh.dim for p in parts}) > 1:
-        raise InputError("bodies", "solids of different space dimension in one scene", "meshes of one dimension")
-    pairs = _pairs(scene, parts)
-    if not (pairs.flat or isinstance(timing, Energy)):
-        raise InputError(
-            "contacts[0].timing", f"{timing} with a curved obstacle", "Energy, or obstacles of kind HalfSpace"
-        )
+    parts = _parts(solids)
+    met = pairing(scene.contacts, scene.bodies, parts)
+    light = met.nodes if isinstance(timing, Energy) else np.zeros(0, int)
+    own = [light[(light >= p.rows.start) & (light < p.rows.stop)] - p.rows.start for p in parts]
+    masses = [_mass(p, solids[p.name], nodes) for p, nodes in zip(parts, own, strict=True)]
+    follow = [_following(p, nodes) for p, nodes in zip(parts, own, strict=True)]
     mass = sp.csr_array(sp.block_diag(masses, format="csr"))
+    fields = [initial(p, solids[p.name]) for p in parts]
     free = np.concatenate([held for _, _, held in fields])
     return Model(
         scene=scene,
-        parts=tuple(parts),
+        parts=parts,
         mass=mass,
         follow=sp.csr_array(sp.block_diag(follow, format="csr")),
         massive=np.asarray(mass.diagonal()) > 0.0,
@@ -157,10 +180,45 @@ def build(scene: Scene) -> Model:
         load=_load(parts, mass, scene.loads, "loads"),
         displacement=np.concatenate([u for u, _, _ in fields]) * free,
         velocity=np.concatenate([v for _, v, _ in fields]) * free,
-        pairs=pairs,
+        encounters=met.encounters,
+        opponents=met.opponents,
+        touchable=met.nodes,
+        edge=np.concatenate([p.mesh.edges() for p in parts]),
+        driven=_driven(parts, solids, free.shape),
         floor=np.array([_floor(p) for p in parts]),
         timing=timing,
     )
+
+
+def _parts(solids: Mapping[str, Solid]) -> tuple[Part, ...]:
+    parts: list[Part] = []
+    for name, solid in solids.items():
+        with within(f"bodies.{name}"):
+            parts.append(part_of(name, solid, parts[-1].rows.stop if parts else 0))
+    if len({p.mesh.dim for p in parts}) > 1:
+        raise InputError("bodies", "solids of different space dimension in one scene", "meshes of one dimension")
+    return tuple(parts)
+
+
+def _driven(
+    parts: Sequence[Part], solids: Mapping[str, Solid], shape: tuple[int, ...]
+) -> tuple[tuple[Driven, BoolArray], ...]:
+    """The driven supports with the components (n, d) that they move; a later support takes over from an earlier."""
+    found = []
+    for part in parts:
+        for k, support in enumerate(solids[part.name].supports):
+            if isinstance(support, Driven):
+                with within(f"bodies.{part.name}.supports[{k}]"):
+                    where = np.zeros(shape, bool)
+                    where[part.rows] = held_components(support, part.mesh)
+                found.append((support, where))
+    return tuple(found)
+
+
+def _following(part: Part, light: IntArray) -> sp.csr_array:
+    if not len(light):
+        return sp.csr_array(sp.eye_array(part.mesh.n_nodes))
+    return following(part.mesh, light)
 
 
 def _timing(scene: Scene) -> Timing:
@@ -181,15 +239,6 @@ def _mass(part: Part, solid: Solid, candidates: IntArray) -> sp.csr_array:
         if len(candidates):
             return redistributed(part.mesh, solid.density, section, solid.mass, candidates)
         return nodal_mass(part.mesh, solid.density, section, solid.mass)
-
-
-def _candidate_nodes(scene: Scene, part: Part) -> IntArray:
-    found = [np.zeros(0, int)]
-    for k, contact in enumerate(scene.contacts):
-        if contact.body == part.name:
-            with within(f"contacts[{k}].between"):
-                found.append(part.mesh.nodes(contact.tag))
-    return np.unique(np.concatenate(found))
 
 
 def _load(parts: Sequence[Part], mass: sp.csr_array, loads: Sequence[Load], where: str) -> Array:
@@ -217,30 +266,3 @@ def _solid(parts: Sequence[Part], name: str, where: str) -> Part:
 def dead_load(model: Model, loads: Sequence[Load], where: str) -> Array:
     """Nodal forces (n, d) [N] of dead loads on a model; ``where`` is their place in the scene, for errors."""
     return _load(model.parts, model.mass, loads, where)
-
-
-def _pairs(scene: Scene, parts: Sequence[Part]) -> Pairs:
-    dim = parts[0].mesh.dim
-    node, number, points, shapes = [np.zeros(0, int)], [np.zeros(0, int)], [np.zeros((0, dim))], []
-    for k, contact in enumerate(scene.contacts):
-        tool = scene.bodies.get(contact.between[1])
-        with within(f"contacts[{k}]"):
-            part = _solid(parts, contact.body, "between")
-            if not isinstance(tool, Tool):
-                tools = [n for n, b in scene.bodies.items() if isinstance(b, Tool)]
-                raise InputError("between", f"'{contact.between[1]}' is not a tool", f"one of {tools}")
-            with within("between"):
-                nodes = part.mesh.nodes(contact.tag)
-        with within(f"bodies.{contact.between[1]}.shape"):
-            tool.shape.gap(part.mesh.points[nodes])
-        node.append(nodes + part.rows.start)
-        number.append(np.full(len(nodes), k))
-        points.append(part.mesh.points[nodes])
-        shapes.append(tool.shape)
-    rows = np.concatenate(node), np.concatenate(number), np.concatenate(points)
-    labels = tuple(c.label for c in scene.contacts)
-    for k, label in enumerate(labels):
-        if label in labels[:k]:
-            raise InputError(f"contacts[{k}].name", f"'{label}' is the name of an earlier contact", "a name of its own")
-    reference = linear(*rows, np.zeros_like(rows[2]), tuple(shapes), labels)
-    return Pairs(node=rows[0], contact=rows[1], points=rows[2], shapes=tuple(shapes), reference=reference)

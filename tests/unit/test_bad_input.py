@@ -71,7 +71,7 @@ CASES = {
         "bodies.block.place.bottom=-0.5 mm",
         "contacts[0].between",
         "0.0005 m inside",
-        "move the body",
+        "move a body",
     ),
     "unknown body": ("contacts[0].between=['blok.bottom', 'floor']", "contacts[0].between", "blok", "'block'"),
     "no end": ("time.end=0", "time.end", "0 s", "2 ms"),

@@ -91,7 +91,7 @@ def test_kinetic_energy_of_a_rigid_motion(model: Model) -> None:
 
 
 def test_contact_rows(model: Model) -> None:
-    rows = model.candidates
+    rows = model.rows(model.displacement)
     assert rows.labels == ("b.bottom-floor",)
     assert rows.node.tolist() == (15 + model.meshes["b"].nodes("bottom")).tolist()
     np.testing.assert_array_equal(rows.normal, [[0.0, 1.0]] * 5)
@@ -103,7 +103,8 @@ def test_contact_rows(model: Model) -> None:
 def test_a_node_may_face_several_obstacles() -> None:
     bodies = {"a": square(), "floor": half_space(), "wall": half_space((-0.5, 0.0), (1.0, 0.0))}
     contacts = (Contact(between=("a.surface", "floor")), Contact(between=("a.left", "wall"), name="side"))
-    rows = build(Scene(bodies=bodies, contacts=contacts)).candidates
+    model = build(Scene(bodies=bodies, contacts=contacts))
+    rows = model.rows(model.displacement)
     assert rows.labels == ("a.surface-floor", "side")
     assert rows.of(0).sum() == 12
     assert rows.of(1).sum() == 3

@@ -64,4 +64,24 @@ class DiscreteGradient:
     """
 
 
-SlabForce = Weighted | AverageField | DiscreteGradient
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EnergyMomentum:
+    """The force of the virtual time function, completed so that energy and angular momentum keep their balance.
+
+    A force ``M (b x (x - centre))`` turns every body about its centre of mass; the vector b, one for each group of
+    touching bodies, makes the internal forces and the contact between the bodies free of moment.  No quotient of small
+    increments occurs (docs/theory/energy.md).
+
+    References
+    ----------
+    LaBudde, Greenspan (1976), Energy and momentum conserving methods of arbitrary order for the numerical integration
+    of equations of motion, Numer. Math. 25, 323-346 and 26, 1-16.
+
+    Examples
+    --------
+    >>> EnergyMomentum()
+    EnergyMomentum()
+    """
+
+
+SlabForce = Weighted | AverageField | DiscreteGradient | EnergyMomentum

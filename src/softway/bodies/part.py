@@ -8,7 +8,7 @@ from softway.bodies.fields import sample
 from softway.bodies.force import SlabForce
 from softway.bodies.internal import InternalForce, internal_force
 from softway.bodies.section import default_section
-from softway.bodies.solid import Fixed, Solid
+from softway.bodies.solid import Solid, Support
 from softway.errors import InputError, within
 from softway.space.mesh import Mesh
 from softway.typing import Array, BoolArray
@@ -48,8 +48,8 @@ def initial(part: Part, solid: Solid) -> tuple[Array, Array, BoolArray]:
         return displacement, velocity, free_components(solid.supports, part.mesh)
 
 
-def free_components(supports: tuple[Fixed, ...], mesh: Mesh) -> BoolArray:
-    """Components (n, d) of the nodes of a mesh that no support holds.
+def free_components(supports: tuple[Support, ...], mesh: Mesh) -> BoolArray:
+    """Components (n, d) of the nodes of a mesh that no support holds or drives.
 
     Raises
     ------
@@ -57,14 +57,28 @@ def free_components(supports: tuple[Fixed, ...], mesh: Mesh) -> BoolArray:
         With the place from ``supports[k]`` on: letters that are no axes of the mesh, a tag that matches nothing.
     """
     free = np.ones((mesh.n_nodes, mesh.dim), bool)
-    axes = "xyz"[: mesh.dim]
-    for k, fixed in enumerate(supports):
-        letters = axes if fixed.components == "all" else fixed.components
-        if not letters or set(letters) - set(axes):
-            where = f"supports[{k}].components"
-            raise InputError(where, f"{fixed.components!r} in {mesh.dim}D", f"letters of {axes!r}, or 'all'")
-        with within(f"supports[{k}].on"):
-            nodes = mesh.nodes(fixed.on)
-        for letter in letters:
-            free[nodes, axes.index(letter)] = False
+    for k, support in enumerate(supports):
+        with within(f"supports[{k}]"):
+            free &= ~held_components(support, mesh)
     return free
+
+
+def held_components(support: Support, mesh: Mesh) -> BoolArray:
+    """Components (n, d) of the nodes of a mesh that a support holds or drives.
+
+    Raises
+    ------
+    InputError
+        Letters that are no axes of the mesh, a tag that matches nothing.
+    """
+    held = np.zeros((mesh.n_nodes, mesh.dim), bool)
+    axes = "xyz"[: mesh.dim]
+    letters = axes if support.components == "all" else support.components
+    if not letters or set(letters) - set(axes):
+        problem = f"{support.components!r} in {mesh.dim}D"
+        raise InputError("components", problem, f"letters of {axes!r}, or 'all'")
+    with within("on"):
+        nodes = mesh.nodes(support.on)
+    for letter in letters:
+        held[nodes, axes.index(letter)] = True
+    return held

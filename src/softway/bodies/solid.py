@@ -3,16 +3,20 @@
 from dataclasses import dataclass
 from typing import Annotated
 
+import numpy as np
+
 from softway.bodies.fields import Field, Uniform
 from softway.bodies.force import SlabForce, Weighted
 from softway.bodies.mass import Consistent, MassRule
+from softway.bodies.motion import Motion, Placed, Still
 from softway.bodies.placement import Placement
 from softway.bodies.section import Section
+from softway.errors import InputError
 from softway.laws.law import StoredEnergy
 from softway.space.curved import Shape
 from softway.space.mesh import Mesh
 from softway.space.sources import MeshSource
-from softway.units import KilogramPerCubicMetre
+from softway.units import KilogramPerCubicMetre, MetrePerSecond, Second
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,6 +28,49 @@ class Fixed:
 
     on: str
     components: str = "all"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Driven:
+    """Support that moves: the named components of the nodes of a tag have a given velocity.
+
+    Parameters
+    ----------
+    on, components
+        As for :class:`Fixed`.
+    velocity
+        Velocity of each of the components; with ``times`` its values there, linear in between and constant outside
+        [m/s].
+    times
+        Increasing instants [s].
+
+    Examples
+    --------
+    >>> ram = Driven(on="top", components="y", velocity=(0.0, -2.0), times=(0.0, 1.0))
+    >>> ram.at(0.5)
+    -1.0
+    """
+
+    on: str
+    components: str = "all"
+    velocity: tuple[MetrePerSecond, ...] | MetrePerSecond = 0.0
+    times: tuple[Second, ...] = ()
+
+    def __post_init__(self) -> None:
+        values = np.atleast_1d(np.asarray(self.velocity, float))
+        times = np.asarray(self.times, float)
+        if len(values) != max(len(times), 1) or not np.isfinite(values).all():
+            raise InputError("velocity", f"{len(values)} values at {len(times)} times", "one for each of the times")
+        if not (np.diff(times) > 0.0).all():
+            raise InputError("times", f"{list(self.times)} do not increase", "increasing instants")
+
+    def at(self, time: float) -> float:
+        """Velocity at a time [m/s]."""
+        values = np.atleast_1d(np.asarray(self.velocity, float))
+        return float(np.interp(time, self.times, values)) if self.times else float(values[0])
+
+
+Support = Fixed | Driven
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,7 +92,7 @@ class Solid:
     velocity, displacement
         Initial fields.
     supports
-        Fixed nodes.
+        Nodes that are held or driven.
     force
         How the internal force is averaged over a slab.
     place
@@ -59,13 +106,39 @@ class Solid:
     mass: MassRule = Consistent()
     velocity: Annotated[Field, "m/s"] = Uniform()
     displacement: Annotated[Field, "m"] = Uniform()
-    supports: tuple[Fixed, ...] = ()
+    supports: tuple[Support, ...] = ()
     force: SlabForce = Weighted()
     place: Placement = Placement()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Tool:
-    """A rigid obstacle without unknowns."""
+    """A rigid obstacle without unknowns.
+
+    Parameters
+    ----------
+    shape
+        Its shape, where it stands without motion.
+    motion
+        How it moves.
+
+    Examples
+    --------
+    >>> from softway.bodies.motion import Translation
+    >>> from softway.space.obstacles import HalfSpace
+    >>> ram = Tool(shape=HalfSpace(point=1.0, normal=-1.0), motion=Translation(velocity=-2.0))
+    >>> ram.at(0.25).pose.shift.tolist()
+    [-0.5]
+    """
 
     shape: Shape
+    motion: Motion = Still()
+
+    def __post_init__(self) -> None:
+        if self.motion.dim not in (None, self.shape.dim):
+            problem = f"{type(self.motion).__name__} in {self.motion.dim}D of a shape in {self.shape.dim}D"
+            raise InputError("motion", problem, f"{self.shape.dim} components")
+
+    def at(self, time: float) -> Placed:
+        """The shape where it stands at a time [s]."""
+        return Placed(shape=self.shape, pose=self.motion.at(time))

@@ -29,6 +29,12 @@ UNITS = {
     "dissipation": "J",
     "work_external": "J",
     "wall_time": "s",
+    "min_gap": "m",
+    "min_force": "N",
+    "complementarity": "J",
+    "power_residual": "J",
+    "momentum_error": "kg m/s",
+    "energy_error": "J",
 }
 WORDS = {
     "stable_step": "stable step (Momentum)",
@@ -61,6 +67,8 @@ def summary(run: Run, console: Console) -> None:
     plain = {k: v for k, v in found.items() if isinstance(v, int | float) and not isinstance(v, bool)}
     _columns({"run": plain}, console)
     _columns({f"contact {n}": c for n, c in found["contacts"].items()}, console)
+    if found.get("certificate"):
+        _columns({"certificate (worst slab)": found["certificate"]}, console)
     console.print(f"{stop.reason}{': ' if stop.message else ''}{stop.message}", markup=False, soft_wrap=True)
     console.print(f"records: {run.path}", markup=False, soft_wrap=True, highlight=False)
 

@@ -97,7 +97,7 @@ class Path:
         return self.at(1.0, q)
 
     def at(self, tau: float, q: Array) -> Array:
-        """Displacement (n, d) at ``tau``."""
+        """Displacement (n, d) at ``tau``; the contact rows are those at the slab's end."""
         h, v = self.span, self.velocity
         rate = np.where(self.massive[:, None], tau * v + 0.5 * tau**2 * (q - v), 0.5 * tau * q)
         for instant, jump in self.jumps:
@@ -115,24 +115,29 @@ class Path:
     def _normal_motion(self, tau: float, q: Array) -> Array:
         """n . (u(tau) - u0) of the kinked rows (m,)."""
         h, way = self.span, self.way
-        gap = self.rows.gap(self.start)
+        gap = np.where(self.rows.near, self.rows.gap(self.start), 0.0)
         touch = np.where(np.isfinite(way.touch), way.touch, 0.0)
         before = h * (way.speed * tau + 0.5 * way.slope * tau**2)
         run = np.maximum(tau - np.nan_to_num(way.release, nan=1.0), 0.0)
         with np.errstate(divide="ignore", invalid="ignore"):
-            after = np.where(way.freedom > 0.0, 0.5 * h * self.rows.along(q) * run**2 / way.freedom, 0.0)
-        return np.where(tau < touch, before, -gap + after)
+            after = np.where(way.freedom > 0.0, 0.5 * h * self._leaving(q) * run**2 / way.freedom, 0.0)
+        return np.where(tau < touch, before, -gap - self.rows.drive * (1.0 - tau) + after)
 
     def _normal_mean(self, q: Array) -> Array:
         """The integral over tau of the normal motion (m,)."""
         h, way = self.span, self.way
-        gap = self.rows.gap(self.start)
+        gap = np.where(self.rows.near, self.rows.gap(self.start), 0.0)
         c = np.where(np.isfinite(way.touch), way.touch, 0.0)
         return (
             h * (way.speed * c**2 / 2.0 + way.slope * c**3 / 6.0)
             - gap * (1.0 - c)
-            + h * self.rows.along(q) * way.freedom**2 / 6.0
+            - self.rows.drive * 0.5 * (1.0 - c) ** 2
+            + h * self._leaving(q) * way.freedom**2 / 6.0
         )
+
+    def _leaving(self, q: Array) -> Array:
+        """Normal velocity (m,) at the end, relative to a driven opponent [m/s]."""
+        return self.rows.along(q) - self.rows.drive / self.span
 
     def _kinked(self, smooth: Array, normal: Array) -> Array:
         """The smooth motion with the normal components of the kinked rows replaced."""

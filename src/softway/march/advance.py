@@ -7,7 +7,7 @@ import numpy as np
 from softway.contact.fig4 import Split
 from softway.contact.located import LocatedMean, located_mean
 from softway.contact.timing import Energy, Paper
-from softway.errors import InputError, NoConvergence
+from softway.errors import InputError, Unbalanced
 from softway.march.carrying import solve_carrying
 from softway.march.massless import solve_massless
 from softway.march.outcome import Outcome
@@ -53,32 +53,34 @@ def rule(model: Model, method: FixedPoint | Newton, weight: TimeWeight) -> Rule:
         )
     if not model.timing.located:
         return Rule(model=model, method=method, inertia=None, located=None)
-    if not model.linear:
+    if not (model.linear and model.encounters.fixed):
         raise InputError(
             "contacts[0].timing.located",
-            "the located Energy rule is for small strain",
+            "the located Energy rule is for small strain and resting half-spaces",
             "the material LinearElastic, or located = false",
         )
     stiffness = model.tangent(np.zeros(model.shape))
-    located = located_mean(model.candidates, model.free, model.massive, model.load, stiffness)
+    located = located_mean(model.rows(model.displacement), model.free, model.massive, model.load, stiffness)
     return Rule(model=model, method=method, inertia=None, located=located)
 
 
-def advance(rule: Rule, now: Situation, slab: Slab, carry: Carry) -> tuple[Situation, Outcome, Carry]:
+def advance(
+    rule: Rule, now: Situation, slab: Slab, carry: Carry, approach: float = np.inf, fallback: bool = False
+) -> tuple[Situation, Outcome, Carry]:
     """The situation at the end of the slab; nothing of the old one is changed.
 
     Raises
     ------
-    NoConvergence
-        If the method does not settle, or the energy balance cannot be closed.
+    NoConvergence, TooFast, Unbalanced
+        If the method does not settle, the slab is too long for the approach, or the energy balance cannot be closed.
     """
     if rule.inertia is None:
-        out, carry = solve_massless(rule.model, now, slab, carry, rule.method, rule.located)
+        out, carry = solve_massless(rule.model, now, slab, carry, rule.method, rule.located, approach, fallback)
     else:
-        out, carry = solve_carrying(rule.model, now, slab, carry, rule.method, rule.inertia, rule.split)
+        out, carry = solve_carrying(rule.model, now, slab, carry, rule.method, rule.inertia, approach, rule.split)
     end = out.solution.end
     if end.clipped:
-        raise NoConvergence("the scalar that closes the energy balance leaves [-1/2, 1/2]")
+        raise Unbalanced("the scalar that closes the energy balance leaves [-1/2, 1/2]")
     after = Situation(
         time=slab.end,
         start=Start(displacement=end.displacement, velocity=out.velocity, force=end.force, energy=end.energy),
@@ -103,7 +105,7 @@ def split_elements(model: Model) -> Split:
         raise InputError(where, "'triangle' is for two-node bars of LinearElastic in 1D", "split = 'product'")
     stiffness = model.tangent(np.zeros(model.shape)).tocsr()
     inner, value = [], []
-    for node in model.candidates.node:
+    for node in model.encounters.node:
         row = stiffness[[node]].tocoo()
         others = row.coords[1] != node
         if others.sum() != 1:

@@ -11,7 +11,7 @@ from softway.errors import InputError
 from softway.march.situation import Situation
 from softway.model import Model, dead_load
 from softway.scene import StaticStart
-from softway.solve.equilibrium import equilibrium
+from softway.solve.equilibrium import equilibrium, fitted
 from softway.solve.system import Start
 from softway.typing import Array
 
@@ -29,13 +29,16 @@ def begin(model: Model) -> Situation:
     InputError
         If a body overlaps an obstacle (named with the depth), or a static start leaves rigid motions free.
     """
-    u, pressure = model.displacement, np.zeros(len(model.candidates.node))
+    u, pressure = model.displacement, np.zeros(len(model.encounters.contact))
     require_apart(model, u)
-    start = model.scene.start
+    start, loads = model.scene.start, model.load
     if isinstance(start, StaticStart):
         require_supported(model)
-        load = dead_load(model, start.loads, "start.loads") if start.loads else model.load
-        u, pressure = equilibrium(model, u, model.free, load)
+        loads = dead_load(model, start.loads, "start.loads") if start.loads else model.load
+        find = fitted if unheld(model) else equilibrium
+        u, pressure = find(model, u, model.free, loads)
+    elif any(c.start == "fit" for c in model.scene.contacts):
+        u, pressure = fitted(model, u, model.free, loads)
     if isinstance(model.timing, Energy) and not model.massive.all():
         before = float(model.energy_and_force(u)[0].sum())
         u, pressure = equilibrium(model, u, model.free & ~model.massive[:, None], model.load)
@@ -44,42 +47,54 @@ def begin(model: Model) -> Situation:
     energy, force = model.energy_and_force(u)
     return Situation(
         time=0.0,
-        start=Start(displacement=u, velocity=model.velocity, force=force, energy=energy),
+        start=Start(displacement=u, velocity=model.velocity + model.prescribed(0.0), force=force, energy=energy),
         acceleration=np.zeros(model.shape),
         closed=pressure > 0.0,
         pressure=pressure,
     )
 
 
-def require_supported(model: Model) -> None:
-    """Refuse a static start of a body whose supports leave a rigid motion free."""
+def unheld(model: Model) -> dict[str, tuple[str, ...]]:
+    """Rigid motions that the supports of each solid leave free."""
+    found = {}
     for part in model.parts:
         axisymmetric = isinstance(part.internal.section, Axisymmetric)
         motions = free_motions(part.mesh.points, ~model.free[part.rows], axisymmetric)
         if motions:
+            found[part.name] = motions
+    return found
+
+
+def require_supported(model: Model) -> None:
+    """Refuse a static start of a body that neither its supports nor a contact can hold."""
+    met = {c.body for c in model.scene.contacts} | {c.opponent for c in model.scene.contacts}
+    for name, motions in unheld(model).items():
+        if name not in met:
             raise InputError(
-                f"bodies.{part.name}.supports",
+                f"bodies.{name}.supports",
                 f"the supports leave free: {', '.join(motions)}; no static start",
-                'supports that hold it, such as { on = "left" }, or start = "AsGiven"',
+                'supports that hold it, such as { on = "left" }, a contact, or start = "AsGiven"',
             )
 
 
 def require_apart(model: Model, u: Array) -> None:
-    """Refuse a start inside an obstacle, naming body, obstacle, depth and place."""
-    rows = model.candidates
-    gap = model.pairs.gap(u)
+    """Refuse a start inside an opponent, naming both bodies, depth and place."""
+    rows = model.rows(u)
+    apart = np.array([c.start == "apart" for c in model.scene.contacts], bool)
+    gap = np.where(apart[rows.contact], rows.gap(u), np.inf)
     if not len(gap) or gap.min() >= -OVERLAP * _reach(model, u):
         return
     worst = int(np.argmin(gap))
     contact = model.scene.contacts[rows.contact[worst]]
-    part = next(p for p in model.parts if p.name == contact.body)
+    part = model.parts[model.part_of[rows.node[worst]]]
+    other = contact.opponent if part.name == contact.body else contact.body
     node = int(rows.node[worst]) - part.rows.start
     place = ", ".join(f"{x:.6g}" for x in part.mesh.points[node] + u[rows.node[worst]])
     depth = f"{-gap[worst]:.6g} m"
     raise InputError(
         f"contacts[{rows.contact[worst]}].between",
-        f"{contact.body!r} starts {depth} inside {contact.between[1]!r}: node {node} at ({place}) m",
-        f"move the body out by {depth}: bodies.{contact.body}.place.translation or .bottom",
+        f"{part.name!r} starts {depth} inside {other!r}: node {node} at ({place}) m",
+        f'move a body out by {depth} (bodies.{part.name}.place.translation or .bottom), or start = "fit" for a press fit',
     )
 
 

@@ -11,9 +11,11 @@ import numpy as np
 from softway.contact.fig4 import Split
 from softway.contact.path import Path
 from softway.contact.timing import Paper
-from softway.march.course import Course, revised, undisturbed
+from softway.errors import NoConvergence
+from softway.march.control import require_slow
+from softway.march.course import Course, revised, turned, undisturbed
 from softway.march.jumps import Jump, jumps, loss
-from softway.march.outcome import Outcome, contact_event
+from softway.march.outcome import Outcome, contact_event, supports
 from softway.march.situation import Situation
 from softway.march.step import Event
 from softway.model import Model
@@ -27,6 +29,9 @@ from softway.solve.system import SlabSystem
 from softway.time.slab import Slab
 from softway.typing import Array
 
+PASSES = 400
+"""A slab whose events ask for more solutions than this is tried again shorter."""
+
 
 def solve_carrying(
     model: Model,
@@ -35,28 +40,37 @@ def solve_carrying(
     carry: Carry,
     method: FixedPoint | Newton,
     inertia: Reaction,
+    approach: float,
     split: Split | None = None,
 ) -> tuple[Outcome, Carry]:
     """Solve the slab, adding touches and releases until it asks for no more."""
-    known = undisturbed(now)
-    guess = now.start.velocity + slab.span * now.acceleration
+    ahead = now.start.velocity + slab.span * now.acceleration
+    given = model.prescribed(slab.end)
+    guess = np.where(model.free, ahead, given)
+    coasting = now.start.displacement + 0.5 * slab.span * (now.start.velocity + guess)
+    pairs = model.encounters.meet(now.start.displacement, coasting, slab.start, slab.end)
+    require_slow(model, pairs, coasting, approach)
+    known = undisturbed(now, pairs.at(coasting))
     passes = iterations = 0
-    while True:
-        found = jumps(model, known.way, now.closed, inertia)
-        system = replace(_system(model, now, slab, known, found), split=split)
+    while passes < PASSES:
+        found = jumps(model, known.rows, known.way, now.closed, inertia, slab.span)
+        system = replace(_system(model, now, slab, known, found, given), split=split)
         solution = drive(
             system, method.iterate(system, guess, carry, known.way.closed.astype(float)), method.tolerance, method.limit
         )
         passes, iterations, carry = passes + 1, iterations + solution.iterations, solution.last.carry
-        revision = revised(model, now, system, known, solution, inertia)
+        revision = turned(model, pairs, known, solution) or revised(model, now, system, known, solution, inertia)
         if revision is None:
             return _outcome(now, slab, system, known, solution, found, inertia, passes, iterations), carry
         known, guess = revision, solution.last.q
+    raise NoConvergence(f"the contact events of the slab do not settle in {PASSES} passes")
 
 
-def _system(model: Model, now: Situation, slab: Slab, known: Course, found: tuple[Jump, ...]) -> SlabSystem:
+def _system(
+    model: Model, now: Situation, slab: Slab, known: Course, found: tuple[Jump, ...], given: Array
+) -> SlabSystem:
     """The equations of the slab for a course of events."""
-    rows, way, literal = model.candidates, known.way, isinstance(model.timing, Paper)
+    rows, way, literal = known.rows, known.way, isinstance(model.timing, Paper)
     balanced = () if literal else found
     kicks = sum((j.impulse for j in balanced), np.zeros(len(way.closed)))
     impulses = known.impulse * slab.span + np.where(way.closed, 0.0, kicks)
@@ -71,14 +85,16 @@ def _system(model: Model, now: Situation, slab: Slab, known: Course, found: tupl
         jumps=tuple((j.instant, j.field) for j in balanced),
     )
     none = np.zeros(len(way.closed))
+    moving = rows.along(np.where(model.free, 0.0, given))
     return SlabSystem(
         model=model,
         start=now.start,
         weight=slab.weight,
         path=path,
-        rows=Rows(target=none, equal=way.closed, unilateral=none > 0.0),
+        rows=Rows(target=rows.drive / slab.span - moving, equal=way.closed, unilateral=none > 0.0),
         unbalanced=sum((j.field for j in found if literal), np.zeros(model.shape)),
         impulses=rows.spread(impulses, model.shape),
+        given=given,
     )
 
 
@@ -93,12 +109,11 @@ def _outcome(
     passes: int,
     iterations: int,
 ) -> Outcome:
-    model, h, way, q = system.model, slab.span, known.way, solution.last.q
-    rows = model.candidates
+    model, h, way, q, rows = system.model, slab.span, known.way, solution.last.q, known.rows
     jumped = sum((j.field for j in found), np.zeros(model.shape))
     slope = (q - now.start.velocity - jumped) / h
     with np.errstate(divide="ignore", invalid="ignore"):
-        released = np.where(way.freedom > 0.0, rows.along(q) / (h * way.freedom), 0.0)
+        released = np.where(way.freedom > 0.0, (rows.along(q) - rows.drive / h) / (h * way.freedom), 0.0)
     kinked = np.where(way.kinked, released - rows.along(slope), 0.0)
     kicks = sum((j.impulse for j in found), np.zeros(len(way.closed)))
     literal = isinstance(model.timing, Paper)
@@ -107,16 +122,23 @@ def _outcome(
         + np.where(way.closed, solution.last.impulse, 0.0)
         + np.where(way.closed & (not literal), 0.0, kicks)
     )
-    pull = inertia.multiplier(solution.end.force, way.closed)
+    pull = inertia.multiplier(rows, solution.end.force, way.closed)
+    push = rows.spread(through / h, model.shape)
+    support = supports(model, now, solution.end, q, push, h)
+    moved = solution.end.displacement - now.start.displacement
     return Outcome(
         system=system,
         solution=solution,
+        rows=rows,
         velocity=q,
         acceleration=slope + rows.motion(kinked, way.kinked, model.free),
         closed=way.closed,
         pressure=np.maximum(pull, 0.0),
         force=through / h,
-        dissipation=loss(model, way, found, now.start.velocity, q),
+        push=push,
+        support=support,
+        work=float(through @ rows.drive) / h + float(np.sum(support * moved)),
+        dissipation=loss(model, rows, way, found, now.start.velocity, q),
         events=_events(now, slab, system, known, solution, found),
         passes=passes,
         iterations=iterations,
@@ -127,14 +149,18 @@ def _events(
     now: Situation, slab: Slab, system: SlabSystem, known: Course, solution: Solution, found: tuple[Jump, ...]
 ) -> tuple[Event, ...]:
     model, way, end = system.model, known.way, solution.end.displacement
-    after: Array = model.candidates.along(solution.last.q)
+    after: Array = known.rows.along(solution.last.q)
     events = [
-        contact_event(model, now, slab, end, int(r), "touch", j.instant, (float(j.speed[r]), 0.0), float(j.impulse[r]))
+        contact_event(
+            model, now, slab, known.rows, end, int(r), "touch", j.instant, (float(j.speed[r]), 0.0), float(j.impulse[r])
+        )
         for j in found
         for r in np.flatnonzero(j.hits)
     ]
     events += [
-        contact_event(model, now, slab, end, int(r), "release", float(way.release[r]), (0.0, float(after[r])))
+        contact_event(
+            model, now, slab, known.rows, end, int(r), "release", float(way.release[r]), (0.0, float(after[r]))
+        )
         for r in np.flatnonzero(np.isfinite(way.release))
     ]
     return tuple(

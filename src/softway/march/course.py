@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from softway.contact.candidates import Candidates
+from softway.contact.encounters import Pairs
 from softway.contact.path import Passage, passage
 from softway.contact.timing import Paper
 from softway.kernels.impact import crossing, fading
@@ -24,10 +26,11 @@ from softway.typing import Array, BoolArray
 class Course:
     """What is known of a slab.
 
-    ``way`` is what each row does; ``reaction`` (m,) the force at the start of its closed phase; ``held`` (m,) rows
-    that may not let go again.
+    ``rows`` are the contact rows at the end of the slab; ``way`` is what each row does; ``reaction`` (m,) the force at
+    the start of its closed phase; ``held`` (m,) rows that may not let go again.
     """
 
+    rows: Candidates
     way: Passage
     reaction: Array
     held: BoolArray
@@ -40,21 +43,21 @@ class Course:
         return 0.5 * np.maximum(self.reaction, 0.0) * length
 
 
-def undisturbed(now: Situation) -> Course:
+def undisturbed(now: Situation, rows: Candidates) -> Course:
     """The course without events."""
-    return Course(way=passage(now.closed), reaction=now.pressure, held=np.zeros(len(now.closed), bool))
+    return Course(rows=rows, way=passage(now.closed), reaction=now.pressure, held=np.zeros(len(now.closed), bool))
 
 
 def revised(
     model: Model, now: Situation, system: SlabSystem, known: Course, found: Solution, inertia: Reaction
 ) -> Course | None:
     """The course with the touches and releases that the solution asks for; None when it asks for none."""
-    rows, way, end = model.candidates, known.way, found.end
+    rows, way, end = known.rows, known.way, found.end
     gap = rows.gap(end.displacement)
-    below = ~way.closed & (gap < -rounding(model, end.displacement)) & rows.reachable(model.free)
+    below = ~way.closed & (gap < -rounding(model, rows, end.displacement)) & rows.reachable(model.free)
     if below.any():
         return _touching(model, now, system, known, found.last.q, below)
-    pull = inertia.multiplier(end.force, way.closed)
+    pull = inertia.multiplier(rows, end.force, way.closed)
     floor = 1e-11 * max(float(np.abs(end.force).max(initial=0.0)), float(np.abs(pull).max(initial=0.0)))
     tense = way.closed & ~known.held & (pull < -floor)
     if tense.any():
@@ -62,27 +65,43 @@ def revised(
     return None
 
 
-def rounding(model: Model, u: Array) -> float:
+def turned(model: Model, pairs: Pairs, known: Course, found: Solution) -> Course | None:
+    """The course with the rows at the end that the solution has; None when they have settled."""
+    if pairs.known is not None:
+        return None
+    u1 = found.end.displacement
+    rows = pairs.at(u1)
+    looked_at = rows.near & known.rows.near
+    looked_at = looked_at & known.way.kinked
+    off = rows.gap(u1)[looked_at] - known.rows.gap(u1)[looked_at]
+    fresh = rows.near & ~known.rows.near & (rows.gap(u1) < 0.0)
+    if not fresh.any() and np.abs(off).max(initial=0.0) <= 8.0 * rounding(model, rows, u1):
+        return None
+    return replace(known, rows=rows)
+
+
+def rounding(model: Model, rows: Candidates, u: Array) -> float:
     """A length [m] below which a gap is rounding: a few units in the last place of the coordinates."""
     reach = max(float(np.abs(p.mesh.points).max()) for p in model.parts)
-    return 4e-16 * (reach + float(np.abs(u).max(initial=0.0)) + float(np.abs(model.candidates.offset).max(initial=0.0)))
+    return 4e-16 * (reach + float(np.abs(u).max(initial=0.0)) + float(np.abs(rows.offset[rows.near]).max(initial=0.0)))
 
 
 def _touching(model: Model, now: Situation, system: SlabSystem, known: Course, q: Array, below: BoolArray) -> Course:
     """Close the rows that end below the obstacle; one that was released in this slab is held instead."""
-    rows, way, h = model.candidates, known.way, system.path.span
+    rows, way, h = known.rows, known.way, system.path.span
     back = below & np.isfinite(way.release)
     fresh = below & ~back
-    gap = rows.gap(now.start.displacement)
+    gap = np.where(rows.near, rows.gap(now.start.displacement) + rows.drive, 0.0)
     jumped = sum((j for _, j in system.path.jumps), np.zeros(model.shape))
     speed, solved = rows.along(now.start.velocity), rows.along(q - now.start.velocity - jumped)
     slope = solved
     if isinstance(model.timing, Paper):
         slope = h * rows.along(now.acceleration) if model.timing.approach == "extrapolated" else np.zeros_like(solved)
-    tau = crossing(gap, h * speed, h * slope)
+    closing = h * speed - rows.drive
+    tau = crossing(gap, closing, h * slope)
     missed = ~np.isfinite(tau)
     slope = np.where(missed, solved, slope)
-    tau = _reached(model, system, (gap, h * speed, h * slope), tau)
+    tau = _reached(rows, system, (gap, closing, h * slope), tau)
     return replace(
         known,
         way=Passage(
@@ -96,7 +115,7 @@ def _touching(model: Model, now: Situation, system: SlabSystem, known: Course, q
     )
 
 
-def _reached(model: Model, system: SlabSystem, motion: tuple[Array, Array, Array], tau: Array) -> Array:
+def _reached(rows: Candidates, system: SlabSystem, motion: tuple[Array, Array, Array], tau: Array) -> Array:
     """Instants (m,) at which the gap closes; jumps of earlier touches of the slab bend the path on the way."""
     gap, speed, slope = motion
     bent = gap
@@ -105,7 +124,7 @@ def _reached(model: Model, system: SlabSystem, motion: tuple[Array, Array, Array
         found = np.where(np.isfinite(found), found, np.where(gap <= 0.0, 0.0, 1.0))
         bent = gap.copy()
         for instant, field in system.path.jumps:
-            bent += system.path.span * model.candidates.along(field) * np.maximum(found - instant, 0.0)
+            bent += system.path.span * rows.along(field) * np.maximum(found - instant, 0.0)
         tau = np.where(bent == gap, found, np.nan)
     return found
 
@@ -119,7 +138,7 @@ def _releasing(
     for instant in instants(np.where(tense, way.touch, np.nan)):
         here = tense & at(way.touch, instant)
         after = way.closed & (~(way.touch > instant) | here)
-        first[here] = inertia.multiplier(model.force(system.path.at(instant, q)), after)[here]
+        first[here] = inertia.multiplier(known.rows, model.force(system.path.at(instant, q)), after)[here]
     begin = np.nan_to_num(way.touch)
     release = np.minimum(begin + (1.0 - begin) * fading(first, pull), 1.0 - 1e-9)
     return replace(

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softway.contact.candidates import Candidates
 from softway.contact.path import Passage
 from softway.contact.timing import Paper
 from softway.model import Model
@@ -48,13 +49,15 @@ def at(tau: Array, instant: float) -> BoolArray:
     return np.asarray((tau >= instant) & (tau <= instant + SIMULTANEOUS))
 
 
-def jumps(model: Model, way: Passage, closed: BoolArray, inertia: Reaction) -> tuple[Jump, ...]:
+def jumps(
+    model: Model, rows: Candidates, way: Passage, closed: BoolArray, inertia: Reaction, span: float
+) -> tuple[Jump, ...]:
     """The jumps of a slab in order of time; ``closed`` (m,) are the rows closed at its start.
 
     The Paper rule resets the normal velocity of the node alone; the momentum that leaves is that of its row of the
     mass matrix.  The Impulse rule moves every node, so that momentum is balanced.
     """
-    rows, speed, found = model.candidates, way.approach, []
+    speed, found = way.approach - np.where(np.isfinite(way.touch), rows.drive / span, 0.0), []
     for instant in instants(way.touch):
         hits = at(way.touch, instant)
         approach = np.where(hits, speed, 0.0)
@@ -65,16 +68,16 @@ def jumps(model: Model, way: Passage, closed: BoolArray, inertia: Reaction) -> t
         else:
             gone = way.release <= instant
             stopped = ((closed | (way.touch < instant)) & ~gone) | hits
-            field, impulse = inertia.jump(approach, stopped)
+            field, impulse = inertia.jump(rows, approach, stopped)
             later = np.isfinite(way.touch) & (way.touch > instant) & ~hits
             speed = speed + np.where(later, rows.along(field), 0.0)
         found.append(Jump(instant=instant, hits=hits, field=field, impulse=impulse, speed=approach))
     return tuple(found)
 
 
-def loss(model: Model, way: Passage, found: tuple[Jump, ...], v0: Array, v1: Array) -> float:
+def loss(model: Model, rows: Candidates, way: Passage, found: tuple[Jump, ...], v0: Array, v1: Array) -> float:
     """Kinetic energy lost in the jumps [J]: ``-(v . M J + J . M J / 2)`` with v just before each."""
-    rows, total = model.candidates, 0.0
+    total = 0.0
     for jump in found:
         if isinstance(model.timing, Paper):
             v = v0 + jump.instant * (v1 - v0)

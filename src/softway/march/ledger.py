@@ -2,17 +2,19 @@
 
 import numpy as np
 
+from softway.bodies.section import Axisymmetric
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation
 from softway.march.step import ContactLedger, Ledger
 from softway.model import Model
+from softway.solve.balance import moment
 from softway.typing import Array
 
 
 def opening(model: Model, now: Situation) -> Ledger:
     """The ledger at the start: energies and momentum, no work yet."""
-    rows = model.candidates
-    gap = model.pairs.gap(now.start.displacement)
+    rows = model.rows(now.start.displacement, now.time)
+    gap = rows.gap(now.start.displacement)
     contacts = {
         name: ContactLedger(
             force_n=float(now.pressure[rows.of(k)].sum()),
@@ -30,6 +32,7 @@ def opening(model: Model, now: Situation) -> Ledger:
         dissipation=0.0,
         energy_error=0.0,
         momentum=momentum(model, now.start.velocity),
+        spin=spin(model, now.start.displacement, now.start.velocity),
         contacts=contacts,
     )
 
@@ -41,10 +44,20 @@ def momentum(model: Model, v: Array) -> Array:
     return out
 
 
+def spin(model: Model, u: Array, v: Array) -> Array:
+    """Angular momentum (3,) about the origin [kg m^2/s]; zero in 1D and around an axis of revolution."""
+    out = np.zeros(3)
+    round_ = any(isinstance(p.internal.section, Axisymmetric) for p in model.parts)
+    found = moment(model.points + u, model.mass @ v)
+    if len(found) and not round_:
+        out[3 - len(found) :] = found
+    return out
+
+
 def audited(model: Model, initial: Ledger, last: Ledger, before: Situation, out: Outcome, after: Situation) -> Ledger:
     """The ledger after a slab, continuing the one before it."""
     moved = after.start.displacement - before.start.displacement
-    work = last.work_external + float(np.sum(model.load * moved))
+    work = last.work_external + float(np.sum(model.load * moved)) + out.work
     lost = last.dissipation + out.dissipation
     kinetic = float(model.kinetic(after.start.velocity).sum())
     strain = float(after.start.energy.sum())
@@ -56,22 +69,23 @@ def audited(model: Model, initial: Ledger, last: Ledger, before: Situation, out:
         dissipation=lost,
         energy_error=kinetic + strain - first - work + lost,
         momentum=momentum(model, after.start.velocity),
+        spin=spin(model, after.start.displacement, after.start.velocity),
         contacts=_contacts(model, before, out, after),
     )
 
 
 def _contacts(model: Model, before: Situation, out: Outcome, after: Situation) -> dict[str, ContactLedger]:
     """Force, least gap and power of each contact; the power is that of the phases in which a row is closed."""
-    rows, h = model.candidates, after.time - before.time
-    gap0, gap1 = model.pairs.gap(before.start.displacement), model.pairs.gap(after.start.displacement)
-    drift = np.where(after.closed, gap1, 0.0) - np.where(before.closed, gap0, 0.0)
+    rows, first = out.rows, out.system.path.rows
+    gap0, gap1 = first.gap(before.start.displacement), rows.gap(after.start.displacement)
+    drift = np.where(after.closed & rows.near, gap1, 0.0) - np.where(before.closed & first.near, gap0, 0.0)
     power = np.abs(out.force * drift)
     return {
         name: ContactLedger(
             force_n=float(out.force[rows.of(k)].sum()),
             force_t=0.0,
             min_gap=float(gap1[rows.of(k)].min(initial=np.inf)),
-            power_residual=float(power[rows.of(k)].sum() if h > 0.0 else 0.0),
+            power_residual=float(power[rows.of(k)].sum()),
             count=int(after.closed[rows.of(k)].sum()),
         )
         for k, name in enumerate(rows.labels)

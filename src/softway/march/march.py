@@ -2,19 +2,21 @@
 
 import logging
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
 from softway.bodies.section import wave_speed
-from softway.errors import InputError, NoConvergence, NumericsError
+from softway.errors import InputError, NoConvergence, NumericsError, TooFast, Unbalanced
 from softway.march.advance import Rule, advance, rule
 from softway.march.begin import begin
+from softway.march.certificate import certified, violation
+from softway.march.control import StepControl, may_grow
 from softway.march.ledger import audited, opening
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation, joined, parted
-from softway.march.step import Ledger, Report, Step
+from softway.march.step import Certificate, Ledger, Report, Step
 from softway.model import Model, build
 from softway.scene import Scene, State
 from softway.solve.fixed_point import FixedPoint
@@ -26,8 +28,10 @@ from softway.time.weight import EndPeaks, TimeWeight
 from softway.units import Second
 
 log = logging.getLogger("softway")
-LEAST = 1e-4
-"""Slabs are not cut below this fraction of the length asked for."""
+PATIENCE = 3
+"""Halvings after which an energy balance that the scalar cannot close is closed along the motion."""
+STRAINED = 0.2
+"""Fraction of the length asked for below which a great scalar asks for no shorter slab."""
 
 
 def march(
@@ -38,6 +42,7 @@ def march(
     weight: TimeWeight = EndPeaks(),
     method: FixedPoint | Newton = FixedPoint(),
     state: State | None = None,
+    control: StepControl = StepControl(),
 ) -> Iterator[Step]:
     """Accepted slabs from the start, or from ``state``, to the time ``until``.
 
@@ -57,6 +62,8 @@ def march(
         Fixed point or Newton.
     state
         Where to begin; by default the start of the scene.
+    control
+        Limits of a slab; one that breaks them is tried again shorter.
 
     Raises
     ------
@@ -80,7 +87,7 @@ def march(
     now = begin(model) if state is None else joined(model, state)
     span = proposed(model, step, weight, until - now.time)
     require_stable(model, now.start.displacement, weight, span)
-    return _steps(rule(model, method, weight), now, until, span, weight)
+    return _steps(rule(model, method, weight), now, until, span, weight, control)
 
 
 def proposed(model: Model, step: Second | Literal["auto"], weight: TimeWeight, duration: float) -> float:
@@ -113,77 +120,117 @@ def evenly(duration: float, step: float) -> float:
     return float(duration / np.ceil(duration / step - 1e-9))
 
 
-def _steps(rules: Rule, now: Situation, until: float, span: float, weight: TimeWeight) -> Iterator[Step]:
+def _steps(
+    rules: Rule, now: Situation, until: float, span: float, weight: TimeWeight, control: StepControl
+) -> Iterator[Step]:
     model = rules.model
     initial = ledger = opening(model, now)
     carry, current, before = Carry(), span, parted(model, now)
     while now.time < until - 1e-9 * span:
         length = min(current, until - now.time)
-        length = until - now.time if until - now.time - length < LEAST * span else length
-        after, out, carry, slab, rejections = _accepted(rules, now, length, LEAST * span, until, weight, carry)
-        made = carry.factorisations
-        ledger = audited(model, initial, ledger, now, out, after)
-        state = parted(model, after)
-        yield _step(model, now, before, state, slab, out, ledger, made, rejections)
-        current = min(span, slab.span if rejections else 2.0 * slab.span)
-        now, before = after, state
+        length = until - now.time if until - now.time - length < control.least * span else length
+        found = _accepted(rules, now, (initial, ledger), length, span, until, weight, carry, control)
+        step = _step(model, now, before, found)
+        yield step
+        current = _next(model, control, span, now, found)
+        now, before, ledger, carry = found.after, step.after, found.ledger, found.carry
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Accepted:
+    """A slab that holds its certificate, with the reasons of the tries that were dropped."""
+
+    after: Situation
+    out: Outcome
+    carry: Carry
+    slab: Slab
+    ledger: Ledger
+    certificate: Certificate
+    rejections: tuple[str, ...]
+
+
+def _next(model: Model, control: StepControl, span: float, before: Situation, found: _Accepted) -> float:
+    """Length of the next slab."""
+    length = found.slab.span
+    strained = not found.out.events and np.abs(found.out.solution.end.scalar).max() > control.scalar
+    if strained and length > STRAINED * span:
+        log.info("next slab after t = %.6g s halved: the scalar of the energy balance is great", found.after.time)
+        return 0.5 * length
+    if found.rejections or length >= span:
+        return min(span, length)
+    return min(span, 2.0 * length) if may_grow(model, control, length, before, found.after) else length
 
 
 def _accepted(
-    rules: Rule, now: Situation, length: float, least: float, until: float, weight: TimeWeight, carry: Carry
-) -> tuple[Situation, Outcome, Carry, Slab, tuple[str, ...]]:
+    rules: Rule,
+    now: Situation,
+    ledgers: tuple[Ledger, Ledger],
+    length: float,
+    span: float,
+    until: float,
+    weight: TimeWeight,
+    carry: Carry,
+    control: StepControl,
+) -> _Accepted:
     """Advance by the length, or by half of it as often as it takes; a rejected slab leaves no trace but its reason.
 
-    A slab that fails on an old operator is first tried again on a new one.
+    A slab that fails on an old operator is first tried again on a new one; an energy balance that the scalar cannot
+    close at an eighth of the length is closed along the motion.
     """
     reasons: list[str] = []
+    unbalanced = 0
     fresh = carry.frozen is None
-    while length > least:
+    while length > control.least * span:
         end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
         slab = Slab(start=now.time, end=end, weight=weight)
         try:
-            after, out, new = advance(rules, now, slab, carry)
-            slow = out.iterations > 25 * out.passes
-            return after, out, replace(new, stale=slow), slab, tuple(reasons)
+            after, out, new = advance(rules, now, slab, carry, control.approach, unbalanced >= PATIENCE)
+            ledger = audited(rules.model, *ledgers, now, out, after)
+            certificate = certified(rules.model, now, out, after, ledgers[1], ledger)
+            broken = violation(rules.model, now, out, after, ledger, certificate)
+            if broken is not None:
+                raise NoConvergence(f"certificate: {broken}")
+            return _Accepted(
+                after=after,
+                out=out,
+                carry=replace(new, stale=out.iterations > 25 * out.passes),
+                slab=slab,
+                ledger=ledger,
+                certificate=certificate,
+                rejections=tuple(reasons),
+            )
+        except (TooFast, Unbalanced) as failure:
+            length = 0.5 * length
+            unbalanced += isinstance(failure, Unbalanced)
+            reasons.append(f"h = {slab.span:.3g} s: {failure}")
         except NoConvergence as failure:
-            reasons.append(f"h = {length:.3g} s: {failure}")
-            log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
+            reasons.append(f"h = {slab.span:.3g} s: {failure}")
             length = 0.5 * length if fresh else length
             fresh, carry = True, replace(carry, stale=True)
+        log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
     raise NumericsError(
-        f"no slab converges, the last of {len(reasons)} tries with {reasons[-1]}",
+        f"no slab holds, the last of {len(reasons)} tries with {reasons[-1]}",
         now.time,
         "a smaller step, a finer mesh where the cells are crushed, or Newton",
     )
 
 
-def _step(
-    model: Model,
-    now: Situation,
-    before: State,
-    after: State,
-    slab: Slab,
-    out: Outcome,
-    ledger: Ledger,
-    made: int,
-    rejections: tuple[str, ...],
-) -> Step:
-    end = out.solution.end
-    inertia = model.mass @ ((out.velocity - now.start.velocity) / slab.span)
-    contact = model.pairs.at(end.displacement).spread(out.force, model.shape)
-    support = np.where(model.free, 0.0, inertia + end.mean_force - model.load - contact)
+def _step(model: Model, now: Situation, before: State, found: _Accepted) -> Step:
+    out = found.out
+    names = [p.name for p in model.parts]
     return Step(
         before=before,
-        after=after,
-        slab=slab,
-        ledger=ledger,
+        after=parted(model, found.after),
+        slab=found.slab,
+        ledger=found.ledger,
+        certificate=found.certificate,
         events=out.events,
-        reactions=model.split(support),
+        reactions=model.split(out.support),
         report=Report(
             iterations=out.iterations,
-            factorisations=made,
+            factorisations=found.carry.factorisations,
             passes=out.passes,
-            rejections=rejections,
-            scalars=dict(zip([p.name for p in model.parts], end.scalar.tolist(), strict=True)),
+            rejections=found.rejections,
+            scalars=dict(zip(names, out.solution.end.scalar.tolist(), strict=True)),
         ),
     )

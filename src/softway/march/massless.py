@@ -2,10 +2,12 @@
 
 import numpy as np
 
+from softway.contact.candidates import Candidates
 from softway.contact.located import LocatedMean
 from softway.contact.path import Path, passage
 from softway.kernels.impact import fading
-from softway.march.outcome import Outcome, contact_event
+from softway.march.control import require_slow
+from softway.march.outcome import Outcome, contact_event, supports
 from softway.march.situation import Situation
 from softway.march.step import Event
 from softway.model import Model
@@ -13,7 +15,7 @@ from softway.solve.driver import Solution, drive
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.frozen import Carry
 from softway.solve.newton import Newton
-from softway.solve.normal import Rows
+from softway.solve.normal import Rows, delassus
 from softway.solve.system import SlabSystem
 from softway.time.slab import Slab
 from softway.time.weight import EndPeaks, moments
@@ -21,11 +23,22 @@ from softway.typing import BoolArray
 
 
 def solve_massless(
-    model: Model, now: Situation, slab: Slab, carry: Carry, method: FixedPoint | Newton, located: LocatedMean | None
+    model: Model,
+    now: Situation,
+    slab: Slab,
+    carry: Carry,
+    method: FixedPoint | Newton,
+    located: LocatedMean | None,
+    approach: float,
+    fallback: bool,
 ) -> tuple[Outcome, Carry]:
     """Solve the slab; the contact rows are inequalities on the gap at its end."""
     h, start = slab.span, now.start
-    rows = model.pairs.at(start.displacement)
+    rate = start.velocity + h * now.acceleration
+    coasting = start.displacement + h * np.where(model.massive[:, None], 0.5 * (start.velocity + rate), rate)
+    pairs = model.encounters.meet(start.displacement, coasting, slab.start, slab.end)
+    require_slow(model, pairs, coasting, approach)
+    rows = pairs.start(start.displacement)
     way = passage(np.zeros(len(rows.node), bool))
     path = Path(
         span=h,
@@ -36,21 +49,25 @@ def solve_massless(
         rows=rows,
         way=way,
     )
-    still = np.zeros(model.shape)
-    target = -2.0 * rows.gap(path.end(still)) / h
-    conditions = Rows(target=target, equal=way.closed, unilateral=rows.reachable(model.free))
+    fixed = model.encounters.fixed
+    first, last = model.prescribed(slab.start), model.prescribed(slab.end)
+    given = np.where(model.massive[:, None], last, first + last)
+    target = -2.0 * rows.gap(path.end(given)) / h if fixed else np.zeros(len(rows.node))
     system = SlabSystem(
         model=model,
         start=start,
         weight=slab.weight,
         path=path,
-        rows=conditions,
+        rows=Rows(target=target, equal=way.closed, unilateral=rows.reachable(model.free)),
         balanced=located is None and slab.weight == EndPeaks(),
         located=located,
-        pairs=None if model.pairs.flat else model.pairs,
+        pairs=None if fixed else pairs,
+        searched=None if fixed else pairs,
+        given=given,
+        pressure=now.pressure,
+        fallback=fallback,
     )
-    rate = start.velocity + h * now.acceleration
-    guess = np.where(model.massive[:, None], rate, 2.0 * rate)
+    guess = np.where(model.free, np.where(model.massive[:, None], rate, 2.0 * rate), given)
     iterates = method.iterate(system, guess, carry, now.pressure * h * moments(slab.weight)[1])
     solution = drive(system, iterates, method.tolerance, method.limit)
     return _outcome(model, now, slab, system, solution), solution.last.carry
@@ -59,24 +76,37 @@ def solve_massless(
 def _outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solution: Solution) -> Outcome:
     h = slab.span
     q, end = solution.last.q, solution.end
-    rows = model.pairs.at(end.displacement)
+    rows = end.near or system.path.rows
     massive = model.massive[:, None]
     velocity = np.where(massive, q, 0.5 * q)
     closed = solution.last.impulse > 0.0
     pressure = solution.last.impulse / (h * moments(slab.weight)[1])
-    force = rows.shares((end.mean_force - model.load) * ~massive, closed | now.closed, model.free)
+    first, a = system.path.rows, end.scalar[model.part_of[rows.node]]
     if system.located is not None:
-        events = _branched(model, now, slab, system.located, solution)
+        force = rows.shares((end.mean_force - model.load) * ~massive, closed | now.closed, model.free)
+        push = rows.spread(force, model.shape)
+        tools = 0.0
+        events = _branched(model, now, slab, rows, system.located, solution)
     else:
-        events = _touches(model, now, slab, solution, closed) + _releases(model, now, slab, solution, closed)
+        old, new = (0.5 - a) * now.pressure, (0.5 + a) * pressure
+        force = old + new
+        push = first.spread(old, model.shape) + rows.spread(new, model.shape)
+        tools = float(old @ first.drive + new @ rows.drive)
+        events = _touches(model, now, slab, system, solution, closed)
+        events += _releases(model, now, slab, rows, solution, closed)
+    support = supports(model, now, end, velocity, push, h)
     return Outcome(
         system=system,
         solution=solution,
+        rows=rows,
         velocity=velocity,
         acceleration=(velocity - now.start.velocity) / h,
         closed=closed,
         pressure=pressure,
         force=force,
+        push=push,
+        support=support,
+        work=tools + float(np.sum(support * (end.displacement - now.start.displacement))),
         dissipation=0.0,
         events=tuple(sorted(events, key=lambda e: (round((e.time - slab.start) / slab.span, 9), e.contact, e.node))),
         passes=1,
@@ -84,48 +114,57 @@ def _outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solut
     )
 
 
-def _touches(model: Model, now: Situation, slab: Slab, solution: Solution, closed: BoolArray) -> list[Event]:
+def _touches(
+    model: Model, now: Situation, slab: Slab, system: SlabSystem, solution: Solution, closed: BoolArray
+) -> list[Event]:
     """Touches at the root of the gap along the free motion, exact in free flight."""
-    h, gap = slab.span, model.pairs.gap(now.start.displacement)
-    before = 0.5 * solution.predicted
-    tau = fading(gap, np.minimum(gap + h * before, -1e-300))
-    return [
-        contact_event(
-            model, now, slab, solution.end.displacement, int(r), "touch", float(tau[r]), (float(before[r]), 0.0)
-        )
-        for r in np.flatnonzero(closed & ~now.closed)
-    ]
+    rows, end = system.path.rows, solution.end
+    last = end.near or rows
+    before = 0.5 * solution.predicted - last.drive / slab.span
+    found = []
+    for r in np.flatnonzero(closed & ~now.closed):
+        known = rows if rows.near[r] else last
+        gap = float(known.gap(now.start.displacement)[r]) + (0.0 if rows.near[r] else float(last.drive[r]))
+        tau = fading(np.array([gap]), np.array([min(gap + slab.span * before[r], -1e-300)]))[0]
+        speeds = (float(before[r]), 0.0)
+        found.append(contact_event(model, now, slab, last, end.displacement, int(r), "touch", float(tau), speeds))
+    return found
 
 
-def _releases(model: Model, now: Situation, slab: Slab, solution: Solution, closed: BoolArray) -> list[Event]:
+def _releases(
+    model: Model, now: Situation, slab: Slab, rows: Candidates, solution: Solution, closed: BoolArray
+) -> list[Event]:
     """Releases at the root of the reaction, continued into tension by the compliance of the row."""
-    rows, h = model.pairs.at(solution.end.displacement), slab.span
-    left = np.flatnonzero(now.closed & ~closed)
+    h, end = slab.span, solution.end.displacement
+    left = np.flatnonzero(now.closed & ~closed & rows.near)
     frozen = solution.last.carry.frozen
     if not len(left) or frozen is None:
         return []
-    give = np.diag(frozen.delassus(left))
-    tension = model.pairs.gap(solution.end.displacement)[left] * 2.0 / (h * give) / (h * moments(slab.weight)[1])
+    give = np.diag(delassus(frozen, frozen.basis.coefficients(rows, model.free)[left]))
+    tension = rows.gap(end)[left] * 2.0 / (h * give) / (h * moments(slab.weight)[1])
     tau = fading(now.pressure[left], -np.maximum(tension, 1e-300))
-    after = 0.5 * rows.along(solution.last.q)
+    after = 0.5 * rows.along(solution.last.q) - rows.drive / h
     return [
-        contact_event(model, now, slab, solution.end.displacement, int(r), "release", float(t), (0.0, float(after[r])))
+        contact_event(model, now, slab, rows, end, int(r), "release", float(t), (0.0, float(after[r])))
         for r, t in zip(left, tau, strict=True)
     ]
 
 
-def _branched(model: Model, now: Situation, slab: Slab, located: LocatedMean, solution: Solution) -> list[Event]:
+def _branched(
+    model: Model, now: Situation, slab: Slab, rows: Candidates, located: LocatedMean, solution: Solution
+) -> list[Event]:
     """The located touches and releases."""
     branches = located.branches(
         now.start.displacement, solution.end.displacement, now.closed, solution.last.impulse > 0.0
     )
-    speed = 0.5 * model.candidates.along(solution.last.q)
-    before = model.candidates.along(now.start.velocity)
+    speed = 0.5 * rows.along(solution.last.q)
+    before = rows.along(now.start.velocity)
     return [
         contact_event(
             model,
             now,
             slab,
+            rows,
             solution.end.displacement,
             b.row,
             "touch" if b.closes else "release",

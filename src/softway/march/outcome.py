@@ -2,11 +2,14 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
+from softway.contact.candidates import Candidates
 from softway.march.situation import Situation
 from softway.march.step import Event
 from softway.model import Model
 from softway.solve.driver import Solution
-from softway.solve.system import SlabSystem
+from softway.solve.system import Evaluation, SlabSystem
 from softway.time.slab import Slab
 from softway.typing import Array, BoolArray
 
@@ -19,12 +22,18 @@ class Outcome:
     ----------
     system, solution
         The equations and their solution.
+    rows
+        Contact rows at the end of the slab.
     velocity, acceleration
         (n, d) at the end of the slab.
     closed, pressure
         (m,) contact rows that touch at the end, and their normal force there [N].
     force
         (m,) normal force over the slab, impulse / h [N].
+    push, support
+        (n, d) mean forces of contact and of supports on the nodes [N].
+    work
+        Work of driven tools and supports [J].
     dissipation
         Energy lost in velocity jumps [J].
     events
@@ -37,21 +46,32 @@ class Outcome:
 
     system: SlabSystem
     solution: Solution
+    rows: Candidates
     velocity: Array
     acceleration: Array
     closed: BoolArray
     pressure: Array
     force: Array
+    push: Array
+    support: Array
+    work: float
     dissipation: float
     events: tuple[Event, ...]
     passes: int
     iterations: int
 
 
+def supports(model: Model, now: Situation, end: Evaluation, velocity: Array, push: Array, span: float) -> Array:
+    """Mean force (n, d) of the supports on the nodes [N]; ``push`` (n, d) is that of contact."""
+    inertia = model.mass @ ((velocity - now.start.velocity) / span)
+    return np.where(model.free, 0.0, inertia + end.mean_force - model.load - push)
+
+
 def contact_event(
     model: Model,
     now: Situation,
     slab: Slab,
+    rows: Candidates,
     end: Array,
     row: int,
     kind: str,
@@ -59,21 +79,17 @@ def contact_event(
     speeds: tuple[float, float],
     impulse: float = 0.0,
 ) -> Event:
-    """The event of a contact row at ``tau``; its place lies on the obstacle, between those at both slab ends."""
-    pairs = model.pairs
-    node, contact = int(pairs.node[row]), int(pairs.contact[row])
-    part = next(p for p in model.parts if p.rows.start <= node < p.rows.stop)
+    """The event of a contact row at ``tau``; its place lies between those at both slab ends, on the opponent."""
+    node, contact = int(rows.node[row]), int(rows.contact[row])
+    part = model.parts[model.part_of[node]]
     u0 = now.start.displacement[node]
     u = u0 + tau * (end[node] - u0)
-    place = pairs.points[row] + u
-    shape = pairs.shapes[contact]
-    place = place - shape.gap(place) * shape.normal_at(place)
     return Event(
         time=slab.start + tau * slab.span,
-        contact=pairs.reference.labels[contact],
+        contact=rows.labels[contact],
         kind=kind,
         node=node - part.rows.start,
-        position=place,
+        position=model.points[node] + u,
         velocity_before=speeds[0],
         velocity_after=speeds[1],
         impulse=impulse,

@@ -36,11 +36,11 @@ def joined(model: Model, state: State) -> Situation:
     """
     ours = {p.name: (p.mesh.n_nodes, p.mesh.dim) for p in model.parts}
     theirs = {name: u.shape for name, u in state.displacement.items()}
-    if ours != theirs or set(state.closed) != set(model.candidates.labels):
+    if ours != theirs or set(state.closed) != set(model.encounters.labels):
         raise InputError("state", f"bodies {theirs} and contacts {sorted(state.closed)}", f"a state of {ours}")
     u = model.join(state.displacement)
     energy, force = model.energy_and_force(u)
-    labels = model.candidates.labels
+    labels = model.encounters.labels
     return Situation(
         time=state.time,
         start=Start(displacement=u, velocity=model.join(state.velocity), force=force, energy=energy),
@@ -52,7 +52,7 @@ def joined(model: Model, state: State) -> Situation:
 
 def parted(model: Model, situation: Situation) -> State:
     """The state by bodies and contacts, its arrays read-only."""
-    rows = model.candidates
+    rows = model.encounters
     for array in (situation.start.displacement, situation.start.velocity, situation.acceleration):
         array.flags.writeable = False
     situation.closed.flags.writeable = False

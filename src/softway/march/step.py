@@ -53,7 +53,8 @@ class ContactLedger:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ledger:
-    """Energies at the slab's end, works accumulated from the start [J]; momentum (3,) [kg m/s].
+    """Energies at the slab's end, works accumulated from the start [J]; momentum (3,) [kg m/s]; angular momentum about
+    the origin ``spin`` (3,) [kg m^2/s].
 
     ``energy_error = kinetic + strain - initial - work_external + dissipation``.
     """
@@ -64,7 +65,25 @@ class Ledger:
     dissipation: float
     energy_error: float
     momentum: Array
+    spin: Array
     contacts: Mapping[str, ContactLedger]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Certificate:
+    """What a slab leaves over of the contact conditions and the balances.
+
+    ``min_gap``: least gap at the slab's end [m]; ``min_force``: least normal force there [N]; ``complementarity``: sum
+    of force times gap there [J]; ``power_residual``: sum of F_n v_n dt over the slab, eq. (3.9) [J]; ``momentum_error``
+    [kg m/s] and ``energy_error`` [J]: what the balances of this slab miss.
+    """
+
+    min_gap: float
+    min_force: float
+    complementarity: float
+    power_residual: float
+    momentum_error: float
+    energy_error: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,6 +109,7 @@ class Step:
     after: State
     slab: Slab
     ledger: Ledger
+    certificate: Certificate
     events: tuple[Event, ...]
     reactions: Mapping[str, Array]
     report: Report

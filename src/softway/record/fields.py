@@ -20,8 +20,8 @@ from softway.bodies.solid import Tool
 from softway.march.step import Step
 from softway.record.layout import Layout, components, layout, von_mises
 from softway.record.recorder import Opening
+from softway.record.tools import described
 from softway.scene import Scene, State
-from softway.space.curved import described
 from softway.typing import Array
 
 FILE = "fields.vtkhdf"
@@ -98,9 +98,9 @@ def _write_cells(file: h5py.File, cells: Layout, scene: Scene) -> None:
     root["CellData/body"] = cells.body.astype(np.int32)
     _series(steps["CellDataOffsets"], "body", (), 1, dtype=np.int64)
     file.attrs["bodies"] = json.dumps(list(cells.names))
-    file.attrs["obstacles"] = json.dumps(_obstacles(scene))
     file.attrs["dimension"] = cells.dimension
     file["reference"] = cells.reference
+    file["tools"] = json.dumps({name: described(body) for name, body in scene.bodies.items() if isinstance(body, Tool)})
     steps.attrs["NSteps"] = np.int64(0)
 
 
@@ -140,10 +140,6 @@ def _append(file: h5py.File, reference: Array, frame: Mapping[str, Mapping[str, 
 def _put(series: h5py.Dataset, start: int, data: Array) -> None:
     series.resize(start + len(data), axis=0)
     series[start:] = data
-
-
-def _obstacles(scene: Scene) -> dict[str, dict[str, Any]]:
-    return {name: described(tool.shape) for name, tool in scene.bodies.items() if isinstance(tool, Tool)}
 
 
 @contextmanager

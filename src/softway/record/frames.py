@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from softway.bodies.motion import Placed
+from softway.bodies.solid import Tool
 from softway.errors import InputError
 from softway.record.fields import CELL_DATA, POINT_DATA, SIZES, reading
 from softway.record.layout import VTK
-from softway.space.curved import Shape, recovered
+from softway.record.tools import recovered
 from softway.typing import Array, IntArray
 
 if TYPE_CHECKING:
@@ -26,8 +28,10 @@ class Cells:
     ----------
     bodies
         Names of the solids.
-    obstacles
-        Tool -> its shape.
+    tools
+        The rigid obstacles by name.
+    lost
+        Names of those that are given by a function that cannot be imported.
     dimension
         Dimension d of space.
     reference
@@ -37,7 +41,8 @@ class Cells:
     """
 
     bodies: tuple[str, ...]
-    obstacles: Mapping[str, Shape]
+    tools: Mapping[str, Tool]
+    lost: tuple[str, ...]
     dimension: int
     reference: Array
     connectivity: IntArray
@@ -52,6 +57,10 @@ class Cells:
     def numbers(self, name: str) -> IntArray:
         """Numbers (cells,) in the grid of the cells of one name, in the order of ``blocks``."""
         return np.flatnonzero(self.types == VTK[name])
+
+    def obstacles(self, time: float) -> dict[str, Placed]:
+        """The rigid obstacles where they stand at a time [s]."""
+        return {name: tool.at(time) for name, tool in self.tools.items()}
 
     def _nodes(self, kind: int) -> IntArray:
         mine = np.flatnonzero(self.types == kind)
@@ -124,10 +133,12 @@ class Fields:
         """What all frames share."""
         with reading(self.path) as file:
             root = file["VTKHDF"]
+            tools = {name: _tool(data) for name, data in json.loads(file["tools"][()]).items()}
             whole = {name: np.asarray(root[name.title()][:], int) for name in ("connectivity", "offsets", "types")}
             return Cells(
                 bodies=tuple(json.loads(file.attrs["bodies"])),
-                obstacles={n: recovered(d) for n, d in json.loads(file.attrs["obstacles"]).items()},
+                tools={n: tool for n, tool in tools.items() if tool is not None},
+                lost=tuple(n for n, tool in tools.items() if tool is None),
                 dimension=int(file.attrs["dimension"]),
                 reference=file["reference"][:],
                 body=np.asarray(root["CellData/body"][:], int),
@@ -148,6 +159,15 @@ class Fields:
         for name, values in {**data, "body": cells.body}.items():
             grid.cell_data[name] = values
         return grid
+
+
+def _tool(data: Mapping[str, Any]) -> Tool | None:
+    """The tool from its description, unless a function of it cannot be imported."""
+    try:
+        made: Tool = recovered(data)
+    except InputError:
+        return None
+    return made
 
 
 def _padded(cells: Cells) -> IntArray:

@@ -22,6 +22,17 @@ COLUMNS = (
     ("momentum_x", "kg m/s"),
     ("momentum_y", "kg m/s"),
     ("momentum_z", "kg m/s"),
+    ("spin_x", "kg m^2/s"),
+    ("spin_y", "kg m^2/s"),
+    ("spin_z", "kg m^2/s"),
+)
+CERTIFICATE = (
+    ("certificate.min_gap", "m"),
+    ("certificate.min_force", "N"),
+    ("certificate.complementarity", "J"),
+    ("certificate.power_residual", "J"),
+    ("certificate.momentum_error", "kg m/s"),
+    ("certificate.energy_error", "J"),
 )
 CONTACT = (("force_n", "N"), ("force_t", "N"), ("min_gap", "m"), ("power_residual", "J"))
 
@@ -37,8 +48,9 @@ class History:
     def take(self, step: Step) -> None:
         """Write the line of one slab: its audit, and the probes at its end."""
         start = [step.after.time, step.slab.span, step.report.iterations]
+        left = [float(getattr(step.certificate, name.partition(".")[2])) for name, _ in CERTIFICATE]
         probes = [r.value(step.after, step.reactions) for r in self.readings]
-        table.write(self.stream, [*start, *_audit(step.ledger, self.contacts), *probes])
+        table.write(self.stream, [*start, *_audit(step.ledger, self.contacts), *left, *probes])
 
     def close(self) -> None:
         """Close the file."""
@@ -48,15 +60,17 @@ class History:
 def open_history(folder: Path, opening: Opening) -> History:
     """Start ``history.csv``; its first line is the initial situation, with ``h = 0``."""
     contacts = tuple(c.label for c in opening.scene.contacts)
-    columns = [*COLUMNS, *((f"contact.{c}.{name}", unit) for c in contacts for name, unit in CONTACT)]
+    columns = [*COLUMNS, *((f"contact.{c}.{name}", unit) for c in contacts for name, unit in CONTACT), *CERTIFICATE]
     stream = (folder / FILE).open("w", encoding="utf-8", newline="")
     table.write(stream, table.header([*columns, *((r.name, r.unit) for r in opening.readings)]))
     probes = [r.value(opening.initial, {}) for r in opening.readings]
-    table.write(stream, [opening.initial.time, 0.0, 0, *_audit(opening.ledger, contacts), *probes])
+    gaps = [c.min_gap for c in opening.ledger.contacts.values()]
+    left = [min(gaps, default=float("inf")), *[0.0] * (len(CERTIFICATE) - 1)]
+    table.write(stream, [opening.initial.time, 0.0, 0, *_audit(opening.ledger, contacts), *left, *probes])
     return History(stream=stream, contacts=contacts, readings=opening.readings)
 
 
 def _audit(ledger: Ledger, contacts: tuple[str, ...]) -> list[float]:
     energies = [getattr(ledger, name) for name, unit in COLUMNS if unit == "J"]
     rows = [[getattr(ledger.contacts[c], name) for name, _ in CONTACT] for c in contacts]
-    return [float(x) for x in (*energies, *ledger.momentum, *(x for row in rows for x in row))]
+    return [float(x) for x in (*energies, *ledger.momentum, *ledger.spin, *(x for row in rows for x in row))]

@@ -8,6 +8,8 @@ import numpy as np
 from softway.record.table import Table
 
 FILE = "summary.json"
+LEAST = ("min_gap", "min_force")
+LEFT = ("complementarity", "power_residual", "momentum_error", "energy_error")
 
 
 def summarise(history: Table, events: Table) -> dict[str, Any]:
@@ -31,9 +33,17 @@ def summarise(history: Table, events: Table) -> dict[str, Any]:
         "work_external": float(history["work_external"][-1]),
         "penetration_worst": max((c["penetration_worst"] for c in contacts.values()), default=0.0),
         "power_residual_worst": max((c["power_residual_worst"] for c in contacts.values()), default=0.0),
+        "certificate": _certificate(history),
         "contacts": contacts,
         "units": {"time": "s", "energy": "J", "penetration": "m", "impulse": "N s", "force": "N"},
     }
+
+
+def _certificate(history: Table) -> dict[str, float | None]:
+    """The worst that any slab left over of the contact conditions and the balances."""
+    worst = {name: float(np.abs(history[f"certificate.{name}"]).max()) for name in LEFT}
+    least = {name: float(history[f"certificate.{name}"].min()) for name in LEAST}
+    return {name: value if isfinite(value) else None for name, value in (least | worst).items()}
 
 
 def contacts_of(history: Table) -> tuple[str, ...]:

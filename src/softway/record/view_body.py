@@ -4,18 +4,19 @@ Volumes are drawn by the painter's algorithm: small flat triangles of the surfac
 first, shaded by a lamp beside the eye.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from softway.bodies.motion import Placed
 from softway.record.frames import Cells, Frame
 from softway.record.run import Run
 from softway.record.surface import at_nodes, exaggeration, mesh_of, patches, rigid
-from softway.record.view_scene import Camera, camera, edges, ground, ruler, strokes, unit
+from softway.record.view_scene import Camera, camera, edges, ground, plane, ruler, strokes
 from softway.record.view_style import canvas, library, scaled
 from softway.space.mesh import Mesh
-from softway.space.obstacles import HalfSpace
 from softway.typing import Array, IntArray
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ class Shown:
 
     frame: Frame
     cells: Cells
+    tools: Mapping[str, Placed]
     points: Array
     shape: Array
     stress: Array
@@ -48,8 +50,8 @@ def bodies(run: Run) -> "Figure":
     colour, stress_unit = scaled(top, "Pa")
     figure = canvas(WIDTH, 6.0)
     axis = figure.subplots()
-    view = camera(shown.cells, shown.points)
-    ground(axis, shown.cells, shown.points, view)
+    view = camera(shown.cells, shown.points, shown.tools)
+    ground(axis, shown.cells, shown.points, shown.tools, view)
     norm = library().colors.Normalize(0.0, colour * top or 1.0)
     mapped = library().cm.ScalarMappable(norm, MAP)
     _paint(axis, shown, view, mapped, colour)
@@ -71,11 +73,12 @@ def _words(figure: "Figure", run: Run, shown: Shown) -> None:
     """Title above, and below it what is shown."""
     second, unit = scaled(shown.frame.time, "s")
     enlarged = "to scale" if shown.factor == 1.0 else f"enlarged {shown.factor:g} times"
+    missing = f" Not drawn: {', '.join(shown.cells.lost)}." if shown.cells.lost else ""
     title = run.provenance.get("title", "") or "Deformed body"
     figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold")
     figure.supxlabel(
         f"t = {second * shown.frame.time:.4g} {unit}, at the greatest strain energy. Deformation {enlarged}; "
-        f"dashed: undeformed shape.\nStress: mean of the cells at a node, at most {_stress(shown)}.",
+        f"dashed: undeformed shape.\nStress: mean of the cells at a node, at most {_stress(shown)}.{missing}",
         x=0.01,
         ha="left",
         fontsize=8.5,
@@ -98,16 +101,16 @@ def _shown(run: Run) -> Shown:
     history, fields, cells = run.history, run.fields, run.fields.cells
     peak = history["time"][int(np.argmax(history["energy_strain"]))]
     frame = fields[int(np.argmin(np.abs(fields.times - peak)))]
-    factor = exaggeration(cells.reference, frame)
+    factor, tools = exaggeration(cells.reference, frame), cells.obstacles(frame.time)
     shape, points = frame.points.copy(), frame.points.copy()
     for number in range(len(cells.bodies)):
         mine = _nodes_of(cells, number)
         shape[mine] = rigid(cells.reference[mine], frame.points[mine])
         points[mine] = shape[mine] + factor * (frame.points[mine] - shape[mine])
-        points[mine] += _back(cells, frame.points[mine], points[mine])
-        shape[mine] += _back(cells, frame.points[mine], shape[mine])
+        points[mine] += _back(tools, frame.points[mine], points[mine])
+        shape[mine] += _back(tools, frame.points[mine], shape[mine])
     stress = at_nodes(cells, frame.von_mises)
-    return Shown(frame=frame, cells=cells, points=points, shape=shape, stress=stress, factor=factor)
+    return Shown(frame=frame, cells=cells, tools=tools, points=points, shape=shape, stress=stress, factor=factor)
 
 
 def _nodes_of(cells: Cells, body: int) -> IntArray:
@@ -115,15 +118,15 @@ def _nodes_of(cells: Cells, body: int) -> IntArray:
     return np.unique(cells.connectivity[mine])
 
 
-def _back(cells: Cells, real: Array, drawn: Array) -> Array:
-    """Shift (3,) that gives the drawn body the real least gap to each obstacle near it."""
+def _back(tools: Mapping[str, Placed], real: Array, drawn: Array) -> Array:
+    """Shift (3,) that gives the drawn body the real least gap to each flat obstacle near it."""
     shift = np.zeros(3)
-    for tool in cells.obstacles.values():
-        if not isinstance(tool, HalfSpace):
+    for tool in tools.values():
+        flat = plane(tool)
+        if flat is None:
             continue
-        normal = unit(tool.normal)
-        gap = float(tool.gap(real[:, : tool.dim]).min())
-        if gap < 0.5 * np.linalg.norm(np.ptp(real, axis=0)):
+        point, normal = flat
+        if ((real - point) @ normal).min() < 0.5 * np.linalg.norm(np.ptp(real, axis=0)):
             shift += ((real @ normal).min() - (drawn @ normal).min()) * normal
     return shift
 

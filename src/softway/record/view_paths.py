@@ -1,12 +1,13 @@
 """Bars in one picture: how their ends move, and the paths of all nodes in the x-t plane."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from softway.bodies.solid import Tool
 from softway.record.run import Run
+from softway.record.view_scene import plane
 from softway.record.view_style import BLACK, CYCLE, GREEN, RED, canvas, scaled
-from softway.space.obstacles import HalfSpace
 from softway.typing import Array
 
 if TYPE_CHECKING:
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
 
 MOST = 60
 """Greatest number of paths drawn."""
+TOOL: dict[str, Any] = {"color": BLACK, "lw": 2.0, "alpha": 0.5}
+CUT: dict[str, Any] = {"levels": [0.0], "colors": BLACK, "linewidths": 2.0, "alpha": 0.5}
 
 
 def paths(run: Run) -> "Figure":
@@ -40,13 +43,38 @@ def paths(run: Run) -> "Figure":
     _marks(right, run, axis, second, metre)
     right.set(title=f"Paths of {len(chosen)} nodes", xlabel=f"position {letter} [{length}]", ylabel=f"time [{unit}]")
     right.set_ylim(bottom=second * times[0])
-    for name, tool in cells.obstacles.items():
-        if isinstance(tool, HalfSpace) and axis < tool.dim and abs(np.atleast_1d(tool.normal)[axis]) > 0.99:
-            place = metre * float(np.atleast_1d(tool.point)[axis])
-            left.axhline(place, color=BLACK, lw=2.0, alpha=0.5, label=name)
-            right.axvline(place, color=BLACK, lw=2.0, alpha=0.5)
+    moments = np.linspace(times[0], times[-1], 8 * len(times)) if len(times) > 1 else times
+    for name, tool in cells.tools.items():
+        level = metre * _level(tool, axis, moments)
+        if np.isfinite(level).any():
+            left.plot(second * moments, level, label=name, **TOOL)
+            right.plot(level, second * moments, **TOOL)
+        elif len(times) > 1:
+            along, gaps = _gaps(tool, axis, times, cells.reference, track)
+            if gaps.min() < 0.0 < gaps.max():
+                left.contour(second * times, metre * along, gaps.T, **CUT)
+                right.contour(metre * along, second * times, gaps, **CUT)
     left.legend(loc="best")
     return figure
+
+
+def _level(tool: Tool, axis: int, times: Array) -> Array:
+    """Where (t,) a flat obstacle across an axis stands at the times (t,) [m]; nan where there is none."""
+    out = np.full(len(times), np.nan)
+    for k, time in enumerate(times):
+        flat = plane(tool.at(float(time)))
+        if flat is not None and abs(flat[1][axis]) > 0.99:
+            out[k] = flat[0][axis]
+    return out
+
+
+def _gaps(tool: Tool, axis: int, times: Array, reference: Array, track: Array) -> tuple[Array, Array]:
+    """Places (s,) on the line of the bar, half as long again as its path, and the gap (t, s) of an obstacle there."""
+    low, high = float(track.min()), float(track.max())
+    along = np.linspace(1.25 * low - 0.25 * high, 1.25 * high - 0.25 * low, 300)
+    line = np.repeat(reference.mean(axis=0)[None], len(along), axis=0)
+    line[:, axis] = along
+    return along, np.array([tool.at(float(time)).gap(line[:, : tool.shape.dim]) for time in times])
 
 
 def _ends(left: "Axes", times: Array, track: Array, reference: Array, letter: str) -> None:

@@ -1,10 +1,12 @@
 """Around the body in a picture: the eye, the floor with a shadow, outlines, a ruler."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from softway.bodies.motion import Placed
 from softway.record.frames import Cells
 from softway.record.surface import mesh_of, patches
 from softway.record.view_shape import draw
@@ -32,7 +34,7 @@ class Camera:
         return np.asarray(points @ self.axes.T)
 
 
-def camera(cells: Cells, points: Array) -> Camera:
+def camera(cells: Cells, points: Array, tools: Mapping[str, Placed]) -> Camera:
     """Plane bodies from the front; volumes from 18 degrees above the first obstacle.
 
     Of four directions around its normal the one is taken from which the point nearest to the obstacle is seen best.
@@ -40,7 +42,7 @@ def camera(cells: Cells, points: Array) -> Camera:
     if cells.dimension < 3:
         return Camera(np.eye(3))
     middle = points.mean(axis=0)
-    up = next((tool.normal_at(middle) for tool in cells.obstacles.values()), np.array([0.0, 0.0, 1.0]))
+    up = next((tool.normal_at(middle) for tool in tools.values()), np.array([0.0, 0.0, 1.0]))
     side = np.cross(up, np.eye(3)[int(np.argmin(np.abs(up)))])
     side /= np.linalg.norm(side)
     across, rise = np.cross(up, side), np.radians(18.0)
@@ -52,15 +54,15 @@ def camera(cells: Cells, points: Array) -> Camera:
     return Camera(np.array([right, np.cross(eye, right), eye]))
 
 
-def ground(axis: "Axes", cells: Cells, points: Array, view: Camera) -> None:
+def ground(axis: "Axes", cells: Cells, points: Array, tools: Mapping[str, Placed], view: Camera) -> None:
     """Each obstacle near the body: a plate with the body's shadow, or in the plane a hatched band."""
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
-    for tool in cells.obstacles.values():
-        if not isinstance(tool, HalfSpace):
+    for tool in tools.values():
+        flat = plane(tool)
+        if flat is None:
             draw(axis, tool, points, view.axes)
             continue
-        normal, point = unit(tool.normal), np.zeros(3)
-        point[: tool.dim] = np.atleast_1d(tool.point)
+        point, normal = flat
         if ((points - point) @ normal).min() > 0.75 * size:
             continue
         centre = points.mean(axis=0) - ((points.mean(axis=0) - point) @ normal) * normal
@@ -68,6 +70,16 @@ def ground(axis: "Axes", cells: Cells, points: Array, view: Camera) -> None:
             _plate(axis, cells, points, view, (normal, point, centre))
         else:
             _band(axis, normal, centre, 0.75 * size)
+
+
+def plane(tool: Placed) -> tuple[Array, Array] | None:
+    """A point and the normal, (3,) each, of a half-space where it stands; nothing for other shapes."""
+    if not isinstance(tool.shape, HalfSpace):
+        return None
+    point, normal = np.zeros(3), np.zeros(3)
+    point[: tool.dim] = tool.pose.place(np.atleast_1d(tool.shape.point))
+    normal[: tool.dim] = tool.pose.turn(np.atleast_1d(tool.shape.normal))
+    return point, normal
 
 
 def _plate(axis: "Axes", cells: Cells, points: Array, view: Camera, plane: tuple[Array, Array, Array]) -> None:
@@ -145,10 +157,3 @@ def ruler(axis: "Axes", reference: Array, view: Camera) -> None:
     x, y = axis.dataLim.x0, axis.dataLim.y0 - 0.06 * size
     axis.plot([x, x + length], [y, y], color="#222222", lw=2.0, solid_capstyle="butt", zorder=5)
     axis.annotate(f"{factor * length:g} {metre}", (x, y), (0, -4), textcoords="offset points", va="top", fontsize=9)
-
-
-def unit(given: tuple[float, ...] | float) -> Array:
-    """Unit vector (3,) of up to three components."""
-    normal = np.zeros(3)
-    normal[: np.size(given)] = given
-    return normal / np.linalg.norm(normal)

@@ -1,34 +1,42 @@
-"""Obstacles without a flat face in a picture: filled in the plane, traced along the line of sight in space."""
+"""Obstacles without a flat face in a picture: filled in the plane; in space triangles, or traced along the sight."""
 
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from softway.space.curved import Shape
-from softway.typing import Array
+from softway.bodies.motion import Placed
+from softway.record.view_style import library
+from softway.space.curved import Cavity
+from softway.space.faceted import Facets, Surface
+from softway.typing import Array, BoolArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 GREY, LINE = 0.90, "#666666"
 PIXELS = 560
+STEPS = 160
 LAMP = np.array([-0.35, 0.75, 0.6]) / np.linalg.norm([-0.35, 0.75, 0.6])
 
 
-def draw(axis: "Axes", shape: Shape, points: Array, axes: Array) -> None:
+def draw(axis: "Axes", tool: Placed, points: Array, axes: Array) -> None:
     """Draw the part of the obstacle near the body (n, 3) as seen along the third row of ``axes`` (3, 3)."""
     seen = points @ axes.T
     middle, reach = 0.5 * (seen.min(axis=0) + seen.max(axis=0)), 0.75 * float(np.linalg.norm(np.ptp(seen, axis=0)))
+    facets = _facets(tool)
+    if facets is not None:
+        _triangles(axis, facets @ axes.T, np.array([middle[:2] - reach, middle[:2] + reach]))
+        return
     x = middle[0] + reach * np.linspace(-1.0, 1.0, PIXELS)
     y = middle[1] + reach * np.linspace(-1.0, 1.0, PIXELS)
     plane = np.stack(np.meshgrid(x, y), axis=-1)
-    if shape.dim < 3:
-        gap = shape.gap(plane[..., : shape.dim])
+    if tool.dim < 3:
+        gap = tool.gap(plane[..., : tool.dim])
         if gap.min() < 0.0:
             axis.contourf(x, y, gap, levels=[gap.min() - 1.0, 0.0], colors=[str(GREY)], zorder=0)
             axis.contour(x, y, gap, levels=[0.0], colors=[LINE], linewidths=1.2, zorder=1)
         return
-    image = _traced(shape, plane, axes, middle[2] + 4.0 * reach, 8.0 * reach)
+    image = _traced(tool, plane, axes, middle[2] + 4.0 * reach, 8.0 * reach)
     rows, columns = np.flatnonzero(image[..., 3].any(axis=1)), np.flatnonzero(image[..., 3].any(axis=0))
     if len(rows) > 1 and len(columns) > 1:
         part = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
@@ -36,21 +44,60 @@ def draw(axis: "Axes", shape: Shape, points: Array, axes: Array) -> None:
         axis.imshow(image[part], extent=extent, origin="lower", interpolation="bilinear", zorder=0)
 
 
-def _traced(shape: Shape, plane: Array, axes: Array, start: float, depth: float) -> Array:
+def _facets(tool: Placed) -> Array | None:
+    """Corners (f, 3, 3) of the triangles of a tool in space, turned into free space; of other shapes nothing.
+
+    An open surface is given with its back too.
+    """
+    hollow = isinstance(tool.shape, Cavity)
+    shape = tool.shape.of if isinstance(tool.shape, Cavity) else tool.shape
+    shape = shape.facets if isinstance(shape, Surface) else shape
+    if not isinstance(shape, Facets) or shape.dim < 3:
+        return None
+    corners = tool.pose.place(shape.points)[shape.cells]
+    back = corners[:, ::-1]
+    return (back if hollow else corners) if shape.closed else np.concatenate([corners, back])
+
+
+def _triangles(axis: "Axes", corners: Array, window: Array) -> None:
+    """Draw the triangles (f, 3, 3) that face the eye, lit by the lamp, as far as they lie in the window (2, 2)."""
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    shown = (normal[:, 2] > 0.0) & (corners[..., :2].max(axis=1) > window[0]).all(axis=1)
+    shown &= (corners[..., :2].min(axis=1) < window[1]).all(axis=1)
+    order = np.flatnonzero(shown)[np.argsort(corners[shown][..., 2].mean(axis=1), kind="stable")]
+    if not len(order):
+        return
+    flat, colour = corners[order][..., :2], np.repeat(_lit(normal[order])[:, None], 3, axis=1)
+    matplotlib = library()
+    found = matplotlib.collections.PolyCollection(flat, facecolors=colour, edgecolors=colour, linewidths=0.4, zorder=0)
+    axis.add_collection(found, autolim=False)
+    found.set_clip_path(matplotlib.patches.Rectangle(window[0], *(window[1] - window[0]), transform=axis.transData))
+    axis.update_datalim(np.clip(flat.reshape(-1, 2), *window))
+
+
+def _traced(tool: Placed, plane: Array, axes: Array, start: float, depth: float) -> Array:
     """Colours (h, w, 4) of the shape: the first point of each ray, from ``start`` away from the eye, with no gap.
 
     A ray may always advance by the gap; those that have not arrived after the depth see nothing.
     """
     eye = axes[2]
-    ray = plane @ axes[:2] + start * eye
-    way = np.zeros(plane.shape[:2])
-    inside = shape.gap(ray) < 0.0
-    for _ in range(160):
-        way = np.minimum(way + np.maximum(shape.gap(ray - way[..., None] * eye), 0.0), depth)
-    place = ray - way[..., None] * eye
-    hit = (way < depth) & (np.abs(shape.gap(place)) < 1e-3 * depth) & ~inside
-    light = 0.82 + 0.18 * (shape.normal_at(place) @ axes.T @ LAMP)
-    image = np.empty((*hit.shape, 4))
-    image[..., :3] = (GREY * np.clip(light, 0.0, 1.08))[..., None].clip(0.0, 1.0)
-    image[..., 3] = hit
-    return image
+    ray = plane.reshape(-1, 2) @ axes[:2] + start * eye
+    way, gap = np.zeros(len(ray)), tool.gap(ray)
+    inside = gap < 0.0
+    for _ in range(STEPS):
+        under_way: BoolArray = (way < depth) & (gap > 1e-4 * depth)
+        if not under_way.any():
+            break
+        way[under_way] += gap[under_way]
+        gap[under_way] = tool.gap(ray[under_way] - way[under_way, None] * eye)
+    place = ray - way[:, None] * eye
+    image = np.ones((len(ray), 4))
+    image[:, :3] = _lit(tool.normal_at(place) @ axes.T)[:, None]
+    image[:, 3] = (way < depth) & (np.abs(gap) < 1e-3 * depth) & ~inside
+    return image.reshape(*plane.shape[:2], 4)
+
+
+def _lit(normal: Array) -> Array:
+    """Brightness (k,) of surfaces with the normals (k, 3) in the axes of the picture."""
+    return np.asarray(np.clip(GREY * np.clip(0.82 + 0.18 * (normal @ LAMP), 0.0, 1.08), 0.0, 1.0))

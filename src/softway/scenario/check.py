@@ -5,24 +5,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softway.bodies.fields import sample
 from softway.bodies.solid import Solid
-from softway.contact.contact import Contact
 from softway.errors import InputError
 from softway.march.begin import require_apart, require_supported
 from softway.march.march import proposed
 from softway.model import Model, build
 from softway.record.probes import readings
 from softway.scenario.references import (
-    candidate_nodes,
+    check_contact,
     check_density,
     check_dimensions,
     check_loads,
     check_solid,
     check_timings,
     mesh_of,
-    solid_named,
-    tool_named,
 )
 from softway.scenario.scales import (
     BodyScales,
@@ -31,7 +27,7 @@ from softway.scenario.scales import (
     contact_duration,
 )
 from softway.scenario.scenario import Scenario, built
-from softway.scene import Scene, StaticStart
+from softway.scene import StaticStart
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -78,12 +74,14 @@ def check(scenario: Scenario) -> Checked:
     check_loads(scenario.loads, "loads", solids)
     check_timings(scene.contacts)
     bodies = {n: body_scales(s, mesh_of(s), int((~fixed[n]).sum())) for n, s in solids.items()}
-    contacts = {c.label: _contact(scene, c, bodies, f"contacts[{k}]") for k, c in enumerate(scene.contacts)}
+    for k, contact in enumerate(scene.contacts):
+        check_contact(scene.bodies, contact, f"contacts[{k}]")
     readings(scenario.output.probes, {n: mesh_of(s) for n, s in solids.items()})
     if isinstance(scenario.start, StaticStart):
         check_loads(scenario.start.loads, "start.loads", solids)
     model = build(scene)
     require_apart(model, model.displacement)
+    contacts = {c.label: _contact(model, k, bodies) for k, c in enumerate(scene.contacts)}
     if isinstance(scenario.start, StaticStart):
         require_supported(model)
     time = scenario.time
@@ -94,15 +92,20 @@ def check(scenario: Scenario) -> Checked:
     return Checked(scenario=scenario, model=model, bodies=bodies, contacts=contacts, step=step, slabs=slabs)
 
 
-def _contact(scene: Scene, contact: Contact, bodies: Mapping[str, BodyScales], where: str) -> ContactScales:
+def _contact(model: Model, number: int, bodies: Mapping[str, BodyScales]) -> ContactScales:
     """Scales of a contact."""
-    nodes = candidate_nodes(scene, contact, where)
-    tool = tool_named(scene.bodies, contact.between[1], f"{where}.between")
-    solid = solid_named(scene.bodies, contact.body, where)
-    mesh, shape = mesh_of(solid), tool.shape
-    points = mesh.points[nodes] + sample(solid.displacement, mesh)[nodes]
-    gap = np.asarray(shape.gap(points))
-    normals = np.asarray(shape.normal_at(points))
-    speeds = -np.einsum("ni,ni->n", normals, sample(solid.velocity, mesh)[nodes])
-    duration = contact_duration(mesh.points, normals, bodies[contact.body].wave_speed)
-    return ContactScales(nodes=len(nodes), gap=float(gap.min()), approach=float(speeds.max()) + 0.0, duration=duration)
+    rows = model.rows(model.displacement)
+    here = rows.of(number) & rows.near
+    gap = rows.gap(model.displacement)[here]
+    speeds = -rows.along(model.velocity)[here]
+    durations = []
+    for k in model.opponents[number]:
+        if k >= 0 and here.any():
+            part = model.parts[k]
+            durations.append(contact_duration(part.mesh.points, rows.normal[here], bodies[part.name].wave_speed))
+    return ContactScales(
+        nodes=len(np.unique(rows.node[rows.of(number)])),
+        gap=float(gap.min(initial=np.inf)),
+        approach=float(speeds.max()) + 0.0 if len(speeds) else 0.0,
+        duration=min(durations, default=np.inf),
+    )

@@ -20,6 +20,7 @@ _EXAMPLES = {
     "m/s^2": ("an acceleration", "-9.81 m/s^2"),
     "1/s": ("a velocity gradient", "2 1/s"),
     "rad": ("an angle", "30 deg"),
+    "rad/s": ("an angular velocity", "60 rpm"),
     "N": ("a force", "2 kN"),
     "": ("a pure number", "0.3"),
 }

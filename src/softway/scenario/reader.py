@@ -32,7 +32,7 @@ class Reader:
     units
         The door of units.
     folder
-        Relative mesh files are looked for here.
+        Files with a relative path are looked for here.
 
     Examples
     --------
@@ -73,7 +73,7 @@ class Reader:
         source = str if want.type is Path else want.type
         if not isinstance(value, source) or (source is int and isinstance(value, bool)):
             raise InputError(where, f"{value!r} is not {names[want.type]}", names[want.type])
-        return want.type(value)
+        return self.folder / value if want.type is Path else want.type(value)
 
     def _tuple(self, value: Any, hint: Any, where: str, unit: str | None) -> tuple[Any, ...]:
         """A list; a lone number stands for a vector with one entry."""

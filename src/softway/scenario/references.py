@@ -16,7 +16,7 @@ from softway.scenario.kinds import nearest
 from softway.scenario.scales import section_of
 from softway.scene import Scene
 from softway.space.mesh import Mesh
-from softway.typing import Array, BoolArray, IntArray
+from softway.typing import Array, BoolArray
 
 
 def mesh_of(solid: Solid) -> Mesh:
@@ -37,15 +37,19 @@ def solid_named(bodies: Mapping[str, Solid | Tool], name: str, where: str) -> So
     return body
 
 
-def tool_named(bodies: Mapping[str, Solid | Tool], name: str, where: str) -> Tool:
-    """The rigid obstacle of that name."""
-    tools = [n for n, b in bodies.items() if isinstance(b, Tool)]
-    if name not in bodies:
-        raise InputError(where, f"there is no body {name!r}", nearest(name, tools))
-    body = bodies[name]
-    if not isinstance(body, Tool):
-        raise InputError(where, f"{name!r} is not a Tool; contact is with a rigid obstacle", nearest(name, tools))
-    return body
+def check_contact(bodies: Mapping[str, Solid | Tool], contact: Contact, where: str) -> None:
+    """Refuse a contact of bodies or tags that do not exist."""
+    solid_named(bodies, contact.body, f"{where}.between")
+    if contact.opponent not in bodies:
+        others = [n for n in bodies if n != contact.body]
+        raise InputError(
+            f"{where}.between", f"there is no body {contact.opponent!r}", nearest(contact.opponent, others)
+        )
+    for name, tag in ((contact.body, contact.tag), (contact.opponent, contact.opponent_tag)):
+        body = bodies[name]
+        if isinstance(body, Solid):
+            with within(f"{where}.between"):
+                mesh_of(body).nodes(tag)
 
 
 def entries(value: Iterable[float] | float, dim: int, where: str) -> Array:
@@ -114,10 +118,3 @@ def check_timings(contacts: tuple[Contact, ...]) -> None:
             raise InputError(f"contacts[{k}].timing", problem, "the same rule for all contacts of a scene")
         if contact.label in [c.label for c in contacts[:k]]:
             raise InputError(f"contacts[{k}].name", f"{contact.label!r} is taken", "another name")
-
-
-def candidate_nodes(scene: Scene, contact: Contact, where: str) -> IntArray:
-    """Nodes (c,) that may touch, in a scene whose meshes are made."""
-    solid = solid_named(scene.bodies, contact.body, f"{where}.between")
-    with within(f"{where}.between"):
-        return mesh_of(solid).nodes(contact.tag)

@@ -10,6 +10,7 @@ from softway.bodies.placement import Placement
 from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact
 from softway.errors import InputError
+from softway.march.control import StepControl
 from softway.scene import AsGiven, Scene, StaticStart
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
@@ -30,6 +31,8 @@ class Time:
         Length of a slab [s]; ``auto``: a wave crosses the smallest edge in one slab.
     weight
         Virtual time function.
+    control
+        Limits of a slab; one that breaks them is tried again shorter.
 
     Examples
     --------
@@ -40,6 +43,7 @@ class Time:
     end: Second
     step: Second | Literal["auto"] = "auto"
     weight: TimeWeight = EndPeaks()
+    control: StepControl = StepControl()
 
     def __post_init__(self) -> None:
         if not (isfinite(self.end) and self.end > 0.0):

@@ -17,7 +17,8 @@ class Iterate:
 
     ``q`` (n, d) satisfies the contact rows; ``change`` is its distance from the point where the residual was taken;
     ``impulse`` (m,) are the multipliers of the rows, ``active`` (m,) the rows that carry one; ``free`` (m,) is the
-    normal component of the free solution.
+    normal component of the free solution; ``system`` holds the rows as they were, and is ``sound`` if the surfaces do
+    not overlap.
     """
 
     q: Array
@@ -26,12 +27,14 @@ class Iterate:
     active: BoolArray
     free: Array
     carry: Carry
+    system: SlabSystem
+    sound: bool
 
 
-def lost(q: Array, active: BoolArray, carry: Carry) -> Iterate:
+def lost(q: Array, active: BoolArray, carry: Carry, system: SlabSystem) -> Iterate:
     """The iterate that says that q is not admissible: its change is infinite."""
     none = np.zeros(len(active))
-    return Iterate(q=q, change=np.inf, impulse=none, active=active, free=none, carry=carry)
+    return Iterate(q=q, change=np.inf, impulse=none, active=active, free=none, carry=carry, system=system, sound=False)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -81,8 +84,9 @@ def drive(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float, lim
         scale = max(np.abs(it.q).max(initial=0.0), np.abs(system.start.velocity).max(initial=0.0), 1e-300)
         best, since = (it.change, 0) if it.change < 0.5 * best else (best, since + 1)
         settled = it.change <= tolerance * scale or (since >= 6 and it.change <= 1e3 * tolerance * scale)
-        if settled or (since >= 4 and it.change <= ROUNDING * _pushed(system, it)):
-            return Solution(last=it, end=system.evaluate(it.q), predicted=predicted, iterations=count)
+        settled = settled or (since >= 4 and it.change <= ROUNDING * _pushed(system, it))
+        if settled and it.sound:
+            return Solution(last=it, end=it.system.evaluate(it.q, it.impulse), predicted=predicted, iterations=count)
         if count >= limit:
             break
     change = it.change / scale if it is not None else np.inf

@@ -1,18 +1,26 @@
 """Static equilibrium of some components with unilateral contact: how a march starts."""
 
 import numpy as np
+import scipy.sparse as sp
 
+from softway.contact.candidates import Candidates
 from softway.errors import NoConvergence, NumericsError
 from softway.model import Model
-from softway.solve.frozen import freeze
+from softway.solve.frozen import basis, freeze
 from softway.solve.linear import SuperLU
 from softway.solve.normal import Rows, constrain
 from softway.typing import Array, BoolArray
 
+SHARE = 1e-7
+"""Lift of the stiffness of bodies without support, as a share of its diagonal: far below their softest mode."""
+ROUNDING = 1e-9
+"""Change of the displacement, relative to its size, that is rounding if it no longer falls: free motions wander."""
 REMEDY = "a smaller load or initial displacement, or more supports"
 
 
-def equilibrium(model: Model, u: Array, unknown: BoolArray, load: Array, limit: int = 60) -> tuple[Array, Array]:
+def equilibrium(
+    model: Model, u: Array, unknown: BoolArray, load: Array, time: float = 0.0, limit: int = 60
+) -> tuple[Array, Array]:
     """Displacement (n, d) and contact forces (m,) with ``f(u) = load + G^T lambda`` on the unknown components.
 
     Newton's method with the contact rows as inequalities on the gap; the other components keep their value.
@@ -31,30 +39,89 @@ def equilibrium(model: Model, u: Array, unknown: BoolArray, load: Array, limit: 
     NumericsError
         If it does not settle.
     """
-    pressure = np.zeros(len(model.pairs.node))
     if not unknown.any():
-        return u, pressure
+        return u, np.zeros(len(model.encounters.contact))
+    return _settled(model, u, unknown, load, time, None, limit)
+
+
+def fitted(model: Model, u: Array, unknown: BoolArray, load: Array, limit: int = 200) -> tuple[Array, Array]:
+    """Displacement (n, d) and contact forces (m,) of bodies that overlap at the start, pressed apart: a press fit.
+
+    Bodies that no support holds keep their place as far as they can: the stiffness is lifted by a share ``SHARE`` of
+    the volume that each node has, about the last iterate (proximal steps), so that the answer is an equilibrium of the
+    plain stiffness.
+
+    Raises
+    ------
+    NumericsError
+        If it does not settle.
+    """
+    d = model.shape[1]
     keep = np.flatnonzero(unknown.ravel())
-    active = np.zeros(len(model.pairs.node), bool)
+    stiffness = model.tangent(u)
+    weight = np.repeat(np.maximum(_nodal_volume(model), 0.0), d)
+    lift = SHARE * float(stiffness.diagonal().mean() / weight.mean()) * weight
+    return _settled(model, u, unknown, load, 0.0, sp.csc_array(sp.diags_array(lift[keep])), limit)
+
+
+def _nodal_volume(model: Model) -> Array:
+    """Volume (n,) of the cells around each node, shared among their nodes [m^3]."""
+    found = np.zeros(model.shape[0])
+    for part in model.parts:
+        internal = part.internal
+        start = 0
+        for cells, table in zip(part.mesh.blocks.values(), internal.rows, strict=True):
+            e, q = table.shape[:2]
+            share = internal.volume[start : start + e * q].reshape(e, q).sum(axis=1) / cells.shape[1]
+            np.add.at(found, cells + part.rows.start, share[:, None])
+            start += e * q
+    return found
+
+
+def _settled(
+    model: Model, u: Array, unknown: BoolArray, load: Array, time: float, lift: sp.csc_array | None, limit: int
+) -> tuple[Array, Array]:
+    """Newton's method with the contact rows as inequalities; ``lift`` (k, k) is added to the stiffness."""
+    keep = np.flatnonzero(unknown.ravel())
+    active = np.zeros(len(model.encounters.contact), bool)
+    pairs = model.encounters.rest(u, time)
+    once = model.linear and model.encounters.fixed and lift is None
+    best, since = np.inf, 0
     u = u.copy()
     for _ in range(limit):
-        rows = model.pairs.at(u)
-        matrix = rows.matrix(unknown)
-        reachable = np.asarray(abs(matrix).sum(axis=1)).ravel() > 1e-12
-        force = model.force(u)
-        conditions = Rows(target=-model.pairs.gap(u), equal=active & False, unilateral=reachable)
+        rows = pairs.at(u)
         try:
-            frozen = freeze(model.tangent(u)[keep][:, keep], matrix, SuperLU())
-            free = -frozen.solve((force - load)[unknown])
-            step, pressure, active = constrain(free, frozen, conditions, active)
+            stiffness = model.tangent(u)[keep][:, keep]
+            step, pressure, active = _step(
+                model, rows, u, unknown, load, stiffness if lift is None else stiffness + lift, active
+            )
         except NoConvergence as failure:
             raise NumericsError(f"no static equilibrium at the start: {failure}", 0.0, REMEDY) from None
         u[unknown] += step
         change = float(np.abs(step).max())
         if not np.isfinite(change):
             break
-        if change <= 1e-13 * max(float(np.abs(u).max()), float(np.abs(rows.offset).max(initial=0.0))) or (
-            model.linear and model.pairs.flat
-        ):
+        size = max(float(np.abs(u).max()), float(np.abs(rows.offset[rows.near]).max(initial=0.0)))
+        best, since = (change, 0) if change < 0.5 * best else (best, since + 1)
+        if once or change <= 1e-13 * size or (since >= 2 and change <= ROUNDING * size):
             return u, pressure
     raise NumericsError("no static equilibrium at the start", 0.0, REMEDY)
+
+
+def _step(
+    model: Model,
+    rows: Candidates,
+    u: Array,
+    unknown: BoolArray,
+    load: Array,
+    stiffness: sp.csc_array,
+    active: BoolArray,
+) -> tuple[Array, Array, BoolArray]:
+    """One step of Newton's method on the unknown components, the contact forces (m,), and the active rows (m,)."""
+    directions = basis(rows, unknown, model.encounters.fixed, model.touchable)
+    reachable = rows.reachable(unknown)
+    target = np.where(reachable, -rows.gap(u), 0.0)
+    frozen = freeze(stiffness, directions, SuperLU())
+    free = -frozen.solve((model.force(u) - load)[unknown])
+    conditions = Rows(target=target, equal=active & False, unilateral=reachable)
+    return constrain(free, frozen, directions.coefficients(rows, unknown), conditions, active)

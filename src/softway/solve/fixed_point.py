@@ -1,5 +1,6 @@
 """The fixed point with a frozen operator: every iteration is one back-substitution and a small contact problem."""
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -7,11 +8,14 @@ import numpy as np
 
 from softway.errors import InputError
 from softway.solve.driver import Iterate, lost
-from softway.solve.frozen import Carry, Frozen, freeze
+from softway.solve.frozen import Carry, freeze
 from softway.solve.linear import LinearSolver, SuperLU
 from softway.solve.normal import constrain
 from softway.solve.system import SlabSystem
 from softway.typing import Array
+
+NEARLY = 1e-7
+"""Relative change of velocity below which kept faces are compared with the surface."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,27 +66,32 @@ class FixedPoint:
         keep = system.model.free
         memory = _Anderson(self.depth)
         impulse, last, stuck = guess, np.inf, 0
-        while True:
-            end = system.evaluate(q)
+        for count in itertools.count():
+            end = system.evaluate(q, impulse)
+            system = system.steadied(end.displacement, count)
             residual = end.residual[keep]
             if not np.isfinite(residual).all():
-                yield lost(q, active, carry)
+                yield lost(q, active, carry, system)
                 return
-            if system.pairs is None:
-                free = q[keep] - frozen.solve(residual)
-                solved, impulse, now = constrain(free, frozen, system.rows, active)
-            else:
-                matrix, rows = system.conditions(q, end.displacement)
-                held = np.flatnonzero(impulse)
-                pushed = q[keep] - frozen.solve(residual - matrix.T @ impulse)
-                answer = frozen.compliance(held).columns @ impulse[held]
-                slack = matrix @ pushed - rows.target - frozen.rows @ answer
-                free = pushed - answer
-                solved, impulse, now = constrain(free, frozen, rows, active, slack)
-            new = np.zeros_like(q)
+            free = q[keep] - frozen.solve(residual)
+            rows, conditions = system.conditions(q, end, frozen.basis)
+            solved, impulse, now = constrain(free, frozen, rows, conditions, active)
+            new = system.filled()
             new[keep] = solved
             change = float(np.abs(new - q).max(initial=0.0))
-            yield Iterate(q=new, change=change, impulse=impulse, active=now, free=frozen.rows @ free, carry=carry)
+            sound = system.sound(system.path.end(new)) if change < NEARLY * np.abs(new).max() else False
+            yield Iterate(
+                q=new,
+                change=change,
+                impulse=impulse,
+                active=now,
+                free=rows @ frozen.sense(free),
+                carry=carry,
+                system=system,
+                sound=sound,
+            )
+            if change < NEARLY * np.abs(new).max() and not sound:
+                system = system.completed(system.path.end(new))
             stuck = stuck + 1 if change > 0.99 * last else 0
             if (now != active).any() or stuck >= 2:
                 memory, stuck = _Anderson(self.depth), 0
@@ -95,12 +104,8 @@ class FixedPoint:
 def prepared(system: SlabSystem, carry: Carry, solver: LinearSolver) -> Carry:
     """The carry with a frozen operator that fits the slab, renewed when it does not."""
     if carry.frozen is not None and not carry.stale and abs(carry.span / system.path.span - 1.0) < 1e-9:
-        if system.pairs is None:
-            return carry
-        rows = system.path.rows.matrix(system.model.free)
-        return replace(carry, frozen=Frozen(carry.frozen.factor, rows))
-    rows = system.path.rows.matrix(system.model.free)
-    frozen = freeze(system.operator(system.start.displacement), rows, solver)
+        return carry
+    frozen = freeze(system.operator(system.start.displacement), system.directions(), solver)
     return replace(carry, frozen=frozen, span=system.path.span, stale=False, factorisations=carry.factorisations + 1)
 
 

@@ -1,66 +1,108 @@
-"""The frozen operator of a slab with the compliance of the contact rows, and the carry that keeps it."""
+"""The frozen operator of a slab with the compliance of the contact, and the carry that keeps it."""
 
 from dataclasses import dataclass, field
 
 import numpy as np
 import scipy.sparse as sp
 
+from softway.contact.candidates import Candidates
 from softway.solve.linear import Factor, LinearSolver
-from softway.typing import Array, IntArray
+from softway.typing import Array, BoolArray, IntArray
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Compliance:
-    """Columns ``A^-1 G^T`` (f, k) of the active rows and their Delassus matrix ``G A^-1 G^T`` (k, k)."""
+class Basis:
+    """The directions in which contact pushes, the same for as long as an operator is kept.
 
-    columns: Array
-    delassus: Array
+    Parameters
+    ----------
+    directions
+        (f, b): the contact rows themselves where they never change, else the components of the contact nodes.
+    component
+        (b,) free component of each direction; None where the directions are the rows.
+    """
+
+    directions: sp.csc_array
+    component: IntArray | None
+
+    def coefficients(self, rows: Candidates, free: BoolArray) -> sp.csr_array:
+        """Rows C (m, b) with ``G = C directions^T``."""
+        if self.component is None:
+            return sp.csr_array(sp.eye_array(len(rows.node), format="csr"))
+        return sp.csr_array(rows.matrix(free)[:, self.component])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Frozen:
-    """A factored operator A and the compliance of the contact rows, computed when first asked for.
+    """A factored operator A and the compliance ``B^T A^-1 B`` of the contact directions B, computed when first asked for.
 
-    ``columns`` (of each row: ``A^-1 G^T`` (f,) and ``G A^-1 G^T`` (m,)) and ``latest`` are caches of values that depend
-    on A and G only, so the answer does not depend on when they were made.
+    ``columns`` (of each direction: ``A^-1 B`` (f,), kept where directions are rows, and ``B^T A^-1 B`` (b,)) and
+    ``latest`` are caches of values that depend on A and B only, so the answer does not depend on when they were made.
     """
 
     factor: Factor
-    rows: sp.csr_array
-    columns: dict[int, tuple[Array, Array]] = field(default_factory=dict)
-    latest: dict[bytes, Compliance] = field(default_factory=dict)
+    basis: Basis
+    columns: dict[int, tuple[Array | None, Array]] = field(default_factory=dict)
+    latest: dict[bytes, Array] = field(default_factory=dict)
 
     def solve(self, b: Array) -> Array:
         """A^-1 b."""
         return self.factor.solve(b)
 
-    def compliance(self, active: IntArray) -> Compliance:
-        """Compliance of the active rows (k,), kept until it is asked for other rows."""
-        key = active.tobytes()
+    def sense(self, y: Array) -> Array:
+        """Components (b,) of a field (f,) along the directions."""
+        return np.asarray(self.basis.directions.T @ y)
+
+    def compliance(self, which: IntArray) -> Array:
+        """``B^T A^-1 B`` (b, k) of some directions; new columns are solved for in one batch."""
+        key = which.tobytes()
         if key not in self.latest:
-            delassus = self.delassus(active)
-            columns = np.empty((len(active), self.rows.shape[1]))
-            for k, i in enumerate(active.tolist()):
-                columns[k] = self.columns[i][0]
+            self._fill(which)
+            out = np.empty((len(which), self.basis.directions.shape[1]))
+            for k, i in enumerate(which.tolist()):
+                out[k] = self.columns[i][1]
             self.latest.clear()
-            self.latest[key] = Compliance(columns=columns.T, delassus=delassus)
+            self.latest[key] = out.T
         return self.latest[key]
 
-    def delassus(self, active: IntArray) -> Array:
-        """``G A^-1 G^T`` (k, k) of the active rows; new columns are solved for in one batch."""
-        missing = [i for i in active.tolist() if i not in self.columns]
-        if missing:
-            new = np.ascontiguousarray(self.factor.solve(np.ascontiguousarray(self.rows[missing].toarray().T)).T)
-            self.columns.update({i: (column, self.rows @ column) for i, column in zip(missing, new, strict=True)})
-        out = np.empty((len(active), len(active)))
-        for k, i in enumerate(active.tolist()):
-            out[:, k] = self.columns[i][1][active]
+    def answer(self, push: Array) -> Array:
+        """A^-1 B push (f,) of pushes (b,) along the directions."""
+        index = np.flatnonzero(push)
+        if self.basis.component is not None:
+            return self.solve(self.basis.directions @ push) if len(index) else np.zeros(self.basis.directions.shape[0])
+        self._fill(index)
+        out = np.zeros(self.basis.directions.shape[0])
+        for i in index.tolist():
+            column = self.columns[i][0]
+            assert column is not None
+            out += push[i] * column
         return out
 
+    def _fill(self, which: IntArray) -> None:
+        missing = [i for i in which.tolist() if i not in self.columns]
+        if not missing:
+            return
+        new = self.factor.solve(np.ascontiguousarray(self.basis.directions[:, missing].toarray()))
+        sensed = np.ascontiguousarray((self.basis.directions.T @ new).T)
+        full = np.ascontiguousarray(new.T) if self.basis.component is None else [None] * len(missing)
+        self.columns.update({i: (a, b) for i, a, b in zip(missing, full, sensed, strict=True)})
 
-def freeze(matrix: sp.csc_array, rows: sp.csr_array, solver: LinearSolver) -> Frozen:
+
+def basis(rows: Candidates, free: BoolArray, fixed: bool, nodes: IntArray) -> Basis:
+    """The contact directions: the rows (m,) if they are ``fixed``, else the free components of ``nodes`` (k,)."""
+    if fixed:
+        return Basis(directions=sp.csc_array(rows.matrix(free).T), component=None)
+    flat = np.zeros(free.shape, bool)
+    flat[nodes] = True
+    component = np.flatnonzero(flat[free])
+    b = len(component)
+    directions = sp.csc_array((np.ones(b), (component, np.arange(b))), shape=(int(free.sum()), b))
+    return Basis(directions=directions, component=component)
+
+
+def freeze(matrix: sp.csc_array, directions: Basis, solver: LinearSolver) -> Frozen:
     """Factor an operator for slabs of one length."""
-    return Frozen(solver.factor(matrix), rows)
+    return Frozen(solver.factor(matrix), directions)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,5 +1,6 @@
 """Newton's method: the operator is renewed at every iterate, for comparison with the fixed point."""
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -47,19 +48,29 @@ class Newton:
     ) -> Iterator[Iterate]:
         """Iterates from q (n, d), with ``guess`` (m,) as first impulses of the contact rows."""
         active = guess != 0.0
-        keep = system.model.free
-        while True:
-            end = system.evaluate(q)
+        keep, directions, impulse = system.model.free, system.directions(), guess
+        for count in itertools.count():
+            end = system.evaluate(q, impulse)
+            system = system.steadied(end.displacement, count)
             if not np.isfinite(end.residual).all():
-                yield lost(q, active, carry)
+                yield lost(q, active, carry, system)
                 return
-            matrix, rows = system.conditions(q, end.displacement)
-            frozen = freeze(system.operator(end.displacement), matrix, solver)
+            matrix, rows = system.conditions(q, end, directions)
+            frozen = freeze(system.operator(end.displacement), directions, solver)
             carry = Carry(frozen=frozen, span=system.path.span, stale=True, factorisations=carry.factorisations + 1)
             free = q[keep] - frozen.solve(end.residual[keep])
-            solved, impulse, active = constrain(free, frozen, rows, active)
-            new = np.zeros_like(q)
+            solved, impulse, active = constrain(free, frozen, matrix, rows, active)
+            new = system.filled()
             new[keep] = solved
             change = float(np.abs(new - q).max(initial=0.0))
-            yield Iterate(q=new, change=change, impulse=impulse, active=active, free=matrix @ free, carry=carry)
+            yield Iterate(
+                q=new,
+                change=change,
+                impulse=impulse,
+                active=active,
+                free=matrix @ frozen.sense(free),
+                carry=carry,
+                system=system,
+                sound=True,
+            )
             q = new

@@ -11,6 +11,7 @@ every contact status.
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.sparse as sp
 
 from softway.errors import NoConvergence
 from softway.kernels.dense import shared
@@ -28,25 +29,23 @@ class Rows:
 
 
 def constrain(
-    free: Array, frozen: Frozen, rows: Rows, guess: BoolArray, slack: Array | None = None
+    free: Array, frozen: Frozen, coefficients: sp.csr_array, rows: Rows, guess: BoolArray
 ) -> tuple[Array, Array, BoolArray]:
     """Solution (f,), multipliers (m,) and active rows (m,) of the contact problem for the free solution.
 
-    ``slack`` (m,) is ``G y - c``; where the rows have turned since their compliance was frozen it is given, and the
-    solution is the step of an iteration.
+    The contact rows are ``G = C B^T`` with their ``coefficients`` C (m, b) along the contact directions B.
 
     Primal-dual sweeps from the ``guess``; after 30 of them single exchanges of least index (Murty), which end for
     every symmetric positive definite compliance.
     """
+    count = rows.equal | rows.unilateral
     active = rows.equal | (guess & rows.unilateral)
-    slack = frozen.rows @ free - rows.target if slack is None else slack
-    floor = 1e-14 * max(np.abs(slack).max(initial=0.0), np.abs(rows.target).max(initial=0.0), 1e-300)
+    slack = np.where(count, coefficients @ frozen.sense(free) - rows.target, 0.0)
+    floor = 1e-14 * max(np.abs(slack).max(initial=0.0), np.abs(rows.target[count]).max(initial=0.0), 1e-300)
     for sweep in range(30 + 4 * len(active)):
         index = np.flatnonzero(active)
-        compliance = frozen.compliance(index)
-        columns = compliance.columns
-        force = shared(compliance.delassus, -slack[index])
-        gap = slack + frozen.rows @ (columns @ force)
+        force, push = balance(frozen, coefficients[index], -slack[index])
+        gap = slack + coefficients @ push.sensed
         multiplier = np.zeros(len(active))
         multiplier[index] = force
         wrong = rows.unilateral & ((active & (multiplier < 0.0)) | (~active & (gap < -floor)))
@@ -57,4 +56,27 @@ def constrain(
         active[change] = ~active[change]
     else:
         raise NoConvergence(f"the {len(active)} contact rows have no solution")
-    return free + columns @ force, multiplier, active
+    return free + frozen.answer(push.directions), multiplier, active
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Push:
+    """Forces along the contact ``directions`` (b,), and what they move along them, ``sensed`` (b,)."""
+
+    directions: Array
+    sensed: Array
+
+
+def delassus(frozen: Frozen, active: sp.csr_array) -> Array:
+    """Compliance ``G A^-1 G^T`` (k, k) of rows with the coefficients ``active`` (k, b)."""
+    used = np.unique(active.indices)
+    inner = active[:, used]
+    return np.asarray((inner @ frozen.compliance(used)[used]) @ inner.T)
+
+
+def balance(frozen: Frozen, active: sp.csr_array, wanted: Array) -> tuple[Array, Push]:
+    """Multipliers (k,) of the active rows (k, b) that move them by ``wanted`` (k,), and the push that they make."""
+    force = shared(delassus(frozen, active), wanted)
+    used = np.unique(active.indices)
+    directions = np.asarray(active.T @ force)
+    return force, Push(directions=directions, sensed=frozen.compliance(used) @ directions[used])

@@ -10,37 +10,43 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from softway.kernels.dense import shared
+from softway.contact.candidates import Candidates
 from softway.model import Model
-from softway.solve.frozen import Frozen, freeze
+from softway.solve.frozen import Frozen, basis, freeze
 from softway.solve.linear import SuperLU
-from softway.typing import Array, BoolArray
+from softway.solve.normal import balance
+from softway.typing import Array, BoolArray, IntArray
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Reaction:
-    """The mass matrix of the free components, factored, with the contact rows."""
+    """The mass matrix of the free components, factored, with the contact directions."""
 
     model: Model
     mass: Frozen
 
-    def multiplier(self, force: Array, closed: BoolArray) -> Array:
+    def multiplier(self, rows: Candidates, force: Array, closed: BoolArray) -> Array:
         """Normal reaction (m,) of the closed rows for the internal force (n, d); zero on the others [N]."""
-        index = np.flatnonzero(closed & self.model.candidates.reachable(self.model.free))
+        index, active = self._active(rows, closed)
         out = np.zeros(len(closed))
         if len(index):
-            pull = self.mass.rows @ self.mass.solve((force - self.model.load)[self.model.free])
-            out[index] = shared(self.mass.delassus(index), pull[index])
+            pull = self.mass.solve((force - self.model.load)[self.model.free])
+            out[index] = balance(self.mass, active, active @ self.mass.sense(pull))[0]
         return out
 
-    def jump(self, approach: Array, closed: BoolArray) -> tuple[Array, Array]:
+    def jump(self, rows: Candidates, approach: Array, closed: BoolArray) -> tuple[Array, Array]:
         """Velocity jump (n, d) and impulses (m,) that bring the closed rows from ``approach`` (m,) to rest."""
-        index = np.flatnonzero(closed & self.model.candidates.reachable(self.model.free))
+        index, active = self._active(rows, closed)
         out, impulse = np.zeros(self.model.shape), np.zeros(len(closed))
         if len(index):
-            impulse[index] = shared(self.mass.delassus(index), -approach[index])
-            out[self.model.free] = self.mass.solve(self.mass.rows.T @ impulse)
+            impulse[index], push = balance(self.mass, active, -approach[index])
+            out[self.model.free] = self.mass.solve(self.mass.basis.directions @ push.directions)
         return out, impulse
+
+    def _active(self, rows: Candidates, closed: BoolArray) -> tuple[IntArray, sp.csr_array]:
+        """The closed rows that can move (k,), and their coefficients (k, b)."""
+        index = np.flatnonzero(closed & rows.reachable(self.model.free))
+        return index, self.mass.basis.coefficients(rows, self.model.free)[index]
 
 
 def reaction(model: Model) -> Reaction:
@@ -48,4 +54,5 @@ def reaction(model: Model) -> Reaction:
     d = model.shape[1]
     keep = np.flatnonzero(model.free.ravel())
     mass = sp.csc_array(sp.kron(model.mass, sp.eye_array(d), format="csc")[keep][:, keep])
-    return Reaction(model=model, mass=freeze(mass, model.candidates.matrix(model.free), SuperLU()))
+    directions = basis(model.rows(model.displacement), model.free, model.encounters.fixed, model.touchable)
+    return Reaction(model=model, mass=freeze(mass, directions, SuperLU()))

@@ -13,16 +13,22 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.bodies.force import AverageField, DiscreteGradient
+from softway.contact.candidates import Candidates
+from softway.contact.encounters import Pairs
 from softway.contact.fig4 import Split
 from softway.contact.located import LocatedMean
-from softway.contact.pairs import Pairs
 from softway.contact.path import Path
 from softway.model import Model
+from softway.solve.balance import Closure, Ends, closed
+from softway.solve.frozen import Basis, basis
 from softway.solve.normal import Rows
 from softway.time.weight import Momentum, TimeWeight, moments, peaks
 from softway.typing import Array
 
-ROUNDING = 2e-15
+STEADY = 15
+"""Iterations after which nodes are kept on their faces."""
+DEPTH = 1e-12
+"""Depth at the end of a slab, relative to the coordinates, that is rounding."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -37,7 +43,9 @@ class Start:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Evaluation:
-    """The equations at one q: residual, end values, mean force (n, d), and the scalar a of each part."""
+    """The equations at one q: residual, end values, mean force (n, d), the scalar a of each part, and the contact rows
+    at the end where they change.
+    """
 
     residual: Array
     displacement: Array
@@ -46,6 +54,7 @@ class Evaluation:
     mean_force: Array
     scalar: Array
     clipped: bool
+    near: Candidates | None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -57,7 +66,7 @@ class SlabSystem:
     model, start, weight, path
         The scene as arrays, the values at t0, the virtual time function and the kinked motion.
     rows
-        Conditions on the normal components of q.
+        Conditions on the contact rows of q, where the rows never change.
     unbalanced
         (n, d) velocity jumps that the momentum equation does not see.
     impulses
@@ -69,7 +78,15 @@ class SlabSystem:
     split
         Trapezoid and triangle in place of the product elements beside a touch (Fig. 4).
     pairs
-        Curved obstacles, whose rows are linearised again at every iterate; ``rows`` then lacks the target.
+        Rows that turn or change opponent: they are linearised again at every iterate; ``rows`` then lacks the target.
+    searched
+        The same with the faces chosen afresh at every iterate.
+    given
+        (n, d) values of q on supported components.
+    pressure
+        (m,) normal forces of the contact rows at t0 [N].
+    fallback
+        Whether an energy balance that the scalar cannot close is closed along the motion.
     """
 
     model: Model
@@ -83,19 +100,25 @@ class SlabSystem:
     located: LocatedMean | None = None
     split: Split | None = None
     pairs: Pairs | None = None
+    searched: Pairs | None = None
+    given: Array | float = 0.0
+    pressure: Array | None = None
+    fallback: bool = False
 
-    def evaluate(self, q: Array) -> Evaluation:
-        """Residual and its ingredients at q (n, d)."""
+    def evaluate(self, q: Array, impulse: Array) -> Evaluation:
+        """Residual and its ingredients at q (n, d), where the contact rows carry the impulses (m,)."""
         model, start, h = self.model, self.start, self.path.span
         u1 = self.path.end(q)
         energy, force = model.energy_and_force(u1)
         mean = self._mean_force(q, u1, force)
         if self.split is not None:
             mean = mean + self.split.difference(self.path, q, self._product_mean(q))
-        scalar, clipped = self._scalar(u1, force, energy, mean) if self.balanced else (np.zeros(len(energy)), False)
-        mean = mean + self._nodal(scalar) * (force - start.force)
+        near = None if self.pairs is None else self.pairs.at(u1)
+        closure = Closure(mean=mean, scalar=np.zeros(len(energy)), clipped=False)
+        if self.balanced:
+            closure = closed(model, self._ends(u1, force, energy, mean, near, impulse), self.fallback)
         inertia = model.mass @ (q - start.velocity - self.unbalanced)
-        residual = inertia + h * (mean - model.load) - self.impulses
+        residual = inertia + h * (closure.mean - model.load) - self.impulses
         still = ~model.massive
         residual[still] = h * moments(self.weight)[1] * (force - model.load)[still]
         return Evaluation(
@@ -103,21 +126,74 @@ class SlabSystem:
             displacement=u1,
             force=force,
             energy=energy,
-            mean_force=mean,
-            scalar=scalar,
-            clipped=clipped,
+            mean_force=closure.mean,
+            scalar=closure.scalar,
+            clipped=closure.clipped,
+            near=near,
         )
 
-    def conditions(self, q: Array, u1: Array) -> tuple[sp.csr_array, Rows]:
-        """The contact rows (m, f) on the free components and their conditions, linear at the end position ``u1`` of q.
+    def _ends(
+        self, u1: Array, force: Array, energy: Array, mean: Array, near: Candidates | None, impulse: Array
+    ) -> Ends:
+        start, rows = self.start, self.path.rows
+        return Ends(
+            u0=start.displacement,
+            u1=u1,
+            f0=start.force,
+            f1=force,
+            V0=start.energy,
+            V1=energy,
+            mean=mean,
+            v0=start.velocity,
+            rows0=rows,
+            rows1=rows if near is None else near,
+            force0=np.zeros(len(impulse)) if self.pressure is None else self.pressure,
+            force1=impulse / (self.path.span * moments(self.weight)[1]),
+        )
 
-        ``gap(u1) + (h/2) n . (z - q) >= 0`` gives the target of z.
+    def conditions(self, q: Array, end: Evaluation, directions: Basis) -> tuple[sp.csr_array, Rows]:
+        """The contact rows C (m, b) along the contact directions, and their conditions, linear at q.
+
+        ``gap(u1) + (h/2) G (z - q) >= 0`` gives the target of the free components of z.
         """
-        if self.pairs is None:
-            return self.path.rows.matrix(self.model.free), self.rows
-        near = self.pairs.at(u1)
-        target = near.along(q) - 2.0 * self.pairs.gap(u1) / self.path.span
-        return near.matrix(self.model.free), replace(self.rows, target=target)
+        near = end.near
+        if near is None:
+            return directions.coefficients(self.path.rows, self.model.free), self.rows
+        fixed = np.where(self.model.free, 0.0, q)
+        with np.errstate(invalid="ignore"):
+            target = near.along(q - fixed) - 2.0 * near.gap(end.displacement) / self.path.span
+        open_ = near.reachable(self.model.free)
+        rows = Rows(target=np.where(open_, target, 0.0), equal=self.rows.equal, unilateral=open_)
+        return directions.coefficients(near, self.model.free), rows
+
+    def steadied(self, u1: Array, count: int) -> "SlabSystem":
+        """The equations after ``count`` iterations: from ``STEADY`` on nodes are kept on the faces where they are.
+
+        A node that goes to and fro between two faces would keep the iteration from settling.
+        """
+        if self.searched is None or count != STEADY:
+            return self
+        return replace(self, pairs=self.searched.held(u1))
+
+    def sound(self, u1: Array) -> bool:
+        """Whether kept faces leave no overlap at the end position ``u1`` (n, d)."""
+        if self.pairs is self.searched or self.searched is None:
+            return True
+        return self.searched.overlap(u1) <= DEPTH * float(np.abs(self.model.points + u1).max())
+
+    def completed(self, u1: Array) -> "SlabSystem":
+        """The equations with the faces added that nodes overlap at the end position ``u1`` (n, d)."""
+        assert self.searched is not None
+        return replace(self, pairs=self.searched.held(u1, self.pairs))
+
+    def directions(self) -> Basis:
+        """The directions in which contact may push in any slab."""
+        model = self.model
+        return basis(self.path.rows, model.free, model.encounters.fixed, model.touchable)
+
+    def filled(self) -> Array:
+        """Values (n, d) of q on supported components, zero on the others."""
+        return np.where(self.model.free, 0.0, self.given)
 
     def operator(self, u: Array) -> sp.csc_array:
         """M + h^2/2 mu2 K(u) on the free components, symmetric positive definite near equilibrium."""
@@ -180,28 +256,6 @@ class SlabSystem:
     def _product_mean(self, q: Array) -> Array:
         """Mean displacement (n, d) that a linear force of the product form feels."""
         return self.path.mean(q) if isinstance(self.weight, Momentum) else self._sampled_mean(q)
-
-    def _scalar(self, u1: Array, force: Array, energy: Array, mean: Array) -> tuple[Array, bool]:
-        """a = [V1 - V0 - mean . du - W] / [(f1 - f0) . du] over each part; du of the nodes with inertia."""
-        model, start = self.model, self.start
-        du = u1 - start.displacement
-        moving = du * model.massive[:, None]
-        work = model.totals(mean * moving)
-        still = model.totals(model.load * (du - moving))
-        num = energy - start.energy - work - still
-        den = model.totals((force - start.force) * moving)
-        level = np.abs(energy) + np.abs(start.energy) + model.kinetic(start.velocity)
-        level += model.totals(np.abs(mean * moving)) + model.totals(np.abs(model.load * du))
-        real = np.abs(num) > ROUNDING * level + model.floor
-        with np.errstate(divide="ignore", invalid="ignore"):
-            a = np.where(real & (den != 0.0), num / den, 0.0)
-        return np.clip(a, -0.5, 0.5), bool((np.abs(a) > 0.5).any())
-
-    def _nodal(self, values: Array) -> Array:
-        out = np.empty((self.model.shape[0], 1))
-        for part, value in zip(self.model.parts, values, strict=True):
-            out[part.rows] = value
-        return out
 
 
 def _chord(average: object) -> bool:

@@ -1,13 +1,13 @@
 """Rigid obstacles with curved or cornered surfaces: signed distance and its gradient, positive outside."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, fields, is_dataclass
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
 from softway.errors import InputError
-from softway.space.obstacles import HalfSpace
+from softway.space.distance import SignedDistance
+from softway.space.faceted import Facets, Surface
+from softway.space.obstacles import HalfSpace, check_direction, check_length, in_space_of, unit_vectors
 from softway.typing import Array
 from softway.units import Metre, Pure
 
@@ -33,7 +33,7 @@ class Sphere:
     radius: Metre
 
     def __post_init__(self) -> None:
-        _positive("radius", self.radius)
+        check_length("radius", self.radius)
 
     @property
     def dim(self) -> int:
@@ -42,11 +42,11 @@ class Sphere:
 
     def gap(self, x: Array) -> Array:
         """Distance of points (..., d) [m], (...,); negative inside."""
-        return np.linalg.norm(x - _fit(self.centre, x), axis=-1) - self.radius
+        return np.linalg.norm(x - in_space_of(self.centre, x), axis=-1) - self.radius
 
     def normal_at(self, x: Array) -> Array:
         """Unit normals (..., d) at points (..., d)."""
-        return _unit(x - _fit(self.centre, x))
+        return unit_vectors(x - in_space_of(self.centre, x))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,8 +72,8 @@ class Roller:
     radius: Metre
 
     def __post_init__(self) -> None:
-        _positive("radius", self.radius)
-        _direction("axis", self.axis)
+        check_length("radius", self.radius)
+        check_direction("axis", self.axis)
 
     @property
     def dim(self) -> int:
@@ -86,12 +86,64 @@ class Roller:
 
     def normal_at(self, x: Array) -> Array:
         """Unit normals (..., 3) at points (..., 3)."""
-        return _unit(self._across(x))
+        return unit_vectors(self._across(x))
 
     def _across(self, x: Array) -> Array:
-        axis = _unit(np.asarray(self.axis, float))
-        arm = x - _fit(self.point, x)
+        axis = unit_vectors(np.asarray(self.axis, float))
+        arm = x - in_space_of(self.point, x)
         return np.asarray(arm - (arm @ axis)[..., None] * axis)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cylinder:
+    """A solid cylinder with flat ends and sharp rims, in 3D.
+
+    Parameters
+    ----------
+    start, end
+        Centres of its two ends [m].
+    radius
+        [m].
+
+    Examples
+    --------
+    >>> punch = Cylinder(start=(0.0, 0.0, 0.0), end=(0.0, 0.0, 2.0), radius=1.0)
+    >>> punch.gap(np.array([[0.0, 0.0, 2.5], [4.0, 0.0, 6.0], [0.9, 0.0, 1.0]])).round(12)
+    array([ 0.5,  5. , -0.1])
+    """
+
+    start: tuple[Metre, Metre, Metre]
+    end: tuple[Metre, Metre, Metre]
+    radius: Metre
+
+    def __post_init__(self) -> None:
+        check_length("radius", self.radius)
+        if not np.linalg.norm(np.subtract(self.end, self.start)) > 0.0:
+            raise InputError("end", f"{list(self.end)} is the other end too", "another point")
+
+    @property
+    def dim(self) -> int:
+        """Dimension of space."""
+        return 3
+
+    def gap(self, x: Array) -> Array:
+        """Distance of points (..., 3) [m], (...,); negative inside."""
+        return _from_sides(self._depth(x)[0])
+
+    def normal_at(self, x: Array) -> Array:
+        """Unit normals (..., 3) at points (..., 3); inside, that of the nearest face."""
+        depth, directions = self._depth(x)
+        return unit_vectors((_shares(depth)[..., None] * directions).sum(axis=-2))
+
+    def _depth(self, x: Array) -> tuple[Array, Array]:
+        """Signed distance (..., 2) from the mantle and from the nearer end, and the normals (..., 2, 3) of both."""
+        start, end = in_space_of(self.start, x), np.asarray(self.end, float)
+        axis, arm = unit_vectors(end - start), x - 0.5 * (start + end)
+        height = arm @ axis
+        across = arm - height[..., None] * axis
+        half = 0.5 * np.linalg.norm(end - start)
+        depth = np.stack([np.linalg.norm(across, axis=-1) - self.radius, np.abs(height) - half], axis=-1)
+        return depth, np.stack([unit_vectors(across), np.where(height[..., None] >= 0.0, axis, -axis)], axis=-2)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,21 +178,16 @@ class Block:
 
     def gap(self, x: Array) -> Array:
         """Distance of points (..., d) [m], (...,); negative inside."""
-        depth = self._depth(x)
-        outside = np.linalg.norm(np.maximum(depth, 0.0), axis=-1)
-        return np.asarray(outside + np.minimum(depth.max(axis=-1), 0.0))
+        return _from_sides(self._depth(x))
 
     def normal_at(self, x: Array) -> Array:
         """Unit normals (..., d) at points (..., d); inside, that of the nearest face."""
-        depth = self._depth(x)
         side = np.where(x >= 0.5 * (np.asarray(self.low) + np.asarray(self.high)), 1.0, -1.0)
-        nearest = np.arange(depth.shape[-1]) == depth.argmax(axis=-1)[..., None]
-        inside = depth.max(axis=-1, keepdims=True) <= 0.0
-        return _unit(np.where(inside, nearest * side, np.maximum(depth, 0.0) * side))
+        return side * _shares(self._depth(x))
 
     def _depth(self, x: Array) -> Array:
         """Signed distance (..., d) from the two faces across each axis."""
-        return np.asarray(np.maximum(_fit(self.low, x) - x, x - _fit(self.high, x)))
+        return np.asarray(np.maximum(in_space_of(self.low, x) - x, x - in_space_of(self.high, x)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -167,8 +214,8 @@ class Torus:
     tube: Metre
 
     def __post_init__(self) -> None:
-        _positive("tube", self.tube)
-        _direction("axis", self.axis)
+        check_length("tube", self.tube)
+        check_direction("axis", self.axis)
         if not self.radius > self.tube:
             raise InputError(
                 "radius", f"{self.radius:g} m is not greater than the tube {self.tube:g} m", "a greater one"
@@ -185,14 +232,14 @@ class Torus:
 
     def normal_at(self, x: Array) -> Array:
         """Unit normals (..., 3) at points (..., 3)."""
-        return _unit(self._arm(x))
+        return unit_vectors(self._arm(x))
 
     def _arm(self, x: Array) -> Array:
         """From the nearest point of the centre line (..., 3)."""
-        axis = _unit(np.asarray(self.axis, float))
-        arm = x - _fit(self.centre, x)
+        axis = unit_vectors(np.asarray(self.axis, float))
+        arm = x - in_space_of(self.centre, x)
         across = arm - (arm @ axis)[..., None] * axis
-        return np.asarray(arm - self.radius * _unit(across))
+        return np.asarray(arm - self.radius * unit_vectors(across))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -211,7 +258,7 @@ class Cavity:
     (2.0, array([-1., -0.]))
     """
 
-    of: Sphere | Roller | Block | Torus
+    of: Sphere | Roller | Cylinder | Block | Torus | Surface | Facets | SignedDistance
 
     @property
     def dim(self) -> int:
@@ -227,62 +274,17 @@ class Cavity:
         return -self.of.normal_at(x)
 
 
-Shape = HalfSpace | Sphere | Roller | Block | Torus | Cavity
+Shape = HalfSpace | Sphere | Roller | Cylinder | Block | Torus | Surface | Facets | SignedDistance | Cavity
 
 
-KINDS: dict[str, type] = {k.__name__: k for k in (HalfSpace, Sphere, Roller, Block, Torus, Cavity)}
-"""The obstacles by name."""
+def _from_sides(depth: Array) -> Array:
+    """Signed distance (...,) from a body by those from its sides (..., k), which meet at right angles."""
+    outside = np.linalg.norm(np.maximum(depth, 0.0), axis=-1)
+    return np.asarray(outside + np.minimum(depth.max(axis=-1), 0.0))
 
 
-def described(shape: Shape) -> dict[str, Any]:
-    """A shape as plain numbers with its ``kind``; :func:`recovered` turns them back.
-
-    Examples
-    --------
-    >>> described(HalfSpace(point=1.0, normal=-1.0))
-    {'kind': 'HalfSpace', 'point': 1.0, 'normal': -1.0}
-    """
-    values = {f.name: getattr(shape, f.name) for f in fields(shape)}
-    plain = {n: described(v) if is_dataclass(v) else v for n, v in values.items()}  # type: ignore[arg-type]
-    return {"kind": type(shape).__name__, **plain}
-
-
-def recovered(data: Mapping[str, Any]) -> Shape:
-    """The shape from what :func:`described` made of it.
-
-    Examples
-    --------
-    >>> recovered(described(Sphere(centre=(0.0, 1.0), radius=2.0)))
-    Sphere(centre=(0.0, 1.0), radius=2.0)
-    """
-    values = {n: recovered(v) if isinstance(v, Mapping) else v for n, v in data.items() if n != "kind"}
-    values = {n: tuple(v) if isinstance(v, list) else v for n, v in values.items()}
-    made: Shape = KINDS[data["kind"]](**values)
-    return made
-
-
-def _unit(v: Array) -> Array:
-    """Unit vectors along (..., d); the first axis where there is no direction."""
-    length = np.linalg.norm(v, axis=-1, keepdims=True)
-    first = np.zeros(v.shape[-1])
-    first[0] = 1.0
-    return np.where(length > 0.0, v / np.where(length > 0.0, length, 1.0), first)
-
-
-def _fit(point: tuple[float, ...], x: Array) -> Array:
-    """The point as an array, if it lives in the space of x."""
-    if x.shape[-1] != len(point):
-        raise InputError(
-            "", f"{len(point)} coordinates for a body in {x.shape[-1]} dimensions", "a shape of that space"
-        )
-    return np.asarray(point, float)
-
-
-def _positive(where: str, value: float) -> None:
-    if not 0.0 < value < np.inf:
-        raise InputError(where, f"{value:g} m is not positive", "a positive length")
-
-
-def _direction(where: str, vector: tuple[float, ...]) -> None:
-    if not np.linalg.norm(vector) > 0.0:
-        raise InputError(where, f"{list(vector)} is no direction", "a vector such as [0, 0, 1]")
+def _shares(depth: Array) -> Array:
+    """Components (..., k) of the unit normal along the normals of the sides; inside, that of the nearest side."""
+    nearest = np.arange(depth.shape[-1]) == depth.argmax(axis=-1)[..., None]
+    inside = depth.max(axis=-1, keepdims=True) <= 0.0
+    return unit_vectors(np.where(inside, nearest, np.maximum(depth, 0.0)))

@@ -30,7 +30,30 @@ NAMES = {
 """Meshio's name -> ours; both number nodes in the order of VTK."""
 
 _READERS = {".msh": "gmsh", ".inp": "abaqus"}
-_DIMS = {"vertex": 0, "line": 1, "triangle": 2, "quad": 2, "tetra": 3, "hexahedron": 3, "wedge": 3, "pyramid": 3}
+_SURFACES = {".stl": "stl", ".obj": "obj", ".ply": "ply", ".msh": "gmsh", ".vtu": "vtu"}
+_BODIES = (".msh", ".vtu")
+"""Files whose plane cells are a body in the plane; in the others they are a sheet in space."""
+_RING = (0, 4, 1, 5, 2, 6, 3, 7, 0)
+_PIECES = {
+    "bar2": ((0, 1),),
+    "bar3": ((0, 2), (2, 1)),
+    "tri3": ((0, 1, 2),),
+    "tri6": ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)),
+    "quad4": ((0, 1, 2), (0, 2, 3)),
+    "quad9": tuple((a, b, 8) for a, b in zip(_RING[:-1], _RING[1:], strict=True)),
+}
+"""Flat facets between the nodes of a facet."""
+_DIMS = {
+    "vertex": 0,
+    "line": 1,
+    "triangle": 2,
+    "quad": 2,
+    "polygon": 2,
+    "tetra": 3,
+    "hexahedron": 3,
+    "wedge": 3,
+    "pyramid": 3,
+}
 
 
 def read_mesh(path: str | Path, scale: float = 1.0, *, cells: Sequence[str] | None = None) -> Mesh:
@@ -49,7 +72,7 @@ def read_mesh(path: str | Path, scale: float = 1.0, *, cells: Sequence[str] | No
     cells
         Cell names to keep; by default all of the highest dimension.
     """
-    raw, sets = _read(Path(path))
+    raw, sets = _read(Path(path), _READERS)
     dim = max((_dim(block.type) for block in raw.cells), default=0)
     blocks = _blocks(raw, dim, cells)
     tags = _groups(raw) if Path(path).suffix.lower() == ".msh" else {**_element_sets(raw, sets), **_node_sets(raw)}
@@ -59,16 +82,60 @@ def read_mesh(path: str | Path, scale: float = 1.0, *, cells: Sequence[str] | No
     return _compact(points, blocks, tags)
 
 
-def _read(path: Path) -> tuple[meshio.Mesh, list[str | None]]:
+def read_facets(path: str | Path, scale: float = 1.0) -> tuple[Array, IntArray]:
+    """Flat facets of a surface: STL, OBJ, PLY, or the cells of highest dimension in a Gmsh or VTK file.
+
+    Of cells that fill space, or the plane z = const, the boundary is taken.
+
+    Parameters
+    ----------
+    path
+        Of the file.
+    scale
+        Metres in a length unit of the file.
+
+    Returns
+    -------
+    points
+        (n, d) [m], d = 2 or 3.
+    cells
+        (f, d) numbers of the points, triangles in space and segments in the plane.
+    """
+    path = Path(path)
+    raw, _ = _read(path, _SURFACES)
+    dim = max((_dim(block.type) for block in raw.cells), default=0)
+    if dim == 0:
+        raise InputError("path", f"{path.name} has no facets", "a file with triangles, or with lines in a plane")
+    blocks = _blocks(raw, dim, None)
+    points = np.asarray(raw.points, dtype=float) * scale
+    flat = points.shape[1] == 2 or np.ptp(points[:, 2]) <= 1e-12 * np.ptp(points, axis=0).max()
+    if dim == 1 and not flat:
+        raise InputError(
+            "path", f"{path.name} has lines that lie in no plane z = const", "lines in the plane, or facets"
+        )
+    if dim == 1 or (dim == 2 and flat and path.suffix.lower() in _BODIES):
+        points = points[:, :2]
+    if dim == points.shape[1]:
+        body = _compact(points, blocks, {})
+        points, blocks = body.points, dict(body.boundary())
+    pieces = [cells[:, piece] for name, cells in blocks.items() for piece in np.array(_PIECES[name])]
+    return points, np.concatenate(pieces)
+
+
+def _read(path: Path, readers: Mapping[str, str]) -> tuple[meshio.Mesh, list[str | None]]:
     """Meshio's mesh, its complaints turned into ours; and the names of the sets of element blocks in a deck."""
+    known = ", ".join(readers)
     if not path.is_file():
-        raise InputError("path", f"no such file: {path}", "the path of a .msh or .inp file, relative to the scenario")
-    if path.suffix.lower() not in _READERS:
-        raise InputError("path", f"{path.name} has the ending {path.suffix!r}", f"one of: {', '.join(_READERS)}")
-    reader = _READERS[path.suffix.lower()]
+        raise InputError(
+            "path", f"no such file: {path}", f"the path of a {' or '.join(readers)} file, relative to the scenario"
+        )
+    if path.suffix.lower() not in readers:
+        raise InputError("path", f"{path.name} has the ending {path.suffix!r}", f"one of: {known}")
+    reader = readers[path.suffix.lower()]
     text, sets = plain_deck(path) if reader == "abaqus" else ("", [])
     try:
-        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+        hushed = contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO())
+        with hushed[0], hushed[1], np.errstate(over="ignore"):
             return meshio.read(io.StringIO(text) if text else path, file_format=reader), sets
     except (Exception, SystemExit) as error:  # meshio raises many kinds on a damaged file, and exits on some
         raise InputError(

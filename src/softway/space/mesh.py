@@ -128,11 +128,16 @@ class Mesh:
 
     def edge(self) -> float:
         """Smallest distance of two corners joined by an edge [m]."""
-        lengths = []
+        return float(self.edges().min())
+
+    def edges(self) -> Array:
+        """Shortest edge (n,) of the cells around each node [m]."""
+        shortest = np.full(self.n_nodes, np.inf)
         for name, cells in self.blocks.items():
             ends = self.points[cells[:, np.array(CELLS[name].edges)]]
-            lengths.append(np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=-1).min())
-        return float(min(lengths))
+            lengths = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=-1).min(axis=1)
+            np.minimum.at(shortest, cells, lengths[:, None])
+        return shortest
 
 
 def _frozen(array: NDArray[Scalar]) -> NDArray[Scalar]:

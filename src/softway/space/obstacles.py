@@ -1,5 +1,6 @@
 """Rigid obstacles: shapes without a mesh."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -76,3 +77,38 @@ class HalfSpace:
             raise InputError(
                 "point", f"{self.dim} coordinates for a body in {x.shape[-1]} dimensions", f"{x.shape[-1]} coordinates"
             )
+
+
+def unit_vectors(v: Array) -> Array:
+    """Unit vectors along (..., d); the first axis where there is no direction.
+
+    Examples
+    --------
+    >>> unit_vectors(np.array([[0.0, 2.0], [0.0, 0.0]])).tolist()
+    [[0.0, 1.0], [1.0, 0.0]]
+    """
+    length = np.linalg.norm(v, axis=-1, keepdims=True)
+    first = np.zeros(v.shape[-1])
+    first[0] = 1.0
+    return np.where(length > 0.0, v / np.where(length > 0.0, length, 1.0), first)
+
+
+def in_space_of(point: Sequence[float], x: Array) -> Array:
+    """The point as an array, if it lives in the space of x (..., d)."""
+    if x.shape[-1] != len(point):
+        raise InputError(
+            "", f"{len(point)} coordinates for a body in {x.shape[-1]} dimensions", "a shape of that space"
+        )
+    return np.asarray(point, float)
+
+
+def check_length(where: str, value: float) -> None:
+    """Refuse a length that is not positive."""
+    if not 0.0 < value < np.inf:
+        raise InputError(where, f"{value:g} m is not positive", "a positive length")
+
+
+def check_direction(where: str, vector: Sequence[float]) -> None:
+    """Refuse a vector without direction."""
+    if not np.linalg.norm(vector) > 0.0:
+        raise InputError(where, f"{list(vector)} is no direction", "a vector such as [0, 0, 1]")

@@ -1,16 +1,20 @@
 """Recipes of meshes: what a scenario says instead of the numbers of a mesh."""
 
 from dataclasses import dataclass
+from math import pi
 from pathlib import Path
+from typing import Annotated
 
 from softway.errors import InputError
-from softway.space import shapes
+from softway.space import graded, shapes
 from softway.space.files import read_mesh
 from softway.space.mesh import Mesh
 from softway.units import Metre, Pure
 
 UNITS = {"m": 1.0, "dm": 1e-1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "km": 1e3, "in": 0.0254, "ft": 0.3048}
 """Length units of mesh files in metres."""
+
+Radian = Annotated[float, "rad"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -140,6 +144,75 @@ class Ball:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Grid:
+    """A rectangle or a box with cells between given coordinates, see :func:`softway.space.graded.grid`.
+
+    Examples
+    --------
+    >>> Grid(x=(0.0, 0.1, 1.0), y=(0.0, 0.5)).build().n_cells
+    2
+    """
+
+    x: tuple[Metre, ...]
+    y: tuple[Metre, ...]
+    z: tuple[Metre, ...] = ()
+    cell: str | None = None
+
+    def build(self) -> Mesh:
+        """The mesh."""
+        return graded.grid(self.x, self.y, *((self.z,) if self.z else ()), cell=self.cell)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ring:
+    """A ring or a sector of one, see :func:`softway.space.graded.ring`.
+
+    Examples
+    --------
+    >>> Ring(inner=1.0, outer=2.0, cells=(2, 12)).build().n_nodes
+    36
+    """
+
+    inner: Metre
+    outer: Metre
+    cells: tuple[int, int]
+    angle: Radian = 2.0 * pi
+    start: Radian = 0.0
+    centre: tuple[Metre, Metre] = (0.0, 0.0)
+    cell: str = "quad4"
+
+    def build(self) -> Mesh:
+        """The mesh."""
+        return graded.ring(
+            self.inner, self.outer, self.cells, angle=self.angle, start=self.start, centre=self.centre, cell=self.cell
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GradedDisc:
+    """A disc or a part of one, fine at its lowest point, see :func:`softway.space.graded.graded_disc`.
+
+    Examples
+    --------
+    >>> GradedDisc(radius=1.0, focus=0.01, cells=4, part="quarter").build().n_cells
+    232
+    """
+
+    radius: Metre
+    focus: Metre
+    cells: int
+    part: graded.Part = "whole"
+    centre: tuple[Metre, Metre] = (0.0, 0.0)
+    cell: str = "quad4"
+
+    def build(self) -> Mesh:
+        """The mesh."""
+        return graded.graded_disc(
+            self.radius, self.focus, self.cells, part=self.part, centre=self.centre, cell=self.cell
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class MeshFile:
     """A Gmsh ``.msh`` or Abaqus/CalculiX ``.inp`` file, see :func:`softway.space.files.read_mesh`.
 
@@ -164,4 +237,4 @@ class MeshFile:
         return read_mesh(Path(self.path), scale=UNITS[self.unit], cells=self.cells)
 
 
-MeshSource = Interval | Rectangle | Box | Disc | Cylinder | Ball | MeshFile
+MeshSource = Interval | Rectangle | Box | Disc | Cylinder | Ball | Grid | Ring | GradedDisc | MeshFile

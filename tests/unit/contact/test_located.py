@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from hypothesis import given
 from hypothesis import strategies as st
 
+from single import single
 from softway.contact.candidates import Candidates
 from softway.contact.located import LocatedMean, lcp, located_mean
 
@@ -84,10 +85,7 @@ def slabs(draw: st.DrawFn) -> Case:
     free[2, 0] = False
     normal = rng.normal(size=(ROWS, DIM))
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    rows = Candidates(
-        node=np.array([2, 3, 4]), contact=np.zeros(ROWS, int), normal=normal,
-        offset=0.3 * rng.normal(size=ROWS), labels=("a",),
-    )  # fmt: skip
+    rows = single([2, 3, 4], normal, 0.3 * rng.normal(size=ROWS), NODES)
     massive = np.array([True, True, False, False, False])
     load = 0.1 * rng.normal(size=(NODES, DIM))
     located = located_mean(rows, free, massive, load, sp.csc_array(stiffness))
@@ -121,9 +119,7 @@ def test_branches_lead_from_the_first_active_set_to_the_last(case: Case) -> None
 
 def test_one_spring_that_closes_in_the_slab() -> None:
     """Mean gap of an opening that shuts at s: a^2 / (2 (a - b)), a and b the gaps without contact at both ends."""
-    rows = Candidates(
-        node=np.array([1]), contact=np.array([0]), normal=np.array([[-1.0]]), offset=np.array([0.3]), labels=("wall",)
-    )
+    rows = single([1], [[-1.0]], 0.3, 2)
     stiffness = sp.csc_array(np.array([[2.0, -2.0], [-2.0, 2.0]]))
     free, massive = np.ones((2, 1), bool), np.array([True, False])
     located = located_mean(rows, free, massive, np.zeros((2, 1)), stiffness)
@@ -136,9 +132,7 @@ def test_one_spring_that_closes_in_the_slab() -> None:
 
 @pytest.mark.parametrize("late", [1e-6, 1e-12, 0.0])
 def test_a_touch_just_before_the_end_is_told(late: float) -> None:
-    rows = Candidates(
-        node=np.array([1]), contact=np.array([0]), normal=np.array([[-1.0]]), offset=np.array([0.3]), labels=("wall",)
-    )
+    rows = single([1], [[-1.0]], 0.3, 2)
     stiffness = sp.csc_array(np.array([[2.0, -2.0], [-2.0, 2.0]]))
     free, massive = np.ones((2, 1), bool), np.array([True, False])
     located = located_mean(rows, free, massive, np.zeros((2, 1)), stiffness)

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softway.contact.candidates import Candidates
+from single import single
 from softway.contact.path import Passage, Path, passage
 
 NODES, DIM = 4, 2
@@ -17,7 +17,7 @@ GAUSS = np.polynomial.legendre.leggauss(4)
 
 @st.composite
 def motions(draw: st.DrawFn) -> tuple[Path, np.ndarray]:
-    """Four nodes with one row each: open, closed, touching, and closed or touching and then released."""
+    """Four nodes with one row each: open, closed, touching, and closed or touching and then released; opponents move."""
     rng = np.random.default_rng(draw(st.integers(0, 10**6)))
     touch, let_go, first = draw(st.floats(0.05, 0.5)), draw(st.floats(0.55, 0.95)), draw(st.booleans())
     normal = rng.normal(size=(NODES, DIM))
@@ -28,12 +28,11 @@ def motions(draw: st.DrawFn) -> tuple[Path, np.ndarray]:
     touches = np.array([np.nan, np.nan, touch, touch if first else np.nan])
     release = np.array([np.nan, np.nan, np.nan, let_go])
     closed = np.array([False, True, True, False])
-    gap = np.where(np.isfinite(touches), -h * (speed * touches + slope * touches**2 / 2), 0.0)  # closes at the touch
-    rows = Candidates(
-        node=rng.permutation(NODES), contact=np.zeros(NODES, int), normal=normal, offset=np.zeros(NODES), labels=("a",)
-    )
-    along = rows.along(start)
-    rows = replace(rows, offset=np.where(closed | np.isfinite(release), gap - along, 1.0))
+    drive = rng.normal(size=NODES) * draw(st.booleans())
+    begin = np.nan_to_num(touches)
+    gap = -h * (speed * begin + slope * begin**2 / 2) - drive * (1.0 - begin)  # closes at the touch
+    rows = single(rng.permutation(NODES), normal, 0.0, NODES, drive=drive)
+    rows = replace(rows, offset=np.where(closed | np.isfinite(release), gap - rows.along(start), 1.0))
     path = Path(
         span=h, start=start, velocity=velocity, massive=rng.random(NODES) < 0.7,
         free=np.ones(start.shape, bool), rows=rows,
@@ -75,7 +74,7 @@ def test_a_node_stays_on_the_obstacle_between_touch_and_release(motion: tuple[Pa
     begin, end = np.nan_to_num(way.touch), np.nan_to_num(way.release, nan=1.0)
     for r in held:
         for t in np.linspace(begin[r] + 1e-9, end[r], 5):
-            assert path.rows.gap(path.at(t, q))[r] == pytest.approx(0.0, abs=1e-12)
+            assert path.rows.gap(path.at(t, q))[r] + path.rows.drive[r] * (1.0 - t) == pytest.approx(0.0, abs=1e-12)
     before = way.speed + way.slope * 0.03
     step = 1e-4
     for r in np.flatnonzero(np.isfinite(way.touch)):
@@ -84,13 +83,17 @@ def test_a_node_stays_on_the_obstacle_between_touch_and_release(motion: tuple[Pa
 
 
 @given(motions())
-def test_a_released_row_leaves_from_rest_with_its_final_velocity(motion: tuple[Path, np.ndarray]) -> None:
+def test_a_released_row_leaves_its_opponent_from_rest_with_its_final_velocity(motion: tuple[Path, np.ndarray]) -> None:
     path, q = motion
     r, h = 3, path.span
     after = 1.0 - path.way.release[r]
     gap = path.rows.gap(path.end(q))[r]
-    assert gap == pytest.approx(after * h / 2 * path.rows.along(q)[r], abs=1e-12)
+    away = path.rows.along(q)[r] - path.rows.drive[r] / h
+    assert gap == pytest.approx(after * h / 2 * away, abs=1e-12)
     step = 1e-6
+    late = path.way.release[r] + step
+    rate = path.rows.along(path.at(late, q) - path.at(late - step, q))[r] / (step * h)
+    assert rate == pytest.approx(path.rows.drive[r] / h, abs=1e-4)
     rate = path.rows.along(path.at(1.0, q) - path.at(1.0 - step, q))[r] / (step * h)
     assert rate == pytest.approx(path.rows.along(q)[r], abs=1e-4)
 
@@ -115,9 +118,7 @@ def test_the_motion_is_affine_in_the_unknown(motion: tuple[Path, np.ndarray], t:
 
 
 def test_without_events_velocity_is_linear_and_massless_nodes_move_steadily() -> None:
-    rows = Candidates(
-        node=np.zeros(0, int), contact=np.zeros(0, int), normal=np.zeros((0, 1)), offset=np.zeros(0), labels=()
-    )
+    rows = single([], np.zeros((0, 1)), 0.0, 2)
     path = Path(
         span=2.0, start=np.array([[1.0], [1.0]]), velocity=np.array([[3.0], [3.0]]),
         massive=np.array([True, False]), free=np.ones((2, 1), bool), rows=rows, way=passage(np.zeros(0, bool)),
@@ -129,9 +130,7 @@ def test_without_events_velocity_is_linear_and_massless_nodes_move_steadily() ->
 
 
 def test_a_jump_enters_from_its_instant_on() -> None:
-    rows = Candidates(
-        node=np.zeros(0, int), contact=np.zeros(0, int), normal=np.zeros((0, 1)), offset=np.zeros(0), labels=()
-    )
+    rows = single([], np.zeros((0, 1)), 0.0, 1)
     zero = np.zeros((1, 1))
     path = Path(
         span=1.0, start=zero, velocity=zero, massive=np.array([True]), free=np.ones((1, 1), bool),
@@ -147,10 +146,7 @@ def test_a_jump_enters_from_its_instant_on() -> None:
 
 @pytest.mark.parametrize("second", [(0.0, 1.0), (0.6, 0.8)], ids=["square", "oblique"])
 def test_a_node_in_a_corner_keeps_both_gaps(second: tuple[float, float]) -> None:
-    rows = Candidates(
-        node=np.array([0, 0]), contact=np.array([0, 1]), normal=np.array([(1.0, 0.0), second]),
-        offset=np.array([0.1, 0.2]), labels=("a", "b"),
-    )  # fmt: skip
+    rows = single([0, 0], [(1.0, 0.0), second], [0.1, 0.2], 2, contact=[0, 1], labels=("a", "b"))
     rng = np.random.default_rng(1)
     start, v, q = rng.normal(size=(3, 2, 2))
     path = Path(

@@ -73,7 +73,7 @@ class Motion:
         """
         speed = max(float(np.abs(v).max()) for s in self.steps for v in s.before.velocity.values())
         worst, size = 0.0, float(self.model.mass.sum()) * speed / self.last.slab.end
-        rows = self.model.candidates
+        rows = self.model.rows(self.model.displacement)
         for s in self.steps:
             v0, v1 = (self.model.join(x.velocity) for x in (s.before, s.after))
             change = (self.model.mass @ (v1 - v0)).sum(axis=0) / s.slab.span

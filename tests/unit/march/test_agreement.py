@@ -80,7 +80,7 @@ def test_the_answer_follows_the_tolerance(shop, fall, plain, tolerance: float) -
 def test_nothing_but_the_state_matters(shop, fall, plain, rule: Timing, monkeypatch: pytest.MonkeyPatch) -> None:
     kept = plain(rule)
     advance = module.advance
-    monkeypatch.setattr(module, "advance", lambda r, now, slab, carry: advance(r, now, slab, Carry()))
+    monkeypatch.setattr(module, "advance", lambda r, now, slab, carry, *rest: advance(r, now, slab, Carry(), *rest))
     assert shop.distance(fall(rule), kept) <= NEAR
 
 
@@ -96,8 +96,8 @@ def test_a_failed_try_leaves_no_trace_but_its_reason(
     kept = plain(rule)
     advance, calls = module.advance, []
 
-    def stumbling(r, now, slab, carry):
-        out = advance(r, now, slab, carry)
+    def stumbling(r, now, slab, carry, *rest):
+        out = advance(r, now, slab, carry, *rest)
         calls.append(slab)
         if len(calls) % 5 == 2:
             raise NoConvergence("stumbled")
@@ -114,10 +114,10 @@ def test_a_failed_try_leaves_no_trace_but_its_reason(
 def test_a_slab_that_fails_is_halved_and_the_length_recovers(shop, monkeypatch: pytest.MonkeyPatch) -> None:
     advance = module.advance
 
-    def short_of_breath(r, now, slab, carry):
+    def short_of_breath(r, now, slab, carry, *rest):
         if slab.span > 0.02 and 0.3 < slab.end < 0.6:
             raise NoConvergence("too long")
-        return advance(r, now, slab, carry)
+        return advance(r, now, slab, carry, *rest)
 
     monkeypatch.setattr(module, "advance", short_of_breath)
     motion = shop.move(shop.block(), shop.floor, until=1.0, step=0.05)
@@ -134,11 +134,11 @@ def test_a_march_that_cannot_go_on_says_so_and_stops(shop, monkeypatch: pytest.M
     advance = module.advance
     calls = []
 
-    def blocked(r, now, slab, carry):
+    def blocked(r, now, slab, carry, *rest):
         calls.append(slab.span)
         if slab.end > 0.5 + 1e-12:
             raise NoConvergence("a stone")
-        return advance(r, now, slab, carry)
+        return advance(r, now, slab, carry, *rest)
 
     monkeypatch.setattr(module, "advance", blocked)
     found = []

@@ -91,7 +91,7 @@ def test_contact_nodes_of_the_energy_rule_are_relaxed(shop) -> None:
     np.testing.assert_array_equal(at.start.displacement[~light], model.displacement[~light])
     np.testing.assert_allclose(at.start.force[light], 0.0, atol=1e-14)
     assert at.start.energy.sum() < model.energy_and_force(model.displacement)[0].sum()
-    assert model.candidates.gap(at.start.displacement).min() >= 0.0
+    assert model.rows(at.start.displacement).gap(at.start.displacement).min() >= 0.0
     assert not at.closed.any()
 
 
@@ -102,12 +102,12 @@ def test_relaxed_nodes_stay_outside_the_obstacle(shop, gradient: float, pressed:
     level = 0.09 if pressed else 0.0
     model = build(scene(shop, shop.block(height=0.06, displacement=along), shop.plane((0.0, level), (0.0, 1.0))))
     at = begin(model)
-    gap = model.candidates.gap(at.start.displacement)
+    gap = model.rows(at.start.displacement).gap(at.start.displacement)
     assert gap.min() >= -1e-15
     assert at.closed.any() == pressed
     np.testing.assert_array_equal(at.closed, at.pressure > 0.0)
     np.testing.assert_allclose(gap[at.closed], 0.0, atol=1e-15)
-    pushed = model.candidates.spread(at.pressure, model.shape)
+    pushed = model.rows(at.start.displacement).spread(at.pressure, model.shape)
     np.testing.assert_allclose((at.start.force - pushed)[~model.massive], 0.0, atol=1e-14)
 
 

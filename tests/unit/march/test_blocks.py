@@ -206,4 +206,4 @@ def test_the_state_of_a_fall_is_finite_and_cannot_be_written(shop) -> None:
         state.velocity["body"][0, 0] = 1.0
     for field in (state.displacement, state.velocity, state.acceleration, state.pressure):
         assert all(np.isfinite(a).all() for a in field.values())
-    assert build(motion.model.scene).candidates.labels == tuple(state.closed)
+    assert build(motion.model.scene).encounters.labels == tuple(state.closed)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from single import single
 from softway.contact.path import Passage
 from softway.march.course import Course
 from softway.march.jumps import instants
@@ -17,7 +18,8 @@ def test_the_impulse_of_a_fading_force_is_a_triangle() -> None:
         slope=np.zeros(4),
         release=np.array([np.nan, 0.5, 0.6, 0.7]),
     )
-    course = Course(way=way, reaction=np.array([3.0, 4.0, 10.0, -2.0]), held=np.zeros(4, bool))
+    rows = single(np.zeros(4, int), np.ones((4, 1)), 0.0, 1)
+    course = Course(rows=rows, way=way, reaction=np.array([3.0, 4.0, 10.0, -2.0]), held=np.zeros(4, bool))
     assert course.impulse == pytest.approx([0.0, 1.0, 2.0, 0.0])
 
 

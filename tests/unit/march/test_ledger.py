@@ -88,7 +88,8 @@ def test_closed_nodes_are_counted_and_pushed(shop, rule: Timing) -> None:
         assert s.ledger.contacts[label].count == closed.sum()
         assert pressure.min() >= 0.0
         assert not pressure[~closed].any()
-        gap = motion.model.candidates.gap(motion.model.join(s.after.displacement))
+        u = motion.model.join(s.after.displacement)
+        gap = motion.model.rows(u).gap(u)
         assert np.abs(gap[closed]).max(initial=0.0) <= 1e-15
         assert s.ledger.contacts[label].min_gap == gap.min()
         assert s.ledger.contacts[label].force_t == 0.0

@@ -9,7 +9,7 @@ import pytest
 from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact
 from softway.laws.bulk.linear_elastic import LinearElastic
-from softway.march.step import ContactLedger, Event, Ledger, Report, Step
+from softway.march.step import Certificate, ContactLedger, Event, Ledger, Report, Step
 from softway.record.probes import readings
 from softway.record.recorder import Opening
 from softway.scene import Scene, State
@@ -68,7 +68,8 @@ class Fake:
         )
         return Ledger(
             energy_kinetic=1.0 / 3.0, energy_strain=force**2, work_external=0.0, dissipation=0.0,
-            energy_error=-1e-12, momentum=np.array([0.0, 0.0, 2.0]), contacts={LABEL: contact},
+            energy_error=-1e-12, momentum=np.array([0.0, 0.0, 2.0]), spin=np.array([0.0, 3.0, 0.0]),
+            contacts={LABEL: contact},
         )  # fmt: skip
 
     def opening(self) -> Opening:
@@ -97,8 +98,11 @@ class Fake:
             for t, kind in ((0.4, "touch"), (0.6, "release"))
             if begin < t <= end
         )  # fmt: skip
+        certificate = Certificate(
+            min_gap=0.5, min_force=1.5, complementarity=2.5, power_residual=3.5, momentum_error=4.5, energy_error=5.5
+        )
         return Step(
-            before=before, after=after, slab=Slab(start=begin, end=end), ledger=self.ledger(after), events=events,
+            certificate=certificate, before=before, after=after, slab=Slab(start=begin, end=end), ledger=self.ledger(after), events=events,
             reactions={"part": np.ones_like(self.mesh.points)}, report=Report(iterations=3, factorisations=1, passes=1),
         )  # fmt: skip
 

@@ -55,7 +55,7 @@ def test_frames_hold_the_states(fake, written):
 def test_cells_come_back(fake, written):
     cells = written.cells
     assert cells.bodies == ("part",) and cells.dimension == fake.mesh.dim
-    assert np.atleast_1d(cells.obstacles["floor"].normal)[-1] == 1.0
+    assert np.atleast_1d(cells.tools["floor"].shape.normal)[-1] == 1.0
     for name, nodes in cells.blocks().items():
         np.testing.assert_array_equal(nodes, fake.mesh.blocks[name])
 

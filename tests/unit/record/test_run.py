@@ -9,7 +9,7 @@ import pytest
 
 from softway.errors import InputError, NumericsError
 from softway.record.conduct import Place, conduct
-from softway.record.history import COLUMNS
+from softway.record.history import CERTIFICATE, COLUMNS
 from softway.record.provenance import Stop
 from softway.record.run import Run
 from softway.record.summary import summarise
@@ -121,9 +121,10 @@ def test_no_run_folder(tmp_path):
 
 
 def test_a_scene_without_contacts_and_nothing_yet():
-    head = ",".join(f"{name} [{unit}]" for name, unit in COLUMNS) + "\n"
+    columns = (*COLUMNS, *CERTIFICATE)
+    head = ",".join(f"{name} [{unit}]" for name, unit in columns) + "\n"
     assert summarise(Table({}), Table({})) == {"slabs": 0, "contacts": {}}
-    found = summarise(parse(head + "0,0,0,0,0,0,0,0,0,0,0\n"), Table({}))
+    found = summarise(parse(head + ",".join("0" * len(columns)) + "\n"), Table({}))
     assert found["energy_error_relative"] is None and found["contacts"] == {} and json.dumps(found)
 
 

@@ -26,6 +26,10 @@ def test_history_has_a_row_per_slab_with_all_digits(bar, tmp_path):
     assert read.rows == bar.slabs + 1
     np.testing.assert_array_equal(read["time"], np.linspace(0.0, 1.0, bar.slabs + 1))
     np.testing.assert_array_equal(read["energy_kinetic"], 1.0 / 3.0)
+    np.testing.assert_array_equal(read["spin_y"], 3.0)
+    names = ("min_gap", "min_force", "complementarity", "power_residual", "momentum_error", "energy_error")
+    assert [read[f"certificate.{name}"][-1] for name in names] == [0.5, 1.5, 2.5, 3.5, 4.5, 5.5]
+    assert not any(read[f"certificate.{name}"][0] for name in names[1:])
     assert read.units["momentum_z"] == "kg m/s" and read.units["contact.part.surface-floor.force_n"] == "N"
     assert read["h"][0] == 0.0 and read["iterations"].dtype == np.int64
 
@@ -34,7 +38,8 @@ def test_history_header_is_name_and_unit(bar, tmp_path):
     open_history(tmp_path, bar.opening()).close()
     header = (tmp_path / "history.csv").read_text().splitlines()[0].split(",")
     assert header[:4] == ["time [s]", "h [s]", "iterations [1]", "energy_kinetic [J]"]
-    assert header[11] == "contact.part.surface-floor.force_n [N]" and header[15] == "tip [m]"
+    assert header[14] == "contact.part.surface-floor.force_n [N]" and header[24] == "tip [m]"
+    assert header[18] == "certificate.min_gap [m]" and header[23] == "certificate.energy_error [J]"
 
 
 def test_probes(bar, tmp_path):

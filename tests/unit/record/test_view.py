@@ -74,7 +74,8 @@ def test_edges_of_a_cube_or_square(run):
     mesh = mesh_of(cells)
     if mesh.cell_dim == 1:
         pytest.skip("bars have no outline")
-    pieces = strokes(cells.reference, edges(mesh, cells.reference, camera(cells, cells.reference)), 0.05)
+    view = camera(cells, cells.reference, cells.obstacles(0.0))
+    pieces = strokes(cells.reference, edges(mesh, cells.reference, view), 0.05)
     length = np.linalg.norm(pieces[..., 1, :] - pieces[..., 0, :], axis=-1).sum()
     assert length == pytest.approx({2: 4.0, 3: 9.0}[mesh.dim], rel=1e-12)
 

@@ -124,9 +124,9 @@ WRONG = [
         "'floor' is a Tool",
     ),
     (
-        scenario(bodies={"a": square(), "block": square()}, contacts=(Contact(between=("a.top", "block")),)),
+        scenario(bodies={"a": square(), "block": square()}, contacts=(Contact(between=("a.top", "block.below")),)),
         "contacts[0].between",
-        "'block' is not a Tool",
+        "'below' matches nothing",
     ),
     (
         scenario(bodies=BOTH, contacts=(Contact(between=("block.below", "floor")),)),
@@ -164,9 +164,9 @@ def test_what_is_refused(wrong, where, problem):
 @pytest.mark.parametrize(
     ("change", "where"),
     [
-        ("bodies.bar.supports=[{on='left', components='y'}]", "bodies.bar.supports[0].components"),
-        ("bodies.bar.supports=[{on='left', components=''}]", "bodies.bar.supports[0].components"),
-        ("bodies.bar.supports=[{on='lft'}]", "bodies.bar.supports[0].on"),
+        ("bodies.bar.supports=[{kind='Fixed', on='left', components='y'}]", "bodies.bar.supports[0].components"),
+        ("bodies.bar.supports=[{kind='Fixed', on='left', components=''}]", "bodies.bar.supports[0].components"),
+        ("bodies.bar.supports=[{kind='Fixed', on='lft'}]", "bodies.bar.supports[0].on"),
         ("bodies.bar.section=Volume", "bodies.bar.section"),
         ("bodies.bar.mesh.length=-1", "bodies.bar.mesh.length"),
         ("bodies.bar.place.translation=[1, 2]", "bodies.bar.place.translation"),

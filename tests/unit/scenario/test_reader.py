@@ -29,7 +29,7 @@ MISTAKES = [
     ("bodies.bar.velocity=1 mm", "bodies.bar.velocity.value", "1 mm", "4.4 m/s"),
     ("bodies.bar.velocity=['1 m/s', '2 m']", "bodies.bar.velocity.value[1]", "2 m", "4.4 m/s"),
     ("bodies.bar.supports={on='left'}", "bodies.bar.supports", "not a list", "square brackets"),
-    ("bodies.bar.supports=[{at='left'}]", "bodies.bar.supports[0].at", "unknown key", "on, components"),
+    ("bodies.bar.supports=[{kind='Fixed', at='left'}]", "bodies.bar.supports[0].at", "unknown key", "on, components"),
     (
         "bodies.bar.place.rotations=[{axis=[0,1], angle=1}]",
         "bodies.bar.place.rotations[0].axis",

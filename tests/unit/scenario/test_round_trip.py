@@ -7,6 +7,7 @@ from softway.bodies.fields import Affine, FieldSum, OnTag, Profile, Uniform
 from softway.bodies.force import AverageField, DiscreteGradient, Weighted
 from softway.bodies.loads import Gravity, Traction
 from softway.bodies.mass import Consistent, Lumped
+from softway.bodies.motion import Still, Table, Translation, Turning
 from softway.bodies.placement import Placement, Rotation
 from softway.bodies.section import Axisymmetric, Bar, PlaneStrain, PlaneStress, Volume
 from softway.bodies.solid import Fixed, Solid, Tool
@@ -94,7 +95,13 @@ solids = st.builds(
     force=st.sampled_from([Weighted(), AverageField(points=2), DiscreteGradient()]),
     place=places,
 )
-tools = st.builds(Tool, shape=halfspaces())
+motions = st.one_of(
+    st.just(Still()),
+    st.builds(Translation, velocity=triple),
+    st.builds(Table, times=st.just((-1.0, 0.0, 1e-3)), displacements=st.tuples(triple, triple, triple)),
+    st.builds(Turning, point=triple, rate=real, axis=st.tuples(real, real, st.floats(1e-3, 1e3))),
+)
+tools = st.builds(Tool, shape=halfspaces(), motion=motions)
 timings = st.one_of(
     st.builds(Paper, approach=st.sampled_from(["kept", "extrapolated"])),
     st.just(Impulse()),

@@ -9,6 +9,7 @@ import scipy.sparse as sp
 
 from softway.bodies.mass import Consistent, Lumped, MassRule
 from softway.bodies.solid import Fixed, Solid, Tool
+from softway.contact.candidates import Candidates
 from softway.contact.contact import Contact
 from softway.contact.timing import Impulse
 from softway.laws.bulk import LinearElastic
@@ -27,22 +28,26 @@ def model(request: pytest.FixtureRequest, block: Callable[..., Model]) -> Model:
     return replace(model, load=np.random.default_rng(7).normal(size=model.shape))
 
 
+def rows(model: Model) -> Candidates:
+    return model.rows(model.displacement)
+
+
 def dense(model: Model) -> tuple[np.ndarray, np.ndarray]:
     """Mass of the free components, and contact rows."""
     keep = model.free.ravel()
     mass = sp.kron(model.mass, sp.eye_array(2)).toarray()[np.ix_(keep, keep)]
-    return mass, model.candidates.matrix(model.free).toarray()
+    return mass, rows(model).matrix(model.free).toarray()
 
 
 def reachable(model: Model) -> np.ndarray:
-    return np.abs(model.candidates.matrix(model.free)).sum(axis=1) > 0.0
+    return np.abs(rows(model).matrix(model.free)).sum(axis=1) > 0.0
 
 
 def test_the_multiplier_leaves_no_acceleration_into_the_obstacle(model: Model) -> None:
     rng = np.random.default_rng(0)
     force = rng.normal(size=model.shape)
-    closed = reachable(model) & (rng.random(len(model.candidates.node)) < 0.7)
-    found = reaction(model).multiplier(force, closed)
+    closed = reachable(model) & (rng.random(len(model.encounters.node)) < 0.7)
+    found = reaction(model).multiplier(rows(model), force, closed)
     mass, G = dense(model)
     acceleration = np.linalg.solve(mass, (model.load - force)[model.free] + G.T @ found)
     np.testing.assert_allclose((G @ acceleration)[closed], 0.0, atol=1e-12)
@@ -54,20 +59,20 @@ def test_a_jump_balances_momentum_and_loses_half_the_impulse_times_the_speed(mod
     rng = np.random.default_rng(1)
     v = rng.normal(size=model.shape) * model.free
     closed = reachable(model)
-    approach = np.where(closed, model.candidates.along(v), 0.0)
-    jump, impulse = reaction(model).jump(approach, closed)
+    approach = np.where(closed, rows(model).along(v), 0.0)
+    jump, impulse = reaction(model).jump(rows(model), approach, closed)
     mass, G = dense(model)
     np.testing.assert_allclose(mass @ jump[model.free], G.T @ impulse, atol=1e-14)
-    np.testing.assert_allclose(model.candidates.along(v + jump)[closed], 0.0, atol=1e-13)
+    np.testing.assert_allclose(rows(model).along(v + jump)[closed], 0.0, atol=1e-13)
     assert not jump[~model.free].any()
     lost = model.kinetic(v).sum() - model.kinetic(v + jump).sum()
     assert lost == pytest.approx(-0.5 * impulse @ approach, rel=1e-12)
 
 
 def test_nothing_closed_nothing_done(model: Model) -> None:
-    none = np.zeros(len(model.candidates.node), bool)
-    assert not reaction(model).multiplier(np.ones(model.shape), none).any()
-    jump, impulse = reaction(model).jump(np.zeros(len(none)), none)
+    none = np.zeros(len(model.encounters.node), bool)
+    assert not reaction(model).multiplier(rows(model), np.ones(model.shape), none).any()
+    jump, impulse = reaction(model).jump(rows(model), np.zeros(len(none)), none)
     assert not jump.any()
     assert not impulse.any()
 
@@ -78,8 +83,8 @@ def test_a_bar_thrown_at_a_wall_loses_a_known_share(bar: Callable[..., Model], m
     """Lumped: 1 / (2 N) of the energy; consistent: 1/7 for N = 2, and 0.289 / N for many cells."""
     model = bar(cells, wall=1.0, timing=Impulse(), mass=mass)
     v = np.ones(model.shape)
-    approach = model.candidates.along(v)
-    _, impulse = reaction(model).jump(approach, np.array([True]))
+    approach = rows(model).along(v)
+    _, impulse = reaction(model).jump(rows(model), approach, np.array([True]))
     share = -0.5 * float(impulse @ approach) / model.kinetic(v).sum()
     if isinstance(mass, Lumped):
         assert share == pytest.approx(1.0 / (2.0 * cells), rel=1e-12)
@@ -91,8 +96,8 @@ def test_a_bar_thrown_at_a_wall_loses_a_known_share(bar: Callable[..., Model], m
 
 def test_rows_without_a_free_component_carry_nothing(block: Callable[..., Model]) -> None:
     model = block(timing=Impulse(), supports=(Fixed(on="left"),))
-    every = np.ones(len(model.candidates.node), bool)
-    found = reaction(model).multiplier(np.ones(model.shape), every)
+    every = np.ones(len(model.encounters.node), bool)
+    found = reaction(model).multiplier(rows(model), np.ones(model.shape), every)
     assert np.isfinite(found).all()
     assert not found[~reachable(model)].any()
 
@@ -103,6 +108,6 @@ def test_repeated_rows_share_the_reaction() -> None:
     contacts = tuple(Contact(between=(f"block.{tag}", "floor"), timing=Impulse()) for tag in ("bottom", "surface"))
     model = build(Scene(bodies={"block": solid, "floor": floor}, contacts=contacts))
     v = np.tile([0.0, -1.0], (model.shape[0], 1))
-    low = model.candidates.offset < 1e-12
-    jump, _ = reaction(model).jump(np.where(low, model.candidates.along(v), 0.0), low)
-    np.testing.assert_allclose(model.candidates.along(v + jump)[low], 0.0, atol=1e-13)
+    low = rows(model).offset < 1e-12
+    jump, _ = reaction(model).jump(rows(model), np.where(low, rows(model).along(v), 0.0), low)
+    np.testing.assert_allclose(rows(model).along(v + jump)[low], 0.0, atol=1e-13)

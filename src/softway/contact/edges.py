@@ -1,0 +1,147 @@
+"""Sharp edges of one side against sharp edges of the other, in three dimensions.
+
+Two convex edges touch where they cross.  Their common normal m is perpendicular to both; out of the second body and
+into the first it has to lie among the normals that the surface of each body takes around its edge.  The gap is ``m .
+(x_a - x_b)`` between the closest points of the two lines, and since these are stationary its derivative is
+``m . ((1 - s) dx_a0 + s dx_a1 - (1 - t) dx_b0 - t dx_b1)``.
+
+A facet cannot see this touch: no node is near the place.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.contact.search import near, sweep
+from softway.contact.side import Edges
+from softway.contact.stencils import Stencils
+from softway.kernels.closest import dot
+from softway.typing import Array, BoolArray, IntArray
+
+PARALLEL = 1e-2
+"""Sine of the angle below which two edges have no common normal worth the name."""
+END = 1e-9
+"""Share of an edge by which the crossing may lie beyond its end."""
+CONE = 0.1
+"""How far, as a share, the common normal may leave the normals around an edge; flat blocks lie at their border."""
+BEHIND = 1e-3
+"""Share of the length of an edge by which a pair may begin a slab crossed and still counts as open."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Crossings:
+    """Two edges each: gap (p,), common normal (p, 3), places s, t (p,) on both, and whether they may touch (p,)."""
+
+    gap: Array
+    normal: Array
+    s: Array
+    t: Array
+    valid: BoolArray
+
+
+def crossings(x: Array, one: Edges, two: Edges) -> Crossings:
+    """The crossings of pairs of edges (p,) at positions x (n, 3).
+
+    Examples
+    --------
+    The lower edge of a body above crosses the upper edge of a body below at a distance of one tenth:
+
+    >>> x = np.array([[-1, 0, 0.1], [1, 0, 0.1], [0, -1, 1], [0, 1, 1], [0, 1, 0], [0, -1, 0], [1, 0, -1], [-1, 0, -1]])
+    >>> lower = Edges(ends=np.array([[0, 1]]), wings=np.array([[2, 3]]))
+    >>> upper = Edges(ends=np.array([[4, 5]]), wings=np.array([[6, 7]]))
+    >>> found = crossings(x, lower, upper)
+    >>> found.gap.tolist(), (found.normal + 0.0).tolist(), found.s.tolist(), found.t.tolist(), found.valid.tolist()
+    ([0.1], [[0.0, 0.0, 1.0]], [0.5], [0.5], [True])
+    """
+    a0, a1, b0, b1 = x[one.ends[:, 0]], x[one.ends[:, 1]], x[two.ends[:, 0]], x[two.ends[:, 1]]
+    u, v, w = a1 - a0, b1 - b0, a0 - b0
+    uu, uv, vv = dot(u, u), dot(u, v), dot(v, v)
+    det = uu * vv - uv * uv
+    crossing = det > PARALLEL**2 * uu * vv
+    det = np.where(crossing, det, 1.0)
+    s = (uv * dot(v, w) - vv * dot(u, w)) / det
+    t = (uu * dot(v, w) - uv * dot(u, w)) / det
+    normal = np.cross(u, v)
+    normal /= np.sqrt(np.where(crossing, dot(normal, normal), 1.0))[:, None]
+    around_one, around_two = one.normals(x), two.normals(x)
+    lean = dot(normal, around_two[0] + around_two[1] - around_one[0] - around_one[1])
+    normal *= np.where(lean < 0.0, -1.0, 1.0)[:, None]
+    valid = crossing & _among(normal, *around_two) & _among(-normal, *around_one)
+    gap = np.where(crossing, dot(normal, w), np.inf)
+    return Crossings(gap=gap, normal=normal, s=s, t=t, valid=valid)
+
+
+def _among(m: Array, n1: Array, n2: Array) -> BoolArray:
+    """Whether m (p, 3), in the plane of n1 and n2, lies between them."""
+    c, m1, m2 = dot(n1, n2), dot(m, n1), dot(m, n2)
+    return np.asarray((m1 - c * m2 >= -CONE * (1.0 - c * c)) & (m2 - c * m1 >= -CONE * (1.0 - c * c)))
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class EdgesOnEdges:
+    """Contact of the sharp edges of two sides: one row for every edge of the first, with the nearest of the second.
+
+    Parameters
+    ----------
+    first, second
+        Sharp convex edges, see :meth:`softway.contact.side.Side.sharp_edges`; the finer side comes first.
+    """
+
+    first: Edges
+    second: Edges
+
+    @property
+    def node(self) -> IntArray:
+        """First node (m,) of the edge of each row."""
+        return np.asarray(self.first.ends[:, 0])
+
+    def meet(self, x0: Array, x1: Array, reach: float) -> "EdgeMeeting":
+        """What may touch in a slab: positions x0 (n, 3) at its start, x1 (n, 3) expected at its end, reach [m]."""
+        i, j = near(sweep(x0, x1, self.first.ends), sweep(x0, x1, self.second.ends), reach)
+        apart = self.first.ends[i][:, :, None] != self.second.ends[j][:, None, :]
+        i, j = i[apart.all(axis=(1, 2))], j[apart.all(axis=(1, 2))]
+        one, two = self.first.take(i), self.second.take(j)
+        begun = crossings(x0, one, two)
+        length = np.linalg.norm(x0[two.ends[:, 1]] - x0[two.ends[:, 0]], axis=1)
+        open_ = begun.gap >= -BEHIND * length
+        return EdgeMeeting(row=i[open_], one=one.take(open_), two=two.take(open_), count=len(self.first.ends))
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class EdgeMeeting:
+    """Pairs of edges ``one``, ``two`` that may touch in a slab; ``row`` (p,) is sorted, out of ``count``."""
+
+    row: IntArray
+    one: Edges
+    two: Edges
+    count: int
+
+    def at(self, x: Array) -> Stencils:
+        """Gaps and their derivatives at positions x (n, 3)."""
+        found = crossings(x, self.one, self.two)
+        return edge_stencils(self, found, self.live(found), len(x))
+
+    def live(self, found: Crossings) -> IntArray:
+        """The pair of each row that counts, in the order of the rows: the nearest that crosses inside both edges."""
+        inside = (np.minimum(found.s, found.t) >= -END) & (np.maximum(found.s, found.t) <= 1.0 + END)
+        live = np.flatnonzero(found.valid & inside)
+        live = live[np.lexsort((np.abs(found.gap[live]), self.row[live]))]
+        return live[np.flatnonzero(np.diff(self.row[live], prepend=-1))]
+
+    def take(self, which: IntArray) -> "EdgeMeeting":
+        """Some of the pairs."""
+        return EdgeMeeting(row=self.row[which], one=self.one.take(which), two=self.two.take(which), count=self.count)
+
+
+def edge_stencils(pairs: EdgeMeeting, found: Crossings, live: IntArray, nodes: int) -> Stencils:
+    """The rows of the pairs ``live`` (l,), in the order of their rows; ``nodes`` is n."""
+    rows, s, t, count = pairs.row[live], found.s[live], found.t[live], pairs.count
+    data = np.stack([1.0 - s, s, t - 1.0, -t], axis=1)
+    columns = np.concatenate([pairs.one.ends[live], pairs.two.ends[live]], axis=1)
+    filled = np.zeros(count + 1, dtype=np.int64)
+    filled[rows + 1] = 4
+    weights = sp.csr_array((data.ravel(), columns.ravel(), np.cumsum(filled)), shape=(count, nodes))
+    gap, normal = np.full(count, np.inf), np.zeros((count, 3))
+    gap[rows], normal[rows] = found.gap[live], found.normal[live]
+    return Stencils(gap=gap, normal=normal, weights=weights)

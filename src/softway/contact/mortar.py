@@ -1,0 +1,166 @@
+"""Mortar contact of deformable bodies: gaps weighted over what the surfaces have in common.
+
+The multiplier of a slave node is interpolated by a dual shape function; the row is divided by its weight, so that it
+reads as a gap in metres and its multiplier is a nodal force (docs/theory/mortar.md).
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.contact import mortar_plane, mortar_space
+from softway.contact.common import Common
+from softway.contact.facing import Facing, facing, unit, vector_areas
+from softway.contact.stencils import Stencils
+from softway.contact.straight import Straight, straight
+from softway.contact.weighting import weighting
+from softway.typing import Array, BoolArray, IntArray
+
+STEEP = 0.2
+"""Cosine between two surfaces below which their distance is not measured any steeper."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Mortar:
+    """Contact of two surfaces in the plane or in space, one row for each slave node.
+
+    Parameters
+    ----------
+    slave_facets, master_facets
+        Facet cell name -> (f, b) node numbers of the model, turned outward.
+
+    Examples
+    --------
+    A segment of length one, half a metre below one of length three:
+
+    >>> x = np.array([[0.0, 0.0], [1.0, 0.0], [-1.0, 0.5], [2.0, 0.5]])
+    >>> mortar = Mortar(slave_facets={"bar2": np.array([[1, 0]])}, master_facets={"bar2": np.array([[2, 3]])})
+    >>> rows = mortar.meet(x, x, 1.0).at(x)
+    >>> rows.gap.tolist(), rows.normal[:, 1].tolist(), (3.0 * rows.weights.toarray()[0]).round(12).tolist()
+    ([0.5, 0.5], [-1.0, -1.0], [3.0, 0.0, -2.0, -1.0])
+    """
+
+    slave_facets: Mapping[str, IntArray]
+    master_facets: Mapping[str, IntArray]
+    slave: Straight = field(init=False, repr=False)
+    master: Straight = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "slave", straight(self.slave_facets))
+        object.__setattr__(self, "master", straight(self.master_facets))
+
+    @property
+    def node(self) -> IntArray:
+        """Slave node (m,) of each row."""
+        return self.slave.node
+
+    def meet(self, x0: Array, x1: Array, reach: float) -> "Meeting":
+        """What may touch on the way from x0 to x1 (n, d), and up to ``reach`` [m] beside it."""
+        control, lift = self.slave.onto(len(x0)), self.master.spread @ self.master.onto(len(x0))
+        spread = self.slave.spread @ control
+        slave = tuple(_corners(spread @ x, self.slave.corner) for x in (x0, x1))
+        master = tuple(_corners(lift @ x, self.master.corner) for x in (x0, x1))
+        pairs = facing((slave[0], slave[1]), (master[0], master[1]), reach)
+        return Meeting(
+            slave=self.slave, master=self.master, control=control, lift=lift, pairs=pairs, share=self._share(pairs)
+        )
+
+    def _share(self, pairs: Facing) -> sp.csr_array:
+        """Shares (m, p) of the control points in the slave simplices that may touch."""
+        p, k = self.slave.corner.shape
+        taking_part = np.unique(pairs.slave)
+        column, row = np.repeat(taking_part, k), self.slave.corner[taking_part].ravel()
+        incidence = sp.csr_array((np.full(len(row), 1.0 / k), (row, column)), (self.slave.spread.shape[0], p))
+        return sp.csr_array(self.slave.spread.T @ incidence)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Meeting:
+    """The pairs of a slab.
+
+    Parameters
+    ----------
+    slave, master
+        The surfaces.
+    control
+        (m, n) control points of the slave from the nodes of the model.
+    lift
+        (v, n) vertices of the master from the nodes of the model.
+    pairs
+        Simplices that may touch.
+    share
+        (m, p) shares of the control points in the slave simplices that may touch.
+    """
+
+    slave: Straight
+    master: Straight
+    control: sp.csr_array
+    lift: sp.csr_array
+    pairs: Facing
+    share: sp.csr_array
+
+    def at(self, x: Array) -> Stencils:
+        """Gaps at the positions x (n, d) [m]; the weights of their derivatives are those of x, held fast.
+
+        Where nothing is in reach the normal is that of the surface, or zero where no facet may touch in the slab.
+        """
+        points = self.control @ x
+        slave = _corners(self.slave.spread @ points, self.slave.corner)
+        master = _corners(self.lift @ x, self.master.corner)
+        areas = vector_areas(slave)
+        normal = -unit(self.share @ areas.T, axis=1)
+        common = self._common(slave, areas, master, normal)
+        i, j = self.pairs.slave[common.pair], self.pairs.master[common.pair]
+        size = np.sqrt(np.sum(areas**2, axis=0))
+        functions = weighting(self.slave, points, size, common.mass(i, len(size)))
+        cross = functions.integrals(i, common.cross, self.master.corner.T[:, j], self.lift.shape[0])
+        total, covered = cross.sum(axis=1), functions.own.sum(axis=1)
+        met = (total > 0.0) & (covered > 0.0)
+        weights = _over(functions.own @ self.control, covered, met) - _over(cross @ self.lift, total, met)
+        seen = functions.means(i, common.cross, _seen(slave, areas, master, i, j))
+        normal = np.where(met[:, None], unit(seen, axis=1), normal)
+        gap = np.where(met, np.einsum("mi,mi->m", normal, weights @ x), np.inf)
+        return Stencils(gap=gap, normal=normal, weights=weights)
+
+    def _common(self, slave: Array, areas: Array, master: Array, normal: Array) -> Common:
+        """What the pairs have in common within their limits.
+
+        Arguments: corners (d, k, p) and vector areas (d, p) of the slave simplices, corners of the master simplices,
+        normals (m, d) of the rows.
+        """
+        i, j = self.pairs.slave, self.pairs.master
+        if len(slave) == 2:
+            common = mortar_plane.overlap(slave, -_corners(normal, self.slave.corner), master, i, j)
+        else:
+            common = mortar_space.overlap(slave, master, i, j)
+        i, j = i[common.pair], j[common.pair]
+        apart = np.einsum("ks,dks->ds", common.cross.sum(axis=0), np.take(master, j, axis=2))
+        apart -= np.einsum("ks,dks->ds", common.own.sum(axis=0), np.take(slave, i, axis=2))
+        height, measure = np.sum(apart * np.take(unit(areas), i, axis=1), axis=0), common.measure
+        return common.take((measure > 0.0) & (np.abs(height) <= self.pairs.limit[common.pair] * measure))
+
+
+def _seen(slave: Array, areas: Array, master: Array, i: IntArray, j: IntArray) -> Array:
+    """Slopes (d, s) of the distance of the slave simplices i (s,) to the master simplices j (s,), measured squarely to
+    the slave, when the slave shifts: the master's normal over its cosine.
+    """
+    square = -np.take(unit(areas), i, axis=1)
+    normal = unit(np.take(vector_areas(master), j, axis=1))
+    return np.asarray(normal / np.maximum(np.sum(square * normal, axis=0), STEEP))
+
+
+def _corners(vertices: Array, corner: IntArray) -> Array:
+    """Coordinates (d, k, p) of the corners (p, k) of simplices, for vertices (v, d)."""
+    return np.take(np.ascontiguousarray(vertices.T), corner.T, axis=1)
+
+
+def _over(matrix: sp.csr_array, total: Array, met: BoolArray) -> sp.csr_array:
+    """Rows divided by their totals (m,) where ``met``, the others empty."""
+    factor = np.where(met, 1.0, 0.0) / np.where(met, total, 1.0)
+    made = sp.csr_array(
+        (matrix.data * np.repeat(factor, np.diff(matrix.indptr)), matrix.indices, matrix.indptr), matrix.shape
+    )
+    made.eliminate_zeros()
+    return made

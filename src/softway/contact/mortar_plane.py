@@ -1,0 +1,67 @@
+"""What pairs of segments in the plane have in common, as seen along the continuous field of slave normals."""
+
+import numpy as np
+
+from softway.contact.common import Common
+from softway.typing import Array, IntArray
+
+
+def overlap(slave: Array, normal: Array, master: Array, i: IntArray, j: IntArray) -> Common:
+    """What pairs of segments have in common.
+
+    The ends of the master segment are projected onto the slave segment along ``n(xi) = (1 - xi) n_0 + xi n_1`` (Yang,
+    Laursen and Meng, 2005).
+
+    Parameters
+    ----------
+    slave, master
+        (2, 2, p) coordinates of the ends of the segments [m]; the masters run the other way round.
+    normal
+        (2, 2, p) outward nodal normals at the ends of the slave segments.
+    i, j
+        (s,) numbers of the slave and of the master segment of each pair.
+
+    Examples
+    --------
+    >>> slave, master = (np.array([[a, b], [y, y]])[:, :, None] for a, b, y in ((1.0, 0.0, 0.0), (0.5, 4.5, 0.1)))
+    >>> up = np.array([[0.0, 0.0], [1.0, 1.0]])[:, :, None]
+    >>> common = overlap(slave, up, master, np.array([0]), np.array([0]))
+    >>> common.measure.round(12).tolist(), common.cross.sum(axis=0)[:, 0].round(12).tolist()
+    ([0.5], [0.46875, 0.03125])
+    """
+    start, along = slave[:, 0, i], (slave[:, 1] - slave[:, 0])[:, i]
+    first, turn = normal[:, 0, i], (normal[:, 1] - normal[:, 0])[:, i]
+    begin = _seen_at(start - master[:, 1, j], along, first, turn)
+    end = _seen_at(start - master[:, 0, j], along, first, turn)
+    pair = np.flatnonzero(end > begin)
+    at = np.stack([begin, end])[:, pair]
+    away = start[:, None, pair] + at * along[:, None, pair] - master[:, :1, j[pair]]
+    ray = first[:, None, pair] + at * turn[:, None, pair]
+    across = _cross((master[:, 1] - master[:, 0])[:, None, j[pair]], ray)
+    there = np.clip(_cross(away, ray) / np.where(across > 0.0, across, np.inf), 0.0, 1.0)
+    length = np.sqrt(np.sum(along[:, pair] ** 2, axis=0)) * (at[1] - at[0])
+    own, other = np.stack([1.0 - at, at], axis=1), np.stack([1.0 - there, there], axis=1)
+    measure = np.where((across > 0.0).all(axis=0), length, 0.0)
+    return Common(pair=pair, own=_products(own, own, measure), cross=_products(own, other, measure))
+
+
+def _seen_at(away: Array, along: Array, first: Array, turn: Array) -> Array:
+    """Coordinate xi (s,) in [0, 1] at which the normal passes through a point; 0 or 1 where it lies beyond.
+
+    The root of ``(away + xi along) x (first + xi turn) = k0 + k1 xi + k2 xi^2`` where this changes from plus to minus.
+    """
+    k0, k1, k2 = _cross(away, first), _cross(along, first) + _cross(away, turn), _cross(along, turn)
+    root = np.sqrt(np.maximum(k1 * k1 - 4.0 * k2 * k0, 0.0))
+    inside = (k0 > 0.0) & (k0 + k1 + k2 < 0.0)
+    xi = -2.0 * k0 / np.where(inside, k1 - root, -1.0)
+    return np.where(inside, np.clip(xi, 0.0, 1.0), np.where(k0 > 0.0, 1.0, 0.0))
+
+
+def _products(one: Array, other: Array, length: Array) -> Array:
+    """Integrals (2, 2, s) over segments of the products of linear functions with values (end, 2, s)."""
+    ends = np.einsum("eas,ebs->abs", one, other) + one.sum(axis=0)[:, None] * other.sum(axis=0)
+    return np.asarray(ends * (length / 6.0))
+
+
+def _cross(a: Array, b: Array) -> Array:
+    return np.asarray(a[0] * b[1] - a[1] * b[0])

@@ -1,0 +1,112 @@
+"""Nodes of one side against the facets of the other, in one, two and three dimensions."""
+
+from dataclasses import dataclass
+from functools import reduce
+
+import numpy as np
+
+from softway.contact.meeting import BEHIND, SAME, SMOOTH, Meeting
+from softway.contact.search import near, sweep
+from softway.contact.side import Side
+from softway.contact.slave_pairs import Pairs, View, firsts, view
+from softway.kernels.closest import dot
+from softway.space.cells import CELLS
+from softway.typing import Array, BoolArray, IntArray
+
+INSIDE = 0.1
+"""Share of the size of a facet by which a slave may begin a slab inside a body and is still led out."""
+SWELLING = 0.3
+"""Share of its width by which a quadratic facet may stick out of the box of its nodes."""
+LEBESGUE = 5.0 / 3.0
+"""Greatest motion of a point of a quadratic facet over that of its nodes."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class NodesOnFaces:
+    """Contact of slave nodes with the facets of a side.
+
+    Row ``i * slots`` of slave i is the facet that counts first, see :mod:`softway.contact.meeting`; further rows are
+    facets that face it at an angle: the other walls of a corner or a wedge.  Facets that contain the slave are never
+    candidates.
+
+    Parameters
+    ----------
+    slaves
+        (s,) nodes.
+    side
+        Facets that the slaves may touch.
+    slots
+        Rows of each slave; by default the dimension of space.
+
+    Examples
+    --------
+    A node 0.1 above the middle of a segment:
+
+    >>> x = np.array([[0.0, 0.0], [2.0, 0.0], [1.0, -0.1]])
+    >>> contact = NodesOnFaces(slaves=np.array([2]), side=Side(facets={"bar2": np.array([[0, 1]])}), slots=1)
+    >>> rows = contact.meet(x, x, reach=0.5).at(x)
+    >>> rows.gap.tolist(), rows.normal.tolist(), rows.weights.toarray().tolist()
+    ([0.1], [[0.0, -1.0]], [[-0.5, -0.5, 1.0]])
+    """
+
+    slaves: IntArray
+    side: Side
+    slots: int = 0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "slaves", np.asarray(self.slaves, dtype=np.int64))
+        object.__setattr__(self, "slots", self.slots or self.side.dim)
+
+    @property
+    def node(self) -> IntArray:
+        """Slave node (m,) of each row."""
+        return np.repeat(self.slaves, self.slots)
+
+    def meet(self, x0: Array, x1: Array, reach: float) -> Meeting:
+        """What may touch in a slab.
+
+        Parameters
+        ----------
+        x0, x1
+            (n, d) positions at its start, and those expected at its end [m].
+        reach
+            Distance by which the motion may differ from the expected one [m], greater than zero.
+        """
+        curved = max(CELLS[kind].order for kind in self.side.facets) > 1
+        facets = sweep(x0, x1, self.side.table, SWELLING if curved else 0.0)
+        slave, facet = near(sweep(x0, x1, self.slaves[:, None]), facets, reach)
+        own = (self.side.table.T[:, facet] == self.slaves[slave]).any(axis=0)
+        slave, facet = slave[~own], facet[~own]
+        pairs = Pairs(side=self.side, slave=slave, node=self.slaves[slave], facet=facet)
+        size = 2.0 * np.linalg.norm(facets.half, axis=1)[facet] if self.side.dim > 1 else np.full(len(facet), reach)
+        seen = view(pairs, x0, size)
+        apart = [(x1 - x0)[nodes] - (x1 - x0)[pairs.node] for nodes in pairs.masters.T]
+        travel = np.sqrt(reduce(np.maximum, [dot(way, way) for way in apart]))
+        close = seen.distance <= (LEBESGUE if curved else 1.0) * travel + reach
+        keep = close & _in_front(pairs, seen, size, len(self.slaves))
+        return Meeting(
+            pairs=pairs.take(keep),
+            count=len(self.slaves),
+            slots=self.slots,
+            start=x0,
+            size=size[keep],
+            above=seen.height[keep],
+        )
+
+
+def _in_front(pairs: Pairs, seen: View, size: Array, count: int) -> BoolArray:
+    """Facets (p,) that look towards their slave, out of those that it may reach.
+
+    A slave that touches a convex piece of surface is behind the facets next to the one that it touches: as seen from
+    their edge it dips below them by no more than the angle between the two normals, and so much is allowed.  The
+    nearest facets count even when the slave begins behind them, unless it does so deep: it has to come out there.
+    """
+    tied = seen.distance <= pairs.least(seen.distance) + SAME * size
+    square = np.where(tied, np.abs(seen.height), -1.0)
+    order = np.lexsort((-square, pairs.slave))
+    nearest = order[firsts(pairs.slave[order])]
+    normal = np.zeros((count, seen.feet.normal.shape[1]))
+    normal[pairs.slave[nearest]] = seen.feet.normal[nearest]
+    cosine = dot(seen.feet.normal, normal[pairs.slave])
+    dip = np.where(cosine >= SMOOTH, np.sqrt(np.maximum(1.0 - cosine**2, 0.0)), 0.0)
+    return np.asarray(seen.height >= -np.where(tied, INSIDE * size, dip * seen.distance + BEHIND * size))

@@ -1,0 +1,67 @@
+"""The certificate of a slab: what the contact conditions and the conservation laws leave over, and what is too much."""
+
+import numpy as np
+
+from softway.contact.timing import Energy, Paper
+from softway.march.outcome import Outcome
+from softway.march.situation import Situation
+from softway.march.step import Certificate, Ledger
+from softway.model import Model
+from softway.time.weight import EndPeaks
+from softway.typing import Array
+
+DEPTH = 1e-12
+"""Greatest depth at the end of a slab, relative to the coordinates."""
+TENSION = 1e-12
+"""Greatest tension, relative to the greatest contact force."""
+LOSS = 1e-9
+"""Greatest error of the energy balance of one slab under the Energy rule, relative to the energies that take part."""
+MOMENTUM = 1e-9
+"""Greatest error of the momentum balance of one slab, relative to the momenta that take part."""
+
+
+def certified(
+    model: Model, before: Situation, out: Outcome, after: Situation, last: Ledger, ledger: Ledger
+) -> Certificate:
+    """What a solved slab leaves over."""
+    searched = out.system.searched
+    rows = out.rows if searched is None else searched.at(after.start.displacement)
+    gap = np.where(rows.near, rows.gap(after.start.displacement), np.inf)
+    closed = after.closed & rows.near
+    leftover, _ = _momentum(model, before, out, after)
+    return Certificate(
+        min_gap=float(gap.min(initial=np.inf)),
+        min_force=float(after.pressure.min(initial=0.0)),
+        complementarity=float(np.abs(after.pressure[closed] * gap[closed]).sum()),
+        power_residual=float(sum(c.power_residual for c in ledger.contacts.values())),
+        momentum_error=float(np.abs(leftover).max()),
+        energy_error=ledger.energy_error - last.energy_error,
+    )
+
+
+def violation(
+    model: Model, before: Situation, out: Outcome, after: Situation, ledger: Ledger, found: Certificate
+) -> str | None:
+    """The first condition that a certificate violates, in words; None if it holds."""
+    reach = float(np.abs(model.points + after.start.displacement).max())
+    if found.min_gap < -DEPTH * reach:
+        return f"a node ends {-found.min_gap:.3g} m inside its opponent"
+    if found.min_force < -TENSION * float(np.abs(after.pressure).max(initial=0.0)):
+        return f"contact pulls with {-found.min_force:.3g} N"
+    level = float(np.abs(before.start.energy).sum() + np.abs(after.start.energy).sum()) + ledger.energy_kinetic
+    level += float(model.kinetic(before.start.velocity).sum()) + abs(ledger.work_external)
+    if isinstance(model.timing, Energy) and out.system.weight == EndPeaks() and abs(found.energy_error) > LOSS * level:
+        return f"the energy balance is left with {found.energy_error:.3g} J of {level:.3g} J"
+    leftover, scale = _momentum(model, before, out, after)
+    if not isinstance(model.timing, Paper) and found.momentum_error > MOMENTUM * scale:
+        return f"the momentum balance is left with {np.abs(leftover).max():.3g} of {scale:.3g} kg m/s"
+    return None
+
+
+def _momentum(model: Model, before: Situation, out: Outcome, after: Situation) -> tuple[Array, float]:
+    """What the change of momentum (d,) has beyond loads, contact and supports, and the momenta that take part."""
+    span = after.time - before.time
+    change = model.mass @ (after.start.velocity - before.start.velocity)
+    given = span * (model.load + out.push + out.support)
+    scale = float(np.abs(model.mass @ after.start.velocity).sum() + np.abs(given).sum())
+    return (change - given).sum(axis=0), scale

@@ -1,0 +1,217 @@
+"""The balances of energy and spin over a slab, closed by one scalar and one vector for each group of touching bodies.
+
+The mean force of the end peaks is completed to ``f_mean + a (f1 - f0) + M (b x (x - centre))``; the scalar a closes the
+energy balance and, for bodies of the :class:`~softway.bodies.force.EnergyMomentum` force, the vector b the balance of
+angular momentum (docs/theory/energy.md).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.bodies.force import EnergyMomentum
+from softway.contact.candidates import Candidates
+from softway.model import Model
+from softway.typing import Array, BoolArray, IntArray
+
+ROUNDING = 2e-15
+BOUND = 0.5
+"""Greatest scalar: with |a| <= 1/2 the mean force stays between those at the two ends."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Ends:
+    """What the balances need of a slab.
+
+    ``u0``, ``u1``, ``f0``, ``f1`` (n, d) displacement and internal force at both ends, ``V0``, ``V1`` (parts,) stored
+    energy, ``mean`` (n, d) the mean force to complete, ``v0`` (n, d) velocity at the start; ``rows0``, ``rows1`` and
+    ``force0``, ``force1`` (m,) contact rows and normal forces at both ends; ``drawn`` (n, d) work-doing forces of
+    supports on nodes without inertia, mean and half difference.
+    """
+
+    u0: Array
+    u1: Array
+    f0: Array
+    f1: Array
+    V0: Array
+    V1: Array
+    mean: Array
+    v0: Array
+    rows0: Candidates
+    rows1: Candidates
+    force0: Array
+    force1: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Closure:
+    """The completed mean force (n, d), the scalar of each part (parts,), and whether one left its bound."""
+
+    mean: Array
+    scalar: Array
+    clipped: bool
+
+
+def groups(model: Model, touching: BoolArray) -> IntArray:
+    """Number (parts,) of the group of bodies that each solid belongs to, linked by the ``touching`` rows (m,).
+
+    Rows of a rigid tool link nothing.
+    """
+    label = np.arange(len(model.parts))
+    for contact in np.unique(model.encounters.contact[touching]):
+        one, other = model.opponents[contact]
+        if other >= 0:
+            label[label == label[other]] = label[one]
+    return np.unique(label, return_inverse=True)[1]
+
+
+def closed(model: Model, ends: Ends, fallback: bool) -> Closure:
+    """Close the balances of every group; without ``fallback`` a scalar beyond its bound is cut off and reported."""
+    label = groups(model, (ends.force0 > 0.0) | (ends.force1 > 0.0))
+    du = ends.u1 - ends.u0
+    moving = du * model.massive[:, None]
+    change = ends.f1 - ends.f0
+    num, den, level = _energies(model, ends, du, moving)
+    num, den, level, floor = (np.asarray(np.bincount(label, weights=v), float) for v in (num, den, level, model.floor))
+    spins = [_spin(model, ends, label == g) for g in range(len(num))]
+    for g, spin in enumerate(spins):
+        if spin is not None:
+            num[g] += spin.work(moving) @ spin.solve(spin.torque)
+            den[g] -= spin.work(moving) @ spin.solve(spin.slope)
+    real = np.abs(num) > ROUNDING * level + floor
+    with np.errstate(divide="ignore", invalid="ignore"):
+        wanted = np.where(real & (den != 0.0), num / den, 0.0)
+    a = np.clip(wanted, -BOUND, BOUND)
+    mean = ends.mean + model.nodal(a[label]) * change
+    for g, spin in enumerate(spins):
+        if spin is not None:
+            mean += spin.force(-spin.solve(spin.torque + a[g] * spin.slope))
+    over = np.abs(wanted) > BOUND
+    if fallback and over.any():
+        mean += _along_motion(model, moving, label, np.where(over, num - a * den, 0.0))
+    return Closure(mean=mean, scalar=a[label], clipped=bool(over.any()) and not fallback)
+
+
+def _energies(model: Model, ends: Ends, du: Array, moving: Array) -> tuple[Array, Array, Array]:
+    """Missing work, its slope in a, and the rounding level (parts,)."""
+    work = model.totals(ends.mean * moving)
+    still = model.totals(model.load * (du - moving))
+    slave = model.part_of[ends.rows0.node]
+    n = len(model.parts)
+    with np.errstate(invalid="ignore"):
+        d0 = np.where(ends.force0 > 0.0, ends.force0 * ends.rows0.drive, 0.0)
+        d1 = np.where(ends.force1 > 0.0, ends.force1 * ends.rows1.drive, 0.0)
+    driven = np.bincount(slave, weights=0.5 * (d0 + d1), minlength=n)
+    num = ends.V1 - ends.V0 - work - still - driven
+    den = model.totals((ends.f1 - ends.f0) * moving) + np.bincount(slave, weights=d1 - d0, minlength=n)
+    if model.driven:
+        r0, r1 = (_held(model, f, rows, p) for f, rows, p in _both(ends))
+        num = num - model.totals(0.5 * (r0 + r1) * du)
+        den = den + model.totals((r1 - r0) * du)
+    level = np.abs(ends.V1) + np.abs(ends.V0) + model.kinetic(ends.v0)
+    level += model.totals(np.abs(ends.mean * moving)) + model.totals(np.abs(model.load * du))
+    level += np.bincount(slave, weights=np.abs(d0) + np.abs(d1), minlength=n)
+    return num, den, level
+
+
+def _both(ends: Ends) -> tuple[tuple[Array, Candidates, Array], tuple[Array, Candidates, Array]]:
+    return (ends.f0, ends.rows0, ends.force0), (ends.f1, ends.rows1, ends.force1)
+
+
+def _held(model: Model, force: Array, rows: Candidates, push: Array) -> Array:
+    """Forces (n, d) of supports on components without inertia."""
+    out = force - model.load - rows.spread(push, model.shape)
+    return np.where(model.free | model.massive[:, None], 0.0, out)
+
+
+def _along_motion(model: Model, moving: Array, label: IntArray, missing: Array) -> Array:
+    """Forces (n, d) along the motion of each body relative to its centre of mass that do the ``missing`` work."""
+    weight = np.asarray(model.mass.sum(axis=1)).reshape(-1, 1)
+    out = np.zeros_like(moving)
+    for part in model.parts:
+        here = part.rows
+        mass = float(weight[here].sum())
+        out[here] = moving[here] - (weight[here] * moving[here]).sum(axis=0) / mass
+    out = model.mass @ (out * model.free)
+    done = np.bincount(label, weights=model.totals(out * moving))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = np.where(done > 0.0, missing / done, 0.0)
+    return np.asarray(model.nodal(share[label]) * out)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Spin:
+    """The rotations (k) of one group: force fields (k, n, d), inertia (k, k), torque (k,) and its slope in a (k,)."""
+
+    fields: Array
+    inertia: Array
+    torque: Array
+    slope: Array
+
+    def solve(self, torque: Array) -> Array:
+        """The vector b (k,) that makes a torque."""
+        return np.asarray(np.linalg.lstsq(self.inertia, torque, rcond=1e-12)[0])
+
+    def work(self, moving: Array) -> Array:
+        """Work (k,) of the unit fields."""
+        return np.einsum("kni,ni->k", self.fields, moving)
+
+    def force(self, b: Array) -> Array:
+        """The force field (n, d)."""
+        return np.einsum("k,kni->ni", b, self.fields)
+
+
+def _spin(model: Model, ends: Ends, members: BoolArray) -> _Spin | None:
+    """The rotations of the bodies of a group, None where the balance of spin is not closed."""
+    parts = [p for p, here in zip(model.parts, members, strict=True) if here]
+    if not all(isinstance(p.average, EnergyMomentum) and model.free[p.rows].all() for p in parts):
+        return None
+    here = np.zeros(model.shape[0], bool)
+    for part in parts:
+        here[part.rows] = True
+    x = model.points + 0.5 * (ends.u0 + ends.u1)
+    x = x - x[here].mean(axis=0)
+    arm = np.zeros_like(x)
+    weight = np.asarray(model.mass.sum(axis=1)).reshape(-1, 1)
+    for part in parts:
+        rows = part.rows
+        arm[rows] = x[rows] - (weight[rows] * x[rows]).sum(axis=0) / weight[rows].sum()
+    fields = np.array([model.mass @ f for f in _turned(arm)])
+    inner = here & model.massive
+    rigid = ends.rows0.weights.sum(axis=1) > 0.5
+    tools = [rows.spread(np.where(rigid & np.isfinite(rows.offset), p, 0.0), model.shape) for _, rows, p in _both(ends)]
+    outer = (here & ~model.massive)[:, None] * (model.load + 0.5 * (tools[0] + tools[1]))
+    torque = moment(x, np.where(inner[:, None], ends.mean, outer))
+    change = np.where(inner[:, None], ends.f1 - ends.f0, (here & ~model.massive)[:, None] * (tools[1] - tools[0]))
+    return _Spin(
+        fields=fields,
+        inertia=np.array([moment(x, f) for f in fields]).T,
+        torque=torque,
+        slope=moment(x, change),
+    )
+
+
+def _turned(arm: Array) -> Array:
+    """The fields (k, n, d) ``e_k x arm`` of the unit rotations: none in 1D, one in the plane, three in space."""
+    n, d = arm.shape
+    if d == 1:
+        return np.zeros((0, n, d))
+    if d == 2:
+        return np.stack([np.column_stack([-arm[:, 1], arm[:, 0]])])
+    return np.stack([np.cross(e, arm) for e in np.eye(3)])
+
+
+def moment(x: Array, force: Array) -> Array:
+    """Moment (k,) of forces (n, d) at places (n, d): none in 1D, one in the plane, three in space.
+
+    Examples
+    --------
+    >>> moment(np.array([[1.0, 0.0]]), np.array([[0.0, 2.0]]))
+    array([2.])
+    """
+    d = x.shape[1]
+    if d == 1:
+        return np.zeros(0)
+    if d == 2:
+        return np.array([np.sum(x[:, 0] * force[:, 1] - x[:, 1] * force[:, 0])])
+    return np.cross(x, force).sum(axis=0)

@@ -1,0 +1,182 @@
+"""Segments in the plane or triangles in space made into one oriented surface.
+
+Vertices that coincide are merged, neighbours have to turn the same way, and every vertex and edge gets a pseudo-normal,
+by which the sign of the distance is right wherever the closest point lies.
+
+Reference: J. A. Baerentzen, H. Aanaes, Signed distance computation using the angle weighted pseudonormal, IEEE Trans.
+Visual. Comput. Graphics 11 (2005) 243-253.
+"""
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from softway.errors import InputError
+from softway.space.obstacles import unit_vectors
+from softway.typing import Array, BoolArray, IntArray
+
+RESOLUTION = 2.0**-22
+"""What is nearer than this share of the greatest coordinate is the same in a file of single precision."""
+CORNERS = {2: (1, 2), 3: (1, 2, 4)}
+RIDGES = {2: (1, 2), 3: (3, 6, 5)}
+"""A vertex, edge or face of a facet is named by the sum of 2^k over its corners k; ridges are where facets meet."""
+
+
+def merged(points: Array, cells: IntArray) -> tuple[Array, IntArray]:
+    """The facets (f, d) without double vertices; those that collapse thereby, and unused points, are left out.
+
+    Examples
+    --------
+    >>> points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1e-9], [1.0, 1.0]])
+    >>> merged(points, np.array([[0, 1], [1, 2], [2, 3]]))[1].tolist()
+    [[0, 1], [1, 2]]
+    """
+    near = cKDTree(points).query_pairs(RESOLUTION * float(np.abs(points).max()), output_type="ndarray")
+    links = coo_array((np.ones(len(near)), (near[:, 0], near[:, 1])), shape=(len(points), len(points)))
+    label = connected_components(links, directed=False)[1]
+    cells = np.unique(label, return_index=True)[1][label][cells]
+    whole = (cells != np.roll(cells, 1, axis=1)).all(axis=1)
+    used, number = np.unique(cells[whole], return_inverse=True)
+    return points[used], number.reshape(-1, cells.shape[1]).astype(np.int64)
+
+
+def normals_of(points: Array, cells: IntArray) -> Array:
+    """Unit normals (f, d) of the facets: (dy, -dx) of segments; of triangles towards the eye that sees them turn left.
+
+    Raises
+    ------
+    InputError
+        For a triangle whose corners lie on one line.
+    """
+    first, *others = (points[cells[:, k]] for k in range(cells.shape[1]))
+    sides = [other - first for other in others]
+    if len(sides) == 1:
+        return unit_vectors(sides[0][:, ::-1] * [1.0, -1.0])
+    sides.append(sides[1] - sides[0])
+    area = np.cross(sides[0], sides[1])
+    longest = np.linalg.norm(sides, axis=-1).max(axis=0)
+    flat = np.linalg.norm(area, axis=-1) <= RESOLUTION * np.abs(points).max() * longest
+    if flat.any():
+        place = ", ".join(f"{value:.6g}" for value in first[flat][0])
+        problem = f"{int(flat.sum())} of {len(cells)} triangles have no area; one has a corner at ({place}) m"
+        raise InputError("", problem, "mesh the surface again, or repair it in the program that made it")
+    return unit_vectors(area)
+
+
+def oriented(points: Array, cells: IntArray) -> tuple[IntArray, BoolArray]:
+    """The facets (f, d) with their normals outward if the surface is closed, and which ridges (f, d) are its rim.
+
+    Raises
+    ------
+    InputError
+        Where neighbours turn against each other, or more than two facets meet.
+    """
+    number, sense = _ridges(cells, len(points))
+    count = np.bincount(number.ravel())
+    turned = (count == 2) & (np.bincount(number.ravel(), sense.ravel()) != 0.0)
+    _refuse(points, cells, (count > 2)[number], "more than two facets meet", "leave the inner facets out")
+    remedy = "turn all facets to one side; in Gmsh, mesh the solid and save its cells: their boundary is taken"
+    _refuse(points, cells, turned[number], "neighbouring facets face opposite sides", remedy)
+    rim: BoolArray = (count == 1)[number]
+    if not rim.any() and np.linalg.det((points - points.mean(axis=0))[cells]).sum() < 0.0:
+        cells = np.ascontiguousarray(cells[:, ::-1])
+    return cells, rim
+
+
+def pseudo_normals(points: Array, cells: IntArray, normals: Array) -> Array:
+    """Unit pseudo-normals (f, 2^d, d) of every vertex, edge and face of the facets (f, d), by their names.
+
+    Parameters
+    ----------
+    points, cells, normals
+        (n, d) vertices [m]; (f, d) facets and their unit normals.
+
+    Examples
+    --------
+    >>> corner = np.array([[0.0, 1.0], [0.0, 0.0], [1.0, 0.0]])
+    >>> cells = np.array([[0, 1], [1, 2]])
+    >>> pseudo_normals(corner, cells, normals_of(corner, cells))[0, 2].round(3).tolist()
+    [-0.707, -0.707]
+    """
+    d = cells.shape[1]
+    out = np.zeros((len(cells), 2**d, d))
+    out[:, -1] = normals
+    if d == 3:
+        number = _ridges(cells, len(points))[0]
+        out[:, RIDGES[3]] = _summed(number, np.repeat(normals[:, None], 3, axis=1))
+    out[:, CORNERS[d]] = _summed(cells, _angles(points[cells])[..., None] * normals[:, None])
+    return out
+
+
+def smooth_normals(points: Array, cells: IntArray, normals: Array) -> Array:
+    """Unit normals (f, d, d) at the corners of the facets (f, d); exact where all vertices lie on a sphere.
+
+    Parameters
+    ----------
+    points, cells, normals
+        (n, d) vertices [m]; (f, d) facets and their unit normals.
+
+    Reference: N. Max, Weights for computing vertex normals from facet normals, J. Graphics Tools 4 (1999) 1-6.
+
+    Examples
+    --------
+    >>> angle = np.array([0.1, 0.5, 1.5])
+    >>> circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    >>> cells = np.array([[0, 1], [1, 2]])
+    >>> bool(np.allclose(smooth_normals(circle, cells, normals_of(circle, cells))[0, 1], circle[1]))
+    True
+    """
+    corners = points[cells]
+    to, fro = (np.roll(corners, k, axis=1) - corners for k in (-1, 1))
+    square = np.einsum("fki,fki->fk", to, to)
+    if cells.shape[1] == 2:
+        return _summed(cells, normals[:, None] / np.sqrt(square)[..., None])
+    weights = 1.0 / (square * np.einsum("fki,fki->fk", fro, fro))
+    return _summed(cells, weights[..., None] * np.cross(to, fro))
+
+
+def rim_of(cells: IntArray, rim: BoolArray) -> BoolArray:
+    """Which vertices, edges and faces (f, 2^d) of the facets lie on the rim, from which of their ridges (f, d) do."""
+    d = cells.shape[1]
+    at = np.zeros(int(cells.max()) + 1, dtype=bool)
+    at[cells[rim]] = True
+    if d == 3:
+        at[np.roll(cells, -1, axis=1)[rim]] = True
+    out = np.zeros((len(cells), 2**d), dtype=bool)
+    out[:, RIDGES[d]] = rim
+    out[:, CORNERS[d]] = at[cells]
+    return out
+
+
+def _ridges(cells: IntArray, n: int) -> tuple[IntArray, IntArray]:
+    """Number (f, d) of each ridge, and its sense (f, d): 1 or -1, opposite for two facets that turn the same way."""
+    if cells.shape[1] == 2:
+        return cells, np.broadcast_to(np.array([-1, 1]), cells.shape)
+    after = np.roll(cells, -1, axis=1)
+    key = np.minimum(cells, after) * n + np.maximum(cells, after)
+    number = np.unique(key, return_inverse=True)[1].reshape(cells.shape)
+    return number, np.where(cells < after, 1, -1)
+
+
+def _refuse(points: Array, cells: IntArray, wrong: BoolArray, problem: str, remedy: str) -> None:
+    """Raise if something is wrong at a ridge (f, d) of some facets."""
+    found = np.flatnonzero(wrong.any(axis=1))
+    if len(found):
+        place = ", ".join(f"{value:.6g}" for value in points[cells[found[0]]].mean(axis=0))
+        raise InputError("", f"{problem}, at ({place}) m and {len(found) - 1} other facets", remedy)
+
+
+def _angles(corners: Array) -> Array:
+    """Angles (f, d) at the corners (f, d, d) of triangles; the same for both ends of a segment."""
+    if corners.shape[1] == 2:
+        return np.ones(corners.shape[:2])
+    to, fro = (unit_vectors(np.roll(corners, k, axis=1) - corners) for k in (-1, 1))
+    return np.asarray(2.0 * np.arctan2(np.linalg.norm(to - fro, axis=-1), np.linalg.norm(to + fro, axis=-1)))
+
+
+def _summed(number: IntArray, values: Array) -> Array:
+    """Directions (f, k, d) of the sums of the values (f, k, d) with the same number (f, k)."""
+    total = np.zeros((int(number.max()) + 1, values.shape[-1]))
+    np.add.at(total, number, values)
+    return unit_vectors(total)[number]

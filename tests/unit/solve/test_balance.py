@@ -1,0 +1,212 @@
+"""The balances of energy and spin that close a slab: exact for any configuration, for every group of bodies."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from hypothesis import given
+from hypothesis import strategies as st
+
+from softway.bodies.force import EnergyMomentum, SlabForce, Weighted
+from softway.bodies.loads import Gravity, Traction
+from softway.bodies.placement import Placement
+from softway.bodies.solid import Driven, Fixed, Solid, Tool
+from softway.contact.candidates import Candidates, on_nodes
+from softway.contact.contact import Contact, NodeToSurface
+from softway.laws.bulk import NeoHookean
+from softway.model import Model, build
+from softway.scene import Scene
+from softway.solve.balance import BOUND, Closure, Ends, closed, groups, moment
+from softway.space.obstacles import HalfSpace
+from softway.space.shapes import box, rectangle
+
+NAMES = "abcd"
+MEET = NodeToSurface(nodes="both")
+dims = pytest.mark.parametrize("dim", [2, 3])
+forces = pytest.mark.parametrize("force", [Weighted(), EnergyMomentum()], ids=lambda f: type(f).__name__)
+seeds = st.integers(0, 10**6)
+
+
+@cache
+def row_of_blocks(dim: int, force: SlabForce, driven: bool = False) -> Model:
+    """Four blocks in a row: a and b may touch, b and c, and a and d a floor; loads on all."""
+    up = (0.0,) * (dim - 1) + (1.0,)
+    mesh = rectangle((1.0, 1.0), (2, 2)) if dim == 2 else box((1.0, 1.0, 1.0), (2, 1, 2))
+    supports = (Driven(on="left", velocity=0.3), Fixed(on="top", components="xyz"[:dim])) if driven else ()
+    bodies: dict[str, Solid | Tool] = {
+        name: Solid(
+            mesh=mesh, material=NeoHookean(E=1.0, nu=0.3), density=1.0, force=force,
+            supports=supports if name == "a" else (),
+            place=Placement(translation=(1.1 * k, *[0.0] * (dim - 1))),
+        )
+        for k, name in enumerate(NAMES)
+    }  # fmt: skip
+    bodies["floor"] = Tool(shape=HalfSpace(point=(0.0,) * dim, normal=up))
+    contacts = (
+        Contact(between=("a.right", "b.left"), method=MEET), Contact(between=("b.right", "c.left"), method=MEET),
+        Contact(between=("a.bottom", "floor")), Contact(between=("d.bottom", "floor")),
+    )  # fmt: skip
+    loads = (Gravity(acceleration=tuple(-0.1 * np.array(up))), Traction(on="a.bottom", value=tuple(0.02 * np.ones(dim))))
+    return build(Scene(bodies=bodies, contacts=contacts, loads=loads))
+
+
+def random_rows(model: Model, rng: np.random.Generator) -> Candidates:
+    """Rows that turn at will; each opponent of a pair is one node of the other body, each tool moves."""
+    node, contact = model.encounters.node, model.encounters.contact
+    normal = rng.normal(size=(len(node), model.shape[1]))
+    other = np.array([
+        rng.choice(np.flatnonzero((model.part_of == (pair.sum() - model.part_of[i])) & ~model.massive)) if pair[1] >= 0 else -1
+        for i, pair in zip(node, model.opponents[contact], strict=True)
+    ])  # fmt: skip
+    pair = other >= 0
+    weights = on_nodes(node, len(model.points)) - sp.diags_array(pair * 1.0) @ on_nodes(np.maximum(other, 0), len(model.points))
+    return Candidates(
+        node=node, contact=contact, normal=normal / np.linalg.norm(normal, axis=1, keepdims=True),
+        weights=sp.csr_array(weights), offset=np.where(rng.random(len(node)) < 0.9, 0.0, np.inf),
+        drive=np.where(pair, 0.0, 0.05 * rng.normal(size=len(node))), labels=model.encounters.labels,
+    )  # fmt: skip
+
+
+def ends(model: Model, seed: int, size: float = 0.02, touching: tuple[int, ...] = (0, 2, 3)) -> Ends:
+    """A slab between two random configurations with random contact forces in some of the contacts."""
+    rng = np.random.default_rng(seed)
+    u0, u1, v0 = size * rng.normal(size=(3, *model.shape))
+    rows0 = random_rows(model, rng)
+    rows1 = replace(random_rows(model, rng), weights=rows0.weights, offset=rows0.offset)
+    here = np.isin(rows0.contact, touching) & rows0.near
+    push0, push1 = (0.01 * here * (rng.random(len(here)) < 0.6) * rng.random(len(here)) for _ in range(2))
+    (V0, f0), (V1, f1) = model.energy_and_force(u0), model.energy_and_force(u1)
+    return Ends(
+        u0=u0, u1=u1, f0=f0, f1=f1, V0=V0, V1=V1, mean=0.5 * (f0 + f1), v0=v0, rows0=rows0, rows1=rows1,
+        force0=push0, force1=push1,
+    )  # fmt: skip
+
+
+def shares(model: Model, e: Ends, found: Closure) -> tuple[np.ndarray, np.ndarray]:
+    """Contact forces (m,) of the rows at the start and at the end, as they act over the slab."""
+    a = found.scalar[model.part_of[e.rows0.node]]
+    return (0.5 - a) * e.force0, (0.5 + a) * e.force1
+
+
+def gained(model: Model, e: Ends, found: Closure) -> np.ndarray:
+    """Energy (parts,) that the slab makes from nothing: kinetic and stored, less all work from outside.
+
+    Nodes with inertia change their kinetic energy by the work of load less internal force, whatever their motion.
+    """
+    du, heavy = e.u1 - e.u0, model.massive[:, None]
+    old, new = shares(model, e, found)
+    push = e.rows0.spread(old, model.shape) + e.rows1.spread(new, model.shape)
+    kinetic = model.totals((model.load - found.mean) * du * heavy)
+    support = model.totals(np.where(heavy | model.free, 0.0, found.mean - model.load - push) * du)
+    tools = np.bincount(
+        model.part_of[e.rows0.node], weights=old * e.rows0.drive + new * e.rows1.drive, minlength=len(model.parts)
+    )
+    return kinetic + e.V1 - e.V0 - model.totals(model.load * du) - support - tools
+
+
+def test_bodies_in_touch_are_one_group() -> None:
+    model = row_of_blocks(2, Weighted())
+    contact = model.encounters.contact
+    for touching, expected in (
+        ((), [0, 1, 2, 3]), ((0,), [0, 0, 1, 2]), ((1,), [0, 1, 1, 2]), ((0, 1), [0, 0, 0, 1]), ((2, 3), [0, 1, 2, 3]),
+        ((0, 1, 2, 3), [0, 0, 0, 1]),
+    ):  # fmt: skip
+        label = groups(model, np.isin(contact, touching))
+        assert [label.tolist().index(x) for x in label] == [expected.index(x) for x in expected]
+    one = np.zeros(len(contact), bool)
+    one[np.flatnonzero(contact == 1)[0]] = True
+    assert groups(model, one).tolist() == [0, 1, 1, 2], "one row is enough"
+
+
+@forces
+@dims
+@given(seed=seeds)
+def test_every_group_keeps_its_energy(dim: int, force: SlabForce, seed: int) -> None:
+    model = row_of_blocks(dim, force)
+    e = ends(model, seed)
+    found = closed(model, e, fallback=True)
+    label = groups(model, (e.force0 > 0.0) | (e.force1 > 0.0))
+    np.testing.assert_allclose(np.bincount(label, weights=gained(model, e, found)), 0.0, atol=1e-15)
+    assert label.max() == 2
+    assert all(len(set(found.scalar[label == g])) == 1 for g in range(3))
+
+
+@given(seed=seeds)
+def test_driven_supports_do_work_on_nodes_without_inertia(seed: int) -> None:
+    model = row_of_blocks(2, Weighted(), driven=True)
+    assert (~model.free & ~model.massive[:, None]).any()
+    e = ends(model, seed)
+    found = closed(model, e, fallback=True)
+    label = groups(model, (e.force0 > 0.0) | (e.force1 > 0.0))
+    np.testing.assert_allclose(np.bincount(label, weights=gained(model, e, found)), 0.0, atol=1e-15)
+
+
+@dims
+@given(seed=seeds)
+def test_internal_forces_and_pairs_have_no_moment(dim: int, seed: int) -> None:
+    """The moment on the nodes with inertia is that of the loads and tools on all nodes of the group."""
+    model = row_of_blocks(dim, EnergyMomentum())
+    e = ends(model, seed)
+    found = closed(model, e, fallback=False)
+    label = groups(model, (e.force0 > 0.0) | (e.force1 > 0.0))
+    tool = model.opponents[e.rows0.contact, 1] < 0
+    old, new = (tool * share for share in shares(model, e, found))
+    outer = model.load + e.rows0.spread(old, model.shape) + e.rows1.spread(new, model.shape)
+    total = np.where(model.massive[:, None], found.mean, outer)
+    x = model.points + 0.5 * (e.u0 + e.u1)
+    for g in range(3):
+        here = label[model.part_of] == g
+        assert moment((x - x[here].mean(axis=0))[here], total[here]) == pytest.approx(0.0, abs=1e-15)
+
+
+@forces
+@dims
+@given(seed=seeds)
+def test_the_completion_has_no_resultant_and_leaves_nodes_without_inertia_in_equilibrium(
+    dim: int, force: SlabForce, seed: int
+) -> None:
+    model = row_of_blocks(dim, force)
+    e = ends(model, seed)
+    for fallback in (True, False):
+        found = closed(model, e, fallback)
+        more = found.mean - e.mean - model.nodal(found.scalar) * (e.f1 - e.f0)
+        np.testing.assert_allclose([more[p.rows].sum(axis=0) for p in model.parts], 0.0, atol=1e-15)
+        np.testing.assert_array_equal(more[~model.massive], 0.0)
+        assert np.abs(found.scalar).max() <= BOUND
+
+
+def test_a_scalar_beyond_its_bound_is_told_unless_the_motion_may_close_the_balance() -> None:
+    """Stored energy out of nothing in one body, the other balanced."""
+    model = row_of_blocks(2, Weighted())
+    e = ends(model, 0, touching=())
+    odd = replace(e, V1=e.V1 + [0.1, 0.0, 0.0, 0.0])
+    cut, along = closed(model, odd, fallback=False), closed(model, odd, fallback=True)
+    assert cut.clipped
+    assert not along.clipped
+    assert not closed(model, e, fallback=False).clipped
+    assert np.abs(cut.scalar[0]) == BOUND == np.abs(along.scalar[0])
+    assert abs(gained(model, odd, cut)[0]) > 0.01
+    np.testing.assert_allclose(gained(model, odd, along), 0.0, atol=1e-15)
+    np.testing.assert_array_equal(cut.mean[model.parts[1].rows], along.mean[model.parts[1].rows])
+
+
+def test_a_body_that_is_not_deformed_needs_no_scalar() -> None:
+    model = row_of_blocks(2, EnergyMomentum())
+    e = ends(model, 0, size=0.0, touching=())
+    moved = np.tile([0.3, -0.2], (len(model.points), 1))
+    light = replace(model, load=np.zeros(model.shape))
+    found = closed(light, replace(e, u1=moved), fallback=False)
+    assert found.scalar.tolist() == [0.0] * 4
+    np.testing.assert_allclose(found.mean, 0.0, atol=1e-17)
+
+
+def test_moments() -> None:
+    rng = np.random.default_rng(0)
+    x, f = rng.normal(size=(2, 7, 3))
+    expected = sum(np.cross(a, b) for a, b in zip(x, f, strict=True))
+    np.testing.assert_allclose(moment(x, f), expected, atol=1e-14)
+    flat = [1.0, 1.0, 0.0]
+    np.testing.assert_allclose(moment(x[:, :2], f[:, :2]), moment(x * flat, f * flat)[2:], atol=1e-14)
+    assert moment(x[:, :1], f[:, :1]).shape == (0,)
