@@ -1,19 +1,21 @@
 """softway: dynamic contact of solids, with the velocity as unknown and contact as a constraint on it."""
 
 from softway.bodies.fields import Affine, FieldSum, OnTag, Profile, Uniform
-from softway.bodies.force import AverageField, DiscreteGradient, Weighted
+from softway.bodies.force import AverageField, DiscreteGradient, EnergyMomentum, Weighted
 from softway.bodies.loads import Gravity, Traction
 from softway.bodies.mass import Consistent, Lumped
+from softway.bodies.motion import Still, Table, Translation, Turning
 from softway.bodies.placement import Placement, Rotation
 from softway.bodies.section import Axisymmetric, Bar, PlaneStrain, PlaneStress, Volume
-from softway.bodies.solid import Fixed, Solid, Tool
-from softway.contact.contact import Contact
+from softway.bodies.solid import Driven, Fixed, Solid, Tool
+from softway.contact.contact import Contact, DualMortar, NodeToSurface
 from softway.contact.timing import Energy, Impulse, Paper
 from softway.errors import InputError, NumericsError, SoftwayError
 from softway.execute import run
 from softway.laws.bulk import LinearElastic, NeoHookean, StVenantKirchhoff
+from softway.march.control import StepControl
 from softway.march.march import march
-from softway.march.step import Event, Ledger, Step
+from softway.march.step import Certificate, Event, Ledger, Step
 from softway.model import build
 from softway.record.run import Run
 from softway.scenario.codec import load, resolved
@@ -22,6 +24,9 @@ from softway.scene import AsGiven, Scene, State, StaticStart
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
 from softway.space.curved import Block, Cavity, Roller, Sphere, Torus
+from softway.space.curved import Cylinder as RigidCylinder
+from softway.space.distance import SignedDistance
+from softway.space.faceted import Facets, Surface
 from softway.space.mesh import Mesh
 from softway.space.obstacles import HalfSpace
 from softway.space.sources import Ball, Box, Cylinder, Disc, Interval, MeshFile, Rectangle
@@ -37,15 +42,20 @@ __all__ = [
     "Block",
     "Box",
     "Cavity",
+    "Certificate",
     "Collocation",
     "Consistent",
     "Contact",
     "Cylinder",
     "Disc",
     "DiscreteGradient",
+    "Driven",
+    "DualMortar",
     "EndPeaks",
     "Energy",
+    "EnergyMomentum",
     "Event",
+    "Facets",
     "FieldSum",
     "Fixed",
     "FixedPoint",
@@ -62,6 +72,7 @@ __all__ = [
     "Momentum",
     "NeoHookean",
     "Newton",
+    "NodeToSurface",
     "NumericsError",
     "OnTag",
     "Output",
@@ -72,11 +83,13 @@ __all__ = [
     "Probe",
     "Profile",
     "Rectangle",
+    "RigidCylinder",
     "Roller",
     "Rotation",
     "Run",
     "Scenario",
     "Scene",
+    "SignedDistance",
     "SoftwayError",
     "Solid",
     "Sphere",
@@ -84,10 +97,16 @@ __all__ = [
     "State",
     "StaticStart",
     "Step",
+    "StepControl",
+    "Still",
+    "Surface",
+    "Table",
     "Time",
     "Tool",
     "Torus",
     "Traction",
+    "Translation",
+    "Turning",
     "Uniform",
     "Volume",
     "Weighted",

@@ -151,7 +151,11 @@ class Meeting:
         safe[slave[first]] = ~own[first] | (seen.height[first] >= 0.0)
         away = seen.feet.offset[first] / np.where(own, 1.0, seen.distance)[first, None]
         out[slave[first]] = np.where(own[first, None], seen.feet.normal[first], away)
+        foot = np.zeros_like(out)
+        foot[slave[first]] = x[self.pairs.node[first]] - seen.feet.offset[first]
         pair = np.flatnonzero((seen.height < 0.0) & (self.above > -BEHIND * self.size) & safe[slave])
+        away = x[self.pairs.masters[pair]].mean(axis=1) - foot[slave[pair]]
+        slope, cosine = dip(dot(seen.feet.normal[pair], out[slave[pair]]))
         pair = pair[dot(seen.feet.normal[pair], out[slave[pair]]) < SMOOTH]
         if not len(pair):
             return pair

@@ -372,3 +372,53 @@ def test_at_touch_gaps_and_normals_are_those_of_the_facet_everywhere() -> None:
         rows = crossing(mesh, place, place)
         assert rows.gap[::3] == pytest.approx(place[:, 2] - 1.0, abs=1e-16)
         assert rows.normal[::3] == pytest.approx(np.tile([0.0, 0.0, 1.0], (len(flat), 1)), abs=1e-15)
+
+
+def cavity(mesh: Mesh) -> Side:
+    """The surface of a body turned inward."""
+    return Side(facets={kind: found[:, ::-1] for kind, found in mesh.boundary().items()})
+
+
+def led_back(rows: Stencils, x: np.ndarray, target: np.ndarray) -> np.ndarray:
+    """The points nearest to targets where the linear conditions of all rows hold, by Hildreth's method."""
+    count, dim = target.shape
+    gap, normal = rows.gap.reshape(count, -1), rows.normal.reshape(count, -1, dim)
+    force, y = np.zeros_like(gap), target.copy()
+    for _ in range(300):
+        for k in range(gap.shape[1]):
+            now = np.where(np.isfinite(gap[:, k]), gap[:, k], 1e9) + np.einsum("qd,qd->q", normal[:, k], y - x)
+            change = np.maximum(-now, -force[:, k])
+            force[:, k] += change
+            y += change[:, None] * normal[:, k]
+    return y
+
+
+@pytest.mark.parametrize("held", [False, True])
+@pytest.mark.parametrize("body", ["block", "disc", "ball", "box seen from inside"])
+def test_iterations_on_the_linear_conditions_do_not_chatter(body: str, held: bool) -> None:
+    """Slaves are drawn to targets inside the body, some over edges and into corners; three iterations settle them."""
+    rng = np.random.default_rng(10)
+    mesh = {"disc": disc(1.0, 16), "ball": ball(1.0, 8)}.get(body) or box((1.0, 1.0, 1.0), (3, 3, 3))
+    start = rng.normal(size=(500, mesh.dim))
+    start *= (1.0 + 0.02 * rng.random(500) / np.linalg.norm(start, axis=1))[:, None] / np.linalg.norm(start, axis=1)[
+        :, None
+    ]
+    target = 0.9 * start + 0.1 * rng.normal(size=start.shape)
+    if body in ("block", "box seen from inside"):
+        start = 1.4 * rng.random((1000, 3)) - 0.2
+        start = start[((start < 0.0) | (start > 1.0)).any(axis=1) == (body == "block")]
+        target = 0.5 + (0.8 if body == "block" else 1.3) * (start - 0.5) + 0.1 * rng.normal(size=start.shape)
+    side = cavity(mesh) if body == "box seen from inside" else Side(facets=mesh.boundary())
+    number = np.arange(mesh.n_nodes, mesh.n_nodes + len(start))
+    x0, x = np.concatenate([mesh.points, start]), np.concatenate([mesh.points, target])
+    meeting = NodesOnFaces(slaves=number, side=side).meet(x0, x, 0.5)
+    now = meeting.held(x) if held else meeting
+    moves = []
+    for _ in range(4):
+        after = led_back(now.at(x), x[number], target)
+        moves.append(np.abs(after - x[number]).max())
+        x[number] = after
+    assert moves[0] > 0.05
+    assert max(moves[2:]) < 1e-12
+    if not held:
+        assert meeting.at(x).gap.min() > -1e-12
