@@ -7,8 +7,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.bodies.loads import Gravity, Load, Traction, traction_force
-from softway.bodies.mass import following, nodal_mass, redistributed
+from softway.bodies.mass import following, nodal_mass
 from softway.bodies.part import Part, held_components, initial, part_of
+from softway.bodies.redistribution import redistributed
 from softway.bodies.section import wave_speed
 from softway.bodies.solid import Driven, Solid
 from softway.contact.candidates import Candidates
@@ -165,7 +166,8 @@ def build(scene: Scene) -> Model:
     met = pairing(scene.contacts, scene.bodies, parts)
     light = met.nodes if isinstance(timing, Energy) else np.zeros(0, int)
     own = [light[(light >= p.rows.start) & (light < p.rows.stop)] - p.rows.start for p in parts]
-    masses = [_mass(p, solids[p.name], nodes) for p, nodes in zip(parts, own, strict=True)]
+    spread = timing.spread if isinstance(timing, Energy) else 1
+    masses = [_mass(p, solids[p.name], nodes, spread) for p, nodes in zip(parts, own, strict=True)]
     follow = [_following(p, nodes) for p, nodes in zip(parts, own, strict=True)]
     mass = sp.csr_array(sp.block_diag(masses, format="csr"))
     fields = [initial(p, solids[p.name]) for p in parts]
@@ -233,11 +235,11 @@ def _floor(part: Part) -> float:
     return float(1e-28 * part.density * speed**2 * part.internal.volume.sum())
 
 
-def _mass(part: Part, solid: Solid, candidates: IntArray) -> sp.csr_array:
+def _mass(part: Part, solid: Solid, candidates: IntArray, spread: int) -> sp.csr_array:
     section = part.internal.section
     with within(f"bodies.{part.name}"):
         if len(candidates):
-            return redistributed(part.mesh, solid.density, section, solid.mass, candidates)
+            return redistributed(part.mesh, solid.density, section, solid.mass, candidates, spread)
         return nodal_mass(part.mesh, solid.density, section, solid.mass)
 
 

@@ -142,8 +142,11 @@ def departure(march: runs.Record, gap: float) -> float:
 
 @cache
 def stopped(cells: int, until: float) -> runs.Record:
-    """The bar of A06 with its stop."""
-    return runs.struck(cells, sw.Energy(), gap=0.2, velocity=runs.HAT, until=until)
+    """The bar of A06 with its stop.
+
+    The tip starts as the peak of a hat and rests without force at the stop: its inertia is kept as near as can be.
+    """
+    return runs.struck(cells, sw.Energy(spread=1), gap=0.2, velocity=runs.HAT, until=until)
 
 
 def norm(march: runs.Record, error: Array) -> float:

@@ -11,10 +11,10 @@ A facet cannot see this touch: no node is near the place.
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 
 from softway.contact.search import near, sweep
 from softway.contact.side import Edges
+from softway.contact.slave_pairs import filled, firsts
 from softway.contact.stencils import Stencils
 from softway.kernels.closest import dot
 from softway.typing import Array, BoolArray, IntArray
@@ -127,7 +127,7 @@ class EdgeMeeting:
         inside = (np.minimum(found.s, found.t) >= -END) & (np.maximum(found.s, found.t) <= 1.0 + END)
         live = np.flatnonzero(found.valid & inside)
         live = live[np.lexsort((np.abs(found.gap[live]), self.row[live]))]
-        return live[np.flatnonzero(np.diff(self.row[live], prepend=-1))]
+        return live[firsts(self.row[live])]
 
     def take(self, which: IntArray) -> "EdgeMeeting":
         """Some of the pairs."""
@@ -136,12 +136,7 @@ class EdgeMeeting:
 
 def edge_stencils(pairs: EdgeMeeting, found: Crossings, live: IntArray, nodes: int) -> Stencils:
     """The rows of the pairs ``live`` (l,), in the order of their rows; ``nodes`` is n."""
-    rows, s, t, count = pairs.row[live], found.s[live], found.t[live], pairs.count
+    s, t = found.s[live], found.t[live]
     data = np.stack([1.0 - s, s, t - 1.0, -t], axis=1)
     columns = np.concatenate([pairs.one.ends[live], pairs.two.ends[live]], axis=1)
-    filled = np.zeros(count + 1, dtype=np.int64)
-    filled[rows + 1] = 4
-    weights = sp.csr_array((data.ravel(), columns.ravel(), np.cumsum(filled)), shape=(count, nodes))
-    gap, normal = np.full(count, np.inf), np.zeros((count, 3))
-    gap[rows], normal[rows] = found.gap[live], found.normal[live]
-    return Stencils(gap=gap, normal=normal, weights=weights)
+    return filled(pairs.row[live], pairs.count, found.gap[live], found.normal[live], data, columns, nodes)

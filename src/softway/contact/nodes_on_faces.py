@@ -5,10 +5,12 @@ from functools import reduce
 
 import numpy as np
 
-from softway.contact.meeting import BEHIND, SAME, SMOOTH, Meeting
+from softway.contact.choice import SAME
+from softway.contact.meeting import Meeting
 from softway.contact.search import near, sweep
 from softway.contact.side import Side
-from softway.contact.slave_pairs import Pairs, View, firsts, view
+from softway.contact.sight import BEHIND, Sight, dip, sight
+from softway.contact.slave_pairs import Pairs, firsts
 from softway.kernels.closest import dot
 from softway.space.cells import CELLS
 from softway.typing import Array, BoolArray, IntArray
@@ -73,17 +75,19 @@ class NodesOnFaces:
             Distance by which the motion may differ from the expected one [m], greater than zero.
         """
         curved = max(CELLS[kind].order for kind in self.side.facets) > 1
-        facets = sweep(x0, x1, self.side.table, SWELLING if curved else 0.0)
+        swelling = SWELLING if curved else 0.0
+        facets = sweep(x0, x1, self.side.table, swelling)
         slave, facet = near(sweep(x0, x1, self.slaves[:, None]), facets, reach)
         own = (self.side.table.T[:, facet] == self.slaves[slave]).any(axis=0)
         slave, facet = slave[~own], facet[~own]
         pairs = Pairs(side=self.side, slave=slave, node=self.slaves[slave], facet=facet)
-        size = 2.0 * np.linalg.norm(facets.half, axis=1)[facet] if self.side.dim > 1 else np.full(len(facet), reach)
-        seen = view(pairs, x0, size)
+        widths = np.linalg.norm(facets.half, axis=1) / (0.5 + swelling)
+        size = widths[facet] if self.side.dim > 1 else np.full(len(facet), reach)
+        seen = sight(pairs, x0, size)
         apart = [(x1 - x0)[nodes] - (x1 - x0)[pairs.node] for nodes in pairs.masters.T]
         travel = np.sqrt(reduce(np.maximum, [dot(way, way) for way in apart]))
         close = seen.distance <= (LEBESGUE if curved else 1.0) * travel + reach
-        keep = close & _in_front(pairs, seen, size, len(self.slaves))
+        keep = close & _in_front(seen)
         return Meeting(
             pairs=pairs.take(keep),
             count=len(self.slaves),
@@ -94,19 +98,18 @@ class NodesOnFaces:
         )
 
 
-def _in_front(pairs: Pairs, seen: View, size: Array, count: int) -> BoolArray:
+def _in_front(seen: Sight) -> BoolArray:
     """Facets (p,) that look towards their slave, out of those that it may reach.
 
-    A slave that touches a convex piece of surface is behind the facets next to the one that it touches: as seen from
-    their edge it dips below them by no more than the angle between the two normals, and so much is allowed.  The
-    nearest facets count even when the slave begins behind them, unless it does so deep: it has to come out there.
+    A slave that touches a convex piece of surface is behind the facets next to the one that it touches; as far as the
+    surface may dip they count.  The nearest facets count even when the slave begins behind them, unless it does so
+    deep: it has to come out there.
     """
-    tied = seen.distance <= pairs.least(seen.distance) + SAME * size
+    slave, size = seen.pairs.slave, seen.size
+    tied = seen.distance <= seen.pairs.least(seen.distance) + SAME * size
     square = np.where(tied, np.abs(seen.height), -1.0)
-    order = np.lexsort((-square, pairs.slave))
-    nearest = order[firsts(pairs.slave[order])]
-    normal = np.zeros((count, seen.feet.normal.shape[1]))
-    normal[pairs.slave[nearest]] = seen.feet.normal[nearest]
-    cosine = dot(seen.feet.normal, normal[pairs.slave])
-    dip = np.where(cosine >= SMOOTH, np.sqrt(np.maximum(1.0 - cosine**2, 0.0)), 0.0)
-    return np.asarray(seen.height >= -np.where(tied, INSIDE * size, dip * seen.distance + BEHIND * size))
+    order = np.lexsort((-square, slave))
+    nearest = order[firsts(slave[order])]
+    normal = np.repeat(seen.feet.normal[nearest], np.diff(firsts(slave), append=len(slave)), axis=0)
+    slope = dip(dot(seen.feet.normal, normal))
+    return np.asarray(seen.height >= -np.where(tied, INSIDE * size, slope * seen.distance + BEHIND * size))

@@ -1,4 +1,4 @@
-"""Slaves and the facets that they may touch, pair by pair: where the foot lies, and the rows of the condition."""
+"""Slaves and the facets that they may touch, pair by pair, and the rows that some of the pairs make."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -9,12 +9,7 @@ import scipy.sparse as sp
 from softway.contact.facets import Feet, nearest
 from softway.contact.side import Side
 from softway.contact.stencils import Stencils
-from softway.kernels.closest import dot
 from softway.typing import Array, BoolArray, IntArray
-
-EDGE = 1e-6
-"""Share of the size of a facet by which a foot may lie beyond its edge and still counts as inner."""
-
 
 See = Callable[[str, Array, Array, Array], Feet]
 
@@ -82,37 +77,34 @@ class Pairs:
         return out
 
     def stencils(self, rows: IntArray, count: int, feet: Feet, gap: Array, normal: Array, nodes: int) -> Stencils:
-        """The pairs as some ``rows`` (p,) in rising order out of ``count``; the others are out of reach."""
+        """The pairs as some ``rows`` (p,) in rising order out of ``count``, on n ``nodes``."""
         columns = np.concatenate([self.node[:, None], self.masters], axis=1)
         data = np.concatenate([np.ones((len(rows), 1)), -feet.shapes], axis=1)
-        stored = data != 0.0
-        filled = np.zeros(count + 1, dtype=np.int64)
-        filled[rows + 1] = np.count_nonzero(stored, axis=1)
-        weights = sp.csr_array((data[stored], columns[stored], np.cumsum(filled)), shape=(count, nodes))
-        gaps, normals = np.full(count, np.inf), np.zeros((count, normal.shape[1]))
-        gaps[rows], normals[rows] = gap, normal
-        return Stencils(gap=gaps, normal=normals, weights=weights)
+        return filled(rows, count, gap, normal, data, columns, nodes)
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class View:
-    """Slaves relative to the facets of their pairs: feet, height (p,) above the tangent plane, distance (p,) and unit
-    direction (p, d) beyond the edge, and which of the feet are inner (p,).
+def filled(
+    rows: IntArray, count: int, gap: Array, normal: Array, data: Array, columns: IntArray, nodes: int
+) -> Stencils:
+    """Stencils of ``count`` rows, of which ``rows`` (p,), rising, are given; the others are out of reach.
+
+    Parameters
+    ----------
+    gap, normal
+        (p,) and (p, d).
+    data, columns
+        (p, k) weights and their nodes; weights of zero are left out.
+
+    Examples
+    --------
+    >>> data, columns = np.array([[1.0, -1.0]]), np.array([[0, 2]])
+    >>> found = filled(np.array([1]), 2, np.array([0.5]), np.array([[1.0]]), data, columns, 3)
+    >>> found.gap.tolist(), found.weights.toarray().tolist()
+    ([inf, 0.5], [[0.0, 0.0, 0.0], [1.0, 0.0, -1.0]])
     """
-
-    feet: Feet
-    height: Array
-    distance: Array
-    beyond: Array
-    inner: BoolArray
-
-
-def view(pairs: Pairs, x: Array, size: Array) -> View:
-    """The view of pairs at positions x (n, d), with facets of some size (p,) [m]."""
-    feet = pairs.feet(x)
-    height = dot(feet.normal, feet.offset)
-    beyond = feet.offset - height[:, None] * feet.normal
-    sideways = np.sqrt(dot(beyond, beyond))
-    inner = sideways <= EDGE * size
-    beyond /= np.where(inner, 1.0, sideways)[:, None]
-    return View(feet=feet, height=height, distance=np.hypot(height, sideways), beyond=beyond, inner=inner)
+    stored, starts = data != 0.0, np.zeros(count + 1, dtype=np.int64)
+    starts[rows + 1] = np.count_nonzero(stored, axis=1)
+    weights = sp.csr_array((data[stored], columns[stored], np.cumsum(starts)), shape=(count, nodes))
+    gaps, normals = np.full(count, np.inf), np.zeros((count, normal.shape[1]))
+    gaps[rows], normals[rows] = gap, normal
+    return Stencils(gap=gaps, normal=normals, weights=weights)

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Literal
 
+from softway.errors import InputError
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Paper:
@@ -53,6 +55,9 @@ class Energy:
     located
         ``False``: one scalar a slab closes the balance, at any deformation.  ``True``: the instants of touch and
         release divide the slab exactly and no scalar is needed; small strain only (LinearElastic).
+    spread
+        Cells over which the inertia of the contact nodes is spread, at most half the depth of the body: more make the
+        force start more smoothly, fewer keep the inertia nearer to its place (docs/theory/overshoot.md).
 
     Examples
     --------
@@ -61,6 +66,11 @@ class Energy:
     """
 
     located: bool = False
+    spread: int = 5
+
+    def __post_init__(self) -> None:
+        if self.spread < 1:
+            raise InputError("spread", f"{self.spread} cells", "1 or more")
 
 
 Timing = Paper | Impulse | Energy

@@ -3,6 +3,8 @@
 from math import floor, log10
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from softway.errors import InputError
 from softway.typing import Array
 
@@ -48,14 +50,15 @@ def canvas(width: float, height: float) -> "Figure":
 
 
 def scaled(values: Array | float, unit: str) -> tuple[float, str]:
-    """Factor and unit with prefix that make the greatest of ``values`` legible.
+    """Factor and unit with prefix that make the greatest of the finite ``values`` legible.
 
     Examples
     --------
     >>> scaled(3.2e8, "Pa")
     (1e-06, 'MPa')
     """
-    greatest = float(abs(values)) if isinstance(values, float | int) else float(abs(values).max(initial=0.0))
+    sizes = np.abs(np.atleast_1d(values))
+    greatest = float(sizes[np.isfinite(sizes)].max(initial=0.0))
     power = 3 * floor(log10(greatest) / 3 + 1e-9) if greatest > 0.0 else 0
     power = min(max(power, -12), 0 if unit == "s" else 12)
     if unit == "m" and power == 0 and greatest < 10.0 or unit in ("m", "s") and greatest == 0.0:

@@ -5,7 +5,8 @@ import logging
 import numpy as np
 import pytest
 
-from softway.bodies.mass import Consistent, Lumped, nodal_mass, redistributed
+from softway.bodies.mass import Consistent, Lumped, nodal_mass
+from softway.bodies.redistribution import redistributed
 from softway.bodies.section import Axisymmetric, Bar, PlaneStrain, PlaneStress, Section, Volume
 from softway.errors import InputError
 from softway.space.mesh import Mesh
@@ -106,11 +107,30 @@ def test_round_bodies_lose_all_inertia_on_their_surface(cell: str, rule) -> None
 def test_bar_with_one_massless_end() -> None:
     """Six nodes, lumped: the end's half mass moves one edge inwards, the density grows linearly towards that end."""
     mesh = interval(1.0, 5)
-    mass = redistributed(mesh, 1.0, Bar(), Lumped(), np.array([5])).diagonal()
+    mass = redistributed(mesh, 1.0, Bar(), Lumped(), np.array([5]), cells=1).diagonal()
     assert mass[5] == 0.0
     steps = np.diff(mass[1:4])
     assert steps[0] == pytest.approx(steps[1], rel=1e-12)
     assert mass @ mesh.points[:, 0] == pytest.approx(0.5, rel=1e-14)
+
+
+@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("cells", [1, 3, 5])
+def test_moments_of_inertia_are_kept(cells: int, rule) -> None:  # type: ignore[no-untyped-def]
+    """Unit square, all sides massless: 1/12 about each axis through the centre, no product."""
+    mesh = rectangle((1.0, 1.0), (20, 20))
+    mass = redistributed(mesh, 1.0, PlaneStrain(), rule, mesh.nodes("surface"), cells)
+    x = mesh.points - 0.5
+    assert x.T @ (mass @ x) == pytest.approx(np.eye(2) / 12.0, abs=1e-13)
+
+
+def test_a_bar_spreads_the_inertia_of_its_end_over_five_cells() -> None:
+    """Two thirds of a cell's mass, a fifth to each of the next five nodes, before the density is adjusted."""
+    mesh = interval(1.0, 100)
+    mass = redistributed(mesh, 100.0, Bar(), Consistent(), np.array([100]))
+    more = np.asarray(mass.sum(axis=1)).ravel()[:100] - 1.0
+    assert more[95:99] == pytest.approx(2.0 / 15.0, rel=0.15)
+    assert more[5:94].max() < 0.02
 
 
 def test_candidates_without_other_nodes_in_their_cells_reach_further() -> None:
