@@ -53,11 +53,12 @@ def run(
     given = checked.scenario
     model = checked.model
     start = begin(model)
-    initial = parted(model, start)
+    initial, met = parted(model, start), model.encounters
     opening = Opening(
         scene=model.scene,
         meshes=model.meshes,
         stresses={name: partial(model.stress, name) for name in model.meshes},
+        touching={label: met.node[met.of(k)] for k, label in enumerate(met.labels)},
         initial=initial,
         ledger=audit(model, start),
         until=given.time.end,

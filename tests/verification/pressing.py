@@ -11,7 +11,6 @@ import softway as sw
 from exact_waves import Array
 from softway.bodies.loads import traction_force
 from softway.bodies.section import Section
-from softway.solve.equilibrium import equilibrium
 from softway.space.sources import GradedDisc
 from softway.typing import BoolArray
 
@@ -65,37 +64,38 @@ def footprint(mesh: sw.Mesh, section: Section, force: Array) -> Footprint:
     return Footprint(place=mesh.points[nodes, 0][order], force=force[order], area=unit[order])
 
 
-def loaded_quarter(load: float, mesh: GradedDisc) -> Footprint:
+def loaded(load: float, mesh: GradedDisc) -> Footprint:
     """A quarter of a cylinder under a uniform traction on the diameter, which makes the load ``load`` of the half.
 
-    The lowest node rests on the plane from the start and is supported there; the support has its share of the force.
+    Nothing but the contact holds it.
     """
-    supports = (sw.Fixed(on="axis", components="x"), sw.Fixed(on="bottom", components="y"))
-    body = sw.Solid(mesh=mesh, material=ELASTIC, density=1.0, supports=supports)
-    plane = sw.Tool(shape=sw.HalfSpace(point=(0.0, -1.0), normal=(0.0, 1.0)))
-    scene = sw.Scene(
-        bodies={"body": body, "plane": plane},
-        contacts=(sw.Contact(between=("body.boundary", "plane"), name="plane"),),
-        loads=(sw.Traction(on="body.diameter", value=(0.0, -0.5 * load)),),
-        start=sw.StaticStart(),
-    )
-    made = mesh.build()
-    step = next(iter(sw.march(scene, until=1e-3, step=1e-3)))
-    nodes, lowest = made.nodes("boundary"), made.nodes("bottom")
-    force = step.before.pressure["plane"] + np.where(nodes == lowest, step.reactions["body"][lowest, 1], 0.0)
-    return footprint(made, sw.PlaneStrain(), force)
+    traction = sw.Traction(on="body.diameter", value=(0.0, -0.5 * load))
+    return _resting(mesh, sw.PlaneStrain(), (sw.Fixed(on="axis", components="x"),), -1.0, (traction,))
 
 
 def approached(approach: float, mesh: GradedDisc, section: Section) -> Footprint:
     """A quarter (of a cylinder, or the section of a hemisphere) whose diameter comes nearer by ``approach``.
 
-    The diameter stays and the plane stands so much higher, at the start inside the body: only the equilibrium with
-    contact is wanted here.
+    The diameter stays and the plane stands so much higher, at the start inside the body, which is pressed out.
     """
     supports = (sw.Fixed(on="axis", components="x"), sw.Fixed(on="diameter", components="y"))
+    return _resting(mesh, section, supports, approach - 1.0)
+
+
+def _resting(
+    recipe: GradedDisc,
+    section: Section,
+    supports: tuple[sw.Fixed, ...],
+    height: float,
+    loads: tuple[sw.Traction, ...] = (),
+) -> Footprint:
+    """Static equilibrium on a plane; a slab is marched from it, in which nothing may move."""
+    mesh = recipe.build()
     body = sw.Solid(mesh=mesh, material=ELASTIC, density=1.0, section=section, supports=supports)
-    plane = sw.Tool(shape=sw.HalfSpace(point=(0.0, approach - 1.0), normal=(0.0, 1.0)))
-    contacts = (sw.Contact(between=("body.boundary", "plane"), name="plane"),)
-    model = sw.build(sw.Scene(bodies={"body": body, "plane": plane}, contacts=contacts))
-    force = equilibrium(model, model.displacement, model.free, model.load)[1]
-    return footprint(mesh.build(), section, force)
+    plane = sw.Tool(shape=sw.HalfSpace(point=(0.0, height), normal=(0.0, 1.0)))
+    contact = sw.Contact(between=("body.boundary", "plane"), name="plane", start="fit")
+    bodies = {"body": body, "plane": plane}
+    scene = sw.Scene(bodies=bodies, contacts=(contact,), loads=loads, start=sw.StaticStart())
+    step = next(iter(sw.march(scene, until=1e-3, step=1e-3)))
+    assert np.abs(step.after.velocity["body"]).max() < 1e-10
+    return footprint(mesh, section, step.before.pressure["plane"])

@@ -5,7 +5,7 @@ import pytest
 
 import softway as sw
 from exact_contact import LineContact, contact_modulus
-from pressing import POISSON, YOUNGS, Footprint, approached, loaded_quarter
+from pressing import POISSON, YOUNGS, Footprint, approached, loaded
 from softway.space.sources import GradedDisc
 
 LOAD = 0.01
@@ -17,9 +17,7 @@ def pressed(across: int, cell: str = "quad4", load: float = LOAD) -> Footprint:
     """A mesh with ``across`` elements in the half width of the contact."""
     width = LineContact(load=load, radius=1.0, modulus=MODULUS).half_width
     cells = round(1.3 * across)
-    return loaded_quarter(
-        load, GradedDisc(radius=1.0, focus=cells / across * width, cells=cells, part="quarter", cell=cell)
-    )
+    return loaded(load, GradedDisc(radius=1.0, focus=cells / across * width, cells=cells, part="quarter", cell=cell))
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +37,8 @@ def test_the_peak_and_the_half_width(contact):
 
 
 def test_the_forces_bear_the_load(contact):
-    assert 2.0 * contact.force.sum() == pytest.approx(LOAD, rel=1e-12)
+    """The case allows 1e-8."""
+    assert 2.0 * contact.force.sum() == pytest.approx(LOAD, rel=1e-10)
 
 
 def test_the_pressure_is_that_of_hertz_at_every_node(contact):
@@ -65,7 +64,7 @@ def test_quadratic_cells():
     """Five of them across b; forces of middles and corners make one smooth pressure."""
     contact = pressed(5, "quad9")
     peak, width = contact.fitted
-    assert 2.0 * contact.force.sum() == pytest.approx(LOAD, rel=1e-12)
+    assert 2.0 * contact.force.sum() == pytest.approx(LOAD, rel=1e-10)
     assert peak == pytest.approx(HERTZ.peak, rel=0.01)
     assert width == pytest.approx(HERTZ.half_width, rel=0.03)
 

@@ -53,7 +53,7 @@ class Driven:
 
     on: str
     components: str = "all"
-    velocity: tuple[MetrePerSecond, ...] | MetrePerSecond = 0.0
+    velocity: tuple[MetrePerSecond, ...] | MetrePerSecond
     times: tuple[Second, ...] = ()
 
     def __post_init__(self) -> None:

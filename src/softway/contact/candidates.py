@@ -10,7 +10,7 @@ from softway.typing import Array, BoolArray, IntArray
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Candidates:
-    """Rows of the contact conditions ``gap >= 0``; row r of G is ``normal_r . sum_j weights[r, j] u_j``.
+    """Rows of the contact conditions ``gap >= 0``, ``gap = offset + G u``.
 
     Parameters
     ----------
@@ -20,8 +20,8 @@ class Candidates:
         (m,) number of the contact that the row belongs to.
     normal
         (m, d) unit normal of the opponent, into free space.
-    weights
-        (m, n) one on the slave node, minus the weights of the nodes of a deformable opponent.
+    gradient
+        (m, n d) rows G on the components ``j d + i`` of a nodal field.
     offset
         (m,) gap at zero displacement [m]; infinite for rows with no opponent in reach.
     drive
@@ -33,7 +33,7 @@ class Candidates:
     node: IntArray
     contact: IntArray
     normal: Array
-    weights: sp.csr_array
+    gradient: sp.csr_array
     offset: Array
     drive: Array
     labels: tuple[str, ...]
@@ -49,30 +49,19 @@ class Candidates:
 
     def along(self, field: Array) -> Array:
         """Normal component (m,) of a nodal field (n, d), relative to the opponent's."""
-        return np.einsum("mi,mi->m", self.normal, self.weights @ field)
+        return np.asarray(self.gradient @ field.ravel())
 
     def spread(self, values: Array, shape: tuple[int, int]) -> Array:
         """Nodal field (n, d) ``G^T values`` of row values (m,)."""
-        assert shape[0] == self.weights.shape[1]
-        return np.asarray(self.weights.T @ (values[:, None] * self.normal))
+        return np.asarray(self.gradient.T @ values).reshape(shape)
 
     def matrix(self, free: BoolArray) -> sp.csr_array:
         """Rows G (m, f) on the free components of a field."""
-        d = self.normal.shape[1]
-        w = self.weights.tocoo()
-        row, node = w.coords
-        number = np.where(free.ravel(), np.cumsum(free.ravel()) - 1, -1)
-        columns = number[node[:, None] * d + np.arange(d)]
-        values = w.data[:, None] * self.normal[row]
-        keep = columns >= 0
-        rows = np.broadcast_to(row[:, None], columns.shape)
-        shape = (len(self.node), int(free.sum()))
-        return sp.csr_array((values[keep], (rows[keep], columns[keep])), shape=shape)
+        return sp.csr_array(self.gradient[:, np.flatnonzero(free.ravel())])
 
     def reachable(self, free: BoolArray) -> BoolArray:
         """Rows (m,) with an opponent that the free components (n, d) can move."""
-        moved = self.weights.power(2) @ free.astype(float)
-        return np.asarray(self.near & (np.einsum("mi,mi->m", self.normal**2, moved) > 1e-12))
+        return np.asarray(self.near & (self.gradient.power(2) @ free.ravel().astype(float) > 1e-12))
 
     def motion(self, values: Array, which: BoolArray, free: BoolArray) -> Array:
         """Least nodal field (n, d) on the free components of the slave nodes whose normal components are ``values``

@@ -11,8 +11,9 @@ import numpy as np
 
 from softway.typing import Array
 
-DUAL, MEAN = 0.1, 1e-3
-"""Covered shares from which on the basis is dual, and up to which it is the shape functions; mixed between them."""
+DUAL, MEAN = 0.999, 0.5
+"""Covered shares from which on the basis is dual, and up to which it is the shape functions; mixed between them: a dual
+function that is covered in part extrapolates, and would feel overlap where curved surfaces part."""
 STIFF = 1e-6
 """Penalty, relative to the mass, of what a partly covered four-node facet cannot see: that it is warped."""
 

@@ -175,7 +175,7 @@ class Pairs:
         found = [m.at(x) for m in meetings]
         d = x.shape[1]
         normal = np.concatenate([np.zeros((0, d)), *(s.normal for s in found)])
-        weights = sp.vstack([sp.csr_array((0, len(x))), *(s.weights for s in found)], format="csr")
+        gradient = sp.vstack([sp.csr_array((0, x.size)), *(s.gradient() for s in found)], format="csr")
         gap = np.concatenate([np.zeros(0), *(s.gap for s in found)])
         drive = [
             m.drive(x, s.normal) if isinstance(m, ToolMeeting) else np.zeros(len(s.gap))
@@ -185,8 +185,8 @@ class Pairs:
             node=node,
             contact=contact,
             normal=normal,
-            weights=sp.csr_array(weights),
-            offset=gap - np.einsum("mi,mi->m", normal, weights @ u),
+            gradient=sp.csr_array(gradient),
+            offset=gap - gradient @ u.ravel(),
             drive=np.concatenate([np.zeros(0), *drive]),
             labels=self.encounters.labels,
         )

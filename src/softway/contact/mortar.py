@@ -13,7 +13,7 @@ import scipy.sparse as sp
 from softway.contact import mortar_plane, mortar_space
 from softway.contact.common import Common
 from softway.contact.facing import Facing, facing, unit, vector_areas
-from softway.contact.stencils import Stencils
+from softway.contact.stencils import Stencils, interleaved
 from softway.contact.straight import Straight, straight
 from softway.contact.weighting import weighting
 from softway.typing import Array, BoolArray, IntArray
@@ -107,7 +107,9 @@ class Meeting:
         Where nothing is in reach the normal is that of the surface, or zero where no facet may touch in the slab.
         """
         points = self.control @ x
-        slave = _corners(self.slave.spread @ points, self.slave.corner)
+        to_slave = self.slave.spread @ self.control
+        slave_nodes = self.slave.spread @ points
+        slave = _corners(slave_nodes, self.slave.corner)
         master = _corners(self.lift @ x, self.master.corner)
         areas = vector_areas(slave)
         normal = -unit(self.share @ areas.T, axis=1)
@@ -119,10 +121,16 @@ class Meeting:
         total, covered = cross.sum(axis=1), functions.own.sum(axis=1)
         met = (total > 0.0) & (covered > 0.0)
         weights = _over(functions.own @ self.control, covered, met) - _over(cross @ self.lift, total, met)
-        seen = functions.means(i, common.cross, _seen(slave, areas, master, i, j))
-        normal = np.where(met[:, None], unit(seen, axis=1), normal)
-        gap = np.where(met, np.einsum("mi,mi->m", normal, weights @ x), np.inf)
-        return Stencils(gap=gap, normal=normal, weights=weights)
+        facing = _seen(areas, master, i, j)
+        normal = np.where(met[:, None], unit(functions.means(i, common.cross, facing), axis=1), normal)
+        parts = (
+            functions.integrals(i, common.own * n, self.slave.corner.T[:, i], len(slave_nodes)) @ to_slave
+            - functions.integrals(i, common.cross * n, self.master.corner.T[:, j], self.lift.shape[0]) @ self.lift
+            for n in facing
+        )
+        slopes = interleaved([_over(sp.csr_array(p), total, met) for p in parts])
+        gap = np.where(met, slopes @ x.ravel(), np.inf)
+        return Stencils(gap=gap, normal=normal, weights=weights, slopes=slopes)
 
     def _common(self, slave: Array, areas: Array, master: Array, normal: Array) -> Common:
         """What the pairs have in common within their limits.
@@ -142,12 +150,14 @@ class Meeting:
         return common.take((measure > 0.0) & (np.abs(height) <= self.pairs.limit[common.pair] * measure))
 
 
-def _seen(slave: Array, areas: Array, master: Array, i: IntArray, j: IntArray) -> Array:
+def _seen(areas: Array, master: Array, i: IntArray, j: IntArray) -> Array:
     """Slopes (d, s) of the distance of the slave simplices i (s,) to the master simplices j (s,), measured squarely to
     the slave, when the slave shifts: the master's normal over its cosine.
+
+    ``areas`` (d, p) are vector areas of the slave, ``master`` (d, k, q) corners.
     """
     square = -np.take(unit(areas), i, axis=1)
-    normal = unit(np.take(vector_areas(master), j, axis=1))
+    normal = np.take(unit(vector_areas(master)), j, axis=1)
     return np.asarray(normal / np.maximum(np.sum(square * normal, axis=0), STEEP))
 
 

@@ -1,7 +1,9 @@
 """The rows of a contact as stencils: a gap, a direction, and the weights of the nodes that it depends on."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
 import scipy.sparse as sp
 
 from softway.typing import Array
@@ -11,6 +13,8 @@ from softway.typing import Array
 class Stencils:
     """Gaps at one configuration with their derivatives ``d gap_r = normal_r . sum_j weights[r, j] dx_j``.
 
+    Where a row feels its nodes in different directions, ``slopes`` hold the derivatives, and normal and weights are means.
+
     Parameters
     ----------
     gap
@@ -19,8 +23,47 @@ class Stencils:
         (m, d) unit normals, out of the opponent into free space.
     weights
         (m, n) one on the slave node, minus the weights of the nodes of a deformable opponent.
+    slopes
+        (m, n d) derivatives to the components ``j d + i`` of the positions; None: those of normal and weights.
     """
 
     gap: Array
     normal: Array
     weights: sp.csr_array
+    slopes: sp.csr_array | None = None
+
+    def gradient(self) -> sp.csr_array:
+        """Derivatives (m, n d) of the gaps to the components ``j d + i`` of the positions."""
+        return along(self.weights, self.normal) if self.slopes is None else self.slopes
+
+
+def along(weights: sp.csr_array, normal: Array) -> sp.csr_array:
+    """Rows (m, n d) with the weights (m, n) times their normals (m, d).
+
+    Examples
+    --------
+    >>> along(sp.csr_array(np.array([[1.0, -1.0]])), np.array([[0.0, 2.0]])).toarray().tolist()
+    [[0.0, 2.0, 0.0, -2.0]]
+    """
+    m, n = weights.shape
+    d = normal.shape[1]
+    row = np.repeat(np.arange(m), np.diff(weights.indptr))
+    data = (weights.data[:, None] * normal[row]).ravel()
+    column = (weights.indices[:, None].astype(np.int64) * d + np.arange(d)).ravel()
+    return sp.csr_array((data, column, weights.indptr * d), shape=(m, n * d))
+
+
+def interleaved(parts: Sequence[sp.csr_array]) -> sp.csr_array:
+    """Rows (m, n d) from those (m, n) of each of the d components.
+
+    Examples
+    --------
+    >>> interleaved([sp.csr_array(np.array([[1.0, 2.0]])), sp.csr_array(np.array([[3.0, 4.0]]))]).toarray().tolist()
+    [[1.0, 3.0, 2.0, 4.0]]
+    """
+    m, n = parts[0].shape
+    d = len(parts)
+    coo = [p.tocoo() for p in parts]
+    row = np.concatenate([c.coords[0] for c in coo])
+    column = np.concatenate([c.coords[1].astype(np.int64) * d + k for k, c in enumerate(coo)])
+    return sp.csr_array((np.concatenate([c.data for c in coo]), (row, column)), shape=(m, n * d))

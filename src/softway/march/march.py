@@ -19,6 +19,7 @@ from softway.march.situation import Situation, joined, parted
 from softway.march.step import Certificate, Ledger, Report, Step
 from softway.model import Model, build
 from softway.scene import Scene, State
+from softway.solve.balance import BOUND, SLIGHT
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.frozen import Carry
 from softway.solve.newton import Newton
@@ -28,8 +29,9 @@ from softway.time.weight import EndPeaks, TimeWeight
 from softway.units import Second
 
 log = logging.getLogger("softway")
-PATIENCE = 3
-"""Halvings after which an energy balance that the scalar cannot close is closed along the motion."""
+PATIENCE = 1
+"""Halvings after which an energy balance that the scalar cannot close is closed along the motion, for as long as it
+takes."""
 STRAINED = 0.2
 """Fraction of the length asked for below which a great scalar asks for no shorter slab."""
 
@@ -125,15 +127,15 @@ def _steps(
 ) -> Iterator[Step]:
     model = rules.model
     initial = ledger = opening(model, now)
-    carry, current, before = Carry(), span, parted(model, now)
+    carry, current, before, closed = Carry(), span, parted(model, now), False
     while now.time < until - 1e-9 * span:
         length = min(current, until - now.time)
         length = until - now.time if until - now.time - length < control.least * span else length
-        found = _accepted(rules, now, (initial, ledger), length, span, until, weight, carry, control)
+        found = _accepted(rules, now, (initial, ledger), length, span, until, weight, carry, control, closed)
         step = _step(model, now, before, found)
         yield step
         current = _next(model, control, span, now, found)
-        now, before, ledger, carry = found.after, step.after, found.ledger, found.carry
+        now, before, ledger, carry, closed = found.after, step.after, found.ledger, found.carry, found.closed
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -147,12 +149,14 @@ class _Accepted:
     ledger: Ledger
     certificate: Certificate
     rejections: tuple[str, ...]
+    closed: bool
 
 
 def _next(model: Model, control: StepControl, span: float, before: Situation, found: _Accepted) -> float:
     """Length of the next slab."""
     length = found.slab.span
-    strained = not found.out.events and np.abs(found.out.solution.end.scalar).max() > control.scalar
+    end = found.out.solution.end
+    strained = ((np.abs(end.scalar) > control.scalar) & (end.share > SLIGHT)).any() and not found.out.events
     if strained and length > STRAINED * span:
         log.info("next slab after t = %.6g s halved: the scalar of the energy balance is great", found.after.time)
         return 0.5 * length
@@ -171,14 +175,15 @@ def _accepted(
     weight: TimeWeight,
     carry: Carry,
     control: StepControl,
+    closed: bool,
 ) -> _Accepted:
     """Advance by the length, or by half of it as often as it takes; a rejected slab leaves no trace but its reason.
 
     A slab that fails on an old operator is first tried again on a new one; an energy balance that the scalar cannot
-    close at an eighth of the length is closed along the motion.
+    close at half the length either is ``closed`` along the motion, and in the slabs after it.
     """
     reasons: list[str] = []
-    unbalanced = 0
+    unbalanced = PATIENCE if closed else 0
     fresh = carry.frozen is None
     while length > control.least * span:
         end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
@@ -198,6 +203,7 @@ def _accepted(
                 ledger=ledger,
                 certificate=certificate,
                 rejections=tuple(reasons),
+                closed=unbalanced >= PATIENCE and bool((np.abs(out.solution.end.scalar) >= BOUND).any()),
             )
         except (TooFast, Unbalanced) as failure:
             length = 0.5 * length

@@ -54,7 +54,7 @@ class Frames:
 
 def open_fields(folder: Path, opening: Opening) -> Frames:
     """Start ``fields.vtkhdf`` with the cells and the frame of the initial situation."""
-    cells = layout(opening.meshes, opening.scene)
+    cells = layout(opening.meshes, opening.touching)
     file = h5py.File(folder / FILE, "w", locking=False)
     _write_cells(file, cells, opening.scene)
     _append(file, cells.reference, _frame(cells, opening, opening.initial), opening.initial.time)

@@ -5,8 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softway.contact.contact import Contact
-from softway.scene import Scene
 from softway.space.mesh import Mesh
 from softway.typing import Array, IntArray
 
@@ -42,7 +40,7 @@ class Layout:
     connectivity, offsets, types, body
         Cells as VTK wants them: (k,), (e + 1,), (e,), and (e,) number of the solid.
     touching
-        Contact -> (c,) points of its candidate nodes.
+        Contact -> (m,) slave point of each of its rows.
     dimension
         d.
     """
@@ -65,15 +63,15 @@ class Layout:
         return out
 
     def forces(self, pressure: Mapping[str, Array]) -> Array:
-        """Normal contact force (n,) on the points from that on the candidates [N]."""
+        """Normal contact force (n,) on the slave points from that of the rows [N]."""
         out = np.zeros(len(self.reference))
         for name, points in self.touching.items():
             np.add.at(out, points, pressure[name])
         return out
 
 
-def layout(meshes: Mapping[str, Mesh], scene: Scene) -> Layout:
-    """The layout of the solids of a scene."""
+def layout(meshes: Mapping[str, Mesh], touching: Mapping[str, IntArray]) -> Layout:
+    """The layout of solids, and the points that may touch in each contact."""
     counts = [mesh.n_nodes for mesh in meshes.values()]
     ends = np.cumsum([0, *counts])
     rows = {name: slice(int(a), int(b)) for name, a, b in zip(meshes, ends[:-1], ends[1:], strict=True)}
@@ -95,13 +93,9 @@ def layout(meshes: Mapping[str, Mesh], scene: Scene) -> Layout:
         offsets=np.concatenate([[0], np.cumsum(sizes)]),
         types=np.concatenate([np.full(len(nodes), VTK[kind]) for _, _, kind, nodes in cells]),
         body=np.concatenate([np.full(len(nodes), body) for _, body, _, nodes in cells]),
-        touching={c.label: _points(c, meshes, rows) for c in scene.contacts},
+        touching=touching,
         dimension=dimension,
     )
-
-
-def _points(contact: Contact, meshes: Mapping[str, Mesh], rows: Mapping[str, slice]) -> IntArray:
-    return meshes[contact.body].nodes(contact.tag) + rows[contact.body].start
 
 
 def components(stress: Array) -> Array:

@@ -9,7 +9,7 @@ from softway.march.step import Ledger, Step
 from softway.record.probes import Reading
 from softway.scene import Scene, State
 from softway.space.mesh import Mesh
-from softway.typing import Array
+from softway.typing import Array, IntArray
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -24,6 +24,8 @@ class Opening:
         Mesh of each solid.
     stresses
         Solid -> function from displacements (n, d) [m] to the mean Cauchy stress of its cells (e, 3, 3) [Pa].
+    touching
+        Contact -> (m,) slave node of each of its rows, numbered over all solids in order.
     initial, ledger
         Situation and audit at the start.
     until
@@ -37,6 +39,7 @@ class Opening:
     scene: Scene
     meshes: Mapping[str, Mesh]
     stresses: Mapping[str, Callable[[Array], Array]]
+    touching: Mapping[str, IntArray]
     initial: State
     ledger: Ledger
     until: float

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softway.record.frames import Cells, Frame
+from softway.record.frames import Cells
 from softway.space.mesh import Mesh
 from softway.typing import Array, IntArray
 
@@ -116,10 +116,15 @@ def rigid(reference: Array, points: Array) -> Array:
     return np.asarray((reference - middle) @ (u @ sign @ vt) + centre)
 
 
-def exaggeration(reference: Array, frame: Frame) -> float:
-    """Factor 1, 2 or 5 times a power of ten that makes the deformation visible; 1 when it is large by itself."""
-    size = float(np.linalg.norm(np.ptp(reference, axis=0)))
-    depth = float(np.linalg.norm(frame.points - rigid(reference, frame.points), axis=1).max())
+def exaggeration(size: float, depth: float) -> float:
+    """Factor 1, 2 or 5 times a power of ten that makes a deformation by ``depth`` visible on a body of a ``size`` [m];
+    1 when it is large by itself.
+
+    Examples
+    --------
+    >>> exaggeration(1.0, 1e-4), exaggeration(1.0, 0.1)
+    (500.0, 1.0)
+    """
     if depth <= 1e-14 * size or 0.05 * size / depth < 2.0:
         return 1.0
     wanted = 0.05 * size / depth

@@ -13,11 +13,13 @@ import numpy as np
 from softway.bodies.motion import Placed
 from softway.record.frames import Cells, Frame
 from softway.record.run import Run
-from softway.record.surface import at_nodes, exaggeration, mesh_of, patches, rigid
-from softway.record.view_scene import Camera, camera, edges, ground, plane, ruler, strokes
+from softway.record.summary import contacts_of
+from softway.record.surface import at_nodes, mesh_of, patches
+from softway.record.view_place import Placing, placing
+from softway.record.view_scene import Camera, camera, edges, ground, ruler, strokes
 from softway.record.view_style import canvas, library, scaled
 from softway.space.mesh import Mesh
-from softway.typing import Array, IntArray
+from softway.typing import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,15 +34,13 @@ LAMP = np.array([-0.35, 0.75, 0.6])
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Shown:
-    """What is drawn: positions (n, 3) with the deformation enlarged, the rigid shape (n, 3), nodal stress (n,)."""
+    """What is drawn; nodal stress (n,)."""
 
     frame: Frame
     cells: Cells
     tools: Mapping[str, Placed]
-    points: Array
-    shape: Array
+    place: Placing
     stress: Array
-    factor: float
 
 
 def bodies(run: Run) -> "Figure":
@@ -50,8 +50,8 @@ def bodies(run: Run) -> "Figure":
     colour, stress_unit = scaled(top, "Pa")
     figure = canvas(WIDTH, 6.0)
     axis = figure.subplots()
-    view = camera(shown.cells, shown.points, shown.tools)
-    ground(axis, shown.cells, shown.points, shown.tools, view)
+    view = camera(shown.cells, shown.place.points, shown.tools)
+    ground(axis, shown.cells, shown.place.points, shown.tools, view)
     norm = library().colors.Normalize(0.0, colour * top or 1.0)
     mapped = library().cm.ScalarMappable(norm, MAP)
     _paint(axis, shown, view, mapped, colour)
@@ -72,13 +72,15 @@ def bodies(run: Run) -> "Figure":
 def _words(figure: "Figure", run: Run, shown: Shown) -> None:
     """Title above, and below it what is shown."""
     second, unit = scaled(shown.frame.time, "s")
-    enlarged = "to scale" if shown.factor == 1.0 else f"enlarged {shown.factor:g} times"
+    enlarged = "to scale" if shown.place.factor == 1.0 else f"enlarged {shown.place.factor:g} times"
     missing = f" Not drawn: {', '.join(shown.cells.lost)}." if shown.cells.lost else ""
     title = run.provenance.get("title", "") or "Deformed body"
     figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold")
+    when = "at the greatest strain energy" + (" in contact" if shown.frame.contact_force.any() else "")
+    dashed = "; dashed: undeformed shape" if shown.place.shaped.any() else ""
     figure.supxlabel(
-        f"t = {second * shown.frame.time:.4g} {unit}, at the greatest strain energy. Deformation {enlarged}; "
-        f"dashed: undeformed shape.\nStress: mean of the cells at a node, at most {_stress(shown)}.{missing}",
+        f"t = {second * shown.frame.time:.4g} {unit}, {when}. Deformation {enlarged}{dashed}.\n"
+        f"Stress: mean of the cells at a node, at most {_stress(shown)}.{missing}",
         x=0.01,
         ha="left",
         fontsize=8.5,
@@ -97,38 +99,21 @@ def _stress(shown: Shown) -> str:
 
 
 def _shown(run: Run) -> Shown:
-    """The frame nearest to the greatest strain energy, placed so that it touches the obstacles as it really does."""
-    history, fields, cells = run.history, run.fields, run.fields.cells
-    peak = history["time"][int(np.argmax(history["energy_strain"]))]
-    frame = fields[int(np.argmin(np.abs(fields.times - peak)))]
-    factor, tools = exaggeration(cells.reference, frame), cells.obstacles(frame.time)
-    shape, points = frame.points.copy(), frame.points.copy()
-    for number in range(len(cells.bodies)):
-        mine = _nodes_of(cells, number)
-        shape[mine] = rigid(cells.reference[mine], frame.points[mine])
-        points[mine] = shape[mine] + factor * (frame.points[mine] - shape[mine])
-        points[mine] += _back(tools, frame.points[mine], points[mine])
-        shape[mine] += _back(tools, frame.points[mine], shape[mine])
-    stress = at_nodes(cells, frame.von_mises)
-    return Shown(frame=frame, cells=cells, tools=tools, points=points, shape=shape, stress=stress, factor=factor)
+    """The frame of greatest strain energy in contact, placed so that the bodies touch what they really touch."""
+    fields, cells = run.fields, run.fields.cells
+    frame = fields[_strained(run)]
+    tools, stress = cells.obstacles(frame.time), at_nodes(cells, frame.von_mises)
+    return Shown(frame=frame, cells=cells, tools=tools, place=placing(cells, frame, tools), stress=stress)
 
 
-def _nodes_of(cells: Cells, body: int) -> IntArray:
-    mine = np.repeat(cells.body == body, np.diff(cells.offsets))
-    return np.unique(cells.connectivity[mine])
-
-
-def _back(tools: Mapping[str, Placed], real: Array, drawn: Array) -> Array:
-    """Shift (3,) that gives the drawn body the real least gap to each flat obstacle near it."""
-    shift = np.zeros(3)
-    for tool in tools.values():
-        flat = plane(tool)
-        if flat is None:
-            continue
-        point, normal = flat
-        if ((real - point) @ normal).min() < 0.5 * np.linalg.norm(np.ptp(real, axis=0)):
-            shift += ((real @ normal).min() - (drawn @ normal).min()) * normal
-    return shift
+def _strained(run: Run) -> int:
+    """Number of the frame with the greatest strain energy, out of those in contact if there are any."""
+    history = run.history
+    row = np.searchsorted(history["time"], run.fields.times * (1.0 - 1e-12))
+    forces = [history[f"contact.{c}.force_n"][row] for c in contacts_of(history)]
+    touching = np.sum(forces, axis=0) > 0.0
+    strain = history["energy_strain"][row]
+    return int(np.argmax(np.where(touching, strain, -1.0) if touching.any() else strain))
 
 
 def _paint(axis: "Axes", shown: Shown, view: Camera, mapped: object, colour: float) -> None:
@@ -136,7 +121,7 @@ def _paint(axis: "Axes", shown: Shown, view: Camera, mapped: object, colour: flo
     mesh = mesh_of(shown.cells)
     corners, values = [], []
     for patch in patches(mesh):
-        corners.append(view.seen(patch.spread(shown.points)))
+        corners.append(view.seen(patch.spread(shown.place.points)))
         values.append(patch.spread(shown.stress).mean(axis=1))
     triangles, stress = np.concatenate(corners), np.concatenate(values)
     rgb = mapped.to_rgba(colour * stress)[:, :3]  # type: ignore[attr-defined]
@@ -171,8 +156,10 @@ def _outlines(shown: Shown, mesh: Mesh, view: Camera) -> tuple[Array, Array]:
     """Edges of the deformed body, dashes of the undeformed one: triangles without width, a hair nearer the eye."""
     size = float(np.linalg.norm(np.ptp(shown.cells.reference, axis=0)))
     found = []
-    for points, every in ((shown.points, 1), (shown.shape, 2)):
-        dash = strokes(points, edges(mesh, points, view), size / 90.0)[:, ::every].reshape(-1, 2, 3)
+    for points, every in ((shown.place.points, 1), (shown.place.shape, 2)):
+        lines = edges(mesh, points, view)
+        lines = lines if every == 1 else lines[shown.place.shaped[lines[:, 0]]]
+        dash = strokes(points, lines, size / 90.0)[:, ::every].reshape(-1, 2, 3)
         flat = view.seen(dash)[:, [0, 1, 1]]
         found.append(flat + np.array([0.0, 0.0, 0.006 * size * every]))
     return found[0], found[1]

@@ -1,9 +1,12 @@
-"""The history of a run as curves: energies, their balance, contact forces and gaps."""
+"""The history of a run as curves: energies, their balance, contact forces and gaps, probes."""
 
+from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from softway.record.history import CERTIFICATE, COLUMNS
 from softway.record.run import Run
 from softway.record.summary import contacts_of
 from softway.record.table import Table
@@ -15,34 +18,51 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+WORDS = {"m": "position, displacement", "m/s": "velocity", "N": "reaction"}
+"""What probes with a unit record."""
+
+
 def history(run: Run) -> "Figure":
-    """Energies, error of the energy balance, contact force and least gap over time."""
+    """Energies, error of the energy balance, contact force, least gap, and probes over time."""
     table, title = run.history, run.provenance.get("title", "")
-    contacts = contacts_of(table)
-    figure = canvas(9.0, 6.4 if contacts else 3.4)
-    axes = figure.subplots(2 if contacts else 1, 2, sharex=True, squeeze=False)
     factor, unit = scaled(table["time"], "s")
-    time = factor * table["time"]
-    _energies(axes[0, 0], time, table)
-    _balance(axes[0, 1], time, table)
-    if contacts:
-        _forces(axes[1, 0], time, table, contacts)
-        _gaps(axes[1, 1], time, table, contacts)
-    for axis in axes[-1]:
+    time, panels = factor * table["time"], _panels(table)
+    rows = -(-len(panels) // 2)
+    figure = canvas(9.0, 3.1 * rows + 0.2)
+    axes = figure.subplots(rows, 2, sharex=True, squeeze=False).ravel()
+    for draw, axis in zip(panels, axes, strict=False):
+        draw(axis, time, table)
+    for axis in axes[len(panels) :]:
+        axis.remove()
+    for axis in axes[max(len(panels) - 2, 0) : len(panels)]:
+        axis.tick_params(labelbottom=True)
         axis.set_xlabel(f"time [{unit}]")
     if title:
         figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold")
     return figure
 
 
+def _panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
+    """What is drawn, panel after panel; probes of the same unit share one."""
+    contacts = contacts_of(table)
+    panels: list[Callable[[Axes, Array, Table], None]] = [_energies, _balance]
+    if contacts:
+        panels += [partial(_forces, contacts=contacts), partial(_gaps, contacts=contacts)]
+    known = {name for name, _ in (*COLUMNS, *CERTIFICATE)}
+    probes = [n for n in table if n not in known and not n.startswith("contact.")]
+    units = dict.fromkeys(table.units[n] for n in probes)
+    return panels + [partial(_probes, names=[n for n in probes if table.units[n] == unit]) for unit in units]
+
+
 def _energies(axis: "Axes", time: Array, table: Table) -> None:
     kinetic, strain = table["energy_kinetic"], table["energy_strain"]
     total = kinetic + strain
     factor, unit = scaled(total, "J")
-    curves = [("kinetic", kinetic, BLUE, "-"), ("strain", strain, RED, "-"), ("kinetic + strain", total, BLACK, "--")]
-    for name, color, label in (("work_external", GREEN, "work of loads"), ("dissipation", ORANGE, "dissipated")):
+    curves = [("kinetic", kinetic, BLUE, "-"), ("strain", strain, RED, "-")]
+    for name, color, label in (("work_external", GREEN, "external work"), ("dissipation", ORANGE, "dissipated")):
         if np.abs(table[name]).max() > 1e-3 * np.abs(total).max():
             curves.append((label, table[name], color, "-"))
+    curves.append(("kinetic + strain", total, BLACK, "--"))
     for label, values, color, style in curves:
         axis.plot(time, factor * values, style, color=color, label=label)
     axis.set(title="Energy", ylabel=f"energy [{unit}]")
@@ -70,10 +90,19 @@ def _forces(axis: "Axes", time: Array, table: Table, contacts: tuple[str, ...]) 
 
 def _gaps(axis: "Axes", time: Array, table: Table, contacts: tuple[str, ...]) -> None:
     factor, unit = scaled(np.concatenate([table[f"contact.{c}.min_gap"] for c in contacts]), "m")
+    axis.axhline(0.0, color=BLACK, lw=0.8)
     for contact, color in zip(contacts, _cycle(len(contacts)), strict=True):
         axis.plot(time, factor * table[f"contact.{contact}.min_gap"], color=color, label=contact)
-    axis.axhline(0.0, color=BLACK, lw=0.8)
     axis.set(title="Least gap", ylabel=f"gap [{unit}]")
+
+
+def _probes(axis: "Axes", time: Array, table: Table, names: list[str]) -> None:
+    factor, unit = scaled(np.concatenate([table[n] for n in names]), table.units[names[0]])
+    for name, color in zip(names, _cycle(len(names)), strict=True):
+        axis.plot(time, factor * table[name], color=color, label=name)
+    word = WORDS[table.units[names[0]]]
+    axis.set(title=f"Probes: {word}", ylabel=f"{word} [{unit}]")
+    axis.legend(loc="best")
 
 
 def _cycle(count: int) -> list[str]:

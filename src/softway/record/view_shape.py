@@ -16,12 +16,17 @@ if TYPE_CHECKING:
 GREY, LINE = 0.90, "#666666"
 PIXELS = 560
 STEPS = 160
+MARGIN = 0.3
+"""How far obstacles in the plane are drawn around the bodies, as a share of the diagonal."""
 LAMP = np.array([-0.35, 0.75, 0.6]) / np.linalg.norm([-0.35, 0.75, 0.6])
 
 
 def draw(axis: "Axes", tool: Placed, points: Array, axes: Array) -> None:
     """Draw the part of the obstacle near the body (n, 3) as seen along the third row of ``axes`` (3, 3)."""
     seen = points @ axes.T
+    if tool.dim < 3:
+        _filled(axis, tool, seen[:, :2])
+        return
     middle, reach = 0.5 * (seen.min(axis=0) + seen.max(axis=0)), 0.75 * float(np.linalg.norm(np.ptp(seen, axis=0)))
     facets = _facets(tool)
     if facets is not None:
@@ -30,18 +35,26 @@ def draw(axis: "Axes", tool: Placed, points: Array, axes: Array) -> None:
     x = middle[0] + reach * np.linspace(-1.0, 1.0, PIXELS)
     y = middle[1] + reach * np.linspace(-1.0, 1.0, PIXELS)
     plane = np.stack(np.meshgrid(x, y), axis=-1)
-    if tool.dim < 3:
-        gap = tool.gap(plane[..., : tool.dim])
-        if gap.min() < 0.0:
-            axis.contourf(x, y, gap, levels=[gap.min() - 1.0, 0.0], colors=[str(GREY)], zorder=0)
-            axis.contour(x, y, gap, levels=[0.0], colors=[LINE], linewidths=1.2, zorder=1)
-        return
     image = _traced(tool, plane, axes, middle[2] + 4.0 * reach, 8.0 * reach)
     rows, columns = np.flatnonzero(image[..., 3].any(axis=1)), np.flatnonzero(image[..., 3].any(axis=0))
     if len(rows) > 1 and len(columns) > 1:
         part = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
         extent = (x[columns[0]], x[columns[-1]], y[rows[0]], y[rows[-1]])
         axis.imshow(image[part], extent=extent, origin="lower", interpolation="bilinear", zorder=0)
+
+
+def _filled(axis: "Axes", tool: Placed, points: Array) -> None:
+    """Fill what an obstacle in the plane covers around the points (n, 2)."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    margin = MARGIN * float(np.linalg.norm(high - low))
+    x, y = (np.linspace(a - margin, b + margin, PIXELS) for a, b in zip(low, high, strict=True))
+    gap = tool.gap(np.stack(np.meshgrid(x, y), axis=-1))
+    rows, columns = np.flatnonzero((gap < 0.0).any(axis=1)), np.flatnonzero((gap < 0.0).any(axis=0))
+    if len(rows):
+        part = np.s_[max(rows[0] - 1, 0) : rows[-1] + 2, max(columns[0] - 1, 0) : columns[-1] + 2]
+        x, y, gap = x[part[1]], y[part[0]], gap[part]
+        axis.contourf(x, y, gap, levels=[gap.min() - 1.0, 0.0], colors=[str(GREY)], zorder=0)
+        axis.contour(x, y, gap, levels=[0.0], colors=[LINE], linewidths=1.2, zorder=1)
 
 
 def _facets(tool: Placed) -> Array | None:

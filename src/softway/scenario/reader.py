@@ -125,10 +125,12 @@ class Reader:
     def _kind(
         self, value: Mapping[str, Any], options: tuple[Any, ...], known: dict[str, type], where: str, unit: str | None
     ) -> Any:
-        """The alternative named by ``kind``."""
+        """The alternative named by ``kind``; without it the only one, or the only one with these keys."""
         name = value.get("kind")
-        if name is None and len(known) == 1 and not open_protocol(options):
-            return self._object(value, next(iter(known.values())), where, unit)
+        if name is None and not open_protocol(options):
+            likely = [c for c in known.values() if len(known) == 1 or _takes(c, value)]
+            if len(likely) == 1:
+                return self._object(value, likely[0], where, unit)
         if name is None:
             raise InputError(f"{where}.kind", "missing", f"one of: {', '.join(known)}")
         if isinstance(name, str) and ":" in name and open_protocol(options):
@@ -164,6 +166,12 @@ def join(where: str, key: str) -> str:
     if not where or not key:
         return where or key
     return f"{where}{key}" if key.startswith("[") else f"{where}.{key}"
+
+
+def _takes(cls: type, value: Mapping[str, Any]) -> bool:
+    """Whether a table has the keys of a class: all that it needs, and no other."""
+    known = inputs(cls)
+    return value.keys() <= known.keys() and all(k in value for k, f in known.items() if required(f))
 
 
 def _check_keys(value: Mapping[str, Any], cls: type, where: str, unit: str | None) -> None:

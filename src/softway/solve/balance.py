@@ -17,6 +17,8 @@ from softway.typing import Array, BoolArray, IntArray
 ROUNDING = 2e-15
 BOUND = 0.5
 """Greatest scalar: with |a| <= 1/2 the mean force stays between those at the two ends."""
+SLIGHT = 1e-2
+"""Share of the work of the internal forces that is closed along the motion where the scalar is at its bound."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -45,10 +47,13 @@ class Ends:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Closure:
-    """The completed mean force (n, d), the scalar of each part (parts,), and whether one left its bound."""
+    """The completed mean force (n, d); for each part (parts,) the scalar and the ``share`` of the work that was missing;
+    and whether a share that the scalar cannot close is too great.
+    """
 
     mean: Array
     scalar: Array
+    share: Array
     clipped: bool
 
 
@@ -66,14 +71,16 @@ def groups(model: Model, touching: BoolArray) -> IntArray:
 
 
 def closed(model: Model, ends: Ends, fallback: bool) -> Closure:
-    """Close the balances of every group; without ``fallback`` a scalar beyond its bound is cut off and reported."""
+    """Close the balances of every group.
+
+    Beyond the bound of the scalar a slight rest is closed along the motion; with ``fallback`` any rest.
+    """
     label = groups(model, (ends.force0 > 0.0) | (ends.force1 > 0.0))
-    du = ends.u1 - ends.u0
-    moving = du * model.massive[:, None]
-    change = ends.f1 - ends.f0
-    num, den, level = _energies(model, ends, du, moving)
+    moving = (ends.u1 - ends.u0) * model.massive[:, None]
+    num, den, level = _energies(model, ends, moving)
     num, den, level, floor = (np.asarray(np.bincount(label, weights=v), float) for v in (num, den, level, model.floor))
-    spins = [_spin(model, ends, label == g) for g in range(len(num))]
+    members = [label == g for g in range(len(num))]
+    spins = [_spin(model, ends, m) if _closes_spin(model, m) else None for m in members]
     for g, spin in enumerate(spins):
         if spin is not None:
             num[g] += spin.work(moving) @ spin.solve(spin.torque)
@@ -82,18 +89,22 @@ def closed(model: Model, ends: Ends, fallback: bool) -> Closure:
     with np.errstate(divide="ignore", invalid="ignore"):
         wanted = np.where(real & (den != 0.0), num / den, 0.0)
     a = np.clip(wanted, -BOUND, BOUND)
-    mean = ends.mean + model.nodal(a[label]) * change
+    mean = ends.mean + model.nodal(a[label]) * (ends.f1 - ends.f0)
     for g, spin in enumerate(spins):
         if spin is not None:
             mean += spin.force(-spin.solve(spin.torque + a[g] * spin.slope))
-    over = np.abs(wanted) > BOUND
-    if fallback and over.any():
-        mean += _along_motion(model, moving, label, np.where(over, num - a * den, 0.0))
-    return Closure(mean=mean, scalar=a[label], clipped=bool(over.any()) and not fallback)
+    work = np.bincount(label, weights=model.totals(np.abs(ends.mean * moving)))
+    share = np.where(real, np.abs(num) / np.maximum(work, 1e-300), 0.0)
+    rest = np.where(np.abs(wanted) > BOUND, num - a * den, 0.0)
+    for g in np.flatnonzero(rest).tolist():
+        mean += rest[g] * _along_motion(model, ends, moving, members[g])
+    great = np.abs(rest) > SLIGHT * work
+    return Closure(mean=mean, scalar=a[label], share=share[label], clipped=bool(great.any()) and not fallback)
 
 
-def _energies(model: Model, ends: Ends, du: Array, moving: Array) -> tuple[Array, Array, Array]:
+def _energies(model: Model, ends: Ends, moving: Array) -> tuple[Array, Array, Array]:
     """Missing work, its slope in a, and the rounding level (parts,)."""
+    du = ends.u1 - ends.u0
     work = model.totals(ends.mean * moving)
     still = model.totals(model.load * (du - moving))
     slave = model.part_of[ends.rows0.node]
@@ -124,19 +135,40 @@ def _held(model: Model, force: Array, rows: Candidates, push: Array) -> Array:
     return np.where(model.free | model.massive[:, None], 0.0, out)
 
 
-def _along_motion(model: Model, moving: Array, label: IntArray, missing: Array) -> Array:
-    """Forces (n, d) along the motion of each body relative to its centre of mass that do the ``missing`` work."""
+def _along_motion(model: Model, ends: Ends, moving: Array, members: BoolArray) -> Array:
+    """Forces (n, d) of unit work along the motion of each body of a group relative to its centre of mass.
+
+    They have no resultant; on bodies without supports no moment either.
+    """
     weight = np.asarray(model.mass.sum(axis=1)).reshape(-1, 1)
     out = np.zeros_like(moving)
-    for part in model.parts:
-        here = part.rows
-        mass = float(weight[here].sum())
-        out[here] = moving[here] - (weight[here] * moving[here]).sum(axis=0) / mass
+    for part in (p for p, here in zip(model.parts, members, strict=True) if here):
+        rows = part.rows
+        out[rows] = moving[rows] - (weight[rows] * moving[rows]).sum(axis=0) / weight[rows].sum()
     out = model.mass @ (out * model.free)
-    done = np.bincount(label, weights=model.totals(out * moving))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        share = np.where(done > 0.0, missing / done, 0.0)
-    return np.asarray(model.nodal(share[label]) * out)
+    if _unheld(model, members):
+        spin = _spin(model, ends, members)
+        out -= spin.force(spin.solve(moment(_middle(model, ends, members), out)))
+    done = float(np.sum(out * moving))
+    return np.asarray(out / done if done > 0.0 else np.zeros_like(out))
+
+
+def _unheld(model: Model, members: BoolArray) -> bool:
+    """Whether no body of a group has supports."""
+    return all(model.free[p.rows].all() for p, here in zip(model.parts, members, strict=True) if here)
+
+
+def _closes_spin(model: Model, members: BoolArray) -> bool:
+    """Whether the balance of spin of a group is closed."""
+    forces = [p.average for p, here in zip(model.parts, members, strict=True) if here]
+    return all(isinstance(f, EnergyMomentum) for f in forces) and _unheld(model, members)
+
+
+def _middle(model: Model, ends: Ends, members: BoolArray) -> Array:
+    """Positions (n, d) in the middle of the slab, from the mean of the nodes of a group."""
+    here = members[model.part_of]
+    x = model.points + 0.5 * (ends.u0 + ends.u1)
+    return np.asarray(x - x[here].mean(axis=0))
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -161,25 +193,18 @@ class _Spin:
         return np.einsum("k,kni->ni", b, self.fields)
 
 
-def _spin(model: Model, ends: Ends, members: BoolArray) -> _Spin | None:
-    """The rotations of the bodies of a group, None where the balance of spin is not closed."""
-    parts = [p for p, here in zip(model.parts, members, strict=True) if here]
-    if not all(isinstance(p.average, EnergyMomentum) and model.free[p.rows].all() for p in parts):
-        return None
-    here = np.zeros(model.shape[0], bool)
-    for part in parts:
-        here[part.rows] = True
-    x = model.points + 0.5 * (ends.u0 + ends.u1)
-    x = x - x[here].mean(axis=0)
+def _spin(model: Model, ends: Ends, members: BoolArray) -> _Spin:
+    """The rotations of the bodies of a group."""
+    here, x = members[model.part_of], _middle(model, ends, members)
     arm = np.zeros_like(x)
     weight = np.asarray(model.mass.sum(axis=1)).reshape(-1, 1)
-    for part in parts:
+    for part in (p for p, inside in zip(model.parts, members, strict=True) if inside):
         rows = part.rows
         arm[rows] = x[rows] - (weight[rows] * x[rows]).sum(axis=0) / weight[rows].sum()
     fields = np.array([model.mass @ f for f in _turned(arm)])
     inner = here & model.massive
-    rigid = ends.rows0.weights.sum(axis=1) > 0.5
-    tools = [rows.spread(np.where(rigid & np.isfinite(rows.offset), p, 0.0), model.shape) for _, rows, p in _both(ends)]
+    rigid = model.opponents[model.encounters.contact, 1] < 0
+    tools = [rows.spread(np.where(rigid & rows.near, p, 0.0), model.shape) for _, rows, p in _both(ends)]
     outer = (here & ~model.massive)[:, None] * (model.load + 0.5 * (tools[0] + tools[1]))
     torque = moment(x, np.where(inner[:, None], ends.mean, outer))
     change = np.where(inner[:, None], ends.f1 - ends.f0, (here & ~model.massive)[:, None] * (tools[1] - tools[0]))

@@ -43,7 +43,8 @@ class Start:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Evaluation:
-    """The equations at one q: residual, end values, mean force (n, d), the scalar a of each part, and the contact rows
+    """The equations at one q: residual, end values, mean force (n, d), the scalar a of each part and the
+    share of the work that it closes, and the contact rows
     at the end where they change.
     """
 
@@ -53,6 +54,7 @@ class Evaluation:
     energy: Array
     mean_force: Array
     scalar: Array
+    share: Array
     clipped: bool
     near: Candidates | None
 
@@ -114,7 +116,8 @@ class SlabSystem:
         if self.split is not None:
             mean = mean + self.split.difference(self.path, q, self._product_mean(q))
         near = None if self.pairs is None else self.pairs.at(u1)
-        closure = Closure(mean=mean, scalar=np.zeros(len(energy)), clipped=False)
+        none = np.zeros(len(energy))
+        closure = Closure(mean=mean, scalar=none, share=none, clipped=False)
         if self.balanced:
             closure = closed(model, self._ends(u1, force, energy, mean, near, impulse), self.fallback)
         inertia = model.mass @ (q - start.velocity - self.unbalanced)
@@ -128,6 +131,7 @@ class SlabSystem:
             energy=energy,
             mean_force=closure.mean,
             scalar=closure.scalar,
+            share=closure.share,
             clipped=closure.clipped,
             near=near,
         )
@@ -182,9 +186,11 @@ class SlabSystem:
         return self.searched.overlap(u1) <= DEPTH * float(np.abs(self.model.points + u1).max())
 
     def completed(self, u1: Array) -> "SlabSystem":
-        """The equations with the faces added that nodes overlap at the end position ``u1`` (n, d)."""
-        assert self.searched is not None
-        return replace(self, pairs=self.searched.held(u1, self.pairs))
+        """The equations with the faces added that nodes overlap at the end position ``u1`` (n, d), or chosen afresh."""
+        assert self.searched is not None and self.pairs is not None
+        more = self.searched.held(u1, self.pairs)
+        grown = more.at(u1).near.sum() > self.pairs.at(u1).near.sum()
+        return replace(self, pairs=more if grown else self.searched.held(u1))
 
     def directions(self) -> Basis:
         """The directions in which contact may push in any slab."""

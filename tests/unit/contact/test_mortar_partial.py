@@ -26,8 +26,8 @@ def at(x: np.ndarray, mortar: Mortar) -> Stencils:
 
 
 @pytest.mark.parametrize("kind", ["bar2", "bar3"])
-@pytest.mark.parametrize("edge", [0.15, 0.45, 0.8, 1.0])
-def test_the_rows_of_a_partly_covered_facet_stay_those_of_nodes(edge: float, kind: str) -> None:
+@pytest.mark.parametrize("edge", [0.9995, 1.0])
+def test_the_rows_of_a_hardly_uncovered_facet_stay_those_of_nodes(edge: float, kind: str) -> None:
     """The basis is dual on the covered part: diagonal on the slave, and linear fields are met there, too."""
     x, mortar = table_and_plate(edge, kind=kind)
     rows = at(x, mortar)

@@ -5,14 +5,17 @@ import sys
 import numpy as np
 import pytest
 
+from softway.bodies.solid import Tool
 from softway.errors import InputError
 from softway.record.conduct import Place, conduct
-from softway.record.frames import Frame
+from softway.record.frames import Cells, Frame
 from softway.record.surface import SHAPES, at_nodes, exaggeration, mesh_of, patches, rigid
 from softway.record.view import pictures
 from softway.record.view_body import _top
+from softway.record.view_place import placing
 from softway.record.view_scene import camera, edges, strokes
 from softway.record.view_style import scaled
+from softway.space.curved import Sphere
 
 PNG = b"\x89PNG"
 
@@ -102,16 +105,59 @@ def test_rigid_motion_is_taken_out():
     np.testing.assert_allclose(rigid(reference, moved), moved, atol=1e-14)
 
 
-@pytest.mark.parametrize(("strain", "factor"), [(0.2, 1.0), (1.1e-3, 50.0), (1e-5, 5000.0), (0.0, 1.0)])
+@pytest.mark.parametrize(("strain", "factor"), [(0.2, 1.0), (1.1e-3, 50.0), (1.1e-5, 5000.0), (0.0, 1.0)])
 def test_exaggeration_is_a_round_number(strain, factor):
     """A bar of length 1 stretched by e moves its ends by e/2 from the rigid shape; 0.05 of the size is aimed at."""
-    reference = np.array([[0.0, 0.0, 0.0], [0.5, 0.0, 0.0], [1.0, 0.0, 0.0]])
-    empty = np.zeros(0)
-    frame = Frame(
-        time=0.0, points=(1.0 + strain) * (reference + 0.1), displacement=empty, velocity=empty, contact_force=empty,
-        stress=empty, von_mises=empty,
+    assert exaggeration(1.0, 0.5 * strain) == factor
+
+
+def two_squares(gap: float, squeeze: float) -> tuple[Cells, Frame]:
+    """Two unit squares whose touching sides are pushed in, and the second moved by ``gap``; one node is the slave."""
+    square = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
+    reference = np.concatenate([square, square + [2.0, 0.0, 0.0]])
+    real = np.concatenate([square, square + [1.0 + gap, 0.0, 0.0]])
+    real[[1, 2], 0] -= squeeze
+    real[[4, 7], 0] -= squeeze
+    cells = Cells(
+        bodies=("a", "b"), tools={}, lost=(), dimension=2, reference=reference, connectivity=np.arange(8),
+        offsets=np.array([0, 4, 8]), types=np.array([9, 9]), body=np.array([0, 1]),
     )  # fmt: skip
-    assert exaggeration(reference, frame) == factor
+    empty, force = np.zeros(0), np.zeros(8)
+    force[[1, 2]] = float(gap == 0.0)
+    frame = Frame(
+        time=0.0, points=real, displacement=empty, velocity=empty, contact_force=force, stress=empty, von_mises=empty
+    )
+    return cells, frame
+
+
+def test_enlarged_bodies_touch_what_they_touch():
+    """The squares deform by the same at the common side; enlarged, their sides still coincide."""
+    cells, frame = two_squares(gap=0.0, squeeze=1e-3)
+    placed = placing(cells, frame, {})
+    assert placed.factor > 10.0 and placed.shaped.all()
+    assert np.allclose(placed.points[[1, 2]], placed.points[[4, 7]], atol=1e-12)
+    assert placed.points[1, 0] < frame.points[1, 0] - 1e-3
+
+
+def test_bodies_apart_are_enlarged_where_they_are():
+    cells, frame = two_squares(gap=0.5, squeeze=1e-3)
+    placed = placing(cells, frame, {})
+    assert placed.factor > 10.0 and np.abs(placed.shape - frame.points).max() <= 1e-3 + 1e-12
+    assert np.allclose(placed.points - placed.shape, placed.factor * (frame.points - placed.shape), atol=1e-12)
+
+
+def test_an_enlarged_body_keeps_its_gap_to_a_round_obstacle():
+    cells, frame = two_squares(gap=0.0, squeeze=1e-3)
+    ball = Tool(shape=Sphere(centre=(0.5, -3.0), radius=2.9)).at(0.0)
+    placed = placing(cells, frame, {"ball": ball})
+    real, drawn = (float(ball.gap(x[:4, :2]).min()) for x in (frame.points, placed.points))
+    assert placed.factor > 10.0 and abs(drawn - real) < 0.02
+
+
+def test_what_has_lost_its_shape_shows_none():
+    cells, frame = two_squares(gap=0.5, squeeze=0.9)
+    placed = placing(cells, frame, {})
+    assert placed.factor == 1.0 and not placed.shaped.any() and (placed.points == frame.points).all()
 
 
 @pytest.mark.parametrize(

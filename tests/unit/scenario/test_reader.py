@@ -2,6 +2,7 @@
 
 import pytest
 
+from softway.bodies.solid import Driven, Fixed
 from softway.errors import InputError
 from softway.scenario.codec import loads
 from softway.scenario.quantity import Units
@@ -48,7 +49,8 @@ MISTAKES = [
     ("time.end=-1 ms", "time.end", "-0.001 s", "2 ms"),
     ("time.step=0", "time.step", "0 s", "auto"),
     ("time.step=atuo", "time.step", "atuo", "'auto'"),
-    ("time.weight.theta=0.2", "time.weight.kind", "missing", "EndPeaks"),
+    ("time.weight.theta=0.2", "time.weight.theta", "0.2", "0.5"),
+    ("time.weight.delta=0.2", "time.weight.kind", "missing", "EndPeaks"),
     ("time.weight={kind='EndPeaks', theta=0.2}", "time.weight.theta", "0.2", "0.5"),
     ("output.fields_every=-1", "output.fields_every", "-1", "auto"),
     ("output.probes[0].quantity=speed", "output.probes[0].quantity", "speed", "velocity"),
@@ -71,3 +73,24 @@ def test_an_end_is_needed():
 
 def test_a_kind_may_be_left_out_where_there_is_only_one():
     assert loads(BAR, changes=["contacts[0].between=['bar.right', 'wall']"], units=UNITS).contacts[0].body == "bar"
+
+
+@pytest.mark.parametrize(
+    ("support", "expected"),
+    [
+        ("{on='left'}", Fixed(on="left")),
+        ("{on='left', velocity='2 m/s'}", Driven(on="left", velocity=2.0)),
+        (
+            "{on='left', velocity=[0, '2 m/s'], times=[0, '5 ms']}",
+            Driven(on="left", velocity=(0.0, 2.0), times=(0.0, 0.005)),
+        ),
+    ],
+)
+def test_a_kind_may_be_left_out_where_only_one_takes_the_keys(support, expected):
+    assert loads(BAR, changes=[f"bodies.bar.supports=[{support}]"], units=UNITS).bodies["bar"].supports == (expected,)
+
+
+def test_a_kind_is_needed_where_two_take_the_keys():
+    with pytest.raises(InputError) as found:
+        loads(BAR, changes=["bodies.bar.mesh={radius='1 m', cells=4}"], units=UNITS)
+    assert (found.value.where, found.value.problem) == ("bodies.bar.mesh.kind", "missing")
