@@ -12,6 +12,7 @@ import pytest
 import softway as sw
 from exact_contact import Patch
 from exact_waves import Array
+from softway.march.begin import begin
 
 YOUNGS, POISSON = 1e3, 0.3
 Method = sw.DualMortar | sw.NodeToSurface
@@ -80,14 +81,15 @@ def pressed(dim: Literal[2, 3], *, ratio: float = 1.0, pressure: float = 1.0, me
         start=sw.StaticStart(),
     )
     model = sw.build(scene)
-    state = next(iter(sw.march(model, until=1e-6, step=1e-6))).before
-    u = model.join(state.displacement)
-    push = model.rows(u).spread(state.pressure["middle"], model.shape)
+    first = begin(model)
+    u, force = first.start.displacement, first.pressure / pressure
+    push = model.rows(u).spread(force, model.shape)
+    own = model.split(u)
     return Pressed(
-        stress=np.concatenate([model.stress(n, state.displacement[n]) for n in meshes]) / pressure,
-        settlement=-state.displacement["upper"][meshes["upper"].nodes("high"), 1] / pressure,
-        force=float(state.pressure["middle"].sum()) / pressure,
-        sides=np.array([push[p.rows].sum(axis=0) for p in model.parts]) / pressure,
+        stress=np.concatenate([model.stress(n, own[n]) for n in meshes]) / pressure,
+        settlement=-own["upper"][meshes["upper"].nodes("high"), 1] / pressure,
+        force=float(force.sum()),
+        sides=np.array([push[p.rows].sum(axis=0) for p in model.parts]),
     )
 
 
@@ -107,13 +109,15 @@ def test_the_stress_is_uniform(dim):
     assert patch.settlement == pytest.approx(np.full(len(patch.settlement), exact.settlement), rel=1e-9)
 
 
-@pytest.mark.parametrize("method", [sw.DualMortar(), sw.NodeToSurface()], ids=lambda m: type(m).__name__)
+@pytest.mark.parametrize(
+    ("method", "tilted"), [(sw.DualMortar(), 1e-9), (sw.NodeToSurface(), 1e-5)], ids=["mortar", "nodes"]
+)
 @pytest.mark.parametrize("dim", [2, 3])
-def test_the_forces_on_both_sides_balance(dim, method):
-    """The case allows 1e-12."""
+def test_the_forces_on_both_sides_balance(dim, method, tilted):
+    """The case allows 1e-12; and they carry the load, along y but for the ripple that single nodes leave."""
     patch = pressed(dim, method=method)
     assert np.abs(patch.sides.sum(axis=0)).max() <= 1e-12
-    assert np.abs(patch.sides[1] - np.eye(dim)[1] * patch.force).max() <= 1e-6
+    assert patch.sides[1] == pytest.approx(patch.force * np.eye(dim)[1], abs=tilted)
     assert patch.force == pytest.approx(1.0, abs=1e-8)
 
 

@@ -96,10 +96,10 @@ def closed(model: Model, ends: Ends, fallback: bool) -> Closure:
     work = np.bincount(label, weights=model.totals(np.abs(ends.mean * moving)))
     share = np.where(real, np.abs(num) / np.maximum(work, 1e-300), 0.0)
     rest = np.where(np.abs(wanted) > BOUND, num - a * den, 0.0)
-    for g in np.flatnonzero(rest).tolist():
+    great = (np.abs(rest) > SLIGHT * work) & (not fallback)
+    for g in np.flatnonzero(np.where(great, 0.0, rest)).tolist():
         mean += rest[g] * _along_motion(model, ends, moving, members[g])
-    great = np.abs(rest) > SLIGHT * work
-    return Closure(mean=mean, scalar=a[label], share=share[label], clipped=bool(great.any()) and not fallback)
+    return Closure(mean=mean, scalar=a[label], share=share[label], clipped=bool(great.any()))
 
 
 def _energies(model: Model, ends: Ends, moving: Array) -> tuple[Array, Array, Array]:
@@ -182,7 +182,7 @@ class _Spin:
 
     def solve(self, torque: Array) -> Array:
         """The vector b (k,) that makes a torque."""
-        return np.asarray(np.linalg.lstsq(self.inertia, torque, rcond=1e-12)[0])
+        return np.asarray(np.linalg.lstsq(self.inertia, torque, rcond=1e-12)[0]) if len(torque) else torque
 
     def work(self, moving: Array) -> Array:
         """Work (k,) of the unit fields."""
@@ -210,7 +210,7 @@ def _spin(model: Model, ends: Ends, members: BoolArray) -> _Spin:
     change = np.where(inner[:, None], ends.f1 - ends.f0, (here & ~model.massive)[:, None] * (tools[1] - tools[0]))
     return _Spin(
         fields=fields,
-        inertia=np.array([moment(x, f) for f in fields]).T,
+        inertia=np.array([moment(x, f) for f in fields]).reshape(len(fields), -1).T,
         torque=torque,
         slope=moment(x, change),
     )

@@ -79,7 +79,8 @@ class FixedPoint:
             new = system.filled()
             new[keep] = solved
             change = float(np.abs(new - q).max(initial=0.0))
-            sound = system.sound(system.path.end(new)) if change < NEARLY * np.abs(new).max() else False
+            near = change <= NEARLY * np.abs(new).max(initial=0.0)
+            sound = near and system.sound(system.path.end(new))
             yield Iterate(
                 q=new,
                 change=change,
@@ -90,7 +91,7 @@ class FixedPoint:
                 system=system,
                 sound=sound,
             )
-            if change < NEARLY * np.abs(new).max() and not sound:
+            if near and not sound:
                 system = system.completed(system.path.end(new))
             stuck = stuck + 1 if change > 0.99 * last else 0
             if (now != active).any() or stuck >= 2:

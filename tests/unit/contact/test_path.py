@@ -17,7 +17,7 @@ GAUSS = np.polynomial.legendre.leggauss(4)
 
 @st.composite
 def motions(draw: st.DrawFn) -> tuple[Path, np.ndarray]:
-    """Four nodes with one row each: open, closed, touching, and closed or touching and then released; opponents move."""
+    """Four nodes with one row each: open, closed, touching, and closed or touching and then released."""
     rng = np.random.default_rng(draw(st.integers(0, 10**6)))
     touch, let_go, first = draw(st.floats(0.05, 0.5)), draw(st.floats(0.55, 0.95)), draw(st.booleans())
     normal = rng.normal(size=(NODES, DIM))

@@ -16,6 +16,7 @@ from softway.space.shapes import interval, rectangle
 
 NEO = NeoHookean(E=1.0, nu=0.3)
 ENERGY = Energy()
+FLOOR = Tool(shape=HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
 
 
 @pytest.fixture
@@ -39,14 +40,15 @@ def bar() -> Callable[..., Model]:
 
 @pytest.fixture
 def block() -> Callable[..., Model]:
-    """A square of side one, its bottom above the floor y = 0."""
+    """A square of side one, its bottom above the floor, by default y = 0."""
 
-    def make(cells: int = 3, timing: Timing = ENERGY, tag: str = "bottom", **changes) -> Model:
+    def make(
+        cells: int = 3, timing: Timing = ENERGY, tag: str = "bottom", floor: Tool = FLOOR, **changes
+    ) -> Model:  # fmt: skip
         solid = {
             "mesh": rectangle((1.0, 1.0), (cells, cells)), "material": NEO, "density": 1.0,
             "velocity": Uniform(value=(0.0, -0.1)), **changes,
         }  # fmt: skip
-        floor = Tool(shape=HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
         contact = Contact(between=(f"block.{tag}", "floor"), timing=timing)
         return build(Scene(bodies={"block": Solid(**solid), "floor": floor}, contacts=(contact,)))
 

@@ -2,11 +2,12 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from itertools import count
 
 import numpy as np
 import pytest
 
-from softway.bodies.solid import Fixed
+from softway.bodies.solid import Fixed, Tool
 from softway.contact.path import Path, passage
 from softway.contact.timing import Impulse
 from softway.errors import InputError, NoConvergence
@@ -18,8 +19,10 @@ from softway.solve.frozen import Carry
 from softway.solve.newton import Newton
 from softway.solve.normal import Rows
 from softway.solve.system import SlabSystem, Start
+from softway.space.curved import Sphere
 from softway.time.weight import EndPeaks
 
+BALL = Tool(shape=Sphere(centre=(0.4, -2.0), radius=2.0))
 METHODS = [FixedPoint(), FixedPoint(depth=0), FixedPoint(depth=2), Newton()]
 methods = pytest.mark.parametrize("method", METHODS, ids=["anderson", "plain", "short", "newton"])
 
@@ -31,15 +34,15 @@ def slab(model: Model, span: float = 0.2) -> SlabSystem:
     u[:, 1] += 0.03 * model.free[:, 1]
     v = (0.1 * rng.normal(size=model.shape) - [0.0, 0.5]) * model.free
     energy, force = model.energy_and_force(u)
+    pairs = None if model.encounters.fixed else model.encounters.rest(u, 0.0)
     rows = model.rows(u)
     none = np.zeros(len(rows.node), bool)
-    path = Path(
-        span=span, start=u, velocity=v, massive=model.massive, free=model.free, rows=rows, way=passage(none)
-    )
+    path = Path(span=span, start=u, velocity=v, massive=model.massive, free=model.free, rows=rows, way=passage(none))
     target = -2.0 * rows.gap(path.end(np.zeros(model.shape))) / span
     return SlabSystem(
         model=model, start=Start(displacement=u, velocity=v, force=force, energy=energy), weight=EndPeaks(),
         path=path, rows=Rows(target=target, equal=none, unilateral=~none), balanced=not model.massive.all(),
+        pairs=pairs, searched=pairs,
     )  # fmt: skip
 
 
@@ -50,12 +53,14 @@ def solve(system: SlabSystem, method: FixedPoint | Newton, start: np.ndarray | N
 
 
 @methods
-@pytest.mark.parametrize("timing", ["energy", "impulse"])
-def test_a_method_solves_the_slab(method: FixedPoint | Newton, timing: str, block: Callable[..., Model]) -> None:
-    model = block(supports=(Fixed(on="top"),), **({"timing": Impulse()} if timing == "impulse" else {}))
+@pytest.mark.parametrize("options", [{}, {"timing": Impulse()}, {"floor": BALL}], ids=["energy", "impulse", "ball"])
+def test_a_method_solves_the_slab(
+    method: FixedPoint | Newton, options: dict[str, object], block: Callable[..., Model]
+) -> None:
+    model = block(supports=(Fixed(on="top"),), **options)
     system = slab(model)
     solution = solve(system, method)
-    rows = system.path.rows
+    rows = model.rows(solution.end.displacement)
     pushed = rows.spread(solution.last.impulse, model.shape)
     left = (solution.end.residual - pushed)[model.free]
     np.testing.assert_allclose(left, 0.0, atol=1e-11 * np.abs(model.mass @ system.start.velocity).max())
@@ -65,6 +70,21 @@ def test_a_method_solves_the_slab(method: FixedPoint | Newton, timing: str, bloc
     assert solution.last.impulse.max() > 0.0
     assert np.abs(solution.last.impulse * gap).max() <= 1e-15
     assert not solution.last.q[~model.free].any()
+
+
+@methods
+@pytest.mark.parametrize("options", [{}, {"floor": BALL}], ids=["plane", "ball"])
+def test_a_slab_at_rest_is_solved_at_once(
+    method: FixedPoint | Newton, options: dict[str, object], block: Callable[..., Model]
+) -> None:
+    model = block(**options)
+    moving = slab(model)
+    zero = np.zeros(model.shape)
+    energy, force = model.energy_and_force(zero)
+    rest = Start(displacement=zero, velocity=zero, force=force, energy=energy)
+    solution = solve(replace(moving, start=rest, path=replace(moving.path, start=zero, velocity=zero)), method)
+    assert solution.iterations == 1
+    assert not solution.last.q.any()
 
 
 @methods
@@ -110,18 +130,23 @@ def test_an_iteration_at_the_rounding_level_is_accepted(block: Callable[..., Mod
     q = system.start.velocity
     scale = np.abs(q).max()
 
-    def stuck(change: float) -> Iterator[Iterate]:
+    def stuck(change: float, sound_from: int = 0) -> Iterator[Iterate]:
         none = np.zeros(len(system.rows.target))
-        while True:
-            yield Iterate(q=q, change=change * scale, impulse=none, active=none > 0, free=none, carry=Carry())
+        for k in count():
+            yield Iterate(
+                q=q, change=change * scale, impulse=none, active=none > 0, free=none, carry=Carry(), system=system,
+                sound=k >= sound_from,
+            )  # fmt: skip
 
     assert drive(system, stuck(5e-9), 1e-11, 60).iterations <= 10
+    assert drive(system, stuck(0.0), 1e-11, 60).iterations == 1
+    assert drive(system, stuck(0.0, sound_from=7), 1e-11, 60).iterations == 8, "surfaces overlap before"
     with pytest.raises(NoConvergence):
         drive(system, stuck(5e-8), 1e-11, 60)
 
 
-def test_a_lost_iterate_has_an_infinite_change() -> None:
-    it = lost(np.zeros((1, 1)), np.zeros(2, bool), Carry())
+def test_a_lost_iterate_has_an_infinite_change(block: Callable[..., Model]) -> None:
+    it = lost(np.zeros((1, 1)), np.zeros(2, bool), Carry(), slab(block()))
     assert it.change == np.inf
     assert it.impulse.tolist() == [0.0, 0.0]
 

@@ -9,13 +9,14 @@ import scipy.sparse as sp
 
 from softway.bodies.force import AverageField, DiscreteGradient, Weighted
 from softway.bodies.loads import Gravity
-from softway.bodies.solid import Fixed
+from softway.bodies.solid import Fixed, Tool
 from softway.contact.path import Passage, Path, passage
 from softway.contact.timing import Impulse
 from softway.laws.bulk import LinearElastic
 from softway.model import Model, dead_load
 from softway.solve.normal import Rows
 from softway.solve.system import Evaluation, SlabSystem, Start
+from softway.space.curved import Sphere
 from softway.time.weight import Collocation, EndPeaks, Momentum, TimeWeight, moments
 
 WEIGHTS = [
@@ -147,13 +148,35 @@ def test_a_kinked_path_is_averaged_exactly_under_the_constant_weight(block: Call
     np.testing.assert_allclose(evaluated(kinked, q).mean_force, expected, atol=1e-14)
 
 
+def test_the_conditions_of_turning_rows_are_their_gaps_linearised(block: Callable[..., Model]) -> None:
+    """``gap(u1(z))`` up to the square of z - q, with supports that move."""
+    model = block(floor=Tool(shape=Sphere(centre=(0.4, -2.0), radius=2.0)), supports=(Fixed(on="left"),))
+    plain = system(model, EndPeaks(), balanced=True)
+    start = plain.start.displacement
+    pairs = model.encounters.rest(start, 0.0)
+    s = replace(plain, pairs=pairs, searched=pairs)
+    drawn = np.where(model.free, 0.0, 0.2)
+    q = random_q(model) + drawn
+    end = evaluated(s, q)
+    basis = s.directions()
+    C, rows = s.conditions(q, end, basis)
+    np.testing.assert_allclose((C @ basis.directions.T).toarray(), end.near.matrix(model.free).toarray(), atol=1e-15)
+    assert rows.unilateral.sum() == len(rows.unilateral) - 1, "one node is held"
+    z = q + 1e-5 * random_q(model, 2)
+    u1 = s.path.end(z)
+    linear = 0.5 * s.path.span * (C @ (basis.directions.T @ z[model.free]) - rows.target)
+    np.testing.assert_allclose(linear[rows.unilateral], pairs.at(u1).gap(u1)[rows.unilateral], atol=1e-12)
+    np.testing.assert_array_equal(replace(s, given=drawn).filled(), drawn)
+
+
 def test_loads_and_known_impulses_enter_the_balance(block: Callable[..., Model]) -> None:
     model = block(timing=Impulse())
     s, q = system(model, EndPeaks()), random_q(model)
     kick, jump = np.random.default_rng(3).normal(size=(2, *model.shape))
     plain = evaluated(s, q).residual
     np.testing.assert_allclose(evaluated(replace(s, impulses=kick), q).residual, plain - kick, atol=1e-14)
-    np.testing.assert_allclose(evaluated(replace(s, unbalanced=jump), q).residual, plain - model.mass @ jump, atol=1e-14)
+    jumped = evaluated(replace(s, unbalanced=jump), q).residual
+    np.testing.assert_allclose(jumped, plain - model.mass @ jump, atol=1e-14)
     load = dead_load(model, (Gravity(acceleration=(0.0, -1.0)),), "loads")
     heavy = replace(s, model=replace(model, load=load))
     np.testing.assert_allclose(evaluated(heavy, q).residual, plain - 0.3 * load, atol=1e-14)
