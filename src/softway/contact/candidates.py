@@ -70,8 +70,7 @@ class Candidates:
         A node in several of the rows gets the least one that meets them all.
         """
         out = np.zeros(free.shape)
-        rows = np.flatnonzero(which & self.near)
-        rows = rows[((self.normal[rows] * free[self.node[rows]]) ** 2).sum(axis=1) > 1e-12]
+        rows = self._own(which, free)
         node, n = self.node[rows], self.normal[rows] * free[self.node[rows]]
         if len(np.unique(node)) == len(node):
             out[node] = (values[rows] / (n**2).sum(axis=1))[:, None] * n
@@ -87,7 +86,7 @@ class Candidates:
         Where one obstacle touches a node more than once, its contacts share the force evenly.
         """
         out = np.zeros(len(self.node))
-        rows = np.flatnonzero(which & self.reachable(free))
+        rows = self._own(which, free)
         node, n = self.node[rows], self.normal[rows] * free[self.node[rows]]
         pull = force[node] * free[node]
         out[rows] = np.einsum("mi,mi->m", n, pull) / (n**2).sum(axis=1)
@@ -95,6 +94,12 @@ class Candidates:
             here = node == i
             out[rows[here]] = np.linalg.lstsq(n[here].T, pull[here][0], rcond=1e-12)[0]
         return out
+
+    def _own(self, which: BoolArray, free: BoolArray) -> IntArray:
+        """Those of some rows (k,) that their slave node itself can move."""
+        rows = np.flatnonzero(which & self.near)
+        found: IntArray = rows[((self.normal[rows] * free[self.node[rows]]) ** 2).sum(axis=1) > 1e-12]
+        return found
 
     def of(self, contact: int) -> BoolArray:
         """Mask (m,) of the rows of one contact."""

@@ -56,6 +56,7 @@ def pairing(contacts: Sequence[Contact], bodies: Mapping[str, Solid | Tool], par
     watchers: list[Surfaces] = []
     watched: list[int] = []
     for k, contact in enumerate(contacts):
+        _check_shape(contact, bodies, points)
         with within(f"contacts[{k}]"):
             found, pair, touched, surfaces = _methods(contact, bodies, parts, points)
         methods += found
@@ -67,16 +68,12 @@ def pairing(contacts: Sequence[Contact], bodies: Mapping[str, Solid | Tool], par
         opponents.append(pair)
         nodes.append(touched)
         sizes += [s.edge for s in surfaces]
-    labels = tuple(c.label for c in contacts)
-    for k, label in enumerate(labels):
-        if label in labels[:k]:
-            raise InputError(f"contacts[{k}].name", f"'{label}' is the name of an earlier contact", "a name of its own")
     encounters = Encounters(
         methods=tuple(methods),
         contact=np.concatenate(number),
         points=points,
         reach=REACH * max(sizes),
-        labels=labels,
+        labels=_labels(contacts),
         watchers=tuple(watchers),
         watched=tuple(watched),
     )
@@ -85,6 +82,23 @@ def pairing(contacts: Sequence[Contact], bodies: Mapping[str, Solid | Tool], par
         opponents=np.array(opponents, int).reshape(-1, 2),
         nodes=np.unique(np.concatenate(nodes)),
     )
+
+
+def _check_shape(contact: Contact, bodies: Mapping[str, Solid | Tool], points: Array) -> None:
+    """Refuse a tool of another dimension than the solids."""
+    tool = bodies.get(contact.opponent)
+    if isinstance(tool, Tool):
+        with within(f"bodies.{contact.opponent}.shape"):
+            tool.shape.gap(points[:1])
+
+
+def _labels(contacts: Sequence[Contact]) -> tuple[str, ...]:
+    """The names of the contacts, each given once."""
+    labels = tuple(c.label for c in contacts)
+    for k, label in enumerate(labels):
+        if label in labels[:k]:
+            raise InputError(f"contacts[{k}].name", f"'{label}' is the name of an earlier contact", "a name of its own")
+    return labels
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -109,8 +123,6 @@ def _methods(
             raise InputError("method", f"{contact.method} against a tool", "NodeToSurface, or nothing")
         with within("between"):
             nodes = one.mesh.nodes(contact.tag) + one.rows.start
-        with within(f"{contact.opponent}.shape"):
-            tool.shape.gap(points[nodes])
         return [NodesOnTool(node=nodes, tool=tool)], (names.index(one.name), -1), nodes, []
     other = _part(parts, contact.opponent, "between")
     if other is one:

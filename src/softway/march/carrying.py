@@ -115,13 +115,7 @@ def _outcome(
     with np.errstate(divide="ignore", invalid="ignore"):
         released = np.where(way.freedom > 0.0, (rows.along(q) - rows.drive / h) / (h * way.freedom), 0.0)
     kinked = np.where(way.kinked, released - rows.along(slope), 0.0)
-    kicks = sum((j.impulse for j in found), np.zeros(len(way.closed)))
-    literal = isinstance(model.timing, Paper)
-    through = (
-        known.impulse * h
-        + np.where(way.closed, solution.last.impulse, 0.0)
-        + np.where(way.closed & (not literal), 0.0, kicks)
-    )
+    through = _through(known, solution, found, h, isinstance(model.timing, Paper))
     pull = inertia.multiplier(rows, solution.end.force, way.closed)
     push = rows.spread(through / h, model.shape)
     support = supports(model, now, solution.end, q, push, h)
@@ -138,18 +132,26 @@ def _outcome(
         push=push,
         support=support,
         work=float(through @ rows.drive) / h + float(np.sum(support * moved)),
-        dissipation=loss(model, rows, way, found, now.start.velocity, q),
+        dissipation=loss(model, rows, way, found, now.start.velocity, q, h),
         events=_events(now, slab, system, known, solution, found),
         passes=passes,
         iterations=iterations,
     )
 
 
+def _through(known: Course, solution: Solution, found: tuple[Jump, ...], span: float, literal: bool) -> Array:
+    """Impulses (m,) of the contact rows over the slab [N s]."""
+    closed = known.way.closed
+    kicks = sum((j.impulse for j in found), np.zeros(len(closed)))
+    held = np.where(closed, solution.last.impulse, 0.0)
+    return known.impulse * span + held + np.where(closed & (not literal), 0.0, kicks)
+
+
 def _events(
     now: Situation, slab: Slab, system: SlabSystem, known: Course, solution: Solution, found: tuple[Jump, ...]
 ) -> tuple[Event, ...]:
     model, way, end = system.model, known.way, solution.end.displacement
-    after: Array = known.rows.along(solution.last.q)
+    after: Array = known.rows.along(solution.last.q) - known.rows.drive / slab.span
     events = [
         contact_event(
             model, now, slab, known.rows, end, int(r), "touch", j.instant, (float(j.speed[r]), 0.0), float(j.impulse[r])

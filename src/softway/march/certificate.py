@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from softway.bodies.section import Axisymmetric
 from softway.contact.timing import Energy, Paper
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation
@@ -61,7 +62,9 @@ def violation(
 def _momentum(model: Model, before: Situation, out: Outcome, after: Situation) -> tuple[Array, float]:
     """What the change of momentum (d,) has beyond loads, contact and supports, and the momenta that take part."""
     span = after.time - before.time
+    keep = np.ones(model.shape[1])
+    keep[0] = not any(isinstance(p.internal.section, Axisymmetric) for p in model.parts)
     change = model.mass @ (after.start.velocity - before.start.velocity)
     given = span * (model.load + out.push + out.support)
-    scale = float(np.abs(model.mass @ after.start.velocity).sum() + np.abs(given).sum())
-    return (change - given).sum(axis=0), scale
+    own = np.abs(model.mass @ before.start.velocity).sum() + np.abs(model.mass @ after.start.velocity).sum()
+    return (change - given).sum(axis=0) * keep, float(own + np.abs(given).sum())

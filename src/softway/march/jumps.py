@@ -75,16 +75,18 @@ def jumps(
     return tuple(found)
 
 
-def loss(model: Model, rows: Candidates, way: Passage, found: tuple[Jump, ...], v0: Array, v1: Array) -> float:
+def loss(
+    model: Model, rows: Candidates, way: Passage, found: tuple[Jump, ...], v0: Array, v1: Array, span: float
+) -> float:
     """Kinetic energy lost in the jumps [J]: ``-(v . M J + J . M J / 2)`` with v just before each."""
-    total = 0.0
+    total, tool = 0.0, rows.drive / span
     for jump in found:
         if isinstance(model.timing, Paper):
             v = v0 + jump.instant * (v1 - v0)
             stopped = (way.closed & ~np.isfinite(way.touch)) | (way.touch < jump.instant)
-            normal = np.where(jump.hits, jump.speed, np.where(stopped, 0.0, rows.along(v)))
+            normal = np.where(jump.hits, jump.speed + tool, np.where(stopped, tool, rows.along(v)))
             v = v + rows.motion(normal - rows.along(v), way.kinked, model.free)
-            total -= float(np.sum((v + 0.5 * jump.field) * (model.mass @ jump.field)))
+            total += float(jump.impulse @ tool - np.sum((v + 0.5 * jump.field) * (model.mass @ jump.field)))
         else:
             total -= 0.5 * float(jump.impulse @ jump.speed)
     return total

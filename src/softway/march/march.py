@@ -189,22 +189,8 @@ def _accepted(
         end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
         slab = Slab(start=now.time, end=end, weight=weight)
         try:
-            after, out, new = advance(rules, now, slab, carry, control.approach, unbalanced >= PATIENCE)
-            ledger = audited(rules.model, *ledgers, now, out, after)
-            certificate = certified(rules.model, now, out, after, ledgers[1], ledger)
-            broken = violation(rules.model, now, out, after, ledger, certificate)
-            if broken is not None:
-                raise NoConvergence(f"certificate: {broken}")
-            return _Accepted(
-                after=after,
-                out=out,
-                carry=replace(new, stale=out.iterations > 25 * out.passes),
-                slab=slab,
-                ledger=ledger,
-                certificate=certificate,
-                rejections=tuple(reasons),
-                closed=unbalanced >= PATIENCE and bool((np.abs(out.solution.end.scalar) >= BOUND).any()),
-            )
+            found = _tried(rules, now, ledgers, slab, carry, control.approach, unbalanced >= PATIENCE)
+            return replace(found, rejections=tuple(reasons))
         except (TooFast, Unbalanced) as failure:
             length = 0.5 * length
             unbalanced += isinstance(failure, Unbalanced)
@@ -218,6 +204,40 @@ def _accepted(
         f"no slab holds, the last of {len(reasons)} tries with {reasons[-1]}",
         now.time,
         "a smaller step, a finer mesh where the cells are crushed, or Newton",
+    )
+
+
+def _tried(
+    rules: Rule,
+    now: Situation,
+    ledgers: tuple[Ledger, Ledger],
+    slab: Slab,
+    carry: Carry,
+    approach: float,
+    closed: bool,
+) -> _Accepted:
+    """One slab with its audit.
+
+    Raises
+    ------
+    NoConvergence
+        If it violates its certificate.
+    """
+    after, out, new = advance(rules, now, slab, carry, approach, closed)
+    ledger = audited(rules.model, *ledgers, now, out, after)
+    certificate = certified(rules.model, now, out, after, ledgers[1], ledger)
+    broken = violation(rules.model, now, out, after, ledger, certificate)
+    if broken is not None:
+        raise NoConvergence(f"certificate: {broken}")
+    return _Accepted(
+        after=after,
+        out=out,
+        carry=replace(new, stale=out.iterations > 25 * out.passes),
+        slab=slab,
+        ledger=ledger,
+        certificate=certificate,
+        rejections=(),
+        closed=closed and bool((np.abs(out.solution.end.scalar) >= BOUND).any()),
     )
 
 

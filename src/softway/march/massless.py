@@ -1,8 +1,11 @@
 """One slab of the Energy rule: contact nodes without inertia, in constrained equilibrium at the slab's end."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from softway.contact.candidates import Candidates
+from softway.contact.encounters import Pairs
 from softway.contact.located import LocatedMean
 from softway.contact.path import Path, passage
 from softway.kernels.impact import fading
@@ -38,6 +41,16 @@ def solve_massless(
     coasting = start.displacement + h * np.where(model.massive[:, None], 0.5 * (start.velocity + rate), rate)
     pairs = model.encounters.meet(start.displacement, coasting, slab.start, slab.end)
     require_slow(model, pairs, coasting, approach)
+    system = replace(_equations(model, now, slab, pairs, located), fallback=fallback)
+    guess = np.where(model.free, np.where(model.massive[:, None], rate, 2.0 * rate), system.given)
+    iterates = method.iterate(system, guess, carry, now.pressure * h * moments(slab.weight)[1])
+    solution = drive(system, iterates, method.tolerance, method.limit)
+    return _outcome(model, now, slab, system, solution), solution.last.carry
+
+
+def _equations(model: Model, now: Situation, slab: Slab, pairs: Pairs, located: LocatedMean | None) -> SlabSystem:
+    """The equations of the slab."""
+    h, start = slab.span, now.start
     rows = pairs.start(start.displacement)
     way = passage(np.zeros(len(rows.node), bool))
     path = Path(
@@ -53,7 +66,7 @@ def solve_massless(
     first, last = model.prescribed(slab.start), model.prescribed(slab.end)
     given = np.where(model.massive[:, None], last, first + last)
     target = -2.0 * rows.gap(path.end(given)) / h if fixed else np.zeros(len(rows.node))
-    system = SlabSystem(
+    return SlabSystem(
         model=model,
         start=start,
         weight=slab.weight,
@@ -65,12 +78,7 @@ def solve_massless(
         searched=None if fixed else pairs,
         given=given,
         pressure=now.pressure,
-        fallback=fallback,
     )
-    guess = np.where(model.free, np.where(model.massive[:, None], rate, 2.0 * rate), given)
-    iterates = method.iterate(system, guess, carry, now.pressure * h * moments(slab.weight)[1])
-    solution = drive(system, iterates, method.tolerance, method.limit)
-    return _outcome(model, now, slab, system, solution), solution.last.carry
 
 
 def _outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solution: Solution) -> Outcome:

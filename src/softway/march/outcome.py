@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softway.bodies.solid import Tool
 from softway.contact.candidates import Candidates
 from softway.march.situation import Situation
 from softway.march.step import Event
@@ -79,17 +80,21 @@ def contact_event(
     speeds: tuple[float, float],
     impulse: float = 0.0,
 ) -> Event:
-    """The event of a contact row at ``tau``; its place lies between those at both slab ends, on the opponent."""
+    """The event of a contact row at ``tau``; its place lies between those at both slab ends, on a tool exactly."""
     node, contact = int(rows.node[row]), int(rows.contact[row])
     part = model.parts[model.part_of[node]]
     u0 = now.start.displacement[node]
-    u = u0 + tau * (end[node] - u0)
+    time, place = slab.start + tau * slab.span, model.points[node] + u0 + tau * (end[node] - u0)
+    opponent = model.scene.bodies[model.scene.contacts[contact].opponent]
+    if isinstance(opponent, Tool):
+        gap, normal = opponent.at(time).gap_and_normal(place[None])
+        place = place - gap[0] * normal[0]
     return Event(
-        time=slab.start + tau * slab.span,
+        time=time,
         contact=rows.labels[contact],
         kind=kind,
         node=node - part.rows.start,
-        position=model.points[node] + u,
+        position=place,
         velocity_before=speeds[0],
         velocity_after=speeds[1],
         impulse=impulse,

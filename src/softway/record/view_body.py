@@ -50,7 +50,7 @@ def bodies(run: Run) -> "Figure":
     colour, stress_unit = scaled(top, "Pa")
     figure = canvas(WIDTH, 6.0)
     axis = figure.subplots()
-    view = camera(shown.cells, shown.place.points, shown.tools)
+    view = camera(shown.cells, shown.place.points, shown.tools, _focus(shown))
     ground(axis, shown.cells, shown.place.points, shown.tools, view)
     norm = library().colors.Normalize(0.0, colour * top or 1.0)
     mapped = library().cm.ScalarMappable(norm, MAP)
@@ -67,6 +67,12 @@ def bodies(run: Run) -> "Figure":
     figure.set_size_inches(WIDTH, float(np.clip(0.8 * WIDTH * box.height / box.width + 1.0, 3.4, 8.5)))
     _words(figure, run, shown)
     return figure
+
+
+def _focus(shown: Shown) -> Array | None:
+    """Centre (3,) of the contact forces, if there are any."""
+    force = shown.frame.contact_force
+    return np.average(shown.place.points, axis=0, weights=force) if force.any() else None
 
 
 def _words(figure: "Figure", run: Run, shown: Shown) -> None:

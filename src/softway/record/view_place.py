@@ -11,7 +11,7 @@ from softway.record.frames import Cells, Frame
 from softway.record.surface import exaggeration, rigid
 from softway.typing import Array, BoolArray, IntArray
 
-BENT = 0.2
+BENT = 0.1
 """Deformation, as a share of its size, beyond which the undeformed shape of a body says nothing."""
 UNDEFORMED = 1e-9
 """Deformation, as a share of its size, below which a body is not deformed."""
@@ -49,7 +49,7 @@ def placing(cells: Cells, frame: Frame, tools: Mapping[str, Placed]) -> Placing:
         shift = _to_others(members[:number], mine, frame, points)
         if shift is None:
             shift = _to_tools(tools, real[mine], points[mine])
-            shape[mine] += _to_tools(tools, real[mine], shape[mine])
+            shape[mine] += _to_tools(tools, real[mine], shape[mine]) if factor > 1.0 else 0.0
         else:
             shape[mine] += shift
         points[mine] += shift

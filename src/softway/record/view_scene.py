@@ -34,19 +34,21 @@ class Camera:
         return np.asarray(points @ self.axes.T)
 
 
-def camera(cells: Cells, points: Array, tools: Mapping[str, Placed]) -> Camera:
-    """Plane bodies from the front; volumes from 18 degrees above the first obstacle.
+def camera(cells: Cells, points: Array, tools: Mapping[str, Placed], focus: Array | None = None) -> Camera:
+    """Plane bodies from the front; volumes from 18 degrees above the first obstacle, or below one that hangs.
 
-    Of four directions around its normal the one is taken from which the point nearest to the obstacle is seen best.
+    Of four directions around its normal the one is taken from which the ``focus`` (3,) is seen best, by default the
+    lowest point.
     """
     if cells.dimension < 3:
         return Camera(np.eye(3))
     middle = points.mean(axis=0)
     up = next((tool.normal_at(middle) for tool in tools.values()), np.array([0.0, 0.0, 1.0]))
+    up = -up if up[2] < -1e-9 else up
     side = np.cross(up, np.eye(3)[int(np.argmin(np.abs(up)))])
     side /= np.linalg.norm(side)
     across, rise = np.cross(up, side), np.radians(18.0)
-    nearest = points[int(np.argmin(points @ up))] - points.mean(axis=0)
+    nearest = (points[int(np.argmin(points @ up))] if focus is None else focus) - middle
     levels = [np.cos(a) * side + np.sin(a) * across for a in np.radians([35.0, 125.0, 215.0, 305.0])]
     level = max(levels, key=lambda direction: round(float(nearest @ direction / np.ptp(points, axis=0).max()), 6))
     eye = np.cos(rise) * level + np.sin(rise) * up

@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 GREY, LINE = 0.90, "#666666"
+VEIL = 0.35
+"""Opacity of an obstacle in front of the bodies."""
+BACK, FRONT = 0, 4
+"""Order of drawing of obstacles behind the bodies and in front of them."""
 PIXELS = 560
 STEPS = 160
 MARGIN = 0.3
@@ -22,15 +26,20 @@ LAMP = np.array([-0.35, 0.75, 0.6]) / np.linalg.norm([-0.35, 0.75, 0.6])
 
 
 def draw(axis: "Axes", tool: Placed, points: Array, axes: Array) -> None:
-    """Draw the part of the obstacle near the body (n, 3) as seen along the third row of ``axes`` (3, 3)."""
+    """Draw the part of the obstacle near the body (n, 3) as seen along the third row of ``axes`` (3, 3).
+
+    An obstacle in space that covers the place where it is nearest to the body is drawn over it, as a veil.
+    """
     seen = points @ axes.T
     if tool.dim < 3:
         _filled(axis, tool, seen[:, :2])
         return
+    nearest = points[int(np.argmin(tool.gap(points)))]
+    order = FRONT if float(tool.normal_at(nearest[None])[0] @ axes[2]) < 0.0 else BACK
     middle, reach = 0.5 * (seen.min(axis=0) + seen.max(axis=0)), 0.75 * float(np.linalg.norm(np.ptp(seen, axis=0)))
     facets = _facets(tool)
     if facets is not None:
-        _triangles(axis, facets @ axes.T, np.array([middle[:2] - reach, middle[:2] + reach]))
+        _triangles(axis, facets @ axes.T, np.array([middle[:2] - reach, middle[:2] + reach]), order)
         return
     x = middle[0] + reach * np.linspace(-1.0, 1.0, PIXELS)
     y = middle[1] + reach * np.linspace(-1.0, 1.0, PIXELS)
@@ -40,7 +49,8 @@ def draw(axis: "Axes", tool: Placed, points: Array, axes: Array) -> None:
     if len(rows) > 1 and len(columns) > 1:
         part = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
         extent = (x[columns[0]], x[columns[-1]], y[rows[0]], y[rows[-1]])
-        axis.imshow(image[part], extent=extent, origin="lower", interpolation="bilinear", zorder=0)
+        image[..., 3] *= VEIL if order == FRONT else 1.0
+        axis.imshow(image[part], extent=extent, origin="lower", interpolation="bilinear", zorder=order)
 
 
 def _filled(axis: "Axes", tool: Placed, points: Array) -> None:
@@ -72,18 +82,22 @@ def _facets(tool: Placed) -> Array | None:
     return (back if hollow else corners) if shape.closed else np.concatenate([corners, back])
 
 
-def _triangles(axis: "Axes", corners: Array, window: Array) -> None:
+def _triangles(axis: "Axes", corners: Array, window: Array, order: int) -> None:
     """Draw the triangles (f, 3, 3) that face the eye, lit by the lamp, as far as they lie in the window (2, 2)."""
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
     shown = (normal[:, 2] > 0.0) & (corners[..., :2].max(axis=1) > window[0]).all(axis=1)
     shown &= (corners[..., :2].min(axis=1) < window[1]).all(axis=1)
-    order = np.flatnonzero(shown)[np.argsort(corners[shown][..., 2].mean(axis=1), kind="stable")]
-    if not len(order):
+    far = np.flatnonzero(shown)[np.argsort(corners[shown][..., 2].mean(axis=1), kind="stable")]
+    if not len(far):
         return
-    flat, colour = corners[order][..., :2], np.repeat(_lit(normal[order])[:, None], 3, axis=1)
+    flat, colour = corners[far][..., :2], np.repeat(_lit(normal[far])[:, None], 3, axis=1)
     matplotlib = library()
-    found = matplotlib.collections.PolyCollection(flat, facecolors=colour, edgecolors=colour, linewidths=0.4, zorder=0)
+    edge, alpha = (LINE, VEIL) if order == FRONT else (colour, None)
+    found = matplotlib.collections.PolyCollection(
+        flat, facecolors=colour, edgecolors=edge, alpha=alpha, linewidths=0.4, zorder=order
+    )
+    found.set_in_layout(False)
     axis.add_collection(found, autolim=False)
     found.set_clip_path(matplotlib.patches.Rectangle(window[0], *(window[1] - window[0]), transform=axis.transData))
     axis.update_datalim(np.clip(flat.reshape(-1, 2), *window))

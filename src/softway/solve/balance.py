@@ -201,7 +201,7 @@ def _spin(model: Model, ends: Ends, members: BoolArray) -> _Spin:
     for part in (p for p, inside in zip(model.parts, members, strict=True) if inside):
         rows = part.rows
         arm[rows] = x[rows] - (weight[rows] * x[rows]).sum(axis=0) / weight[rows].sum()
-    fields = np.array([model.mass @ f for f in _turned(arm)])
+    fields = np.array([model.mass @ f for f in _turned(arm)]).reshape(-1, *arm.shape)
     inner = here & model.massive
     rigid = model.opponents[model.encounters.contact, 1] < 0
     tools = [rows.spread(np.where(rigid & rows.near, p, 0.0), model.shape) for _, rows, p in _both(ends)]
@@ -210,7 +210,7 @@ def _spin(model: Model, ends: Ends, members: BoolArray) -> _Spin:
     change = np.where(inner[:, None], ends.f1 - ends.f0, (here & ~model.massive)[:, None] * (tools[1] - tools[0]))
     return _Spin(
         fields=fields,
-        inertia=np.array([moment(x, f) for f in fields]).reshape(len(fields), -1).T,
+        inertia=np.array([moment(x, f) for f in fields]).reshape(len(fields), len(fields)).T,
         torque=torque,
         slope=moment(x, change),
     )

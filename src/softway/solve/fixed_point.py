@@ -79,8 +79,7 @@ class FixedPoint:
             new = system.filled()
             new[keep] = solved
             change = float(np.abs(new - q).max(initial=0.0))
-            near = change <= NEARLY * np.abs(new).max(initial=0.0)
-            sound = near and system.sound(system.path.end(new))
+            sound, completed = _looked_at(system, new, change)
             yield Iterate(
                 q=new,
                 change=change,
@@ -91,15 +90,23 @@ class FixedPoint:
                 system=system,
                 sound=sound,
             )
-            if near and not sound:
-                system = system.completed(system.path.end(new))
+            system = completed
             stuck = stuck + 1 if change > 0.99 * last else 0
             if (now != active).any() or stuck >= 2:
                 memory, stuck = _Anderson(self.depth), 0
-            last = change
-            active = now
-            q = q.copy()
+            last, active, q = change, now, q.copy()
             q[keep] = memory.mix(q[keep], solved)
+
+
+def _looked_at(system: SlabSystem, q: Array, change: float) -> tuple[bool, SlabSystem]:
+    """Whether an iterate leaves no overlap, and the equations to go on with: overlapped faces are added."""
+    if system.pairs is system.searched:
+        return True, system
+    if change > NEARLY * np.abs(q).max(initial=0.0):
+        return False, system
+    u1 = system.path.end(q)
+    sound = system.sound(u1)
+    return sound, system if sound else system.completed(u1)
 
 
 def prepared(system: SlabSystem, carry: Carry, solver: LinearSolver) -> Carry:
