@@ -8,6 +8,7 @@ from softway.bodies.rigid_motions import free_motions
 from softway.bodies.section import Axisymmetric
 from softway.contact.timing import Energy
 from softway.errors import InputError
+from softway.march.overlap import deepest
 from softway.march.situation import Situation
 from softway.model import Model, dead_load
 from softway.scene import StaticStart
@@ -79,22 +80,15 @@ def require_supported(model: Model) -> None:
 
 def require_apart(model: Model, u: Array) -> None:
     """Refuse a start inside an opponent, naming both bodies, depth and place."""
-    rows = model.rows(u)
-    apart = np.array([c.start == "apart" for c in model.scene.contacts], bool)
-    gap = np.where(apart[rows.contact], rows.gap(u), np.inf)
-    if not len(gap) or gap.min() >= -OVERLAP * _reach(model, u):
+    found = deepest(model, u, OVERLAP * _reach(model, u))
+    if found is None:
         return
-    worst = int(np.argmin(gap))
-    contact = model.scene.contacts[rows.contact[worst]]
-    part = model.parts[model.part_of[rows.node[worst]]]
-    other = contact.opponent if part.name == contact.body else contact.body
-    node = int(rows.node[worst]) - part.rows.start
-    place = ", ".join(f"{x:.6g}" for x in part.mesh.points[node] + u[rows.node[worst]])
-    depth = f"{-gap[worst]:.6g} m"
+    place, depth = ", ".join(f"{x:.6g}" for x in found.place), f"{found.depth:.6g} m"
+    move = f"move a body out by {depth} (bodies.{found.body}.place.translation or .bottom)"
     raise InputError(
-        f"contacts[{rows.contact[worst]}].between",
-        f"{part.name!r} starts {depth} inside {other!r}: node {node} at ({place}) m",
-        f'move a body out by {depth} (bodies.{part.name}.place.translation or .bottom), or start = "fit" for a press fit',
+        f"contacts[{found.contact}].between",
+        f"{found.body!r} starts {depth} inside {found.other!r}: node {found.node} at ({place}) m",
+        f'{move}, or start = "fit" for a press fit',
     )
 
 

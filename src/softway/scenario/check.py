@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from softway.bodies.solid import Solid
 from softway.errors import InputError
@@ -28,6 +29,7 @@ from softway.scenario.scales import (
 )
 from softway.scenario.scenario import Scenario, built
 from softway.scene import StaticStart
+from softway.typing import Array
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -96,16 +98,28 @@ def _contact(model: Model, number: int, bodies: Mapping[str, BodyScales]) -> Con
     """Scales of a contact."""
     rows = model.rows(model.displacement)
     here = rows.of(number) & rows.near
-    gap = rows.gap(model.displacement)[here]
-    speeds = -rows.along(model.velocity)[here]
-    durations = []
-    for k in model.opponents[number]:
-        if k >= 0 and here.any():
-            part = model.parts[k]
-            durations.append(contact_duration(part.mesh.points, rows.normal[here], bodies[part.name].wave_speed))
+    normals, gaps, speeds = rows.normal[here], rows.gap(model.displacement)[here], -rows.along(model.velocity)[here]
+    if not here.any():
+        normals, gaps, speeds = _nearest(model, number)
+    parts = [model.parts[k] for k in model.opponents[number] if k >= 0]
+    durations = [contact_duration(p.mesh.points, normals, bodies[p.name].wave_speed) for p in parts]
     return ContactScales(
         nodes=len(np.unique(rows.node[rows.of(number)])),
-        gap=float(gap.min(initial=np.inf)),
-        approach=float(speeds.max()) + 0.0 if len(speeds) else 0.0,
-        duration=min(durations, default=np.inf),
+        gap=float(gaps.min()),
+        approach=float(speeds.max()) + 0.0,
+        duration=min(durations),
     )
+
+
+def _nearest(model: Model, number: int) -> tuple[Array, Array, Array]:
+    """Direction (1, d), distance (1,) and closing speed (1,) of the nearest nodes of two solids that are far apart."""
+    contact = model.scene.contacts[number]
+    parts = [model.parts[k] for k in model.opponents[number]]
+    tags = contact.tag, contact.opponent_tag
+    one, other = (p.mesh.nodes(tag) + p.rows.start for p, tag in zip(parts, tags, strict=True))
+    x = model.points + model.displacement
+    distance, found = cKDTree(x[other]).query(x[one])
+    least = int(np.argmin(distance))
+    a, b = one[least], other[found[least]]
+    direction = (x[a] - x[b]) / distance[least]
+    return direction[None], distance[[least]], -np.array([(model.velocity[a] - model.velocity[b]) @ direction])

@@ -55,9 +55,9 @@ class ContactScales:
     nodes
         How many may touch.
     gap
-        Least gap at the start [m].
+        Least gap at the start; of solids far from each other the distance of their nearest nodes [m].
     approach
-        Greatest speed of these nodes towards the obstacle at the start [m/s].
+        Greatest speed of these nodes towards the opponent at the start [m/s].
     duration
         Expected time of contact ``2 L / c``, L along the normal [s].
     """

@@ -26,7 +26,6 @@ def test_the_velocity_is_linear_between_the_times_and_constant_outside() -> None
     found = [table.at(t) for t in (-1.0, 0.5, 0.75, 1.0, 1.5, 2.0, 9.0)]
     assert found == pytest.approx([1.0, 1.0, 2.0, 3.0, 1.0, -1.0, -1.0], rel=1e-15)
     assert [Driven(on="top", velocity=v).at(7.0) for v in (2.0, (2.0,))] == [2.0, 2.0]
-    assert Driven(on="top").at(1.0) == 0.0
 
 
 @pytest.mark.parametrize(

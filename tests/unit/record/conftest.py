@@ -76,7 +76,8 @@ class Fake:
         start, meshes = self.state(0.0), {"part": self.mesh}
         return Opening(
             scene=self.scene, meshes=meshes, stresses={"part": self.stress}, initial=start, ledger=self.ledger(start),
-            until=1.0, fields_every=0.1, readings=readings(self.probes, meshes),
+            touching={LABEL: self.mesh.nodes("surface")}, until=1.0, fields_every=0.1,
+            readings=readings(self.probes, meshes),
         )  # fmt: skip
 
     def stress(self, u: np.ndarray) -> np.ndarray:
@@ -102,8 +103,8 @@ class Fake:
             min_gap=0.5, min_force=1.5, complementarity=2.5, power_residual=3.5, momentum_error=4.5, energy_error=5.5
         )
         return Step(
-            certificate=certificate,
-            before=before, after=after, slab=Slab(start=begin, end=end), ledger=self.ledger(after), events=events,
+            certificate=certificate, before=before, after=after, slab=Slab(start=begin, end=end),
+            ledger=self.ledger(after), events=events,
             reactions={"part": np.ones_like(self.mesh.points)}, report=Report(iterations=3, factorisations=1, passes=1),
         )  # fmt: skip
 

@@ -1,0 +1,96 @@
+"""Bodies that overlap at the start: nodes inside the boundary of another body, or inside a tool."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.bodies.part import Part
+from softway.model import Model
+from softway.space.faceted import Facets
+from softway.typing import Array, IntArray
+
+SPLIT = {
+    "bar2": ((0, 1),),
+    "bar3": ((0, 2), (2, 1)),
+    "tri3": ((0, 1, 2),),
+    "tri6": ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)),
+    "quad4": ((0, 1, 2), (0, 2, 3)),
+    "quad9": ((0, 4, 8), (4, 1, 8), (1, 5, 8), (5, 2, 8), (2, 6, 8), (6, 3, 8), (3, 7, 8), (7, 0, 8)),
+}
+"""Simplices that stand for a facet."""
+CHORD = 0.02
+"""Depth, in edges at the node, by which flat simplices may differ from curved facets."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Overlap:
+    """The deepest node of a contact: its ``depth`` [m], the ``body`` that it belongs to, and its opponent ``other``."""
+
+    contact: int
+    depth: float
+    body: str
+    other: str
+    node: int
+    place: tuple[float, ...]
+
+
+def deepest(model: Model, u: Array, rounding: float) -> Overlap | None:
+    """The deepest overlap in the contacts that start apart, at the displacement ``u`` (n, d); None without one."""
+    found = []
+    for k, contact in enumerate(model.scene.contacts):
+        if contact.start != "apart":
+            continue
+        one, other = model.opponents[k]
+        if other < 0:
+            found.append(_in_tool(model, u, k, rounding))
+            continue
+        found += [_in_body(model, u, k, a, b, rounding) for a, b in ((one, other), (other, one))]
+    deep = [f for f in found if f is not None]
+    return max(deep, key=lambda f: f.depth) if deep else None
+
+
+def _in_tool(model: Model, u: Array, k: int, rounding: float) -> Overlap | None:
+    rows = model.rows(u)
+    here = np.flatnonzero(rows.of(k))
+    gap = rows.gap(u)[here]
+    if not len(gap) or gap.min() >= -rounding:
+        return None
+    node = int(rows.node[here[int(np.argmin(gap))]])
+    return _named(model, u, k, node, -float(gap.min()), model.scene.contacts[k].opponent)
+
+
+def _in_body(model: Model, u: Array, k: int, a: int, b: int, rounding: float) -> Overlap | None:
+    """The deepest candidate node of solid a inside solid b."""
+    inner, outer = model.parts[a], model.parts[b]
+    nodes = model.touchable[(model.touchable >= inner.rows.start) & (model.touchable < inner.rows.stop)]
+    x = model.points + u
+    gap = _distance(outer, x[outer.rows], x[nodes])
+    slack = rounding + (CHORD * model.edge[nodes] if _curved(outer) else 0.0)
+    depth = np.where(gap < -slack, -gap, 0.0)
+    if not depth.any():
+        return None
+    worst = int(np.argmax(depth))
+    return _named(model, u, k, int(nodes[worst]), float(depth[worst]), outer.name)
+
+
+def _distance(part: Part, corners: Array, x: Array) -> Array:
+    """Distance (p,) of points from the boundary of a solid whose nodes are at ``corners``; negative inside."""
+    if corners.shape[1] == 1:
+        low, high = float(corners.min()), float(corners.max())
+        return np.maximum(low - x[:, 0], x[:, 0] - high)
+    boundary = part.mesh.boundary()
+    cells: list[IntArray] = [f[:, list(s)] for name, f in boundary.items() for s in SPLIT.get(name, ())]
+    if not cells:
+        return np.full(len(x), np.inf)
+    surface = Facets(points=corners, cells=np.concatenate(cells))
+    return surface.gap(x) if surface.closed else np.full(len(x), np.inf)
+
+
+def _curved(part: Part) -> bool:
+    return any(name in ("bar3", "tri6", "quad9", "quad4") for name in part.mesh.boundary())
+
+
+def _named(model: Model, u: Array, k: int, node: int, depth: float, other: str) -> Overlap:
+    part = model.parts[model.part_of[node]]
+    place = tuple(float(v) for v in model.points[node] + u[node])
+    return Overlap(contact=k, depth=depth, body=part.name, other=other, node=node - part.rows.start, place=place)
