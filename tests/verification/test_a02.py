@@ -2,12 +2,15 @@
 
 import numpy as np
 import pytest
+from scipy.linalg import eigh
+from scipy.optimize import brentq
 
 import results
 import runs
 import semidiscrete as discrete
 import softway as sw
 from exact_thrown import Thrown
+from exact_waves import Array
 
 EXACT = Thrown(gap=0.3)
 
@@ -16,6 +19,57 @@ EXACT = Thrown(gap=0.3)
 def courant() -> dict[int, runs.Record]:
     """20 and 100 elements with h c = edge."""
     return {n: runs.thrown(n, sw.Energy(), step=1.0 / n) for n in (20, 100)}
+
+
+def chain(nodes: int, spread: int) -> tuple[Array, Array]:
+    """Mass and stiffness of the heavy nodes behind a massless one at the wall, in units of the mesh (theory/overshoot).
+
+    Two thirds of a cell's mass are missing; the rows and columns of the first nodes are scaled by what makes up for it.
+    """
+    factor = np.where(np.arange(nodes) < spread, np.sqrt(1.0 + 2.0 / 3.0 / (spread - 1.0 / 6.0)), 1.0)
+    beside = np.eye(nodes, k=1) + np.eye(nodes, k=-1)
+    mass, stiffness = (4.0 * np.eye(nodes) + beside) / 6.0, 2.0 * np.eye(nodes) - beside
+    mass[-1, -1], stiffness[-1, -1] = 1.0 / 3.0, 1.0
+    return factor[:, None] * mass * factor, stiffness
+
+
+def first_peak(spread: int) -> float:
+    """Greatest force of the wall on a long chain, exact in time."""
+    mass, stiffness = chain(100, spread)
+    squares, shapes = eigh(stiffness, mass)
+    omega = np.sqrt(squares)
+    swing = shapes[0] * (shapes.T @ mass.sum(axis=1)) / omega
+    return float((np.sin(np.outer(np.linspace(0.0, 40.0, 4001), omega)) @ swing).max())
+
+
+def rebound(cells: int, spread: int = 5) -> tuple[float, float]:
+    """Duration of the contact, and 1 - |v| after it, of waves sent out by the chain and back after two lengths.
+
+    Each runs at the speed that mesh and automatic step give it; the end of the contact is where their sum is zero.
+    """
+    kappa = (np.arange(400 * cells) + 0.5) / (400 * cells) * np.pi
+    omega = np.sqrt(6.0 * (1.0 - np.cos(kappa)) / (2.0 + np.cos(kappa)))
+    mass, stiffness = chain(spread + 2, spread)
+    dynamic = (stiffness - omega[:, None, None] ** 2 * mass)[:, :-1]
+    away = np.exp(-1j * np.outer(kappa, [spread + 1, spread + 2]))[:, :, None]
+    out, back = dynamic[:, :, spread:] @ away, dynamic[:, :, spread:] @ away.conj()
+    matrix = np.concatenate([dynamic[:, :, :spread], out], axis=2)
+    start = np.zeros_like(back)
+    start[:, 0, 0] = 1.0 / omega**2
+    sent = np.linalg.solve(matrix, start)[:, -1:] * np.exp(-2j * kappa * cells)[:, None, None]
+    width = np.gradient(omega, kappa) / (400 * cells)
+    wave = np.linalg.solve(matrix, -back * sent)[:, 0, 0] * width
+    h = np.sqrt(0.5)
+    rate = 2.0 / h * np.arctan(0.5 * omega * h)
+
+    def force(t: float) -> float:
+        return float((wave * np.exp(1j * rate * t)).real.sum())
+
+    end = float(brentq(force, 1.99 * cells, 2.0 * cells + 4.0))
+    later = float((wave * (np.exp(1j * rate * end) - np.exp(1j * rate * cells)) / (1j * rate)).real.sum())
+    growth = 2.0 / 3.0 / (spread - 1.0 / 6.0)
+    impulse = cells - (np.sqrt(1.0 + growth) - 1.0) ** 2 / 6.0 + later
+    return end / cells, 2.0 - impulse / cells
 
 
 def test_case() -> None:
@@ -30,11 +84,15 @@ def test_the_force_starts_without_overshoot(cells: int, most: float) -> None:
     assert march.error[-1] == pytest.approx(0.0, abs=1e-12)
 
 
-@pytest.mark.parametrize(("spread", "peak"), [(1, 1.305), (3, 1.111), (8, 1.042)])
-def test_the_overshoot_follows_the_spread(spread: int, peak: float) -> None:
-    """All the mass on the first node: 1.305; over k cells 1 + 1/(3 k)."""
-    march = runs.thrown(100, sw.Energy(spread=spread))
-    assert march.force.max() == pytest.approx(peak, abs=0.015)
+@pytest.mark.parametrize("spread", [1, 3, 5, 8])
+def test_the_overshoot_follows_the_spread(spread: int) -> None:
+    """The chain behind the contact node: 1.270 with one cell, and with more nearly 1 + 1/(3 k), the missing momentum
+    within the round trip through k cells.  The mean over a slab is a little less than the peak.
+    """
+    march = results.thrown(100) if spread == 5 else runs.thrown(100, sw.Energy(spread=spread), until=1.5)
+    assert march.force.max() == pytest.approx(first_peak(spread), abs=0.012)
+    if spread > 1:
+        assert march.force.max() == pytest.approx(1.0 + 1.0 / (3.0 * spread), abs=0.007)
 
 
 @pytest.mark.parametrize(("cells", "most"), [(20, 0.08), (100, 0.05)])
@@ -73,11 +131,24 @@ def test_the_ends_follow_the_exact_bar() -> None:
     assert np.abs(march.displacement[:, 0] - EXACT.rear(march.times)).max() <= 0.012
 
 
+@pytest.mark.parametrize(("cells", "late", "slow"), [(20, 0.036, 0.0030), (50, 0.016, 0.0017), (100, 0.0085, 0.0012)])
+def test_the_end_of_the_contact_is_that_of_the_chain(cells: int, late: float, slow: float) -> None:
+    """Dispersion, layer and massless node together, each within .06 of a cell; and both errors are small."""
+    march = results.thrown(cells)
+    duration, lack = rebound(cells)
+    assert march.first("release") - EXACT.touch == pytest.approx(duration, abs=0.06 / cells)
+    assert march.momentum[-1] + 1.0 == pytest.approx(lack, abs=0.06 / cells)
+    assert abs(march.first("release") - EXACT.release) <= late
+    assert abs(march.momentum[-1] + 1.0) <= slow
+
+
 def test_the_errors_fall_with_the_mesh() -> None:
+    """The instant nearly linearly; the speed less than the 4/5 of the front (theory/overshoot)."""
+    sizes = [1 / 20, 1 / 50, 1 / 100]
     release = [abs(results.thrown(n).first("release") - EXACT.release) for n in (20, 50, 100)]
     speed = [abs(results.thrown(n).momentum[-1] + 1.0) for n in (20, 50, 100)]
-    assert runs.order(release, [1 / 20, 1 / 50, 1 / 100]) >= 0.85
-    assert runs.order(speed, [1 / 20, 1 / 50, 1 / 100]) >= 0.6
+    assert runs.order(release, sizes) >= 0.85
+    assert runs.order(speed, sizes) >= 0.5
 
 
 @pytest.mark.parametrize(

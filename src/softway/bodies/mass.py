@@ -1,4 +1,4 @@
-"""Inertia of a body as a scalar matrix over its nodes, consistent or lumped; it acts on every displacement component."""
+"""Inertia of a body as a scalar matrix over its nodes, consistent or lumped; it acts on each component of a motion."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

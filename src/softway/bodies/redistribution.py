@@ -1,4 +1,4 @@
-"""Inertia of a body whose contact nodes have none: what they lose is spread over the nodes of the next few cells.
+"""Inertia of a body whose contact nodes have none: the density of the next few cells makes up for what they lose.
 
 What a massless node lacks at a touch, the momentum of its mass, has to come back as a force above that of the
 continuum; spread over k cells it comes back over the round trip of a wave through them, ``1 + 1/(3 k)`` high, and no
@@ -10,7 +10,7 @@ import logging
 import numpy as np
 from scipy import sparse
 
-from softway.bodies.mass import Body, Consistent, MassRule, assembled, body_of, cell_masses, neighbours
+from softway.bodies.mass import Consistent, MassRule, assembled, body_of, neighbours
 from softway.bodies.section import Section
 from softway.errors import InputError
 from softway.space.mesh import Mesh
@@ -19,9 +19,11 @@ from softway.typing import Array, BoolArray, IntArray
 _LOG = logging.getLogger(__name__)
 
 LEAST_FACTOR = 0.1
-"""Density, relative to the given one, below which fewer moments of the mass are kept."""
+"""Density, relative to the given one, below which fewer cells are filled, or fewer moments of the mass kept."""
 CELLS = 5
 """Cells over which the inertia of a contact node is spread where the body is deep enough."""
+LOST = ("only the mass is kept, the centre of mass moves", "the moments of inertia change")
+"""What a matrix that keeps moments up to an order, 0 or 1, does not keep."""
 
 
 def redistributed(
@@ -29,10 +31,10 @@ def redistributed(
 ) -> sparse.csr_array:
     """Mass matrix (n, n) [kg] whose rows and columns of the candidates are exactly zero.
 
-    What a cell loses with the candidates' rows and columns is given to the heavy nodes within ``cells`` cells of them,
-    in proportion to their own mass.  The density is rho f with ``f = 1 + alpha + beta . xi + xi . Gamma xi`` such that
-    mass, centre of mass and second moments are those of the body; where f would fall below 0.1 the second moments are
-    given up, then the centre, with a warning.  Straight bars need no second moment.
+    The rows of the nodes within ``cells`` cells of the candidates are scaled up by what is missing around them.  The
+    density is rho f with ``f = 1 + alpha + beta . xi + xi . Gamma xi`` such that mass, centre of mass and second
+    moments are those of the body; where f would fall below 0.1 fewer cells are filled, and if one does not help either,
+    the second moments are given up, then the centre, with a warning.  Straight bars need no second moment.
 
     Parameters
     ----------
@@ -42,6 +44,11 @@ def redistributed(
         Numbers of the nodes that shall have no inertia.
     cells
         Greatest number of cells; half the depth of the body at most.
+
+    Raises
+    ------
+    InputError
+        If all nodes of the body, or of a piece of it, are candidates.
 
     Examples
     --------
@@ -53,35 +60,55 @@ def redistributed(
     >>> float(mass[4]), float(round(mass.sum(), 12)), float(round(mass @ mesh.points[:, 0], 12))
     (0.0, 1.0, 0.5)
     """
-    body, candidates = body_of(mesh, section, density), np.unique(candidates)
-    heavy = np.ones(mesh.n_nodes, bool)
-    heavy[candidates] = False
+    body, near = body_of(mesh, section, density), neighbours(mesh)
     ones = np.ones(mesh.n_nodes)
-    plain = assembled(body, rule, ones)
-    share = _receivers(mesh, candidates, plain.diagonal() * heavy, cells)
-    diagonal = [np.einsum("eaa->ea", m) for _, m in cell_masses(body, rule, ones)]
+    depth = _depth(near, np.unique(candidates))
     exact = assembled(body, Consistent(), ones)
     y = _scaled(mesh, exact)
-    for order in (2, 1, 0) if y.shape[1] > 1 else (1, 0):
-        forms = _monomials(y, order)
-        parts = [_moved(body, rule, form, heavy, share, diagonal) for form in forms]
-        found = np.array([_moments(m, y, order) for m in parts]).T
-        factor = np.linalg.lstsq(found, _moments(exact, y, order), rcond=1e-12)[0]
-        least = float((factor @ np.array(forms)).min())
-        if least >= LEAST_FACTOR or not order:
-            break
-        gone = "the moments of inertia change" if order == 2 else "only the mass is kept, the centre of mass moves"
-        _LOG.log(
-            logging.INFO if order == 2 else logging.WARNING,
-            "redistributed mass: %s; to keep them the density would have to fall to %.3g of its value somewhere "
-            "(least allowed %.3g)",
-            gone,
-            least,
-            LEAST_FACTOR,
-        )
-    total = sparse.csr_array(sum((c * m for c, m in zip(factor, parts, strict=True)), sparse.csr_array(plain.shape)))
+    plain = assembled(body, rule, ones)
+    highest = 2 if y.shape[1] > 1 else 1
+    for order in range(highest, -1, -1):
+        forms = np.array(_monomials(y, order))
+        parts = [assembled(body, rule, form) for form in forms]
+        target = _moments(exact, y, order)
+        for k in range(min(cells, max(int(depth.max()) // 2, 1)), 0, -1):
+            scale = sparse.diags_array(_scale(plain, near, depth, k))
+            filled = [scale @ m @ scale for m in parts]
+            found = np.array([_moments(m, y, order) for m in filled]).T
+            factor = np.linalg.lstsq(found, target, rcond=1e-12)[0]
+            least = float((factor @ forms).min())
+            kept = np.abs(found @ factor - target).max() <= 1e-9 * target[0]
+            if (least >= LEAST_FACTOR or not order) and kept:
+                if order < highest:
+                    _LOG.log(logging.INFO if order else logging.WARNING, "redistributed mass: %s", LOST[order])
+                return _sum(factor, filled)
+    raise InputError("", "the nodes that are no candidates of contact have no mass", "a finer mesh, or a smaller tag")
+
+
+def _sum(factor: Array, parts: list[sparse.csr_array]) -> sparse.csr_array:
+    total = sparse.csr_array(sum((c * m for c, m in zip(factor, parts, strict=True)), sparse.csr_array(parts[0].shape)))
     total.eliminate_zeros()
     return total
+
+
+def _scale(plain: sparse.csr_array, near: sparse.csr_array, depth: IntArray, cells: int) -> Array:
+    """Factors (n,) of rows and columns: none at candidates, more than one within some cells of them.
+
+    Around each candidate the mass that is missing is compared with that of the layer; a node of the layer grows by the
+    mean of what the candidates around it say.  Where all of them say the same, so does the layer.
+    """
+    light, layer = depth == 0, (depth > 0) & (depth <= cells)
+    left = ~light * (plain @ (~light).astype(float))
+    lost = plain @ np.ones(len(depth)) - left
+    missing, own, count = lost, left * layer, light.astype(float)
+    for _ in range(cells):
+        missing, own, count = near @ missing, near @ own, near @ count
+    growth = np.divide(missing, own, out=np.zeros(len(own)), where=light & (own > 0.0))
+    for _ in range(cells):
+        growth = near @ growth
+    growth = np.divide(growth, count, out=np.zeros(len(own)), where=layer)
+    total = float(growth @ left)
+    return np.sqrt(~light + growth * (lost.sum() / total if total > 0.0 else 0.0))
 
 
 def _scaled(mesh: Mesh, plain: sparse.csr_array) -> Array:
@@ -115,59 +142,27 @@ def _moments(mass: sparse.csr_array, y: Array, order: int) -> Array:
     return np.array(out)
 
 
-def _moved(
-    body: Body, rule: MassRule, form: Array, heavy: BoolArray, share: sparse.csr_array, diagonal: list[Array]
-) -> sparse.csr_array:
-    """The matrix (n, n) of the density times a form (n,), with what the candidates lose handed on."""
-    n = len(heavy)
-    kept, lost = sparse.csr_array((n, n)), np.zeros(n)
-    for (cells, matrices), own in zip(cell_masses(body, rule, form), diagonal, strict=True):
-        on = heavy[cells]
-        inner = matrices * on[:, :, None] * on[:, None, :]
-        missing = matrices.sum(axis=(1, 2)) - inner.sum(axis=(1, 2))
-        weight = own * ~on
-        weight = weight / np.maximum(weight.sum(axis=1, keepdims=True), 1e-300)
-        lost += np.bincount(cells.ravel(), (missing[:, None] * weight).ravel(), minlength=n)
-        a = cells.shape[1]
-        places = np.repeat(cells, a, axis=1).ravel(), np.tile(cells, (1, a)).ravel()
-        kept = kept + sparse.csr_array((inner.ravel(), places), shape=(n, n))
-    return sparse.csr_array(kept + sparse.diags_array(share.T @ lost))
-
-
-def _receivers(mesh: Mesh, candidates: IntArray, weight: Array, cells: int) -> sparse.csr_array:
-    """Shares (n, n) of the heavy nodes in what each candidate loses; the rows of the others are empty.
+def _depth(near: sparse.csr_array, candidates: IntArray) -> IntArray:
+    """Cells (n,) between each node and the nearest candidate.
 
     Raises
     ------
     InputError
-        If a candidate has no heavy node near.
+        If a piece of the body has candidates only.
     """
-    near = neighbours(mesh)
-    depth = _depth(near, candidates)
-    reach = near[candidates]
-    for _ in range(min(cells, max(int(depth.max()) // 2, 1)) - 1):
-        reach = sparse.csr_array(reach @ near)
-        reach.data[:] = 1.0
-    found = sparse.csr_array(reach @ sparse.diags_array(weight))
-    while (empty := found.sum(axis=1) <= 0.0).any():
-        further = sparse.csr_array(reach @ near)
-        if further.nnz == reach.nnz:
-            problem = f"{int(empty.sum())} candidate nodes have no other node near to take their mass"
-            raise InputError("", problem, "a smaller tag, a finer mesh, or the rule Impulse")
-        further.data[:] = 1.0
-        reach = further
-        found = found + sparse.diags_array(empty.astype(float)) @ (reach @ sparse.diags_array(weight))
-    found = sparse.csr_array(sparse.diags_array(1.0 / found.sum(axis=1)) @ found)
-    n = mesh.n_nodes
-    rows = sparse.csr_array((np.ones(len(candidates)), (candidates, np.arange(len(candidates)))), (n, len(candidates)))
-    return sparse.csr_array(rows @ found)
+    light = np.zeros(near.shape[0], bool)
+    light[candidates] = True
+    alone = int((_cells_from(near, ~light) < 0).sum())
+    if alone:
+        problem = f"{alone} candidate nodes have no other node near to take their mass"
+        raise InputError("", problem, "a smaller tag, a finer mesh, or the rule Impulse")
+    return _cells_from(near, light)
 
 
-def _depth(near: sparse.csr_array, candidates: IntArray) -> IntArray:
-    """Cells (n,) between each node and the nearest candidate."""
-    depth = np.full(near.shape[0], -1)
-    depth[candidates] = 0
-    front, level = depth == 0, 0
+def _cells_from(near: sparse.csr_array, start: BoolArray) -> IntArray:
+    """Cells (n,) between each node and the nearest of a set; -1 where none is reached."""
+    depth = np.where(start, 0, -1)
+    front, level = start, 0
     while front.any():
         level += 1
         front = (near @ front.astype(float) > 0.0) & (depth < 0)

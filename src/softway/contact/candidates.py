@@ -1,4 +1,4 @@
-"""The contact conditions of a model as plain arrays, linear in the displacement: one row for each pair that may touch."""
+"""The contact conditions of a model as plain arrays, linear in the displacement: a row for each pair that may touch."""
 
 from dataclasses import dataclass
 

@@ -31,7 +31,7 @@ class NodesOnTool:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ToolMeeting:
-    """Nodes against a tool at one end of a slab, ``now``; ``other`` is the other end, ``sign`` is 1 at the later one."""
+    """Nodes against a tool at one end of a slab, ``now``; ``other`` is the other end, ``sign`` is 1 at the later."""
 
     node: IntArray
     tool: Tool

@@ -13,7 +13,7 @@ from softway.typing import Array
 class Stencils:
     """Gaps at one configuration with their derivatives ``d gap_r = normal_r . sum_j weights[r, j] dx_j``.
 
-    Where a row feels its nodes in different directions, ``slopes`` hold the derivatives, and normal and weights are means.
+    Where a row feels its nodes in different directions, ``slopes`` hold the derivatives; normal and weights are means.
 
     Parameters
     ----------

@@ -125,18 +125,30 @@ def _outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solut
 def _touches(
     model: Model, now: Situation, slab: Slab, system: SlabSystem, solution: Solution, closed: BoolArray
 ) -> list[Event]:
-    """Touches at the root of the gap along the free motion, exact in free flight."""
-    rows, end = system.path.rows, solution.end
+    """Touches at the root of the gap along the free motion, exact in free flight.
+
+    A row that faced nothing at the start, or that its free motion there does not close, is followed back from where
+    its nodes come to without contact, or else from the end.  Where a contact was open, its first touch is that of the
+    row that its free motion closes first: within the slab a neighbour may take over from it.
+    """
+    h, rows, end = slab.span, system.path.rows, solution.end
     last = end.near or rows
-    before = 0.5 * solution.predicted - last.drive / slab.span
-    found = []
-    for r in np.flatnonzero(closed & ~now.closed):
-        known = rows if rows.near[r] else last
-        gap = float(known.gap(now.start.displacement)[r]) + (0.0 if rows.near[r] else float(last.drive[r]))
-        tau = fading(np.array([gap]), np.array([min(gap + slab.span * before[r], -1e-300)]))[0]
-        speeds = (float(before[r]), 0.0)
-        found.append(contact_event(model, now, slab, last, end.displacement, int(r), "touch", float(tau), speeds))
-    return found
+    fresh = closed & ~now.closed
+    gap = np.where(rows.near, rows.gap(now.start.displacement), 0.0)
+    speed = 0.5 * solution.predicted - last.drive / h
+    if system.pairs is not None and fresh.any():
+        unseen = ~rows.near | (gap + h * speed >= 0.0)
+        met = system.pairs.at(now.start.displacement + h * now.start.velocity)
+        for seen in (last, met):
+            first = np.where(seen.near, seen.gap(now.start.displacement), 0.0) + seen.drive
+            rate = seen.along(now.start.velocity) - seen.drive / h
+            closes = unseen & (first > 0.0) & (first + h * rate < 0.0)
+            gap, speed = np.where(closes, first, gap), np.where(closes, rate, speed)
+    tau = fading(gap, np.minimum(gap + h * speed, -1e-300))
+    return [
+        contact_event(model, now, slab, last, end.displacement, int(r), "touch", float(tau[r]), (float(speed[r]), 0.0))
+        for r in np.flatnonzero(fresh)
+    ]
 
 
 def _releases(

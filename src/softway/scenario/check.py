@@ -14,11 +14,11 @@ from softway.model import Model, build
 from softway.record.probes import readings
 from softway.scenario.references import (
     check_contact,
+    check_contacts,
     check_density,
     check_dimensions,
     check_loads,
     check_solid,
-    check_timings,
     mesh_of,
 )
 from softway.scenario.scales import (
@@ -74,7 +74,7 @@ def check(scenario: Scenario) -> Checked:
     check_dimensions(scene, solids)
     fixed = {n: check_solid(s, f"bodies.{n}") for n, s in solids.items()}
     check_loads(scenario.loads, "loads", solids)
-    check_timings(scene.contacts)
+    check_contacts(scene.contacts)
     bodies = {n: body_scales(s, mesh_of(s), int((~fixed[n]).sum())) for n, s in solids.items()}
     for k, contact in enumerate(scene.contacts):
         check_contact(scene.bodies, contact, f"contacts[{k}]")

@@ -110,7 +110,7 @@ class Reader:
         short = [(c, k) for c in known.values() for k in inputs(c) if len(inputs(c)) == 1 and fits(value, hints(c)[k])]
         if len(short) == 1:
             return self._object({short[0][1]: value}, short[0][0], where, unit)
-        raise InputError(where, f"{value!r} names no kind", _remedy(options, known, unit))
+        raise InputError(where, f"{value!r} names no kind", _remedy(value, options, known, unit))
 
     def _fitting(self, value: Any, choice: Any, options: tuple[Any, ...], where: str, unit: str | None) -> Any:
         """Read one alternative; a failure also says which words were admitted."""
@@ -214,11 +214,13 @@ def _fits(value: Any, kind: Any) -> bool:
     return kind is float or (kind is int and isinstance(value, int))
 
 
-def _remedy(options: tuple[Any, ...], known: dict[str, type], unit: str | None) -> str:
+def _remedy(value: Any, options: tuple[Any, ...], known: dict[str, type], unit: str | None) -> str:
     """What a union admits, in words."""
     numbers = [Hint.of(o, unit) for o in options if Hint.of(o, unit).type is float]
     words = [repr(w) for o in options if get_origin(o) is Literal for w in get_args(o)]
     parts = [example(n.unit or "") for n in numbers] + words
-    if known:
+    if known and isinstance(value, str) and not parts:
+        parts.append(nearest(value, known))
+    elif known:
         parts.append(f"a table with kind = one of: {', '.join(known)}")
     return ", or ".join(parts)

@@ -38,13 +38,19 @@ def solid_named(bodies: Mapping[str, Solid | Tool], name: str, where: str) -> So
 
 
 def check_contact(bodies: Mapping[str, Solid | Tool], contact: Contact, where: str) -> None:
-    """Refuse a contact of bodies or tags that do not exist."""
-    solid_named(bodies, contact.body, f"{where}.between")
-    if contact.opponent not in bodies:
-        others = [n for n in bodies if n != contact.body]
+    """Refuse a contact of bodies or tags that do not exist, and one that names a tool first or by a tag."""
+    path, (first, second) = f"{where}.between", contact.between
+    opponent = bodies.get(contact.opponent)
+    if isinstance(bodies.get(contact.body), Tool) and isinstance(opponent, Solid):
         raise InputError(
-            f"{where}.between", f"there is no body {contact.opponent!r}", nearest(contact.opponent, others)
+            path, f"{contact.body!r} is a Tool, which has no nodes", f'the solid first: ["{second}", "{first}"]'
         )
+    solid_named(bodies, contact.body, path)
+    if opponent is None:
+        others = [n for n in bodies if n != contact.body]
+        raise InputError(path, f"there is no body {contact.opponent!r}", nearest(contact.opponent, others))
+    if isinstance(opponent, Tool) and second != contact.opponent:
+        raise InputError(path, f"{second!r}: a Tool has no tags", f'its name: ["{first}", "{contact.opponent}"]')
     for name, tag in ((contact.body, contact.tag), (contact.opponent, contact.opponent_tag)):
         body = bodies[name]
         if isinstance(body, Solid):
@@ -110,11 +116,20 @@ def check_loads(loads: tuple[Load, ...], where: str, solids: Mapping[str, Solid]
                 raise InputError(f"{path}.on", f"{load.on!r} holds no whole facet", "a tag that covers a surface")
 
 
-def check_timings(contacts: tuple[Contact, ...]) -> None:
-    """Refuse a second timing rule, and a second contact of the same name."""
+def check_contacts(contacts: tuple[Contact, ...]) -> None:
+    """Refuse a second timing rule, a second contact of the same name, and one of the same two surfaces."""
     for k, contact in enumerate(contacts):
         if contact.timing != contacts[0].timing:
             problem = f"{contact.timing} beside {contacts[0].timing} of contacts[0]"
             raise InputError(f"contacts[{k}].timing", problem, "the same rule for all contacts of a scene")
         if contact.label in [c.label for c in contacts[:k]]:
             raise InputError(f"contacts[{k}].name", f"{contact.label!r} is taken", "another name")
+        pairs = [_surfaces(c) for c in contacts[:k]]
+        if _surfaces(contact) in pairs:
+            first = pairs.index(_surfaces(contact))
+            problem = f"{list(contact.between)} are the surfaces of contacts[{first}] too"
+            raise InputError(f"contacts[{k}].between", problem, "one contact of them; both sides are looked at")
+
+
+def _surfaces(contact: Contact) -> frozenset[tuple[str, str]]:
+    return frozenset([(contact.body, contact.tag), (contact.opponent, contact.opponent_tag)])

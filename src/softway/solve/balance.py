@@ -15,6 +15,8 @@ from softway.model import Model
 from softway.typing import Array, BoolArray, IntArray
 
 ROUNDING = 2e-15
+TINY = 1e-10
+"""Share of the energy below which no rest is too great to be closed along the motion."""
 BOUND = 0.5
 """Greatest scalar: with |a| <= 1/2 the mean force stays between those at the two ends."""
 SLIGHT = 1e-2
@@ -27,8 +29,7 @@ class Ends:
 
     ``u0``, ``u1``, ``f0``, ``f1`` (n, d) displacement and internal force at both ends, ``V0``, ``V1`` (parts,) stored
     energy, ``mean`` (n, d) the mean force to complete, ``v0`` (n, d) velocity at the start; ``rows0``, ``rows1`` and
-    ``force0``, ``force1`` (m,) contact rows and normal forces at both ends; ``drawn`` (n, d) work-doing forces of
-    supports on nodes without inertia, mean and half difference.
+    ``force0``, ``force1`` (m,) contact rows and normal forces at both ends.
     """
 
     u0: Array
@@ -47,8 +48,8 @@ class Ends:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Closure:
-    """The completed mean force (n, d); for each part (parts,) the scalar and the ``share`` of the work that was missing;
-    and whether a share that the scalar cannot close is too great.
+    """The completed mean force (n, d); for each part (parts,) the scalar and the ``share`` of the work that was
+    missing; and whether a share that the scalar cannot close is too great.
     """
 
     mean: Array
@@ -96,7 +97,7 @@ def closed(model: Model, ends: Ends, fallback: bool) -> Closure:
     work = np.bincount(label, weights=model.totals(np.abs(ends.mean * moving)))
     share = np.where(real, np.abs(num) / np.maximum(work, 1e-300), 0.0)
     rest = np.where(np.abs(wanted) > BOUND, num - a * den, 0.0)
-    great = (np.abs(rest) > SLIGHT * work) & (not fallback)
+    great = (np.abs(rest) > np.maximum(SLIGHT * work, TINY * level)) & (not fallback)
     for g in np.flatnonzero(np.where(great, 0.0, rest)).tolist():
         mean += rest[g] * _along_motion(model, ends, moving, members[g])
     return Closure(mean=mean, scalar=a[label], share=share[label], clipped=bool(great.any()))

@@ -87,6 +87,7 @@ def _settled(
     pairs = model.encounters.rest(u, time)
     once = model.linear and model.encounters.fixed and lift is None
     best, since = np.inf, 0
+    rounding = 4.0 * float(np.finfo(float).eps * np.abs(model.points).max())
     u = u.copy()
     for _ in range(limit):
         rows = pairs.at(u)
@@ -103,7 +104,7 @@ def _settled(
             break
         size = max(float(np.abs(u).max()), float(np.abs(rows.offset[rows.near]).max(initial=0.0)))
         best, since = (change, 0) if change < 0.5 * best else (best, since + 1)
-        if once or change <= 1e-13 * size or (since >= 2 and change <= ROUNDING * size):
+        if once or change <= max(1e-13 * size, rounding) or (since >= 2 and change <= ROUNDING * size):
             return u, pressure
     raise NumericsError("no static equilibrium at the start", 0.0, REMEDY)
 

@@ -34,7 +34,8 @@ class Basis:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Frozen:
-    """A factored operator A and the compliance ``B^T A^-1 B`` of the contact directions B, computed when first asked for.
+    """A factored operator A and the compliance ``B^T A^-1 B`` of the contact directions B, computed when first asked
+    for.
 
     ``columns`` (of each direction: ``A^-1 B`` (f,), kept where directions are rows, and ``B^T A^-1 B`` (b,)) and
     ``latest`` are caches of values that depend on A and B only, so the answer does not depend on when they were made.

@@ -1,9 +1,11 @@
 """Inertia: mass and centre of mass in every rule, exact values of single cells, redistribution."""
 
+import dataclasses
 import logging
 
 import numpy as np
 import pytest
+from scipy.linalg import eigh
 
 from softway.bodies.mass import Consistent, Lumped, nodal_mass
 from softway.bodies.redistribution import redistributed
@@ -11,6 +13,7 @@ from softway.bodies.section import Axisymmetric, Bar, PlaneStrain, PlaneStress, 
 from softway.errors import InputError
 from softway.space.mesh import Mesh
 from softway.space.shapes import KINDS, ball, box, cylinder, disc, interval, rectangle
+from softway.typing import Array
 
 RULES = [Consistent(), Lumped()]
 
@@ -122,6 +125,68 @@ def test_moments_of_inertia_are_kept(cells: int, rule) -> None:  # type: ignore[
     mass = redistributed(mesh, 1.0, PlaneStrain(), rule, mesh.nodes("surface"), cells)
     x = mesh.points - 0.5
     assert x.T @ (mass @ x) == pytest.approx(np.eye(2) / 12.0, abs=1e-13)
+
+
+@pytest.mark.parametrize("tags", [("right",), ("left", "right")])
+@pytest.mark.parametrize("cell", ["quad4", "quad9", "hex8"])
+def test_columns_of_a_product_mesh_are_in_exact_proportion(cell: str, tags: tuple[str, ...]) -> None:
+    """M = A x B, B the plain matrix across: a motion that does not vary across stays so, and nothing moves sideways."""
+    across = rectangle((1.0, 1.0), (1, 3), cell=cell) if cell != "hex8" else box((1.0, 1.0, 0.5), (1, 3, 2))
+    mesh = rectangle((2.0, 1.0), (9, 3), cell=cell) if cell != "hex8" else box((2.0, 1.0, 0.5), (9, 3, 2))
+    section = PlaneStrain() if cell != "hex8" else Volume()
+    nodes = np.unique(np.concatenate([mesh.nodes(t) for t in tags]))
+    blocks = by_column(mesh, redistributed(mesh, 1.0, section, Consistent(), nodes).toarray())
+    one = by_column(across, nodal_mass(across, 1.0, section, Consistent()).toarray())[0]
+    share = blocks @ one / (one @ one)
+    assert share.max() > 0.05
+    assert np.abs(blocks - np.outer(share, one)).max() <= 1e-14 * np.abs(blocks).max()
+
+
+def by_column(mesh: Mesh, mass: Array) -> Array:
+    """Blocks (m m, n n) that couple the m columns, of n nodes each, at the same first coordinate."""
+    x = mesh.points.round(9)
+    order, m = np.lexsort(x.T[::-1]), len(np.unique(x[:, 0]))
+    n = len(x) // m
+    return mass[np.ix_(order, order)].reshape(m, n, m, n).transpose(0, 2, 1, 3).reshape(m * m, n * n)
+
+
+def test_fewer_cells_are_filled_before_the_moments_are_given_up(caplog: pytest.LogCaptureFixture) -> None:
+    """Eight by eight cells, all sides massless: two cells would need a negative density, one does not."""
+    mesh = rectangle((1.0, 1.0), (8, 8))
+    nodes = mesh.nodes("surface")
+    with caplog.at_level(logging.INFO):
+        mass = redistributed(mesh, 1.0, PlaneStrain(), Consistent(), nodes)
+    assert not caplog.text
+    x = mesh.points - 0.5
+    assert x.T @ (mass @ x) == pytest.approx(np.eye(2) / 12.0, abs=1e-13)
+    assert abs(mass - redistributed(mesh, 1.0, PlaneStrain(), Consistent(), nodes, cells=1)).max() < 1e-15
+    others = np.setdiff1d(np.arange(mesh.n_nodes), nodes)
+    assert np.linalg.eigvalsh(mass.toarray()[np.ix_(others, others)]).min() > 0.0
+
+
+def test_where_one_cell_is_too_much_the_moments_of_inertia_change(caplog: pytest.LogCaptureFixture) -> None:
+    mesh = rectangle((1.0, 1.0), (6, 6))
+    with caplog.at_level(logging.INFO):
+        mass = redistributed(mesh, 1.0, PlaneStrain(), Consistent(), mesh.nodes("surface"))
+    assert [r.levelname for r in caplog.records] == ["INFO"]
+    x = mesh.points - 0.5
+    assert np.abs(mass.sum(axis=1) @ x).max() < 1e-14
+    assert x.T @ (mass @ x) == pytest.approx(0.685 * np.eye(2) / 12.0, abs=1e-4)
+
+
+@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("cells", [1, 2, 5])
+@pytest.mark.parametrize("cell", ["tri3", "tri6", "quad4", "quad9"])
+def test_positive_definite_on_distorted_meshes(cell: str, cells: int, rule) -> None:  # type: ignore[no-untyped-def]
+    """A congruence of the matrix of a positive density: never less than that density."""
+    mesh = rectangle((1.0, 1.0), (12, 12), cell=cell)
+    corners = mesh.points - 0.5
+    mesh = dataclasses.replace(mesh, points=mesh.points + 0.02 * np.sin(9.0 * corners[:, ::-1]))
+    plain = nodal_mass(mesh, 1.0, PlaneStrain(), rule).toarray()
+    for tag in ("bottom", "surface"):
+        mass = redistributed(mesh, 1.0, PlaneStrain(), rule, mesh.nodes(tag), cells).toarray()
+        heavy = np.ix_(*2 * [np.setdiff1d(np.arange(mesh.n_nodes), mesh.nodes(tag))])
+        assert eigh(mass[heavy], plain[heavy], eigvals_only=True)[0] >= 0.1
 
 
 def test_a_bar_spreads_the_inertia_of_its_end_over_five_cells() -> None:
