@@ -26,7 +26,7 @@ ROUNDING = 1e-13
 class Facets:
     """A surface of flat facets, whose signed distance is exact.
 
-    Vertices that coincide are merged. The normals of a closed surface are turned outward; its hollow is a
+    Vertices that coincide are merged. The normals of a closed surface have to be outward; its hollow is a
     :class:`~softway.space.curved.Cavity`. An open surface faces the side from which triangles turn anticlockwise
     (segments: the right-hand side), and has its back where the closest point is not on its rim; beyond the rim all is
     free space.
@@ -62,9 +62,8 @@ class Facets:
         points, cells = merged(points, cells)
         if not len(cells):
             raise InputError("cells", "no facet has two different vertices", "facets of a size greater than zero")
-        cells, rim = oriented(points, cells)
-        corners = points[cells]
         normals = normals_of(points, cells)
+        rim, corners = oriented(points, cells), points[cells]
         made = {
             "points": points,
             "cells": cells,

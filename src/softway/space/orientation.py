@@ -18,6 +18,7 @@ from softway.typing import Array, BoolArray, IntArray
 
 RESOLUTION = 2.0**-22
 """What is nearer than this share of the greatest coordinate is the same in a file of single precision."""
+WALL = "one layer of facets that face the bodies, or a wall with a thickness"
 CORNERS = {2: (1, 2), 3: (1, 2, 4)}
 RIDGES = {2: (1, 2), 3: (3, 6, 5)}
 """A vertex, edge or face of a facet is named by the sum of 2^k over its corners k; ridges are where facets meet."""
@@ -64,14 +65,18 @@ def normals_of(points: Array, cells: IntArray) -> Array:
     return unit_vectors(area)
 
 
-def oriented(points: Array, cells: IntArray) -> tuple[IntArray, BoolArray]:
-    """The facets (f, d) with their normals outward if the surface is closed, and which ridges (f, d) are its rim.
+def oriented(points: Array, cells: IntArray) -> BoolArray:
+    """Which ridges (f, d) of the facets (f, d) are the rim of the surface.
 
     Raises
     ------
     InputError
-        Where neighbours turn against each other, or more than two facets meet.
+        Where neighbours turn against each other, facets lie on each other, or more than two of them meet; for a closed
+        surface that faces inward, or encloses nothing.
     """
+    _, same, times = np.unique(np.sort(cells, axis=1), axis=0, return_inverse=True, return_counts=True)
+    double = (times[same.ravel()] > 1)[:, None]
+    _refuse(points, cells, double, "facets lie on each other, a wall of no thickness", WALL)
     number, sense = _ridges(cells, len(points))
     count = np.bincount(number.ravel())
     turned = (count == 2) & (np.bincount(number.ravel(), sense.ravel()) != 0.0)
@@ -79,9 +84,9 @@ def oriented(points: Array, cells: IntArray) -> tuple[IntArray, BoolArray]:
     remedy = "turn all facets to one side; in Gmsh, mesh the solid and save its cells: their boundary is taken"
     _refuse(points, cells, turned[number], "neighbouring facets face opposite sides", remedy)
     rim: BoolArray = (count == 1)[number]
-    if not rim.any() and np.linalg.det((points - points.mean(axis=0))[cells]).sum() < 0.0:
-        cells = np.ascontiguousarray(cells[:, ::-1])
-    return cells, rim
+    if not rim.any():
+        _refuse_hollow(points, cells)
+    return rim
 
 
 def pseudo_normals(points: Array, cells: IntArray, normals: Array) -> Array:
@@ -165,6 +170,18 @@ def _refuse(points: Array, cells: IntArray, wrong: BoolArray, problem: str, reme
     if len(found):
         place = ", ".join(f"{value:.6g}" for value in points[cells[found[0]]].mean(axis=0))
         raise InputError("", f"{problem}, at ({place}) m and {len(found) - 1} other facets", remedy)
+
+
+def _refuse_hollow(points: Array, cells: IntArray) -> None:
+    """Raise if a closed surface encloses no volume, or all but its inside."""
+    size = np.ptp(points, axis=0)
+    parts = np.linalg.det((points - points.mean(axis=0))[cells])
+    volume = float(parts.sum()) / (2 if cells.shape[1] == 2 else 6)
+    if abs(volume) <= RESOLUTION * float(np.abs(points).max()) * float(size.max()) ** (cells.shape[1] - 1):
+        raise InputError("", f"the {len(cells)} facets are closed around nothing, a wall of no thickness", WALL)
+    if volume < 0.0:
+        remedy = "turn all facets around; around a body that moves inside, a Cavity of the surface"
+        raise InputError("", f"the closed surface is inside out: its {len(cells)} facets face what it encloses", remedy)
 
 
 def _angles(corners: Array) -> Array:

@@ -160,13 +160,21 @@ def test_it_is_examined_as_every_obstacle():
     check_obstacle(cube_facets(), np.array([[1.0, 0.9, 0.1], [0.2, 0.1, 0.15], [0.9, 0.9, 0.9]]))
 
 
-def test_a_closed_surface_is_turned_outward():
-    points, cells = octants(1)
-    inward = Facets(points=points, cells=cells[:, ::-1])
-    assert inward.gap(np.zeros(3)) < 0.0
-    assert Cavity(of=inward).gap(np.zeros(3)) > 0.0
-    points, cells = circle(12)
-    assert Facets(points=points + 1e6, cells=cells[:, ::-1]).gap(np.full(2, 1e6)) < 0.0
+def test_a_closed_surface_that_faces_inward_is_refused():
+    for points, cells in (octants(1), circle(12)):
+        assert Cavity(of=Facets(points=points, cells=cells)).gap(np.zeros(points.shape[1])) > 0.0
+        with pytest.raises(InputError, match="inside out"):
+            Facets(points=points + 1e3, cells=cells[:, ::-1])
+
+
+def test_a_wall_of_no_thickness_is_refused():
+    one, two = np.array([[0, 1, 2], [0, 2, 3]]), np.array([[0, 3, 1], [1, 3, 2]])
+    square = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 1.0], [0.0, 1.0, 1.0]])
+    for back in (one[:, ::-1], two):
+        with pytest.raises(InputError, match="no thickness"):
+            Facets(points=square, cells=np.concatenate([one, back]))
+    with pytest.raises(InputError, match="no thickness"):
+        Facets(points=square[:, :2], cells=np.array([[0, 1], [1, 0]]))
 
 
 def test_a_void_inside_a_solid_stays_free():
