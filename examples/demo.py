@@ -84,7 +84,8 @@ def massless_contact() -> float:
 
     With the tip held, M u'' + K u = 0 for the rear and the middle node; the wall lets go when the middle returns.
     """
-    mass = np.array([[2.0, 1.0], [1.0, 8.0]]) / 12.0
+    s = np.sqrt(1.8)
+    mass = np.array([[2.0, s], [s, 7.2]]) / (9.2 + 2.0 * s)
     square, modes = eigh(np.array([[2.0, -2.0], [-2.0, 4.0]]), mass)
     share = modes[1] * (modes.T @ mass @ np.ones(2)) / np.sqrt(square)
     return float(brentq(lambda t: share @ np.sin(np.sqrt(square) * t), 1.5, 3.0, xtol=1e-14))

@@ -37,8 +37,9 @@ def test_the_force_is_that_of_the_exact_bar() -> None:
 
 
 def test_three_contacts_and_the_energy() -> None:
+    """In the first one the tip may open by some 1e-5 and close again while it rests without force."""
     march, exact = results.stopped(200, 10.0), waves.solve(STOPPED, 10.5)
-    contacts = march.contacts(apart=0.5)
+    contacts = march.contacts(apart=1.0)
     assert [start for start, _ in contacts] == pytest.approx([t.start for t in exact.touches], abs=2e-3)
     assert [end for _, end in contacts][1:] == pytest.approx([t.release for t in exact.touches][1:], abs=5e-3)
     assert np.abs(march.error).max() <= 1e-12 * march.energy[0]

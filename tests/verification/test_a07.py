@@ -5,6 +5,8 @@ are given as parts of it: bars shortened by half, pressed end to end without fri
 sides, would buckle; rounding grows there by about exp(13 t).
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -67,3 +69,22 @@ def test_nothing_moves_sideways(collision, request):
     sideways = [np.abs(v[:, 1:]).max(initial=0.0) for s in march.steps for v in s.after.velocity.values()]
     ripple = "nodes on faces" in request.node.name
     assert max(sideways) <= (0.05 if ripple else 1e-9) * speed
+
+
+@pytest.mark.parametrize("dim", [1, 2, 3])
+@pytest.mark.parametrize("rule", [sw.Paper(), sw.Impulse()])
+def test_the_layers_that_meet_become_one(rule, dim):
+    """Rules that stop nodes lose what half a layer of each bar loses in an inelastic impact, with lumped mass, and
+    keep the momentum.
+    """
+    scene = pair(Bar(speed=0.01, along=20, across=2), Bar(along=25, across=2), dim, gap=3e-4)
+    bodies = {name: replace(body, mass=sw.Lumped()) for name, body in scene.bodies.items()}
+    march = collided(
+        replace(scene, bodies=bodies, contacts=(replace(scene.contacts[0], timing=rule),)), 2.3, step=0.0165
+    )
+    one, two = 1.0 / 40.0, 1.0 / 50.0
+    lost = next(s.ledger.dissipation for s in march.steps if s.ledger.dissipation)
+    start = march.steps[0].ledger
+    assert lost == pytest.approx(start.energy_kinetic * one * two / (one + two), rel=1e-9)
+    assert march.momentum <= 1e-12
+    assert march.gap >= -1e-14

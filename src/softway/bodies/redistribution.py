@@ -71,6 +71,7 @@ def redistributed(
         forms = np.array(_monomials(y, order))
         parts = [assembled(body, rule, form) for form in forms]
         target = _moments(exact, y, order)
+        target[1 + y.shape[1] :] = _moments(plain, y, order)[1 + y.shape[1] :]
         for k in range(min(cells, max(int(depth.max()) // 2, 1)), 0, -1):
             scale = sparse.diags_array(_scale(plain, near, depth, k))
             filled = [scale @ m @ scale for m in parts]

@@ -117,6 +117,11 @@ class EdgeMeeting:
     two: Edges
     count: int
 
+    @property
+    def found(self) -> int:
+        """Pairs that the search came up with."""
+        return len(self.row)
+
     def at(self, x: Array) -> Stencils:
         """Gaps and their derivatives at positions x (n, 3)."""
         found = crossings(x, self.one, self.two)

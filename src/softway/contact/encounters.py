@@ -19,6 +19,11 @@ from softway.typing import Array, IntArray
 class Meeting(Protocol):
     """Surfaces that may touch in one slab."""
 
+    @property
+    def found(self) -> int:
+        """Number of pairs that the search came up with."""
+        ...
+
     def at(self, x: Array) -> Stencils:
         """Gaps and their derivatives at positions ``x`` (n, d)."""
         ...
@@ -118,6 +123,11 @@ class Pairs:
     watching: tuple[Meeting, ...]
     node: IntArray
     known: Candidates | None
+
+    @property
+    def found(self) -> int:
+        """Pairs of a node, facet or edge and its opponent that the search came up with."""
+        return len(self.node) if self.known is not None else sum(m.found for m in self.meetings)
 
     def start(self, u: Array) -> Candidates:
         """The rows at the start of the slab, at the displacement ``u`` (n, d) there."""

@@ -22,6 +22,11 @@ class HeldEdges:
 
     edges: EdgeMeeting
 
+    @property
+    def found(self) -> int:
+        """Pairs that are kept."""
+        return len(self.edges.row)
+
     def at(self, x: Array) -> Stencils:
         """Gaps and their derivatives at positions ``x`` (n, 3)."""
         edges = self.edges

@@ -51,6 +51,11 @@ class Meeting:
     size: Array
     above: Array
 
+    @property
+    def found(self) -> int:
+        """Pairs that the search came up with."""
+        return len(self.pairs.facet)
+
     def at(self, x: Array) -> Stencils:
         """Gaps and their derivatives at positions x (n, d)."""
         seen = sight(self.pairs, x, self.size)
@@ -90,6 +95,11 @@ class Held:
     pairs: Pairs
     rows: IntArray
     count: int
+
+    @property
+    def found(self) -> int:
+        """Pairs that are kept."""
+        return len(self.rows)
 
     def at(self, x: Array) -> Stencils:
         """Gaps and their derivatives at positions x (n, d)."""

@@ -101,6 +101,11 @@ class Meeting:
     pairs: Facing
     share: sp.csr_array
 
+    @property
+    def found(self) -> int:
+        """Pairs that the search came up with."""
+        return len(self.pairs.slave)
+
     def at(self, x: Array) -> Stencils:
         """Gaps at the positions x (n, d) [m]; the weights of their derivatives are those of x, held fast.
 

@@ -39,6 +39,11 @@ class ToolMeeting:
     other: float
     sign: float
 
+    @property
+    def found(self) -> int:
+        """Nodes that the search came up with."""
+        return len(self.node)
+
     def opening(self) -> "ToolMeeting":
         """The same at the start of the slab."""
         return ToolMeeting(node=self.node, tool=self.tool, now=self.other, other=self.now, sign=-1.0)

@@ -61,7 +61,9 @@ def solve_carrying(
         passes, iterations, carry = passes + 1, iterations + solution.iterations, solution.last.carry
         revision = turned(model, pairs, known, solution) or revised(model, now, system, known, solution, inertia)
         if revision is None:
-            return _outcome(now, slab, system, known, solution, found, inertia, passes, iterations), carry
+            return _outcome(
+                now, slab, system, known, solution, found, inertia, pairs.found, (passes, iterations)
+            ), carry
         known, guess = revision, solution.last.q
     raise NoConvergence(f"the contact events of the slab do not settle in {PASSES} passes")
 
@@ -82,7 +84,7 @@ def _system(
         free=model.free,
         rows=rows,
         way=way,
-        jumps=tuple((j.instant, j.field) for j in balanced),
+        jumps=tuple((j.instant, j.field) for j in found),
     )
     none = np.zeros(len(way.closed))
     moving = rows.along(np.where(model.free, 0.0, given))
@@ -106,8 +108,8 @@ def _outcome(
     solution: Solution,
     found: tuple[Jump, ...],
     inertia: Reaction,
-    passes: int,
-    iterations: int,
+    pairs: int,
+    work: tuple[int, int],
 ) -> Outcome:
     model, h, way, q, rows = system.model, slab.span, known.way, solution.last.q, known.rows
     jumped = sum((j.field for j in found), np.zeros(model.shape))
@@ -134,8 +136,9 @@ def _outcome(
         work=float(through @ rows.drive) / h + float(np.sum(support * moved)),
         dissipation=loss(model, rows, way, found, now.start.velocity, q, h),
         events=_events(now, slab, system, known, solution, found),
-        passes=passes,
-        iterations=iterations,
+        pairs=pairs,
+        passes=work[0],
+        iterations=work[1],
     )
 
 

@@ -254,6 +254,7 @@ def _step(model: Model, now: Situation, before: State, found: _Accepted) -> Step
         reactions=model.split(out.support),
         report=Report(
             iterations=out.iterations,
+            pairs=out.pairs,
             factorisations=found.carry.factorisations,
             passes=out.passes,
             rejections=found.rejections,

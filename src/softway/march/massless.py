@@ -45,7 +45,7 @@ def solve_massless(
     guess = np.where(model.free, np.where(model.massive[:, None], rate, 2.0 * rate), system.given)
     iterates = method.iterate(system, guess, carry, now.pressure * h * moments(slab.weight)[1])
     solution = drive(system, iterates, method.tolerance, method.limit)
-    return _outcome(model, now, slab, system, solution), solution.last.carry
+    return _outcome(model, now, slab, system, solution, pairs.found), solution.last.carry
 
 
 def _equations(model: Model, now: Situation, slab: Slab, pairs: Pairs, located: LocatedMean | None) -> SlabSystem:
@@ -81,7 +81,7 @@ def _equations(model: Model, now: Situation, slab: Slab, pairs: Pairs, located: 
     )
 
 
-def _outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solution: Solution) -> Outcome:
+def _outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solution: Solution, pairs: int) -> Outcome:
     h = slab.span
     q, end = solution.last.q, solution.end
     rows = end.near or system.path.rows
@@ -117,6 +117,7 @@ def _outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solut
         work=tools + float(np.sum(support * (end.displacement - now.start.displacement))),
         dissipation=0.0,
         events=tuple(sorted(events, key=lambda e: (round((e.time - slab.start) / slab.span, 9), e.contact, e.node))),
+        pairs=pairs,
         passes=1,
         iterations=solution.iterations,
     )
@@ -136,10 +137,10 @@ def _touches(
     fresh = closed & ~now.closed
     gap = np.where(rows.near, rows.gap(now.start.displacement), 0.0)
     speed = 0.5 * solution.predicted - last.drive / h
-    if system.pairs is not None and fresh.any():
+    if fresh.any():
         unseen = ~rows.near | (gap + h * speed >= 0.0)
-        met = system.pairs.at(now.start.displacement + h * now.start.velocity)
-        for seen in (last, met):
+        coasting = now.start.displacement + h * now.start.velocity
+        for seen in (last, rows if system.pairs is None else system.pairs.at(coasting)):
             first = np.where(seen.near, seen.gap(now.start.displacement), 0.0) + seen.drive
             rate = seen.along(now.start.velocity) - seen.drive / h
             closes = unseen & (first > 0.0) & (first + h * rate < 0.0)

@@ -39,6 +39,8 @@ class Outcome:
         Energy lost in velocity jumps [J].
     events
         Touches and releases.
+    pairs
+        Number of pairs that the search found.
     passes
         How often the slab was solved.
     iterations
@@ -58,6 +60,7 @@ class Outcome:
     work: float
     dissipation: float
     events: tuple[Event, ...]
+    pairs: int
     passes: int
     iterations: int
 

@@ -14,6 +14,7 @@ COLUMNS = (
     ("time", "s"),
     ("h", "s"),
     ("iterations", table.COUNT),
+    ("pairs", table.COUNT),
     ("energy_kinetic", "J"),
     ("energy_strain", "J"),
     ("work_external", "J"),
@@ -47,7 +48,7 @@ class History:
 
     def take(self, step: Step) -> None:
         """Write the line of one slab: its audit, and the probes at its end."""
-        start = [step.after.time, step.slab.span, step.report.iterations]
+        start = [step.after.time, step.slab.span, step.report.iterations, step.report.pairs]
         left = [float(getattr(step.certificate, name.partition(".")[2])) for name, _ in CERTIFICATE]
         probes = [r.value(step.after, step.reactions) for r in self.readings]
         table.write(self.stream, [*start, *_audit(step.ledger, self.contacts), *left, *probes])
@@ -66,7 +67,7 @@ def open_history(folder: Path, opening: Opening) -> History:
     probes = [r.value(opening.initial, {}) for r in opening.readings]
     gaps = [c.min_gap for c in opening.ledger.contacts.values()]
     left = [min(gaps, default=float("inf")), *[0.0] * (len(CERTIFICATE) - 1)]
-    table.write(stream, [opening.initial.time, 0.0, 0, *_audit(opening.ledger, contacts), *left, *probes])
+    table.write(stream, [opening.initial.time, 0.0, 0, 0, *_audit(opening.ledger, contacts), *left, *probes])
     return History(stream=stream, contacts=contacts, readings=opening.readings)
 
 

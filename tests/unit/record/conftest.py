@@ -105,7 +105,8 @@ class Fake:
         return Step(
             certificate=certificate, before=before, after=after, slab=Slab(start=begin, end=end),
             ledger=self.ledger(after), events=events,
-            reactions={"part": np.ones_like(self.mesh.points)}, report=Report(iterations=3, factorisations=1, passes=1),
+            reactions={"part": np.ones_like(self.mesh.points)},
+            report=Report(iterations=3, pairs=4, factorisations=1, passes=1),
         )  # fmt: skip
 
 

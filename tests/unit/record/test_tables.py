@@ -37,9 +37,9 @@ def test_history_has_a_row_per_slab_with_all_digits(bar, tmp_path):
 def test_history_header_is_name_and_unit(bar, tmp_path):
     open_history(tmp_path, bar.opening()).close()
     header = (tmp_path / "history.csv").read_text().splitlines()[0].split(",")
-    assert header[:4] == ["time [s]", "h [s]", "iterations [1]", "energy_kinetic [J]"]
-    assert header[14] == "contact.part.surface-floor.force_n [N]" and header[24] == "tip [m]"
-    assert header[18] == "certificate.min_gap [m]" and header[23] == "certificate.energy_error [J]"
+    assert header[:4] == ["time [s]", "h [s]", "iterations [1]", "pairs [1]"]
+    assert header[15] == "contact.part.surface-floor.force_n [N]" and header[25] == "tip [m]"
+    assert header[19] == "certificate.min_gap [m]" and header[24] == "certificate.energy_error [J]"
 
 
 def test_probes(bar, tmp_path):
