@@ -8,7 +8,7 @@ from softway.bodies.rigid_motions import free_motions
 from softway.bodies.section import Axisymmetric
 from softway.contact.timing import Energy
 from softway.errors import InputError
-from softway.march.overlap import deepest
+from softway.march.overlap import deepest, shrunk
 from softway.march.situation import Situation
 from softway.model import Model, dead_load
 from softway.scene import StaticStart
@@ -36,10 +36,11 @@ def begin(model: Model) -> Situation:
     if isinstance(start, StaticStart):
         require_supported(model)
         loads = dead_load(model, start.loads, "start.loads") if start.loads else model.load
-        find = fitted if unheld(model) else equilibrium
-        u, pressure = find(model, u, model.free, loads)
-    elif any(c.start == "fit" for c in model.scene.contacts):
-        u, pressure = fitted(model, u, model.free, loads)
+    fits = any(c.start == "fit" for c in model.scene.contacts)
+    if fits or (isinstance(start, StaticStart) and unheld(model)):
+        u, pressure = fitted(model, u, model.free, loads, shrunk(model, u, OVERLAP * _reach(model, u)))
+    elif isinstance(start, StaticStart):
+        u, pressure = equilibrium(model, u, model.free, loads)
     if isinstance(model.timing, Energy) and not model.massive.all():
         before = float(model.energy_and_force(u)[0].sum())
         u, pressure = equilibrium(model, u, model.free & ~model.massive[:, None], model.load)

@@ -1,10 +1,12 @@
 """Bodies that overlap at the start: nodes inside the boundary of another body, or inside a tool."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from softway.bodies.part import Part
+from softway.contact.side import Side
 from softway.model import Model
 from softway.space.faceted import Facets
 from softway.typing import Array, IntArray
@@ -34,11 +36,11 @@ class Overlap:
     place: tuple[float, ...]
 
 
-def deepest(model: Model, u: Array, rounding: float) -> Overlap | None:
-    """The deepest overlap in the contacts that start apart, at the displacement ``u`` (n, d); None without one."""
+def deepest(model: Model, u: Array, rounding: float, start: Literal["apart", "fit"] = "apart") -> Overlap | None:
+    """The deepest overlap in the contacts with that ``start``, at the displacement ``u`` (n, d); None without one."""
     found = []
     for k, contact in enumerate(model.scene.contacts):
-        if contact.start != "apart":
+        if contact.start != start:
             continue
         one, other = model.opponents[k]
         if other < 0:
@@ -47,6 +49,32 @@ def deepest(model: Model, u: Array, rounding: float) -> Overlap | None:
         found += [_in_body(model, u, k, a, b, rounding) for a, b in ((one, other), (other, one))]
     deep = [f for f in found if f is not None]
     return max(deep, key=lambda f: f.depth) if deep else None
+
+
+def shrunk(model: Model, u: Array, rounding: float) -> Array:
+    """Displacement (n, d) with the surfaces of the first bodies of press fits drawn in until nothing overlaps.
+
+    From there to ``u`` surfaces meet from outside, however deep they overlap.
+    """
+    found = deepest(model, u, rounding, "fit")
+    out = u.copy()
+    if found is None:
+        return out
+    first = {int(model.opponents[k][0]) for k, c in enumerate(model.scene.contacts) if c.start == "fit"}
+    for part in (model.parts[i] for i in sorted(first)):
+        nodes = model.touchable[(model.touchable >= part.rows.start) & (model.touchable < part.rows.stop)]
+        out[nodes] -= 1.1 * found.depth * _outward(part, (model.points + u)[part.rows])[nodes - part.rows.start]
+    return out
+
+
+def _outward(part: Part, x: Array) -> Array:
+    """Unit outward normals (n, d) at the boundary nodes of a solid whose nodes are at ``x`` (n, d)."""
+    if x.shape[1] == 1:
+        return np.sign(x - x.mean(axis=0))
+    side = Side(facets=part.mesh.boundary())
+    out = np.zeros_like(x)
+    out[side.nodes] = side.nodal_normals(x)
+    return out
 
 
 def _in_tool(model: Model, u: Array, k: int, rounding: float) -> Overlap | None:

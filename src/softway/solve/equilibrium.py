@@ -4,6 +4,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.contact.candidates import Candidates
+from softway.contact.encounters import Pairs
 from softway.errors import NoConvergence, NumericsError
 from softway.model import Model
 from softway.solve.frozen import basis, freeze
@@ -41,15 +42,18 @@ def equilibrium(
     """
     if not unknown.any():
         return u, np.zeros(len(model.encounters.contact))
-    return _settled(model, u, unknown, load, time, None, limit)
+    return _settled(model, u, unknown, load, model.encounters.rest(u, time), None, limit)
 
 
-def fitted(model: Model, u: Array, unknown: BoolArray, load: Array, limit: int = 200) -> tuple[Array, Array]:
+def fitted(
+    model: Model, u: Array, unknown: BoolArray, load: Array, apart: Array, limit: int = 200
+) -> tuple[Array, Array]:
     """Displacement (n, d) and contact forces (m,) of bodies that overlap at the start, pressed apart: a press fit.
 
     Bodies that no support holds keep their place as far as they can: the stiffness is lifted by a share ``SHARE`` of
     the volume that each node has, about the last iterate (proximal steps), so that the answer is an equilibrium of the
-    plain stiffness.
+    plain stiffness.  Surfaces are told to face each other on the way from the displacement ``apart`` (n, d), where
+    they do not overlap, to ``u``.
 
     Raises
     ------
@@ -61,7 +65,8 @@ def fitted(model: Model, u: Array, unknown: BoolArray, load: Array, limit: int =
     stiffness = model.tangent(u)
     weight = np.repeat(np.maximum(_nodal_volume(model), 0.0), d)
     lift = SHARE * float(stiffness.diagonal().mean() / weight.mean()) * weight
-    return _settled(model, u, unknown, load, 0.0, sp.csc_array(sp.diags_array(lift[keep])), limit)
+    pairs = model.encounters.meet(apart, u, 0.0, 0.0)
+    return _settled(model, u, unknown, load, pairs, sp.csc_array(sp.diags_array(lift[keep])), limit)
 
 
 def _nodal_volume(model: Model) -> Array:
@@ -79,12 +84,11 @@ def _nodal_volume(model: Model) -> Array:
 
 
 def _settled(
-    model: Model, u: Array, unknown: BoolArray, load: Array, time: float, lift: sp.csc_array | None, limit: int
+    model: Model, u: Array, unknown: BoolArray, load: Array, pairs: Pairs, lift: sp.csc_array | None, limit: int
 ) -> tuple[Array, Array]:
     """Newton's method with the contact rows as inequalities; ``lift`` (k, k) is added to the stiffness."""
     keep = np.flatnonzero(unknown.ravel())
     active = np.zeros(len(model.encounters.contact), bool)
-    pairs = model.encounters.rest(u, time)
     once = model.linear and model.encounters.fixed and lift is None
     best, since = np.inf, 0
     rounding = 4.0 * float(np.finfo(float).eps * np.abs(model.points).max())
