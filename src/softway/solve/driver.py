@@ -61,12 +61,18 @@ def _pushed(system: SlabSystem, it: Iterate) -> float:
     return 0.0 if frozen is None else float(np.abs(frozen.solve(system.path.span * force)).max(initial=0.0))
 
 
+def _resolved(system: SlabSystem) -> float:
+    """Velocity that moves the nodes by a few units in the last place of their coordinates in one slab [m/s]."""
+    reach = float(np.abs(system.model.points + system.start.displacement).max())
+    return 8.0 * float(np.finfo(float).eps) * reach / system.path.span
+
+
 def drive(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float, limit: int) -> Solution:
     """Consume iterates until the change of velocity is below ``tolerance`` times the greatest velocity.
 
     An iteration whose change no longer decreases has reached the rounding level of the problem: it is accepted within
-    1000 times the tolerance, or within ``ROUNDING`` of the velocity that the forces alone would give in one slab (a
-    body at rest under load).
+    1000 times the tolerance, within ``ROUNDING`` of the velocity that the forces alone would give in one slab (a body
+    at rest under load), or where it moves nothing but the last digits of positions (bodies at rest that just touch).
 
     Raises
     ------
@@ -85,6 +91,7 @@ def drive(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float, lim
         best, since = (it.change, 0) if it.change < 0.5 * best else (best, since + 1)
         settled = it.change <= tolerance * scale or (since >= 6 and it.change <= 1e3 * tolerance * scale)
         settled = settled or (since >= 4 and it.change <= ROUNDING * _pushed(system, it))
+        settled = settled or (since >= 4 and it.change <= _resolved(system))
         if settled and it.sound:
             return Solution(last=it, end=it.system.evaluate(it.q, it.impulse), predicted=predicted, iterations=count)
         if count >= limit:

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import softway as sw
 from softway.bodies.fields import Uniform
 from softway.bodies.force import EnergyMomentum, Weighted
 from softway.bodies.placement import Placement, Rotation
@@ -138,3 +139,27 @@ def test_without_contact_they_pass_through_each_other(shop) -> None:
     model = build(Scene(bodies={"a": low, "b": top}))
     last = list(march(model, until=1.0, step=0.25))[-1]
     np.testing.assert_allclose(last.after.velocity["a"], [[0.0, 0.1]] * 16, atol=1e-15)
+
+
+@pytest.mark.parametrize("between", [("upper", "lower"), ("upper.bottom", "lower.top")])
+@pytest.mark.parametrize("depth", [0.005, 0.05])
+def test_free_blocks_that_overlap_are_moved_apart_and_stay(between: tuple[str, str], depth: float) -> None:
+    """Nothing holds them: they end up without strain, just touching, however deep they were; a little tilted, since
+    the upper one is not over the middle.
+    """
+    blocks = {
+        name: sw.Solid(
+            mesh=sw.Rectangle(size=(width, 1.0), cells=(cells, cells)),
+            material=sw.NeoHookean(E=1.0, nu=0.3),
+            density=1.0,
+            place=sw.Placement(translation=(0.0, height)),
+        )
+        for name, width, cells, height in (("upper", 0.8, 4, 1.0 - depth), ("lower", 1.0, 5, 0.0))
+    }
+    contacts = (sw.Contact(between=between, start="fit"),)
+    steps = list(sw.march(sw.Scene(bodies=blocks, contacts=contacts), until=1.0, step=0.05))
+    for s in steps:
+        assert s.ledger.energy_strain + s.ledger.energy_kinetic <= 1e-24
+        assert abs(s.certificate.min_gap) <= 1e-14
+    moved = [steps[-1].after.displacement[name][:, 1].mean() for name in blocks]
+    assert moved[0] - moved[1] == pytest.approx(depth, rel=0.02)
