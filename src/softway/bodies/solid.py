@@ -6,11 +6,11 @@ from typing import Annotated
 import numpy as np
 
 from softway.bodies.fields import Field, Uniform
-from softway.bodies.force import SlabForce, Weighted
+from softway.bodies.force import EnergyMomentum, SlabForce, Weighted
 from softway.bodies.mass import Consistent, MassRule
 from softway.bodies.motion import Motion, Placed, Still
 from softway.bodies.placement import Placement
-from softway.bodies.section import Section
+from softway.bodies.section import Axisymmetric, Section
 from softway.errors import InputError
 from softway.laws.law import StoredEnergy
 from softway.space.curved import Shape
@@ -109,6 +109,11 @@ class Solid:
     supports: tuple[Support, ...] = ()
     force: SlabForce = Weighted()
     place: Placement = Placement()
+
+    def __post_init__(self) -> None:
+        if isinstance(self.force, EnergyMomentum) and isinstance(self.section, Axisymmetric):
+            problem = "EnergyMomentum of a body of revolution, which has no angular momentum in its section"
+            raise InputError("force", problem, "Weighted")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

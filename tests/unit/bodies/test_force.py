@@ -2,8 +2,12 @@
 
 import pytest
 
-from softway.bodies.force import AverageField, DiscreteGradient, Weighted
+from softway.bodies.force import AverageField, DiscreteGradient, EnergyMomentum, Weighted
+from softway.bodies.section import Axisymmetric
+from softway.bodies.solid import Solid
 from softway.errors import InputError
+from softway.laws.bulk import NeoHookean
+from softway.space.shapes import rectangle
 
 
 def test_defaults() -> None:
@@ -15,3 +19,14 @@ def test_no_points_average_nothing() -> None:
     with pytest.raises(InputError) as error:
         AverageField(points=0)
     assert error.value.where == "points"
+
+
+def test_a_body_of_revolution_has_no_angular_momentum_to_keep() -> None:
+    with pytest.raises(InputError, match="force: EnergyMomentum of a body of revolution"):
+        Solid(
+            mesh=rectangle((1.0, 1.0), (2, 2)),
+            material=NeoHookean(E=1.0),
+            density=1.0,
+            section=Axisymmetric(),
+            force=EnergyMomentum(),
+        )
