@@ -8,6 +8,7 @@ from softway.contact.candidates import Candidates
 from softway.contact.encounters import Pairs
 from softway.contact.located import LocatedMean
 from softway.contact.path import Path, passage
+from softway.kernels.dense import shared
 from softway.kernels.impact import fading
 from softway.march.control import require_slow
 from softway.march.outcome import Outcome, contact_event, supports
@@ -155,14 +156,14 @@ def _touches(
 def _releases(
     model: Model, now: Situation, slab: Slab, rows: Candidates, solution: Solution, closed: BoolArray
 ) -> list[Event]:
-    """Releases at the root of the reaction, continued into tension by the compliance of the row."""
+    """Releases at the root of the reaction, continued into tension by the compliance of the rows that let go."""
     h, end = slab.span, solution.end.displacement
     left = np.flatnonzero(now.closed & ~closed & rows.near)
     frozen = solution.last.carry.frozen
     if not len(left) or frozen is None:
         return []
-    give = np.diag(delassus(frozen, frozen.basis.coefficients(rows, model.free)[left]))
-    tension = rows.gap(end)[left] * 2.0 / (h * give) / (h * moments(slab.weight)[1])
+    give = delassus(frozen, frozen.basis.coefficients(rows, model.free)[left])
+    tension = shared(give, rows.gap(end)[left]) * 2.0 / h / (h * moments(slab.weight)[1])
     tau = fading(now.pressure[left], -np.maximum(tension, 1e-300))
     after = 0.5 * rows.along(solution.last.q) - rows.drive / h
     return [

@@ -86,7 +86,7 @@ def closed(model: Model, ends: Ends, fallback: bool) -> Closure:
         if spin is not None:
             num[g] += spin.work(moving) @ spin.solve(spin.torque)
             den[g] -= spin.work(moving) @ spin.solve(spin.slope)
-    real = np.abs(num) > ROUNDING * level + floor
+    real = np.abs(num) > ROUNDING * level + floor + np.bincount(label, weights=_blurred(model, ends))
     with np.errstate(divide="ignore", invalid="ignore"):
         wanted = np.where(real & (den != 0.0), num / den, 0.0)
     a = np.clip(wanted, -BOUND, BOUND)
@@ -124,6 +124,14 @@ def _energies(model: Model, ends: Ends, moving: Array) -> tuple[Array, Array, Ar
     level += model.totals(np.abs(ends.mean * moving)) + model.totals(np.abs(model.load * du))
     level += np.bincount(slave, weights=np.abs(d0) + np.abs(d1), minlength=n)
     return num, den, level
+
+
+def _blurred(model: Model, ends: Ends) -> Array:
+    """Energy (parts,) by which contact forces blur the balance: over the last digits of positions, they do work."""
+    reach = float(np.abs(model.points + ends.u1).max())
+    slave = model.part_of[ends.rows0.node]
+    force = np.bincount(slave, weights=np.abs(ends.force0) + np.abs(ends.force1), minlength=len(model.parts))
+    return np.asarray(4.0 * np.finfo(float).eps * reach * force)
 
 
 def _both(ends: Ends) -> tuple[tuple[Array, Candidates, Array], tuple[Array, Candidates, Array]]:

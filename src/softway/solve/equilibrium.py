@@ -16,6 +16,8 @@ SHARE = 1e-7
 """Lift of the stiffness of bodies without support, as a share of its diagonal: far below their softest mode."""
 ROUNDING = 1e-9
 """Change of the displacement, relative to its size, that is rounding if it no longer falls: free motions wander."""
+STEADY = 20
+"""Steps after which nodes keep their faces: one at the edge of two curved faces may hop to and fro."""
 REMEDY = "a smaller load or initial displacement, or more supports"
 
 
@@ -93,7 +95,8 @@ def _settled(
     best, since = np.inf, 0
     rounding = 4.0 * float(np.finfo(float).eps * np.abs(model.points).max())
     u = u.copy()
-    for _ in range(limit):
+    for count in range(limit):
+        pairs = pairs.held(u) if count == STEADY and pairs.known is None else pairs
         rows = pairs.at(u)
         try:
             stiffness = model.tangent(u)[keep][:, keep]
