@@ -128,10 +128,11 @@ class Meeting:
         weights = _over(functions.own @ self.control, covered, met) - _over(cross @ self.lift, total, met)
         facing = _seen(areas, master, i, j)
         normal = np.where(met[:, None], unit(functions.means(i, common.cross, facing), axis=1), normal)
+        square, turn = np.take(unit(areas), i, axis=1), _turning(slave, master, facing, common, (i, j))
         parts = (
-            functions.integrals(i, common.own * n, self.slave.corner.T[:, i], len(slave_nodes)) @ to_slave
+            functions.integrals(i, common.own * n + turn * p, self.slave.corner.T[:, i], len(slave_nodes)) @ to_slave
             - functions.integrals(i, common.cross * n, self.master.corner.T[:, j], self.lift.shape[0]) @ self.lift
-            for n in facing
+            for n, p in zip(facing, square, strict=True)
         )
         slopes = interleaved([_over(sp.csr_array(p), total, met) for p in parts])
         gap = np.where(met, slopes @ x.ravel(), np.inf)
@@ -164,6 +165,37 @@ def _seen(areas: Array, master: Array, i: IntArray, j: IntArray) -> Array:
     square = -np.take(unit(areas), i, axis=1)
     normal = np.take(unit(vector_areas(master)), j, axis=1)
     return np.asarray(normal / np.maximum(np.sum(square * normal, axis=0), STEEP))
+
+
+def _turning(slave: Array, master: Array, facing: Array, common: Common, pair: tuple[IntArray, IntArray]) -> Array:
+    """Integrals (k, k, s) of coordinates on the slave times what the distance gains, when its corners shift squarely.
+
+    The direction in which the distance is measured turns with the slave: without this a row of two surfaces that are
+    not parallel would have a moment.  Arguments: corners (d, k, p), (d, k, q); the slopes (d, s) of the distance.
+    """
+    i, j = pair
+    own = np.einsum("dks,ds->ks", np.take(slave, i, axis=2), facing)
+    other = np.einsum("dks,ds->ks", np.take(master, j, axis=2), facing)
+    distance = np.einsum("abs,bs->as", common.own, own) - np.einsum("abs,bs->as", common.cross, other)
+    lean = np.einsum("dks,ds->ks", np.take(_gradients(slave), i, axis=2), facing)
+    return np.asarray(-distance[:, None] * lean[None])
+
+
+def _gradients(corners: Array) -> Array:
+    """Gradients (d, k, p), along the simplices, of the barycentric coordinates of corners (d, k, p).
+
+    Examples
+    --------
+    >>> _gradients(np.array([[0.0, 2.0], [0.0, 0.0]])[:, :, None])[0, :, 0].tolist()
+    [-0.5, 0.5]
+    """
+    if len(corners) == 2:
+        run = corners[:, 1] - corners[:, 0]
+        slope = run / np.sum(run**2, axis=0)
+        return np.stack([-slope, slope], axis=1)
+    edge = np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)
+    area = np.cross(edge[:, 0], edge[:, 1], axis=0)
+    return np.asarray(np.cross(area[:, None], edge, axis=0) / np.sum(area**2, axis=0))
 
 
 def _corners(vertices: Array, corner: IntArray) -> Array:

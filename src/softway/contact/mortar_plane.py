@@ -5,12 +5,16 @@ import numpy as np
 from softway.contact.common import Common
 from softway.typing import Array, IntArray
 
+BEYOND = 0.5
+"""How far, in lengths of the master, a slave point may face its continuation."""
+
 
 def overlap(slave: Array, normal: Array, master: Array, i: IntArray, j: IntArray) -> Common:
     """What pairs of segments have in common.
 
     The ends of the master segment are projected onto the slave segment along ``n(xi) = (1 - xi) n_0 + xi n_1`` (Yang,
-    Laursen and Meng, 2005).
+    Laursen and Meng, 2005): this is what they have in common.  Within it a point of the slave faces the point of the
+    master, or of its continuation, that lies squarely before it.
 
     Parameters
     ----------
@@ -37,8 +41,11 @@ def overlap(slave: Array, normal: Array, master: Array, i: IntArray, j: IntArray
     at = np.stack([begin, end])[:, pair]
     away = start[:, None, pair] + at * along[:, None, pair] - master[:, :1, j[pair]]
     ray = first[:, None, pair] + at * turn[:, None, pair]
-    across = _cross((master[:, 1] - master[:, 0])[:, None, j[pair]], ray)
-    there = np.clip(_cross(away, ray) / np.where(across > 0.0, across, np.inf), 0.0, 1.0)
+    run = (master[:, 1] - master[:, 0])[:, None, j[pair]]
+    across, square = _cross(run, ray), -np.sum(run * along[:, None, pair], axis=0)
+    there = np.clip(
+        -np.sum(away * along[:, None, pair], axis=0) / np.where(square > 0.0, square, np.inf), -BEYOND, 1.0 + BEYOND
+    )
     length = np.sqrt(np.sum(along[:, pair] ** 2, axis=0)) * (at[1] - at[0])
     own, other = np.stack([1.0 - at, at], axis=1), np.stack([1.0 - there, there], axis=1)
     measure = np.where((across > 0.0).all(axis=0), length, 0.0)

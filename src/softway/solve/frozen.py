@@ -6,6 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.contact.candidates import Candidates
+from softway.kernels.dense import Shared
 from softway.solve.linear import Factor, LinearSolver
 from softway.typing import Array, BoolArray, IntArray
 
@@ -37,14 +38,17 @@ class Frozen:
     """A factored operator A and the compliance ``B^T A^-1 B`` of the contact directions B, computed when first asked
     for.
 
-    ``columns`` (of each direction: ``A^-1 B`` (f,), kept where directions are rows, and ``B^T A^-1 B`` (b,)) and
-    ``latest`` are caches of values that depend on A and B only, so the answer does not depend on when they were made.
+    ``columns`` (``B^T A^-1 B`` (b,) of each direction), ``answers`` (``A^-1 B`` (k, f) of batches of them, kept where
+    directions are rows), ``latest`` and ``held`` are caches of values that depend on A and B only, so the answer does
+    not depend on when they were made.
     """
 
     factor: Factor
     basis: Basis
-    columns: dict[int, tuple[Array | None, Array]] = field(default_factory=dict)
+    columns: dict[int, Array] = field(default_factory=dict)
+    answers: list[tuple[IntArray, Array]] = field(default_factory=list)
     latest: dict[bytes, Array] = field(default_factory=dict)
+    held: dict[bytes, Shared] = field(default_factory=dict)
 
     def solve(self, b: Array) -> Array:
         """A^-1 b."""
@@ -61,7 +65,7 @@ class Frozen:
             self._fill(which)
             out = np.empty((len(which), self.basis.directions.shape[1]))
             for k, i in enumerate(which.tolist()):
-                out[k] = self.columns[i][1]
+                out[k] = self.columns[i]
             self.latest.clear()
             self.latest[key] = out.T
         return self.latest[key]
@@ -73,10 +77,14 @@ class Frozen:
             return self.solve(self.basis.directions @ push) if len(index) else np.zeros(self.basis.directions.shape[0])
         self._fill(index)
         out = np.zeros(self.basis.directions.shape[0])
-        for i in index.tolist():
-            column = self.columns[i][0]
-            assert column is not None
-            out += push[i] * column
+        for batch, block in self.answers:
+            part = push[batch]
+            few = np.flatnonzero(part)
+            if 2 * len(few) > len(part):
+                out += part @ block
+            else:
+                for k in few.tolist():
+                    out += part[k] * block[k]
         return out
 
     def _fill(self, which: IntArray) -> None:
@@ -85,8 +93,9 @@ class Frozen:
             return
         new = self.factor.solve(np.ascontiguousarray(self.basis.directions[:, missing].toarray()))
         sensed = np.ascontiguousarray((self.basis.directions.T @ new).T)
-        full = np.ascontiguousarray(new.T) if self.basis.component is None else [None] * len(missing)
-        self.columns.update({i: (a, b) for i, a, b in zip(missing, full, sensed, strict=True)})
+        self.columns.update(zip(missing, sensed, strict=True))
+        if self.basis.component is None:
+            self.answers.append((np.array(missing), np.ascontiguousarray(new.T)))
 
 
 def basis(rows: Candidates, free: BoolArray, fixed: bool, nodes: IntArray) -> Basis:

@@ -14,7 +14,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.errors import NoConvergence
-from softway.kernels.dense import shared
+from softway.kernels.dense import Shared, factored
 from softway.solve.frozen import Frozen
 from softway.typing import Array, BoolArray
 
@@ -74,9 +74,20 @@ def delassus(frozen: Frozen, active: sp.csr_array) -> Array:
     return np.asarray((inner @ frozen.compliance(used)[used]) @ inner.T)
 
 
+def _held(frozen: Frozen, active: sp.csr_array) -> Shared:
+    """The factored compliance of the active rows (k, b); the same for all slabs where directions are rows."""
+    if frozen.basis.component is not None:
+        return factored(delassus(frozen, active))
+    key = active.indices.tobytes()
+    if key not in frozen.held:
+        frozen.held.clear()
+        frozen.held[key] = factored(delassus(frozen, active))
+    return frozen.held[key]
+
+
 def balance(frozen: Frozen, active: sp.csr_array, wanted: Array) -> tuple[Array, Push]:
     """Multipliers (k,) of the active rows (k, b) that move them by ``wanted`` (k,), and the push that they make."""
-    force = shared(delassus(frozen, active), wanted)
+    force = _held(frozen, active).solve(wanted)
     used = np.unique(active.indices)
     directions = np.asarray(active.T @ force)
     return force, Push(directions=directions, sensed=frozen.compliance(used) @ directions[used])
