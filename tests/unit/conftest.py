@@ -1,0 +1,27 @@
+"""What tests of bad input share: a command line that is refused, and leaves nothing behind."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from softway.cli import main
+
+
+@pytest.fixture
+def refused(capsys: pytest.CaptureFixture[str]) -> Callable[[Path, str], str]:
+    """Run and check a scenario with changes, "&" between several: exit code 2 and no folder; what it prints."""
+
+    def told(scenario: Path, change: str) -> str:
+        out = scenario.parent / "out"
+        settings = [part for one in change.split(" & ") for part in ("--set", one)]
+        texts = []
+        for command in (["run", str(scenario), "--out", str(out)], ["check", str(scenario)]):
+            assert main([*command, *settings]) == 2
+            texts.append("".join(capsys.readouterr()))
+        assert not out.exists()
+        assert "Traceback" not in "".join(texts)
+        assert texts[0] == texts[1]
+        return texts[0]
+
+    return told
