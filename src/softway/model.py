@@ -248,8 +248,9 @@ def _mass(part: Part, solid: Solid, candidates: IntArray, spread: int) -> sp.csr
 def _require_inertia(part: Part, candidates: IntArray) -> None:
     """Refuse a free body whose nodes with inertia lie on one point, or in space on one line."""
     points = np.delete(part.mesh.points, candidates, axis=0)
-    spread = points - points.mean(axis=0) if len(points) else points
-    rank = int(np.linalg.matrix_rank(spread, tol=1e-9 * float(np.ptp(part.mesh.points)))) if len(points) else -1
+    if not len(points):
+        return  # refused with the mass
+    rank = int(np.linalg.matrix_rank(points - points.mean(axis=0), tol=1e-9 * float(np.ptp(part.mesh.points))))
     if rank < part.mesh.dim - 1:
         problem = f"{len(points)} nodes are no candidates of contact; they have no moment of inertia"
         raise InputError("mesh", problem, "a finer mesh, or a smaller tag in the contact")
