@@ -83,7 +83,7 @@ CASES = {
     "no nodes left": (
         f"{PAIR}=['block', 'floor'] & bodies.block.mesh.cells=[4, 4, 1]",
         "bodies.block",
-        "candidates",
+        "candidate nodes",
         "finer mesh",
     ),
     "unknown method": (f"{'contacts[0].method'}=DualMorter", "contacts[0].method", "DualMorter", "DualMortar"),
