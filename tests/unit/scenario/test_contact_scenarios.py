@@ -13,7 +13,7 @@ from softway.scenario.quantity import Units
 UNITS = Units.standard()
 FOLDER = Path(__file__).parents[3] / "scenarios"
 COARSE = {
-    "ring_in_ring": ("bodies.small.mesh.cells=[2, 24]", "bodies.large.mesh.cells=[2, 40]", "time.end=9 ms"),
+    "ring_in_ring": ("bodies.small.mesh.cells=[2, 24]", "bodies.large.mesh.cells=[2, 40]", "time.end=7 ms"),
     "bar_through_die": ("bodies.bar.mesh.cells=[20, 3]", "time.step=0.4 ms"),
     "beam_on_cylinder": ("bodies.beam.mesh.cells=[20, 2]", "bodies.cover.mesh.cells=[2, 18]", "time.end=5 ms"),
     "stamp_on_pad": ("bodies.pad.mesh.cells=[5, 5, 2]", "time.step=0.2 ms"),
