@@ -62,19 +62,19 @@ def test_the_large_ring_gains_what_the_small_one_loses(runs):
     assert history["small"][-1] < 2.5 and history["large"][-1] > 0.1
 
 
-def test_the_pull_on_the_bar(runs):
+def test_the_push_on_the_bar(runs):
     """It is the derivative of the stored energy: high while the die fills, none on average while the bar slides, and
     its work is the energy of the bar all through.
     """
     history = runs["bar_through_die"].history
-    time, pull = history["time"], history["pull"]
+    time, push = history["time"], history["push"]
     energy = history["energy_kinetic"] + history["energy_strain"]
     assert np.abs(history["work_external"] - energy).max() < 1e-10 * energy.max()
     filling, sliding, leaving = ((a < time) & (time < b) for a, b in ((7e-3, 13e-3), (18e-3, 38e-3), (40e-3, 46e-3)))
-    assert pull[filling].mean() > 2e3 and pull[leaving].mean() < -2e3
-    assert abs(pull[sliding].mean()) < 0.1 * pull[filling].mean()
+    assert push[filling].mean() > 2e3 and push[leaving].mean() < -2e3
+    assert abs(push[sliding].mean()) < 0.1 * push[filling].mean()
     force = history["contact.die.force_n"][sliding]
-    assert force.std() < 0.1 * force.mean()
+    assert force.std() < 0.15 * force.mean()
     assert history["contact.die.force_n"][-1] == 0.0
 
 
@@ -134,7 +134,7 @@ def test_start_and_control_are_read_and_written():
 
 def test_driven_supports_are_read_and_written():
     found = load(FOLDER / "bar_through_die.toml", units=UNITS)
-    driven = sw.Driven(on="right", components="x", velocity=(0.0, 2.5), times=(0.0, 0.005))
+    driven = sw.Driven(on="left", components="x", velocity=(0.0, 2.5), times=(0.0, 0.005))
     assert found.bodies["bar"].supports == (sw.Fixed(on="bottom", components="y"), driven)
     text = resolved(found)
     assert '"2.5 m/s"' in text and '"0.005 s"' in text and loads(text, units=UNITS) == found
