@@ -12,7 +12,8 @@ class Paper:
 
     Up to the instant t_c the velocity is ``kept`` or ``extrapolated`` linearly from the slab before; after it the
     normal velocity vanishes and the node is eliminated (Figs. 2 and 4).  The jump is not balanced by the
-    neighbours, so the rule loses the kinetic energy that the node shares (docs/theory/contact.md).
+    neighbours, so the rule loses the kinetic energy that the node shares (docs/theory/contact.md).  Between two
+    deformable bodies the touching nodes of both share it by their masses.
 
     Parameters
     ----------
