@@ -9,10 +9,10 @@ from softway.cli import main
 
 
 @pytest.fixture
-def refused(capsys: pytest.CaptureFixture[str]) -> Callable[[Path, str], str]:
-    """Run and check a scenario with changes, "&" between several: exit code 2 and no folder; what it prints."""
+def refused(capsys: pytest.CaptureFixture[str]) -> Callable[..., None]:
+    """Run and check a scenario with changes, "&" between several: exit code 2, parts of the text, and no folder."""
 
-    def told(scenario: Path, change: str) -> str:
+    def told(scenario: Path, change: str, *parts: str) -> None:
         out = scenario.parent / "out"
         settings = [part for one in change.split(" & ") for part in ("--set", one)]
         texts = []
@@ -22,6 +22,7 @@ def refused(capsys: pytest.CaptureFixture[str]) -> Callable[[Path, str], str]:
         assert not out.exists()
         assert "Traceback" not in "".join(texts)
         assert texts[0] == texts[1]
-        return texts[0]
+        for part in parts:
+            assert part in texts[0]
 
     return told

@@ -131,10 +131,7 @@ def scenario(tmp_path: Path) -> Path:
 
 @pytest.mark.parametrize("case", CASES)
 def test_a_bad_contact_is_refused(case, scenario, refused):
-    change, where, wrong, remedy = CASES[case]
-    text = refused(scenario, change)
-    for part in (where, wrong, remedy):
-        assert part in text
+    refused(scenario, *CASES[case])
 
 
 def test_the_scenario_itself_is_right(scenario):

@@ -95,10 +95,7 @@ def scenario(tmp_path: Path) -> Path:
 
 @pytest.mark.parametrize("case", CASES)
 def test_bad_input_leaves_nothing_behind(case, scenario, refused):
-    change, where, value, remedy = CASES[case]
-    text = refused(scenario, change)
-    for part in (where, value, remedy):
-        assert part in text
+    refused(scenario, *CASES[case])
 
 
 def test_the_scenario_itself_is_right(scenario):

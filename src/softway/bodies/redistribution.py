@@ -67,11 +67,12 @@ def redistributed(
     y = _scaled(mesh, exact)
     plain = assembled(body, rule, ones)
     highest = 2 if y.shape[1] > 1 else 1
+    every = np.array(_monomials(y, highest))
+    matrices = [assembled(body, rule, form) for form in every]
     for order in range(highest, -1, -1):
-        forms = np.array(_monomials(y, order))
-        parts = [assembled(body, rule, form) for form in forms]
         target = _moments(exact, y, order)
         target[1 + y.shape[1] :] = _moments(plain, y, order)[1 + y.shape[1] :]
+        forms, parts = every[: len(target)], matrices[: len(target)]
         for k in range(min(cells, max(int(depth.max()) // 2, 1)), 0, -1):
             scale = sparse.diags_array(_scale(plain, near, depth, k))
             filled = [scale @ m @ scale for m in parts]

@@ -126,9 +126,10 @@ class Meeting:
         total, covered = cross.sum(axis=1), functions.own.sum(axis=1)
         met = (total > 0.0) & (covered > 0.0)
         weights = _over(functions.own @ self.control, covered, met) - _over(cross @ self.lift, total, met)
-        facing = _seen(areas, master, i, j)
+        square = np.take(unit(areas), i, axis=1)
+        facing = _seen(square, master, j)
         normal = np.where(met[:, None], unit(functions.means(i, common.cross, facing), axis=1), normal)
-        square, turn = np.take(unit(areas), i, axis=1), _turning(slave, master, facing, common, (i, j))
+        turn = _turning(slave, master, facing, common, (i, j))
         parts = (
             functions.integrals(i, common.own * n + turn * p, self.slave.corner.T[:, i], len(slave_nodes)) @ to_slave
             - functions.integrals(i, common.cross * n, self.master.corner.T[:, j], self.lift.shape[0]) @ self.lift
@@ -156,15 +157,12 @@ class Meeting:
         return common.take((measure > 0.0) & (np.abs(height) <= self.pairs.limit[common.pair] * measure))
 
 
-def _seen(areas: Array, master: Array, i: IntArray, j: IntArray) -> Array:
-    """Slopes (d, s) of the distance of the slave simplices i (s,) to the master simplices j (s,), measured squarely to
-    the slave, when the slave shifts: the master's normal over its cosine.
-
-    ``areas`` (d, p) are vector areas of the slave, ``master`` (d, k, q) corners.
+def _seen(square: Array, master: Array, j: IntArray) -> Array:
+    """Slopes (d, s) of the distance along the slave normals ``square`` (d, s) to the master simplices j (s,), when the
+    slave shifts: the master's normal over its cosine.  ``master`` (d, k, q) are corners.
     """
-    square = -np.take(unit(areas), i, axis=1)
     normal = np.take(unit(vector_areas(master)), j, axis=1)
-    return np.asarray(normal / np.maximum(np.sum(square * normal, axis=0), STEEP))
+    return np.asarray(normal / np.maximum(-np.sum(square * normal, axis=0), STEEP))
 
 
 def _turning(slave: Array, master: Array, facing: Array, common: Common, pair: tuple[IntArray, IntArray]) -> Array:

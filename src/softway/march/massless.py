@@ -130,8 +130,7 @@ def _touches(
     """Touches at the root of the gap along the free motion, exact in free flight.
 
     A row that faced nothing at the start, or that its free motion there does not close, is followed back from where
-    its nodes come to without contact, or else from the end.  Where a contact was open, its first touch is that of the
-    row that its free motion closes first: within the slab a neighbour may take over from it.
+    its nodes come to without contact, or else from the end.
     """
     h, rows, end = slab.span, system.path.rows, solution.end
     last = end.near or rows

@@ -8,18 +8,10 @@ import numpy as np
 from softway.bodies.part import Part
 from softway.contact.side import Side
 from softway.model import Model
+from softway.space.cells import FLAT
 from softway.space.faceted import Facets
 from softway.typing import Array, IntArray
 
-SPLIT = {
-    "bar2": ((0, 1),),
-    "bar3": ((0, 2), (2, 1)),
-    "tri3": ((0, 1, 2),),
-    "tri6": ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)),
-    "quad4": ((0, 1, 2), (0, 2, 3)),
-    "quad9": ((0, 4, 8), (4, 1, 8), (1, 5, 8), (5, 2, 8), (2, 6, 8), (6, 3, 8), (3, 7, 8), (7, 0, 8)),
-}
-"""Simplices that stand for a facet."""
 CHORD = 0.02
 """Depth, in edges at the node, by which flat simplices may differ from curved facets."""
 
@@ -62,7 +54,7 @@ def shrunk(model: Model, u: Array, rounding: float) -> Array:
         return out
     first = {int(model.opponents[k][0]) for k, c in enumerate(model.scene.contacts) if c.start == "fit"}
     for part in (model.parts[i] for i in sorted(first)):
-        nodes = model.touchable[(model.touchable >= part.rows.start) & (model.touchable < part.rows.stop)]
+        nodes = _candidates(model, part)
         out[nodes] -= 1.1 * found.depth * _outward(part, (model.points + u)[part.rows])[nodes - part.rows.start]
     return out
 
@@ -90,7 +82,7 @@ def _in_tool(model: Model, u: Array, k: int, rounding: float) -> Overlap | None:
 def _in_body(model: Model, u: Array, k: int, a: int, b: int, rounding: float) -> Overlap | None:
     """The deepest candidate node of solid a inside solid b."""
     inner, outer = model.parts[a], model.parts[b]
-    nodes = model.touchable[(model.touchable >= inner.rows.start) & (model.touchable < inner.rows.stop)]
+    nodes = _candidates(model, inner)
     x = model.points + u
     gap = _distance(outer, x[outer.rows], x[nodes])
     slack = rounding + (CHORD * model.edge[nodes] if _curved(outer) else 0.0)
@@ -101,13 +93,19 @@ def _in_body(model: Model, u: Array, k: int, a: int, b: int, rounding: float) ->
     return _named(model, u, k, int(nodes[worst]), float(depth[worst]), outer.name)
 
 
+def _candidates(model: Model, part: Part) -> IntArray:
+    """Nodes (k,) of a solid that may touch something."""
+    found: IntArray = model.touchable[(model.touchable >= part.rows.start) & (model.touchable < part.rows.stop)]
+    return found
+
+
 def _distance(part: Part, corners: Array, x: Array) -> Array:
     """Distance (p,) of points from the boundary of a solid whose nodes are at ``corners``; negative inside."""
     if corners.shape[1] == 1:
         low, high = float(corners.min()), float(corners.max())
         return np.maximum(low - x[:, 0], x[:, 0] - high)
     boundary = part.mesh.boundary()
-    cells: list[IntArray] = [f[:, list(s)] for name, f in boundary.items() for s in SPLIT.get(name, ())]
+    cells: list[IntArray] = [f[:, list(s)] for name, f in boundary.items() for s in FLAT.get(name, ())]
     if not cells:
         return np.full(len(x), np.inf)
     surface = Facets(points=corners, cells=np.concatenate(cells))

@@ -115,3 +115,14 @@ FACETS: dict[str, tuple[tuple[str, tuple[int, ...]], ...]] = {
 }
 """Cell -> its facets as (facet cell, local nodes), each turned outward: in the plane the outward normal is (dy,
 -dx)."""
+
+_RING = (0, 4, 1, 5, 2, 6, 3, 7, 0)
+FLAT = {
+    "bar2": ((0, 1),),
+    "bar3": ((0, 2), (2, 1)),
+    "tri3": ((0, 1, 2),),
+    "tri6": ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)),
+    "quad4": ((0, 1, 2), (0, 2, 3)),
+    "quad9": tuple((a, b, 8) for a, b in zip(_RING[:-1], _RING[1:], strict=True)),
+}
+"""Flat facets between the nodes of a facet."""

@@ -10,7 +10,7 @@ import meshio
 import numpy as np
 
 from softway.errors import InputError
-from softway.space.cells import CELLS, FACETS
+from softway.space.cells import CELLS, FACETS, FLAT
 from softway.space.deck import plain_deck
 from softway.space.mesh import Mesh
 from softway.typing import Array, IntArray
@@ -33,16 +33,6 @@ _READERS = {".msh": "gmsh", ".inp": "abaqus"}
 _SURFACES = {".stl": "stl", ".obj": "obj", ".ply": "ply", ".msh": "gmsh", ".vtu": "vtu"}
 _BODIES = (".msh", ".vtu")
 """Files whose plane cells are a body in the plane; in the others they are a sheet in space."""
-_RING = (0, 4, 1, 5, 2, 6, 3, 7, 0)
-_PIECES = {
-    "bar2": ((0, 1),),
-    "bar3": ((0, 2), (2, 1)),
-    "tri3": ((0, 1, 2),),
-    "tri6": ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)),
-    "quad4": ((0, 1, 2), (0, 2, 3)),
-    "quad9": tuple((a, b, 8) for a, b in zip(_RING[:-1], _RING[1:], strict=True)),
-}
-"""Flat facets between the nodes of a facet."""
 _DIMS = {
     "vertex": 0,
     "line": 1,
@@ -118,7 +108,7 @@ def read_facets(path: str | Path, scale: float = 1.0) -> tuple[Array, IntArray]:
     if dim == points.shape[1]:
         body = _compact(points, blocks, {})
         points, blocks = body.points, dict(body.boundary())
-    pieces = [cells[:, piece] for name, cells in blocks.items() for piece in np.array(_PIECES[name])]
+    pieces = [cells[:, piece] for name, cells in blocks.items() for piece in np.array(FLAT[name])]
     return points, np.concatenate(pieces)
 
 
