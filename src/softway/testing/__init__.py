@@ -1,7 +1,8 @@
-"""Public examinations: a law, an element or an obstacle of your own is checked as those of the package are."""
+"""Public examinations: what you write yourself is checked as the parts of the package are."""
 
 from softway.testing.elements import check_element as check_element
 from softway.testing.laws import check_law as check_law
 from softway.testing.obstacles import check_obstacle as check_obstacle
+from softway.testing.solvers import check_solver as check_solver
 
-__all__ = ["check_element", "check_law", "check_obstacle"]
+__all__ = ["check_element", "check_law", "check_obstacle", "check_solver"]
