@@ -15,7 +15,7 @@ from softway.typing import Array, IntArray
 
 Ints = NDArray[np.int32]
 
-ANALYSE, FACTOR, SOLVE, FORGET = 11, 22, 33, -1
+ANALYSE, FACTOR, SOLVE, FORGET_FACTOR, FORGET = 11, 22, 33, 0, -1
 DEFINITE, INDEFINITE = 2, -2
 NOT_DEFINITE = -4
 ONE, SIZE, TYPE, PHASE, COUNT, QUIET, ERROR = range(7)
@@ -192,9 +192,18 @@ class _Handle:
     call: _Call
 
 
+def _retire(handle: _Handle, idle: list[_Handle]) -> None:
+    """Free the factor of a handle and keep its analysis."""
+    handle.call(FORGET_FACTOR)
+    idle.append(handle)
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class _Analysis:
-    """An analysed pattern; ``idle`` holds the memory of matrices whose factors are no longer used."""
+    """An analysed pattern; ``idle`` holds handles that are analysed and hold no factor, for matrices of each kind.
+
+    A handle has one factor at a time: factors that live side by side have handles of their own, analysed alike.
+    """
 
     library: ctypes.CDLL
     threads: int
@@ -216,7 +225,7 @@ class _Analysis:
                 matrix.shape[0], ERRORS.get(error, f"PARDISO: error {error}") if error else "it is singular"
             )
         factor = _Factor(handle, values, int(handle.call.parameters[17]) * values.itemsize)
-        weakref.finalize(factor, self.idle[definite].append, handle).atexit = False
+        weakref.finalize(factor, _retire, handle, self.idle[definite]).atexit = False
         return factor
 
     def handle(self, definite: int, values: NDArray[Any]) -> _Handle:
