@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from softway.bodies.loads import Gravity, Load, Traction, traction_force
+from softway.bodies.dead_load import dead_load
 from softway.bodies.mass import following, nodal_mass
 from softway.bodies.part import Part, held_components, initial, part_of
 from softway.bodies.redistribution import redistributed
@@ -17,6 +17,7 @@ from softway.contact.encounters import Encounters
 from softway.contact.pairing import pairing
 from softway.contact.timing import Energy, Timing
 from softway.errors import InputError, within
+from softway.kernels.patterns import Sum, sum_of
 from softway.scene import Scene
 from softway.space.mesh import Mesh
 from softway.typing import Array, BoolArray, IntArray
@@ -54,6 +55,8 @@ class Model:
         Driven supports with the components (n, d) that they move.
     floor
         (parts,) stored energy below which a body counts as undeformed: a strain of 1e-14 throughout [J].
+    total
+        Sums of mass and tangent stiffness on the free components.
     timing
         The contact rule of the scene.
     """
@@ -73,6 +76,7 @@ class Model:
     edge: Array
     driven: tuple[tuple[Driven, BoolArray], ...]
     floor: Array
+    total: Sum
     timing: Timing
 
     @property
@@ -142,8 +146,20 @@ class Model:
 
     def tangent(self, u: Array) -> sp.csc_array:
         """Tangent stiffness (n d, n d) [N/m]."""
-        blocks = [p.internal.tangent(u[p.rows]) for p in self.parts]
-        return sp.csc_array(sp.block_diag(blocks, format="csc"))
+        return _tangent(self.parts, u)
+
+    def inertia_and_stiffness(self, u: Array, factor: float) -> sp.csc_array:
+        """``M + factor K(u)`` (f, f) on the free components."""
+        values = [p.internal.tangent(u[p.rows]).data for p in self.parts]
+        return self.total.of(np.concatenate(values), factor)
+
+    def tangent_product(self, u: Array, w: Array) -> Array:
+        """Product (n, d) of the tangent stiffness with a field (n, d) [N]."""
+        return np.concatenate([p.internal.tangent_product(u[p.rows], w[p.rows]) for p in self.parts])
+
+    def tangent_blocks(self, u: Array) -> Array:
+        """Diagonal blocks (n, d, d) of the tangent stiffness [N/m]."""
+        return np.concatenate([p.internal.tangent_diagonal_blocks(u[p.rows]) for p in self.parts])
 
     def kinetic(self, v: Array) -> Array:
         """Kinetic energy of each solid (parts,) [J]."""
@@ -172,6 +188,8 @@ def build(scene: Scene) -> Model:
     mass = sp.csr_array(sp.block_diag(masses, format="csr"))
     fields = [initial(p, solids[p.name]) for p in parts]
     free = np.concatenate([held for _, _, held in fields])
+    displacement = np.concatenate([u for u, _, _ in fields]) * free
+    inertia = sp.csc_array(sp.kron(mass, sp.eye_array(free.shape[1]), format="csc"))
     return Model(
         scene=scene,
         parts=parts,
@@ -179,8 +197,8 @@ def build(scene: Scene) -> Model:
         follow=sp.csr_array(sp.block_diag(follow, format="csr")),
         massive=np.asarray(mass.diagonal()) > 0.0,
         free=free,
-        load=_load(parts, mass, scene.loads, "loads"),
-        displacement=np.concatenate([u for u, _, _ in fields]) * free,
+        load=dead_load(parts, mass, scene.loads, "loads"),
+        displacement=displacement,
         velocity=np.concatenate([v for _, v, _ in fields]) * free,
         encounters=met.encounters,
         opponents=met.opponents,
@@ -188,6 +206,7 @@ def build(scene: Scene) -> Model:
         edge=np.concatenate([p.mesh.edges() for p in parts]),
         driven=_driven(parts, solids, free.shape),
         floor=np.array([_floor(p) for p in parts]),
+        total=sum_of(inertia, _tangent(parts, np.zeros_like(displacement)), free.ravel()),
         timing=timing,
     )
 
@@ -215,6 +234,11 @@ def _driven(
                     where[part.rows] = held_components(support, part.mesh)
                 found.append((support, where))
     return tuple(found)
+
+
+def _tangent(parts: Sequence[Part], u: Array) -> sp.csc_array:
+    blocks = [p.internal.tangent(u[p.rows]) for p in parts]
+    return blocks[0] if len(blocks) == 1 else sp.csc_array(sp.block_diag(blocks, format="csc"))
 
 
 def _following(part: Part, light: IntArray) -> sp.csr_array:
@@ -254,30 +278,3 @@ def _require_inertia(part: Part, candidates: IntArray) -> None:
     if rank < part.mesh.dim - 1:
         problem = f"{len(points)} nodes are no candidates of contact; they have no moment of inertia"
         raise InputError("mesh", problem, "a finer mesh, or a smaller tag in the contact")
-
-
-def _load(parts: Sequence[Part], mass: sp.csr_array, loads: Sequence[Load], where: str) -> Array:
-    """Dead nodal loads (n, d) [N]; gravity acts on the inertia, so that massless nodes have no weight."""
-    dim = parts[0].mesh.dim
-    out = np.zeros((mass.shape[0], dim))
-    for k, item in enumerate(loads):
-        with within(f"{where}[{k}]"):
-            match item:
-                case Gravity():
-                    out += np.asarray(mass.sum(axis=1)).reshape(-1, 1) * item.vector(dim)
-                case Traction():
-                    part = _solid(parts, item.body, "on")
-                    out[part.rows] += traction_force(part.mesh, part.internal.section, item.tag, item.value)
-    return out
-
-
-def _solid(parts: Sequence[Part], name: str, where: str) -> Part:
-    for part in parts:
-        if part.name == name:
-            return part
-    raise InputError(where, f"no solid '{name}'", f"one of {[p.name for p in parts]}")
-
-
-def dead_load(model: Model, loads: Sequence[Load], where: str) -> Array:
-    """Nodal forces (n, d) [N] of dead loads on a model; ``where`` is their place in the scene, for errors."""
-    return _load(model.parts, model.mass, loads, where)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from softway.bodies.dead_load import dead_load
 from softway.bodies.fields import Affine, Uniform
 from softway.bodies.loads import Gravity, Traction
 from softway.bodies.mass import nodal_mass
@@ -12,7 +13,7 @@ from softway.contact.contact import Contact
 from softway.contact.timing import Energy, Impulse, Paper
 from softway.errors import InputError
 from softway.laws.bulk import LinearElastic, NeoHookean
-from softway.model import Model, build, dead_load
+from softway.model import Model, build
 from softway.scene import Scene
 from softway.space.obstacles import HalfSpace
 from softway.space.shapes import interval, rectangle
@@ -131,8 +132,8 @@ def test_loads_add_up() -> None:
     assert model.load[:15].sum(axis=0) == pytest.approx([0.0, -12.0])
     assert model.load[15:].sum(axis=0) == pytest.approx([0.5 * 2.0, -20.0])
     assert not model.load[~model.massive].any(), "gravity pulls the inertia"
-    np.testing.assert_array_equal(dead_load(model, loads, "loads"), model.load)
-    assert not dead_load(model, (), "loads").any()
+    np.testing.assert_array_equal(dead_load(model.parts, model.mass, loads, "loads"), model.load)
+    assert not dead_load(model.parts, model.mass, (), "loads").any()
 
 
 def test_recipes_and_sections() -> None:

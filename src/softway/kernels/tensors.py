@@ -84,3 +84,24 @@ def isotropic(bulk_part: float, shear: float) -> Array:
     """
     volumetric = IDENTITY[:, :, None, None] * IDENTITY[None, None, :, :]
     return bulk_part * volumetric + 2.0 * shear * square_symmetric(IDENTITY)
+
+
+def rotation(F: Array) -> Array:
+    """Rotation R of the polar decomposition ``F = R U`` (..., m, m), by Newton's iteration ``R <- (R + R^-T)/2``.
+
+    References
+    ----------
+    Higham (1986), Computing the polar decomposition - with applications, SIAM J. Sci. Stat. Comput. 7, 1160-1174.
+
+    Examples
+    --------
+    >>> turn = np.array([[0.0, -1.0], [1.0, 0.0]])
+    >>> rotation(turn @ np.diag([2.0, 0.5])).round(12).tolist()
+    [[0.0, -1.0], [1.0, 0.0]]
+    """
+    R = np.array(F, float)
+    for _ in range(30):
+        last, R = R, 0.5 * (R + np.swapaxes(np.linalg.inv(R), -1, -2))
+        if np.abs(R - last).max(initial=0.0) < 1e-8:
+            break
+    return R

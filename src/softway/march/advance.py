@@ -13,8 +13,8 @@ from softway.march.massless import solve_massless
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation
 from softway.model import Model
+from softway.solve.carry import Carry
 from softway.solve.fixed_point import FixedPoint
-from softway.solve.frozen import Carry
 from softway.solve.newton import Newton
 from softway.solve.reaction import Reaction, reaction
 from softway.solve.system import Start

@@ -4,13 +4,14 @@ import logging
 
 import numpy as np
 
+from softway.bodies.dead_load import dead_load
 from softway.bodies.rigid_motions import free_motions
 from softway.bodies.section import Axisymmetric
 from softway.contact.timing import Energy
 from softway.errors import InputError
 from softway.march.overlap import deepest, shrunk
 from softway.march.situation import Situation
-from softway.model import Model, dead_load
+from softway.model import Model
 from softway.scene import StaticStart
 from softway.solve.equilibrium import equilibrium, fitted
 from softway.solve.system import Start
@@ -35,7 +36,7 @@ def begin(model: Model) -> Situation:
     start, loads = model.scene.start, model.load
     if isinstance(start, StaticStart):
         require_supported(model)
-        loads = dead_load(model, start.loads, "start.loads") if start.loads else model.load
+        loads = dead_load(model.parts, model.mass, start.loads, "start.loads") if start.loads else model.load
     fits = any(c.start == "fit" for c in model.scene.contacts)
     if fits or (isinstance(start, StaticStart) and unheld(model)):
         u, pressure = fitted(model, u, model.free, loads, shrunk(model, u, OVERLAP * _reach(model, u)))

@@ -19,9 +19,9 @@ from softway.march.outcome import Outcome, contact_event, supports
 from softway.march.situation import Situation
 from softway.march.step import Event
 from softway.model import Model
+from softway.solve.carry import Carry
 from softway.solve.driver import Solution, drive
 from softway.solve.fixed_point import FixedPoint
-from softway.solve.frozen import Carry
 from softway.solve.newton import Newton
 from softway.solve.normal import Rows
 from softway.solve.reaction import Reaction
@@ -55,9 +55,8 @@ def solve_carrying(
     while passes < PASSES:
         found = jumps(model, known.rows, known.way, now.closed, inertia, slab.span)
         system = replace(_system(model, now, slab, known, found, given), split=split)
-        solution = drive(
-            system, method.iterate(system, guess, carry, known.way.closed.astype(float)), method.tolerance, method.limit
-        )
+        iterates = method.iterate(system, guess, carry, np.zeros(len(known.way.closed)), known.way.closed)
+        solution = drive(system, iterates, method.tolerance, method.limit)
         passes, iterations, carry = passes + 1, iterations + solution.iterations, solution.last.carry
         revision = turned(model, pairs, known, solution) or revised(model, now, system, known, solution, inertia)
         if revision is None:

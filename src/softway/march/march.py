@@ -20,8 +20,8 @@ from softway.march.step import Certificate, Ledger, Report, Step
 from softway.model import Model, build
 from softway.scene import Scene, State
 from softway.solve.balance import BOUND, SLIGHT
+from softway.solve.carry import Carry
 from softway.solve.fixed_point import FixedPoint
-from softway.solve.frozen import Carry
 from softway.solve.newton import Newton
 from softway.solve.stability import require_stable, stable_step
 from softway.time.slab import Slab
@@ -232,7 +232,7 @@ def _tried(
     return _Accepted(
         after=after,
         out=out,
-        carry=replace(new, stale=out.iterations > 25 * out.passes),
+        carry=new.after(out.iterations // out.passes),
         slab=slab,
         ledger=ledger,
         certificate=certificate,

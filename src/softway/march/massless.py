@@ -15,9 +15,9 @@ from softway.march.outcome import Outcome, contact_event, supports
 from softway.march.situation import Situation
 from softway.march.step import Event
 from softway.model import Model
+from softway.solve.carry import Carry
 from softway.solve.driver import Solution, drive
 from softway.solve.fixed_point import FixedPoint
-from softway.solve.frozen import Carry
 from softway.solve.newton import Newton
 from softway.solve.normal import Rows, delassus
 from softway.solve.system import SlabSystem
@@ -44,7 +44,8 @@ def solve_massless(
     require_slow(model, pairs, coasting, approach)
     system = replace(_equations(model, now, slab, pairs, located), fallback=fallback)
     guess = np.where(model.free, np.where(model.massive[:, None], rate, 2.0 * rate), system.given)
-    iterates = method.iterate(system, guess, carry, now.pressure * h * moments(slab.weight)[1])
+    impulse = now.pressure * h * moments(slab.weight)[1]
+    iterates = method.iterate(system, guess, carry, impulse, impulse != 0.0)
     solution = drive(system, iterates, method.tolerance, method.limit)
     return _outcome(model, now, slab, system, solution, pairs.found), solution.last.carry
 
@@ -161,7 +162,7 @@ def _releases(
     frozen = solution.last.carry.frozen
     if not len(left) or frozen is None:
         return []
-    give = delassus(frozen, frozen.basis.coefficients(rows, model.free)[left])
+    give = delassus(frozen, frozen.coefficients(rows, model.free)[left])
     tension = shared(give, rows.gap(end)[left]) * 2.0 / h / (h * moments(slab.weight)[1])
     tau = fading(now.pressure[left], -np.maximum(tension, 1e-300))
     after = 0.5 * rows.along(solution.last.q) - rows.drive / h

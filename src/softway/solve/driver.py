@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.errors import NoConvergence
-from softway.solve.frozen import Carry
+from softway.solve.carry import Carry
 from softway.solve.system import Evaluation, SlabSystem
 from softway.typing import Array, BoolArray
 
@@ -47,7 +47,7 @@ class Solution:
     iterations: int
 
 
-Method = Callable[[SlabSystem, Array, Carry, BoolArray], Iterator[Iterate]]
+Method = Callable[[SlabSystem, Array, Carry, Array, BoolArray], Iterator[Iterate]]
 
 
 ROUNDING = 1e-12

@@ -2,27 +2,37 @@
 
 import itertools
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from softway.errors import InputError
+from softway.solve.anderson import Anderson
+from softway.solve.carry import Carry
 from softway.solve.driver import Iterate, lost
-from softway.solve.frozen import Carry, freeze
-from softway.solve.linear import LinearSolver, SuperLU
-from softway.solve.normal import constrain
+from softway.solve.frozen import Frozen
+from softway.solve.newton import Newton
+from softway.solve.normal import constrain, untouched
+from softway.solve.operators import Factored, MatrixFree, Multigrid
+from softway.solve.prepared import prepared
 from softway.solve.system import SlabSystem
-from softway.typing import Array
+from softway.typing import Array, BoolArray
 
 NEARLY = 1e-7
 """Relative change of velocity below which kept faces are compared with the surface."""
+POOR = 0.8
+"""Contraction per iteration beyond which Newton's method takes over."""
+WINDOW = 10
+"""Iterations over which the contraction is judged."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FixedPoint:
-    """``q <- q - A0^-1 r(q)`` with contact on the compliance of A0, accelerated by Anderson mixing.
+    """``q <- q - P r(q)`` with a frozen operator P and contact on its compliance, accelerated by Anderson mixing.
 
-    The mixing starts afresh where the contact changes, and where two steps in a row bring nothing.
+    The mixing starts afresh where the contact changes, and where two steps in a row bring nothing.  Where the iterates
+    contract poorly, Newton's method goes on from there.
 
     Parameters
     ----------
@@ -32,6 +42,10 @@ class FixedPoint:
         Change of velocity, relative to the greatest velocity, at which an iterate is accepted.
     limit
         Iterations after which the operator is renewed, and then the slab rejected.
+    operator
+        What P is; by default chosen by size, length of the slab, shape and memory.
+    handover
+        Whether Newton's method takes over where the iterates contract poorly.
 
     References
     ----------
@@ -46,6 +60,8 @@ class FixedPoint:
     depth: int = 8
     tolerance: float = 1e-11
     limit: int = 60
+    operator: Factored | MatrixFree | Multigrid | Literal["auto"] = "auto"
+    handover: bool = True
 
     def __post_init__(self) -> None:
         if self.depth < 0:
@@ -56,26 +72,38 @@ class FixedPoint:
             raise InputError("limit", f"{self.limit} iterations", "at least 1")
 
     def iterate(
-        self, system: SlabSystem, q: Array, carry: Carry, guess: Array, solver: LinearSolver = SuperLU()
+        self, system: SlabSystem, q: Array, carry: Carry, impulse: Array, active: BoolArray
     ) -> Iterator[Iterate]:
-        """Iterates from q (n, d), with ``guess`` (m,) as first impulses of the contact rows."""
-        active = guess != 0.0
-        carry = prepared(system, carry, solver)
+        """Iterates from q (n, d), with first impulses (m,) and active rows (m,) of the contact."""
+        carry = prepared(system, carry, self.operator)
+        changes: list[float] = []
+        it: Iterate | None = None
+        for it in self._iterates(system, q, carry, impulse, active):
+            yield it
+            changes = [*changes[-WINDOW:], it.change]
+            if self.handover and len(changes) > WINDOW and it.change > POOR**WINDOW * changes[0]:
+                break
+        if it is not None and np.isfinite(it.change):
+            newton = Newton(tolerance=self.tolerance, limit=self.limit)
+            yield from newton.iterate(it.system, it.q, it.carry, it.impulse, it.active)
+
+    def _iterates(
+        self, system: SlabSystem, q: Array, carry: Carry, impulse: Array, active: BoolArray
+    ) -> Iterator[Iterate]:
         frozen = carry.frozen
         assert frozen is not None
         keep = system.model.free
-        memory = _Anderson(self.depth)
-        impulse, last, stuck = guess, np.inf, 0
+        mixing = _Mixing(Anderson(self.depth), frozen)
+        last, stuck = np.inf, 0
         for count in itertools.count():
             end = system.evaluate(q, impulse)
             system = system.steadied(end.displacement, count)
-            residual = end.residual[keep]
-            if not np.isfinite(residual).all():
+            if not np.isfinite(end.residual[keep]).all():
                 yield lost(q, active, carry, system)
                 return
-            free = q[keep] - frozen.solve(residual)
-            rows, conditions = system.conditions(q, end, frozen.basis)
-            solved, impulse, now = constrain(free, frozen, rows, conditions, active)
+            rows, conditions = system.conditions(q, end, frozen)
+            free = q[keep] - frozen.solve(end.residual[keep] - frozen.push(rows.T @ impulse))
+            solved, pressed, now = constrain(free, frozen, rows, conditions, active, impulse)
             new = system.filled()
             new[keep] = solved
             change = float(np.abs(new - q).max(initial=0.0))
@@ -83,9 +111,9 @@ class FixedPoint:
             yield Iterate(
                 q=new,
                 change=change,
-                impulse=impulse,
+                impulse=pressed,
                 active=now,
-                free=rows @ frozen.sense(free),
+                free=rows @ untouched(free, frozen, rows.T @ impulse),
                 carry=carry,
                 system=system,
                 sound=sound,
@@ -93,9 +121,27 @@ class FixedPoint:
             system = completed
             stuck = stuck + 1 if change > 0.99 * last else 0
             if (now != active).any() or stuck >= 2:
-                memory, stuck = _Anderson(self.depth), 0
-            last, active, q = change, now, q.copy()
-            q[keep] = memory.mix(q[keep], solved)
+                mixing.accelerator.restart()
+                stuck = 0
+            last, active, before, q = change, now, q[keep], q.copy()
+            q[keep], impulse = mixing.mixed((before, impulse), (solved, pressed))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Mixing:
+    """The accelerator of iterates: of the velocities, and of the impulses too where the operator leaves them behind."""
+
+    accelerator: Anderson
+    frozen: Frozen
+
+    def mixed(self, x: tuple[Array, Array], value: tuple[Array, Array]) -> tuple[Array, Array]:
+        """The next velocities (f,) and impulses (m,), from those that the map was given and those that it gave."""
+        if self.frozen.exact:
+            return self.accelerator.mix(x[0], value[0]), value[1]
+        unit = float(np.abs(self.frozen.answer(np.ones(self.frozen.basis.directions.shape[1]))).max(initial=0.0))
+        scale = np.concatenate([np.ones(len(x[0])), np.full(len(x[1]), unit)])
+        found = self.accelerator.mix(scale * np.concatenate(x), scale * np.concatenate(value))
+        return found[: len(x[0])], found[len(x[0]) :] / max(unit, 1e-300)
 
 
 def _looked_at(system: SlabSystem, q: Array, change: float) -> tuple[bool, SlabSystem]:
@@ -107,35 +153,3 @@ def _looked_at(system: SlabSystem, q: Array, change: float) -> tuple[bool, SlabS
     u1 = system.path.end(q)
     sound = system.sound(u1)
     return sound, system if sound else system.completed(u1)
-
-
-def prepared(system: SlabSystem, carry: Carry, solver: LinearSolver) -> Carry:
-    """The carry with a frozen operator that fits the slab, renewed when it does not."""
-    if carry.frozen is not None and not carry.stale and abs(carry.span / system.path.span - 1.0) < 1e-9:
-        return carry
-    frozen = freeze(system.operator(system.start.displacement), system.directions(), solver)
-    return replace(carry, frozen=frozen, span=system.path.span, stale=False, factorisations=carry.factorisations + 1)
-
-
-class _Anderson:
-    """Mixing of the last iterates: the combination whose residual is least."""
-
-    __slots__ = ("depth", "points", "values")
-
-    def __init__(self, depth: int) -> None:
-        self.depth = depth
-        self.points: list[Array] = []
-        self.values: list[Array] = []
-
-    def mix(self, x: Array, g: Array) -> Array:
-        """The next point, from the argument ``x`` of the map and its value ``g``."""
-        if self.depth == 0:
-            return g
-        self.points, self.values = [*self.points, x][-self.depth - 1 :], [*self.values, g][-self.depth - 1 :]
-        if len(self.points) < 2:
-            return g
-        f = np.array(self.values) - np.array(self.points)
-        df = np.diff(f, axis=0).T
-        gamma = np.linalg.lstsq(df, f[-1], rcond=1e-10)[0]
-        mixed: Array = g - np.diff(np.array(self.values), axis=0).T @ gamma
-        return mixed

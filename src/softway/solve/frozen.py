@@ -1,6 +1,6 @@
-"""The frozen operator of a slab with the compliance of the contact, and the carry that keeps it."""
+"""The frozen operator of a slab with the compliance of the contact."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -35,28 +35,70 @@ class Basis:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Frozen:
-    """A factored operator A and the compliance ``B^T A^-1 B`` of the contact directions B, computed when first asked
-    for.
+    """A factored operator A, the turning R of the nodes since, and the compliance ``B^T A^-1 B`` of the contact
+    directions B, computed when first asked for.
+
+    The operator of a slab is ``R A R^T``; R is the identity where it is not given.  Contact directions turn with the
+    nodes, so that the compliance stays.
 
     ``columns`` (``B^T A^-1 B`` (b,) of each direction), ``answers`` (``A^-1 B`` (k, f) of batches of them, kept where
     directions are rows), ``latest`` and ``held`` are caches of values that depend on A and B only, so the answer does
     not depend on when they were made.
+
+    Parameters
+    ----------
+    factor
+        A.
+    basis
+        B.
+    turning
+        (f, f) block-diagonal R, between directions that are components.
+    local
+        What answers the pushes of the contact, where ``factor`` is an iteration whose answers are not alike to the last
+        digit: a crude inverse that is.  The contact conditions are then met exactly at every iterate, and the forces
+        settle with the iterates.
     """
 
     factor: Factor
     basis: Basis
+    turning: sp.csr_array | None = None
+    local: Factor | None = None
     columns: dict[int, Array] = field(default_factory=dict)
     answers: list[tuple[IntArray, Array]] = field(default_factory=list)
     latest: dict[bytes, Array] = field(default_factory=dict)
     held: dict[bytes, Shared] = field(default_factory=dict)
 
+    def turned(self, turning: sp.csr_array | None) -> "Frozen":
+        """The same factor for nodes turned by R (f, f) since it was made."""
+        return replace(self, turning=turning)
+
     def solve(self, b: Array) -> Array:
-        """A^-1 b."""
-        return self.factor.solve(b)
+        """``R A^-1 R^T b`` (f,)."""
+        if self.turning is None:
+            return self.factor.solve(b)
+        return np.asarray(self.turning @ self.factor.solve(self.turning.T @ b))
+
+    @property
+    def exact(self) -> bool:
+        """Whether the answers to pushes are those of the operator."""
+        return self.local is None
 
     def sense(self, y: Array) -> Array:
-        """Components (b,) of a field (f,) along the directions."""
-        return np.asarray(self.basis.directions.T @ y)
+        """Components (b,) of a field (f,) along the turned directions."""
+        return np.asarray(self.basis.directions.T @ (y if self.turning is None else self.turning.T @ y))
+
+    def push(self, amounts: Array) -> Array:
+        """Field (f,) of pushes (b,) along the turned directions."""
+        out = np.asarray(self.basis.directions @ amounts)
+        return out if self.turning is None else np.asarray(self.turning @ out)
+
+    def coefficients(self, rows: Candidates, free: BoolArray) -> sp.csr_array:
+        """Rows C (m, b) along the turned directions: ``G = C B^T R^T``."""
+        plain = self.basis.coefficients(rows, free)
+        if self.turning is None or self.basis.component is None:
+            return plain
+        own = self.basis.component
+        return sp.csr_array(plain @ self.turning[own][:, own])
 
     def compliance(self, which: IntArray) -> Array:
         """``B^T A^-1 B`` (b, k) of some directions; new columns are solved for in one batch."""
@@ -71,10 +113,10 @@ class Frozen:
         return self.latest[key]
 
     def answer(self, push: Array) -> Array:
-        """A^-1 B push (f,) of pushes (b,) along the directions."""
+        """``R A^-1 B push`` (f,) of pushes (b,) along the directions."""
         index = np.flatnonzero(push)
-        if self.basis.component is not None:
-            return self.solve(self.basis.directions @ push) if len(index) else np.zeros(self.basis.directions.shape[0])
+        if self.basis.component is not None or self.local is not None:
+            return self._answered(push) if len(index) else np.zeros(self.basis.directions.shape[0])
         self._fill(index)
         out = np.zeros(self.basis.directions.shape[0])
         for batch, block in self.answers:
@@ -87,14 +129,19 @@ class Frozen:
                     out += part[k] * block[k]
         return out
 
+    def _answered(self, push: Array) -> Array:
+        """Answer (f,) to pushes (b,) by a solution."""
+        found = (self.local or self.factor).solve(np.asarray(self.basis.directions @ push))
+        return found if self.turning is None else np.asarray(self.turning @ found)
+
     def _fill(self, which: IntArray) -> None:
         missing = [i for i in which.tolist() if i not in self.columns]
         if not missing:
             return
-        new = self.factor.solve(np.ascontiguousarray(self.basis.directions[:, missing].toarray()))
+        new = (self.local or self.factor).solve(np.ascontiguousarray(self.basis.directions[:, missing].toarray()))
         sensed = np.ascontiguousarray((self.basis.directions.T @ new).T)
         self.columns.update(zip(missing, sensed, strict=True))
-        if self.basis.component is None:
+        if self.basis.component is None and self.local is None:
             self.answers.append((np.array(missing), np.ascontiguousarray(new.T)))
 
 
@@ -111,18 +158,5 @@ def basis(rows: Candidates, free: BoolArray, fixed: bool, nodes: IntArray) -> Ba
 
 
 def freeze(matrix: sp.csc_array, directions: Basis, solver: LinearSolver) -> Frozen:
-    """Factor an operator for slabs of one length."""
+    """Factor an operator."""
     return Frozen(solver.factor(matrix), directions)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Carry:
-    """What is kept between slabs besides the state, all of it disposable: one frozen operator for a slab length.
-
-    ``span`` is the length that ``frozen`` belongs to; ``stale`` asks for a new factor at the next slab.
-    """
-
-    frozen: Frozen | None = None
-    span: float = 0.0
-    stale: bool = False
-    factorisations: int = 0

@@ -1,25 +1,31 @@
-"""Newton's method: the operator is renewed at every iterate, for comparison with the fixed point."""
+"""Newton's method: the operator is renewed at every iterate."""
 
 import itertools
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
 from softway.errors import InputError
+from softway.solve.carry import Carry
 from softway.solve.driver import Iterate, lost
-from softway.solve.frozen import Carry, freeze
-from softway.solve.linear import LinearSolver, SuperLU
-from softway.solve.normal import constrain
-from softway.solve.system import SlabSystem
-from softway.typing import Array
+from softway.solve.frozen import Frozen
+from softway.solve.normal import constrain, untouched
+from softway.solve.operators.factored import Factored
+from softway.solve.system import Evaluation, SlabSystem
+from softway.typing import Array, BoolArray
+
+HALVINGS = 6
+"""Halvings of a Newton step, after which it is taken as it is."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Newton:
-    """``q <- q - A(q)^-1 r(q)`` with contact on the compliance of the current operator.
+    """``q <- q - alpha A(q)^-1 r(q)`` with contact on the compliance of the current operator.
 
-    The scalar of the Energy rule is lagged in the operator.
+    The step is halved while the next correction by the same operator would be longer than this one (natural
+    monotonicity test).  The scalar of the Energy rule is lagged in the operator.
 
     Parameters
     ----------
@@ -27,6 +33,14 @@ class Newton:
         Change of velocity, relative to the greatest velocity, at which an iterate is accepted.
     limit
         Iterations after which the slab is rejected.
+    renew
+        When the operator is renewed: at every ``iterate``, or at the first one of a ``slab`` (modified Newton method).
+    operator
+        How the operator is made.
+
+    References
+    ----------
+    Deuflhard (2011), Newton methods for nonlinear problems, 3.3.
 
     Examples
     --------
@@ -36,6 +50,8 @@ class Newton:
 
     tolerance: float = 1e-11
     limit: int = 40
+    renew: Literal["iterate", "slab"] = "iterate"
+    operator: Factored = Factored(precision="double")
 
     def __post_init__(self) -> None:
         if not 0.0 < self.tolerance < 1e-2:
@@ -44,33 +60,68 @@ class Newton:
             raise InputError("limit", f"{self.limit} iterations", "at least 1")
 
     def iterate(
-        self, system: SlabSystem, q: Array, carry: Carry, guess: Array, solver: LinearSolver = SuperLU()
+        self, system: SlabSystem, q: Array, carry: Carry, impulse: Array, active: BoolArray
     ) -> Iterator[Iterate]:
-        """Iterates from q (n, d), with ``guess`` (m,) as first impulses of the contact rows."""
-        active = guess != 0.0
-        keep, directions, impulse = system.model.free, system.directions(), guess
+        """Iterates from q (n, d), with first impulses (m,) and active rows (m,) of the contact."""
+        keep = system.model.free
+        end = system.evaluate(q, impulse)
         for count in itertools.count():
-            end = system.evaluate(q, impulse)
             system = system.steadied(end.displacement, count)
             if not np.isfinite(end.residual).all():
                 yield lost(q, active, carry, system)
                 return
-            matrix, rows = system.conditions(q, end, directions)
-            frozen = freeze(system.operator(end.displacement), directions, solver)
-            carry = Carry(frozen=frozen, span=system.path.span, stale=True, factorisations=carry.factorisations + 1)
-            free = q[keep] - frozen.solve(end.residual[keep])
-            solved, impulse, active = constrain(free, frozen, matrix, rows, active)
+            if self.renew == "iterate" or count == 0:
+                carry = self._renewed(system, carry, end)
+            frozen = carry.frozen
+            assert frozen is not None
+            rows, conditions = system.conditions(q, end, frozen)
+            free = q[keep] - frozen.solve(end.residual[keep] - frozen.push(rows.T @ impulse))
+            solved, pressed, active = constrain(free, frozen, rows, conditions, active, impulse)
             new = system.filled()
             new[keep] = solved
-            change = float(np.abs(new - q).max(initial=0.0))
+            step = new - q
+            q, end = self._searched(system, q, step, pressed, frozen)
             yield Iterate(
-                q=new,
-                change=change,
-                impulse=impulse,
+                q=q,
+                change=float(np.abs(step).max(initial=0.0)),
+                impulse=pressed,
                 active=active,
-                free=matrix @ frozen.sense(free),
+                free=rows @ untouched(free, frozen, rows.T @ impulse),
                 carry=carry,
                 system=system,
                 sound=True,
             )
-            q = new
+            impulse = pressed
+
+    def _renewed(self, system: SlabSystem, carry: Carry, end: Evaluation) -> Carry:
+        """The carry with the operator at the end of the slab; later slabs may go on with it."""
+        made = self.operator.make(system, end.displacement, carry.analysis)
+        return replace(
+            carry,
+            frozen=Frozen(made.factor, system.directions(), local=made.local),
+            analysis=made.analysis,
+            span=system.path.span,
+            reference=end.displacement,
+            factorisations=carry.factorisations + 1,
+            taken=(),
+            price=made.price,
+        )
+
+    def _searched(
+        self, system: SlabSystem, q: Array, step: Array, impulse: Array, frozen: Frozen
+    ) -> tuple[Array, Evaluation]:
+        """The next iterate on the way of the step (n, d), and its evaluation."""
+        keep = system.model.free
+        length, share = float(np.linalg.norm(step)), 1.0
+        for halvings in itertools.count():
+            new = q + share * step
+            end = system.evaluate(new, impulse)
+            if halvings == HALVINGS:
+                return new, end
+            if np.isfinite(end.residual).all():
+                rows, _ = system.conditions(new, end, frozen)
+                left = frozen.solve(end.residual[keep] - frozen.push(rows.T @ impulse))
+                if np.linalg.norm(left) <= max(1.0 - 0.5 * share, 1e-2) * length or length == 0.0:
+                    return new, end
+            share *= 0.5
+        raise AssertionError

@@ -29,18 +29,25 @@ class Rows:
 
 
 def constrain(
-    free: Array, frozen: Frozen, coefficients: sp.csr_array, rows: Rows, guess: BoolArray
+    free: Array,
+    frozen: Frozen,
+    coefficients: sp.csr_array,
+    rows: Rows,
+    guess: BoolArray,
+    carried: Array | None = None,
 ) -> tuple[Array, Array, BoolArray]:
     """Solution (f,), multipliers (m,) and active rows (m,) of the contact problem for the free solution.
 
-    The contact rows are ``G = C B^T`` with their ``coefficients`` C (m, b) along the contact directions B.
+    The contact rows are ``G = C B^T`` with their ``coefficients`` C (m, b) along the contact directions B.  Multipliers
+    ``carried`` (m,) are in ``free`` already; what comes out are the whole ones.
 
     Primal-dual sweeps from the ``guess``; after 30 of them single exchanges of least index (Murty), which end for
     every symmetric positive definite compliance.
     """
     count = rows.equal | rows.unilateral
     active = rows.equal | (guess & rows.unilateral)
-    slack = np.where(count, coefficients @ frozen.sense(free) - rows.target, 0.0)
+    before = coefficients.T @ (np.zeros(len(count)) if carried is None else carried)
+    slack = np.where(count, coefficients @ untouched(free, frozen, before) - rows.target, 0.0)
     floor = 1e-14 * max(np.abs(slack).max(initial=0.0), np.abs(rows.target[count]).max(initial=0.0), 1e-300)
     for sweep in range(30 + 4 * len(active)):
         index = np.flatnonzero(active)
@@ -56,7 +63,13 @@ def constrain(
         active[change] = ~active[change]
     else:
         raise NoConvergence(f"the {len(active)} contact rows have no solution")
-    return free + frozen.answer(push.directions), multiplier, active
+    return free + frozen.answer(push.directions - before), multiplier, active
+
+
+def untouched(free: Array, frozen: Frozen, before: Array) -> Array:
+    """What a solution (f,) that has pushes ``before`` (b,) in it would be without them, along the directions (b,)."""
+    sensed, pushed = frozen.sense(free), np.flatnonzero(before)
+    return sensed - frozen.compliance(pushed) @ before[pushed] if len(pushed) else sensed
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

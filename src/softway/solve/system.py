@@ -20,7 +20,7 @@ from softway.contact.located import LocatedMean
 from softway.contact.path import Path
 from softway.model import Model
 from softway.solve.balance import Closure, Ends, closed
-from softway.solve.frozen import Basis, basis
+from softway.solve.frozen import Basis, Frozen, basis
 from softway.solve.normal import Rows
 from softway.time.weight import Momentum, TimeWeight, moments, peaks
 from softway.typing import Array
@@ -155,20 +155,20 @@ class SlabSystem:
             force1=impulse / (self.path.span * moments(self.weight)[1]),
         )
 
-    def conditions(self, q: Array, end: Evaluation, directions: Basis) -> tuple[sp.csr_array, Rows]:
+    def conditions(self, q: Array, end: Evaluation, frozen: Frozen) -> tuple[sp.csr_array, Rows]:
         """The contact rows C (m, b) along the contact directions, and their conditions, linear at q.
 
         ``gap(u1) + (h/2) G (z - q) >= 0`` gives the target of the free components of z.
         """
         near = end.near
         if near is None:
-            return directions.coefficients(self.path.rows, self.model.free), self.rows
+            return frozen.coefficients(self.path.rows, self.model.free), self.rows
         fixed = np.where(self.model.free, 0.0, q)
         with np.errstate(invalid="ignore"):
             target = near.along(q - fixed) - 2.0 * near.gap(end.displacement) / self.path.span
         open_ = near.reachable(self.model.free)
         rows = Rows(target=np.where(open_, target, 0.0), equal=self.rows.equal, unilateral=open_)
-        return directions.coefficients(near, self.model.free), rows
+        return frozen.coefficients(near, self.model.free), rows
 
     def steadied(self, u1: Array, count: int) -> "SlabSystem":
         """The equations after ``count`` iterations: from ``STEADY`` on nodes are kept on the faces where they are.
@@ -192,23 +192,23 @@ class SlabSystem:
         grown = more.at(u1).near.sum() > self.pairs.at(u1).near.sum()
         return replace(self, pairs=more if grown else self.searched.held(u1))
 
-    def directions(self) -> Basis:
-        """The directions in which contact may push in any slab."""
+    def directions(self, turning: bool = False) -> Basis:
+        """The directions in which contact may push in any slab, in axes that may be ``turning`` with the nodes."""
         model = self.model
-        return basis(self.path.rows, model.free, model.encounters.fixed, model.touchable)
+        return basis(self.path.rows, model.free, model.encounters.fixed and not turning, model.touchable)
 
     def filled(self) -> Array:
         """Values (n, d) of q on supported components, zero on the others."""
         return np.where(self.model.free, 0.0, self.given)
 
+    @property
+    def share(self) -> float:
+        """What of the stiffness counts beside the mass, ``h^2/2 mu2`` [s^2]."""
+        return 0.5 * self.path.span**2 * moments(self.weight)[1]
+
     def operator(self, u: Array) -> sp.csc_array:
-        """M + h^2/2 mu2 K(u) on the free components, symmetric positive definite near equilibrium."""
-        model = self.model
-        d = model.shape[1]
-        keep = np.flatnonzero(model.free.ravel())
-        inertia = sp.kron(model.mass, sp.eye_array(d), format="csc")
-        stiffness = 0.5 * self.path.span**2 * moments(self.weight)[1] * model.tangent(u)
-        return sp.csc_array((inertia + stiffness)[keep][:, keep])
+        """``M + h^2/2 mu2 K(u)`` on the free components, symmetric positive definite near equilibrium."""
+        return self.model.inertia_and_stiffness(u, self.share)
 
     def _mean_force(self, q: Array, u1: Array, force: Array) -> Array:
         if self.located is not None:

@@ -10,8 +10,8 @@ import pytest
 from softway.contact.timing import Energy, Impulse, Paper, Timing
 from softway.errors import NoConvergence, NumericsError
 from softway.march import march as module
+from softway.solve.carry import Carry
 from softway.solve.fixed_point import FixedPoint
-from softway.solve.frozen import Carry
 from softway.solve.newton import Newton
 
 RULES = [Energy(), Energy(located=True), Impulse(), Paper(), Paper(approach="extrapolated")]

@@ -7,6 +7,7 @@ from softway.bodies.motion import Table, Translation
 from softway.bodies.solid import Driven, Fixed, Tool
 from softway.contact.timing import Energy, Impulse, Paper, Timing
 from softway.errors import InputError
+from softway.solve.newton import Newton
 from softway.space.curved import Sphere
 from softway.space.obstacles import HalfSpace
 
@@ -75,8 +76,8 @@ def test_any_frame_will_do(shop, rule: Timing, velocity: float) -> None:
 def test_a_floor_that_rises_under_a_block(shop, rule: Timing) -> None:
     solid = {v: shop.block((0.02, -v), angle=0.2) for v in (0.1, 0.0)}
     rising = {"floor": Tool(shape=shop.floor["floor"].shape, motion=Translation(velocity=(0.0, 0.1)))}
-    falling = shop.move(solid[0.1], shop.floor, timing=rule, tag="surface", until=1.5)
-    lifted = shop.move(solid[0.0], rising, timing=rule, tag="surface", until=1.5)
+    options = {"timing": rule, "tag": "surface", "until": 1.5, "method": Newton()}
+    falling, lifted = shop.move(solid[0.1], shop.floor, **options), shop.move(solid[0.0], rising, **options)
     same_but_for_the_frame(falling, lifted, np.array([0.0, -0.1]), 1e-9, 5e-4 if isinstance(rule, Energy) else 0.0)
     assert lifted.momentum_error <= 1e-10
 

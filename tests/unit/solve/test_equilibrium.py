@@ -5,19 +5,20 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from softway.bodies.dead_load import dead_load
 from softway.bodies.loads import Gravity
 from softway.bodies.solid import Fixed, Solid
 from softway.contact.timing import Impulse
 from softway.errors import NumericsError
 from softway.laws.bulk import NeoHookean, StVenantKirchhoff
-from softway.model import Model, build, dead_load
+from softway.model import Model, build
 from softway.scene import Scene
 from softway.solve.equilibrium import equilibrium
 from softway.space.shapes import rectangle
 
 
 def pulled(model: Model, acceleration: float | tuple[float, ...]) -> np.ndarray:
-    return dead_load(model, (Gravity(acceleration=acceleration),), "loads")
+    return dead_load(model.parts, model.mass, (Gravity(acceleration=acceleration),), "loads")
 
 
 def test_a_bar_under_its_weight(bar: Callable[..., Model]) -> None:

@@ -13,9 +13,9 @@ from softway.contact.timing import Impulse
 from softway.errors import InputError, NoConvergence
 from softway.laws.bulk import LinearElastic
 from softway.model import Model
+from softway.solve.carry import Carry
 from softway.solve.driver import Iterate, Solution, drive, lost
 from softway.solve.fixed_point import FixedPoint
-from softway.solve.frozen import Carry
 from softway.solve.newton import Newton
 from softway.solve.normal import Rows
 from softway.solve.system import SlabSystem, Start
@@ -49,7 +49,7 @@ def slab(model: Model, span: float = 0.2) -> SlabSystem:
 def solve(system: SlabSystem, method: FixedPoint | Newton, start: np.ndarray | None = None) -> Solution:
     q = system.start.velocity if start is None else start
     impulse = np.zeros(len(system.rows.target))
-    return drive(system, method.iterate(system, q, Carry(), impulse), method.tolerance, method.limit)
+    return drive(system, method.iterate(system, q, Carry(), impulse, impulse != 0.0), method.tolerance, method.limit)
 
 
 @methods

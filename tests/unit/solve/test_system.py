@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
+from softway.bodies.dead_load import dead_load
 from softway.bodies.force import AverageField, DiscreteGradient, Weighted
 from softway.bodies.loads import Gravity
 from softway.bodies.solid import Fixed, Tool
 from softway.contact.path import Passage, Path, passage
 from softway.contact.timing import Impulse
 from softway.laws.bulk import LinearElastic
-from softway.model import Model, dead_load
+from softway.model import Model
 from softway.solve.normal import Rows
 from softway.solve.system import Evaluation, SlabSystem, Start
 from softway.space.curved import Sphere
@@ -177,7 +178,7 @@ def test_loads_and_known_impulses_enter_the_balance(block: Callable[..., Model])
     np.testing.assert_allclose(evaluated(replace(s, impulses=kick), q).residual, plain - kick, atol=1e-14)
     jumped = evaluated(replace(s, unbalanced=jump), q).residual
     np.testing.assert_allclose(jumped, plain - model.mass @ jump, atol=1e-14)
-    load = dead_load(model, (Gravity(acceleration=(0.0, -1.0)),), "loads")
+    load = dead_load(model.parts, model.mass, (Gravity(acceleration=(0.0, -1.0)),), "loads")
     heavy = replace(s, model=replace(model, load=load))
     np.testing.assert_allclose(evaluated(heavy, q).residual, plain - 0.3 * load, atol=1e-14)
 

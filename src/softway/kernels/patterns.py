@@ -1,0 +1,72 @@
+"""Sparse sums whose pattern is known beforehand."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from softway.typing import Array, BoolArray, IntArray
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Sum:
+    """A constant matrix plus a multiple of one whose values change, on the rows and columns that are kept.
+
+    Parameters
+    ----------
+    constant
+        (z,) values of the constant matrix on the common pattern.
+    picked
+        Which stored values of the other matrix are kept.
+    place
+        Where they stand among the z of the common pattern.
+    indices, indptr
+        The common pattern (f, f), columns compressed and rows sorted.
+    """
+
+    constant: Array
+    picked: IntArray
+    place: IntArray
+    indices: IntArray
+    indptr: IntArray
+
+    def of(self, values: Array, factor: float) -> csc_array:
+        """``constant + factor * other`` (f, f), where ``values`` are those that the other matrix stores."""
+        data = self.constant.copy()
+        data[self.place] += factor * values[self.picked]
+        size = len(self.indptr) - 1
+        return csc_array((data, self.indices, self.indptr), (size, size))
+
+
+def sum_of(constant: csc_array, other: csc_array, keep: BoolArray) -> Sum:
+    """The :class:`Sum` of two matrices (m, m), the second of which changes its values, on the components ``keep`` (m,).
+
+    Examples
+    --------
+    >>> inertia = csc_array(np.diag([1.0, 0.0, 2.0]))
+    >>> stiffness = csc_array(np.array([[1.0, -1.0, 0.0], [-1.0, 2.0, 0.0], [0.0, 0.0, 0.0]]))
+    >>> total = sum_of(inertia, stiffness, np.array([True, True, False]))
+    >>> total.of(stiffness.data, 10.0).toarray().tolist()
+    [[11.0, -10.0], [-10.0, 20.0]]
+    """
+    size = int(keep.sum())
+    number = np.cumsum(keep) - 1
+    first, second = (_keys(matrix, keep, number, size) for matrix in (constant, other))
+    keys = np.unique(np.concatenate([first[0], second[0]]))
+    values = np.zeros(len(keys))
+    values[np.searchsorted(keys, first[0])] = constant.data[first[1]]
+    column, row = np.divmod(keys, max(size, 1))
+    return Sum(
+        constant=values,
+        picked=second[1],
+        place=np.searchsorted(keys, second[0]),
+        indices=row.astype(np.int32),
+        indptr=np.searchsorted(column, np.arange(size + 1)).astype(np.int32),
+    )
+
+
+def _keys(matrix: csc_array, keep: BoolArray, number: IntArray, size: int) -> tuple[IntArray, IntArray]:
+    """Numbers ``column * size + row`` of the kept entries, and which of the stored values they are."""
+    columns = np.repeat(np.arange(matrix.shape[1]), np.diff(matrix.indptr))
+    kept = np.flatnonzero(keep[columns] & keep[matrix.indices])
+    return number[columns[kept]] * size + number[matrix.indices[kept]], kept

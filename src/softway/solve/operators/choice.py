@@ -1,0 +1,75 @@
+"""Which operator: by the number of unknowns, the length of the slab, the shape of the bodies and the memory."""
+
+import os
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.bodies.section import wave_speed
+from softway.solve.operators.factored import Factored
+from softway.solve.operators.matrix_free import MatrixFree
+from softway.solve.operators.multigrid import Multigrid, available
+from softway.solve.operators.operator import Operator
+from softway.solve.system import SlabSystem
+
+FILL = {1: (3.0, 1.0), 2: (12.0, 1.15), 3: (19.0, 4.0 / 3.0)}
+"""Numbers in a factor of f unknowns, ``c f^p``, by the dimension of the cells: measured with nested dissection."""
+STREAM = 0.014
+"""Time to stream a number of a factor through a solution, relative to that of an unknown in a product."""
+MANY = 60
+"""Products beyond which diagonal preconditioning is no match for multigrid."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Choice:
+    """An operator, and why it was chosen."""
+
+    operator: Operator
+    reason: str
+
+
+def choose(system: SlabSystem, memory: float | None = None) -> Choice:
+    """The operator for slabs like this one; ``memory`` [bytes] is that of the machine unless it is given."""
+    model = system.model
+    unknowns = int(model.free.sum())
+    cells = max(p.mesh.cell_dim for p in model.parts)
+    factor, power = FILL[cells]
+    numbers = factor * unknowns**power
+    products = _products(system)
+    room = 0.5 * (_memory() if memory is None else memory)
+    facts = f"{unknowns} unknowns, waves cross {courant(system):.2g} cells in a slab, slenderness {slender(system):.2g}"
+    if 4.0 * numbers > room:
+        why = f"{facts}: a factor of {4e-9 * numbers:.2g} GB would take more than half of the memory"
+        iterative = Multigrid() if products > MANY and available() else MatrixFree()
+        return Choice(operator=iterative, reason=why)
+    if cells == 3 and products * unknowns < STREAM * numbers:
+        why = f"{facts}: about {products:.0f} products cost less than a solution with the factor"
+        return Choice(operator=MatrixFree(), reason=why)
+    return Choice(operator=Factored(), reason=f"{facts}: a factor of {4e-6 * numbers:.2g} MB serves many slabs")
+
+
+def courant(system: SlabSystem) -> float:
+    """Cells that the fastest wave crosses in a slab."""
+    h = system.path.span
+    return max(
+        h * wave_speed(p.internal.material, p.density, p.internal.section) / p.mesh.edge() for p in system.model.parts
+    )
+
+
+def slender(system: SlabSystem) -> float:
+    """Longest over shortest extent of the most slender body."""
+    extents = [np.ptp(p.mesh.points, axis=0) for p in system.model.parts]
+    return max(float(e.max() / max(e.min(), 1e-12 * e.max())) for e in extents)
+
+
+def _products(system: SlabSystem) -> float:
+    """Products that diagonal preconditioning needs for three digits."""
+    return 8.0 + 4.0 * courant(system) * float(np.sqrt(slender(system)))
+
+
+def _memory() -> float:
+    """Memory of the machine [bytes]; 8 GiB where it does not tell."""
+    try:
+        return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    except (AttributeError, ValueError, OSError):
+        return 8.0 * 2**30

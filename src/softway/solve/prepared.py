@@ -1,0 +1,48 @@
+"""The frozen operator of the next slab: kept, turned with the nodes, or made anew."""
+
+from dataclasses import replace
+from typing import Literal
+
+from softway.solve.carry import Carry
+from softway.solve.frozen import Frozen
+from softway.solve.operators import Choice, Operator, choose
+from softway.solve.system import SlabSystem
+from softway.solve.turning import turning
+
+
+def prepared(system: SlabSystem, carry: Carry, operator: Operator | Literal["auto"]) -> Carry:
+    """The carry with a frozen operator that fits the slab."""
+    if carry.frozen is None or carry.stale or abs(carry.span / system.path.span - 1.0) > 1e-9:
+        carry = renewed(system, carry, operator)
+    return carry if system.model.linear else _turned(system, carry)
+
+
+def renewed(system: SlabSystem, carry: Carry, operator: Operator | Literal["auto"]) -> Carry:
+    """The carry with an operator made at the start of the slab."""
+    u = system.start.displacement
+    choice = carry.choice
+    if choice is None:
+        choice = choose(system) if operator == "auto" else Choice(operator=operator, reason="as asked for")
+    made = choice.operator.make(system, u, carry.analysis)
+    return replace(
+        carry,
+        frozen=Frozen(made.factor, system.directions(), local=made.local),
+        choice=choice,
+        analysis=made.analysis,
+        span=system.path.span,
+        stale=False,
+        reference=u,
+        factorisations=carry.factorisations + 1,
+        taken=(),
+        price=made.price,
+    )
+
+
+def _turned(system: SlabSystem, carry: Carry) -> Carry:
+    """The carry with the turning of the nodes from where the operator was made to the start of the slab."""
+    frozen, measure = carry.frozen, carry.turning or turning(system.model.parts)
+    assert frozen is not None and carry.reference is not None
+    R = measure.since(carry.reference, system.start.displacement, system.model.free)
+    if R is not None and frozen.basis.component is None:
+        frozen = Frozen(frozen.factor, system.directions(turning=True), local=frozen.local)
+    return replace(carry, frozen=frozen.turned(R), turning=measure)
