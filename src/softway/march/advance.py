@@ -9,11 +9,13 @@ from softway.contact.located import LocatedMean, located_mean
 from softway.contact.timing import Energy, Paper
 from softway.errors import InputError, Unbalanced
 from softway.march.carrying import solve_carrying
+from softway.march.explicit import Central, central, solve_explicit
 from softway.march.massless import solve_massless
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation
 from softway.model import Model
 from softway.solve.carry import Carry
+from softway.solve.explicit import Explicit
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
 from softway.solve.reaction import Reaction, reaction
@@ -21,19 +23,22 @@ from softway.solve.system import Start
 from softway.time.slab import Slab
 from softway.time.weight import EndPeaks, TimeWeight
 
+Method = FixedPoint | Newton | Explicit
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Rule:
     """What the contact rule of a model needs all through the march."""
 
     model: Model
-    method: FixedPoint | Newton
+    method: Method
     inertia: Reaction | None
     located: LocatedMean | None
     split: Split | None = None
+    central: Central | None = None
 
 
-def rule(model: Model, method: FixedPoint | Newton, weight: TimeWeight) -> Rule:
+def rule(model: Model, method: Method, weight: TimeWeight) -> Rule:
     """Prepare the contact rule.
 
     Raises
@@ -41,6 +46,10 @@ def rule(model: Model, method: FixedPoint | Newton, weight: TimeWeight) -> Rule:
     InputError
         If the rule does not go with the law or the time weight.
     """
+    if isinstance(method, Explicit):
+        if weight != EndPeaks():
+            raise InputError("time.weight", f"{weight} with Explicit, whose peak is at the start", "the default weight")
+        return Rule(model=model, method=method, inertia=None, located=None, central=central(model))
     if not isinstance(model.timing, Energy):
         triangle = isinstance(model.timing, Paper) and model.timing.split == "triangle"
         split = split_elements(model) if triangle else None
@@ -74,10 +83,14 @@ def advance(
     NoConvergence, TooFast, Unbalanced
         If the method does not settle, the slab is too long for the approach, or the energy balance cannot be closed.
     """
-    if rule.inertia is None:
-        out, carry = solve_massless(rule.model, now, slab, carry, rule.method, rule.located, approach, fallback)
-    else:
-        out, carry = solve_carrying(rule.model, now, slab, carry, rule.method, rule.inertia, approach, rule.split)
+    match rule.method:
+        case Explicit() as method:
+            assert rule.central is not None
+            out, carry = solve_explicit(rule.model, now, slab, carry, method, rule.central, approach)
+        case method if rule.inertia is None:
+            out, carry = solve_massless(rule.model, now, slab, carry, method, rule.located, approach, fallback)
+        case method:
+            out, carry = solve_carrying(rule.model, now, slab, carry, method, rule.inertia, approach, rule.split)
     end = out.solution.end
     if end.clipped:
         raise Unbalanced("the scalar that closes the energy balance leaves [-1/2, 1/2]")

@@ -9,7 +9,7 @@ import numpy as np
 
 from softway.bodies.section import wave_speed
 from softway.errors import InputError, NoConvergence, NumericsError, TooFast, Unbalanced
-from softway.march.advance import Rule, advance, rule
+from softway.march.advance import Method, Rule, advance, rule
 from softway.march.begin import begin
 from softway.march.certificate import certified, violation
 from softway.march.control import StepControl, may_grow
@@ -21,8 +21,8 @@ from softway.model import Model, build
 from softway.scene import Scene, State
 from softway.solve.balance import BOUND, SLIGHT
 from softway.solve.carry import Carry
+from softway.solve.explicit import Explicit
 from softway.solve.fixed_point import FixedPoint
-from softway.solve.newton import Newton
 from softway.solve.stability import require_stable, stable_step
 from softway.time.slab import Slab
 from softway.time.weight import EndPeaks, TimeWeight
@@ -42,7 +42,7 @@ def march(
     until: Second,
     step: Second | Literal["auto"] = "auto",
     weight: TimeWeight = EndPeaks(),
-    method: FixedPoint | Newton = FixedPoint(),
+    method: Method = FixedPoint(),
     state: State | None = None,
     control: StepControl = StepControl(),
 ) -> Iterator[Step]:
@@ -61,7 +61,7 @@ def march(
     weight
         Virtual time function.
     method
-        Fixed point or Newton.
+        Fixed point, Newton, or explicit.
     state
         Where to begin; by default the start of the scene.
     control
@@ -87,13 +87,22 @@ def march(
     """
     model = scene if isinstance(scene, Model) else build(scene)
     now = begin(model) if state is None else joined(model, state)
-    span = proposed(model, step, weight, until - now.time)
-    require_stable(model, now.start.displacement, weight, span)
-    return _steps(rule(model, method, weight), now, until, span, weight, control)
+    prepared = rule(model, method, weight)
+    span = proposed(model, step, weight, until - now.time, method)
+    require_stable(model, now.start.displacement, method if isinstance(method, Explicit) else weight, span)
+    return _steps(prepared, now, until, span, weight, control)
 
 
-def proposed(model: Model, step: Second | Literal["auto"], weight: TimeWeight, duration: float) -> float:
+def proposed(
+    model: Model,
+    step: Second | Literal["auto"],
+    weight: TimeWeight,
+    duration: float,
+    method: Method = FixedPoint(),
+) -> float:
     """The slab length: the one asked for, or the crossing time of the shortest edge over sqrt(2), evenly divided.
+
+    Central differences take a share of their stability limit.
 
     Raises
     ------
@@ -106,6 +115,8 @@ def proposed(model: Model, step: Second | Literal["auto"], weight: TimeWeight, d
         if not 0.0 < step < np.inf:
             raise InputError("time.step", f"{step:g} s", "a positive time, or 'auto'")
         return evenly(duration, step)
+    if isinstance(method, Explicit):
+        return evenly(duration, method.safety * stable_step(model, model.displacement, method))
     crossing = min(p.mesh.edge() / wave_speed(p.internal.material, p.density, p.internal.section) for p in model.parts)
     bound = 0.9 * stable_step(model, model.displacement, weight)
     return evenly(duration, min(crossing / np.sqrt(2.0), bound))

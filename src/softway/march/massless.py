@@ -42,15 +42,15 @@ def solve_massless(
     coasting = start.displacement + h * np.where(model.massive[:, None], 0.5 * (start.velocity + rate), rate)
     pairs = model.encounters.meet(start.displacement, coasting, slab.start, slab.end)
     require_slow(model, pairs, coasting, approach)
-    system = replace(_equations(model, now, slab, pairs, located), fallback=fallback)
+    system = replace(equations(model, now, slab, pairs, located), fallback=fallback)
     guess = np.where(model.free, np.where(model.massive[:, None], rate, 2.0 * rate), system.given)
     impulse = now.pressure * h * moments(slab.weight)[1]
     iterates = method.iterate(system, guess, carry, impulse, impulse != 0.0)
     solution = drive(system, iterates, method.tolerance, method.limit)
-    return _outcome(model, now, slab, system, solution, pairs.found), solution.last.carry
+    return outcome(model, now, slab, system, solution, pairs.found), solution.last.carry
 
 
-def _equations(model: Model, now: Situation, slab: Slab, pairs: Pairs, located: LocatedMean | None) -> SlabSystem:
+def equations(model: Model, now: Situation, slab: Slab, pairs: Pairs, located: LocatedMean | None) -> SlabSystem:
     """The equations of the slab."""
     h, start = slab.span, now.start
     rows = pairs.start(start.displacement)
@@ -83,7 +83,8 @@ def _equations(model: Model, now: Situation, slab: Slab, pairs: Pairs, located: 
     )
 
 
-def _outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solution: Solution, pairs: int) -> Outcome:
+def outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solution: Solution, pairs: int) -> Outcome:
+    """What a solution says of forces, works and events of the slab."""
     h = slab.span
     q, end = solution.last.q, solution.end
     rows = end.near or system.path.rows

@@ -7,6 +7,8 @@ from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from softway.errors import InputError
 from softway.model import Model
+from softway.solve.explicit import Explicit
+from softway.solve.inertia import inertia
 from softway.time.weight import TimeWeight, limit
 from softway.typing import Array
 
@@ -34,31 +36,37 @@ def greatest_frequency(model: Model, u: Array) -> float:
         y: Array = inner @ x
         return y - cross @ soft.solve(cross.T @ x) if soft is not None else y
 
-    inverse = splu(sp.csc_matrix(mass))
+    inverse, where = inertia(model), model.free & model.massive[:, None]
+
+    def accelerated(x: Array) -> Array:
+        force = np.zeros(model.shape)
+        force[where] = x
+        return inverse.acceleration(force)[where]
+
     operator = LinearOperator(mass.shape, matvec=condensed, dtype=float)
-    weak = LinearOperator(mass.shape, matvec=inverse.solve, dtype=float)
+    weak = LinearOperator(mass.shape, matvec=accelerated, dtype=float)
     start = np.random.default_rng(0).standard_normal(len(heavy))
     value = eigsh(operator, k=1, M=mass, Minv=weak, which="LA", v0=start, tol=1e-5, return_eigenvectors=False)
     return float(np.sqrt(max(value[0], 0.0)))
 
 
-def stable_step(model: Model, u: Array, weight: TimeWeight) -> float:
-    """Greatest stable slab of the weight [s]; infinite for peaks at the two ends."""
-    bound = limit(weight)
+def stable_step(model: Model, u: Array, scheme: TimeWeight | Explicit) -> float:
+    """Greatest stable slab of a weight or of central differences [s]; infinite for peaks at the two ends."""
+    bound = 2.0 if isinstance(scheme, Explicit) else limit(scheme)
     if np.isinf(bound):
         return np.inf
     omega = greatest_frequency(model, u)
     return bound / omega if omega > 0.0 else np.inf
 
 
-def require_stable(model: Model, u: Array, weight: TimeWeight, span: float) -> None:
-    """Refuse a slab beyond the stability limit of its weight, naming the limit."""
-    if limit(weight) == 0.0:
-        raise InputError("time.weight", f"{weight} grows at every step", "peaks whose mean instant is at least 1/2")
-    greatest = stable_step(model, u, weight)
+def require_stable(model: Model, u: Array, scheme: TimeWeight | Explicit, span: float) -> None:
+    """Refuse a slab beyond the stability limit of its weight or of central differences, naming the limit."""
+    if not isinstance(scheme, Explicit) and limit(scheme) == 0.0:
+        raise InputError("time.weight", f"{scheme} grows at every step", "peaks whose mean instant is at least 1/2")
+    greatest = stable_step(model, u, scheme)
     if span > greatest * (1.0 + 1e-9):
         raise InputError(
             "time.step",
-            f"{span:.6g} s is beyond the stability limit {greatest:.6g} s of {type(weight).__name__}",
+            f"{span:.6g} s is beyond the stability limit {greatest:.6g} s of {type(scheme).__name__}",
             f"a step of at most {greatest:.4g} s, or the weight EndPeaks, which is stable for every step",
         )
