@@ -19,8 +19,6 @@ CHANGE     9             derivatives dH of a change of the displacement
 FLUX       9             ``P = S f`` (first Piola-Kirchhoff), or its change
 NODES      ...           nodal values, and whatever else a kernel needs
 =========  ============  ==================================================================
-
-The numbers are compiled into the kernels, and the disk cache does not see a change of this file: empty it after one.
 """
 
 LANES = 8
