@@ -45,6 +45,8 @@ DOORS = {
     "sksparse": ("softway.solve.backends.cholmod",),
     "mumps": ("softway.solve.backends.mumps",),
     "gmsh": (),
+    "numba": ("softway.kernels.*",),
+    "llvmlite": ("softway.kernels.vectors",),
     "numpy": ("*",),
     "scipy": ("*",),
 }
@@ -60,6 +62,7 @@ PLAIN_BASES = {
     "SoftwayError",
     "Mapping",
     "Sequence",
+    "Type",  # of Numba
 }
 
 Finder = Callable[[Source], Iterable[str]]

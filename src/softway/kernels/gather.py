@@ -56,8 +56,25 @@ class Assembler:
         """Symmetric matrix (n d, n d) of the matrices of cells, one block (e, a, a, d, d) for each kind of cell."""
         pairs = np.concatenate([block.reshape(-1, block.shape[-1] ** 2) for block in blocks])
         data = (self.sums @ pairs).ravel()[self.order]
+        return self.matrix(data)
+
+    def matrix(self, data: Array) -> csc_array:
+        """The matrix (n d, n d) with the stored entries ``data``."""
         size = len(self.indptr) - 1
         return csc_array((data, self.indices, self.indptr), (size, size))
+
+    def pair_of(self) -> IntArray:
+        """Number of the pair of the pattern for each pair of nodes of each cell, (sum e a a,)."""
+        out = np.empty(self.sums.shape[1], np.int64)
+        out[self.sums.indices] = np.repeat(np.arange(self.sums.shape[0]), np.diff(self.sums.indptr))
+        return out
+
+    def places(self, components: int) -> tuple[IntArray, IntArray]:
+        """Where the (d, d) entries of a pair are stored: entry (i, j) of pair p in ``at[p] + i step[p] + j``."""
+        place = np.empty(len(self.order), np.int64)
+        place[self.order] = np.arange(len(self.order))
+        at = place[:: components**2]
+        return at, place[components :: components**2] - at
 
 
 def assembler(cells: list[IntArray], nodes: int, components: int) -> Assembler:

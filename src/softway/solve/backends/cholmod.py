@@ -48,7 +48,7 @@ class Cholmod:
         from sksparse.cholmod import analyze
 
         order = analyze(sp.csc_matrix(matrix), mode="supernodal", ordering_method="metis")
-        return _Analysis(Pattern.of(matrix), order)
+        return _Analysis(Pattern.of(matrix), order, [])
 
     def factor(self, matrix: sp.csc_array) -> "_Factor":
         """Analyse and factor a sparse symmetric matrix (f, f)."""
@@ -57,10 +57,11 @@ class Cholmod:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Analysis:
-    """Symbolic factor of a pattern."""
+    """Symbolic factor of a pattern; ``entries`` holds their number once it was asked for: counting copies a factor."""
 
     pattern: Pattern
     order: Any
+    entries: list[int]
 
     def factor(self, matrix: sp.csc_array) -> "_Factor":
         from sksparse.cholmod import CholmodError
@@ -68,7 +69,7 @@ class _Analysis:
         finite(matrix)
         self.pattern.require(matrix)
         try:
-            return _Factor(self.order.cholesky(sp.csc_matrix(matrix)))
+            return _Factor(self.order.cholesky(sp.csc_matrix(matrix)), self.entries)
         except CholmodError as error:
             raise unfactored(matrix.shape[0], error) from None
 
@@ -78,10 +79,13 @@ class _Factor:
     """A factor of CHOLMOD."""
 
     held: Any
+    entries: list[int]
 
     @property
     def bytes(self) -> int:
-        return 8 * int(self.held.L().nnz)
+        if not self.entries:
+            self.entries.append(int(self.held.L().nnz))
+        return 8 * self.entries[0]
 
     def solve(self, b: Array) -> Array:
         return np.asarray(self.held(b)) if b.size else np.zeros(b.shape)

@@ -1,0 +1,172 @@
+"""Internal force, its tangent and its products in one pass over the cells: nothing is kept between gather and scatter.
+
+Arguments that the kernels share:
+
+``measure``, ``law``, ``moduli``
+    Addresses of the stages of one point (strain and carrier, then stress, moduli and energy), and the numbers of the
+    law.
+``rows`` (b, a, LANES)
+    Row of the nodal arrays for each node a of the cells in block b; lanes without a cell lead to the last row, where
+    the displacement is zero.
+``table`` (q, a, 3)
+    Derivatives of the shape functions along the reference coordinates; the third is zero in a plane, and the shape
+    function itself around an axis of revolution.
+``geometry`` (b, q, 10 LANES)
+    ``X_Jr = dxi_r/dX_J`` [1/m] in row 3 J + r, and the volume V of the point [m^3]; zero where no cell is.
+``starts``, ``first``, ``last``
+    Blocks of the parts of the body, and the range of parts to work on; two parts never write to one row of ``out``.
+``u`` (n, d)
+    Displacement [m].
+"""
+
+import numpy as np
+
+from softway.kernels.compiled import inlined, kernel
+from softway.kernels.lanes import CHANGE, ENERGY, FRAME, LANES, NATURAL, NODES, TENSOR, TOTAL, VECTOR
+from softway.kernels.stages import collect, differentiate, flux, flux_change, gather, place, pull, scatter
+from softway.kernels.vectors import call, fma, load, spread, store
+
+
+@kernel
+def force(measure, law, moduli, rows, table, geometry, starts, first, last, u, out, energy):
+    """Add nodal forces [N] to ``out`` (n, d), and the energy of each part [J] to ``energy``."""
+    sums = NODES + rows.shape[1] * VECTOR
+    s = np.empty(sums + rows.shape[1] * VECTOR)
+    for part in range(first, last):
+        store(s, TOTAL, spread(0.0))
+        for block in range(starts[part], starts[part + 1]):
+            gather(u, rows[block], s, NODES)
+            s[sums:] = 0.0
+            for q in range(table.shape[0]):
+                _respond(measure, law, moduli, s, table[q], geometry[block, q], u.shape[1])
+                store(s, TOTAL, fma(load(geometry[block, q], TENSOR), load(s, ENERGY), load(s, TOTAL)))
+                flux(s)
+                pull(s, geometry[block, q])
+                collect(s, table[q], sums)
+            scatter(s, sums, rows[block], out)
+        energy[part] += s[TOTAL : TOTAL + LANES].sum()
+
+
+@kernel
+def product(measure, law, moduli, rows, table, geometry, starts, first, last, u, w, out):
+    """Add the change of the nodal forces [N] under a change ``w`` (n, d) [m] of the displacement to ``out`` (n, d)."""
+    change = NODES + rows.shape[1] * VECTOR
+    sums = change + rows.shape[1] * VECTOR
+    s = np.empty(sums + rows.shape[1] * VECTOR)
+    for block in range(starts[first], starts[last]):
+        gather(u, rows[block], s, NODES)
+        gather(w, rows[block], s, change)
+        s[sums:] = 0.0
+        for q in range(table.shape[0]):
+            _respond(measure, law, moduli, s, table[q], geometry[block, q], u.shape[1])
+            differentiate(s, change, table[q])
+            place(s, geometry[block, q], CHANGE, u.shape[1])
+            flux_change(s)
+            pull(s, geometry[block, q])
+            collect(s, table[q], sums)
+        scatter(s, sums, rows[block], out)
+
+
+@kernel
+def tangent(measure, law, moduli, rows, table, geometry, starts, first, last, u, pairs, at, step, out):
+    """Add the derivative of the force [N/m] to the entries ``out`` of a matrix.
+
+    ``pairs`` (b, a, a, LANES) numbers the pairs of nodes; entry (i, j) of pair p is ``out[at[p] + i step[p] + j]``.
+    """
+    nodes, d = rows.shape[1], u.shape[1]
+    moved = NODES + nodes * VECTOR
+    sums = moved + 9 * TENSOR
+    s = np.empty(sums + nodes * nodes * TENSOR)
+    for block in range(starts[first], starts[last]):
+        gather(u, rows[block], s, NODES)
+        s[sums:] = 0.0
+        for q in range(table.shape[0]):
+            _respond(measure, law, moduli, s, table[q], geometry[block, q], d)
+            _moduli(s, geometry[block, q], d, moved)
+            for node in range(nodes):
+                _couple(s, moved, table[q], node, nodes, sums + node * nodes * TENSOR)
+        for k in range(LANES):
+            for one in range(nodes):
+                for two in range(one, nodes):
+                    here = sums + (one * nodes + two) * TENSOR + k
+                    p, r = pairs[block, one, two, k], pairs[block, two, one, k]
+                    for i in range(3):
+                        for j in range(3):
+                            value = s[here + (3 * i + j) * LANES]
+                            out[at[p] + (i % d) * step[p] + j % d] += value
+                            if one != two:
+                                out[at[r] + (j % d) * step[r] + i % d] += value
+
+
+@kernel
+def diagonal(measure, law, moduli, rows, table, geometry, starts, first, last, u, out):
+    """Add the derivative of the force on each node to its own displacement [N/m] to ``out`` (n, d, d)."""
+    nodes, d = rows.shape[1], u.shape[1]
+    moved = NODES + nodes * VECTOR
+    sums = moved + 9 * TENSOR
+    s = np.empty(sums + nodes * TENSOR)
+    for block in range(starts[first], starts[last]):
+        gather(u, rows[block], s, NODES)
+        s[sums:] = 0.0
+        for q in range(table.shape[0]):
+            _respond(measure, law, moduli, s, table[q], geometry[block, q], d)
+            _moduli(s, geometry[block, q], d, moved)
+            for node in range(nodes):
+                _couple(s, moved, table[q], node, node + 1, sums)
+        for k in range(LANES):
+            for node in range(nodes):
+                row = rows[block, node, k]
+                for entry in range(9):
+                    out[row, (entry // 3) % d, (entry % 3) % d] += s[sums + node * TENSOR + entry * LANES + k]
+
+
+@kernel
+def fold(rows, start, out):
+    """Add the rows of ``out`` from ``start`` on to the given ``rows``, one after the other."""
+    for k in range(len(rows)):
+        out[rows[k]] += out[start + k]
+
+
+@inlined
+def _respond(measure, law, moduli, s, slopes, X, d):
+    """Everything that the stages of a point say about the displacement at ``s[NODES:]``."""
+    differentiate(s, NODES, slopes)
+    place(s, X, FRAME, d)
+    call(measure, s, moduli)
+    call(law, s, moduli)
+
+
+@inlined
+def _moduli(s, X, d, to):
+    """Change of the NATURAL flux D_ri with the NATURAL derivative (t, j), in row (r, t, i, j) of ``s[to:]``."""
+    for t in range(3):
+        for j in range(3):
+            s[NATURAL : NATURAL + TENSOR] = 0.0
+            store(s, NATURAL + (3 * t + j) * LANES, spread(1.0))
+            place(s, X, CHANGE, d)
+            flux_change(s)
+            pull(s, X)
+            for r in range(3):
+                for i in range(3):
+                    row = 27 * r + 9 * t + 3 * i + j
+                    store(s, to + row * LANES, load(s, NATURAL + (3 * r + i) * LANES))
+
+
+@inlined
+def _couple(s, moved, slopes, node, last, to):
+    """Add ``slopes_ar D_ritj slopes_bt`` of node a with the nodes b from a on to entry (b, i, j) of ``s[to:]``."""
+    a, b, c = slopes[node, 0], slopes[node, 1], slopes[node, 2]
+    for entry in range(0, TENSOR, LANES):
+        x = _along(s, moved + entry, a, b, c)
+        y = _along(s, moved + TENSOR + entry, a, b, c)
+        z = _along(s, moved + 2 * TENSOR + entry, a, b, c)
+        for other in range(node, last):
+            here = to + other * TENSOR + entry
+            rest = fma(slopes[other, 2], z, load(s, here))
+            store(s, here, fma(slopes[other, 0], x, fma(slopes[other, 1], y, rest)))
+
+
+@inlined
+def _along(s, at, a, b, c):
+    rest = fma(c, load(s, at + 6 * TENSOR), spread(0.0))
+    return fma(a, load(s, at), fma(b, load(s, at + 3 * TENSOR), rest))

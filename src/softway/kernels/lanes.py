@@ -1,0 +1,27 @@
+"""Layout of the fused kernels: what is computed at the points of several cells at once, side by side.
+
+A kernel handles ``LANES`` cells together.  Every number of a point is a row of that many values, so that a loop over
+the lanes becomes one instruction of the machine.  The rows of one point follow each other in a flat array ``s``; the
+names are the places of their first numbers:
+
+=========  ============  ==================================================================
+name       rows          content
+=========  ============  ==================================================================
+FRAME      9             derivatives H_Ji of the displacement, then carrier f_Ji of the stress
+SPIN       1             1 where the stress turns with the carrier, 0 in the linear theory
+STRESS     6             strain E, then stress S: xx yy zz xy yz zx
+BRIDGE     6             symmetric tensor B of the moduli
+SOFT STIFF 1 1           factors of the moduli: ``dS = SOFT (B:dE) B + 2 STIFF B dE B``
+ENERGY     1             energy per volume W
+TOTAL      1             sum of ``V W`` over the points so far [J]
+NATURAL    9             derivatives along the reference coordinates of the cell, of displacement or of flux
+CHANGE     9             derivatives dH of a change of the displacement
+FLUX       9             ``P = S f`` (first Piola-Kirchhoff), or its change
+NODES      ...           nodal values, and whatever else a kernel needs
+=========  ============  ==================================================================
+"""
+
+LANES = 8
+FRAME, SPIN, STRESS, BRIDGE, SOFT, STIFF, ENERGY, TOTAL = (LANES * row for row in (0, 9, 10, 16, 22, 23, 24, 25))
+NATURAL, CHANGE, FLUX, NODES = (LANES * row for row in (26, 35, 44, 53))
+VECTOR, TENSOR = 3 * LANES, 9 * LANES

@@ -1,0 +1,96 @@
+"""Compressible neo-Hookean law at the points of the lanes; rows as in :mod:`softway.kernels.lanes`."""
+
+from functools import cache
+
+import numpy as np
+from numba import carray
+
+from softway.kernels.compiled import Stage, inlined, stage
+from softway.kernels.lanes import BRIDGE, ENERGY, LANES, NODES, SOFT, STIFF, STRESS
+
+_SERIES_BELOW = 1e-2  # |j| under which j - ln(1 + j) is summed: 10 terms leave less than 1e-17 of j^2/2
+_SIGNIFICAND, _BIAS = 0x000FFFFFFFFFFFFF, 1023  # parts of a double number
+_HALF_ROOT, _ONE = 0x3FE6A09E00000000, 0x3FF0000000000000  # bits of sqrt(1/2), rounded, and of 1
+
+
+@cache
+def neo_hookean() -> Stage:
+    """The law :class:`softway.laws.bulk.NeoHookean` of Green's strain, with the moduli (lambda, mu) [Pa]."""
+    return stage(_neo_hookean)
+
+
+def _neo_hookean(state, moduli) -> None:
+    s = carray(state, (NODES,))
+    bulk_part, shear = carray(moduli, (2,))
+    for k in range(LANES):
+        e, c = STRESS + k, BRIDGE + k
+        xx, yy, zz = s[e], s[e + LANES], s[e + 2 * LANES]
+        xy, yz, zx = s[e + 3 * LANES], s[e + 4 * LANES], s[e + 5 * LANES]
+        second = xx * yy + yy * zz + zz * xx - xy * xy - yz * yz - zx * zx
+        third = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx)
+        higher = 4.0 * second + 8.0 * third
+        j = 2.0 * (xx + yy + zz) + higher
+        j = j if j > -1.0 else np.nan
+        shrink = 1.0 / (1.0 + j)
+        logarithm = _log1p(j, shrink)
+        energy = 0.5 * shear * (_excess(j, logarithm) - higher) + 0.125 * bulk_part * logarithm * logarithm
+        s[ENERGY + k] = energy if energy < np.inf else np.inf
+        ax, ay, az, bx, by, bz = _inverse(xx, yy, zz, xy, yz, zx, shrink)
+        pull, twice = 0.5 * bulk_part * logarithm, 2.0 * shear
+        s[e] = twice * (ax * xx + bx * xy + bz * zx) + pull * ax
+        s[e + LANES] = twice * (bx * xy + ay * yy + by * yz) + pull * ay
+        s[e + 2 * LANES] = twice * (bz * zx + by * yz + az * zz) + pull * az
+        s[e + 3 * LANES] = twice * (ax * xy + bx * yy + bz * yz) + pull * bx
+        s[e + 4 * LANES] = twice * (bx * zx + ay * yz + by * zz) + pull * by
+        s[e + 5 * LANES] = twice * (bz * xx + by * xy + az * zx) + pull * bz
+        s[c], s[c + LANES], s[c + 2 * LANES] = ax, ay, az
+        s[c + 3 * LANES], s[c + 4 * LANES], s[c + 5 * LANES] = bx, by, bz
+        s[SOFT + k] = bulk_part
+        s[STIFF + k] = shear - pull
+
+
+@inlined
+def _inverse(xx, yy, zz, xy, yz, zx, shrink):
+    """Inverse of ``C = I + 2 E`` by cofactors; ``shrink`` is 1/det C."""
+    ax, ay, az, bx, by, bz = 1.0 + 2.0 * xx, 1.0 + 2.0 * yy, 1.0 + 2.0 * zz, 2.0 * xy, 2.0 * yz, 2.0 * zx
+    return (
+        (ay * az - by * by) * shrink,
+        (az * ax - bz * bz) * shrink,
+        (ax * ay - bx * bx) * shrink,
+        (by * bz - bx * az) * shrink,
+        (bz * bx - by * ax) * shrink,
+        (bx * by - bz * ay) * shrink,
+    )
+
+
+@inlined
+def _excess(j, logarithm):
+    """``j - ln(1 + j)`` without cancellation: ``j^2 (1/2 - j/3 + j^2/4 - ...)``."""
+    small = abs(j) < _SERIES_BELOW
+    x = j if small else 0.0
+    series = 1.0 / 10.0 - x / 11.0
+    for n in range(9, 1, -1):
+        series = 1.0 / n - x * series
+    return x * x * series if small else j - logarithm
+
+
+@inlined
+def _log1p(j, shrink):
+    """``ln(1 + j)`` without a branch; ``shrink`` is 1/(1 + j), j > -1.
+
+    ``1 + j = 2^n (1 + f)`` with ``1 + f`` between sqrt(1/2) and sqrt(2), and ``ln(1 + f)`` by the polynomial in ``s =
+    f/(2 + f)`` of FreeBSD's libm (e_log.c, 1993); what ``1 + j`` lost by rounding is added in first order.
+    """
+    bits = np.float64(1.0 + j).view(np.int64) + (_ONE - _HALF_ROOT)
+    n = np.float64((bits >> 52) - _BIAS)
+    f = np.int64((bits & _SIGNIFICAND) + _HALF_ROOT).view(np.float64) - 1.0
+    lost = (j - ((1.0 + j) - 1.0)) * shrink
+    s = f / (2.0 + f)
+    z = s * s
+    w = z * z
+    even = w * (3.999999999940941908e-01 + w * (2.222219843214978396e-01 + w * 1.531383769920937332e-01))
+    odd = 2.857142874366239149e-01 + w * (1.818357216161805012e-01 + w * 1.479819860511658591e-01)
+    tail = even + z * (6.666666666666735130e-01 + w * odd)
+    half = 0.5 * f * f
+    low = n * 1.90821492927058770002e-10 + lost
+    return n * 6.93147180369123816490e-01 - ((half - (s * (half + tail) + low)) - f)
