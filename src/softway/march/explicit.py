@@ -100,7 +100,7 @@ def _settled(
         if not np.isfinite(end.residual).all():
             break
         rows, conditions = system.conditions(q, end, frozen)
-        free = q[keep] - frozen.solve(end.residual[keep] - frozen.push(rows.T @ impulse))
+        free = q[keep] - frozen.solve(end.residual[keep] - frozen.push(rows.spread(impulse)))
         solved, impulse, active = constrain(free, frozen, rows, conditions, active, impulse)
         new = given.copy()
         new[keep] = solved

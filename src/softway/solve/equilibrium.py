@@ -132,4 +132,4 @@ def _step(
     frozen = freeze(stiffness, directions, SuperLU())
     free = -frozen.solve((model.force(u) - load)[unknown])
     conditions = Rows(target=target, equal=active & False, unilateral=reachable)
-    return constrain(free, frozen, directions.coefficients(rows, unknown), conditions, active)
+    return constrain(free, frozen, frozen.coefficients(rows, unknown), conditions, active)

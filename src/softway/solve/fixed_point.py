@@ -102,7 +102,7 @@ class FixedPoint:
                 yield lost(q, active, carry, system)
                 return
             rows, conditions = system.conditions(q, end, frozen)
-            free = q[keep] - frozen.solve(end.residual[keep] - frozen.push(rows.T @ impulse))
+            free = q[keep] - frozen.solve(end.residual[keep] - frozen.push(rows.spread(impulse)))
             solved, pressed, now = constrain(free, frozen, rows, conditions, active, impulse)
             new = system.filled()
             new[keep] = solved
@@ -113,7 +113,7 @@ class FixedPoint:
                 change=change,
                 impulse=pressed,
                 active=now,
-                free=rows @ untouched(free, frozen, rows.T @ impulse),
+                free=rows.along(untouched(free, frozen, rows.spread(impulse))),
                 carry=carry,
                 system=system,
                 sound=sound,

@@ -7,6 +7,8 @@ import scipy.sparse as sp
 
 from softway.contact.candidates import Candidates
 from softway.kernels.dense import Shared
+from softway.solve.along import Along, Mixed, Own
+from softway.solve.columns import Columns
 from softway.solve.linear import Factor, LinearSolver
 from softway.typing import Array, BoolArray, IntArray
 
@@ -41,9 +43,8 @@ class Frozen:
     The operator of a slab is ``R A R^T``; R is the identity where it is not given.  Contact directions turn with the
     nodes, so that the compliance stays.
 
-    ``columns`` (``B^T A^-1 B`` (b,) of each direction), ``answers`` (``A^-1 B`` (k, f) of batches of them, kept where
-    directions are rows), ``latest`` and ``held`` are caches of values that depend on A and B only, so the answer does
-    not depend on when they were made.
+    ``table`` (columns (b,) of ``B^T A^-1 B``), ``answers`` (columns (f,) of ``A^-1 B``, kept where directions are rows)
+    and ``held`` are caches of values that depend on A and B only, so the answer does not depend on when they were made.
 
     Parameters
     ----------
@@ -63,9 +64,8 @@ class Frozen:
     basis: Basis
     turning: sp.csr_array | None = None
     local: Factor | None = None
-    columns: dict[int, Array] = field(default_factory=dict)
-    answers: list[tuple[IntArray, Array]] = field(default_factory=list)
-    latest: dict[bytes, Array] = field(default_factory=dict)
+    table: Columns = field(default_factory=Columns)
+    answers: Columns = field(default_factory=Columns)
     held: dict[bytes, Shared] = field(default_factory=dict)
 
     def turned(self, turning: sp.csr_array | None) -> "Frozen":
@@ -92,42 +92,38 @@ class Frozen:
         out = np.asarray(self.basis.directions @ amounts)
         return out if self.turning is None else np.asarray(self.turning @ out)
 
-    def coefficients(self, rows: Candidates, free: BoolArray) -> sp.csr_array:
-        """Rows C (m, b) along the turned directions: ``G = C B^T R^T``."""
-        plain = self.basis.coefficients(rows, free)
-        if self.turning is None or self.basis.component is None:
-            return plain
+    def coefficients(self, rows: Candidates, free: BoolArray) -> Along:
+        """The rows along the turned directions: ``G = C B^T R^T``."""
         own = self.basis.component
-        return sp.csr_array(plain @ self.turning[own][:, own])
+        if own is None:
+            return Own(np.arange(len(rows.node)), len(rows.node))
+        plain = self.basis.coefficients(rows, free)
+        return Mixed(plain if self.turning is None else sp.csr_array(plain @ self.turning[own][:, own]))
 
     def compliance(self, which: IntArray) -> Array:
         """``B^T A^-1 B`` (b, k) of some directions; new columns are solved for in one batch."""
-        key = which.tobytes()
-        if key not in self.latest:
-            self._fill(which)
-            out = np.empty((len(which), self.basis.directions.shape[1]))
-            for k, i in enumerate(which.tolist()):
-                out[k] = self.columns[i]
-            self.latest.clear()
-            self.latest[key] = out.T
-        return self.latest[key]
+        if not len(which):
+            return np.zeros((self.basis.directions.shape[1], 0))
+        self._fill(which)
+        return self.table.columns(which)
+
+    def give(self, push: Array) -> Array:
+        """``B^T A^-1 B push`` (b,) of pushes (b,) along the directions."""
+        which = np.flatnonzero(push)
+        if not len(which):
+            return np.zeros(self.basis.directions.shape[1])
+        self._fill(which)
+        return self.table.product(which, push[which])
 
     def answer(self, push: Array) -> Array:
         """``R A^-1 B push`` (f,) of pushes (b,) along the directions."""
         index = np.flatnonzero(push)
+        if not len(index):
+            return np.zeros(self.basis.directions.shape[0])
         if self.basis.component is not None or self.local is not None:
-            return self._answered(push) if len(index) else np.zeros(self.basis.directions.shape[0])
+            return self._answered(push)
         self._fill(index)
-        out = np.zeros(self.basis.directions.shape[0])
-        for batch, block in self.answers:
-            part = push[batch]
-            few = np.flatnonzero(part)
-            if 2 * len(few) > len(part):
-                out += part @ block
-            else:
-                for k in few.tolist():
-                    out += part[k] * block[k]
-        return out
+        return self.answers.product(index, push[index])
 
     def _answered(self, push: Array) -> Array:
         """Answer (f,) to pushes (b,) by a solution."""
@@ -135,14 +131,13 @@ class Frozen:
         return found if self.turning is None else np.asarray(self.turning @ found)
 
     def _fill(self, which: IntArray) -> None:
-        missing = [i for i in which.tolist() if i not in self.columns]
-        if not missing:
+        missing = self.table.missing(which)
+        if not len(missing):
             return
         new = (self.local or self.factor).solve(np.ascontiguousarray(self.basis.directions[:, missing].toarray()))
-        sensed = np.ascontiguousarray((self.basis.directions.T @ new).T)
-        self.columns.update(zip(missing, sensed, strict=True))
+        self.table.add(missing, (self.basis.directions.T @ new).T)
         if self.basis.component is None and self.local is None:
-            self.answers.append((np.array(missing), np.ascontiguousarray(new.T)))
+            self.answers.add(missing, new.T)
 
 
 def basis(rows: Candidates, free: BoolArray, fixed: bool, nodes: IntArray) -> Basis:

@@ -75,7 +75,7 @@ class Newton:
             frozen = carry.frozen
             assert frozen is not None
             rows, conditions = system.conditions(q, end, frozen)
-            free = q[keep] - frozen.solve(end.residual[keep] - frozen.push(rows.T @ impulse))
+            free = q[keep] - frozen.solve(end.residual[keep] - frozen.push(rows.spread(impulse)))
             solved, pressed, active = constrain(free, frozen, rows, conditions, active, impulse)
             new = system.filled()
             new[keep] = solved
@@ -86,7 +86,7 @@ class Newton:
                 change=float(np.abs(step).max(initial=0.0)),
                 impulse=pressed,
                 active=active,
-                free=rows @ untouched(free, frozen, rows.T @ impulse),
+                free=rows.along(untouched(free, frozen, rows.spread(impulse))),
                 carry=carry,
                 system=system,
                 sound=True,
@@ -120,7 +120,7 @@ class Newton:
                 return new, end
             if np.isfinite(end.residual).all():
                 rows, _ = system.conditions(new, end, frozen)
-                left = frozen.solve(end.residual[keep] - frozen.push(rows.T @ impulse))
+                left = frozen.solve(end.residual[keep] - frozen.push(rows.spread(impulse)))
                 if np.linalg.norm(left) <= max(1.0 - 0.5 * share, 1e-2) * length or length == 0.0:
                     return new, end
             share *= 0.5

@@ -11,10 +11,10 @@ every contact status.
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 
 from softway.errors import NoConvergence
 from softway.kernels.dense import Shared, factored
+from softway.solve.along import Along, Mixed
 from softway.solve.frozen import Frozen
 from softway.typing import Array, BoolArray
 
@@ -31,14 +31,14 @@ class Rows:
 def constrain(
     free: Array,
     frozen: Frozen,
-    coefficients: sp.csr_array,
+    coefficients: Along,
     rows: Rows,
     guess: BoolArray,
     carried: Array | None = None,
 ) -> tuple[Array, Array, BoolArray]:
     """Solution (f,), multipliers (m,) and active rows (m,) of the contact problem for the free solution.
 
-    The contact rows are ``G = C B^T`` with their ``coefficients`` C (m, b) along the contact directions B.  Multipliers
+    The contact rows are ``G = C B^T`` with their ``coefficients`` C along the contact directions B.  Multipliers
     ``carried`` (m,) are in ``free`` already; what comes out are the whole ones.
 
     Primal-dual sweeps from the ``guess``; after 30 of them single exchanges of least index (Murty), which end for
@@ -46,13 +46,13 @@ def constrain(
     """
     count = rows.equal | rows.unilateral
     active = rows.equal | (guess & rows.unilateral)
-    before = coefficients.T @ (np.zeros(len(count)) if carried is None else carried)
-    slack = np.where(count, coefficients @ untouched(free, frozen, before) - rows.target, 0.0)
+    before = coefficients.spread(np.zeros(len(count)) if carried is None else carried)
+    slack = np.where(count, coefficients.along(untouched(free, frozen, before)) - rows.target, 0.0)
     floor = 1e-14 * max(np.abs(slack).max(initial=0.0), np.abs(rows.target[count]).max(initial=0.0), 1e-300)
     for sweep in range(30 + 4 * len(active)):
         index = np.flatnonzero(active)
-        force, push = balance(frozen, coefficients[index], -slack[index])
-        gap = slack + coefficients @ push.sensed
+        force, push = balance(frozen, coefficients.part(index), -slack[index])
+        gap = slack + coefficients.along(push.sensed)
         multiplier = np.zeros(len(active))
         multiplier[index] = force
         wrong = rows.unilateral & ((active & (multiplier < 0.0)) | (~active & (gap < -floor)))
@@ -68,8 +68,7 @@ def constrain(
 
 def untouched(free: Array, frozen: Frozen, before: Array) -> Array:
     """What a solution (f,) that has pushes ``before`` (b,) in it would be without them, along the directions (b,)."""
-    sensed, pushed = frozen.sense(free), np.flatnonzero(before)
-    return sensed - frozen.compliance(pushed) @ before[pushed] if len(pushed) else sensed
+    return frozen.sense(free) - frozen.give(before)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -80,27 +79,25 @@ class Push:
     sensed: Array
 
 
-def delassus(frozen: Frozen, active: sp.csr_array) -> Array:
-    """Compliance ``G A^-1 G^T`` (k, k) of rows with the coefficients ``active`` (k, b)."""
-    used = np.unique(active.indices)
-    inner = active[:, used]
-    return np.asarray((inner @ frozen.compliance(used)[used]) @ inner.T)
+def delassus(frozen: Frozen, active: Along) -> Array:
+    """Compliance ``G A^-1 G^T`` (k, k) of some rows."""
+    used = active.used
+    return active.folded(frozen.compliance(used)[used])
 
 
-def _held(frozen: Frozen, active: sp.csr_array) -> Shared:
-    """The factored compliance of the active rows (k, b); the same for all slabs where directions are rows."""
-    if frozen.basis.component is not None:
+def _held(frozen: Frozen, active: Along) -> Shared:
+    """The factored compliance of the active rows (k,); the same for all slabs where directions are rows."""
+    if isinstance(active, Mixed):
         return factored(delassus(frozen, active))
-    key = active.indices.tobytes()
+    key = active.index.tobytes()
     if key not in frozen.held:
         frozen.held.clear()
         frozen.held[key] = factored(delassus(frozen, active))
     return frozen.held[key]
 
 
-def balance(frozen: Frozen, active: sp.csr_array, wanted: Array) -> tuple[Array, Push]:
-    """Multipliers (k,) of the active rows (k, b) that move them by ``wanted`` (k,), and the push that they make."""
+def balance(frozen: Frozen, active: Along, wanted: Array) -> tuple[Array, Push]:
+    """Multipliers (k,) of the active rows that move them by ``wanted`` (k,), and the push that they make."""
     force = _held(frozen, active).solve(wanted)
-    used = np.unique(active.indices)
-    directions = np.asarray(active.T @ force)
-    return force, Push(directions=directions, sensed=frozen.compliance(used) @ directions[used])
+    directions = active.spread(force)
+    return force, Push(directions=directions, sensed=frozen.give(directions))

@@ -12,6 +12,7 @@ import scipy.sparse as sp
 
 from softway.contact.candidates import Candidates
 from softway.model import Model
+from softway.solve.along import Along
 from softway.solve.frozen import Frozen, basis, freeze
 from softway.solve.linear import SuperLU
 from softway.solve.normal import balance
@@ -31,7 +32,7 @@ class Reaction:
         out = np.zeros(len(closed))
         if len(index):
             pull = self.mass.solve((force - self.model.load)[self.model.free])
-            out[index] = balance(self.mass, active, active @ self.mass.sense(pull))[0]
+            out[index] = balance(self.mass, active, active.along(self.mass.sense(pull)))[0]
         return out
 
     def jump(self, rows: Candidates, approach: Array, closed: BoolArray) -> tuple[Array, Array]:
@@ -43,10 +44,10 @@ class Reaction:
             out[self.model.free] = self.mass.solve(self.mass.basis.directions @ push.directions)
         return out, impulse
 
-    def _active(self, rows: Candidates, closed: BoolArray) -> tuple[IntArray, sp.csr_array]:
-        """The closed rows that can move (k,), and their coefficients (k, b)."""
+    def _active(self, rows: Candidates, closed: BoolArray) -> tuple[IntArray, Along]:
+        """The closed rows that can move (k,), along the directions."""
         index = np.flatnonzero(closed & rows.reachable(self.model.free))
-        return index, self.mass.basis.coefficients(rows, self.model.free)[index]
+        return index, self.mass.coefficients(rows, self.model.free).part(index)
 
 
 def reaction(model: Model) -> Reaction:

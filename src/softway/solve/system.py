@@ -19,6 +19,7 @@ from softway.contact.fig4 import Split
 from softway.contact.located import LocatedMean
 from softway.contact.path import Path
 from softway.model import Model
+from softway.solve.along import Along
 from softway.solve.balance import Closure, Ends, closed
 from softway.solve.frozen import Basis, Frozen, basis
 from softway.solve.normal import Rows
@@ -155,8 +156,8 @@ class SlabSystem:
             force1=impulse / (self.path.span * moments(self.weight)[1]),
         )
 
-    def conditions(self, q: Array, end: Evaluation, frozen: Frozen) -> tuple[sp.csr_array, Rows]:
-        """The contact rows C (m, b) along the contact directions, and their conditions, linear at q.
+    def conditions(self, q: Array, end: Evaluation, frozen: Frozen) -> tuple[Along, Rows]:
+        """The contact rows along the contact directions, and their conditions, linear at q.
 
         ``gap(u1) + (h/2) G (z - q) >= 0`` gives the target of the free components of z.
         """

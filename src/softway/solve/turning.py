@@ -15,8 +15,8 @@ from softway.bodies.section import Axisymmetric
 from softway.kernels.tensors import rotation
 from softway.typing import Array, BoolArray
 
-SMALL = 0.02
-"""Greatest entry of ``R - I`` below which nodes count as not turned."""
+SMALL = 0.03
+"""Root mean square of ``R - I`` over the nodes below which a body counts as not turned."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -39,10 +39,11 @@ class Turning:
         """
         n, d = u.shape
         F = self.gradient(u) @ np.linalg.inv(self.gradient(reference))
+        if np.sqrt(np.mean((F - np.eye(d)) ** 2) * d) < SMALL:
+            return None
         R = rotation(F)
-        held = ~free.all(axis=1) | ~np.isfinite(R).all(axis=(1, 2))
-        R[held] = np.eye(d)
-        if np.abs(R - np.eye(d)).max(initial=0.0) < SMALL:
+        R[~free.all(axis=1) | ~np.isfinite(R).all(axis=(1, 2))] = np.eye(d)
+        if np.sqrt(np.mean((R - np.eye(d)) ** 2) * d) < SMALL:
             return None
         whole = sp.bsr_array((R, np.arange(n), np.arange(n + 1)), shape=(n * d, n * d)).tocsr()
         keep = np.flatnonzero(free.ravel())

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from softway.errors import NoConvergence
+from softway.solve.along import Mixed
 from softway.solve.frozen import Basis, Frozen, freeze
 from softway.solve.linear import SuperLU
 from softway.solve.normal import Rows, constrain
@@ -31,7 +32,7 @@ class Problem:
 
     def solve(self, guess: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         guess = self.guess if guess is None else guess
-        return constrain(self.free, self.frozen, self.coefficients, self.rows, guess)
+        return constrain(self.free, self.frozen, Mixed(self.coefficients), self.rows, guess)
 
 
 def problem(

@@ -1,0 +1,59 @@
+"""Columns of a matrix that are computed when they are first asked for."""
+
+import numpy as np
+
+from softway.typing import Array, IntArray
+
+ROOM = 64
+"""Columns for which there is room at first; it doubles when it is used up."""
+
+
+class Columns:
+    """Columns, stored one after the other in the order in which they were added.
+
+    Examples
+    --------
+    >>> table = Columns()
+    >>> table.add(np.array([3, 1]), np.array([[1.0, 2.0], [3.0, 4.0]]))
+    >>> table.missing(np.array([1, 2])).tolist(), table.product(np.array([1, 3]), np.array([1.0, 10.0])).tolist()
+    ([2], [13.0, 24.0])
+    """
+
+    __slots__ = ("count", "place", "stored")
+
+    def __init__(self) -> None:
+        self.count = 0
+        self.place = np.full(0, -1)
+        self.stored = np.zeros((0, 0))
+
+    def missing(self, which: IntArray) -> IntArray:
+        """Those of some columns that are not there yet."""
+        known = which < len(self.place)
+        return which[~known | (self.place[np.where(known, which, 0)] < 0)] if len(self.place) else which
+
+    def add(self, which: IntArray, columns: Array) -> None:
+        """Store new columns (k, m), given as rows."""
+        if len(which) and which.max() >= len(self.place):
+            self.place = np.concatenate([self.place, np.full(which.max() + 1 - len(self.place), -1)])
+        end = self.count + len(which)
+        if end > len(self.stored):
+            stored = np.empty((max(end, 2 * self.count, ROOM), columns.shape[1]), columns.dtype)
+            if self.count:
+                stored[: self.count] = self.stored[: self.count]
+            self.stored = stored
+        self.stored[self.count : end] = columns
+        self.place[which] = np.arange(self.count, end)
+        self.count = end
+
+    def columns(self, which: IntArray) -> Array:
+        """Columns (m, k)."""
+        return np.asarray(self.stored[self.place[which]].T)
+
+    def product(self, which: IntArray, amounts: Array) -> Array:
+        """Sum (m,) of columns times amounts (k,)."""
+        full = np.zeros(self.count, self.stored.dtype)
+        full[self.place[which]] = amounts
+        if 2 * len(which) > self.count:
+            return np.asarray(full @ self.stored[: self.count], float)
+        used = self.place[which]
+        return np.asarray(full[used] @ self.stored[used], float)
