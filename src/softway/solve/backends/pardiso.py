@@ -29,9 +29,12 @@ ERRORS = {
     -7: "a diagonal entry is zero",
     -8: "too many entries for indices of 32 bits",
 }
-PARAMETERS = {1: 1, 2: 2, 8: 0, 10: 13, 18: -1, 21: 1}
-"""Entries of ``iparm``, counted from one: own values, nested dissection, no refinement, pivots below 1e-13 of the
-matrix are counted as perturbed, entries of the factor are counted, pivots of one or two rows if indefinite."""
+OWN, ORDERING, REFINEMENTS, SMALLEST, PERTURBED, ENTRIES, PIVOTING, TWO_LEVELS, SINGLE = 0, 1, 7, 9, 13, 17, 20, 23, 27
+"""Places of ``iparm``. The solution by several threads has the same bits each time with the two-level factor only."""
+
+PARAMETERS = {OWN: 1, ORDERING: 2, REFINEMENTS: 0, SMALLEST: 13, ENTRIES: -1, PIVOTING: 1}
+"""Nested dissection, no refinement, pivots below 1e-13 of the matrix are counted as perturbed, entries of the factor
+are counted, pivots of one or two rows if indefinite."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,8 +161,8 @@ class _Call:
         function.argtypes, function.restype = [ctypes.c_void_p] * 16, None
         state, parameters, numbers = np.zeros(64, np.int64), np.zeros(64, np.int32), np.zeros(7, np.int32)
         for place, value in PARAMETERS.items():
-            parameters[place - 1] = value
-        parameters[27] = kind is np.float32
+            parameters[place] = value
+        parameters[TWO_LEVELS], parameters[SINGLE] = threads > 1, kind is np.float32
         numbers[[ONE, SIZE, TYPE]] = 1, len(upper.rows) - 1, definite
         at = [_address(numbers) + 4 * k for k in range(len(numbers))]
         return cls(
@@ -220,11 +223,11 @@ class _Analysis:
             LOG.debug("an operator of %d unknowns is not positive definite: factored as L D L^T", matrix.shape[0])
             handle = self.handle(INDEFINITE, values)
             definite, error = INDEFINITE, handle.call(FACTOR, _address(values))
-        if error or handle.call.parameters[13]:
+        if error or handle.call.parameters[PERTURBED]:
             raise unfactored(
                 matrix.shape[0], ERRORS.get(error, f"PARDISO: error {error}") if error else "it is singular"
             )
-        factor = _Factor(handle, values, int(handle.call.parameters[17]) * values.itemsize)
+        factor = _Factor(handle, values, int(handle.call.parameters[ENTRIES]) * values.itemsize)
         weakref.finalize(factor, _retire, handle, self.idle[definite]).atexit = False
         return factor
 
