@@ -102,7 +102,8 @@ class Path:
         rate = np.where(self.massive[:, None], tau * v + 0.5 * tau**2 * (q - v), 0.5 * tau * q)
         for instant, jump in self.jumps:
             rate = rate + (max(tau - instant, 0.0) - 0.5 * tau**2) * jump
-        return self._kinked(self.start + h * rate, self._normal_motion(tau, q))
+        smooth = self.start + h * rate
+        return self._kinked(smooth, self._normal_motion(tau, q)) if self.way.kinked.any() else smooth
 
     def mean(self, q: Array) -> Array:
         """Average displacement (n, d) over the slab, exact for every kink."""
@@ -110,7 +111,8 @@ class Path:
         rate = np.where(self.massive[:, None], v / 2.0 + (q - v) / 6.0, 0.25 * q)
         for instant, jump in self.jumps:
             rate = rate + (0.5 * (1.0 - instant) ** 2 - 1.0 / 6.0) * jump
-        return self._kinked(self.start + h * rate, self._normal_mean(q))
+        smooth = self.start + h * rate
+        return self._kinked(smooth, self._normal_mean(q)) if self.way.kinked.any() else smooth
 
     def _normal_motion(self, tau: float, q: Array) -> Array:
         """n . (u(tau) - u0) of the kinked rows (m,)."""
@@ -141,8 +143,5 @@ class Path:
 
     def _kinked(self, smooth: Array, normal: Array) -> Array:
         """The smooth motion with the normal components of the kinked rows replaced."""
-        kinked = self.way.kinked
-        if not kinked.any():
-            return smooth
         wanted = normal - self.rows.along(smooth - self.start)
-        return smooth + self.rows.motion(wanted, kinked, self.free)
+        return smooth + self.rows.motion(wanted, self.way.kinked, self.free)

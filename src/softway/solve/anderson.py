@@ -1,7 +1,6 @@
 """Anderson's mixing of the last iterates of a fixed point."""
 
 import numpy as np
-from scipy.linalg import eigh
 
 from softway.typing import Array
 
@@ -74,7 +73,7 @@ class Anderson:
         """Weights (kept,) of the differences that bring the residual nearest to zero."""
         length = np.sqrt(np.maximum(np.diagonal(self.gram)[:kept], 1e-300))
         unit = self.gram[:kept, :kept] / np.outer(length, length)
-        value, vector = eigh(unit, check_finite=False)
+        value, vector = np.linalg.eigh(unit)
         known = value > INDEPENDENT * kept
         along = vector.T @ (self.residuals[:kept] @ residual / length)
         return np.asarray((vector[:, known] @ (along[known] / value[known])) / length)

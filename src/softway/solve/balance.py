@@ -64,6 +64,8 @@ def groups(model: Model, touching: BoolArray) -> IntArray:
     Rows of a rigid tool link nothing.
     """
     label = np.arange(len(model.parts))
+    if len(label) == 1:
+        return label
     for contact in np.unique(model.encounters.contact[touching]):
         one, other = model.opponents[contact]
         if other >= 0:

@@ -28,6 +28,10 @@ class Basis:
     directions: sp.csc_array
     component: IntArray | None
 
+    def sense(self, y: Array) -> Array:
+        """Components (b,) of a field (f,) along the directions."""
+        return np.asarray(y @ self.directions) if self.component is None else y[self.component]
+
     def coefficients(self, rows: Candidates, free: BoolArray) -> sp.csr_array:
         """Rows C (m, b) with ``G = C directions^T``."""
         if self.component is None:
@@ -85,7 +89,7 @@ class Frozen:
 
     def sense(self, y: Array) -> Array:
         """Components (b,) of a field (f,) along the turned directions."""
-        return np.asarray(self.basis.directions.T @ (y if self.turning is None else self.turning.T @ y))
+        return self.basis.sense(y if self.turning is None else self.turning.T @ y)
 
     def push(self, amounts: Array) -> Array:
         """Field (f,) of pushes (b,) along the turned directions."""

@@ -38,10 +38,10 @@ class Turning:
         Nodes with supports keep their directions.
         """
         n, d = u.shape
-        F = self.gradient(u) @ np.linalg.inv(self.gradient(reference))
-        if np.sqrt(np.mean((F - np.eye(d)) ** 2) * d) < SMALL:
+        before, now = self.gradient(reference), self.gradient(u)
+        if np.sqrt(np.mean((now - before) ** 2) * d) < SMALL:
             return None
-        R = rotation(F)
+        R = rotation(now @ np.linalg.inv(before))
         R[~free.all(axis=1) | ~np.isfinite(R).all(axis=(1, 2))] = np.eye(d)
         if np.sqrt(np.mean((R - np.eye(d)) ** 2) * d) < SMALL:
             return None
