@@ -52,7 +52,8 @@ def sum_of(constant: csc_array, other: csc_array, keep: BoolArray) -> Sum:
     size = int(keep.sum())
     number = np.cumsum(keep) - 1
     first, second = (_keys(matrix, keep, number, size) for matrix in (constant, other))
-    keys = np.unique(np.concatenate([first[0], second[0]]))
+    lone = first[0][~_among(first[0], second[0])]
+    keys = np.sort(np.concatenate([second[0], lone]), kind="stable")
     values = np.zeros(len(keys))
     values[np.searchsorted(keys, first[0])] = constant.data[first[1]]
     column, row = np.divmod(keys, max(size, 1))
@@ -65,8 +66,18 @@ def sum_of(constant: csc_array, other: csc_array, keep: BoolArray) -> Sum:
     )
 
 
+def _among(keys: IntArray, ordered: IntArray) -> BoolArray:
+    """Whether keys (k,) are among ordered ones (z,)."""
+    place = np.minimum(np.searchsorted(ordered, keys), max(len(ordered) - 1, 0))
+    return ordered[place] == keys if len(ordered) else np.zeros(len(keys), bool)
+
+
 def _keys(matrix: csc_array, keep: BoolArray, number: IntArray, size: int) -> tuple[IntArray, IntArray]:
-    """Numbers ``column * size + row`` of the kept entries, and which of the stored values they are."""
+    """Ordered numbers ``column * size + row`` of the kept entries, and which of the stored values they are."""
     columns = np.repeat(np.arange(matrix.shape[1]), np.diff(matrix.indptr))
     kept = np.flatnonzero(keep[columns] & keep[matrix.indices])
-    return number[columns[kept]] * size + number[matrix.indices[kept]], kept
+    keys = number[columns[kept]] * size + number[matrix.indices[kept]]
+    if not matrix.has_sorted_indices:
+        order = np.argsort(keys, kind="stable")
+        keys, kept = keys[order], kept[order]
+    return keys, kept

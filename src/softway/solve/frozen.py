@@ -1,6 +1,7 @@
 """The frozen operator of a slab with the compliance of the contact."""
 
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -62,12 +63,15 @@ class Frozen:
         What answers the pushes of the contact, where ``factor`` is an iteration whose answers are not alike to the last
         digit: a crude inverse that is.  The contact conditions are then met exactly at every iterate, and the forces
         settle with the iterates.
+    kind
+        Type of the kept answers: no more digits than the factor has.
     """
 
     factor: Factor
     basis: Basis
     turning: sp.csr_array | None = None
     local: Factor | None = None
+    kind: type[np.floating[Any]] = np.float64
     table: Columns = field(default_factory=Columns)
     answers: Columns = field(default_factory=Columns)
     held: dict[bytes, Shared] = field(default_factory=dict)
@@ -141,7 +145,7 @@ class Frozen:
         new = (self.local or self.factor).solve(np.ascontiguousarray(self.basis.directions[:, missing].toarray()))
         self.table.add(missing, (self.basis.directions.T @ new).T)
         if self.basis.component is None and self.local is None:
-            self.answers.add(missing, new.T)
+            self.answers.add(missing, new.T.astype(self.kind))
 
 
 def basis(rows: Candidates, free: BoolArray, fixed: bool, nodes: IntArray) -> Basis:

@@ -98,7 +98,7 @@ class Newton:
         made = self.operator.make(system, end.displacement, carry.analysis)
         return replace(
             carry,
-            frozen=Frozen(made.factor, system.directions(), local=made.local),
+            frozen=made.frozen(system.directions()),
             analysis=made.analysis,
             span=system.path.span,
             reference=end.displacement,

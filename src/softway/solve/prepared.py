@@ -26,7 +26,7 @@ def renewed(system: SlabSystem, carry: Carry, operator: Operator | Literal["auto
     made = choice.operator.make(system, u, carry.analysis)
     return replace(
         carry,
-        frozen=Frozen(made.factor, system.directions(), local=made.local),
+        frozen=made.frozen(system.directions()),
         choice=choice,
         analysis=made.analysis,
         span=system.path.span,
@@ -44,5 +44,5 @@ def _turned(system: SlabSystem, carry: Carry) -> Carry:
     assert frozen is not None and carry.reference is not None
     R = measure.since(carry.reference, system.start.displacement, system.model.free)
     if R is not None and frozen.basis.component is None:
-        frozen = Frozen(frozen.factor, system.directions(turning=True), local=frozen.local)
+        frozen = Frozen(frozen.factor, system.directions(turning=True), local=frozen.local, kind=frozen.kind)
     return replace(carry, frozen=frozen.turned(R), turning=measure)

@@ -3,8 +3,10 @@
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from softway.solve.backends.choice import best, named
-from softway.solve.linear import Analysis, LinearSolver, Precision, SuperLU
+from softway.solve.linear import Analysis, LinearSolver, Precision, SuperLU, number_type
 from softway.solve.operators.operator import Made
 from softway.solve.system import SlabSystem
 from softway.typing import Array
@@ -53,9 +55,9 @@ class Factored:
         if analysis is None:
             analysis = self._solver(matrix.shape[0], precision).analyse(matrix)
         factor = analysis.factor(matrix)
-        size = 4 if precision == "single" else 8
-        price = ASSEMBLY + factor.bytes / (size * ROWS * matrix.shape[0])
-        return Made(factor=factor, local=None, analysis=analysis, price=price)
+        kind = number_type(precision)
+        price = ASSEMBLY + factor.bytes / (np.dtype(kind).itemsize * ROWS * matrix.shape[0])
+        return Made(factor=factor, local=None, analysis=analysis, price=price, kind=kind)
 
     def _solver(self, size: int, precision: Precision) -> LinearSolver:
         if self.backend != "auto":

@@ -9,7 +9,7 @@ from softway.errors import InputError, NoConvergence
 from softway.solve.linear import Analysis, Factor
 from softway.solve.operators.operator import Made
 from softway.solve.system import SlabSystem
-from softway.typing import Array
+from softway.typing import Array, BoolArray
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,7 +65,7 @@ class Blocks:
     """Inverse (n, d, d) of diagonal blocks on the ``free`` components (n, d)."""
 
     inverse: Array
-    free: Array
+    free: BoolArray
     bytes: int = 0
 
     def solve(self, b: Array) -> Array:
@@ -75,7 +75,7 @@ class Blocks:
         return np.einsum("nij,nj...->ni...", self.inverse, field)[self.free]
 
 
-def blocks_inverted(blocks: Array, free: Array) -> Blocks:
+def blocks_inverted(blocks: Array, free: BoolArray) -> Blocks:
     """Inverse of the diagonal blocks (n, d, d) restricted to the free components (n, d).
 
     Raises

@@ -1,8 +1,11 @@
 """What an operator of the fixed point is: a crude inverse of ``M + h^2/2 mu2 K``, kept for many slabs."""
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
+import numpy as np
+
+from softway.solve.frozen import Basis, Frozen
 from softway.solve.linear import Analysis, Factor
 from softway.solve.system import SlabSystem
 from softway.typing import Array
@@ -13,13 +16,19 @@ class Made:
     """An operator that was made.
 
     ``factor`` solves; ``local`` answers contact pushes where the answers of ``factor`` are not alike to the last digit;
-    ``analysis`` is kept for the next time; ``price`` is what making it costs, in iterations of the fixed point.
+    ``analysis`` is kept for the next time; ``price`` is what making it costs, in iterations of the fixed point;
+    ``kind`` is the type of number that carries all its digits.
     """
 
     factor: Factor
     local: Factor | None
     analysis: Analysis | None
     price: float
+    kind: type[np.floating[Any]] = np.float64
+
+    def frozen(self, directions: Basis) -> Frozen:
+        """The operator with contact along some directions."""
+        return Frozen(self.factor, directions, local=self.local, kind=self.kind)
 
 
 class Operator(Protocol):
