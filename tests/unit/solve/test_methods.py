@@ -18,13 +18,23 @@ from softway.solve.driver import Iterate, Solution, drive, lost
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
 from softway.solve.normal import Rows
+from softway.solve.operators import Factored, MatrixFree, Multigrid
 from softway.solve.system import SlabSystem, Start
 from softway.space.curved import Sphere
 from softway.time.weight import EndPeaks
 
 BALL = Tool(shape=Sphere(centre=(0.4, -2.0), radius=2.0))
-METHODS = [FixedPoint(), FixedPoint(depth=0), FixedPoint(depth=2), Newton()]
-methods = pytest.mark.parametrize("method", METHODS, ids=["anderson", "plain", "short", "newton"])
+METHODS = [FixedPoint(), FixedPoint(depth=0), FixedPoint(depth=2), Newton(), Newton(renew="slab")]
+methods = pytest.mark.parametrize("method", METHODS, ids=["anderson", "plain", "short", "newton", "modified"])
+OPERATORS = [
+    Factored(precision="single"),
+    Factored(backend="superlu", precision="single"),
+    MatrixFree(),
+    MatrixFree(tolerance=0.1),
+    Multigrid(),
+]
+operators = pytest.mark.parametrize("operator", OPERATORS, ids=["single", "superlu", "free", "crude", "multigrid"])
+CONTACTS = {"energy": {}, "impulse": {"timing": Impulse()}, "ball": {"floor": BALL}}
 
 
 def slab(model: Model, span: float = 0.2) -> SlabSystem:
@@ -52,14 +62,44 @@ def solve(system: SlabSystem, method: FixedPoint | Newton, start: np.ndarray | N
     return drive(system, method.iterate(system, q, Carry(), impulse, impulse != 0.0), method.tolerance, method.limit)
 
 
+@operators
+@pytest.mark.parametrize("options", CONTACTS.values(), ids=CONTACTS)
+def test_operators_lead_to_the_same_solution(
+    operator: Factored | MatrixFree | Multigrid, options: dict[str, object], block: Callable[..., Model]
+) -> None:
+    """Whatever the operator, the equations are met, and the answer is that of Newton's method."""
+    if isinstance(operator, Multigrid):
+        pytest.importorskip("pyamg")
+    system = slab(block(supports=(Fixed(on="top"),), **options))
+    method = FixedPoint(operator=operator, limit=100, handover=False)
+    solution = solve(system, method)
+    solved(system, solution)
+    np.testing.assert_allclose(solution.last.q, solve(system, Newton()).last.q, atol=1e-10)
+
+
+def test_where_iterates_contract_poorly_newton_takes_over(block: Callable[..., Model]) -> None:
+    """A plain fixed point at a long slab: on its own it fails, handed over it converges."""
+    system = slab(block(supports=(Fixed(on="top"),), timing=Impulse()), 1.5)
+    plain = FixedPoint(depth=0, limit=30)
+    with pytest.raises(NoConvergence):
+        solve(system, replace(plain, handover=False))
+    solution = solve(system, plain)
+    solved(system, solution)
+    assert solution.last.carry.factorisations > 1
+
+
 @methods
-@pytest.mark.parametrize("options", [{}, {"timing": Impulse()}, {"floor": BALL}], ids=["energy", "impulse", "ball"])
+@pytest.mark.parametrize("options", CONTACTS.values(), ids=CONTACTS)
 def test_a_method_solves_the_slab(
     method: FixedPoint | Newton, options: dict[str, object], block: Callable[..., Model]
 ) -> None:
-    model = block(supports=(Fixed(on="top"),), **options)
-    system = slab(model)
-    solution = solve(system, method)
+    system = slab(block(supports=(Fixed(on="top"),), **options))
+    solved(system, solve(system, method))
+
+
+def solved(system: SlabSystem, solution: Solution) -> None:
+    """Balance of forces, no overlap, no tension, no force across a gap, supports that hold."""
+    model = system.model
     rows = model.rows(solution.end.displacement)
     pushed = rows.spread(solution.last.impulse, model.shape)
     left = (solution.end.residual - pushed)[model.free]
