@@ -186,8 +186,8 @@ def _block(cells: Cells, section: Section, it: Parts, rows: IntArray, pairs: Int
     lanes = it.lanes(geometry, 0.0)
     return Block(
         starts=it.starts,
-        rows=it.lanes(rows.astype(np.int32), empty[0]),
-        pairs=it.lanes(pairs.astype(np.int32), empty[1]),
+        rows=it.lanes(rows.astype(np.uint32), empty[0]),  # unsigned: kernels need not ask whether to count from the end
+        pairs=it.lanes(pairs.astype(np.uint32), empty[1]),
         table=table,
         geometry=lanes.reshape(*lanes.shape[:2], -1),
     )
