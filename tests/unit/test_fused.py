@@ -92,6 +92,10 @@ def test_other_laws_and_sections_keep_the_arrays() -> None:
     square, line = rectangle((1.0, 1.0), cells=(2, 2)), interval(1.0, cells=2)
     assert isinstance(internal_force(square, SOFT, PlaneStress()).work, Plain)
     assert isinstance(internal_force(line, SOFT, Bar()).work, Plain)
+    other = type("Other", (NeoHookean,), {})(E=1.0, nu=0.3)
+    body = internal_force(square, other, PlaneStrain())
+    assert isinstance(body.work, Plain)
+    compare(body, noise(square, 0.04), noise(square, 1.0, 2))
 
 
 def test_cells_of_two_kinds() -> None:

@@ -175,19 +175,16 @@ def _block(cells: Cells, section: Section, it: Parts, rows: IntArray, pairs: Int
     d = cells.corners.shape[2]
     table = np.zeros((*element.N.shape, 3))
     table[:, :, :d] = element.dN
-    geometry = np.zeros((e, q, 10))
-    inverse = geometry[:, :, :9].reshape(e, q, 3, 3)
+    inverse = np.zeros((e, q, 3, 3))
     inverse[:, :, :d, :d] = np.linalg.inv(np.einsum("ead,qar->eqrd", cells.corners, element.dN))
     if isinstance(section, Axisymmetric):
         table[:, :, 2] = element.N
         inverse[:, :, 2, 2] = 1.0 / np.einsum("qa,ea->eq", element.N, cells.corners[:, :, 0])
-    geometry[:, :, :9] = inverse.reshape(e, q, 9)
-    geometry[:, :, 9] = cells.volume
-    lanes = it.lanes(geometry, 0.0)
+    geometry = it.lanes(np.concatenate([inverse.reshape(e, q, 9), cells.volume[:, :, None]], axis=2), 0.0)
     return Block(
         starts=it.starts,
-        rows=it.lanes(rows.astype(np.int32), empty[0]),
-        pairs=it.lanes(pairs.astype(np.int32), empty[1]),
+        rows=it.lanes(rows.astype(np.uint32), empty[0]),  # unsigned: kernels need not ask whether to count from the end
+        pairs=it.lanes(pairs.astype(np.uint32), empty[1]),
         table=table,
-        geometry=lanes.reshape(*lanes.shape[:2], -1),
+        geometry=geometry.reshape(*geometry.shape[:2], -1),
     )

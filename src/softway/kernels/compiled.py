@@ -1,7 +1,7 @@
 """How kernels are compiled and kept on disk.
 
-Numba looks for a change of a kernel in the file of the kernel alone, but kernels are made of parts from several files:
-the name under which one is kept therefore holds a digest of this folder.
+Numba looks for a change of a kernel in the file of the kernel alone, but kernels share parts from other files: the name
+under which one is kept therefore holds a digest of those.
 """
 
 from collections.abc import Callable
@@ -19,7 +19,8 @@ _EXACT: dict[str, Any] = {"fastmath": {"contract"}, "error_model": "numpy"}
 _KERNEL = _EXACT | {"nogil": True, "no_cfunc_wrapper": True}
 _PART = _EXACT | {"forceinline": True, "no_cfunc_wrapper": True, "no_cpython_wrapper": True}
 _POINT = types.void(types.CPointer(types.float64), types.CPointer(types.float64))
-_SOURCES = b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))
+_SHARED = ("compiled.py", "lanes.py", "stages.py", "vectors.py")
+_SOURCES = b"".join(Path(__file__).with_name(name).read_bytes() for name in _SHARED)
 _DIGEST = sha256(_SOURCES).hexdigest()[:12]
 
 

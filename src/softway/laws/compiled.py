@@ -1,5 +1,6 @@
 """The laws that also exist as stages of the fused kernels; the others are computed by NumPy alone."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +13,12 @@ from softway.laws.bulk import LinearElastic, NeoHookean, StVenantKirchhoff
 from softway.laws.law import StoredEnergy
 from softway.laws.moduli import lame
 from softway.typing import Array
+
+_STAGES: dict[type, tuple[Callable[[], Stage], Callable[[], Stage]]] = {
+    NeoHookean: (green, neo_hookean),
+    StVenantKirchhoff: (green, hooke),
+    LinearElastic: (small, hooke),
+}
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -34,7 +41,7 @@ class CompiledLaw:
 
 
 def compiled(material: StoredEnergy) -> CompiledLaw | None:
-    """Stages of a law, or None where it has none.
+    """Stages of a law, or None where it has none: a law derived from one of ours may say something else.
 
     Examples
     --------
@@ -42,10 +49,7 @@ def compiled(material: StoredEnergy) -> CompiledLaw | None:
     array([1., 1.])
     """
     match material:
-        case NeoHookean(E=E, nu=nu):
-            return CompiledLaw(measure=green(), law=neo_hookean(), moduli=np.array(lame(E, nu)))
-        case StVenantKirchhoff(E=E, nu=nu):
-            return CompiledLaw(measure=green(), law=hooke(), moduli=np.array(lame(E, nu)))
-        case LinearElastic(E=E, nu=nu):
-            return CompiledLaw(measure=small(), law=hooke(), moduli=np.array(lame(E, nu)))
+        case NeoHookean() | StVenantKirchhoff() | LinearElastic() if type(material) in _STAGES:
+            measure, law = _STAGES[type(material)]
+            return CompiledLaw(measure=measure(), law=law(), moduli=np.array(lame(material.E, material.nu)))
     return None

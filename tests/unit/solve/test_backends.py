@@ -55,6 +55,17 @@ def test_a_missing_backend_is_named_once(
         assert word in record.getMessage()
 
 
+def test_where_there_is_no_mkl_it_is_not_missed(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr("platform.machine", lambda: "aarch64")
+    assert best("single") == SuperLU("single")
+    assert not caplog.records
+    absent(monkeypatch, "sksparse", "sksparse.cholmod")
+    assert best("double") == SuperLU()
+    assert "pip install 'softway[cholmod]'" in caplog.text
+
+
 def test_a_library_without_the_solver_is_named(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:

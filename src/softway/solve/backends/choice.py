@@ -1,6 +1,8 @@
 """The direct solver of a computation: the one asked for, or the next that works here."""
 
-from collections.abc import Callable, Mapping
+import platform
+import sys
+from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 
 import numpy as np
@@ -46,7 +48,9 @@ def best(precision: Precision = "double", threads: int | None = None) -> LinearS
     >>> solver.precision
     'single'
     """
-    return named(PREFERRED[0], precision, threads)
+    number_type(precision)
+    counted(threads)
+    return _working(_offered(precision), precision, threads)
 
 
 def named(name: str, precision: Precision = "double", threads: int | None = None) -> LinearSolver:
@@ -73,19 +77,32 @@ def named(name: str, precision: Precision = "double", threads: int | None = None
     counted(threads)
     if name not in BACKENDS:
         raise InputError("linear", f"no solver '{name}'", ", ".join(BACKENDS))
-    chosen = BACKENDS[name](precision, threads)
-    reasons = []
-    for other in (name, *(n for n in PREFERRED if n != name)):
+    BACKENDS[name](precision, threads)
+    return _working([name, *(n for n in _offered(precision) if n != name)], precision, threads)
+
+
+def _offered(precision: Precision) -> list[str]:
+    """Preferred backends that there are for this machine and a precision."""
+    known = platform.machine() in ("x86_64", "AMD64") and sys.platform in ("linux", "win32")
+    possible = {"pardiso": known, "cholmod": precision == "double"}
+    return [n for n in PREFERRED if possible.get(n, True)]
+
+
+def _working(names: Iterable[str], precision: Precision, threads: int | None) -> LinearSolver:
+    """The first backend that works; those before it are named in a warning."""
+    reasons: dict[str, str] = {}
+    for name in names:
         try:
-            solver = chosen if other == name else BACKENDS[other](precision, threads)
+            solver = BACKENDS[name](precision, threads)
             _tried(solver)
         except Exception as error:
-            reasons.append(f"{other} does not work here ({type(error).__name__}: {error})")
+            reasons[name] = f"{name} does not work here ({type(error).__name__}: {error})"
             continue
         if reasons:
-            LOG.warning("%s; %s is used instead\n  try: pip install 'softway[%s]'", "; ".join(reasons), other, name)
+            what, extra = "; ".join(reasons.values()), next(iter(reasons))
+            LOG.warning("%s; %s is used instead\n  try: pip install 'softway[%s]'", what, name, extra)
         return solver
-    raise ImportError("; ".join(reasons))
+    raise ImportError("; ".join(reasons.values()))
 
 
 def _tried(solver: LinearSolver) -> None:

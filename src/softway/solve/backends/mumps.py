@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
+from scipy.linalg import lu_factor, lu_solve
 
 from softway.solve.linear import Precision, counted, finite, number_type, unfactored
 from softway.solve.pattern import Pattern
@@ -75,7 +76,8 @@ class Mumps:
         except RuntimeError as error:
             raise unfactored(matrix.shape[0], error) from None
         full = np.tril(lower) + np.tril(lower, -1).T
-        return Condensed(context, np.asarray(last), np.asarray(full, float), np.dtype(number_type(self.precision)))
+        complement = np.asarray(full, float)
+        return Condensed(context, complement, lu_factor(complement), np.dtype(number_type(self.precision)))
 
     def _loaded(self, matrix: sp.csc_array) -> Any:
         from mumps import Context
@@ -138,15 +140,15 @@ class _Factor:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Condensed:
-    """A matrix factored up to its unknowns ``last`` (k,).
+    """A matrix factored up to its last unknowns.
 
-    ``complement`` (k, k) is ``A_ll - A_lr A_rr^-1 A_rl`` with the rest r, the inverse of the rows and columns ``last``
-    of A^-1.
+    ``complement`` (k, k) is ``A_ll - A_lr A_rr^-1 A_rl`` for the last unknowns l and the rest r: the inverse of the
+    rows and columns l of A^-1. ``dense`` is its factor.
     """
 
     context: Any
-    last: IntArray
     complement: Array
+    dense: tuple[Array, IntArray]
     kind: np.dtype[Any]
 
     def condense(self, b: Array) -> Array:
@@ -154,10 +156,9 @@ class Condensed:
         return np.array(self.context.schur_condense(np.array(b, self.kind)), float)
 
     def expand(self, x: Array) -> Array:
-        """The solution (f,) whose values on ``last`` are x (k,), for the right-hand side condensed last."""
+        """The solution (f,) whose last unknowns are x (k,), for the right-hand side condensed last."""
         return np.array(self.context.schur_expand(x), float)
 
     def solve(self, b: Array) -> Array:
         """Solution of A x = b (f,)."""
-        x: Array = np.linalg.solve(self.complement, self.condense(b)).astype(float)
-        return self.expand(x)
+        return self.expand(lu_solve(self.dense, self.condense(b)))
