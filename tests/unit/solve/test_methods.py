@@ -79,7 +79,7 @@ def test_operators_lead_to_the_same_solution(
 
 def test_where_iterates_contract_poorly_newton_takes_over(block: Callable[..., Model]) -> None:
     """A plain fixed point at a long slab: on its own it fails, handed over it converges."""
-    system = slab(block(supports=(Fixed(on="top"),), timing=Impulse()), 1.5)
+    system = slab(block(supports=(Fixed(on="top"),), timing=Impulse()), 0.9)
     plain = FixedPoint(depth=0, limit=30)
     with pytest.raises(NoConvergence):
         solve(system, replace(plain, handover=False))
