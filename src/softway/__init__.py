@@ -21,8 +21,10 @@ from softway.record.run import Run
 from softway.scenario.codec import load, resolved
 from softway.scenario.scenario import Output, Probe, Scenario, Time
 from softway.scene import AsGiven, Scene, State, StaticStart
+from softway.solve.explicit import Explicit
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
+from softway.solve.operators import Factored, MatrixFree, Multigrid
 from softway.space.curved import Block, Cavity, Roller, Sphere, Torus
 from softway.space.curved import Cylinder as RigidCylinder
 from softway.space.distance import SignedDistance
@@ -55,7 +57,9 @@ __all__ = [
     "Energy",
     "EnergyMomentum",
     "Event",
+    "Explicit",
     "Facets",
+    "Factored",
     "FieldSum",
     "Fixed",
     "FixedPoint",
@@ -67,9 +71,11 @@ __all__ = [
     "Ledger",
     "LinearElastic",
     "Lumped",
+    "MatrixFree",
     "Mesh",
     "MeshFile",
     "Momentum",
+    "Multigrid",
     "NeoHookean",
     "Newton",
     "NodeToSurface",

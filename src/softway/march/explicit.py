@@ -78,7 +78,7 @@ def solve_explicit(
     q = np.where(model.free, np.where(model.massive[:, None], moving, 2.0 * start.velocity), system.given)
     it, count = _settled(system, central, q, 0.5 * h * now.pressure, carry, method)
     end = _evaluated(system, it)
-    solution = Solution(last=it, end=end, predicted=it.free, iterations=count)
+    solution = Solution(last=it, end=end, predicted=it.free, iterations=count, contraction=0.0)
     out = outcome(model, now, slab, system, solution, pairs.found)
     last = central.inertia.acceleration(model.load - end.force)
     velocity = np.where(model.massive[:, None] & model.free, start.velocity + 0.5 * h * (slope + last), out.velocity)

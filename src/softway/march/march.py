@@ -143,6 +143,8 @@ def _steps(
         length = min(current, until - now.time)
         length = until - now.time if until - now.time - length < control.least * span else length
         found = _accepted(rules, now, (initial, ledger), length, span, until, weight, carry, control, closed)
+        if carry.choice is None and found.carry.choice is not None:
+            log.info("operator %s: %s", found.carry.choice.operator, found.carry.choice.reason)
         step = _step(model, now, before, found)
         yield step
         current = _next(model, control, span, now, found)
@@ -268,6 +270,7 @@ def _step(model: Model, now: Situation, before: State, found: _Accepted) -> Step
             pairs=out.pairs,
             factorisations=found.carry.factorisations,
             passes=out.passes,
+            contraction=out.solution.contraction,
             rejections=found.rejections,
             scalars=dict(zip(names, out.solution.end.scalar.tolist(), strict=True)),
         ),

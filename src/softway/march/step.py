@@ -90,15 +90,17 @@ class Certificate:
 class Report:
     """How the solution was found.
 
-    ``iterations`` of this slab; ``pairs`` of nodes, facets or edges that the search found; ``factorisations`` since the
-    start of the march; ``passes`` over the contact events; ``rejections``: reasons of the tries that were dropped;
-    ``scalars``: the scalar of the Energy rule for each body.
+    ``iterations`` of this slab and the mean factor ``contraction`` by which their changes fell; ``pairs`` of nodes,
+    facets or edges that the search found; ``factorisations`` since the start of the march; ``passes`` over the contact
+    events; ``rejections``: reasons of the tries that were dropped; ``scalars``: the scalar of the Energy rule for each
+    body.
     """
 
     iterations: int
     pairs: int
     factorisations: int
     passes: int
+    contraction: float = 0.0
     rejections: tuple[str, ...] = ()
     scalars: Mapping[str, float] | None = None
 

@@ -15,6 +15,7 @@ COLUMNS = (
     ("h", "s"),
     ("iterations", table.COUNT),
     ("pairs", table.COUNT),
+    ("contraction", table.COUNT),
     ("energy_kinetic", "J"),
     ("energy_strain", "J"),
     ("work_external", "J"),
@@ -48,7 +49,7 @@ class History:
 
     def take(self, step: Step) -> None:
         """Write the line of one slab: its audit, and the probes at its end."""
-        start = [step.after.time, step.slab.span, step.report.iterations, step.report.pairs]
+        start = [step.after.time, step.slab.span, step.report.iterations, step.report.pairs, step.report.contraction]
         left = [float(getattr(step.certificate, name.partition(".")[2])) for name, _ in CERTIFICATE]
         probes = [r.value(step.after, step.reactions) for r in self.readings]
         table.write(self.stream, [*start, *_audit(step.ledger, self.contacts), *left, *probes])
@@ -67,7 +68,7 @@ def open_history(folder: Path, opening: Opening) -> History:
     probes = [r.value(opening.initial, {}) for r in opening.readings]
     gaps = [c.min_gap for c in opening.ledger.contacts.values()]
     left = [min(gaps, default=float("inf")), *[0.0] * (len(CERTIFICATE) - 1)]
-    table.write(stream, [opening.initial.time, 0.0, 0, 0, *_audit(opening.ledger, contacts), *left, *probes])
+    table.write(stream, [opening.initial.time, 0.0, 0, 0, 0.0, *_audit(opening.ledger, contacts), *left, *probes])
     return History(stream=stream, contacts=contacts, readings=opening.readings)
 
 

@@ -89,7 +89,9 @@ def check(scenario: Scenario) -> Checked:
     time = scenario.time
     if time.step != "auto" and time.step > time.end:
         raise InputError("time.step", f"{time.step:g} s is longer than the end, {time.end:g} s", "a shorter step")
-    step = proposed(model, time.step, time.weight, time.end)
+    solver = scenario.solver
+    step = proposed(model, time.step, time.weight, time.end, solver)
+    require_stable(model, model.displacement, solver if isinstance(solver, Explicit) else time.weight, step)
     slabs = int(np.ceil(time.end / step * (1.0 - 1e-12)))
     return Checked(scenario=scenario, model=model, bodies=bodies, contacts=contacts, step=step, slabs=slabs)
 

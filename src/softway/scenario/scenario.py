@@ -12,6 +12,7 @@ from softway.contact.contact import Contact
 from softway.errors import InputError
 from softway.march.control import StepControl
 from softway.scene import AsGiven, Scene, StaticStart
+from softway.solve.explicit import Explicit
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
 from softway.space.mesh import Mesh
@@ -130,7 +131,7 @@ class Scenario:
     contacts: tuple[Contact, ...] = ()
     loads: tuple[Load, ...] = ()
     start: AsGiven | StaticStart = AsGiven()
-    solver: FixedPoint | Newton = FixedPoint()
+    solver: FixedPoint | Newton | Explicit = FixedPoint()
     output: Output = Output()
 
     @property

@@ -39,12 +39,15 @@ def lost(q: Array, active: BoolArray, carry: Carry, system: SlabSystem) -> Itera
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Solution:
-    """A converged slab: the last iterate, its evaluation, the free normal components (m,) of the first iterate."""
+    """A converged slab: the last iterate, its evaluation, the free normal components (m,) of the first iterate, and the
+    mean factor by which the changes fell from one iterate to the next.
+    """
 
     last: Iterate
     end: Evaluation
     predicted: Array
     iterations: int
+    contraction: float
 
 
 Method = Callable[[SlabSystem, Array, Carry, Array, BoolArray], Iterator[Iterate]]
@@ -82,19 +85,33 @@ def drive(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float, lim
     best, since = np.inf, 0
     predicted: Array | None = None
     it: Iterate | None = None
-    scale = 1.0
+    scale, first = 1.0, 0.0
     for count, it in enumerate(iterates, 1):
         if not np.isfinite(it.change):
             raise NoConvergence("the iteration left the admissible configurations (inverted cell or overflow)")
         predicted = it.free if predicted is None else predicted
+        first = it.change if count == 1 else first
         scale = max(np.abs(it.q).max(initial=0.0), np.abs(system.start.velocity).max(initial=0.0), 1e-300)
         best, since = (it.change, 0) if it.change < 0.5 * best else (best, since + 1)
         settled = it.change <= tolerance * scale or (since >= 6 and it.change <= 1e3 * tolerance * scale)
         settled = settled or (since >= 4 and it.change <= ROUNDING * _pushed(system, it))
         settled = settled or (since >= 4 and it.change <= _resolved(system))
         if settled and it.sound:
-            return Solution(last=it, end=it.system.evaluate(it.q, it.impulse), predicted=predicted, iterations=count)
+            end = it.system.evaluate(it.q, it.impulse)
+            fell = contraction(first, it.change, count)
+            return Solution(last=it, end=end, predicted=predicted, iterations=count, contraction=fell)
         if count >= limit:
             break
     change = it.change / scale if it is not None else np.inf
     raise NoConvergence(f"{limit} iterations leave a relative change of {change:.1e} (tolerance {tolerance:.0e})")
+
+
+def contraction(first: float, last: float, count: int) -> float:
+    """Mean factor between the changes of successive iterates; zero where one iteration was enough.
+
+    Examples
+    --------
+    >>> round(contraction(1.0, 1e-6, 4), 9)
+    0.01
+    """
+    return float((last / first) ** (1.0 / (count - 1))) if count > 1 and first > 0.0 else 0.0

@@ -68,5 +68,9 @@ def require_stable(model: Model, u: Array, scheme: TimeWeight | Explicit, span: 
         raise InputError(
             "time.step",
             f"{span:.6g} s is beyond the stability limit {greatest:.6g} s of {type(scheme).__name__}",
-            f"a step of at most {greatest:.4g} s, or the weight EndPeaks, which is stable for every step",
+            f"a step of at most {greatest:.4g} s, or {_other(scheme)}, which is stable for every step",
         )
+
+
+def _other(scheme: TimeWeight | Explicit) -> str:
+    return "the solver FixedPoint" if isinstance(scheme, Explicit) else "the weight EndPeaks"
