@@ -15,7 +15,7 @@ COLUMNS = (
     ("h", "s"),
     ("iterations", table.COUNT),
     ("pairs", table.COUNT),
-    ("contraction", table.COUNT),
+    ("contraction", table.RATIO),
     ("energy_kinetic", "J"),
     ("energy_strain", "J"),
     ("work_external", "J"),

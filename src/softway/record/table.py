@@ -15,6 +15,8 @@ TEXT = "-"
 """Unit written in the header of a column of words."""
 COUNT = "1"
 """Unit written in the header of a column of whole numbers."""
+RATIO = "ratio"
+"""Unit written in the header of a column of ratios."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -29,6 +29,8 @@ from softway.scenario.scales import (
 )
 from softway.scenario.scenario import Scenario, built
 from softway.scene import StaticStart
+from softway.solve.explicit import Explicit
+from softway.solve.stability import require_stable
 from softway.typing import Array
 
 
