@@ -14,6 +14,7 @@ import scipy.sparse as sp
 import softway as sw
 from exact_waves import Array
 from runs import Record, recorded, thrown
+from softway.kernels.patterns import sum_of
 from softway.typing import IntArray
 
 CELLS, WIDTH, GAP, UNTIL, STEP = 50, 0.1, 0.3, 2.8, 0.014
@@ -104,7 +105,8 @@ def with_mass_of_the_box(across: int) -> Record:
     wall = sw.Tool(shape=sw.HalfSpace(point=1.0 + GAP, normal=-1.0))
     contact = sw.Contact(between=("bar.right", "wall"), name="stop")
     model = sw.build(sw.Scene(bodies={"bar": bar, "wall": wall}, contacts=(contact,)))
-    return recorded(sw.march(replace(model, mass=mass), until=UNTIL, step=STEP))
+    total = sum_of(sp.csc_array(mass), model.tangent(np.zeros(model.shape)), model.free.ravel())
+    return recorded(sw.march(replace(model, mass=mass, total=total), until=UNTIL, step=STEP))
 
 
 @pytest.mark.parametrize("across", [1, 2])
