@@ -92,7 +92,7 @@ def contest(
     >>> for result in contest(scene, until=4.0, step=0.05, methods=("accelerated", "penalty")):
     ...     print(result.name, len(result.laps), result.drift < 1e-12, result.penetration > 1e-6)
     accelerated 80 True False
-    penalty 80 True True
+    penalty 80 False True
     """
     chosen = _chosen(methods, tolerance)
     model = scene if isinstance(scene, Model) else build(scene)

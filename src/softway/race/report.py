@@ -71,12 +71,11 @@ def described(method: Entrant) -> str:
     Examples
     --------
     >>> described(Newton()), described(Penalty())
-    ('Newton', 'penalty Newton, springs of 50 E A / l')
+    ('Newton', 'penalty Newton, springs of 50 E A / l, force of a slab: last')
     """
     match method:
         case Penalty():
-            ends = ", forces of the slab's ends" if method.mean == "ends" else ""
-            return f"penalty Newton, springs of {method.stiffness:g} E A / l{ends}"
+            return f"penalty Newton, springs of {method.stiffness:g} E A / l, force of a slab: {method.mean}"
         case Newton():
             return "Newton" if method.renew == "iterate" else "modified Newton: a factor for each slab"
     depth = getattr(method, "depth", None)

@@ -103,5 +103,5 @@ def test_wrong_wishes_are_refused(scene, change):
 
 
 def test_methods_in_words():
-    assert described(Penalty(stiffness=7.0, mean="ends")).startswith("penalty Newton, springs of 7 E A / l, forces")
+    assert described(Penalty(stiffness=7.0, mean="ends")).endswith("springs of 7 E A / l, force of a slab: ends")
     assert described(Explicit()) == "central differences" and described(sw.FixedPoint(depth=0)) == "plain fixed point"
