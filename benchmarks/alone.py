@@ -6,11 +6,10 @@ import sys
 from collections.abc import Callable
 from dataclasses import asdict
 from hashlib import sha256
-from time import perf_counter
 from typing import Any
 
 import numpy as np
-from problems import END, ENERGY, STEP, ball, beam, drop, glued, noted
+from problems import END, ENERGY, STEP, ball, beam, drop, glued, noted, now
 
 import softway as sw
 from softway.solve.explicit import Explicit
@@ -21,7 +20,7 @@ METHODS = {"fixed": FIXED, "Newton": NEWTON}
 
 def cube(cells: int, most: int | None = None, keep: str = "") -> dict[str, Any]:
     """The peers' problem."""
-    start = perf_counter()
+    start = now()
     facts, last = noted(sw.march(drop(cells), until=END, step=STEP, method=FIXED), start, ENERGY, most)
     place = last.after.displacement["cube"]
     if keep:
@@ -31,21 +30,21 @@ def cube(cells: int, most: int | None = None, keep: str = "") -> dict[str, Any]:
 
 def explicit(cells: int) -> dict[str, Any]:
     """The same cube of tetrahedra, by central differences."""
-    start = perf_counter()
+    start = now()
     march = sw.march(drop(cells, "tet4", sw.Lumped()), until=END, method=Explicit())
     return noted(march, start, ENERGY)[0]
 
 
 def impact(cells: int, method: str, most: int) -> dict[str, Any]:
     """The ball against the plane."""
-    start = perf_counter()
+    start = now()
     march = sw.march(ball(cells), until=15.0, step=0.15, method=METHODS[method])
     return noted(march, start, 0.5 * 0.06**2, most)[0]
 
 
 def bent(cells: int, method: str, most: int) -> dict[str, Any]:
     """The clamped beam; the unit of energy is the work of the load."""
-    start = perf_counter()
+    start = now()
     march = sw.march(beam(cells), until=62 * 0.4, step=0.4, method=METHODS[method])
     facts, last = noted(march, start, 1.0, most)
     return facts | {"drift": facts["drift"] / last.ledger.work_external}
@@ -53,7 +52,7 @@ def bent(cells: int, method: str, most: int) -> dict[str, Any]:
 
 def block(nu: float, cells: int = 9, most: int = 20) -> dict[str, Any]:
     """The nearly incompressible block."""
-    start = perf_counter()
+    start = now()
     return noted(sw.march(glued(cells, nu), until=100.0, step=0.3, method=FIXED), start, 0.5 * 0.15**2 / 3, most)[0]
 
 

@@ -1,7 +1,7 @@
 """The problems that are marched, and what is noted of a march."""
 
 from collections.abc import Iterable
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
@@ -62,29 +62,37 @@ def glued(cells: int, nu: float) -> sw.Scene:
     return sw.Scene(bodies={"block": body})
 
 
-def noted(steps: Iterable[Step], start: float, energy: float, most: int | None = None) -> tuple[dict[str, Any], Step]:
+def now() -> tuple[float, float]:
+    """Time by the clock, and that of the processors [s]."""
+    return perf_counter(), process_time()
+
+
+def noted(
+    steps: Iterable[Step], start: tuple[float, float], energy: float, most: int | None = None
+) -> tuple[dict[str, Any], Step]:
     """What a march costs and keeps, and its last slab.
 
-    ``start`` is when the work began; the first of ``seconds`` holds all that was done before.  ``energy`` is the unit
-    of the greatest departure from the balance.
+    ``start`` is when the work began; the first of ``seconds``, and of ``used`` ones of the processors, holds all that
+    was done before.  ``energy`` is the unit of the greatest departure from the balance.
     """
-    seconds, touching, iterations, drift, spans, rejected = [], [], [], [], [], 0
-    before, step = start, None
+    times, touching, iterations, drift, spans, rejected = [start], [], [], [], [], 0
+    step = None
     for step in steps:
-        now = perf_counter()
-        seconds.append(now - before)
+        times.append(now())
         touching.append(any(c.count or c.force_n for c in step.ledger.contacts.values()))
         iterations.append(step.report.iterations)
         drift.append(abs(step.ledger.energy_error) / energy)
         spans.append(step.slab.span)
         rejected += len(step.report.rejections)
-        before = perf_counter()
-        if len(seconds) == most:
+        if len(spans) == most:
             break
     assert step is not None
+    seconds, used = np.diff(times, axis=0).T.tolist()
     facts = {
-        "wall": before - start,
+        "wall": sum(seconds),
+        "cpu": sum(used),
         "seconds": seconds,
+        "used": used,
         "touching": touching,
         "iterations": float(np.mean(iterations)),
         "drift": max(drift),

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from statistics import median
 
 from apart import HERE, Absent, environment, line
-from figures import STORED, Figure
+from figures import STORED, Figure, speedup
 
 from groups.asked import Asked
 
@@ -17,13 +17,12 @@ STEP = 5e-4
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Time:
-    """What a peer takes for a run [s], and in what words."""
+    """What a peer takes for a run: time by the clock and of the processors [s], and in what words."""
 
     peer: str
     seconds: float
+    cpu: float | None
     unit: str
-    threads: int = 0
-    version: str = ""
     stored: bool = False
 
 
@@ -36,64 +35,67 @@ def found(asked: Asked, peer: str, threads: int, **options: float) -> dict:
     return line([asked.peers[peer], script, "--threads", str(threads), *words], environment(threads))
 
 
-def whole(asked: Asked, peer: str, name: str, cells: int) -> Time | None:
-    """A run to the end; the fastest number of threads counts."""
-    times = []
+def tried(asked: Asked, peer: str, **options: float) -> Iterator[tuple[int, dict]]:
+    """What a peer tells with each number of threads; nothing where it is missing."""
     for threads in asked.peers_threads:
         try:
-            told = found(asked, peer, threads, cells=cells)
+            yield threads, found(asked, peer, threads, **options)
         except Absent as why:
             print(f"  {peer}: {why}", flush=True)
-            break
-        times.append(_time(peer, told, told["wall"], threads, "s"))
-    return min(times, key=lambda t: t.seconds) if times else _stored(asked, peer, name)
+            return
 
 
-def sampled(asked: Asked, peer: str, name: str, cells: int, slabs: tuple[int, int], threads: int = 2) -> Time | None:
-    """A run of so many ``slabs`` of flight and of contact, from a few steps that begin just before the touch.
+def whole(asked: Asked, peer: str, name: str, cells: int) -> list[Time]:
+    """Runs to the end."""
+    times = [_time(peer, told, told["wall"], threads, "s") for threads, told in tried(asked, peer, cells=cells)]
+    return times or _stored(asked, peer, name)
+
+
+def sampled(asked: Asked, peer: str, name: str, cells: int, slabs: tuple[int, int]) -> list[Time]:
+    """Runs of so many ``slabs`` of flight and of contact, from a few steps that begin just before the touch.
 
     The flight before the touch, rigid, stands for all flight: peers take fewer iterations in it than afterwards.
     """
-    try:
-        told = found(asked, peer, threads, cells=cells, gap=NEAR, end=SAMPLE * STEP)
-    except Absent as why:
-        print(f"  {peer}: {why}", flush=True)
-        return _stored(asked, peer, name)
-    pairs = list(zip(told["seconds"], told["touching"], strict=True))
-    kinds = ([s for s, t in pairs if t is kind] for kind in (False, True))
-    setup = told["wall"] - sum(told["seconds"])
-    seconds = setup + sum(n * median(kind) for n, kind in zip(slabs, kinds, strict=True))
-    return _time(peer, told, seconds, threads, f"s, extrapolated from {SAMPLE} steps")
+    times = []
+    for threads, told in tried(asked, peer, cells=cells, gap=NEAR, end=SAMPLE * STEP):
+        pairs = list(zip(told["seconds"], told["touching"], strict=True))
+        kinds = ([s for s, t in pairs if t is kind] for kind in (False, True))
+        setup = told["wall"] - sum(told["seconds"])
+        seconds = setup + sum(n * median(kind) for n, kind in zip(slabs, kinds, strict=True))
+        times.append(_time(peer, told, seconds, threads, f"s, extrapolated from {SAMPLE} steps"))
+    return times or _stored(asked, peer, name)
 
 
-def figures(times: list[Time | None], name: str) -> Iterator[Figure]:
-    """The times of the peers."""
-    for t in (t for t in times if t is not None):
-        yield Figure(name=f"{name}/{t.peer}", value=t.seconds, unit=t.unit)
-        if t.version:
-            yield Figure(name=f"machine/{t.peer}", value=t.version)
+def figures(times: list[Time], name: str) -> Iterator[Figure]:
+    """The times of the peers: the faster number of threads, and the processors' time by one thread."""
+    for peer in dict.fromkeys(t.peer for t in times):
+        best = min((t for t in times if t.peer == peer), key=lambda t: t.seconds)
+        yield Figure(name=f"{name}/{peer}", value=best.seconds, unit=best.unit)
+        for t in times:
+            if t.peer == peer and t.cpu is not None:
+                yield Figure(name=f"{name}/{peer}, processor", value=t.cpu, unit=t.unit)
 
 
-def against(times: list[Time | None], name: str, seconds: float, unit: str, target: str) -> Figure:
-    """Our time against that of the fastest peer."""
-    known = [t for t in times if t is not None]
+def against(times: list[Time], name: str, seconds: float, unit: str, target: str, by: str = "seconds") -> Figure:
+    """Our time against that of the fastest peer, ``by`` the clock (``seconds``) or the processor (``cpu``)."""
+    known = [t for t in times if getattr(t, by) is not None]
     if not known:
         return Figure(name=name, value=seconds, unit=f"{unit}; no peer")
-    best = min(known, key=lambda t: t.seconds)
-    unit = f"{unit}; {best.peer}" + (f", {STORED}" * best.stored)
-    return Figure(
-        name=name, value=seconds, unit=unit, baseline=best.seconds, ratio=best.seconds / seconds, target=target
-    )
+    best = min(known, key=lambda t: getattr(t, by))
+    unit = f"{unit}; {best.peer}" + f", {STORED}" * best.stored
+    return speedup(name, seconds, getattr(best, by), unit, target)
 
 
 def _time(peer: str, told: dict, seconds: float, threads: int, unit: str) -> Time:
-    words = f"{unit}, {threads} thread{'s' * (threads > 1)}"
-    return Time(peer=peer, seconds=seconds, unit=words, threads=threads, version=told["version"])
+    cpu = told["cpu"] / told["wall"] * seconds if threads == 1 else None
+    words = f"{unit}, {threads} thread{'s' * (threads > 1)}, version {told['version']}"
+    return Time(peer=peer, seconds=seconds, cpu=cpu, unit=words)
 
 
-def _stored(asked: Asked, peer: str, name: str) -> Time | None:
-    stored = asked.stored.get(f"{name}/{peer}")
+def _stored(asked: Asked, peer: str, name: str) -> list[Time]:
+    stored, cpu = (asked.stored.get(f"{name}/{peer}{more}") for more in ("", ", processor"))
     if stored is None or isinstance(stored.value, str):
-        return None
+        return []
     words = stored.unit if STORED in stored.unit else f"{stored.unit}, {STORED}"
-    return Time(peer=peer, seconds=stored.value, unit=words, stored=True)
+    used = None if cpu is None or isinstance(cpu.value, str) else cpu.value
+    return [Time(peer=peer, seconds=stored.value, cpu=used, unit=words, stored=True)]

@@ -12,6 +12,7 @@ from figures import KEYS, STORED, Figure, read, regressions, speedup, unmatched,
 from groups.asked import Asked
 from groups.methods import spread
 from groups.peers import Time, against, sampled, whole
+from groups.peers import figures as shown
 from machine import described
 from run import GROUPS, NOTES, group_of, peers_of
 from table import page
@@ -114,25 +115,37 @@ def test_peers_are_named_with_interpreters(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_the_stored_time_of_a_peer_that_is_missing_is_marked(capsys: pytest.CaptureFixture[str]) -> None:
-    asked = Asked(stored=named(Figure(name="drop/3k/NGSolve", value=12.0, unit="s, 2 threads")))
-    time = whole(asked, "NGSolve", "drop/3k", 9)
-    assert time == Time(peer="NGSolve", seconds=12.0, unit=f"s, 2 threads, {STORED}", stored=True)
+    stored = named(
+        Figure(name="drop/3k/NGSolve", value=12.0, unit="s, 2 threads"),
+        Figure(name="drop/3k/NGSolve, processor", value=18.0, unit="s, 1 thread"),
+    )
+    times = whole(Asked(stored=stored), "NGSolve", "drop/3k", 9)
+    assert times == [Time(peer="NGSolve", seconds=12.0, cpu=18.0, unit=f"s, 2 threads, {STORED}", stored=True)]
     assert "NGSolve" in capsys.readouterr().out
-    figure = against([time], "drop/3k/ours", 1.0, "s", ">= 10")
+    figure = against(times, "drop/3k/ours", 1.0, "s", ">= 10")
     assert figure.ratio == 12.0
     assert not figure.comparable
+    assert against(times, "drop/3k/ours", 1.0, "s", ">= 10", "cpu").ratio == 18.0
 
 
 def test_a_peer_never_measured_gives_no_ratio() -> None:
-    assert sampled(Asked(), "GetFEM", "drop/30k", 20, (60, 40)) is None
-    assert against([None], "drop/30k/ours", 1.0, "s", ">= 10").ratio is None
+    assert sampled(Asked(), "GetFEM", "drop/30k", 20, (60, 40)) == []
+    assert against([], "drop/30k/ours", 1.0, "s", ">= 10").ratio is None
 
 
 def test_the_fastest_peer_counts() -> None:
-    times = [Time(peer="NGSolve", seconds=12.0, unit="s"), None, Time(peer="GetFEM", seconds=9.0, unit="s")]
+    times = [
+        Time(peer="NGSolve", seconds=12.0, cpu=12.0, unit="s, 1 thread"),
+        Time(peer="GetFEM", seconds=13.0, cpu=13.0, unit="s, 1 thread"),
+        Time(peer="GetFEM", seconds=9.0, cpu=None, unit="s, 2 threads"),
+    ]
     figure = against(times, "drop/3k/ours", 1.0, "s", ">= 10")
     assert (figure.ratio, figure.passed) == (9.0, False)
     assert "GetFEM" in figure.unit
+    assert against(times, "drop/3k/ours", 1.0, "s", ">= 10", "cpu").ratio == 12.0
+    told = [(f.name, f.value, f.unit) for f in shown(times, "drop/3k")]
+    assert ("drop/3k/GetFEM", 9.0, "s, 2 threads") in told
+    assert ("drop/3k/GetFEM, processor", 13.0, "s, 1 thread") in told
 
 
 def test_the_factor_is_spread_over_a_run() -> None:
