@@ -112,7 +112,7 @@ class Frozen:
         """``B^T A^-1 B`` (b, k) of some directions; new columns are solved for in one batch."""
         if not len(which):
             return np.zeros((self.basis.directions.shape[1], 0))
-        self._fill(which)
+        self.fill(which)
         return self.table.columns(which)
 
     def give(self, push: Array) -> Array:
@@ -120,7 +120,7 @@ class Frozen:
         which = np.flatnonzero(push)
         if not len(which):
             return np.zeros(self.basis.directions.shape[1])
-        self._fill(which)
+        self.fill(which)
         return self.table.product(which, push[which])
 
     def answer(self, push: Array) -> Array:
@@ -130,7 +130,7 @@ class Frozen:
             return np.zeros(self.basis.directions.shape[0])
         if self.basis.component is not None or self.local is not None:
             return self._answered(push)
-        self._fill(index)
+        self.fill(index)
         return self.answers.product(index, push[index])
 
     def _answered(self, push: Array) -> Array:
@@ -138,7 +138,8 @@ class Frozen:
         found = (self.local or self.factor).solve(np.asarray(self.basis.directions @ push))
         return found if self.turning is None else np.asarray(self.turning @ found)
 
-    def _fill(self, which: IntArray) -> None:
+    def fill(self, which: IntArray) -> None:
+        """Make the columns of some directions that are not there yet, in one batch."""
         missing = self.table.missing(which)
         if not len(missing):
             return
