@@ -13,6 +13,9 @@ from softway.solve.columns import Columns
 from softway.solve.linear import Factor, LinearSolver
 from softway.typing import Array, BoolArray, IntArray
 
+TOGETHER = 64
+"""Columns that are solved for at once: more are no faster, and take memory."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Basis:
@@ -140,13 +143,17 @@ class Frozen:
 
     def fill(self, which: IntArray) -> None:
         """Make the columns of some directions that are not there yet, in one batch."""
-        missing = self.table.missing(which)
-        if not len(missing):
-            return
-        new = (self.local or self.factor).solve(np.ascontiguousarray(self.basis.directions[:, missing].toarray()))
-        self.table.add(missing, (self.basis.directions.T @ new).T)
-        if self.basis.component is None and self.local is None:
-            self.answers.add(missing, new.T.astype(self.kind))
+        missing, directions = self.table.missing(which), self.basis.directions
+        kept = self.basis.component is None and self.local is None
+        self.table.reserve(len(missing))
+        if kept:
+            self.answers.reserve(len(missing))
+        for start in range(0, len(missing), TOGETHER):
+            some = missing[start : start + TOGETHER]
+            new = (self.local or self.factor).solve(np.ascontiguousarray(directions[:, some].toarray()))
+            self.table.add(some, (directions.T @ new).T)
+            if kept:
+                self.answers.add(some, new.T.astype(self.kind))
 
 
 def basis(rows: Candidates, free: BoolArray, fixed: bool, nodes: IntArray) -> Basis:
