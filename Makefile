@@ -5,14 +5,15 @@ DEMO := .venv-demo
 TEST := .venv-test
 DOCS := .venv-docs
 
-.PHONY: help demo test coverage check bench docs clean
+.PHONY: help demo test coverage check bench bench-check docs clean
 
 help:
 	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
 	@echo "make test   unit tests, verification cases, doctests"
 	@echo "make coverage  the same, with the lines and branches that did not run"
 	@echo "make check  ruff, mypy, import-linter, house rules"
-	@echo "make bench  cost of a slab"
+	@echo "make bench  all measurements: docs/benchmarks.md and benchmarks/results/latest.json; BENCH=--quick for a few"
+	@echo "make bench-check  a few measurements against the stored ones: fails where a ratio got worse by a fifth"
 	@echo "make docs   the documentation as HTML in docs/_build/html"
 
 # $(call environment,folder,extras): the file "ready" comes last, so that an interrupted installation is repeated
@@ -49,7 +50,10 @@ check: $(TEST)/ready
 	$(TEST)/bin/python -m pytest -q tests/house
 
 bench: $(TEST)/ready
-	$(TEST)/bin/python benchmarks/bench_slab.py
+	$(TEST)/bin/python benchmarks/run.py $(BENCH)
+
+bench-check: $(TEST)/ready
+	$(TEST)/bin/python benchmarks/run.py --quick --check
 
 docs: $(DOCS)/ready
 	$(DOCS)/bin/python -m sphinx --fail-on-warning --keep-going -q -b html docs docs/_build/html

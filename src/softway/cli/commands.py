@@ -1,4 +1,4 @@
-"""Verbs over a scenario: new, check, run, show, plot.
+"""Verbs over a scenario: new, check, run, show, plot, race.
 
 Exit codes: 0 done, 2 input wrong, 3 numerics failed, 130 interrupted.
 """
@@ -15,14 +15,18 @@ from rich.console import Console
 from rich.logging import RichHandler
 from rich.markup import escape
 
-from softway.cli.progress import progress_of
-from softway.cli.tables import scales, summary
+from softway.cli.progress import laps_of, progress_of
+from softway.cli.tables import ranking, scales, summary
 from softway.errors import InputError, NumericsError
 from softway.execute import run as execute
+from softway.race.contest import contest, entrants
+from softway.race.report import FILE as RACE
+from softway.race.report import record
+from softway.race.report import save as save_race
 from softway.record.run import Run
 from softway.record.view import pictures
 from softway.scenario.check import check as examine
-from softway.scenario.codec import load
+from softway.scenario.codec import load, resolved
 from softway.scenario.templates import templates
 
 DONE, WRONG_INPUT, FAILED, INTERRUPTED = 0, 2, 3, 130
@@ -161,6 +165,68 @@ def plot(folder: Path, /, *, out: Path | None = None) -> None:
     """
     for file in pictures(Run(folder), out):
         Console().print(escape(str(file)), soft_wrap=True)
+
+
+@app.command
+def race(
+    file: Path,
+    /,
+    *,
+    methods: Annotated[tuple[str, ...], Parameter(consume_multiple=True, negative=())] = (),
+    slabs: int | None = None,
+    tolerance: float | None = None,
+    out: Path | None = None,
+    set_: Set = (),
+    quiet: Quiet = False,
+    overwrite: Annotated[bool, Parameter(negative=())] = False,
+) -> None:
+    """Compute a scenario by several methods and compare their iterations, time, energy and penetration.
+
+    Parameters
+    ----------
+    file
+        Scenario in TOML.
+    methods
+        Some of plain, accelerated (fixed point), modified, newton, penalty; by default all.
+    slabs
+        Only so many of the first slabs.
+    tolerance
+        Relative change of velocity at which iterates are accepted; by default that of the scenario's solver.
+    out
+        Folder for race.json and race.png; by default races/ and the name of the file, numbered when that exists.
+    set_
+        Change before reading: path=value, any number of times.
+    quiet
+        Print errors only.
+    overwrite
+        Replace an earlier race of the same name.
+    """
+    scenario = load(file, set_)
+    checked = examine(scenario)
+    folder, console = out or _free(Path("races") / file.stem), Console(quiet=quiet)
+    if (folder / RACE).exists() and not overwrite:
+        raise InputError("--out", f"'{folder}' already holds a race", "another folder, or --overwrite")
+    if slabs is not None and slabs < 1:
+        raise InputError("--slabs", f"{slabs}", "1 or more")
+    time, precision = scenario.time, scenario.solver.tolerance if tolerance is None else tolerance
+    end = min(time.end, (slabs or checked.slabs) * checked.step)
+    names = methods or tuple(entrants(precision))
+    scales(checked, console)
+    with laps_of(names, end, console) as watch:
+        results = contest(
+            checked.model,
+            until=end,
+            step=checked.step,
+            methods=names,
+            tolerance=precision,
+            weight=time.weight,
+            control=time.control,
+            watch=watch,
+        )
+    found = record(results, scenario.title, resolved(scenario))
+    ranking(found, console)
+    for made in save_race(found, folder):
+        console.print(escape(str(made)), soft_wrap=True, highlight=False)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

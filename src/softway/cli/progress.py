@@ -1,7 +1,7 @@
 """Progress of a run on a terminal: time left, error of the energy balance, closed contact nodes."""
 
 import time as clock
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -56,5 +56,37 @@ def progress_of(checked: Any, console: Console) -> Iterator[Watch | None]:
     task = display.add_task("", total=checked.scenario.time.end, error="-", closed=0)
     try:
         yield Watch(display=display, task=task, begun=clock.perf_counter())
+    finally:
+        display.stop()
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Laps:
+    """Takes the slabs of a race and shows how far each method is."""
+
+    display: Progress
+    tasks: Mapping[str, TaskID]
+    begun: float
+
+    def __call__(self, name: str, time: float) -> None:
+        """Show one slab of a method."""
+        task = self.tasks[name]
+        if not self.display.tasks[task].started:
+            self.display.start_task(task)
+        if clock.perf_counter() - self.begun > PATIENCE and not self.display.live.is_started:
+            self.display.start()
+        self.display.update(task, completed=time)
+
+
+@contextmanager
+def laps_of(names: Sequence[str], end: float, console: Console) -> Iterator[Laps | None]:
+    """What to call with each slab of some methods that go until ``end``; ``None`` where nobody watches."""
+    if console.quiet or not console.is_terminal:
+        yield None
+        return
+    display = Progress(TextColumn("{task.description}"), *COLUMNS[:4], console=console, transient=True)
+    tasks = {name: display.add_task(name, total=end, start=False) for name in names}
+    try:
+        yield Laps(display=display, tasks=tasks, begun=clock.perf_counter())
     finally:
         display.stop()

@@ -1,5 +1,6 @@
-"""Tables on the terminal: the scales of a scenario, the summary of a run."""
+"""Tables on the terminal: the scales of a scenario, the summary of a run, the ranking of a race."""
 
+from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any
 
@@ -35,6 +36,13 @@ UNITS = {
     "power_residual": "J",
     "momentum_error": "kg m/s",
     "energy_error": "J",
+    "wall": "s",
+    "cpu": "s",
+    "first_slab_cpu": "s",
+    "slab_cpu": "s",
+    "penetration": "m",
+    "least_force": "N",
+    "distance": "m",
 }
 WORDS = {
     "stable_step": "stable step (Momentum)",
@@ -43,7 +51,29 @@ WORDS = {
     "transit": "wave transit time",
     "edge": "smallest edge",
     "dofs": "free components",
+    "wall": "wall time",
+    "cpu": "CPU time",
+    "first_slab_cpu": "CPU time, first slab",
+    "slab_cpu": "CPU time of a slab (median)",
+    "energy_drift": "energy error (relative)",
+    "distance": "distance at the end",
 }
+RACE = (
+    "slabs",
+    "iterations_mean",
+    "iterations_max",
+    "factorisations",
+    "rejected",
+    "wall",
+    "cpu",
+    "first_slab_cpu",
+    "slab_cpu",
+    "energy_drift",
+    "penetration",
+    "least_force",
+    "distance",
+)
+"""Numbers of a method in a race."""
 COLUMNS = 6
 """Greatest number of bodies or contacts beside each other."""
 
@@ -71,6 +101,22 @@ def summary(run: Run, console: Console) -> None:
         _columns({"certificate (worst slab)": found["certificate"]}, console)
     console.print(f"{stop.reason}{': ' if stop.message else ''}{stop.message}", markup=False, soft_wrap=True)
     console.print(f"records: {run.path}", markup=False, soft_wrap=True, highlight=False)
+
+
+def ranking(found: Mapping[str, Any], console: Console) -> None:
+    """How the methods of a race did, one column for each, and the reasons of those that failed."""
+    methods = found["methods"]
+    _columns({name: {key: _short(method[key]) for key in RACE} for name, method in methods.items()}, console)
+    for name, method in methods.items():
+        failed = f"; failed: {method['reason']}" if method["reason"] else ""
+        console.print(f"{name}: {method['method']}{failed}", markup=False, soft_wrap=True, highlight=False)
+    if found["reference"]:
+        console.print(f"distance at the end: of a node from where '{found['reference']}' has it", highlight=False)
+
+
+def _short(value: float | int | None) -> str | int | None:
+    """Three digits."""
+    return f"{value:.3g}" if isinstance(value, float) else value
 
 
 def _numbers(item: Any) -> dict[str, Any]:

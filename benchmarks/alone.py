@@ -1,0 +1,103 @@
+"""One problem in a process of its own: ``python alone.py NAME '{"option": value}'`` prints a line of JSON."""
+
+import json
+import resource
+import sys
+from collections.abc import Callable
+from dataclasses import asdict
+from hashlib import sha256
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from problems import END, ENERGY, STEP, ball, beam, drop, glued, noted
+
+import softway as sw
+from softway.solve.explicit import Explicit
+
+FIXED, NEWTON = sw.FixedPoint(tolerance=1e-8), sw.Newton(tolerance=1e-8)
+METHODS = {"fixed": FIXED, "Newton": NEWTON}
+
+
+def cube(cells: int, most: int | None = None, keep: str = "") -> dict[str, Any]:
+    """The peers' problem."""
+    start = perf_counter()
+    facts, last = noted(sw.march(drop(cells), until=END, step=STEP, method=FIXED), start, ENERGY, most)
+    place = last.after.displacement["cube"]
+    if keep:
+        np.save(keep, place)
+    return facts | {"bits": sha256(place.tobytes()).hexdigest()}
+
+
+def explicit(cells: int) -> dict[str, Any]:
+    """The same cube of tetrahedra, by central differences."""
+    start = perf_counter()
+    march = sw.march(drop(cells, "tet4", sw.Lumped()), until=END, method=Explicit())
+    return noted(march, start, ENERGY)[0]
+
+
+def impact(cells: int, method: str, most: int) -> dict[str, Any]:
+    """The ball against the plane."""
+    start = perf_counter()
+    march = sw.march(ball(cells), until=15.0, step=0.15, method=METHODS[method])
+    return noted(march, start, 0.5 * 0.06**2, most)[0]
+
+
+def bent(cells: int, method: str, most: int) -> dict[str, Any]:
+    """The clamped beam; the unit of energy is the work of the load."""
+    start = perf_counter()
+    march = sw.march(beam(cells), until=62 * 0.4, step=0.4, method=METHODS[method])
+    facts, last = noted(march, start, 1.0, most)
+    return facts | {"drift": facts["drift"] / last.ledger.work_external}
+
+
+def block(nu: float, cells: int = 9, most: int = 20) -> dict[str, Any]:
+    """The nearly incompressible block."""
+    start = perf_counter()
+    return noted(sw.march(glued(cells, nu), until=100.0, step=0.3, method=FIXED), start, 0.5 * 0.15**2 / 3, most)[0]
+
+
+def kernels(cell: str, cells: int, repeats: int) -> list[dict[str, Any]]:
+    """Rates of the internal force."""
+    from bench_kernels import measured
+
+    return [asdict(rate) for rate in measured(cell, cells, repeats)]
+
+
+def factor(cells: int, cases: list[list[Any]]) -> list[dict[str, Any]]:
+    """Costs of direct solvers: backend, precision, threads."""
+    from bench_factor import measured, operator, streaming
+
+    matrix, _ = operator(cells)
+    stream = {t: streaming(t) for t in {case[2] for case in cases}}
+    return [asdict(measured(*case, matrix, stream[case[2]])) | {"stream": stream[case[2]]} for case in cases]
+
+
+def contact(cells: int) -> dict[str, Any]:
+    """Contact slabs against slabs of flight."""
+    from bench_contact import Clock, Encounters, measured
+
+    return asdict(measured(cells, 0.1, Clock(Encounters, "meet")))
+
+
+def slabs(largest: int) -> list[dict[str, Any]]:
+    """Costs of slabs of the three rules."""
+    from bench_slab import costs
+
+    return [asdict(cost) for cost in costs(largest)]
+
+
+PROBLEMS: dict[str, Callable[..., Any]] = {
+    f.__name__: f for f in (cube, explicit, impact, bent, block, kernels, factor, contact, slabs)
+}
+
+
+def main() -> None:
+    """Run, and print the line: the result, and the most memory that the process had [MB]."""
+    result = PROBLEMS[sys.argv[1]](**json.loads(sys.argv[2]))
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1024.0 if sys.platform == "linux" else 2.0**20)
+    print("\n" + json.dumps({"result": result, "peak": peak}))
+
+
+if __name__ == "__main__":
+    main()

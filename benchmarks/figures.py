@@ -1,0 +1,105 @@
+"""Figures: what was measured, against what, and whether that is enough; their file, and the comparison of two files."""
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+KEYS = ("name", "value", "unit", "baseline", "ratio", "target", "pass")
+SLACK = 0.2
+"""Part by which a ratio may get worse before it counts."""
+STORED = "baseline of an earlier run"
+"""Words in the unit of a figure whose baseline was not measured in the same run."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Figure:
+    """One measurement.
+
+    Parameters
+    ----------
+    name
+        Group and what was measured, separated by ``/``.
+    value, unit
+        The number or text, and in what.
+    baseline
+        What the value is compared with, in the same unit.
+    ratio
+        How they compare.
+    target
+        ``>= x`` or ``<= x`` for the ratio, or for the value where there is no ratio; ``higher`` or ``lower`` where only
+        the direction is given.
+    """
+
+    name: str
+    value: float | str
+    unit: str = ""
+    baseline: float | None = None
+    ratio: float | None = None
+    target: str | None = None
+
+    @property
+    def passed(self) -> bool | None:
+        """Whether the target is met; none without a bound."""
+        number = self.value if self.ratio is None else self.ratio
+        if self.target is None or self.target[:2] not in (">=", "<=") or isinstance(number, str):
+            return None
+        bound = float(self.target[2:])
+        return bool(number >= bound if self.target.startswith(">=") else number <= bound)
+
+    @property
+    def more_is_better(self) -> bool:
+        """Whether a greater ratio is the better one."""
+        return (self.target or "").startswith((">=", "higher"))
+
+    @property
+    def comparable(self) -> bool:
+        """Whether the ratio tells something about the code alone."""
+        return self.ratio is not None and self.target is not None and STORED not in self.unit
+
+
+def speedup(name: str, value: float, baseline: float, unit: str, target: str = "higher") -> Figure:
+    """A time against the longer one of something else."""
+    return Figure(name=name, value=value, unit=unit, baseline=baseline, ratio=baseline / value, target=target)
+
+
+def written(path: Path, figures: Iterable[Figure]) -> None:
+    """Write the list of figures."""
+    rows = []
+    for f in figures:
+        rows.append(dict(zip(KEYS, (f.name, f.value, f.unit, f.baseline, f.ratio, f.target, f.passed), strict=True)))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    text = ",\n".join(json.dumps({k: _short(v) for k, v in row.items()}) for row in rows)
+    path.write_text(f"[\n{text}\n]\n", encoding="utf-8")
+
+
+def read(path: Path) -> dict[str, Figure]:
+    """The figures of a file by their names; none where there is no file."""
+    if not path.is_file():
+        return {}
+    rows = json.loads(path.read_text(encoding="utf-8"))
+    return {row["name"]: Figure(**{k: v for k, v in row.items() if k != "pass"}) for row in rows}
+
+
+def regressions(new: Mapping[str, Figure], stored: Mapping[str, Figure], slack: float = SLACK) -> dict[str, str]:
+    """What got worse by more than ``slack``, by name, with both ratios."""
+    worse = {}
+    for name, now in new.items():
+        then = stored.get(name)
+        if then is None or not (now.comparable and then.comparable):
+            continue
+        assert now.ratio is not None and then.ratio is not None
+        bound = (1.0 - slack if now.more_is_better else 1.0 + slack) * then.ratio
+        if now.ratio < bound if now.more_is_better else now.ratio > bound:
+            worse[name] = f"{then.ratio:.3g} -> {now.ratio:.3g}"
+    return worse
+
+
+def unmatched(new: Mapping[str, Figure], stored: Mapping[str, Figure]) -> tuple[list[str], list[str]]:
+    """Names of ratios that only the one has, and of those that only the other has."""
+    ours, theirs = ({n for n, f in each.items() if f.comparable} for each in (new, stored))
+    return sorted(ours - theirs), sorted(theirs - ours)
+
+
+def _short(value: object) -> object:
+    return float(f"{value:.5g}") if isinstance(value, float) else value

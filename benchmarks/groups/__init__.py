@@ -1,0 +1,1 @@
+"""Groups of measurements: each module yields its figures."""

@@ -1,0 +1,75 @@
+"""Parts of a slab: kernels, factors and solves, contact, slabs of the three rules."""
+
+from collections.abc import Iterator
+
+from apart import alone
+from figures import Figure, speedup
+
+from groups.asked import Asked
+
+POINTS = {"tet4": 1, "hex8": 1, "tet10": 2, "hex27": 20}
+
+
+def kernels(asked: Asked) -> Iterator[Figure]:
+    """The fused internal force against NumPy and against a plain loop in C++."""
+    most = asked.pick(20_000, 100_000)
+    for cell in asked.pick(("tet4", "hex8"), tuple(POINTS)):
+        rows = alone("kernels", threads=2, cell=cell, cells=most // POINTS[cell], repeats=15)["result"]
+        rates = {(r["work"], r["by"], r["threads"]): r["rate"] for r in rows}
+        for (work, by, threads), rate in rates.items():
+            if by == "fused":
+                of = f"kernels/{cell}, {work}, {threads} thread{'s' * (threads > 1)}"
+                rivals = [b for b in ("NumPy", "C++") if (work, b, threads) in rates]
+                for rival in rivals:
+                    base = rates[work, rival, threads]
+                    yield Figure(
+                        name=f"{of}, against {rival}", value=rate, unit="Mcells/s", baseline=base, ratio=rate / base,
+                        target="higher",
+                    )  # fmt: skip
+                if not rivals:
+                    yield Figure(name=of, value=rate, unit="Mcells/s")
+
+
+def factors(asked: Asked) -> Iterator[Figure]:
+    """Factors and solves of PARDISO, and the share that a solve has of the bandwidth of reading."""
+    cases = [["pardiso", "double", 1], ["pardiso", "single", 1]]
+    cases += asked.pick([], [["pardiso", "double", 2], ["pardiso", "single", 2]])
+    for size, cells in asked.pick({"3k": 9, "30k": 20}, {"3k": 9, "30k": 20, "100k": 31}).items():
+        more = [["superlu", "double", 1]] if size == "3k" else []
+        rows = {(r["backend"], r["precision"], r["threads"]): r
+                for r in alone("factor", threads=2, cells=cells, cases=cases + more)["result"]}  # fmt: skip
+        for (backend, precision, threads), row in rows.items():
+            if backend == "superlu":
+                continue
+            of = f"factor/{size}, {precision}, {threads} thread{'s' * (threads > 1)}"
+            yield Figure(name=f"{of}, factor again", value=row["refactor"], unit="ms")
+            if precision == "single":
+                yield speedup(f"{of}, solve", row["solve"], rows[backend, "double", threads]["solve"], "ms")
+            elif more and threads == 1:
+                yield speedup(f"{of}, solve", row["solve"], rows["superlu", "double", 1]["solve"], "ms, SuperLU")
+            else:
+                yield Figure(name=f"{of}, solve", value=row["solve"], unit="ms")
+            if size != "3k":
+                yield Figure(
+                    name=f"{of}, bandwidth of a solve", value=row["bandwidth"], unit="GB/s", baseline=row["stream"],
+                    ratio=row["share"], target="higher",
+                )  # fmt: skip
+
+
+def contact(asked: Asked) -> Iterator[Figure]:
+    """Slabs in contact against slabs of the flight afterwards."""
+    for cells in asked.pick((6, 12), (6, 12, 20)):
+        row = alone("contact", cells=cells)["result"]
+        of = f"contact/{cells}^3 cells"
+        yield Figure(
+            name=f"{of}, slab in contact", value=row["contact"], unit="ms, flight", baseline=row["flight"],
+            ratio=row["median"], target="lower",
+        )  # fmt: skip
+        yield Figure(name=f"{of}, search", value=100.0 * row["search"], unit="% of the contact slabs")
+
+
+def slabs(asked: Asked) -> Iterator[Figure]:
+    """Time of a slab of the three rules."""
+    for row in alone("slabs", largest=asked.pick(8, 12))["result"]:
+        of = f"slab/{row['case']}, {row['rule']}"
+        yield Figure(name=of, value=row["median"], unit=f"ms, {row['iterations']:.1f} iterations")

@@ -1,0 +1,222 @@
+"""The contest: one scene, one start, one length of slab and one tolerance, by several methods."""
+
+import time as clock
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from softway.errors import InputError, NumericsError
+from softway.march.begin import begin
+from softway.march.control import StepControl
+from softway.march.ledger import opening
+from softway.march.march import march, proposed
+from softway.march.situation import joined, parted
+from softway.model import Model, build
+from softway.race.penalised import penalised
+from softway.race.penalty import Penalty
+from softway.race.result import Entrant, Lap, Result
+from softway.scene import Scene, State
+from softway.solve.fixed_point import FixedPoint
+from softway.solve.newton import Newton
+from softway.time.weight import EndPeaks, TimeWeight
+from softway.typing import Array
+from softway.units import Second
+
+Watch = Callable[[str, Second], None]
+LEAST = 1e-2
+"""Share of the length asked for below which no slab is tried: a method that needs shorter ones has failed."""
+
+
+def entrants(tolerance: float = 1e-11) -> dict[str, Entrant]:
+    """The methods by their names, all of one tolerance.
+
+    Examples
+    --------
+    >>> list(entrants())
+    ['plain', 'accelerated', 'modified', 'newton', 'penalty']
+    """
+    return {
+        "plain": FixedPoint(depth=0, handover=False, tolerance=tolerance),
+        "accelerated": FixedPoint(tolerance=tolerance),
+        "modified": Newton(renew="slab", tolerance=tolerance),
+        "newton": Newton(tolerance=tolerance),
+        "penalty": Penalty(tolerance=tolerance),
+    }
+
+
+def contest(
+    scene: Scene | Model,
+    *,
+    until: Second,
+    step: Second | Literal["auto"] = "auto",
+    methods: Mapping[str, Entrant] | Sequence[str] = (),
+    slabs: int | None = None,
+    tolerance: float = 1e-11,
+    weight: TimeWeight = EndPeaks(),
+    control: StepControl = StepControl(),
+    watch: Watch | None = None,
+) -> tuple[Result, ...]:
+    """The same scene by several methods, from the same state in slabs of the same length.
+
+    A slab that fails is tried again at half the length as in :func:`~softway.march.march.march`, down to ``LEAST`` of
+    it; a method that needs shorter ones stays among the results with its reason.
+
+    Parameters
+    ----------
+    scene
+        What moves; a built model is taken as it is.
+    until
+        End time [s].
+    step
+        Slab length [s], shortened to divide the duration evenly.
+    methods
+        By name, or some names of :func:`entrants`; all of these if empty.
+    slabs
+        Only so many of the first slabs.
+    tolerance
+        Change of velocity, relative to the greatest velocity, at which iterates of the named methods are accepted.
+    weight, control
+        As in a march; a penalty Newton always takes the trapezoidal rule.
+    watch
+        Called with the name of the method and the time, slab by slab.
+
+    Examples
+    --------
+    >>> import softway as sw
+    >>> bar = sw.Solid(mesh=sw.Interval(length=1.0, cells=2), material=sw.LinearElastic(E=1.0), density=1.0,
+    ...                velocity=sw.Uniform(value=1.0))
+    >>> wall = sw.Tool(shape=sw.HalfSpace(point=1.25, normal=-1.0))
+    >>> scene = sw.Scene(bodies={"bar": bar, "wall": wall}, contacts=(sw.Contact(between=("bar.right", "wall")),))
+    >>> for result in contest(scene, until=4.0, step=0.05, methods=("accelerated", "penalty")):
+    ...     print(result.name, len(result.laps), result.drift < 1e-12, result.penetration > 1e-6)
+    accelerated 80 True False
+    penalty 80 True True
+    """
+    chosen = _chosen(methods, tolerance)
+    model = scene if isinstance(scene, Model) else build(scene)
+    state = parted(model, begin(model))
+    span = proposed(model, step, weight, until - state.time)
+    end = until if slabs is None else min(until, state.time + _positive(slabs) * span)
+    limits = replace(control, least=max(control.least, LEAST))
+    course = _Course(model=model, state=state, until=end, span=span, weight=weight, control=limits)
+    for _ in march(model, until=state.time + span, step=span, weight=weight, state=state, control=limits):
+        break  # kernels are loaded
+    return tuple(_raced(name, method, course, watch) for name, method in chosen.items())
+
+
+def _chosen(methods: Mapping[str, Entrant] | Sequence[str], tolerance: float) -> Mapping[str, Entrant]:
+    if isinstance(methods, Mapping) and methods:
+        return methods
+    known = entrants(tolerance)
+    for name in methods:
+        if name not in known:
+            raise InputError("methods", f"no method '{name}'", ", ".join(known))
+    return {name: known[name] for name in methods or known}
+
+
+def _positive(slabs: int) -> int:
+    if slabs < 1:
+        raise InputError("slabs", f"{slabs}", "1 or more")
+    return slabs
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Course:
+    """What is the same for all."""
+
+    model: Model
+    state: State
+    until: float
+    span: float
+    weight: TimeWeight
+    control: StepControl
+
+
+Reached = tuple[Lap, Mapping[str, Array]]
+
+
+def _started(course: _Course, method: Entrant) -> tuple[float, Iterator[Reached]]:
+    """Energy at the start, and the slabs."""
+    if isinstance(method, Penalty):
+        return _penalty(course, method)
+    steps = march(
+        course.model,
+        until=course.until,
+        step=course.span,
+        weight=course.weight,
+        method=method,
+        state=course.state,
+        control=course.control,
+    )
+    first = opening(course.model, joined(course.model, course.state))
+    return first.energy_kinetic + first.energy_strain, (
+        (
+            Lap(
+                time=s.after.time,
+                iterations=s.report.iterations,
+                rejected=len(s.report.rejections),
+                factorisations=s.report.factorisations,
+                energy=s.ledger.energy_kinetic + s.ledger.energy_strain,
+                error=s.ledger.energy_error,
+                gap=_finite(s.certificate.min_gap),
+                force=s.certificate.min_force if s.ledger.contacts else None,
+            ),
+            s.after.displacement,
+        )
+        for s in steps
+    )
+
+
+def _penalty(course: _Course, method: Penalty) -> tuple[float, Iterator[Reached]]:
+    rules, first, steps = penalised(course.model.scene, course.state, course.until, course.span, method, course.control)
+    return first.energy, (
+        (
+            Lap(
+                time=s.time,
+                iterations=s.iterations,
+                rejected=s.rejected,
+                factorisations=s.factorisations,
+                energy=s.energy,
+                error=s.energy - first.energy - s.work,
+                gap=_finite(s.gap),
+                force=float(s.pressure.min()) if len(s.pressure) else None,
+            ),
+            rules.model.split(s.displacement),
+        )
+        for s in steps
+    )
+
+
+def _finite(gap: float) -> float | None:
+    return gap if np.isfinite(gap) else None
+
+
+def _raced(name: str, method: Entrant, course: _Course, watch: Watch | None) -> Result:
+    """One method to its end."""
+    initial, steps = _started(course, method)
+    last = clock.perf_counter(), clock.process_time()
+    laps: list[Lap] = []
+    moved: Mapping[str, Array] = {}
+    reason = ""
+    try:
+        for lap, moved in steps:  # noqa: B007  (the last is kept)
+            now = clock.perf_counter(), clock.process_time()
+            laps.append(replace(lap, wall=now[0] - last[0], cpu=now[1] - last[1]))
+            if watch is not None:
+                watch(name, lap.time)
+            last = clock.perf_counter(), clock.process_time()
+    except NumericsError as error:
+        reason = str(error)
+    failing = (clock.perf_counter() - last[0], clock.process_time() - last[1]) if reason else (0.0, 0.0)
+    return Result(
+        name=name,
+        method=method,
+        laps=tuple(laps),
+        wall=sum(lap.wall for lap in laps) + failing[0],
+        cpu=sum(lap.cpu for lap in laps) + failing[1],
+        initial=initial,
+        reason=reason,
+        displacement=moved,
+    )

@@ -1,0 +1,230 @@
+"""Penalty Newton, the textbook's contact step: springs in place of conditions, a fresh factor in every iteration.
+
+    M (q - v0) + h/2 (f0 + f1 - 2 load) = h G^T k d,    u1 = u0 + h/2 (v0 + q)
+
+``d`` is the depth max(-gap, 0) at the two ends of the slab, as the trapezoidal rule has it, or the secant of its
+square.  Every node has its inertia.  What the springs store counts as energy.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from softway.contact.candidates import Candidates
+from softway.contact.encounters import Pairs
+from softway.errors import InputError, NoConvergence
+from softway.march.control import StepControl
+from softway.model import Model
+from softway.race.springs import Workshop, squeezed
+from softway.typing import Array
+
+HALVINGS = 8
+"""Halvings of a Newton step, after which it is taken as it is."""
+GROWTH = 2.0
+"""Growth of the residual in an iteration beyond which the step is halved."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Penalty:
+    """Newton's method on penalty springs, by the trapezoidal rule in the body.
+
+    Parameters
+    ----------
+    stiffness
+        Of the springs, in units of E A / l: stiffness of plane waves, area and edge of the surface at the node.
+    mean
+        Force of the springs over a slab: ``secant`` of what they store, which keeps the energy; or the mean of their
+        forces at the ``ends``, which gains energy where springs are too stiff for the slab.
+    tolerance
+        Change of velocity, relative to the greatest velocity, at which an iterate is accepted.
+    limit
+        Iterations after which the slab is tried again at half the length.
+
+    Examples
+    --------
+    >>> Penalty(stiffness=10.0).limit
+    40
+    """
+
+    stiffness: float = 50.0
+    mean: Literal["secant", "ends"] = "secant"
+    tolerance: float = 1e-11
+    limit: int = 40
+
+    def __post_init__(self) -> None:
+        for name in ("stiffness", "tolerance", "limit"):
+            if not 0.0 < getattr(self, name) < np.inf:
+                raise InputError(name, f"{getattr(self, name):g} is not positive", "a positive number")
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Pressed:
+    """A slab of the penalty march at its end.
+
+    ``displacement``, ``velocity``, ``acceleration``, ``force`` (n, d), the last that of the bodies; ``pressure`` (m,)
+    forces of the springs [N]; ``energy`` with what they store, ``work`` of loads, tools and supports since the start
+    [J]; ``gap`` the least one [m]; ``iterations``, ``rejected`` of the slab, ``factorisations`` so far.
+    """
+
+    time: float
+    displacement: Array
+    velocity: Array
+    acceleration: Array
+    force: Array
+    pressure: Array
+    energy: float
+    work: float
+    gap: float
+    iterations: int = 0
+    factorisations: int = 0
+    rejected: int = 0
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Penalised:
+    """What stays the same all through a penalty march; ``springs`` (m,) [N/m]."""
+
+    model: Model
+    method: Penalty
+    control: StepControl
+    springs: Array
+
+
+def depths(rows: Candidates, u: Array) -> tuple[Array, float]:
+    """Depth (m,) of the rows, minus infinity where nothing is near, and the least gap [m]."""
+    gap = np.where(rows.near, rows.gap(u), np.inf)
+    return -gap, float(gap.min(initial=np.inf))
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Slab:
+    """What is known of a slab: its start, end, pairs, and the rows and depths (m,) at the start."""
+
+    rules: Penalised
+    now: Pressed
+    end: float
+    pairs: Pairs
+    first: Candidates
+    before: Array
+
+    @property
+    def span(self) -> float:
+        return self.end - self.now.time
+
+    def displaced(self, q: Array) -> Array:
+        """Displacement (n, d) at the end."""
+        return self.now.displacement + 0.5 * self.span * (self.now.velocity + q)
+
+    def look(self, q: Array) -> "_Look":
+        """Forces at the end and over the slab."""
+        rules, u = self.rules, self.displaced(q)
+        energy, force = rules.model.energy_and_force(u)
+        rows = self.pairs.at(u)
+        after, gap = depths(rows, u)
+        depth = np.maximum(after, 0.0)
+        if rules.method.mean == "secant":
+            unseen = ~np.isfinite(self.before) | ~np.isfinite(after)
+            mean, slope = squeezed(np.where(unseen, -depth, self.before), np.where(unseen, depth, after))
+        else:
+            mean = 0.5 * (np.maximum(self.before, 0.0) + depth)
+            slope = np.where(depth > 0.0, 0.5, 0.0)
+        h, push = self.span, rows.spread(rules.springs * mean, u.shape)
+        forces = 0.5 * (self.now.force + force) - rules.model.load - push
+        left = rules.model.mass @ (q - self.now.velocity) + h * forces
+        return _Look(
+            rows=rows,
+            force=force,
+            mean=rules.springs * mean,
+            stiffness=rules.springs * slope,
+            pressure=rules.springs * depth,
+            energy=float(energy.sum()) + 0.5 * float(rules.springs @ depth**2),
+            gap=gap,
+            left=left[rules.model.free],
+            reaction=np.where(rules.model.free, 0.0, left / h),
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Look:
+    """Rows, internal force (n, d), mean force of the springs and its slope (m,), their forces at the end, what the
+    momentum of the free components (f,) leaves over, and what supports must give (n, d).
+    """
+
+    rows: Candidates
+    force: Array
+    mean: Array
+    stiffness: Array
+    pressure: Array
+    energy: float
+    gap: float
+    left: Array
+    reaction: Array
+
+
+def solved(rules: Penalised, now: Pressed, end: float, shop: Workshop) -> tuple[Pressed, Workshop]:
+    """One slab by Newton's method from the velocity continued.
+
+    Raises
+    ------
+    NoConvergence
+        If it does not settle.
+    """
+    model, method, h = rules.model, rules.method, end - now.time
+    q = np.where(model.free, now.velocity + h * now.acceleration, model.prescribed(end))
+    coasting = now.displacement + 0.5 * h * (now.velocity + q)
+    pairs = model.encounters.meet(now.displacement, coasting, now.time, end)
+    first = pairs.start(now.displacement)
+    before, _ = depths(first, now.displacement)
+    slab = _Slab(rules=rules, now=now, end=end, pairs=pairs, first=first, before=before)
+    look, best, since, change = slab.look(q), np.inf, 0, np.inf
+    for count in range(1, method.limit + 1):
+        pressed = np.flatnonzero(look.stiffness)
+        rows = look.rows.matrix(model.free)[pressed]
+        matrix = model.inertia_and_stiffness(slab.displaced(q), 0.25 * h**2)
+        factor, shop = shop.factored(matrix, rows, 0.5 * h**2 * look.stiffness[pressed])
+        step = np.zeros(model.shape)
+        step[model.free] = -factor.solve(look.left)
+        q, look = _searched(slab, q, step, look)
+        scale = max(np.abs(q).max(initial=0.0), np.abs(now.velocity).max(initial=0.0), 1e-300)
+        change = float(np.abs(step).max(initial=0.0)) / scale
+        best, since = (change, 0) if change < 0.5 * best else (best, since + 1)
+        if change <= method.tolerance * (1.0 if since < 6 else 1e3):
+            return replace(_arrived(slab, q, look), iterations=count), shop
+    raise NoConvergence(f"{method.limit} iterations leave a relative change of {change:.1e}")
+
+
+def _searched(slab: _Slab, q: Array, step: Array, look: _Look) -> tuple[Array, _Look]:
+    """The iterate on the way of the step (n, d) where the residual is no longer than ``GROWTH`` allows.
+
+    Raises
+    ------
+    NoConvergence
+        If cells are inverted all along it.
+    """
+    share, length = 1.0, float(np.linalg.norm(look.left))
+    for halvings in range(HALVINGS + 1):
+        new = q + share * step
+        found = slab.look(new)
+        shorter = halvings == HALVINGS or np.linalg.norm(found.left) <= GROWTH * length
+        if np.isfinite(found.left).all() and shorter:
+            return new, found
+        share *= 0.5
+    raise NoConvergence("the iteration left the admissible configurations (inverted cell or overflow)")
+
+
+def _arrived(slab: _Slab, q: Array, look: _Look) -> Pressed:
+    """The end of the slab with its energy and works."""
+    model, now, u1 = slab.rules.model, slab.now, slab.displaced(q)
+    tools = 0.5 * float(look.mean @ (slab.first.drive + look.rows.drive))
+    return Pressed(
+        time=slab.end,
+        displacement=u1,
+        velocity=q,
+        acceleration=(q - now.velocity) / slab.span,
+        force=look.force,
+        pressure=look.pressure,
+        energy=look.energy + float(model.kinetic(q).sum()),
+        work=now.work + tools + float(np.sum((model.load + look.reaction) * (u1 - now.displacement))),
+        gap=look.gap,
+    )

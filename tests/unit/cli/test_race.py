@@ -1,0 +1,93 @@
+"""The command ``softway race``."""
+
+import json
+from io import StringIO
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+
+from softway import cli
+from softway.cli import progress
+
+BAR = """
+title = "Small bar"
+
+[bodies.bar]
+kind = "Solid"
+mesh = { kind = "Interval", length = "1 m", cells = 2 }
+material = { kind = "LinearElastic", E = "1 Pa" }
+density = "1 kg/m^3"
+velocity = "1 m/s"
+
+[bodies.wall]
+kind = "Tool"
+shape = { kind = "HalfSpace", point = "1.25 m", normal = -1 }
+
+[[contacts]]
+name = "wall"
+between = ["bar.right", "wall"]
+
+[time]
+end = "4 s"
+step = "0.05 s"
+"""
+
+
+@pytest.fixture
+def file(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "bar.toml"
+    path.write_text(BAR)
+    return path
+
+
+def test_all_methods_in_a_table_a_file_and_a_picture(file, capsys):
+    assert cli.main(["race", "bar.toml", "--slabs", "10", "--tolerance", "1e-9"]) == 0
+    printed = capsys.readouterr().out
+    for word in ("Small bar", "plain", "accelerated", "modified", "newton", "penalty", "factorisations", "CPU time"):
+        assert word in printed
+    found = json.loads(Path("races/bar/race.json").read_text())
+    assert len(found["methods"]) == 5 and found["title"] == "Small bar" and "[bodies.bar]" in found["scenario"]
+    assert {m["slabs"] for m in found["methods"].values()} == {10}
+    assert {m["tolerance"] for m in found["methods"].values()} == {1e-9}
+    assert Path("races/bar/race.png").exists()
+    assert cli.main(["race", "bar.toml", "--slabs", "2", "--methods", "plain", "-q"]) == 0
+    assert Path("races/bar-2/race.json").exists() and not capsys.readouterr().out
+
+
+def test_some_methods_with_the_tolerance_of_the_scenario(file):
+    arguments = ["race", "bar.toml", "--methods", "newton", "penalty", "--slabs", "3", "--out", "made", "-q"]
+    assert cli.main([*arguments, "--set", "solver.kind=FixedPoint", "--set", "solver.tolerance=1e-7"]) == 0
+    found = json.loads(Path("made/race.json").read_text())
+    assert list(found["methods"]) == ["newton", "penalty"] and found["methods"]["newton"]["tolerance"] == 1e-7
+    assert cli.main(arguments) == 2 and cli.main([*arguments, "--overwrite"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "where"),
+    [
+        (["--methods", "fast"], "methods"),
+        (["--slabs", "0"], "--slabs"),
+        (["--tolerance", "1"], "tolerance"),
+        (["--set", "bodies.bar.density=-1"], "bodies.bar.density"),
+    ],
+)
+def test_wrong_input_exits_2_and_leaves_no_folder(file, capsys, arguments, where):
+    assert cli.main(["race", "bar.toml", *arguments]) == 2
+    found = capsys.readouterr()
+    assert where in found.err and "try:" in found.err and "Traceback" not in found.err
+    assert not Path("races").exists()
+
+
+def test_progress_on_a_terminal(monkeypatch):
+    monkeypatch.setattr(progress, "PATIENCE", -1.0)
+    screen = StringIO()
+    with progress.laps_of(("plain", "newton"), 2.0, Console(file=screen, force_terminal=True, width=100)) as watch:
+        watch("plain", 1.0)
+        watch("plain", 2.0)
+        watch("newton", 1.0)
+        assert watch.display.live.is_started
+    assert "plain" in screen.getvalue() and "ETA" in screen.getvalue()
+    with progress.laps_of(("plain",), 2.0, Console(file=screen)) as nobody:
+        assert nobody is None
