@@ -6,6 +6,8 @@ from softway.typing import Array, IntArray
 
 ROOM = 64
 """Columns for which there is room at first; it doubles when it is used up."""
+GROWTH = 256
+"""Columns by which it grows at most at a time beyond what is asked for."""
 
 
 class Columns:
@@ -19,10 +21,10 @@ class Columns:
     ([2], [13.0, 24.0])
     """
 
-    __slots__ = ("count", "place", "stored")
+    __slots__ = ("count", "place", "room", "stored")
 
     def __init__(self) -> None:
-        self.count = 0
+        self.count, self.room = 0, ROOM
         self.place = np.full(0, -1)
         self.stored = np.zeros((0, 0))
 
@@ -31,16 +33,27 @@ class Columns:
         known = which < len(self.place)
         return which[~known | (self.place[np.where(known, which, 0)] < 0)] if len(self.place) else which
 
+    def reserve(self, more: int) -> None:
+        """Make room for so many more columns."""
+        need = self.count + more
+        if self.count and need > len(self.stored):
+            self._move(max(need, min(2 * self.count, self.count + GROWTH)), self.stored.shape[1])
+        self.room = max(need, ROOM)
+
+    def _move(self, room: int, length: int) -> None:
+        stored = np.empty((room, length), self.stored.dtype)
+        stored[: self.count] = self.stored[: self.count]
+        self.stored = stored
+
     def add(self, which: IntArray, columns: Array) -> None:
         """Store new columns (k, m), given as rows."""
         if len(which) and which.max() >= len(self.place):
             self.place = np.concatenate([self.place, np.full(which.max() + 1 - len(self.place), -1)])
         end = self.count + len(which)
-        if end > len(self.stored):
-            stored = np.empty((max(end, 2 * self.count, ROOM), columns.shape[1]), columns.dtype)
-            if self.count:
-                stored[: self.count] = self.stored[: self.count]
-            self.stored = stored
+        if not self.count:
+            self.stored = np.empty((max(end, self.room), columns.shape[1]), columns.dtype)
+        elif end > len(self.stored):
+            self._move(max(end, min(2 * self.count, self.count + GROWTH)), columns.shape[1])
         self.stored[self.count : end] = columns
         self.place[which] = np.arange(self.count, end)
         self.count = end

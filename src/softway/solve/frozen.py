@@ -13,6 +13,9 @@ from softway.solve.columns import Columns
 from softway.solve.linear import Factor, LinearSolver
 from softway.typing import Array, BoolArray, IntArray
 
+TOGETHER = 64
+"""Columns that are solved for at once: more are no faster, and take memory."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Basis:
@@ -112,7 +115,7 @@ class Frozen:
         """``B^T A^-1 B`` (b, k) of some directions; new columns are solved for in one batch."""
         if not len(which):
             return np.zeros((self.basis.directions.shape[1], 0))
-        self._fill(which)
+        self.fill(which)
         return self.table.columns(which)
 
     def give(self, push: Array) -> Array:
@@ -120,7 +123,7 @@ class Frozen:
         which = np.flatnonzero(push)
         if not len(which):
             return np.zeros(self.basis.directions.shape[1])
-        self._fill(which)
+        self.fill(which)
         return self.table.product(which, push[which])
 
     def answer(self, push: Array) -> Array:
@@ -130,7 +133,7 @@ class Frozen:
             return np.zeros(self.basis.directions.shape[0])
         if self.basis.component is not None or self.local is not None:
             return self._answered(push)
-        self._fill(index)
+        self.fill(index)
         return self.answers.product(index, push[index])
 
     def _answered(self, push: Array) -> Array:
@@ -138,14 +141,19 @@ class Frozen:
         found = (self.local or self.factor).solve(np.asarray(self.basis.directions @ push))
         return found if self.turning is None else np.asarray(self.turning @ found)
 
-    def _fill(self, which: IntArray) -> None:
-        missing = self.table.missing(which)
-        if not len(missing):
-            return
-        new = (self.local or self.factor).solve(np.ascontiguousarray(self.basis.directions[:, missing].toarray()))
-        self.table.add(missing, (self.basis.directions.T @ new).T)
-        if self.basis.component is None and self.local is None:
-            self.answers.add(missing, new.T.astype(self.kind))
+    def fill(self, which: IntArray) -> None:
+        """Make the columns of some directions that are not there yet, in one batch."""
+        missing, directions = self.table.missing(which), self.basis.directions
+        kept = self.basis.component is None and self.local is None
+        self.table.reserve(len(missing))
+        if kept:
+            self.answers.reserve(len(missing))
+        for start in range(0, len(missing), TOGETHER):
+            some = missing[start : start + TOGETHER]
+            new = (self.local or self.factor).solve(np.ascontiguousarray(directions[:, some].toarray()))
+            self.table.add(some, (directions.T @ new).T)
+            if kept:
+                self.answers.add(some, new.T.astype(self.kind))
 
 
 def basis(rows: Candidates, free: BoolArray, fixed: bool, nodes: IntArray) -> Basis:

@@ -7,7 +7,10 @@ from softway.solve.carry import Carry
 from softway.solve.frozen import Frozen
 from softway.solve.operators import Choice, Operator, choose
 from softway.solve.system import SlabSystem
-from softway.solve.turning import turning
+from softway.solve.turning import SMALL, turning
+
+WORTH = 0.1
+"""Turning, as ``SMALL``, that is worth giving up contact directions that never change, whose answers are kept."""
 
 
 def prepared(system: SlabSystem, carry: Carry, operator: Operator | Literal["auto"]) -> Carry:
@@ -42,7 +45,9 @@ def _turned(system: SlabSystem, carry: Carry) -> Carry:
     """The carry with the turning of the nodes from where the operator was made to the start of the slab."""
     frozen, measure = carry.frozen, carry.turning or turning(system.model.parts)
     assert frozen is not None and carry.reference is not None
-    R = measure.since(carry.reference, system.start.displacement, system.model.free)
+    fixed = frozen.basis.component is None and frozen.basis.directions.shape[1] > 0
+    limit = WORTH if fixed else SMALL
+    R = measure.since(carry.reference, system.start.displacement, system.model.free, limit)
     if R is not None and frozen.basis.component is None:
         frozen = Frozen(frozen.factor, system.directions(turning=True), local=frozen.local, kind=frozen.kind)
     return replace(carry, frozen=frozen.turned(R), turning=measure)

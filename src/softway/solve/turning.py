@@ -16,7 +16,7 @@ from softway.kernels.tensors import rotation
 from softway.typing import Array, BoolArray
 
 SMALL = 0.03
-"""Root mean square of ``R - I`` over the nodes below which a body counts as not turned."""
+"""Root mean square of ``R - I`` over the nodes below which bodies count as not turned."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -32,18 +32,18 @@ class Turning:
         H = np.stack([slope @ u for slope in self.slopes], axis=-1)
         return np.asarray(H + np.eye(u.shape[1]))
 
-    def since(self, reference: Array, u: Array, free: BoolArray) -> sp.csr_array | None:
-        """Block-diagonal R (f, f) of the nodes from ``reference`` (n, d) to ``u`` (n, d); None where none has turned.
+    def since(self, reference: Array, u: Array, free: BoolArray, small: float = SMALL) -> sp.csr_array | None:
+        """Block-diagonal R (f, f) of the nodes from ``reference`` (n, d) to ``u`` (n, d).
 
-        Nodes with supports keep their directions.
+        None where the root mean square of ``R - I`` is ``small``.  Nodes with supports keep their directions.
         """
         n, d = u.shape
         before, now = self.gradient(reference), self.gradient(u)
-        if np.sqrt(np.mean((now - before) ** 2) * d) < SMALL:
+        if np.sqrt(np.mean((now - before) ** 2) * d) < small:
             return None
         R = rotation(now @ np.linalg.inv(before))
         R[~free.all(axis=1) | ~np.isfinite(R).all(axis=(1, 2))] = np.eye(d)
-        if np.sqrt(np.mean((R - np.eye(d)) ** 2) * d) < SMALL:
+        if np.sqrt(np.mean((R - np.eye(d)) ** 2) * d) < small:
             return None
         whole = sp.bsr_array((R, np.arange(n), np.arange(n + 1)), shape=(n * d, n * d)).tocsr()
         keep = np.flatnonzero(free.ravel())

@@ -14,7 +14,7 @@ from softway.solve.system import SlabSystem
 
 FILL = {1: (3.0, 1.0), 2: (12.0, 1.15), 3: (19.0, 4.0 / 3.0)}
 """Numbers in a factor of f unknowns, ``c f^p``, by the dimension of the cells: measured with nested dissection."""
-STREAM = 0.014
+STREAM = 0.009
 """Time to stream a number of a factor through a solution, relative to that of an unknown in a product."""
 MANY = 60
 """Products beyond which diagonal preconditioning is no match for multigrid."""
