@@ -9,6 +9,12 @@ from rich.console import Console
 
 from softway import cli
 from softway.cli import progress
+from softway.cli.tables import ranking
+from softway.race.contest import contest
+from softway.race.report import record
+from softway.scenario.codec import load
+from softway.scenario.scenario import built
+from softway.solve.fixed_point import FixedPoint
 
 BAR = """
 title = "Small bar"
@@ -91,3 +97,14 @@ def test_progress_on_a_terminal(monkeypatch):
     assert "plain" in screen.getvalue() and "ETA" in screen.getvalue()
     with progress.laps_of(("plain",), 2.0, Console(file=screen)) as nobody:
         assert nobody is None
+
+
+def test_a_method_that_failed_is_named_with_its_reason(file):
+    """One iteration a slab is not enough at the wall."""
+    scene = built(load(file))
+    methods = {"hasty": FixedPoint(limit=1, handover=False), "patient": FixedPoint()}
+    found = record(contest(scene, until=0.5, step=0.05, methods=methods))
+    screen = StringIO()
+    ranking(found, Console(file=screen, width=100))
+    assert "hasty: accelerated fixed point; failed: t = " in screen.getvalue() and "no slab holds" in screen.getvalue()
+    assert "'patient'" in screen.getvalue()
