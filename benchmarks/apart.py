@@ -4,11 +4,12 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).resolve().parent
 KEPT = ("PATH", "HOME", "LANG", "TMPDIR", "TEMP", "SYSTEMROOT", "LD_LIBRARY_PATH", "NUMBA_CACHE_DIR")
 COUNTS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 PATIENCE = 900.0
@@ -26,9 +27,11 @@ def environment(threads: int, **more: str) -> dict[str, str]:
 
 
 def line(command: list[str], environment: dict[str, str]) -> dict[str, Any]:
-    """The last line that a program prints, read as JSON."""
+    """The last line that a program prints, read as JSON; what else it writes, it writes to a folder that goes."""
+    settings = {"env": environment, "capture_output": True, "text": True, "timeout": PATIENCE, "check": True}
     try:
-        done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=PATIENCE, check=True)
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run(command, cwd=folder, **settings)
         return dict(json.loads(done.stdout.strip().splitlines()[-1]))
     except (OSError, subprocess.SubprocessError, IndexError, ValueError) as problem:
         told = (getattr(problem, "stderr", None) or str(problem)).strip().splitlines()

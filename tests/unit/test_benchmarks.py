@@ -79,6 +79,15 @@ def test_a_baseline_of_an_earlier_run_is_not_compared() -> None:
     assert not regressions(named(with_ratio(FAST, 1.0, f"s, {STORED}")), named(*ALL))
 
 
+def test_the_time_of_the_processor_is_compared_where_it_is_known() -> None:
+    wall = speedup("drop/3k/ours, 1 thread", 2.0, 20.0, "s")
+    cpu = speedup("drop/3k/ours, processor", 2.0, 20.0, "s")
+    slow = with_ratio(wall, 5.0)
+    assert list(regressions(named(slow), named(wall, cpu))) == [wall.name]
+    assert not regressions(named(slow, cpu), named(wall, cpu))
+    assert list(regressions(named(slow, with_ratio(cpu, 7.0)), named(wall, cpu))) == [cpu.name]
+
+
 def test_names_that_only_one_file_has_are_told() -> None:
     other = speedup("drop/30k", 1.0, 2.0, "s")
     assert unmatched(named(other, SLOPE), named(*ALL)) == (["drop/30k"], ["drop/3k"])
