@@ -150,7 +150,11 @@ class Frozen:
             self.answers.reserve(len(missing))
         for start in range(0, len(missing), TOGETHER):
             some = missing[start : start + TOGETHER]
-            new = (self.local or self.factor).solve(np.ascontiguousarray(directions[:, some].toarray()))
+            pushes = directions[:, some]
+            if self.local is not None:
+                self.table.add(some, (directions.T @ self.local.solve(pushes)).toarray().T)
+                continue
+            new = self.factor.solve(np.ascontiguousarray(pushes.toarray()))
             self.table.add(some, (directions.T @ new).T)
             if kept:
                 self.answers.add(some, new.T.astype(self.kind))

@@ -63,7 +63,7 @@ def slender(system: SlabSystem) -> float:
 
 
 def _products(system: SlabSystem) -> float:
-    """Products that diagonal preconditioning needs for three digits."""
+    """Products that diagonal preconditioning needs for two digits."""
     return 8.0 + 4.0 * courant(system) * float(np.sqrt(slender(system)))
 
 
