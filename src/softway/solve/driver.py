@@ -17,8 +17,8 @@ class Iterate:
 
     ``q`` (n, d) satisfies the contact rows; ``change`` is its distance from the point where the residual was taken;
     ``impulse`` (m,) are the multipliers of the rows, ``active`` (m,) the rows that carry one; ``free`` (m,) is the
-    normal component of the free solution; ``system`` holds the rows as they were, and is ``sound`` if the surfaces do
-    not overlap.
+    normal component that the first iterate has without contact; ``system`` holds the rows as they were, and is
+    ``sound`` if the surfaces do not overlap.
     """
 
     q: Array

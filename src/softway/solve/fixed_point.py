@@ -104,6 +104,8 @@ class FixedPoint:
             rows, conditions = system.conditions(q, end, frozen)
             free = q[keep] - frozen.solve(end.residual[keep] - frozen.push(rows.spread(impulse)))
             solved, pressed, now = constrain(free, frozen, rows, conditions, active, impulse)
+            if count == 0:
+                plain = rows.along(untouched(free, frozen, rows.spread(impulse)))
             new = system.filled()
             new[keep] = solved
             change = float(np.abs(new - q).max(initial=0.0))
@@ -113,7 +115,7 @@ class FixedPoint:
                 change=change,
                 impulse=pressed,
                 active=now,
-                free=rows.along(untouched(free, frozen, rows.spread(impulse))),
+                free=plain,
                 carry=carry,
                 system=system,
                 sound=sound,

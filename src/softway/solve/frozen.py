@@ -27,14 +27,20 @@ class Basis:
         (f, b): the contact rows themselves where they never change, else the components of the contact nodes.
     component
         (b,) free component of each direction; None where the directions are the rows.
+    transposed
+        (b, f) the directions as rows.
     """
 
     directions: sp.csc_array
     component: IntArray | None
+    transposed: sp.csr_array = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "transposed", sp.csr_array(self.directions.T))
 
     def sense(self, y: Array) -> Array:
         """Components (b,) of a field (f,) along the directions."""
-        return np.asarray(y @ self.directions) if self.component is None else y[self.component]
+        return np.asarray(self.transposed @ y) if self.component is None else y[self.component]
 
     def coefficients(self, rows: Candidates, free: BoolArray) -> sp.csr_array:
         """Rows C (m, b) with ``G = C directions^T``."""
