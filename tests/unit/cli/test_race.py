@@ -49,13 +49,13 @@ def file(tmp_path, monkeypatch):
 
 
 def test_all_methods_in_a_table_a_file_and_a_picture(file, capsys):
-    assert cli.main(["race", "bar.toml", "--slabs", "10", "--tolerance", "1e-9"]) == 0
+    assert cli.main(["race", "bar.toml", "--slabs", "3", "--tolerance", "1e-9"]) == 0
     printed = capsys.readouterr().out
     for word in ("Small bar", "plain", "accelerated", "modified", "newton", "penalty", "factorisations", "CPU time"):
         assert word in printed
     found = json.loads(Path("races/bar/race.json").read_text())
     assert len(found["methods"]) == 5 and found["title"] == "Small bar" and "[bodies.bar]" in found["scenario"]
-    assert {m["slabs"] for m in found["methods"].values()} == {10}
+    assert {m["slabs"] for m in found["methods"].values()} == {3}
     assert {m["tolerance"] for m in found["methods"].values()} == {1e-9}
     assert Path("races/bar/race.png").exists()
     assert cli.main(["race", "bar.toml", "--slabs", "2", "--methods", "plain", "-q"]) == 0
@@ -63,7 +63,7 @@ def test_all_methods_in_a_table_a_file_and_a_picture(file, capsys):
 
 
 def test_some_methods_with_the_tolerance_of_the_scenario(file):
-    arguments = ["race", "bar.toml", "--methods", "newton", "penalty", "--slabs", "3", "--out", "made", "-q"]
+    arguments = ["race", "bar.toml", "--methods", "newton", "penalty", "--slabs", "1", "--out", "made", "-q"]
     assert cli.main([*arguments, "--set", "solver.kind=FixedPoint", "--set", "solver.tolerance=1e-7"]) == 0
     found = json.loads(Path("made/race.json").read_text())
     assert list(found["methods"]) == ["newton", "penalty"] and found["methods"]["newton"]["tolerance"] == 1e-7

@@ -49,8 +49,8 @@ def test_the_penetration_falls_like_one_over_the_stiffness():
     """Whatever the springs, their impulse stops the bar and throws it back: the depth in the mean is that over k."""
     depths = []
     for k in (20.0, 80.0):
-        rules, first, steps = course(bar(cells=4), 3.5, 0.02, Penalty(stiffness=k, mean="ends"))
-        depths.append(0.02 * sum(max(-s.gap, 0.0) for s in steps))
+        rules, first, steps = course(bar(cells=4), 3.5, 0.04, Penalty(stiffness=k, mean="ends"))
+        depths.append(0.04 * sum(max(-s.gap, 0.0) for s in steps))
         momentum = float((rules.model.mass @ (first.velocity - steps[-1].velocity)).sum())
         assert 1.8 < momentum <= 2.1
         assert depths[-1] * float(rules.springs[0]) == pytest.approx(momentum, rel=1e-10)
@@ -71,15 +71,14 @@ def test_stiff_springs_at_the_ends_of_slabs_gain_energy_and_at_the_last_end_lose
     assert energies[-1] < 0.99 * first.energy and (np.diff(energies) < 1e-12).all()
 
 
-@pytest.mark.parametrize("mean", ["last", "secant", "ends"])
+@pytest.mark.parametrize("mean", ["last", "ends"])
 def test_the_change_of_momentum_is_the_impulse_of_the_springs(mean):
-    """With springs that the slabs resolve, the trapezoidal sum of their forces is the impulse."""
-    method = Penalty(stiffness=1.0, mean=mean)
-    rules, first, steps = course(bar(cells=4), 3.0, 0.01, method)
-    force = np.array([first.pressure.sum(), *(s.pressure.sum() for s in steps)])
-    impulse = float(np.trapezoid(force, dx=0.01))
+    """Whether each slab takes the force at its end or the mean of both, the sum is the same from free to free."""
+    rules, first, steps = course(bar(cells=4), 3.0, 0.05, Penalty(stiffness=1.0, mean=mean))
+    impulse = 0.05 * sum(float(s.pressure.sum()) for s in steps)
     momentum = [float((rules.model.mass @ s.velocity).sum()) for s in (first, steps[-1])]
-    assert momentum[1] < -0.5 and impulse == pytest.approx(momentum[0] - momentum[1], rel=1e-4)
+    assert first.pressure.sum() == steps[-1].pressure.sum() == 0.0
+    assert momentum[1] < -0.5 and impulse == pytest.approx(momentum[0] - momentum[1], rel=1e-10)
 
 
 def test_without_contact_it_is_the_trapezoidal_rule():
