@@ -1,8 +1,9 @@
-"""PARDISO of the Intel Math Kernel Library, called by its C interface; the package ``pypardiso`` only finds it."""
+"""PARDISO of the Intel Math Kernel Library, called by its C interface; the package ``pypardiso`` brings it."""
 
 import ctypes
 import weakref
 from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, files
 from typing import Any
 
 import numpy as np
@@ -90,10 +91,15 @@ class Pardiso:
 
 
 def _library() -> ctypes.CDLL:
-    from pypardiso import ps
+    """The library of the installed package, or the one that pypardiso finds by looking through the folders."""
+    try:
+        found = [f for f in files("mkl") or () if f.name.startswith("libmkl_rt")]
+        return ctypes.CDLL(str(found[0].locate()))
+    except (PackageNotFoundError, IndexError, OSError):
+        from pypardiso import ps
 
-    library: ctypes.CDLL = ps.libmkl
-    return library
+        library: ctypes.CDLL = ps.libmkl
+        return library
 
 
 def _address(array: NDArray[Any]) -> int:

@@ -15,6 +15,8 @@ MANY = 2000
 """Unknowns below which a factor in double precision is as fast."""
 FEW = 1000
 """Unknowns below which the backend that is always there is as fast."""
+ALONE = 10000
+"""Unknowns below which threads wait for each other longer than they work."""
 ASSEMBLY = 8.0
 """Iterations that the assembly of the matrix and the new compliance of the contact cost."""
 ROWS = 17.0
@@ -36,7 +38,7 @@ class Factored:
         Of the factor; by default single for bodies of large deformation with ``MANY`` unknowns or more: a linear slab
         is solved by one solution in double precision.
     threads
-        Threads of the backend; by default those of its library.
+        Threads of the backend; by default one for few unknowns, else those of its library.
 
     Examples
     --------
@@ -62,7 +64,8 @@ class Factored:
     def _solver(self, size: int, precision: Precision) -> LinearSolver:
         if self.backend != "auto":
             return named(self.backend, precision, self.threads)
-        return SuperLU(precision) if size < FEW else best(precision, self.threads)
+        threads = 1 if self.threads is None and size < ALONE else self.threads
+        return SuperLU(precision) if size < FEW else best(precision, threads)
 
     def _precision(self, system: SlabSystem) -> Precision:
         if self.precision != "auto":
