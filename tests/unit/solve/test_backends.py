@@ -25,6 +25,8 @@ def lattice(side: int) -> sp.csc_array:
 def absent(monkeypatch: pytest.MonkeyPatch, *modules: str) -> None:
     for module in modules:
         monkeypatch.setitem(sys.modules, module, None)
+    if "pypardiso" in modules:
+        monkeypatch.setattr("softway.solve.backends.pardiso.files", lambda name: ())
 
 
 def test_the_fastest_is_taken_without_a_word(caplog: pytest.LogCaptureFixture) -> None:
@@ -70,6 +72,7 @@ def test_a_library_without_the_solver_is_named(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     absent(monkeypatch, "sksparse", "sksparse.cholmod")
+    monkeypatch.setattr("softway.solve.backends.pardiso.files", lambda name: ())
     monkeypatch.setitem(sys.modules, "pypardiso", SimpleNamespace(ps=SimpleNamespace(libmkl={})))
     assert named("pardiso") == SuperLU()
     assert len(caplog.records) == 1
