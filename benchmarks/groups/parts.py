@@ -7,8 +7,8 @@ from figures import Figure, speedup
 
 from groups.asked import Asked
 
-CELLS = 40_000
-POINTS = {"tet4": 1, "hex8": 1, "tet10": 2, "hex27": 20}
+CELLS = 100_000
+POINTS = {"tet4": 1, "hex8": 1, "tet10": 4, "hex27": 40}
 """Parts of so many cells that are measured, by kind."""
 
 
@@ -25,10 +25,16 @@ def kernels(asked: Asked) -> Iterator[Figure]:
                     base = rates[work, rival, threads]
                     yield Figure(
                         name=f"{of}, against {rival}", value=rate, unit="Mcells/s", baseline=base, ratio=rate / base,
-                        target="higher",
+                        target=_asked(cell, work, rival, threads),
                     )  # fmt: skip
                 if not rivals:
                     yield Figure(name=of, value=rate, unit="Mcells/s")
+
+
+def _asked(cell: str, work: str, rival: str, threads: int) -> str:
+    """What is asked of a rate: nine tenths of C++ for the force of the two commonest cells."""
+    plain = cell in ("tet4", "hex8") and work == "force" and rival == "C++" and threads == 2
+    return ">= 0.9" if plain else "higher"
 
 
 def factors(asked: Asked) -> Iterator[Figure]:
@@ -53,7 +59,7 @@ def factors(asked: Asked) -> Iterator[Figure]:
             if size != "3k":
                 yield Figure(
                     name=f"{of}, bandwidth of a solve", value=row["bandwidth"], unit="GB/s", baseline=row["stream"],
-                    ratio=row["share"], target="higher",
+                    ratio=row["share"], target=">= 0.6",
                 )  # fmt: skip
 
 
