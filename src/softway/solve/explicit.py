@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from softway.errors import InputError
+from softway.solve.settings import check_accuracy
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,7 +43,4 @@ class Explicit:
     def __post_init__(self) -> None:
         if not 0.0 < self.safety <= 1.0:
             raise InputError("safety", f"{self.safety:g} of the stability limit", "a number above 0, at most 1")
-        if not 0.0 < self.tolerance < 1e-2:
-            raise InputError("tolerance", f"{self.tolerance:g}", "a number between 1e-14 and 1e-2")
-        if self.limit < 1:
-            raise InputError("limit", f"{self.limit} iterations", "at least 1")
+        check_accuracy(self.tolerance, self.limit)

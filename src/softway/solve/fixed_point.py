@@ -16,6 +16,7 @@ from softway.solve.newton import Newton
 from softway.solve.normal import constrain, untouched
 from softway.solve.operators import Factored, MatrixFree, Multigrid
 from softway.solve.prepared import prepared
+from softway.solve.settings import check_accuracy
 from softway.solve.system import SlabSystem
 from softway.typing import Array, BoolArray
 
@@ -66,10 +67,7 @@ class FixedPoint:
     def __post_init__(self) -> None:
         if self.depth < 0:
             raise InputError("depth", f"{self.depth} is negative", "0 for the plain fixed point, or about 8")
-        if not 0.0 < self.tolerance < 1e-2:
-            raise InputError("tolerance", f"{self.tolerance:g}", "a number between 1e-14 and 1e-2")
-        if self.limit < 1:
-            raise InputError("limit", f"{self.limit} iterations", "at least 1")
+        check_accuracy(self.tolerance, self.limit)
 
     def iterate(
         self, system: SlabSystem, q: Array, carry: Carry, impulse: Array, active: BoolArray

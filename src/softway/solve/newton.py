@@ -7,12 +7,12 @@ from typing import Literal
 
 import numpy as np
 
-from softway.errors import InputError
 from softway.solve.carry import Carry
 from softway.solve.driver import Iterate, lost
 from softway.solve.frozen import Frozen
 from softway.solve.normal import constrain, untouched
 from softway.solve.operators.factored import Factored
+from softway.solve.settings import check_accuracy
 from softway.solve.system import Evaluation, SlabSystem
 from softway.typing import Array, BoolArray
 
@@ -54,10 +54,7 @@ class Newton:
     operator: Factored = Factored(precision="double")
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.tolerance < 1e-2:
-            raise InputError("tolerance", f"{self.tolerance:g}", "a number between 1e-14 and 1e-2")
-        if self.limit < 1:
-            raise InputError("limit", f"{self.limit} iterations", "at least 1")
+        check_accuracy(self.tolerance, self.limit)
 
     def iterate(
         self, system: SlabSystem, q: Array, carry: Carry, impulse: Array, active: BoolArray

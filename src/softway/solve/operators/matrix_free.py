@@ -6,11 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from softway.errors import InputError, NoConvergence
+from softway.errors import NoConvergence
 from softway.solve.linear import Analysis, Factor
 from softway.solve.operators.operator import Made
+from softway.solve.settings import check_products
 from softway.solve.system import SlabSystem
-from softway.typing import Array, BoolArray
+from softway.typing import Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,10 +42,7 @@ class MatrixFree:
     limit: int = 500
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.tolerance < 1.0:
-            raise InputError("tolerance", f"{self.tolerance:g}", "a number between 0 and 1")
-        if self.limit < 1:
-            raise InputError("limit", f"{self.limit} products", "at least 1")
+        check_products(self.tolerance, self.limit)
 
     def make(self, system: SlabSystem, u: Array, analysis: Analysis | None) -> Made:
         """The operator of a slab at the displacement ``u`` (n, d)."""
@@ -55,9 +53,7 @@ class MatrixFree:
             field[free] = x
             return np.asarray((model.mass @ field + share * model.tangent_product(u, field))[free])
 
-        d = free.shape[1]
-        blocks = share * model.tangent_blocks(u) + model.mass.diagonal()[:, None, None] * np.eye(d)
-        local = blocks_inverted(blocks, free)
+        local = nodal(system, u)
         return Made(factor=Gradients(times, local, self.tolerance, self.limit), local=local, analysis=None, price=1.0)
 
 
@@ -74,15 +70,17 @@ class Blocks:
         return found
 
 
-def blocks_inverted(blocks: Array, free: BoolArray) -> Blocks:
-    """Inverse of the diagonal blocks (n, d, d) restricted to the free components (n, d).
+def nodal(system: SlabSystem, u: Array) -> Blocks:
+    """Inverse of the diagonal blocks of the operator at the displacement ``u`` (n, d), one for each node.
 
     Raises
     ------
     NoConvergence
         If a block is singular.
     """
+    model, free = system.model, system.model.free
     n, d = free.shape
+    blocks = system.share * model.tangent_blocks(u) + model.mass.diagonal()[:, None, None] * np.eye(d)
     both = free[:, :, None] & free[:, None, :]
     try:
         inverse = np.linalg.inv(np.where(both, blocks, np.eye(d)))

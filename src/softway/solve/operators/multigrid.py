@@ -11,8 +11,9 @@ from scipy.sparse.linalg import LinearOperator
 from softway.bodies.rigid_motions import motion_names, rigid_motions
 from softway.errors import InputError
 from softway.solve.linear import Analysis
-from softway.solve.operators.matrix_free import Gradients, blocks_inverted
+from softway.solve.operators.matrix_free import Gradients, nodal
 from softway.solve.operators.operator import Made
+from softway.solve.settings import check_products
 from softway.solve.system import SlabSystem
 from softway.typing import Array
 
@@ -46,25 +47,19 @@ class Multigrid:
     limit: int = 200
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.tolerance < 1.0:
-            raise InputError("tolerance", f"{self.tolerance:g}", "a number between 0 and 1")
-        if self.limit < 1:
-            raise InputError("limit", f"{self.limit} products", "at least 1")
+        check_products(self.tolerance, self.limit)
 
     def make(self, system: SlabSystem, u: Array, analysis: Analysis | None) -> Made:
         """The operator of a slab at the displacement ``u`` (n, d)."""
         if not available():
             raise InputError("solver.operator", "Multigrid without pyamg", "pip install 'softway[multigrid]'")
         pyamg = importlib.import_module("pyamg")
-        model, free = system.model, system.model.free
         matrix = sp.csr_array(system.operator(u))
         levels = pyamg.smoothed_aggregation_solver(
             sp.csr_matrix(matrix), B=_motions(system, u), smooth="jacobi", presmoother=SMOOTHER, postsmoother=SMOOTHER
         )
-        blocks = system.share * model.tangent_blocks(u)
-        blocks += model.mass.diagonal()[:, None, None] * np.eye(free.shape[1])
         gradients = Gradients(matrix.dot, _Cycle(levels.aspreconditioner()), self.tolerance, self.limit)
-        return Made(factor=gradients, local=blocks_inverted(blocks, free), analysis=None, price=10.0)
+        return Made(factor=gradients, local=nodal(system, u), analysis=None, price=10.0)
 
 
 SMOOTHER = ("block_gauss_seidel", {"sweep": "symmetric"})

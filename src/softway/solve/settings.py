@@ -1,0 +1,29 @@
+"""What the settings of iterations have in common."""
+
+from softway.errors import InputError
+
+
+def check_accuracy(tolerance: float, limit: int) -> None:
+    """Refuse a change of iterates that cannot be reached or means nothing, and no iteration at all.
+
+    Examples
+    --------
+    >>> check_accuracy(1e-11, 60)
+    """
+    if not 0.0 < tolerance < 1e-2:
+        raise InputError("tolerance", f"{tolerance:g}", "a number between 1e-14 and 1e-2")
+    if limit < 1:
+        raise InputError("limit", f"{limit} iterations", "at least 1")
+
+
+def check_products(tolerance: float, limit: int) -> None:
+    """Refuse an operator by conjugate gradients that does not reduce its residual, and no product at all.
+
+    Examples
+    --------
+    >>> check_products(1e-2, 500)
+    """
+    if not 0.0 < tolerance < 1.0:
+        raise InputError("tolerance", f"{tolerance:g}", "a number between 0 and 1")
+    if limit < 1:
+        raise InputError("limit", f"{limit} products", "at least 1")
