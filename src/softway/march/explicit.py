@@ -20,12 +20,12 @@ from softway.march.outcome import Outcome
 from softway.march.situation import Situation
 from softway.model import Model
 from softway.solve.carry import Carry
+from softway.solve.correction import corrected
 from softway.solve.driver import Iterate, Solution
 from softway.solve.explicit import Explicit
 from softway.solve.frozen import Frozen
 from softway.solve.inertia import Inertia, inertia
 from softway.solve.linear import Factor, SuperLU
-from softway.solve.normal import constrain
 from softway.solve.system import Evaluation, SlabSystem
 from softway.time.slab import Slab
 from softway.typing import Array, BoolArray, IntArray
@@ -89,8 +89,7 @@ def _settled(
     system: SlabSystem, central: Central, q: Array, impulse: Array, carry: Carry, method: Explicit
 ) -> tuple[Iterate, int]:
     """The last iterate of the contact nodes on their way to equilibrium, and how many there were."""
-    model, active = system.model, impulse != 0.0
-    keep, given, scale = model.free, system.filled(), float(np.abs(q).max(initial=1e-300))
+    active, scale = impulse != 0.0, float(np.abs(q).max(initial=1e-300))
     carry = _prepared(system, central, system.path.end(q), carry)
     frozen, predicted = carry.frozen, q
     assert frozen is not None
@@ -99,12 +98,9 @@ def _settled(
         system = system.steadied(end.displacement, count)
         if not np.isfinite(end.residual).all():
             break
-        rows, conditions = system.conditions(q, end, frozen)
-        free = q[keep] - frozen.solve(end.residual[keep] - frozen.push(rows.spread(impulse)))
-        solved, impulse, active = constrain(free, frozen, rows, conditions, active, impulse)
-        new = given.copy()
-        new[keep] = solved
-        change, q = float(np.abs(new - q).max(initial=0.0)), new
+        step = corrected(system, frozen, q, end, impulse, active)
+        change = float(np.abs(step.q - q).max(initial=0.0))
+        q, impulse, active = step.q, step.impulse, step.active
         if change <= method.tolerance * scale:
             it = Iterate(
                 q=q,

@@ -10,10 +10,11 @@ import numpy as np
 from softway.errors import InputError
 from softway.solve.anderson import Anderson
 from softway.solve.carry import Carry
+from softway.solve.correction import corrected
 from softway.solve.driver import Iterate, lost
 from softway.solve.frozen import Frozen
 from softway.solve.newton import Newton
-from softway.solve.normal import constrain, untouched
+from softway.solve.normal import untouched
 from softway.solve.operators import Factored, MatrixFree, Multigrid
 from softway.solve.prepared import prepared
 from softway.solve.settings import check_accuracy
@@ -99,20 +100,16 @@ class FixedPoint:
             if not np.isfinite(end.residual[keep]).all():
                 yield lost(q, active, carry, system)
                 return
-            rows, conditions = system.conditions(q, end, frozen)
-            free = q[keep] - frozen.solve(end.residual[keep] - frozen.push(rows.spread(impulse)))
-            solved, pressed, now = constrain(free, frozen, rows, conditions, active, impulse)
+            step = corrected(system, frozen, q, end, impulse, active)
             if count == 0:
-                plain = rows.along(untouched(free, frozen, rows.spread(impulse)))
-            new = system.filled()
-            new[keep] = solved
-            change = float(np.abs(new - q).max(initial=0.0))
-            sound, completed = _looked_at(system, new, change)
+                plain = step.rows.along(untouched(step.free, frozen, step.rows.spread(impulse)))
+            change = float(np.abs(step.q - q).max(initial=0.0))
+            sound, completed = _looked_at(system, step.q, change)
             yield Iterate(
-                q=new,
+                q=step.q,
                 change=change,
-                impulse=pressed,
-                active=now,
+                impulse=step.impulse,
+                active=step.active,
                 free=plain,
                 carry=carry,
                 system=system,
@@ -120,11 +117,11 @@ class FixedPoint:
             )
             system = completed
             stuck = stuck + 1 if change > 0.99 * last else 0
-            if (now != active).any() or stuck >= 2:
+            if (step.active != active).any() or stuck >= 2:
                 mixing.accelerator.restart()
                 stuck = 0
-            last, active, before, q = change, now, q[keep], q.copy()
-            q[keep], impulse = mixing.mixed((before, impulse), (solved, pressed))
+            last, active, before, q = change, step.active, q[keep], q.copy()
+            q[keep], impulse = mixing.mixed((before, impulse), (step.q[keep], step.impulse))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

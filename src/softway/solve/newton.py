@@ -8,9 +8,10 @@ from typing import Literal
 import numpy as np
 
 from softway.solve.carry import Carry
+from softway.solve.correction import corrected
 from softway.solve.driver import Iterate, lost
 from softway.solve.frozen import Frozen
-from softway.solve.normal import constrain, untouched
+from softway.solve.normal import untouched
 from softway.solve.operators.factored import Factored
 from softway.solve.settings import check_accuracy
 from softway.solve.system import Evaluation, SlabSystem
@@ -60,7 +61,6 @@ class Newton:
         self, system: SlabSystem, q: Array, carry: Carry, impulse: Array, active: BoolArray
     ) -> Iterator[Iterate]:
         """Iterates from q (n, d), with first impulses (m,) and active rows (m,) of the contact."""
-        keep = system.model.free
         end = system.evaluate(q, impulse)
         for count in itertools.count():
             system = system.steadied(end.displacement, count)
@@ -71,24 +71,20 @@ class Newton:
                 carry = self._renewed(system, carry, end)
             frozen = carry.frozen
             assert frozen is not None
-            rows, conditions = system.conditions(q, end, frozen)
-            free = q[keep] - frozen.solve(end.residual[keep] - frozen.push(rows.spread(impulse)))
-            solved, pressed, active = constrain(free, frozen, rows, conditions, active, impulse)
-            new = system.filled()
-            new[keep] = solved
-            step = new - q
-            q, end = self._searched(system, q, step, pressed, frozen)
+            found = corrected(system, frozen, q, end, impulse, active)
+            step, active = found.q - q, found.active
+            q, end = self._searched(system, q, step, found.impulse, frozen)
             yield Iterate(
                 q=q,
                 change=float(np.abs(step).max(initial=0.0)),
-                impulse=pressed,
+                impulse=found.impulse,
                 active=active,
-                free=rows.along(untouched(free, frozen, rows.spread(impulse))),
+                free=found.rows.along(untouched(found.free, frozen, found.rows.spread(impulse))),
                 carry=carry,
                 system=system,
                 sound=True,
             )
-            impulse = pressed
+            impulse = found.impulse
 
     def _renewed(self, system: SlabSystem, carry: Carry, end: Evaluation) -> Carry:
         """The carry with the operator at the end of the slab; later slabs may go on with it."""
