@@ -12,7 +12,10 @@ from softway.contact.contact import Contact, DualMortar, NodeToSurface
 from softway.contact.timing import Energy, Impulse, Paper
 from softway.errors import InputError, NumericsError, SoftwayError
 from softway.execute import run
-from softway.laws.bulk import LinearElastic, NeoHookean, StVenantKirchhoff
+from softway.laws.bulk import J2, Hypoelastic, Kelvin, LinearElastic, Maxwell, NeoHookean, NortonHoff, StVenantKirchhoff
+from softway.laws.flow import JohnsonCook, NortonFlow, Perzyna, RateIndependent
+from softway.laws.hardening import LinearHardening, PowerHardening, Voce
+from softway.laws.rates import GreenNaghdi, Jaumann, Logarithmic, Truesdell
 from softway.march.control import StepControl
 from softway.march.march import march
 from softway.march.step import Certificate, Event, Ledger, Step
@@ -35,6 +38,7 @@ from softway.space.sources import Ball, Box, Cylinder, Disc, Interval, MeshFile,
 from softway.time.weight import Collocation, EndPeaks, Momentum
 
 __all__ = [
+    "J2",
     "Affine",
     "AsGiven",
     "AverageField",
@@ -64,14 +68,22 @@ __all__ = [
     "Fixed",
     "FixedPoint",
     "Gravity",
+    "GreenNaghdi",
     "HalfSpace",
+    "Hypoelastic",
     "Impulse",
     "InputError",
     "Interval",
+    "Jaumann",
+    "JohnsonCook",
+    "Kelvin",
     "Ledger",
     "LinearElastic",
+    "LinearHardening",
+    "Logarithmic",
     "Lumped",
     "MatrixFree",
+    "Maxwell",
     "Mesh",
     "MeshFile",
     "Momentum",
@@ -79,15 +91,20 @@ __all__ = [
     "NeoHookean",
     "Newton",
     "NodeToSurface",
+    "NortonFlow",
+    "NortonHoff",
     "NumericsError",
     "OnTag",
     "Output",
     "Paper",
+    "Perzyna",
     "Placement",
     "PlaneStrain",
     "PlaneStress",
+    "PowerHardening",
     "Probe",
     "Profile",
+    "RateIndependent",
     "Rectangle",
     "RigidCylinder",
     "Roller",
@@ -112,8 +129,10 @@ __all__ = [
     "Torus",
     "Traction",
     "Translation",
+    "Truesdell",
     "Turning",
     "Uniform",
+    "Voce",
     "Volume",
     "Weighted",
     "build",

@@ -6,8 +6,9 @@ from pathlib import Path
 from softway.errors import InputError
 from softway.march.begin import begin
 from softway.march.ledger import opening as audit
-from softway.march.march import march
+from softway.march.march import march, proposed
 from softway.march.situation import parted
+from softway.model import Model
 from softway.record.conduct import Place, Progress, conduct
 from softway.record.probes import readings
 from softway.record.recorder import Opening
@@ -15,6 +16,8 @@ from softway.record.run import Run
 from softway.scenario.check import Checked, check
 from softway.scenario.codec import resolved
 from softway.scenario.scenario import Scenario
+from softway.scene import State
+from softway.typing import Array
 
 FRAMES = 100
 """Number of stored fields when the scenario leaves it open."""
@@ -52,12 +55,12 @@ def run(
     checked = scenario if isinstance(scenario, Checked) else check(scenario)
     given = checked.scenario
     model = checked.model
-    start = begin(model)
+    start = begin(model, proposed(model, checked.step, given.time.weight, given.time.end, given.solver))
     initial, met = parted(model, start), model.encounters
     opening = Opening(
         scene=model.scene,
         meshes=model.meshes,
-        stresses={name: partial(model.stress, name) for name in model.meshes},
+        stresses={name: partial(_stress, model, name) for name in model.meshes},
         touching={label: met.node[met.of(k)] for k, label in enumerate(met.labels)},
         initial=initial,
         ledger=audit(model, start),
@@ -76,6 +79,11 @@ def run(
         control=time.control,
     )
     return conduct(steps, opening, place, title=given.title, scenario=_text(given), progress=progress)
+
+
+def _stress(model: Model, name: str, state: State) -> Array:
+    """Mean Cauchy stress (cells, 3, 3) of a solid [Pa]."""
+    return model.stress(name, state.displacement[name], state.memory.get(name))
 
 
 def _every(scenario: Scenario) -> float:

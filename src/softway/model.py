@@ -1,14 +1,16 @@
 """Model: a scene turned into arrays, once, before the march."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
 
 from softway.bodies.dead_load import dead_load
 from softway.bodies.mass import following, nodal_mass
+from softway.bodies.memory import Memory
 from softway.bodies.part import Part, held_components, initial, part_of
+from softway.bodies.past import Memories, during, remembered_stress, remembering
 from softway.bodies.redistribution import redistributed
 from softway.bodies.section import wave_speed
 from softway.bodies.solid import Driven, Solid
@@ -115,9 +117,13 @@ class Model:
         """Whether every solid's force is linear in the displacement."""
         return all(p.internal.linear for p in self.parts)
 
-    def stress(self, name: str, u: Array) -> Array:
-        """Mean Cauchy stress (cells, 3, 3) of the solid ``name`` at its displacement ``u`` [Pa]."""
-        return next(p for p in self.parts if p.name == name).internal.stress(u)
+    def stress(self, name: str, u: Array, memory: Memory | None = None) -> Array:
+        """Mean Cauchy stress (cells, 3, 3) of the solid ``name`` at its displacement ``u`` [Pa], or of its memory."""
+        return remembered_stress(next(p for p in self.parts if p.name == name), u, memory)
+
+    def during(self, memory: Memories, span: float) -> "Model":
+        """The model in a slab of length ``span`` [s]: bodies with a memory answer from it."""
+        return replace(self, parts=during(self.parts, memory, span)) if remembering(self.parts) else self
 
     def split(self, field: Array) -> dict[str, Array]:
         """The field of each solid by name."""
@@ -256,7 +262,7 @@ def _timing(scene: Scene) -> Timing:
 
 def _floor(part: Part) -> float:
     speed = wave_speed(part.internal.material, part.density, part.internal.section)
-    return float(1e-28 * part.density * speed**2 * part.internal.volume.sum())
+    return float(1e-28 * part.density * speed**2 * part.internal.sampling.volume.sum())
 
 
 def _mass(part: Part, solid: Solid, candidates: IntArray, spread: int) -> sp.csr_array:

@@ -1,9 +1,10 @@
 """Scene (what there is) and State (how it stands at one time)."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from softway.bodies.loads import Load
+from softway.bodies.memory import Memory
 from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact
 from softway.typing import Array, BoolArray
@@ -74,6 +75,8 @@ class State:
         Contact name -> (c,) which candidate nodes touch.
     pressure
         Contact name -> (c,) normal force of the obstacle on each candidate node, >= 0 [N].
+    memory
+        Body name -> past of the solids whose law has a history.
     """
 
     time: float
@@ -82,3 +85,4 @@ class State:
     acceleration: Mapping[str, Array]
     closed: Mapping[str, BoolArray]
     pressure: Mapping[str, Array]
+    memory: Mapping[str, Memory] = field(default_factory=dict)

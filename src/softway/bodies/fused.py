@@ -6,13 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csc_array
 
+from softway.bodies.cells import Cells
 from softway.bodies.section import Axisymmetric, PlaneStrain, Section, Volume
 from softway.kernels import fused
 from softway.kernels.gather import Assembler
 from softway.kernels.parts import Parts, not_first, own_rows, parts
 from softway.kernels.threads import share
 from softway.laws.compiled import CompiledLaw
-from softway.space.element import Element
 from softway.typing import Array, IntArray
 
 FUSED_SECTIONS = (Volume, PlaneStrain, Axisymmetric)
@@ -126,18 +126,6 @@ class Fused:
         if len(self.extra):
             fused.fold(self.extra, n, out)
         return out[:n]
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Cells:
-    """Cells of one kind as the mesh has them: ``element``, ``nodes`` (e, a), their places ``corners`` (e, a, d) [m] and
-    the ``volume`` (e, q) [m^3] of the points.
-    """
-
-    element: Element
-    nodes: IntArray
-    corners: Array
-    volume: Array
 
 
 def fused_force(law: CompiledLaw, section: Section, kinds: list[Cells], pattern: Assembler, n: int) -> Fused:

@@ -1,47 +1,99 @@
 """The cells around some nodes: forces on these nodes without those of the rest of the body."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from softway.bodies.internal import InternalForce, internal_force
-from softway.bodies.part import Part
+from softway.bodies.internal import InternalForce
+from softway.bodies.part import Part, force_of
+from softway.bodies.rate_force import RateForce
 from softway.space.mesh import Mesh
 from softway.typing import Array, BoolArray, IntArray
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Layer:
-    """Internal forces of the cells that have one of the chosen nodes: complete on those nodes.
+class Piece:
+    """The cells of one body that have a chosen node.
 
-    ``pieces`` are the nodes (k,) of a body that these cells have, their internal force, and which of them are chosen.
+    Parameters
+    ----------
+    part
+        Number of the body.
+    nodes, own
+        (k,) their nodes in the model, and in the body.
+    points
+        Numbers of their points in the body.
+    internal
+        Their internal force.
+    chosen
+        (k,) which of the nodes are chosen.
     """
 
-    pieces: tuple[tuple[IntArray, InternalForce, BoolArray], ...]
+    part: int
+    nodes: IntArray
+    own: IntArray
+    points: IntArray
+    internal: InternalForce | RateForce
+    chosen: BoolArray
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Layer:
+    """Internal forces of the cells that have one of the chosen nodes: complete on those nodes."""
+
+    pieces: tuple[Piece, ...]
+
+    def during(self, parts: Sequence[Part]) -> "Layer":
+        """The layer in the slab in which the bodies stand."""
+        return Layer(pieces=tuple(_during(piece, parts[piece.part].internal) for piece in self.pieces))
 
     def force(self, u: Array) -> Array:
         """Internal force (n, d) on the chosen nodes, zero on all others [N]."""
         out = np.zeros_like(u)
-        for nodes, internal, chosen in self.pieces:
-            out[nodes[chosen]] = internal.force(u[nodes])[chosen]
+        for piece in self.pieces:
+            out[piece.nodes[piece.chosen]] = piece.internal.force(u[piece.nodes])[piece.chosen]
         return out
 
 
 def layer(parts: Sequence[Part], chosen: BoolArray) -> Layer:
     """The :class:`Layer` around the ``chosen`` nodes (n,) of some bodies."""
-    pieces = []
-    for part in parts:
-        own = chosen[part.rows]
-        blocks = {kind: cells[own[cells].any(axis=1)] for kind, cells in part.mesh.blocks.items()}
-        blocks = {kind: cells for kind, cells in blocks.items() if len(cells)}
-        if not blocks:
-            continue
-        nodes = np.unique(np.concatenate([cells.ravel() for cells in blocks.values()]))
-        mesh = Mesh(
-            points=part.mesh.points[nodes],
-            blocks={kind: np.searchsorted(nodes, cells) for kind, cells in blocks.items()},
-        )
-        internal = internal_force(mesh, part.internal.material, part.internal.section)
-        pieces.append((nodes + part.rows.start, internal, own[nodes]))
-    return Layer(pieces=tuple(pieces))
+    pieces = [_piece(k, part, chosen[part.rows]) for k, part in enumerate(parts)]
+    return Layer(pieces=tuple(piece for piece in pieces if piece is not None))
+
+
+def _piece(number: int, part: Part, own: BoolArray) -> Piece | None:
+    kept = {kind: np.flatnonzero(own[cells].any(axis=1)) for kind, cells in part.mesh.blocks.items()}
+    blocks = {kind: part.mesh.blocks[kind][k] for kind, k in kept.items() if len(k)}
+    if not blocks:
+        return None
+    nodes = np.unique(np.concatenate([cells.ravel() for cells in blocks.values()]))
+    mesh = Mesh(
+        points=part.mesh.points[nodes],
+        blocks={kind: np.searchsorted(nodes, cells) for kind, cells in blocks.items()},
+    )
+    old = part.internal
+    return Piece(
+        part=number,
+        nodes=nodes + part.rows.start,
+        own=nodes,
+        points=_points(old, list(kept.values())),
+        internal=force_of(mesh, old.material, old.section, "mean" if old.sampling.dilatation else "point"),
+        chosen=own[nodes],
+    )
+
+
+def _points(internal: InternalForce | RateForce, kept: list[IntArray]) -> IntArray:
+    """Numbers of the points of the kept cells of each kind."""
+    out, start = [], 0
+    for table, cells in zip(internal.sampling.rows, kept, strict=True):
+        e, q = table.shape[:2]
+        out.append((start + cells[:, None] * q + np.arange(q)).ravel())
+        start += e * q
+    return np.concatenate(out)
+
+
+def _during(piece: Piece, body: InternalForce | RateForce) -> Piece:
+    if not isinstance(piece.internal, RateForce) or not isinstance(body, RateForce):
+        return piece
+    return replace(piece, internal=piece.internal.during(body.memory.part(piece.own, piece.points), body.span))

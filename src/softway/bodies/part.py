@@ -1,15 +1,19 @@
 """One solid as arrays: its mesh in place, its internal force, its supports and initial fields."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from softway.bodies.cells import Dilatation
 from softway.bodies.fields import sample
 from softway.bodies.force import SlabForce
 from softway.bodies.internal import InternalForce, internal_force
-from softway.bodies.section import default_section
+from softway.bodies.memory import Memory
+from softway.bodies.rate_force import RateForce, rate_force
+from softway.bodies.section import Section, default_section
 from softway.bodies.solid import Solid, Support
 from softway.errors import InputError, within
+from softway.laws.law import Material, RateLaw
 from softway.space.mesh import Mesh
 from softway.typing import Array, BoolArray
 
@@ -21,9 +25,15 @@ class Part:
     name: str
     mesh: Mesh
     rows: slice
-    internal: InternalForce
+    internal: InternalForce | RateForce
     density: float
     average: SlabForce
+
+    def during(self, memory: Memory | None, span: float) -> "Part":
+        """The solid in a slab of length ``span`` [s] that it meets with a memory."""
+        if memory is None or not isinstance(self.internal, RateForce):
+            return self
+        return replace(self, internal=self.internal.during(memory, span))
 
 
 def part_of(name: str, solid: Solid, first: int) -> Part:
@@ -33,9 +43,16 @@ def part_of(name: str, solid: Solid, first: int) -> Part:
     with within("place"):
         mesh = solid.place.applied(mesh)
     section = default_section(mesh) if solid.section is None else solid.section
-    internal = internal_force(mesh, solid.material, section)
+    internal = force_of(mesh, solid.material, section, solid.dilatation)
     rows = slice(first, first + mesh.n_nodes)
     return Part(name=name, mesh=mesh, rows=rows, internal=internal, density=solid.density, average=solid.force)
+
+
+def force_of(mesh: Mesh, material: Material, section: Section, dilatation: Dilatation) -> InternalForce | RateForce:
+    """The internal force of a body, by what its law is."""
+    if isinstance(material, RateLaw):
+        return rate_force(mesh, material, section, dilatation)
+    return internal_force(mesh, material, section, dilatation)
 
 
 def initial(part: Part, solid: Solid) -> tuple[Array, Array, BoolArray]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from softway.errors import InputError
 from softway.laws.lateral import condensed
-from softway.laws.law import StoredEnergy
+from softway.laws.law import Material, initial_moduli
 from softway.space.mesh import Mesh
 from softway.typing import Array
 from softway.units import Metre, SquareMetre
@@ -209,7 +209,7 @@ def row_moduli(section: Section, D: Array) -> Array:
             return D
 
 
-def wave_speed(material: StoredEnergy, density: float, section: Section) -> float:
+def wave_speed(material: Material, density: float, section: Section) -> float:
     """Speed of the fastest small wave along the cell [m/s].
 
     ``sqrt(E/rho)`` in a bar, ``sqrt(E/((1 - nu^2) rho))`` in a plate, ``sqrt((lambda + 2 mu)/rho)`` otherwise.
@@ -222,7 +222,7 @@ def wave_speed(material: StoredEnergy, density: float, section: Section) -> floa
     (2.0, 2.309401)
     """
     free = free_axes(section)
-    moduli = condensed(material.tangent(np.zeros((3, 3))), 3 - len(free), free)
+    moduli = condensed(initial_moduli(material), 3 - len(free), free)
     return sqrt(float(moduli[0, 0, 0, 0]) / density)
 
 

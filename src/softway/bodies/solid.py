@@ -5,14 +5,15 @@ from typing import Annotated
 
 import numpy as np
 
+from softway.bodies.cells import Dilatation
 from softway.bodies.fields import Field, Uniform
-from softway.bodies.force import EnergyMomentum, SlabForce, Weighted
+from softway.bodies.force import AverageField, DiscreteGradient, EnergyMomentum, SlabForce, Weighted
 from softway.bodies.mass import Consistent, MassRule
 from softway.bodies.motion import Motion, Placed, Still
 from softway.bodies.placement import Placement
 from softway.bodies.section import Axisymmetric, Section
 from softway.errors import InputError
-from softway.laws.law import StoredEnergy
+from softway.laws.law import Material, RateLaw
 from softway.space.curved import Shape
 from softway.space.mesh import Mesh
 from softway.space.sources import MeshSource
@@ -82,7 +83,7 @@ class Solid:
     mesh
         A mesh, or the recipe of one.
     material
-        A law with a stored energy.
+        A law with a stored energy, or one with a history.
     density
         Mass per reference volume [kg/m^3], positive.
     section
@@ -95,12 +96,15 @@ class Solid:
         Nodes that are held or driven.
     force
         How the internal force is averaged over a slab.
+    dilatation
+        ``point``: the change of volume at each point of a cell; ``mean``: its mean over the cell, so that matter that
+        keeps its volume does not lock.
     place
         How the mesh is turned and moved into the scene.
     """
 
     mesh: MeshSource | Mesh
-    material: StoredEnergy
+    material: Material
     density: KilogramPerCubicMetre
     section: Section | None = None
     mass: MassRule = Consistent()
@@ -108,12 +112,18 @@ class Solid:
     displacement: Annotated[Field, "m"] = Uniform()
     supports: tuple[Support, ...] = ()
     force: SlabForce = Weighted()
+    dilatation: Dilatation = "point"
     place: Placement = Placement()
 
     def __post_init__(self) -> None:
         if isinstance(self.force, EnergyMomentum) and isinstance(self.section, Axisymmetric):
             problem = "EnergyMomentum of a body of revolution, which has no angular momentum in its section"
             raise InputError("force", problem, "Weighted")
+        if isinstance(self.force, AverageField | DiscreteGradient) and isinstance(self.material, RateLaw):
+            problem = f"{type(self.force).__name__} of {type(self.material).__name__}, which has no stored energy"
+            raise InputError("force", problem, "Weighted or EnergyMomentum")
+        if isinstance(self.force, DiscreteGradient) and self.dilatation == "mean":
+            raise InputError("force", "DiscreteGradient is taken point by point", 'dilatation = "point", or Weighted')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,11 +1,17 @@
-"""What a hyperelastic law must say about itself."""
+"""What a law must say about itself: one that stores energy, and one with a history."""
 
-from typing import Protocol
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
+
+import numpy as np
 
 from softway.laws.measure import Measure
+from softway.laws.rates import Rate
 from softway.typing import Array
 
 
+@runtime_checkable
 class StoredEnergy(Protocol):
     """A material that stores energy per reference volume, ``W(E)``.
 
@@ -45,3 +51,93 @@ class StoredEnergy(Protocol):
     def youngs(self) -> float:
         """Young's modulus of the undeformed material [Pa]."""
         ...
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Increment:
+    """What happens to matter in one slab, in axes that are carried along with it; any leading axes.
+
+    Parameters
+    ----------
+    stress
+        (..., 3, 3) Cauchy stress at the start [Pa].
+    memory
+        What the law remembers from the start, by the names of :meth:`RateLaw.virgin`.
+    strain
+        (..., 3, 3) increment of the strain: the rate of deformation times the length of the slab.
+    span
+        Length of the slab [s].
+    """
+
+    stress: Array
+    memory: Mapping[str, Array]
+    strain: Array
+    span: float
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Response:
+    """What matter answers to an :class:`Increment`.
+
+    Parameters
+    ----------
+    stress
+        (..., 3, 3) Cauchy stress at the end [Pa].
+    memory
+        What the law remembers from then on.
+    stored, dissipated
+        (...,) energies per present volume taken up in the slab [J/m^3]; what is dissipated is never negative.
+    viscous
+        (..., 3, 3) part of the stress that is made by the mean rate of the slab [Pa]; None where there is none.
+    """
+
+    stress: Array
+    memory: Mapping[str, Array]
+    stored: Array
+    dissipated: Array
+    viscous: Array | None = None
+
+
+@runtime_checkable
+class RateLaw(Protocol):
+    """A material with a history, written in axes that are carried along: the strain of a slab in, the stress out.
+
+    A law sees components in the axes of its ``rate``, never a rotation: stresses and every (..., 3, 3) array of its
+    memory are brought into these axes before it is asked, and carried on afterwards.  Methods work on trailing axes.
+    """
+
+    @property
+    def rate(self) -> Rate:
+        """The objective rate."""
+        ...
+
+    def virgin(self, points: int) -> Mapping[str, Array]:
+        """What matter remembers before anything happened: arrays (points, ...) by name."""
+        ...
+
+    def respond(self, increment: Increment) -> Response:
+        """Stress at the end of the slab, memory, and energies."""
+        ...
+
+    def moduli(self, increment: Increment) -> Array:
+        """Derivative of the stress at the end to the strain of the slab, (..., 3, 3, 3, 3) [Pa], minor symmetry."""
+        ...
+
+    def elastic_moduli(self) -> Array:
+        """Moduli (3, 3, 3, 3) that the fastest waves meet [Pa]."""
+        ...
+
+
+Material = StoredEnergy | RateLaw
+
+
+def initial_moduli(material: Material) -> Array:
+    """Moduli (3, 3, 3, 3) of the first small strain [Pa].
+
+    Examples
+    --------
+    >>> from softway.laws.bulk import LinearElastic
+    >>> float(initial_moduli(LinearElastic(E=1.0))[0, 0, 0, 0])
+    1.0
+    """
+    return material.elastic_moduli() if isinstance(material, RateLaw) else material.tangent(np.zeros((3, 3)))

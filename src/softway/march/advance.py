@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softway.bodies import past
 from softway.contact.fig4 import Split
 from softway.contact.located import LocatedMean, located_mean
 from softway.contact.timing import Energy, Paper
@@ -83,25 +84,40 @@ def advance(
     NoConvergence, TooFast, Unbalanced
         If the method does not settle, the slab is too long for the approach, or the energy balance cannot be closed.
     """
+    model = rule.model.during(now.start.memory, slab.span)
     match rule.method:
         case Explicit() as method:
             assert rule.central is not None
-            out, carry = solve_explicit(rule.model, now, slab, carry, method, rule.central, approach)
+            out, carry = solve_explicit(model, now, slab, carry, method, rule.central, approach)
         case method if rule.inertia is None:
-            out, carry = solve_massless(rule.model, now, slab, carry, method, rule.located, approach, fallback)
+            out, carry = solve_massless(model, now, slab, carry, method, rule.located, approach, fallback)
         case method:
-            out, carry = solve_carrying(rule.model, now, slab, carry, method, rule.inertia, approach, rule.split)
+            out, carry = solve_carrying(model, now, slab, carry, method, rule.inertia, approach, rule.split)
     end = out.solution.end
     if end.clipped:
         raise Unbalanced("the scalar that closes the energy balance leaves [-1/2, 1/2]")
     after = Situation(
         time=slab.end,
-        start=Start(displacement=end.displacement, velocity=out.velocity, force=end.force, energy=end.energy),
+        start=_arrived(model, out),
         acceleration=out.acceleration,
         closed=out.closed,
         pressure=out.pressure,
     )
     return after, out, carry
+
+
+def _arrived(model: Model, out: Outcome) -> Start:
+    """What the slab after starts from."""
+    end = out.solution.end
+    memory = past.settled(model.parts, end.displacement)
+    return Start(
+        displacement=end.displacement,
+        velocity=out.velocity,
+        force=end.force,
+        energy=past.stored(model.parts, memory, end.energy),
+        memory=memory,
+        viscous=past.viscous_force(model.parts, end.displacement),
+    )
 
 
 def split_elements(model: Model) -> Split:

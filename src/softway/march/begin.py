@@ -4,6 +4,7 @@ import logging
 
 import numpy as np
 
+from softway.bodies import past
 from softway.bodies.dead_load import dead_load
 from softway.bodies.rigid_motions import free_motions
 from softway.bodies.section import Axisymmetric
@@ -23,14 +24,16 @@ OVERLAP = 1e-12
 """Depth inside an obstacle, relative to the coordinates, that counts as touching: rounding."""
 
 
-def begin(model: Model) -> Situation:
-    """The situation at t = 0.
+def begin(model: Model, span: float = 1.0) -> Situation:
+    """The situation at t = 0; matter with a history has come to its initial displacement in one slab of length
+    ``span`` [s].
 
     Raises
     ------
     InputError
         If a body overlaps an obstacle (named with the depth), or a static start leaves rigid motions free.
     """
+    model = model.during((), span)
     u, pressure = model.displacement, np.zeros(len(model.encounters.contact))
     require_apart(model, u)
     start, loads = model.scene.start, model.load
@@ -48,9 +51,17 @@ def begin(model: Model) -> Situation:
         after = float(model.energy_and_force(u)[0].sum())
         log.info("relaxing the contact nodes at the start releases %.3g J of %.3g J", before - after, before)
     energy, force = model.energy_and_force(u)
+    memory = past.settled(model.parts, u)
     return Situation(
         time=0.0,
-        start=Start(displacement=u, velocity=model.velocity + model.prescribed(0.0), force=force, energy=energy),
+        start=Start(
+            displacement=u,
+            velocity=model.velocity + model.prescribed(0.0),
+            force=force,
+            energy=past.stored(model.parts, memory, energy),
+            memory=memory,
+            viscous=past.viscous_force(model.parts, u),
+        ),
         acceleration=np.zeros(model.shape),
         closed=pressure > 0.0,
         pressure=pressure,

@@ -75,6 +75,7 @@ def solve_explicit(
     pairs = model.encounters.meet(start.displacement, coasting, slab.start, slab.end)
     require_slow(model, pairs, coasting, approach)
     system = replace(equations(model, now, slab, pairs, None), balanced=False)
+    central = replace(central, layer=central.layer.during(model.parts))
     q = np.where(model.free, np.where(model.massive[:, None], moving, 2.0 * start.velocity), system.given)
     it, count = _settled(system, central, q, 0.5 * h * now.pressure, carry, method)
     end = _evaluated(system, it)

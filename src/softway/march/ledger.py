@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from softway.bodies import past
 from softway.bodies.section import Axisymmetric
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation
@@ -59,6 +60,7 @@ def audited(model: Model, initial: Ledger, last: Ledger, before: Situation, out:
     moved = after.start.displacement - before.start.displacement
     work = last.work_external + float(np.sum(model.load * moved)) + out.work
     lost = last.dissipation + out.dissipation
+    lost += past.dissipated(model.parts, after.start.memory) - past.dissipated(model.parts, before.start.memory)
     kinetic = float(model.kinetic(after.start.velocity).sum())
     strain = float(after.start.energy.sum())
     first = initial.energy_kinetic + initial.energy_strain

@@ -86,9 +86,9 @@ def march(
     True
     """
     model = scene if isinstance(scene, Model) else build(scene)
-    now = begin(model) if state is None else joined(model, state)
+    span = proposed(model, step, weight, until - (0.0 if state is None else state.time), method)
+    now = begin(model, span) if state is None else joined(model, state)
     prepared = rule(model, method, weight)
-    span = proposed(model, step, weight, until - now.time, method)
     require_stable(model, now.start.displacement, method if isinstance(method, Explicit) else weight, span)
     return _steps(prepared, now, until, span, weight, control)
 

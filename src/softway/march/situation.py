@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softway.bodies import past
 from softway.errors import InputError
 from softway.model import Model
 from softway.scene import State
@@ -39,11 +40,19 @@ def joined(model: Model, state: State) -> Situation:
     if ours != theirs or set(state.closed) != set(model.encounters.labels):
         raise InputError("state", f"bodies {theirs} and contacts {sorted(state.closed)}", f"a state of {ours}")
     u = model.join(state.displacement)
-    energy, force = model.energy_and_force(u)
+    memory = tuple(state.memory.get(p.name) for p in model.parts)
+    energy, force, viscous = past.remembered(model.parts, memory, u)
     labels = model.encounters.labels
     return Situation(
         time=state.time,
-        start=Start(displacement=u, velocity=model.join(state.velocity), force=force, energy=energy),
+        start=Start(
+            displacement=u,
+            velocity=model.join(state.velocity),
+            force=force,
+            energy=energy,
+            memory=memory,
+            viscous=viscous,
+        ),
         acceleration=model.join(state.acceleration),
         closed=np.concatenate([state.closed[n] for n in labels]) if labels else np.zeros(0, bool),
         pressure=np.concatenate([state.pressure[n] for n in labels]) if labels else np.zeros(0),
@@ -64,4 +73,5 @@ def parted(model: Model, situation: Situation) -> State:
         acceleration=model.split(situation.acceleration),
         closed={n: situation.closed[rows.of(k)] for k, n in enumerate(rows.labels)},
         pressure={n: situation.pressure[rows.of(k)] for k, n in enumerate(rows.labels)},
+        memory={p.name: m for p, m in zip(model.parts, situation.start.memory, strict=False) if m is not None},
     )

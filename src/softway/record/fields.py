@@ -62,7 +62,7 @@ def open_fields(folder: Path, opening: Opening) -> Frames:
 
 
 def _frame(cells: Layout, opening: Opening, state: State) -> dict[str, dict[str, Array]]:
-    stress = np.concatenate([opening.stresses[name](state.displacement[name]) for name in cells.names])
+    stress = np.concatenate([opening.stresses[name](state) for name in cells.names])
     return {
         "PointData": {
             "displacement": cells.nodal(state.displacement),

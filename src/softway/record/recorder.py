@@ -23,7 +23,7 @@ class Opening:
     meshes
         Mesh of each solid.
     stresses
-        Solid -> function from displacements (n, d) [m] to the mean Cauchy stress of its cells (e, 3, 3) [Pa].
+        Solid -> function from a state to the mean Cauchy stress of its cells (e, 3, 3) [Pa].
     touching
         Contact -> (m,) slave node of each of its rows, numbered over all solids in order.
     initial, ledger
@@ -38,7 +38,7 @@ class Opening:
 
     scene: Scene
     meshes: Mapping[str, Mesh]
-    stresses: Mapping[str, Callable[[Array], Array]]
+    stresses: Mapping[str, Callable[[State], Array]]
     touching: Mapping[str, IntArray]
     initial: State
     ledger: Ledger

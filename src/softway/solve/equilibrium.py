@@ -77,9 +77,9 @@ def _nodal_volume(model: Model) -> Array:
     for part in model.parts:
         internal = part.internal
         start = 0
-        for cells, table in zip(part.mesh.blocks.values(), internal.plain.rows, strict=True):
+        for cells, table in zip(part.mesh.blocks.values(), internal.sampling.rows, strict=True):
             e, q = table.shape[:2]
-            share = internal.volume[start : start + e * q].reshape(e, q).sum(axis=1) / cells.shape[1]
+            share = internal.sampling.volume[start : start + e * q].reshape(e, q).sum(axis=1) / cells.shape[1]
             np.add.at(found, cells + part.rows.start, share[:, None])
             start += e * q
     return found

@@ -13,6 +13,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.bodies.force import AverageField, DiscreteGradient
+from softway.bodies.internal import InternalForce
+from softway.bodies.past import Memories, viscous_force
 from softway.contact.candidates import Candidates
 from softway.contact.encounters import Pairs
 from softway.contact.fig4 import Split
@@ -34,12 +36,16 @@ DEPTH = 1e-12
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Start:
-    """What is known at t0: displacement, velocity, internal force (n, d) and stored energy (parts,)."""
+    """What is known at t0: displacement, velocity, internal force (n, d) and stored energy (parts,); the memories of
+    the solids, and the part of the force (n, d) that the mean rate of the slab before has made.
+    """
 
     displacement: Array
     velocity: Array
     force: Array
     energy: Array
+    memory: Memories = ()
+    viscous: Array | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -221,6 +227,8 @@ class SlabSystem:
             else np.empty_like(force)
         )
         for part in self.model.parts:
+            if not isinstance(part.internal, InternalForce):
+                continue
             match part.average:
                 case AverageField(points=points):
                     out[part.rows] = part.internal.average_force(u0[part.rows], u1[part.rows], points)
@@ -228,7 +236,12 @@ class SlabSystem:
                     out[part.rows] = part.internal.discrete_gradient(u0[part.rows], u1[part.rows])
                 case _:
                     pass
-        return self._handed_on(out, force) if any(_chord(p.average) for p in self.model.parts) else out
+        viscous = viscous_force(self.model.parts, u1)
+        if viscous is not None:
+            before = 0.0 if self.start.viscous is None else self.start.viscous
+            out = out + _first(self.weight) * (viscous - before)
+        handed = viscous is not None or any(_chord(p.average) for p in self.model.parts)
+        return self._handed_on(out, force) if handed else out
 
     def _handed_on(self, mean: Array, force: Array) -> Array:
         """The mean force with what it has on massless nodes beyond their end values passed to the nodes they follow.
@@ -263,6 +276,11 @@ class SlabSystem:
     def _product_mean(self, q: Array) -> Array:
         """Mean displacement (n, d) that a linear force of the product form feels."""
         return self.path.mean(q) if isinstance(self.weight, Momentum) else self._sampled_mean(q)
+
+
+def _first(weight: TimeWeight) -> float:
+    """The weight of the slab's start: what the mean rate makes there belongs to the slab before."""
+    return sum(float(w) for t, w in zip(*peaks(weight), strict=True) if t == 0.0)
 
 
 def _chord(average: object) -> bool:

@@ -61,13 +61,13 @@ def _slopes(part: Part) -> list[sp.csr_array]:
     if part.mesh.cell_dim != d or d == 1 or isinstance(internal.section, Axisymmetric):
         return [sp.csr_array((n, n)) for _ in range(d)]
     row, column, start = [], [], 0
-    for cells, table in zip(part.mesh.blocks.values(), internal.plain.rows, strict=True):
+    for cells, table in zip(part.mesh.blocks.values(), internal.sampling.rows, strict=True):
         points = start + np.arange(table.shape[0] * table.shape[1]).reshape(table.shape[:2])
         shape = (*points.shape, cells.shape[1])
         row.append(np.broadcast_to(cells[:, None, :], shape).ravel())
         column.append(np.broadcast_to(points[:, :, None], shape).ravel())
         start += points.size
     rows, columns = np.concatenate(row), np.concatenate(column)
-    around = sp.csr_array((internal.volume[columns], (rows, columns)), shape=(n, start))
+    around = sp.csr_array((internal.sampling.volume[columns], (rows, columns)), shape=(n, start))
     mean = sp.diags_array(1.0 / np.asarray(around.sum(axis=1)).ravel()) @ around
-    return [sp.csr_array(mean @ internal.plain.table[j::d]) for j in range(d)]
+    return [sp.csr_array(mean @ internal.sampling.table[j::d]) for j in range(d)]

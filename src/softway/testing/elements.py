@@ -100,7 +100,7 @@ def _quadrature(cell: str, table: Cell) -> None:
 def _patch_test(cell: str, patch: Mesh, force: InternalForce) -> None:
     gradient = 0.01 * np.array([[1.0, 2.0, -1.0], [0.5, -1.5, 0.7], [-0.3, 0.4, 0.8]])[: patch.dim, : patch.dim]
     exact = patch.points @ gradient.T
-    close(force.volume.sum(), 1.0, 1e-13, cell, "volume of the patch")
+    close(force.sampling.volume.sum(), 1.0, 1e-13, cell, "volume of the patch")
     K = force.tangent(np.zeros_like(exact)).tocsr()
     held = np.zeros(exact.shape, bool)
     held[patch.nodes("surface")] = True

@@ -80,9 +80,9 @@ class Fake:
             readings=readings(self.probes, meshes),
         )  # fmt: skip
 
-    def stress(self, u: np.ndarray) -> np.ndarray:
+    def stress(self, state: State) -> np.ndarray:
         out = np.zeros((self.mesh.n_cells, 3, 3))
-        out[:, 0, 0], out[:, 0, 1], out[:, 1, 0] = 1e6 * np.ptp(u), 2.0, 2.0
+        out[:, 0, 0], out[:, 0, 1], out[:, 1, 0] = 1e6 * np.ptp(state.displacement["part"]), 2.0, 2.0
         return out
 
     def steps(self) -> Iterator[Step]:

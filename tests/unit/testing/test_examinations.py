@@ -157,6 +157,6 @@ def test_too_weak_a_quadrature_is_named(monkeypatch: pytest.MonkeyPatch) -> None
     with pytest.raises(AssertionError, match="not integrated exactly"):
         check_element("quad4")
     monkeypatch.undo()
-    monkeypatch.setattr("softway.bodies.internal.stiffness_degree", lambda cell: 1)
+    monkeypatch.setattr("softway.bodies.cells.stiffness_degree", lambda cell: 1)
     with pytest.raises(AssertionError, match="modes without energy"):
         check_element("quad4")

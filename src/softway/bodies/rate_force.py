@@ -1,0 +1,159 @@
+"""Internal force of a body whose law has a history, during one slab."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from softway.bodies.cells import Dilatation, sampled_cells
+from softway.bodies.memory import Memory, virgin
+from softway.bodies.rate_points import Answer, RatePoints
+from softway.bodies.sampling import Sampling, diagonal_blocks
+from softway.bodies.section import Section, free_axes
+from softway.errors import InputError
+from softway.kernels import tensors
+from softway.laws.law import RateLaw
+from softway.space.mesh import Mesh
+from softway.typing import Array
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class RateForce:
+    """What a body with a ``memory`` answers to the displacement u (n, d) [m] at the end of a slab of length ``span``.
+
+    During the slab it is a function of u alone, like the force of a body that stores energy; :meth:`settled` gives the
+    memory for the slab after.
+
+    Parameters
+    ----------
+    material, section
+        Law, and how the cells fill space.
+    sampling, points
+        From the nodes to the points and back, and the points.
+    memory
+        The past, up to the start of the slab.
+    span
+        Length of the slab [s].
+    """
+
+    material: RateLaw
+    section: Section
+    sampling: Sampling
+    points: RatePoints
+    memory: Memory
+    span: float
+
+    @property
+    def linear(self) -> bool:
+        """Never: the tangent depends on the past."""
+        return False
+
+    def during(self, memory: Memory, span: float) -> "RateForce":
+        """The force in a slab that starts with a memory."""
+        return replace(self, memory=memory, span=span)
+
+    def _answer(self, u: Array) -> tuple[Array, Answer]:
+        H0, H1 = self.sampling.derivatives(self.memory.displacement), self.sampling.derivatives(u)
+        return H1, self.points.answer(H0, H1, self.memory, self.span)
+
+    def energy_and_force(self, u: Array) -> tuple[float, Array]:
+        """Energy [J] stored since the start, with what the slab dissipates, and the force (n, d) [N] at its end."""
+        H, found = self._answer(u)
+        with np.errstate(invalid="ignore"):
+            taken = found.ratio * (found.response.stored + found.response.dissipated)
+            flux = self.points.flux(self.points.stress(found), found.F, H)
+        energy = float(self.sampling.volume @ (self.memory.stored + taken))
+        return energy if np.isfinite(energy) else np.inf, self.sampling.nodal(flux, u)
+
+    def energy(self, u: Array) -> float:
+        """See :meth:`energy_and_force`."""
+        return self.energy_and_force(u)[0]
+
+    def force(self, u: Array) -> Array:
+        """Force (n, d) [N] at the end of the slab; ``nan`` where matter is inverted."""
+        return self.energy_and_force(u)[1]
+
+    def viscous_force(self, u: Array) -> Array | None:
+        """The part of the force that belongs to the mean rate of the slab, (n, d) [N]; None where there is none."""
+        H, found = self._answer(u)
+        viscous = self.points.viscous_stress(found)
+        return None if viscous is None else self.sampling.nodal(self.points.flux(viscous, found.F, H), u)
+
+    def tangent(self, u: Array) -> csc_array:
+        """Derivative of the force, (n d, n d) [N/m], made symmetric."""
+        H, found = self._answer(u)
+        flux = self.points.flux(self.points.stress(found), found.F, H)
+        return self.sampling.matrix(self.points.moduli(found, H), flux, u)
+
+    def tangent_product(self, u: Array, w: Array) -> Array:
+        """The tangent at u times a change w (n, d) [m] of the displacement, (n, d) [N]."""
+        return np.asarray(self.tangent(u) @ w.ravel()).reshape(w.shape)
+
+    def tangent_diagonal_blocks(self, u: Array) -> Array:
+        """Blocks of the tangent that couple each node with itself, (n, d, d) [N/m]."""
+        return diagonal_blocks(self.tangent(u), (u.shape[0], u.shape[1]))
+
+    def settled(self, u: Array) -> Memory:
+        """The memory at the end of the slab."""
+        return self.points.settled(self._answer(u)[1], self.memory, u)
+
+    def stored(self, memory: Memory) -> float:
+        """Energy stored since the start [J]."""
+        return float(self.sampling.volume @ memory.stored)
+
+    def dissipated(self, memory: Memory) -> float:
+        """Energy dissipated since the start [J]."""
+        return float(self.sampling.volume @ memory.dissipated)
+
+    def stress(self, u: Array) -> Array:
+        """Cauchy stress (e, 3, 3) [Pa] at the end of the slab, mean over the present volume of each cell."""
+        _, found = self._answer(u)
+        sigma = self.points.stress(found)
+        return self.sampling.cell_means(sigma, tensors.determinant(found.F) * self.sampling.volume)
+
+    def remembered(self, memory: Memory) -> tuple[float, Array, Array | None]:
+        """Stored energy [J], force and its viscous part (n, d) [N] at the time of a memory."""
+        u = memory.displacement
+        H = self.sampling.derivatives(u)
+        F = self.points.gradient(H, memory.lateral)
+        force, viscous = (
+            None if s is None else self.sampling.nodal(self.points.flux(s, F, H), u)
+            for s in (memory.stress, memory.viscous)
+        )
+        assert force is not None
+        return self.stored(memory), force, viscous
+
+    def remembered_stress(self, memory: Memory) -> Array:
+        """Cauchy stress (e, 3, 3) [Pa] of a memory, mean over the present volume of each cell."""
+        F = self.points.gradient(self.sampling.derivatives(memory.displacement), memory.lateral)
+        return self.sampling.cell_means(memory.stress, tensors.determinant(F) * self.sampling.volume)
+
+    def volume_ratio(self, u: Array) -> float:
+        """Least det F over all points; zero or less where matter is inverted."""
+        H = self.sampling.derivatives(u)
+        return float(np.min(tensors.determinant(self.points.gradient(H, self.memory.lateral))))
+
+
+def rate_force(mesh: Mesh, material: RateLaw, section: Section, dilatation: Dilatation = "point") -> RateForce:
+    """The :class:`RateForce` of a body to which nothing has happened.
+
+    Raises
+    ------
+    InputError
+        In plates that stand in space: their axes are those of the plane.
+    """
+    sampled = sampled_cells(mesh, section, dilatation)
+    m, size = sampled.directions.shape[-2:]
+    if 1 < m < size:
+        problem = f"{type(material).__name__} in a plate that stands in space"
+        raise InputError("section", problem, "a law that stores energy, or a plate in the plane")
+    free = free_axes(section)
+    points = len(sampled.sampling.volume)
+    return RateForce(
+        material=material,
+        section=section,
+        sampling=sampled.sampling,
+        points=RatePoints(law=material, free=free, directions=sampled.directions),
+        memory=virgin(material.virgin(points), (mesh.n_nodes, mesh.dim), points, len(free)),
+        span=1.0,
+    )

@@ -1,0 +1,113 @@
+"""Norton-Hoff material: rigid-viscoplastic flow, the law of hot forming."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.errors import InputError
+from softway.kernels import tensors
+from softway.laws.deviator import deviator, projector, volumetric
+from softway.laws.law import Increment, Response
+from softway.laws.rates import Jaumann, Rate
+from softway.typing import Array
+from softway.units import Pascal, PerSecond, Pure
+
+BULK = 1e4
+"""Default bulk modulus, relative to the flow stress at a rate of 1/s."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NortonHoff:
+    """``s = 2 K (sqrt(3) d)^(m-1) D'`` with ``d = sqrt(2/3 D':D')``; pressure ``-bulk ln J``.
+
+    D is the mean rate of deformation of the slab.  The stress is a function of the rate alone; the bulk modulus keeps
+    the volume, to ``pressure/bulk``: cells then want ``dilatation = "mean"``.
+
+    Parameters
+    ----------
+    K
+        Consistency [Pa s^m], positive.
+    m
+        Rate sensitivity: 1 is Newton's viscosity K, towards 0 plasticity with the yield stress sqrt(3) K.
+    bulk
+        Bulk modulus [Pa]; by default 1e4 K.
+    still
+        Rate [1/s] below which the viscosity no longer grows: what is nearly rigid creeps.
+    rate
+        Axes; they matter for nothing but the pressure.
+
+    References
+    ----------
+    Norton (1929), The creep of steel at high temperatures; Hoff (1954), Approximate analysis of structures in the
+    presence of moderately large creep deformations, Q. Appl. Math. 12, 49-55; the paper, eq. (3.6), for friction.
+
+    Examples
+    --------
+    >>> law = NortonHoff(K=1.0, m=0.5)
+    >>> shear = np.array([[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 0.0]])  # rate of shear 4
+    >>> given = Increment(stress=np.zeros((3, 3)), memory={}, strain=shear, span=1.0)
+    >>> float(law.respond(given).stress[0, 1].round(9))  # K rate^m
+    2.0
+    """
+
+    K: Pure
+    m: Pure
+    bulk: Pascal | None = None
+    still: PerSecond = 1e-9
+    rate: Rate = Jaumann()
+
+    def __post_init__(self) -> None:
+        if not self.K > 0.0:
+            raise InputError("K", f"{self.K:g} is not positive", "a positive consistency [Pa s^m]")
+        if not 0.0 < self.m <= 1.0:
+            raise InputError("m", f"{self.m:g} is not in (0, 1]", "a rate sensitivity such as 0.2; J2 for m = 0")
+        if self.bulk is not None and not self.bulk > 0.0:
+            raise InputError("bulk", f"{self.bulk:g} Pa is not positive", "some 1e4 K")
+        if not self.still > 0.0:
+            raise InputError("still", f"{self.still:g} 1/s is not positive", "a rate far below those of interest")
+
+    def virgin(self, points: int) -> Mapping[str, Array]:
+        """Nothing is remembered besides the stress."""
+        return {}
+
+    def respond(self, increment: Increment) -> Response:
+        """The deviator of the stress belongs to the mean rate; the pressure grows with the change of volume."""
+        e = increment.strain
+        s = (2.0 * self.viscosity(increment) / increment.span)[..., None, None] * deviator(e)
+        before = tensors.trace(increment.stress) / 3.0
+        pressure = before + self._bulk() * tensors.trace(e)
+        return Response(
+            stress=s + pressure[..., None, None] * tensors.IDENTITY,
+            memory={},
+            stored=0.5 * (before + pressure) * tensors.trace(e),
+            dissipated=tensors.double_dot(s, e),
+            viscous=s,
+        )
+
+    def viscosity(self, increment: Increment) -> Array:
+        """``K (sqrt(3) d)^(m-1)``, (...,) [Pa s]."""
+        return np.asarray(self.K * (np.sqrt(3.0) * self._speed(increment)) ** (self.m - 1.0))
+
+    def _speed(self, increment: Increment) -> Array:
+        e = deviator(increment.strain)
+        return np.asarray(np.sqrt(2.0 / 3.0 * tensors.double_dot(e, e) / increment.span**2 + self.still**2))
+
+    def _bulk(self) -> float:
+        return BULK * self.K if self.bulk is None else self.bulk
+
+    def moduli(self, increment: Increment) -> Array:
+        """``2 viscosity/span (I' + (m - 1) 2/3 D' x D'/d^2) + bulk I x I``, (..., 3, 3, 3, 3) [Pa]."""
+        n = deviator(increment.strain) / (increment.span * self._speed(increment))[..., None, None]
+        shape = projector() + 2.0 / 3.0 * (self.m - 1.0) * n[..., :, :, None, None] * n[..., None, None, :, :]
+        stiff = 2.0 * self.viscosity(increment) / increment.span
+        return np.asarray(stiff[..., None, None, None, None] * shape + self._bulk() * volumetric())
+
+    def secant(self, increment: Increment) -> Array:
+        """The moduli with the viscosity held fixed: those of the plain fixed point, (..., 3, 3, 3, 3) [Pa]."""
+        stiff = 2.0 * self.viscosity(increment) / increment.span
+        return np.asarray(stiff[..., None, None, None, None] * projector() + self._bulk() * volumetric())
+
+    def elastic_moduli(self) -> Array:
+        """Those of the volume, (3, 3, 3, 3) [Pa]."""
+        return tensors.isotropic(self._bulk(), 0.0) + 1e-12 * self._bulk() * projector()
