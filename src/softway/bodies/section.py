@@ -13,6 +13,7 @@ import numpy as np
 from softway.errors import InputError
 from softway.laws.lateral import condensed
 from softway.laws.law import Material, initial_moduli
+from softway.laws.moduli import wave_modulus
 from softway.space.mesh import Mesh
 from softway.typing import Array
 from softway.units import Metre, SquareMetre
@@ -223,7 +224,7 @@ def wave_speed(material: Material, density: float, section: Section) -> float:
     """
     free = free_axes(section)
     moduli = condensed(initial_moduli(material), 3 - len(free), free)
-    return sqrt(float(moduli[0, 0, 0, 0]) / density)
+    return sqrt(wave_modulus(moduli) / density)
 
 
 def _positive(where: str, value: float) -> None:

@@ -73,9 +73,10 @@ def condensed(C: Array, m: int, free: tuple[int, ...]) -> Array:
 
 def _first_guess(law: StoredEnergy, E: Array, axes: Array) -> Array:
     """Parameters of the lateral strains from the moduli of the undeformed material; exact for a linear law."""
-    C = law.tangent(np.zeros((3, 3)))
-    ratio = np.linalg.solve(C[axes[:, None], axes[:, None], axes, axes], C[axes, axes, 0, 0])
-    return -ratio * law.measure.volumetric(E)[..., None]
+    C, m = law.tangent(np.zeros((3, 3))), E.shape[-1]
+    coupling = C[axes, axes, :m, :m].reshape(len(axes), m * m)
+    ratio = np.linalg.solve(C[axes[:, None], axes[:, None], axes, axes], coupling)
+    return -law.measure.parameters(E).reshape(*E.shape[:-2], m * m) @ ratio.T
 
 
 def _regular(A: Array) -> Array:

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.kernels import tensors
+from softway.kernels.spectral import of_principal, principal
 from softway.typing import Array, BoolArray
 
 
@@ -62,9 +63,9 @@ class Small:
         """Normal strain as a function of its parameter y, with first and second derivative."""
         return y, np.ones_like(y), np.zeros_like(y)
 
-    def volumetric(self, E: Array) -> Array:
-        """Sum of the parameters y of the normal strains (..., m, m), (...,)."""
-        return np.trace(E, axis1=-2, axis2=-1)
+    def parameters(self, E: Array) -> Array:
+        """The strain (..., m, m) itself: what the moduli of a linear law multiply."""
+        return E
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -109,9 +110,10 @@ class Green:
         E = 0.5 * np.expm1(2.0 * y)
         return E, 1.0 + 2.0 * E, 2.0 + 4.0 * E
 
-    def volumetric(self, E: Array) -> Array:
-        """Sum of the logarithmic strains of (..., m, m), (...,)."""
-        return 0.5 * np.log(tensors.determinant(np.eye(E.shape[-1]) + 2.0 * E))
+    def parameters(self, E: Array) -> Array:
+        """Logarithmic strain (..., m, m); ``nan`` where there is none."""
+        values, axes = principal(E)
+        return of_principal(0.5 * np.log1p(2.0 * np.where(values > -0.5, values, np.nan)), axes)
 
 
 Measure = Small | Green

@@ -1,8 +1,14 @@
-"""Elastic moduli of isotropic materials."""
+"""Elastic moduli: of isotropic materials by two constants, and of any material for its waves."""
 
+from itertools import product
 from math import isfinite, sqrt
 
+import numpy as np
+
 from softway.errors import InputError
+from softway.typing import Array
+
+_TURNS = 300  # of the search for the fastest wave; it ends long before
 
 
 def checked(E: float, nu: float) -> None:
@@ -36,3 +42,33 @@ def dilatational_speed(E: float, nu: float, density: float) -> float:
     """``sqrt((lambda + 2 mu)/rho)`` [m/s] with rho [kg/m^3]."""
     bulk_part, shear = lame(E, nu)
     return sqrt((bulk_part + 2.0 * shear) / density)
+
+
+def wave_modulus(C: Array) -> float:
+    """Greatest ``rho c^2`` [Pa] of plane waves of any direction, of the moduli C (m, m, m, m) along m axes.
+
+    The greatest value of ``a_i n_j C_ijkl a_k n_l`` over unit vectors n (direction) and a (motion).  It rises when n
+    and a are replaced in turn by the principal axis of what the other leaves; the search starts from the axes and
+    diagonals.
+
+    Examples
+    --------
+    >>> from softway.kernels.tensors import isotropic
+    >>> round(wave_modulus(isotropic(1.0, 2.0)), 12)
+    5.0
+    """
+    found, m = 0.0, len(C)
+    for start in product((-1.0, 0.0, 1.0), repeat=m):
+        n = np.array(start)
+        if n @ n == 0.0:
+            continue
+        n /= np.sqrt(n @ n)
+        best = 0.0
+        for _ in range(_TURNS):
+            values, axes = np.linalg.eigh(np.einsum("ijkl,j,l->ik", C, n, n))
+            n = axes[:, -1]  # C_ijkl = C_jilk: the motion takes the part of the direction
+            if values[-1] <= best * (1.0 + 1e-15):
+                break
+            best = float(values[-1])
+        found = max(found, best)
+    return found

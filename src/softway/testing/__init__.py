@@ -1,8 +1,10 @@
 """Public examinations: what you write yourself is checked as the parts of the package are."""
 
 from softway.testing.elements import check_element as check_element
+from softway.testing.examination import Finding as Finding
 from softway.testing.laws import check_law as check_law
+from softway.testing.laws import examine_law as examine_law
 from softway.testing.obstacles import check_obstacle as check_obstacle
 from softway.testing.solvers import check_solver as check_solver
 
-__all__ = ["check_element", "check_law", "check_obstacle", "check_solver"]
+__all__ = ["Finding", "check_element", "check_law", "check_obstacle", "check_solver", "examine_law"]

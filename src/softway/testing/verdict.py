@@ -12,8 +12,10 @@ def require(passed: bool, subject: object, complaint: str) -> None:
 
 def close(
     got: ArrayLike, expected: ArrayLike, tolerance: float, subject: object, complaint: str, scale: float = 0.0
-) -> None:
+) -> float:
     """Require agreement within ``tolerance`` of the greatest number expected, or of ``scale`` if that is greater.
+
+    Returns the error relative to that number.
 
     Examples
     --------
@@ -25,3 +27,4 @@ def close(
     error, size = float(np.max(np.abs(a - b))), max(float(np.max(np.abs(b))), scale)
     allowed = tolerance * size
     require(error <= allowed, subject, f"{complaint}: error {error:.3g} of {size:.3g}, tolerated {allowed:.3g}")
+    return error / size if size else 0.0

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from softway.errors import InputError
-from softway.laws.bulk import LinearElastic, NeoHookean, StVenantKirchhoff
+from softway.laws.bulk import Hencky, LinearElastic, NeoHookean, StVenantKirchhoff
 from softway.laws.law import StoredEnergy
 from softway.laws.moduli import lame
 from softway.testing import check_law
 from softway.units import Pascal
 
-LAWS = (LinearElastic, StVenantKirchhoff, NeoHookean)
+LAWS = (LinearElastic, StVenantKirchhoff, NeoHookean, Hencky)
 
 
 @pytest.mark.parametrize("kind", LAWS)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from softway.laws.bulk import LinearElastic, NeoHookean, StVenantKirchhoff
+from softway.laws.bulk import Hencky, LinearElastic, MooneyRivlin, NeoHookean, StVenantKirchhoff
 from softway.laws.lateral import completed, condensed
 from softway.laws.law import StoredEnergy
 from softway.laws.moduli import lame
@@ -16,6 +16,8 @@ LAWS = [
     StVenantKirchhoff(E=2.0, nu=0.3),
     NeoHookean(E=2.0, nu=0.3),
     NeoHookean(E=2.0, nu=0.49),
+    Hencky(E=2.0, nu=0.3),
+    MooneyRivlin(c10=0.3, c01=0.05, bulk=8.0),
 ]
 
 

@@ -13,7 +13,8 @@ from softway.bodies.section import Axisymmetric, Bar, PlaneStrain, PlaneStress, 
 from softway.bodies.solid import Fixed, Solid, Tool
 from softway.contact.contact import Contact
 from softway.contact.timing import Energy, Impulse, Paper
-from softway.laws.bulk import LinearElastic, NeoHookean, StVenantKirchhoff
+from softway.laws.bulk import Hencky, LinearElastic, LinearOrthotropic, MooneyRivlin, NeoHookean, StVenantKirchhoff
+from softway.laws.measure import Green, Small
 from softway.scenario.codec import loads as read
 from softway.scenario.codec import resolved
 from softway.scenario.quantity import Units
@@ -59,7 +60,16 @@ meshes = st.one_of(
     ),
 )
 modulus, poisson = positive, st.floats(0.0, 0.49)
-materials = st.one_of(*(st.builds(c, E=modulus, nu=poisson) for c in (LinearElastic, NeoHookean, StVenantKirchhoff)))
+orthotropic = st.builds(
+    LinearOrthotropic,
+    E=st.tuples(modulus, modulus, modulus),
+    nu=st.just((0.0, 0.0, 0.0)),
+    G=st.tuples(modulus, modulus, modulus),
+    axes=st.sampled_from([((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), ((1.0, 2.0, 0.0), (-2.0, 1.0, 0.0))]),
+    measure=st.sampled_from([Small(), Green()]),
+)
+isotropic = (st.builds(c, E=modulus, nu=poisson) for c in (LinearElastic, NeoHookean, StVenantKirchhoff, Hencky))
+materials = st.one_of(*isotropic, st.builds(MooneyRivlin, c10=modulus, c01=modulus, bulk=modulus), orthotropic)
 sections = st.one_of(
     st.none(),
     st.builds(Bar, area=positive),

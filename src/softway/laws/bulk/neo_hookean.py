@@ -6,12 +6,11 @@ from typing import ClassVar
 import numpy as np
 
 from softway.kernels import tensors
+from softway.laws import volume
 from softway.laws.measure import Green
 from softway.laws.moduli import checked, dilatational_speed, lame
 from softway.typing import Array
 from softway.units import Pascal, Pure
-
-_SERIES_BELOW = 1e-2  # |j| under which j - ln(1 + j) is summed: 10 terms leave less than 1e-17 of j^2/2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,21 +51,21 @@ class NeoHookean:
     def energy(self, E: Array) -> Array:
         """Energy per reference volume (...,) [J/m^3] of Green's strain E (..., 3, 3)."""
         bulk_part, shear = lame(self.E, self.nu)
-        higher, j = _jacobian(E)
+        higher, j = volume.jacobian(E)
         with np.errstate(divide="ignore", invalid="ignore"):
-            W = 0.5 * shear * (_excess(j) - higher) + 0.125 * bulk_part * np.log1p(j) ** 2
+            W = 0.5 * shear * (volume.excess(j) - higher) + 0.125 * bulk_part * np.log1p(j) ** 2
         return np.where(j > -1.0, W, np.inf)
 
     def stress(self, E: Array) -> Array:
         """Second Piola-Kirchhoff stress, (..., 3, 3) [Pa]."""
         bulk_part, shear = lame(self.E, self.nu)
-        inverse, logarithm = _inverse(E)
+        inverse, logarithm = volume.inverse(E)
         return tensors.symmetric(2.0 * shear * (inverse @ E)) + (bulk_part * logarithm)[..., None, None] * inverse
 
     def tangent(self, E: Array) -> Array:
         """``lambda C^-1 x C^-1 + 2 (mu - lambda ln J) dC^-1``, (..., 3, 3, 3, 3) [Pa]."""
         bulk_part, shear = lame(self.E, self.nu)
-        inverse, logarithm = _inverse(E)
+        inverse, logarithm = volume.inverse(E)
         squared = tensors.square_symmetric(inverse)
         squared *= 2.0 * (shear - bulk_part * logarithm)[..., None, None, None, None]
         squared += (bulk_part * inverse)[..., :, :, None, None] * inverse[..., None, None, :, :]
@@ -79,27 +78,3 @@ class NeoHookean:
     def youngs(self) -> float:
         """Young's modulus of small strains [Pa]."""
         return self.E
-
-
-def _jacobian(E: Array) -> tuple[Array, Array]:
-    """``4 I2 + 8 det E`` and ``j = J^2 - 1``."""
-    higher = 4.0 * tensors.second_invariant(E) + 8.0 * tensors.determinant(E)
-    return higher, 2.0 * tensors.trace(E) + higher
-
-
-def _inverse(E: Array) -> tuple[Array, Array]:
-    """Inverse of ``C = I + 2 E`` and ln J; ``nan`` where C has no positive determinant."""
-    j = _jacobian(E)[1]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        logarithm = 0.5 * np.log(np.where(j > -1.0, 1.0, np.nan)) + 0.5 * np.log1p(j)
-        return tensors.symmetric_inverse(tensors.IDENTITY + 2.0 * E), logarithm
-
-
-def _excess(j: Array) -> Array:
-    """``j - ln(1 + j)`` without cancellation: ``j^2 (1/2 - j/3 + j^2/4 - ...)``."""
-    small = np.abs(j) < _SERIES_BELOW
-    x = np.where(small, j, 0.0)
-    series = np.zeros_like(x)
-    for k in range(11, 1, -1):
-        series = 1.0 / k - x * series
-    return np.where(small, x * x * series, j - np.log1p(j))
