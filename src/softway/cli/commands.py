@@ -1,6 +1,6 @@
 """Verbs over a scenario: new, check, run, show, plot, race.
 
-Exit codes: 0 done, 2 input wrong, 3 numerics failed, 130 interrupted.
+Exit codes: 0 done, 1 a law failed its examination, 2 input wrong, 3 numerics failed, 130 interrupted.
 """
 
 import logging
@@ -15,6 +15,7 @@ from rich.console import Console
 from rich.logging import RichHandler
 from rich.markup import escape
 
+from softway.cli.law import check_law
 from softway.cli.progress import laps_of, progress_of
 from softway.cli.tables import ranking, scales, summary
 from softway.errors import InputError, NumericsError
@@ -45,8 +46,10 @@ app = App(
     version=_version,
     suppress_keyboard_interrupt=False,
 )
+app.command(check_law)
 Set = Annotated[tuple[str, ...], Parameter(name="--set", negative=())]
 Quiet = Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())]
+AllowPython = Annotated[bool, Parameter(negative=())]
 
 
 @app.command
@@ -85,7 +88,7 @@ def new(
 
 
 @app.command
-def check(file: Path, /, *, set_: Set = (), quiet: Quiet = False) -> None:
+def check(file: Path, /, *, set_: Set = (), quiet: Quiet = False, allow_python: AllowPython = False) -> None:
     """Look for every mistake in a scenario without computing, and show its scales.
 
     Parameters
@@ -96,8 +99,10 @@ def check(file: Path, /, *, set_: Set = (), quiet: Quiet = False) -> None:
         Change before reading: path=value, any number of times.
     quiet
         Print nothing when all is right.
+    allow_python
+        Let module:name in the scenario run code of installed modules, not only of those beside the file.
     """
-    checked = examine(load(file, set_))
+    checked = examine(load(file, set_, allow_python=allow_python))
     if not quiet:
         scales(checked, Console())
 
@@ -111,6 +116,7 @@ def run(
     set_: Set = (),
     quiet: Quiet = False,
     overwrite: Annotated[bool, Parameter(negative=())] = False,
+    allow_python: AllowPython = False,
 ) -> None:
     """Compute a scenario.
 
@@ -126,8 +132,10 @@ def run(
         Print errors only.
     overwrite
         Replace an earlier run of the same name.
+    allow_python
+        Let module:name in the scenario run code of installed modules, not only of those beside the file.
     """
-    checked = examine(load(file, set_))
+    checked = examine(load(file, set_, allow_python=allow_python))
     folder, console = out or _free(Path("runs") / file.stem), Console(quiet=quiet)
     scales(checked, console)
     try:
@@ -179,6 +187,7 @@ def race(
     set_: Set = (),
     quiet: Quiet = False,
     overwrite: Annotated[bool, Parameter(negative=())] = False,
+    allow_python: AllowPython = False,
 ) -> None:
     """Compute a scenario by several methods and compare their iterations, time, energy and penetration.
 
@@ -200,8 +209,10 @@ def race(
         Print errors only.
     overwrite
         Replace an earlier race of the same name.
+    allow_python
+        Let module:name in the scenario run code of installed modules, not only of those beside the file.
     """
-    scenario = load(file, set_)
+    scenario = load(file, set_, allow_python=allow_python)
     checked = examine(scenario)
     folder, console = out or _free(Path("races") / file.stem), Console(quiet=quiet)
     if (folder / RACE).exists() and not overwrite:
@@ -235,7 +246,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     handler = RichHandler(console=errors, show_time=False, show_path=False)
     logging.basicConfig(level=logging.WARNING, format="%(message)s", handlers=[handler])
     try:
-        app(
+        code = app(
             sys.argv[1:] if arguments is None else arguments,
             exit_on_error=False,
             print_error=False,
@@ -248,7 +259,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         errors.print("interrupted")
         return INTERRUPTED
-    return DONE
+    return code if isinstance(code, int) else DONE
 
 
 def _failed(console: Console, error: Exception, code: int) -> int:

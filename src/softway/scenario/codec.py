@@ -3,11 +3,11 @@
 import tomllib
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 import tomli_w
 
 from softway.errors import InputError
+from softway.scenario.modules import Modules
 from softway.scenario.override import overridden
 from softway.scenario.quantity import Units
 from softway.scenario.reader import Reader
@@ -15,7 +15,9 @@ from softway.scenario.scenario import Scenario
 from softway.scenario.writer import write
 
 
-def load(path: str | Path, changes: Iterable[str] = (), units: Units | None = None) -> Scenario:
+def load(
+    path: str | Path, changes: Iterable[str] = (), units: Units | None = None, *, allow_python: bool = False
+) -> Scenario:
     """The scenario of a TOML file.
 
     Parameters
@@ -26,6 +28,8 @@ def load(path: str | Path, changes: Iterable[str] = (), units: Units | None = No
         ``path=value`` each, made before reading.
     units
         Table of units; by default the standard one.
+    allow_python
+        Whether ``module:name`` may also name an installed module; one beside the file is admitted always.
 
     Raises
     ------
@@ -39,11 +43,18 @@ def load(path: str | Path, changes: Iterable[str] = (), units: Units | None = No
         raise InputError(str(file), "no such scenario file", "softway new FILE makes one") from None
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(str(file), f"cannot be read: {error}", "a TOML file in UTF-8") from None
-    return loads(text, folder=file.resolve().parent, changes=changes, units=units, name=str(file))
+    modules = Modules(folder=file.resolve().parent, allowed=allow_python)
+    return loads(text, changes=changes, units=units, name=str(file), modules=modules)
 
 
 def loads(
-    text: str, *, folder: Path = Path(), changes: Iterable[str] = (), units: Units | None = None, name: str = "text"
+    text: str,
+    *,
+    folder: Path | None = None,
+    changes: Iterable[str] = (),
+    units: Units | None = None,
+    name: str = "text",
+    modules: Modules = Modules(),
 ) -> Scenario:
     """The scenario of a TOML text.
 
@@ -52,11 +63,13 @@ def loads(
     text
         TOML.
     folder
-        Relative mesh files are looked for here.
+        Relative mesh files are looked for here; by default the folder of the modules.
     changes, units
         As for :func:`load`.
     name
         What the text is called in an error of syntax.
+    modules
+        Where ``module:name`` may come from; by default such names are refused.
 
     Examples
     --------
@@ -73,12 +86,8 @@ def loads(
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise InputError(name, f"is not TOML: {error}", "keys as name = value, texts in quotes") from None
-    return structured(overridden(data, changes), folder=folder, units=units)
-
-
-def structured(data: dict[str, Any], *, folder: Path = Path(), units: Units | None = None) -> Scenario:
-    """The scenario of plain data."""
-    scenario: Scenario = Reader(units or Units.standard(), folder).read(data, Scenario, "")
+    reader = Reader(units or Units.standard(), folder or modules.folder or Path(), modules)
+    scenario: Scenario = reader.read(overridden(data, changes), Scenario, "")
     return scenario
 
 

@@ -91,21 +91,9 @@ def kinds(options: Iterable[Any]) -> dict[str, type]:
     return found
 
 
-def open_protocol(options: Iterable[Any]) -> bool:
-    """Whether a kind may come from the user's own module."""
-    return any(Hint.of(o, None).type in REGISTRIES for o in options)
-
-
-def imported(kind: str, where: str) -> type:
-    """The dataclass named ``module:Class``."""
-    module, _, name = kind.partition(":")
-    try:
-        cls = getattr(importlib.import_module(module), name)
-    except (ImportError, AttributeError) as error:
-        raise InputError(where, f"{kind!r}: {error}", "package.module:Class of something importable") from error
-    if not (isinstance(cls, type) and is_dataclass(cls)):
-        raise InputError(where, f"{kind!r} is no dataclass", "a frozen dataclass")
-    return cls
+def open_protocols(options: Iterable[Any]) -> tuple[type, ...]:
+    """The protocols among the alternatives: a kind of the user's own may stand there, if it has what one asks for."""
+    return tuple(o for o in (Hint.of(option, None).type for option in options) if o in REGISTRIES)
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

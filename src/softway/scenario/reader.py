@@ -1,6 +1,6 @@
 """From plain TOML data to dataclasses, following their type hints."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, is_dataclass
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
@@ -9,16 +9,16 @@ from softway.errors import InputError
 from softway.scenario.kinds import (
     Hint,
     hints,
-    imported,
     inputs,
     is_mapping,
     is_tuple,
     kinds,
     members,
     nearest,
-    open_protocol,
+    open_protocols,
     required,
 )
+from softway.scenario.modules import Modules
 from softway.scenario.quantity import Units, example
 from softway.space.sources import MeshFile
 
@@ -33,6 +33,8 @@ class Reader:
         The door of units.
     folder
         Files with a relative path are looked for here.
+    modules
+        Where kinds of the user's own come from.
 
     Examples
     --------
@@ -43,6 +45,7 @@ class Reader:
 
     units: Units
     folder: Path
+    modules: Modules = Modules()
 
     def read(self, value: Any, hint: Any, where: str, outer: str | None = None) -> Any:
         """The object; ``where`` is its path, ``outer`` the unit of numbers that have none of their own."""
@@ -102,6 +105,8 @@ class Reader:
         if isinstance(value, str):
             if any(get_origin(o) is Literal and value in get_args(o) for o in options):
                 return value
+            if any(get_origin(o) is Callable for o in options):
+                self.modules.found(value, where)
             if value in known:
                 return self._object({}, known[value], where, unit)
         fitting = [o for o in options if fits(value, o)]
@@ -127,17 +132,28 @@ class Reader:
     ) -> Any:
         """The alternative named by ``kind``; without it the only one, or the only one with these keys."""
         name = value.get("kind")
-        if name is None and not open_protocol(options):
+        protocols = open_protocols(options)
+        if name is None and not protocols:
             likely = [c for c in known.values() if len(known) == 1 or _takes(c, value)]
             if len(likely) == 1:
                 return self._object(value, likely[0], where, unit)
         if name is None:
             raise InputError(f"{where}.kind", "missing", f"one of: {', '.join(known)}")
-        if isinstance(name, str) and ":" in name and open_protocol(options):
-            return self._object(value, imported(name, f"{where}.kind"), where, unit)
+        if isinstance(name, str) and ":" in name and protocols:
+            return self._own(value, self.modules.law(name, protocols, f"{where}.kind"), where, unit)
         if name not in known:
             raise InputError(f"{where}.kind", f"{name!r} is unknown", nearest(str(name), known))
         return self._object(value, known[name], where, unit)
+
+    def _own(self, value: Mapping[str, Any], cls: type, where: str, unit: str | None) -> Any:
+        """An object of a class of the user's own, whose constructor may raise anything."""
+        try:
+            return self._object(value, cls, where, unit)
+        except InputError:
+            raise
+        except Exception as error:
+            problem = f"{cls.__name__} refuses it: {type(error).__name__}: {error}"
+            raise InputError(where, problem, f"see {cls.__module__}.{cls.__name__}") from error
 
     def _object(self, value: Any, cls: type, where: str, unit: str | None) -> Any:
         """A dataclass from a table; every key must be one of its fields."""

@@ -9,7 +9,7 @@ from typing import Any, Literal, get_args, get_origin
 import numpy as np
 
 from softway.errors import InputError
-from softway.scenario.kinds import Hint, hints, inputs, is_mapping, is_tuple, kinds, members, open_protocol
+from softway.scenario.kinds import Hint, hints, inputs, is_mapping, is_tuple, kinds, members, open_protocols
 from softway.scenario.reader import join
 
 
@@ -51,9 +51,9 @@ def _object(value: Any, options: tuple[Any, ...], where: str, unit: str | None) 
     known = kinds(options)
     out: dict[str, Any] = {}
     if cls.__name__ in known and known[cls.__name__] is cls:
-        if len(options) > 1 or open_protocol(options):
+        if len(options) > 1 or open_protocols(options):
             out["kind"] = cls.__name__
-    elif open_protocol(options):
+    elif open_protocols(options):
         out["kind"] = f"{cls.__module__}:{cls.__name__}"
     else:
         remedy = f"a recipe: {', '.join(known)}" if known else "set it from Python only"

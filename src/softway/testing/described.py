@@ -69,5 +69,5 @@ def _round_trip(law: Any) -> float:
 
 DESCRIBED = (
     Examination(name="every parameter has a unit", look=_units),
-    Examination(name="written to a scenario and read back it is the same", look=_round_trip),
+    Examination(name="its text in a scenario gives it back", look=_round_trip),
 )

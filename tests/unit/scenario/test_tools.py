@@ -10,6 +10,7 @@ from softway.bodies.motion import Still, Table, Translation, Turning
 from softway.errors import InputError
 from softway.scenario.check import check
 from softway.scenario.codec import load, loads, resolved
+from softway.scenario.modules import Modules
 from softway.scenario.quantity import Units
 from softway.space.curved import Block, Cavity, Cylinder
 from softway.space.distance import SignedDistance
@@ -63,7 +64,8 @@ def test_a_scenario_with_a_surface_is_right(file):
 
 
 def tool(text, name="die"):
-    return loads(f'[bodies.die]\nkind = "Tool"\n{text}\n[time]\nend = 1\n', units=UNITS).bodies[name]
+    data = f'[bodies.die]\nkind = "Tool"\n{text}\n[time]\nend = 1\n'
+    return loads(data, units=UNITS, modules=Modules(allowed=True)).bodies[name]
 
 
 @pytest.mark.parametrize(
@@ -149,6 +151,7 @@ MISTAKES = [
     ("bodies.die.motion={kind='Turning', point=[0, 0, 0], rate=1}", "bodies.die.motion.axis", "no axis in 3D"),
     ("bodies.die.shape={kind='SignedDistance', dim=3, function='no:f'}", "bodies.die.shape.function", "no"),
     ("bodies.die.shape={kind='SignedDistance', dim=3, function='math'}", "bodies.die.shape.function", "math"),
+    ("bodies.die.shape={kind='SignedDistance', dim=3, function='numpy:sum'}", "bodies.die.shape.function", "Python"),
 ]
 
 
