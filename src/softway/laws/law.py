@@ -45,11 +45,11 @@ class StoredEnergy(Protocol):
         ...
 
     def wave_speed(self, density: float) -> float:
-        """Speed of the fastest (dilatational) wave in the undeformed volume [m/s]; ``density`` [kg/m^3]."""
+        """Speed of dilatational waves in the undeformed volume [m/s]; ``density`` [kg/m^3]."""
         ...
 
     def youngs(self) -> float:
-        """Young's modulus of the undeformed material along the first axis [Pa]."""
+        """Young's modulus of the undeformed material [Pa]."""
         ...
 
 

@@ -10,7 +10,6 @@ from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from softway.errors import InputError
 from softway.laws.law import RateLaw, StoredEnergy
 
 REGISTRIES: Mapping[type, str] = {StoredEnergy: "softway.laws.bulk", RateLaw: "softway.laws.bulk"}

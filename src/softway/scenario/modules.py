@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from softway.errors import InputError
-from softway.laws.fitting import lacking
+from softway.laws.fitting import asked, lacking
 
 _OURS = "softway."
 
@@ -57,11 +57,12 @@ class Modules:
             found = self.found(kind, where)
         if not (isinstance(found, type) and is_dataclass(found)):
             raise InputError(where, f"{kind!r} is no dataclass", "a class with @dataclass(frozen=True, kw_only=True)")
-        missing = {p.__name__: lacking(found, p) for p in protocols}
-        if missing and all(missing.values()):
-            name, least = min(missing.items(), key=lambda item: len(item[1]))
-            problem = f"{kind!r} is no {' or '.join(missing)}"
-            raise InputError(where, problem, f"for a {name} it lacks: {', '.join(least)}")
+        missing = [lacking(found, p) for p in protocols]
+        if missing and all(missing):
+            share = [len(names) / len(asked(p)) for names, p in zip(missing, protocols, strict=True)]
+            least = share.index(min(share))
+            problem = f"{kind!r} is no {' or '.join(p.__name__ for p in protocols)}"
+            raise InputError(where, problem, f"for a {protocols[least].__name__} it lacks: {', '.join(missing[least])}")
         return found
 
     def found(self, text: str, where: str) -> Any:

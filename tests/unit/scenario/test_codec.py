@@ -75,17 +75,6 @@ def test_units_follow_the_field_inside():
     assert (field.gradient, field.origin) == (2e3, 0.01)
 
 
-def test_own_laws_are_imported(tmp_path, monkeypatch):
-    (tmp_path / "own_law.py").write_text(
-        "from dataclasses import dataclass\nfrom softway.units import Pascal\n"
-        "@dataclass(frozen=True)\nclass Mine:\n    G: Pascal\n"
-    )
-    monkeypatch.syspath_prepend(tmp_path)
-    scenario = loads(BAR, changes=['bodies.bar.material={kind="own_law:Mine", G="3 kPa"}'], units=UNITS)
-    assert scenario.bodies["bar"].material.G == 3000.0
-    assert loads(resolved(scenario), units=UNITS) == scenario
-
-
 @pytest.mark.parametrize(
     ("part", "value"),
     [("mesh", interval(1.0, cells=1)), ("velocity", np.zeros((2, 1))), ("displacement", lambda x: 0 * x)],

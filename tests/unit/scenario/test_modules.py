@@ -2,6 +2,7 @@
 
 import sys
 
+import numpy as np
 import pytest
 
 from softway.errors import InputError
@@ -69,9 +70,8 @@ class Plain:
 def place(tmp_path, monkeypatch):
     """A folder with a scenario and its own law; modules imported from it are forgotten afterwards."""
     known = dict(sys.modules)
-    text = templates()["bar"].replace(
-        '{ kind = "LinearElastic", E = "1 Pa" }', '{ kind = "my_law:Soft", stiffness = 1 }'
-    )
+    ours, own = '{ kind = "LinearElastic", E = "1 Pa" }', '{ kind = "my_law:Soft", stiffness = 1 }'
+    text = templates()["bar"].replace(ours, own)
     (tmp_path / "bar.toml").write_text(text)
     (tmp_path / "my_law.py").write_text(OWN)
     yield tmp_path
@@ -158,15 +158,15 @@ def test_mistakes_name_their_place(place, kind, problem, remedy):
 @pytest.mark.parametrize(
     ("parameters", "where", "problem"),
     [
-        ("", "bodies.bar.material.stiffness", "missing"),
-        ("stiffness='1 m'", "bodies.bar.material.stiffness", "dimension"),
-        ("stiffnes=1", "bodies.bar.material.stiffnes", "unknown key"),
-        ("stiffness=0", "bodies.bar.material", "Soft refuses it: ValueError: too soft"),
+        ("kind='my_law:Soft'", "bodies.bar.material.stiffness", "missing"),
+        ("kind='my_law:Soft', stiffness='1 m'", "bodies.bar.material.stiffness", "dimension"),
+        ("kind='my_law:Soft', stiffnes=1", "bodies.bar.material.stiffnes", "unknown key"),
+        ("kind='my_law:Soft', stiffness=0", "bodies.bar.material", "Soft refuses it: ValueError: too soft"),
     ],
 )
 def test_its_parameters_are_checked_like_ours(place, parameters, where, problem):
     with pytest.raises(InputError, match=problem) as found:
-        bar(place, f"bodies.bar.material={{kind='my_law:Soft', {parameters}}}")
+        bar(place, f"bodies.bar.material={{{parameters}}}")
     assert found.value.where == where
 
 
@@ -174,7 +174,7 @@ def test_functions_of_shapes_need_leave_too(place):
     (place / "shape.py").write_text("def gap(x):\n    return x[:, 0] - 9.0\n")
     change = "bodies.wall.shape={kind='SignedDistance', dim=1, function='shape:gap'}"
     shape = load(place / "bar.toml", [change], UNITS).bodies["wall"].shape
-    assert float(shape.gap(shape.dim * [[10.0]] @ __import__("numpy").eye(1))[0]) == 1.0
+    assert shape.gap(np.array([[10.0]])).tolist() == [1.0]
     with pytest.raises(InputError, match="would run Python"):
         load(place / "bar.toml", [change.replace("shape:gap", "os:getcwd")], UNITS)
 
