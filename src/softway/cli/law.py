@@ -53,7 +53,7 @@ def check_law(
 
 
 def _table(found: tuple[Finding, ...], console: Console, quiet: bool) -> None:
-    """One line for each examination, and below it the complaint of one that failed."""
+    """One line for each examination, and below them the complaints of those that failed."""
     grid = Grid(box=None, pad_edge=False, header_style="bold")
     grid.add_column("examination", overflow="fold")
     grid.add_column("result")
@@ -62,10 +62,12 @@ def _table(found: tuple[Finding, ...], console: Console, quiet: bool) -> None:
     for finding in found:
         if not quiet or not finding.passed:
             grid.add_row(escape(finding.name), *_cells(finding))
-            if finding.complaint:
-                grid.add_row(f"  {escape(finding.complaint)}")
     if grid.row_count:
         console.print(grid)
+    for finding in found:
+        if not finding.passed:
+            told = f"{finding.name}: {finding.complaint}"
+            console.print(escape(told), soft_wrap=True, highlight=False, style="red")
 
 
 def _cells(finding: Finding) -> tuple[str, str, str]:
