@@ -2,6 +2,7 @@
 
 from softway.bodies.fields import Affine, FieldSum, OnTag, Profile, Uniform
 from softway.bodies.force import AverageField, DiscreteGradient, EnergyMomentum, Weighted
+from softway.bodies.inertia import Full, Off, Scaled
 from softway.bodies.loads import Gravity, Traction
 from softway.bodies.mass import Consistent, Lumped
 from softway.bodies.motion import Still, Table, Translation, Turning
@@ -67,6 +68,7 @@ __all__ = [
     "FieldSum",
     "Fixed",
     "FixedPoint",
+    "Full",
     "Gravity",
     "GreenNaghdi",
     "HalfSpace",
@@ -94,6 +96,7 @@ __all__ = [
     "NortonFlow",
     "NortonHoff",
     "NumericsError",
+    "Off",
     "OnTag",
     "Output",
     "Paper",
@@ -110,6 +113,7 @@ __all__ = [
     "Roller",
     "Rotation",
     "Run",
+    "Scaled",
     "Scenario",
     "Scene",
     "SignedDistance",

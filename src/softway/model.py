@@ -43,6 +43,8 @@ class Model:
         (n, d) components without support.
     load
         (n, d) dead loads [N].
+    weight
+        (n,) mass that weighs, at its nodes [kg].
     displacement, velocity
         (n, d) initial fields as described.
     encounters
@@ -70,6 +72,7 @@ class Model:
     massive: BoolArray
     free: BoolArray
     load: Array
+    weight: Array
     displacement: Array
     velocity: Array
     encounters: Encounters
@@ -154,9 +157,9 @@ class Model:
         """Tangent stiffness (n d, n d) [N/m]."""
         return _tangent(self.parts, u)
 
-    def inertia_and_stiffness(self, u: Array, factor: float) -> sp.csc_array:
-        """``M + factor K(u)`` (f, f) on the free components."""
-        values = [p.internal.tangent(u[p.rows]).data for p in self.parts]
+    def inertia_and_stiffness(self, u: Array, factor: float, secant: bool = False) -> sp.csc_array:
+        """``M + factor K(u)`` (f, f) on the free components, K of tangent or secant moduli."""
+        values = [p.stiffness(u[p.rows], secant).data for p in self.parts]
         return self.total.of(np.concatenate(values), factor)
 
     def tangent_product(self, u: Array, w: Array) -> Array:
@@ -186,14 +189,20 @@ def build(scene: Scene) -> Model:
     timing = _timing(scene)
     parts = _parts(solids)
     met = pairing(scene.contacts, scene.bodies, parts)
-    light = met.nodes if isinstance(timing, Energy) else np.zeros(0, int)
+    factor = scene.inertia.factor
+    if factor == 0.0 and not isinstance(timing, Energy):
+        problem = f"Off with the rule {type(timing).__name__}, whose contact nodes carry inertia"
+        raise InputError("inertia", problem, "the timing Energy")
+    light = met.nodes if isinstance(timing, Energy) and factor > 0.0 else np.zeros(0, int)
     own = [light[(light >= p.rows.start) & (light < p.rows.stop)] - p.rows.start for p in parts]
     spread = timing.spread if isinstance(timing, Energy) else 1
     masses = [_mass(p, solids[p.name], nodes, spread) for p, nodes in zip(parts, own, strict=True)]
     follow = [_following(p, nodes) for p, nodes in zip(parts, own, strict=True)]
-    mass = sp.csr_array(sp.block_diag(masses, format="csr"))
+    weight = sp.csr_array(sp.block_diag(masses, format="csr"))
+    mass = sp.csr_array(factor * weight) if factor > 0.0 else sp.csr_array(weight.shape)
     fields = [initial(p, solids[p.name]) for p in parts]
     free = np.concatenate([held for _, _, held in fields])
+    weights = np.asarray(weight.sum(axis=1)).ravel()
     displacement = np.concatenate([u for u, _, _ in fields]) * free
     inertia = sp.csc_array(sp.kron(mass, sp.eye_array(free.shape[1]), format="csc"))
     return Model(
@@ -203,7 +212,8 @@ def build(scene: Scene) -> Model:
         follow=sp.csr_array(sp.block_diag(follow, format="csr")),
         massive=np.asarray(mass.diagonal()) > 0.0,
         free=free,
-        load=dead_load(parts, mass, scene.loads, "loads"),
+        load=dead_load(parts, weights, scene.loads, "loads"),
+        weight=weights,
         displacement=displacement,
         velocity=np.concatenate([v for _, v, _ in fields]) * free,
         encounters=met.encounters,

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from softway.bodies.inertia import Full, Inertia
 from softway.bodies.loads import Load
 from softway.bodies.memory import Memory
 from softway.bodies.solid import Solid, Tool
@@ -53,12 +54,15 @@ class Scene:
         Dead loads: gravity, tractions.
     start
         How the march starts.
+    inertia
+        Full, off (quasi-static) or scaled.
     """
 
     bodies: Mapping[str, Solid | Tool]
     contacts: tuple[Contact, ...] = ()
     loads: tuple[Load, ...] = ()
     start: AsGiven | StaticStart = AsGiven()
+    inertia: Inertia = Full()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 
 import numpy as np
-import scipy.sparse as sp
 
 from softway.bodies.loads import Gravity, Load, Traction, traction_force
 from softway.bodies.part import Part
@@ -11,19 +10,19 @@ from softway.errors import InputError, within
 from softway.typing import Array
 
 
-def dead_load(parts: Sequence[Part], mass: sp.csr_array, loads: Sequence[Load], where: str) -> Array:
-    """Nodal forces (n, d) [N] of dead loads on solids with a mass matrix (n, n).
+def dead_load(parts: Sequence[Part], weight: Array, loads: Sequence[Load], where: str) -> Array:
+    """Nodal forces (n, d) [N] of dead loads on solids whose nodes have the mass ``weight`` (n,) [kg].
 
     Gravity acts on the inertia, so that massless nodes have no weight; ``where`` is the place of the loads in the
     scene, for errors.
     """
     dim = parts[0].mesh.dim
-    out = np.zeros((mass.shape[0], dim))
+    out = np.zeros((len(weight), dim))
     for k, item in enumerate(loads):
         with within(f"{where}[{k}]"):
             match item:
                 case Gravity():
-                    out += np.asarray(mass.sum(axis=1)).reshape(-1, 1) * item.vector(dim)
+                    out += weight[:, None] * item.vector(dim)
                 case Traction():
                     part = _solid(parts, item.body, "on")
                     out[part.rows] += traction_force(part.mesh, part.internal.section, item.tag, item.value)

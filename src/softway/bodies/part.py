@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.sparse import csc_array
 
 from softway.bodies.cells import Dilatation
 from softway.bodies.fields import sample
@@ -28,6 +29,12 @@ class Part:
     internal: InternalForce | RateForce
     density: float
     average: SlabForce
+
+    def stiffness(self, u: Array, secant: bool) -> csc_array:
+        """Tangent stiffness (n d, n d) [N/m] at its displacement u, or the secant one where its law has such."""
+        if secant and isinstance(self.internal, RateForce):
+            return self.internal.secant(u)
+        return self.internal.tangent(u)
 
     def during(self, memory: Memory | None, span: float) -> "Part":
         """The solid in a slab of length ``span`` [s] that it meets with a memory."""

@@ -12,7 +12,7 @@ from softway.bodies.sampling import Sampling, diagonal_blocks
 from softway.bodies.section import Section, free_axes
 from softway.errors import InputError
 from softway.kernels import tensors
-from softway.laws.law import RateLaw
+from softway.laws.law import RateLaw, Viscous
 from softway.space.mesh import Mesh
 from softway.typing import Array
 
@@ -81,9 +81,16 @@ class RateForce:
 
     def tangent(self, u: Array) -> csc_array:
         """Derivative of the force, (n d, n d) [N/m], made symmetric."""
+        return self._stiffness(u, secant=False)
+
+    def secant(self, u: Array) -> csc_array:
+        """The tangent with the viscosity held fixed, where the law has such moduli, (n d, n d) [N/m]."""
+        return self._stiffness(u, secant=isinstance(self.material, Viscous))
+
+    def _stiffness(self, u: Array, secant: bool) -> csc_array:
         H, found = self._answer(u)
         flux = self.points.flux(self.points.stress(found), found.F, H)
-        return self.sampling.matrix(self.points.moduli(found, H), flux, u)
+        return self.sampling.matrix(self.points.moduli(found, H, secant), flux, u)
 
     def tangent_product(self, u: Array, w: Array) -> Array:
         """The tangent at u times a change w (n, d) [m] of the displacement, (n, d) [N]."""

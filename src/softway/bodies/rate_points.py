@@ -8,7 +8,7 @@ import numpy as np
 from softway.bodies.kinematics import Passage, carried, passage
 from softway.bodies.memory import Memory
 from softway.kernels import tensors
-from softway.laws.law import Increment, RateLaw, Response
+from softway.laws.law import Increment, RateLaw, Response, Viscous
 from softway.laws.rates import Rate, Truesdell
 from softway.typing import Array
 
@@ -142,10 +142,11 @@ class RatePoints:
             viscous=self.viscous_stress(found),
         )
 
-    def moduli(self, found: Answer, H: Array) -> Array:
+    def moduli(self, found: Answer, H: Array, secant: bool = False) -> Array:
         """Derivative of the flux to H, (p, m, D, m, D) [Pa], made symmetric; the free faces follow."""
-        sigma = found.response.stress
-        C = spatial(self.law.moduli(found.increment), sigma, self.law.rate)
+        sigma, law = found.response.stress, self.law
+        own = law.secant(found.increment) if secant and isinstance(law, Viscous) else law.moduli(found.increment)
+        C = spatial(own, sigma, law.rate)
         J = tensors.determinant(found.F)
         m, size = H.shape[1:]
         if m == 1:

@@ -39,7 +39,7 @@ def begin(model: Model, span: float = 1.0) -> Situation:
     start, loads = model.scene.start, model.load
     if isinstance(start, StaticStart):
         require_supported(model)
-        loads = dead_load(model.parts, model.mass, start.loads, "start.loads") if start.loads else model.load
+        loads = dead_load(model.parts, model.weight, start.loads, "start.loads") if start.loads else model.load
     fits = any(c.start == "fit" for c in model.scene.contacts)
     if fits or (isinstance(start, StaticStart) and unheld(model)):
         u, pressure = fitted(model, u, model.free, loads, shrunk(model, u, OVERLAP * _reach(model, u)))

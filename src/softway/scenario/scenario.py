@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from math import isfinite
 from typing import Literal
 
+from softway.bodies.inertia import Full, Inertia
 from softway.bodies.loads import Load
 from softway.bodies.placement import Placement
 from softway.bodies.solid import Solid, Tool
@@ -121,6 +122,8 @@ class Scenario:
         As in :class:`~softway.scene.Scene`.
     start
         The initial fields as given, or a static equilibrium.
+    inertia
+        Full, off (quasi-static) or scaled.
     time, solver, output
         Slabs, method, records.
     """
@@ -131,13 +134,20 @@ class Scenario:
     contacts: tuple[Contact, ...] = ()
     loads: tuple[Load, ...] = ()
     start: AsGiven | StaticStart = AsGiven()
+    inertia: Inertia = Full()
     solver: FixedPoint | Newton | Explicit = FixedPoint()
     output: Output = Output()
 
     @property
     def scene(self) -> Scene:
         """What there is, with the meshes as recipes."""
-        return Scene(bodies=self.bodies, contacts=self.contacts, loads=self.loads, start=self.start)
+        return Scene(
+            bodies=self.bodies,
+            contacts=self.contacts,
+            loads=self.loads,
+            start=self.start,
+            inertia=self.inertia,
+        )
 
 
 def built(scenario: Scenario) -> Scene:

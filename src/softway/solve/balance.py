@@ -19,6 +19,8 @@ TINY = 1e-10
 """Share of the energy below which no rest is too great to be closed along the motion."""
 BOUND = 0.5
 """Greatest scalar: with |a| <= 1/2 the mean force stays between those at the two ends."""
+WEIGHING = 2.0
+"""Greatest scalar without inertia, where it moves nothing and only weighs the works at the two ends."""
 SLIGHT = 1e-2
 """Share of the work of the internal forces that is closed along the motion where the scalar is at its bound."""
 
@@ -91,14 +93,15 @@ def closed(model: Model, ends: Ends, fallback: bool) -> Closure:
     real = np.abs(num) > ROUNDING * level + floor + np.bincount(label, weights=_blurred(model, ends))
     with np.errstate(divide="ignore", invalid="ignore"):
         wanted = np.where(real & (den != 0.0), num / den, 0.0)
-    a = np.clip(wanted, -BOUND, BOUND)
+    bound = BOUND if model.massive.any() else WEIGHING
+    a = np.clip(wanted, -bound, bound)
     mean = ends.mean + model.nodal(a[label]) * (ends.f1 - ends.f0)
     for g, spin in enumerate(spins):
         if spin is not None:
             mean += spin.force(-spin.solve(spin.torque + a[g] * spin.slope))
     work = np.bincount(label, weights=model.totals(np.abs(ends.mean * moving)))
     share = np.where(real, np.abs(num) / np.maximum(work, 1e-300), 0.0)
-    rest = np.where(np.abs(wanted) > BOUND, num - a * den, 0.0)
+    rest = np.where(np.abs(wanted) > bound, num - a * den, 0.0) * model.massive.any()
     great = (np.abs(rest) > np.maximum(SLIGHT * work, TINY * level)) & (not fallback)
     for g in np.flatnonzero(np.where(great, 0.0, rest)).tolist():
         mean += rest[g] * _along_motion(model, ends, moving, members[g])

@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from softway.bodies.past import remembering
 from softway.errors import InputError
 from softway.solve.anderson import Anderson
 from softway.solve.carry import Carry
@@ -74,7 +75,11 @@ class FixedPoint:
         self, system: SlabSystem, q: Array, carry: Carry, impulse: Array, active: BoolArray
     ) -> Iterator[Iterate]:
         """Iterates from q (n, d), with first impulses (m,) and active rows (m,) of the contact."""
-        carry = prepared(system, carry, self.operator)
+        newton = Newton(tolerance=self.tolerance, limit=self.limit)
+        if self.handover and carry.frozen is None and _starts_flowing(system):
+            yield from newton.iterate(system, q, carry, impulse, active)
+            return
+        carry = prepared(system, q, carry, self.operator)
         changes: list[float] = []
         it: Iterate | None = None
         for it in self._iterates(system, q, carry, impulse, active):
@@ -83,7 +88,6 @@ class FixedPoint:
             if self.handover and len(changes) > WINDOW and it.change > POOR**WINDOW * changes[0]:
                 break
         if it is not None and np.isfinite(it.change):
-            newton = Newton(tolerance=self.tolerance, limit=self.limit)
             yield from newton.iterate(it.system, it.q, it.carry, it.impulse, it.active)
 
     def _iterates(
@@ -122,6 +126,11 @@ class FixedPoint:
                 stuck = 0
             last, active, before, q = change, step.active, q[keep], q.copy()
             q[keep], impulse = mixing.mixed((before, impulse), (step.q[keep], step.impulse))
+
+
+def _starts_flowing(system: SlabSystem) -> bool:
+    """Whether nothing is known of how matter without inertia will flow: no operator made at rest fits."""
+    return remembering(system.model.parts) and not system.model.massive.any()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -19,6 +19,10 @@ from softway.typing import Array, BoolArray
 
 HALVINGS = 6
 """Halvings of a Newton step, after which it is taken as it is."""
+STRETCH = 3.0
+"""Factor by which a step grows while the next correction would go on in its direction."""
+STRETCHES = 40
+"""How often it may grow."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -104,17 +108,49 @@ class Newton:
         self, system: SlabSystem, q: Array, step: Array, impulse: Array, frozen: Frozen
     ) -> tuple[Array, Evaluation]:
         """The next iterate on the way of the step (n, d), and its evaluation."""
-        keep = system.model.free
         length, share = float(np.linalg.norm(step)), 1.0
         for halvings in itertools.count():
             new = q + share * step
             end = system.evaluate(new, impulse)
-            if halvings == HALVINGS:
+            if halvings == HALVINGS or length == 0.0:
                 return new, end
             if np.isfinite(end.residual).all():
-                rows, _ = system.conditions(new, end, frozen)
-                left = frozen.solve(end.residual[keep] - frozen.push(rows.spread(impulse)))
-                if np.linalg.norm(left) <= max(1.0 - 0.5 * share, 1e-2) * length or length == 0.0:
+                left = _left(system, new, end, impulse, frozen)
+                if np.linalg.norm(left) <= max(1.0 - 0.5 * share, 1e-2) * length:
                     return new, end
+                if share == 1.0 and _alike(left, step[system.model.free]):
+                    return self._stretched(system, q, step, impulse, frozen)
             share *= 0.5
         raise AssertionError
+
+    def _stretched(
+        self, system: SlabSystem, q: Array, step: Array, impulse: Array, frozen: Frozen
+    ) -> tuple[Array, Evaluation]:
+        """The next iterate beyond the step, as far as the next correction keeps its direction.
+
+        So flow starts from rest, where a viscosity that falls with the rate is far too great.
+        """
+        share, found = 1.0, q + step
+        best = system.evaluate(found, impulse)
+        for _ in range(STRETCHES):
+            share *= STRETCH
+            new = q + share * step
+            end = system.evaluate(new, impulse)
+            if not np.isfinite(end.residual).all():
+                break
+            if not _alike(_left(system, new, end, impulse, frozen), step[system.model.free], least=0.0):
+                break
+            found, best = new, end
+        return found, best
+
+
+def _left(system: SlabSystem, q: Array, end: Evaluation, impulse: Array, frozen: Frozen) -> Array:
+    """The correction (f,) that the same operator would make next."""
+    rows, _ = system.conditions(q, end, frozen)
+    return frozen.solve(end.residual[system.model.free] - frozen.push(rows.spread(impulse)))
+
+
+def _alike(left: Array, step: Array, least: float = 0.5) -> bool:
+    """Whether a correction (f,), to be subtracted, goes on along a step (f,), with at least a share of its length."""
+    along = -float(left @ step)
+    return along > max(least * float(step @ step), 0.9 * float(np.linalg.norm(left) * np.linalg.norm(step)))

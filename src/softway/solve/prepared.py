@@ -3,26 +3,28 @@
 from dataclasses import replace
 from typing import Literal
 
+from softway.bodies.past import remembering
 from softway.solve.carry import Carry
 from softway.solve.frozen import Frozen
 from softway.solve.operators import Choice, Operator, choose
 from softway.solve.system import SlabSystem
 from softway.solve.turning import SMALL, turning
+from softway.typing import Array
 
 WORTH = 0.1
 """Turning, as ``SMALL``, that is worth giving up contact directions that never change, whose answers are kept."""
 
 
-def prepared(system: SlabSystem, carry: Carry, operator: Operator | Literal["auto"]) -> Carry:
-    """The carry with a frozen operator that fits the slab."""
+def prepared(system: SlabSystem, q: Array, carry: Carry, operator: Operator | Literal["auto"]) -> Carry:
+    """The carry with a frozen operator that fits the slab, of which q (n, d) is a first guess."""
     if carry.frozen is None or carry.stale or abs(carry.span / system.path.span - 1.0) > 1e-9:
-        carry = renewed(system, carry, operator)
+        carry = renewed(system, q, carry, operator)
     return carry if system.model.linear else _turned(system, carry)
 
 
-def renewed(system: SlabSystem, carry: Carry, operator: Operator | Literal["auto"]) -> Carry:
-    """The carry with an operator made at the start of the slab."""
-    u = system.start.displacement
+def renewed(system: SlabSystem, q: Array, carry: Carry, operator: Operator | Literal["auto"]) -> Carry:
+    """The carry with an operator made at the start of the slab, or where the guess ends if matter asks how it moved."""
+    u = system.path.end(q) if remembering(system.model.parts) else system.start.displacement
     choice = carry.choice
     if choice is None:
         choice = choose(system) if operator == "auto" else Choice(operator=operator, reason="as asked for")

@@ -213,9 +213,9 @@ class SlabSystem:
         """What of the stiffness counts beside the mass, ``h^2/2 mu2`` [s^2]."""
         return 0.5 * self.path.span**2 * moments(self.weight)[1]
 
-    def operator(self, u: Array) -> sp.csc_array:
+    def operator(self, u: Array, secant: bool = False) -> sp.csc_array:
         """``M + h^2/2 mu2 K(u)`` on the free components, symmetric positive definite near equilibrium."""
-        return self.model.inertia_and_stiffness(u, self.share)
+        return self.model.inertia_and_stiffness(u, self.share, secant)
 
     def _mean_force(self, q: Array, u1: Array, force: Array) -> Array:
         if self.located is not None:
@@ -236,7 +236,7 @@ class SlabSystem:
                     out[part.rows] = part.internal.discrete_gradient(u0[part.rows], u1[part.rows])
                 case _:
                     pass
-        viscous = viscous_force(self.model.parts, u1)
+        viscous = viscous_force(self.model.parts, u1) if self.model.massive.any() else None
         if viscous is not None:
             before = 0.0 if self.start.viscous is None else self.start.viscous
             out = out + _first(self.weight) * (viscous - before)

@@ -13,7 +13,7 @@ from softway.laws.rates import Jaumann, Rate
 from softway.typing import Array
 from softway.units import Pascal, PerSecond, Pure
 
-BULK = 1e4
+BULK = 1e5
 """Default bulk modulus, relative to the flow stress at a rate of 1/s."""
 
 
@@ -31,7 +31,7 @@ class NortonHoff:
     m
         Rate sensitivity: 1 is Newton's viscosity K, towards 0 plasticity with the yield stress sqrt(3) K.
     bulk
-        Bulk modulus [Pa]; by default 1e4 K.
+        Bulk modulus [Pa]; by default 1e5 K.
     still
         Rate [1/s] below which the viscosity no longer grows: what is nearly rigid creeps.
     rate
@@ -63,7 +63,7 @@ class NortonHoff:
         if not 0.0 < self.m <= 1.0:
             raise InputError("m", f"{self.m:g} is not in (0, 1]", "a rate sensitivity such as 0.2; J2 for m = 0")
         if self.bulk is not None and not self.bulk > 0.0:
-            raise InputError("bulk", f"{self.bulk:g} Pa is not positive", "some 1e4 K")
+            raise InputError("bulk", f"{self.bulk:g} Pa is not positive", "some 1e5 K")
         if not self.still > 0.0:
             raise InputError("still", f"{self.still:g} 1/s is not positive", "a rate far below those of interest")
 

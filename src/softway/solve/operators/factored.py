@@ -37,6 +37,8 @@ class Factored:
     precision
         Of the factor; by default single for bodies of large deformation with ``MANY`` unknowns or more: a linear slab
         is solved by one solution in double precision.
+    moduli
+        ``tangent``, or ``secant``: those of a law with the viscosity held fixed, where a law has such (Picard).
     threads
         Threads of the backend; by default one for few unknowns, else those of its library.
 
@@ -48,11 +50,12 @@ class Factored:
 
     backend: Literal["auto", "superlu", "pardiso", "cholmod", "mumps"] = "auto"
     precision: Literal["auto", "single", "double"] = "auto"
+    moduli: Literal["tangent", "secant"] = "tangent"
     threads: int | None = None
 
     def make(self, system: SlabSystem, u: Array, analysis: Analysis | None) -> Made:
         """The factor of a slab at the displacement ``u`` (n, d)."""
-        matrix = system.operator(u)
+        matrix = system.operator(u, secant=self.moduli == "secant")
         precision = self._precision(system)
         if analysis is None:
             analysis = self._solver(matrix.shape[0], precision).analyse(matrix)
