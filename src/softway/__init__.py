@@ -8,6 +8,7 @@ from softway.bodies.mass import Consistent, Lumped
 from softway.bodies.motion import Still, Table, Translation, Turning
 from softway.bodies.placement import Placement, Rotation
 from softway.bodies.section import Axisymmetric, Bar, PlaneStrain, PlaneStress, Volume
+from softway.bodies.shock import BulkViscosity
 from softway.bodies.solid import Driven, Fixed, Solid, Tool
 from softway.contact.contact import Contact, DualMortar, NodeToSurface
 from softway.contact.timing import Energy, Impulse, Paper
@@ -48,6 +49,7 @@ __all__ = [
     "Bar",
     "Block",
     "Box",
+    "BulkViscosity",
     "Cavity",
     "Certificate",
     "Collocation",

@@ -7,11 +7,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.bodies.dead_load import dead_load
-from softway.bodies.mass import following, nodal_mass
 from softway.bodies.memory import Memory
 from softway.bodies.part import Part, held_components, initial, part_of
+from softway.bodies.part_mass import part_following, part_mass
 from softway.bodies.past import Memories, during, remembered_stress, remembering
-from softway.bodies.redistribution import redistributed
 from softway.bodies.section import wave_speed
 from softway.bodies.solid import Driven, Solid
 from softway.contact.candidates import Candidates
@@ -146,8 +145,8 @@ class Model:
 
     def energy_and_force(self, u: Array) -> tuple[Array, Array]:
         """Stored energy of each solid (parts,) [J] and internal force (n, d) [N]."""
-        pairs = [p.internal.energy_and_force(u[p.rows]) for p in self.parts]
-        return np.array([e for e, _ in pairs]), np.concatenate([f for _, f in pairs])
+        energy, force = zip(*(p.internal.energy_and_force(u[p.rows]) for p in self.parts), strict=True)
+        return np.array(energy), np.concatenate(force)
 
     def force(self, u: Array) -> Array:
         """Internal force (n, d) [N]."""
@@ -170,6 +169,17 @@ class Model:
         """Diagonal blocks (n, d, d) of the tangent stiffness [N/m]."""
         return np.concatenate([p.internal.tangent_diagonal_blocks(u[p.rows]) for p in self.parts])
 
+    def shock_force(self, middle: Array, change: Array, span: float) -> Array | None:
+        """Force (n, d) of the bulk viscosities [N] in a slab, see :class:`~softway.bodies.shock.Shock`; None without.
+
+        Nodes without inertia hand it on to those that they follow.
+        """
+        if all(p.shock is None for p in self.parts):
+            return None
+        out = np.concatenate([p.shock_force(middle[p.rows], change[p.rows], span) for p in self.parts])
+        own = out * self.massive[:, None]
+        return np.asarray(own + self.follow.T @ (out - own))
+
     def kinetic(self, v: Array) -> Array:
         """Kinetic energy of each solid (parts,) [J]."""
         return 0.5 * self.totals(v * (self.mass @ v))
@@ -186,18 +196,14 @@ def build(scene: Scene) -> Model:
     solids = {n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}
     if not solids:
         raise InputError("bodies", "no Solid among them", "at least one body of kind Solid")
-    timing = _timing(scene)
+    timing, factor = _timing(scene), scene.inertia.factor
     parts = _parts(solids)
     met = pairing(scene.contacts, scene.bodies, parts)
-    factor = scene.inertia.factor
-    if factor == 0.0 and not isinstance(timing, Energy):
-        problem = f"Off with the rule {type(timing).__name__}, whose contact nodes carry inertia"
-        raise InputError("inertia", problem, "the timing Energy")
     light = met.nodes if isinstance(timing, Energy) and factor > 0.0 else np.zeros(0, int)
     own = [light[(light >= p.rows.start) & (light < p.rows.stop)] - p.rows.start for p in parts]
     spread = timing.spread if isinstance(timing, Energy) else 1
-    masses = [_mass(p, solids[p.name], nodes, spread) for p, nodes in zip(parts, own, strict=True)]
-    follow = [_following(p, nodes) for p, nodes in zip(parts, own, strict=True)]
+    masses = [part_mass(p, solids[p.name], nodes, spread) for p, nodes in zip(parts, own, strict=True)]
+    follow = [part_following(p, nodes) for p, nodes in zip(parts, own, strict=True)]
     weight = sp.csr_array(sp.block_diag(masses, format="csr"))
     mass = sp.csr_array(factor * weight) if factor > 0.0 else sp.csr_array(weight.shape)
     fields = [initial(p, solids[p.name]) for p in parts]
@@ -257,40 +263,17 @@ def _tangent(parts: Sequence[Part], u: Array) -> sp.csc_array:
     return blocks[0] if len(blocks) == 1 else sp.csc_array(sp.block_diag(blocks, format="csc"))
 
 
-def _following(part: Part, light: IntArray) -> sp.csr_array:
-    if not len(light):
-        return sp.csr_array(sp.eye_array(part.mesh.n_nodes))
-    return following(part.mesh, light)
-
-
 def _timing(scene: Scene) -> Timing:
     rules = {c.timing for c in scene.contacts}
     if len(rules) > 1:
         raise InputError("contacts", f"{len(rules)} different timing rules in one scene", "the same timing for all")
-    return rules.pop() if rules else Energy()
+    timing = rules.pop() if rules else Energy()
+    if scene.inertia.factor == 0.0 and not isinstance(timing, Energy):
+        problem = f"Off with the rule {type(timing).__name__}, whose contact nodes carry inertia"
+        raise InputError("inertia", problem, "the timing Energy")
+    return timing
 
 
 def _floor(part: Part) -> float:
     speed = wave_speed(part.internal.material, part.density, part.internal.section)
     return float(1e-28 * part.density * speed**2 * part.internal.sampling.volume.sum())
-
-
-def _mass(part: Part, solid: Solid, candidates: IntArray, spread: int) -> sp.csr_array:
-    section = part.internal.section
-    with within(f"bodies.{part.name}"):
-        if len(candidates):
-            if not solid.supports:
-                _require_inertia(part, candidates)
-            return redistributed(part.mesh, solid.density, section, solid.mass, candidates, spread)
-        return nodal_mass(part.mesh, solid.density, section, solid.mass)
-
-
-def _require_inertia(part: Part, candidates: IntArray) -> None:
-    """Refuse a free body whose nodes with inertia lie on one point, or in space on one line."""
-    points = np.delete(part.mesh.points, candidates, axis=0)
-    if not len(points):
-        return  # refused with the mass
-    rank = int(np.linalg.matrix_rank(points - points.mean(axis=0), tol=1e-9 * float(np.ptp(part.mesh.points))))
-    if rank < part.mesh.dim - 1:
-        problem = f"{len(points)} nodes are no candidates of contact; they have no moment of inertia"
-        raise InputError("mesh", problem, "a finer mesh, or a smaller tag in the contact")

@@ -44,6 +44,11 @@ class InternalForce:
         return self.material.linear
 
     @property
+    def directions(self) -> Array:
+        """(p, m, D) or (1, m, D) reference directions of the points."""
+        return self.plain.points.directions
+
+    @property
     def sampling(self) -> Sampling:
         """From the nodes to the points and back."""
         return self.plain.sampling

@@ -12,6 +12,7 @@ from softway.bodies.internal import InternalForce, internal_force
 from softway.bodies.memory import Memory
 from softway.bodies.rate_force import RateForce, rate_force
 from softway.bodies.section import Section, default_section
+from softway.bodies.shock import Shock, shock_of
 from softway.bodies.solid import Solid, Support
 from softway.errors import InputError, within
 from softway.laws.law import Material, RateLaw
@@ -29,6 +30,11 @@ class Part:
     internal: InternalForce | RateForce
     density: float
     average: SlabForce
+    shock: Shock | None = None
+
+    def shock_force(self, middle: Array, change: Array, span: float) -> Array:
+        """Force (n, d) of its bulk viscosity [N], zero without."""
+        return np.zeros_like(middle) if self.shock is None else self.shock.force(self.internal, middle, change, span)
 
     def stiffness(self, u: Array, secant: bool) -> csc_array:
         """Tangent stiffness (n d, n d) [N/m] at its displacement u, or the secant one where its law has such."""
@@ -52,7 +58,17 @@ def part_of(name: str, solid: Solid, first: int) -> Part:
     section = default_section(mesh) if solid.section is None else solid.section
     internal = force_of(mesh, solid.material, section, solid.dilatation)
     rows = slice(first, first + mesh.n_nodes)
-    return Part(name=name, mesh=mesh, rows=rows, internal=internal, density=solid.density, average=solid.force)
+    with within("shock"):
+        shock = shock_of(solid.shock, mesh, solid.density, internal)
+    return Part(
+        name=name,
+        mesh=mesh,
+        rows=rows,
+        internal=internal,
+        density=solid.density,
+        average=solid.force,
+        shock=shock,
+    )
 
 
 def force_of(mesh: Mesh, material: Material, section: Section, dilatation: Dilatation) -> InternalForce | RateForce:

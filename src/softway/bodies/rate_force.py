@@ -48,6 +48,11 @@ class RateForce:
         """Never: the tangent depends on the past."""
         return False
 
+    @property
+    def directions(self) -> Array:
+        """(p, m, D) or (1, m, D) reference directions of the points."""
+        return self.points.directions
+
     def during(self, memory: Memory, span: float) -> "RateForce":
         """The force in a slab that starts with a memory."""
         return replace(self, memory=memory, span=span)

@@ -56,6 +56,10 @@ class Sampling:
         """Nodal forces (n, d) [N] of the flux (p, m, D) [Pa] on :meth:`derivatives` at the displacement u."""
         if self.dilatation is not None:
             flux = self.dilatation.returned(flux, self.plain_derivatives(u))
+        return self.unweighted(flux)
+
+    def unweighted(self, flux: Array) -> Array:
+        """Nodal forces (n, d) [N] of the flux (p, m, D) [Pa] on :meth:`plain_derivatives`."""
         q = row_flux(self.section, flux) * self.volume[:, None, None]
         return self.transposed @ q.reshape(-1, q.shape[-1])
 

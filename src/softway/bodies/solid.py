@@ -12,6 +12,7 @@ from softway.bodies.mass import Consistent, MassRule
 from softway.bodies.motion import Motion, Placed, Still
 from softway.bodies.placement import Placement
 from softway.bodies.section import Axisymmetric, Section
+from softway.bodies.shock import BulkViscosity
 from softway.errors import InputError
 from softway.laws.law import Material, RateLaw
 from softway.space.curved import Shape
@@ -99,6 +100,8 @@ class Solid:
     dilatation
         ``point``: the change of volume at each point of a cell; ``mean``: its mean over the cell, so that matter that
         keeps its volume does not lock.
+    shock
+        Bulk viscosity; none by default.
     place
         How the mesh is turned and moved into the scene.
     """
@@ -113,6 +116,7 @@ class Solid:
     supports: tuple[Support, ...] = ()
     force: SlabForce = Weighted()
     dilatation: Dilatation = "point"
+    shock: BulkViscosity | None = None
     place: Placement = Placement()
 
     def __post_init__(self) -> None:

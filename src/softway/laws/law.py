@@ -129,8 +129,8 @@ class RateLaw(Protocol):
 
 
 @runtime_checkable
-class Viscous(RateLaw, Protocol):
-    """A law whose stress is a viscosity, itself a function of the rate, times the rate."""
+class Viscous(Protocol):
+    """A :class:`RateLaw` whose stress is a viscosity, itself a function of the rate, times the rate."""
 
     def secant(self, increment: Increment) -> Array:
         """Moduli (..., 3, 3, 3, 3) with the viscosity held fixed [Pa]."""

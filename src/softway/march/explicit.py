@@ -68,7 +68,9 @@ def solve_explicit(
         If the contact nodes find no equilibrium.
     """
     h, start = slab.span, now.start
-    slope = central.inertia.acceleration(model.load - start.force)
+    shock = model.shock_force(start.displacement, h * start.velocity, h)
+    push = model.load if shock is None else model.load - shock
+    slope = central.inertia.acceleration(push - start.force)
     moving = start.velocity + h * slope
     mean = np.where(model.massive[:, None], 0.5 * (start.velocity + moving), start.velocity)
     coasting = start.displacement + h * mean
@@ -78,10 +80,10 @@ def solve_explicit(
     central = replace(central, layer=central.layer.during(model.parts))
     q = np.where(model.free, np.where(model.massive[:, None], moving, 2.0 * start.velocity), system.given)
     it, count = _settled(system, central, q, 0.5 * h * now.pressure, carry, method)
-    end = _evaluated(system, it)
+    end = _evaluated(system, it, model.load - push)
     solution = Solution(last=it, end=end, predicted=it.free, iterations=count, contraction=0.0)
     out = outcome(model, now, slab, system, solution, pairs.found)
-    last = central.inertia.acceleration(model.load - end.force)
+    last = central.inertia.acceleration(push - end.force)
     velocity = np.where(model.massive[:, None] & model.free, start.velocity + 0.5 * h * (slope + last), out.velocity)
     return replace(out, velocity=velocity, acceleration=(velocity - start.velocity) / h), it.carry
 
@@ -137,10 +139,12 @@ def _looked(system: SlabSystem, central: Central, q: Array) -> Evaluation:
     )
 
 
-def _evaluated(system: SlabSystem, it: Iterate) -> Evaluation:
-    """The whole body at the end of the slab."""
+def _evaluated(system: SlabSystem, it: Iterate, shock: Array) -> Evaluation:
+    """The whole body at the end of the slab; ``shock`` (n, d) is the force of the bulk viscosities [N]."""
     end = replace(system, pairs=it.system.pairs).evaluate(it.q, it.impulse)
-    return replace(end, mean_force=0.5 * (system.start.force + end.force))
+    moved = end.displacement - system.start.displacement
+    mean = 0.5 * (system.start.force + end.force) + shock
+    return replace(end, mean_force=mean, lost=system.model.totals(shock * moved))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

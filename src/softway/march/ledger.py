@@ -59,7 +59,7 @@ def audited(model: Model, initial: Ledger, last: Ledger, before: Situation, out:
     """The ledger after a slab, continuing the one before it."""
     moved = after.start.displacement - before.start.displacement
     work = last.work_external + float(np.sum(model.load * moved)) + out.work
-    lost = last.dissipation + out.dissipation
+    lost = last.dissipation + out.dissipation + float(np.sum(out.solution.end.lost))
     lost += past.dissipated(model.parts, after.start.memory) - past.dissipated(model.parts, before.start.memory)
     kinetic = float(model.kinetic(after.start.velocity).sum())
     strain = float(after.start.energy.sum())

@@ -55,6 +55,9 @@ def stable_step(model: Model, u: Array, scheme: TimeWeight | Explicit) -> float:
     bound = 2.0 if isinstance(scheme, Explicit) else limit(scheme)
     if np.isinf(bound):
         return np.inf
+    if isinstance(scheme, Explicit):
+        damping = max((p.shock.viscosity.linear for p in model.parts if p.shock is not None), default=0.0)
+        bound *= np.sqrt(1.0 + damping**2) - damping
     omega = greatest_frequency(model, u)
     return bound / omega if omega > 0.0 else np.inf
 

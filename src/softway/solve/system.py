@@ -51,8 +51,8 @@ class Start:
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Evaluation:
     """The equations at one q: residual, end values, mean force (n, d), the scalar a of each part and the
-    share of the work that it closes, and the contact rows
-    at the end where they change.
+    share of the work that it closes, the contact rows
+    at the end where they change, and what bulk viscosity dissipates (parts,).
     """
 
     residual: Array
@@ -64,6 +64,7 @@ class Evaluation:
     share: Array
     clipped: bool
     near: Candidates | None
+    lost: Array | float = 0.0
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -120,13 +121,17 @@ class SlabSystem:
         u1 = self.path.end(q)
         energy, force = model.energy_and_force(u1)
         mean = self._mean_force(q, u1, force)
+        lost: Array = np.zeros(len(energy))
+        shock = model.shock_force(0.5 * (start.displacement + u1), u1 - start.displacement, h)
+        if shock is not None:
+            mean, lost = mean + shock, model.totals(shock * (u1 - start.displacement))
         if self.split is not None:
             mean = mean + self.split.difference(self.path, q, self._product_mean(q))
         near = None if self.pairs is None else self.pairs.at(u1)
         none = np.zeros(len(energy))
         closure = Closure(mean=mean, scalar=none, share=none, clipped=False)
         if self.balanced:
-            closure = closed(model, self._ends(u1, force, energy, mean, near, impulse), self.fallback)
+            closure = closed(model, self._ends(u1, force, energy + lost, mean, near, impulse), self.fallback)
         inertia = model.mass @ (q - start.velocity - self.unbalanced)
         residual = inertia + h * (closure.mean - model.load) - self.impulses
         still = ~model.massive
@@ -141,6 +146,7 @@ class SlabSystem:
             share=closure.share,
             clipped=closure.clipped,
             near=near,
+            lost=lost,
         )
 
     def _ends(

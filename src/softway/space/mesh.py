@@ -133,11 +133,17 @@ class Mesh:
     def edges(self) -> Array:
         """Shortest edge (n,) of the cells around each node [m]."""
         shortest = np.full(self.n_nodes, np.inf)
-        for name, cells in self.blocks.items():
-            ends = self.points[cells[:, np.array(CELLS[name].edges)]]
-            lengths = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=-1).min(axis=1)
+        for cells, lengths in zip(self.blocks.values(), self.cell_edges(), strict=True):
             np.minimum.at(shortest, cells, lengths[:, None])
         return shortest
+
+    def cell_edges(self) -> tuple[Array, ...]:
+        """Shortest edge (e,) of each cell, kind by kind [m]."""
+        out = []
+        for name, cells in self.blocks.items():
+            ends = self.points[cells[:, np.array(CELLS[name].edges)]]
+            out.append(np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=-1).min(axis=1))
+        return tuple(out)
 
 
 def _frozen(array: NDArray[Scalar]) -> NDArray[Scalar]:
