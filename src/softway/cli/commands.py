@@ -16,6 +16,7 @@ from rich.logging import RichHandler
 from rich.markup import escape
 
 from softway.cli.law import check_law
+from softway.cli.materials import materials
 from softway.cli.progress import laps_of, progress_of
 from softway.cli.tables import ranking, scales, summary
 from softway.errors import InputError, NumericsError
@@ -47,6 +48,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 app.command(check_law)
+app.command(materials)
 Set = Annotated[tuple[str, ...], Parameter(name="--set", negative=())]
 Quiet = Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())]
 AllowPython = Annotated[bool, Parameter(negative=())]

@@ -7,6 +7,7 @@ from pathlib import Path
 import tomli_w
 
 from softway.errors import InputError
+from softway.scenario.library import furnished
 from softway.scenario.modules import Modules
 from softway.scenario.override import overridden
 from softway.scenario.quantity import Units
@@ -87,7 +88,7 @@ def loads(
     except tomllib.TOMLDecodeError as error:
         raise InputError(name, f"is not TOML: {error}", "keys as name = value, texts in quotes") from None
     reader = Reader(units or Units.standard(), folder or modules.folder or Path(), modules)
-    scenario: Scenario = reader.read(overridden(data, changes), Scenario, "")
+    scenario: Scenario = reader.read(furnished(overridden(data, changes)), Scenario, "")
     return scenario
 
 

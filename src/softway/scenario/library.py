@@ -1,0 +1,58 @@
+"""Materials of the library in a scenario: a name stands for a law, and for the density where none is given."""
+
+import copy
+from collections.abc import Mapping
+from typing import Any, get_args
+
+from softway.errors import InputError
+from softway.laws.law import Material as Law
+from softway.materials import find
+from softway.materials.material import LawName
+from softway.scenario.kinds import REGISTRIES, kinds, nearest
+from softway.scenario.writer import write
+
+
+def furnished(data: Mapping[str, Any]) -> dict[str, Any]:
+    """A copy of the data of a scenario with laws and densities in place of materials of the library.
+
+    ``material = "steel S235"`` takes the elastic law for any rotation;
+    ``material = { library = "steel S235", law = "plastic" }`` another one: elastic, linear or plastic.  Further keys of
+    such a table replace parameters of the law.
+
+    Examples
+    --------
+    >>> furnished({"bodies": {"rod": {"material": "glass"}}})["bodies"]["rod"]["density"]
+    '2500.0 kg/m^3'
+    """
+    out = copy.deepcopy(dict(data))
+    bodies = out.get("bodies")
+    if isinstance(bodies, dict):
+        for name, body in bodies.items():
+            if isinstance(body, dict) and "material" in body:
+                _furnish(body, f"bodies.{name}.material")
+    return out
+
+
+def _furnish(body: dict[str, Any], where: str) -> None:
+    """Replace the material of one body, if it is of the library."""
+    given = body["material"]
+    if isinstance(given, str) and given not in kinds(tuple(REGISTRIES)):
+        given = {"library": given}
+    if not (isinstance(given, dict) and "library" in given):
+        return
+    if not isinstance(given["library"], str):
+        raise InputError(f"{where}.library", f"{given['library']!r} is no name", 'a name such as "steel S235"')
+    try:
+        material = find(given["library"])
+    except InputError as error:
+        raise InputError(where, error.problem, f"{error.remedy}; or a table with kind = ...") from None
+    choice, known = given.get("law", "elastic"), get_args(LawName)
+    if choice not in known:
+        raise InputError(f"{where}.law", f"{choice!r} is unknown", nearest(str(choice), known))
+    try:
+        law = material.law(choice)
+    except InputError as error:
+        raise error.within(where) from None
+    more = {key: value for key, value in given.items() if key not in ("library", "law")}
+    body["material"] = {**write(law, Law, where), **more}
+    body.setdefault("density", f"{material.density!r} kg/m^3")
