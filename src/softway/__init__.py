@@ -14,7 +14,19 @@ from softway.contact.contact import Contact, DualMortar, NodeToSurface
 from softway.contact.timing import Energy, Impulse, Paper
 from softway.errors import InputError, NumericsError, SoftwayError
 from softway.execute import run
-from softway.laws.bulk import J2, Hypoelastic, Kelvin, LinearElastic, Maxwell, NeoHookean, NortonHoff, StVenantKirchhoff
+from softway.laws.bulk import (
+    J2,
+    Hencky,
+    Hypoelastic,
+    Kelvin,
+    LinearElastic,
+    LinearOrthotropic,
+    Maxwell,
+    MooneyRivlin,
+    NeoHookean,
+    NortonHoff,
+    StVenantKirchhoff,
+)
 from softway.laws.flow import JohnsonCook, NortonFlow, Perzyna, RateIndependent
 from softway.laws.hardening import LinearHardening, PowerHardening, Voce
 from softway.laws.rates import GreenNaghdi, Jaumann, Logarithmic, Truesdell
@@ -74,6 +86,7 @@ __all__ = [
     "Gravity",
     "GreenNaghdi",
     "HalfSpace",
+    "Hencky",
     "Hypoelastic",
     "Impulse",
     "InputError",
@@ -84,6 +97,7 @@ __all__ = [
     "Ledger",
     "LinearElastic",
     "LinearHardening",
+    "LinearOrthotropic",
     "Logarithmic",
     "Lumped",
     "MatrixFree",
@@ -91,6 +105,7 @@ __all__ = [
     "Mesh",
     "MeshFile",
     "Momentum",
+    "MooneyRivlin",
     "Multigrid",
     "NeoHookean",
     "Newton",
