@@ -16,6 +16,7 @@ from softway.bodies.solid import Driven, Solid
 from softway.contact.candidates import Candidates
 from softway.contact.encounters import Encounters
 from softway.contact.pairing import pairing
+from softway.contact.rubbing import Rubbing
 from softway.contact.timing import Energy, Timing
 from softway.errors import InputError, within
 from softway.kernels.patterns import Sum, sum_of
@@ -62,6 +63,8 @@ class Model:
         Sums of mass and tangent stiffness on the free components.
     timing
         The contact rule of the scene.
+    rubbing
+        Friction of the contact rows; None where no contact has any.
     """
 
     scene: Scene
@@ -82,6 +85,7 @@ class Model:
     floor: Array
     total: Sum
     timing: Timing
+    rubbing: Rubbing | None = None
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -230,6 +234,7 @@ def build(scene: Scene) -> Model:
         floor=np.array([_floor(p) for p in parts]),
         total=sum_of(inertia, _tangent(parts, np.zeros_like(displacement)), free.ravel()),
         timing=timing,
+        rubbing=met.rubbing,
     )
 
 

@@ -81,6 +81,9 @@ class State:
         Contact name -> (c,) normal force of the obstacle on each candidate node, >= 0 [N].
     memory
         Body name -> past of the solids whose law has a history.
+    traction, sliding
+        Contact name -> (c, d) tangential force of the obstacle on each candidate node [N], and (c,) which of them
+        slip; both empty where there is no friction.
     """
 
     time: float
@@ -90,3 +93,5 @@ class State:
     closed: Mapping[str, BoolArray]
     pressure: Mapping[str, Array]
     memory: Mapping[str, Memory] = field(default_factory=dict)
+    traction: Mapping[str, Array] = field(default_factory=dict)
+    sliding: Mapping[str, BoolArray] = field(default_factory=dict)

@@ -85,13 +85,17 @@ def traction_force(mesh: Mesh, section: Section, tag: str, value: Sequence[float
     >>> traction_force(mesh, PlaneStrain(thickness=0.5), "top", (0.0, -1.0))[mesh.nodes("top")].tolist()
     [[0.0, -0.25], [0.0, -0.5], [0.0, -0.25]]
     """
-    facets = mesh.facets_on(tag)
-    if not facets:
+    if not mesh.facets_on(tag):
         raise InputError("on", f"tag {tag!r} holds no whole facet of the boundary", "a tag of a side")
+    return traction_measure(mesh, section, tag)[:, None] * components("value", value, mesh.dim)
+
+
+def traction_measure(mesh: Mesh, section: Section, tag: str) -> Array:
+    """Integrals (n,) of the shape functions over the facets of a tag [m^2]: the area around each node."""
     measure = np.zeros(mesh.n_nodes)
-    for name, nodes in facets.items():
+    for name, nodes in mesh.facets_on(tag).items():
         np.add.at(measure, nodes, _facet_measure(mesh, section, name, nodes))
-    return measure[:, None] * components("value", value, mesh.dim)
+    return measure
 
 
 def _facet_measure(mesh: Mesh, section: Section, name: str, nodes: IntArray) -> Array:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from softway.contact.shear import Shear
 from softway.typing import Array, BoolArray, IntArray
 
 
@@ -28,6 +29,8 @@ class Candidates:
         (m,) normal motion of a driven opponent over the slab, positive towards the slave [m].
     labels
         Names of the contacts.
+    shear
+        The same rows along the surfaces, where a contact has friction.
     """
 
     node: IntArray
@@ -37,6 +40,7 @@ class Candidates:
     offset: Array
     drive: Array
     labels: tuple[str, ...]
+    shear: Shear | None = None
 
     @property
     def near(self) -> BoolArray:
@@ -56,8 +60,11 @@ class Candidates:
         return np.asarray(self.gradient.T @ values).reshape(shape)
 
     def matrix(self, free: BoolArray) -> sp.csr_array:
-        """Rows G (m, f) on the free components of a field."""
-        return sp.csr_array(self.gradient[:, np.flatnonzero(free.ravel())])
+        """Rows G (m, f) on the free components of a field; where there is friction those of the shear below them."""
+        return sp.csr_array(self._all()[:, np.flatnonzero(free.ravel())])
+
+    def _all(self) -> sp.csr_array:
+        return self.gradient if self.shear is None else sp.vstack([self.gradient, self.shear.gradient()], format="csr")
 
     def reachable(self, free: BoolArray) -> BoolArray:
         """Rows (m,) with an opponent that the free components (n, d) can move."""

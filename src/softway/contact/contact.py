@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from softway.contact.timing import Energy, Timing
+from softway.laws.friction import Frictionless
+from softway.laws.friction_law import FrictionLaw
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,7 +42,7 @@ class DualMortar:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Contact:
-    """Unilateral frictionless contact of the surface of a solid with a tool or with another solid.
+    """Unilateral contact of the surface of a solid with a tool or with another solid.
 
     Parameters
     ----------
@@ -53,6 +55,8 @@ class Contact:
     method
         How two solids meet; by default :class:`DualMortar`, between bars and under the rules that locate instants
         (Paper, Impulse) :class:`NodeToSurface`.  Nodes meet tools.
+    friction
+        Law of the tangential traction; by default there is none.
     start
         ``apart``: bodies that overlap at the start are an error; ``fit``: they are pressed apart into static
         equilibrium first (a press fit).
@@ -67,6 +71,7 @@ class Contact:
     name: str = ""
     timing: Timing = Energy()
     method: DualMortar | NodeToSurface | None = None
+    friction: FrictionLaw = Frictionless()
     start: Literal["apart", "fit"] = "apart"
 
     @property

@@ -12,6 +12,7 @@ from softway.contact.holding import HeldEdges, held
 from softway.contact.meeting import Held
 from softway.contact.meeting import Meeting as FaceMeeting
 from softway.contact.nodes_on_tool import NodesOnTool, ToolMeeting
+from softway.contact.shear import Shear, tangents
 from softway.contact.stencils import Stencils
 from softway.typing import Array, IntArray
 
@@ -64,7 +65,9 @@ class Encounters:
     watched
         Number of the contact of each watcher.
     known
-        The rows, where one linear form serves everywhere and at all times: resting half-spaces.
+        The rows, where one linear form serves everywhere and at all times: resting half-spaces without friction.
+    rough
+        Whether a contact has friction; rows then have their :class:`~softway.contact.shear.Shear`.
     """
 
     methods: tuple[NodesOnTool | Surfaces, ...]
@@ -75,6 +78,7 @@ class Encounters:
     watchers: tuple[Surfaces, ...] = ()
     watched: tuple[int, ...] = ()
     known: Candidates | None = None
+    rough: bool = False
 
     @property
     def node(self) -> IntArray:
@@ -104,7 +108,7 @@ class Encounters:
 
     def settled(self) -> "Encounters":
         """The same, with the rows known once and for all where they never change."""
-        if not all(isinstance(m, NodesOnTool) and m.fixed for m in self.methods):
+        if self.rough or not all(isinstance(m, NodesOnTool) and m.fixed for m in self.methods):
             return self
         still = np.zeros_like(self.points)
         return replace(self, known=self.rest(still, 0.0).at(still))
@@ -199,4 +203,19 @@ class Pairs:
             offset=gap - gradient @ u.ravel(),
             drive=np.concatenate([np.zeros(0), *drive]),
             labels=self.encounters.labels,
+            shear=_shear(meetings, found, x, normal) if self.encounters.rough else None,
         )
+
+
+def _shear(meetings: tuple[Meeting, ...], found: list[Stencils], x: Array, normal: Array) -> Shear:
+    """The rows along the surfaces at positions ``x`` (n, d), with normals (m, d)."""
+    moved = [
+        m.moved(x) if isinstance(m, ToolMeeting) else np.zeros_like(s.normal)
+        for m, s in zip(meetings, found, strict=True)
+    ]
+    weights = sp.vstack([sp.csr_array((0, len(x))), *(s.weights for s in found)], format="csr")
+    return Shear(
+        weights=sp.csr_array(weights),
+        tangents=tangents(normal),
+        moved=np.concatenate([np.zeros((0, x.shape[1])), *moved]),
+    )

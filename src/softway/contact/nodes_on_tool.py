@@ -57,5 +57,10 @@ class ToolMeeting:
         """Normal motion (m,) of the tool over the slab beside the nodes at ``x`` (n, d) [m]."""
         if isinstance(self.tool.motion, Still):
             return np.zeros(len(self.node))
-        moved = carried(self.tool.motion, self.other, self.now, x[self.node])
-        return self.sign * np.einsum("mi,mi->m", normal, moved)
+        return np.einsum("mi,mi->m", normal, self.moved(x))
+
+    def moved(self, x: Array) -> Array:
+        """Motion (m, d) of the tool over the slab beside the nodes at ``x`` (n, d) [m]."""
+        if isinstance(self.tool.motion, Still):
+            return np.zeros((len(self.node), x.shape[1]))
+        return self.sign * carried(self.tool.motion, self.other, self.now, x[self.node])

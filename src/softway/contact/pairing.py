@@ -13,6 +13,8 @@ from softway.contact.encounters import Encounters, Surfaces
 from softway.contact.mortar import Mortar
 from softway.contact.nodes_on_faces import NodesOnFaces
 from softway.contact.nodes_on_tool import NodesOnTool
+from softway.contact.roughness import rubbing
+from softway.contact.rubbing import Rubbing
 from softway.contact.side import Edges, Side, outward
 from softway.contact.timing import Energy
 from softway.errors import InputError, within
@@ -34,11 +36,14 @@ class Pairing:
         (contacts, 2) numbers of the two solids of each contact; -1 for a tool.
     nodes
         (k,) nodes of the model that may touch something.
+    rubbing
+        Friction of the rows; None where no contact has any.
     """
 
     encounters: Encounters
     opponents: IntArray
     nodes: IntArray
+    rubbing: Rubbing | None
 
 
 def pairing(contacts: Sequence[Contact], bodies: Mapping[str, Solid | Tool], parts: Sequence[Part]) -> Pairing:
@@ -76,11 +81,13 @@ def pairing(contacts: Sequence[Contact], bodies: Mapping[str, Solid | Tool], par
         labels=_labels(contacts),
         watchers=tuple(watchers),
         watched=tuple(watched),
+        rough=not all(c.friction.frictionless for c in contacts),
     )
     return Pairing(
         encounters=encounters.settled(),
         opponents=np.array(opponents, int).reshape(-1, 2),
         nodes=np.unique(np.concatenate(nodes)),
+        rubbing=rubbing(contacts, methods, number[1:], parts),
     )
 
 

@@ -52,6 +52,8 @@ def rule(model: Model, method: Method, weight: TimeWeight) -> Rule:
             raise InputError("time.weight", f"{weight} with Explicit, whose peak is at the start", "the default weight")
         return Rule(model=model, method=method, inertia=None, located=None, central=central(model))
     if not isinstance(model.timing, Energy):
+        if model.rubbing is not None:
+            raise InputError("contacts[0].friction", f"friction with {model.timing}", "the rule Energy")
         triangle = isinstance(model.timing, Paper) and model.timing.split == "triangle"
         split = split_elements(model) if triangle else None
         return Rule(model=model, method=method, inertia=reaction(model), located=None, split=split)
@@ -61,6 +63,8 @@ def rule(model: Model, method: Method, weight: TimeWeight) -> Rule:
             f"{weight} with the Energy rule, whose contact nodes are in equilibrium at the slab's ends",
             "EndPeaks with theta = 0.5, or the rule Impulse or Paper",
         )
+    if model.timing.located and model.rubbing is not None:
+        raise InputError("contacts[0].friction", "friction with the located Energy rule", "located = false")
     if not model.timing.located:
         return Rule(model=model, method=method, inertia=None, located=None)
     if not (model.linear and model.encounters.fixed):
@@ -102,6 +106,8 @@ def advance(
         acceleration=out.acceleration,
         closed=out.closed,
         pressure=out.pressure,
+        traction=out.traction,
+        sliding=out.sliding,
     )
     return after, out, carry
 

@@ -65,6 +65,8 @@ def begin(model: Model, span: float = 1.0) -> Situation:
         acceleration=np.zeros(model.shape),
         closed=pressure > 0.0,
         pressure=pressure,
+        traction=None if model.rubbing is None else np.zeros((len(pressure), model.shape[1])),
+        sliding=None if model.rubbing is None else np.zeros(len(pressure), bool),
     )
 
 

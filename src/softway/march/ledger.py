@@ -9,7 +9,7 @@ from softway.march.situation import Situation
 from softway.march.step import ContactLedger, Ledger
 from softway.model import Model
 from softway.solve.balance import moment
-from softway.typing import Array
+from softway.typing import Array, BoolArray
 
 
 def opening(model: Model, now: Situation) -> Ledger:
@@ -19,7 +19,7 @@ def opening(model: Model, now: Situation) -> Ledger:
     contacts = {
         name: ContactLedger(
             force_n=float(now.pressure[rows.of(k)].sum()),
-            force_t=0.0,
+            force_t=_resultant(now.traction, rows.of(k)),
             min_gap=float(gap[rows.of(k)].min(initial=np.inf)),
             power_residual=0.0,
             count=int(now.closed[rows.of(k)].sum()),
@@ -85,10 +85,15 @@ def _contacts(model: Model, before: Situation, out: Outcome, after: Situation) -
     return {
         name: ContactLedger(
             force_n=float(out.force[rows.of(k)].sum()),
-            force_t=0.0,
+            force_t=_resultant(out.shear, rows.of(k)),
             min_gap=float(gap1[rows.of(k)].min(initial=np.inf)),
             power_residual=float(power[rows.of(k)].sum()),
             count=int(after.closed[rows.of(k)].sum()),
         )
         for k, name in enumerate(rows.labels)
     }
+
+
+def _resultant(shear: Array | None, which: BoolArray) -> float:
+    """Size of the sum of some tangential forces (m, d) [N]."""
+    return 0.0 if shear is None else float(np.linalg.norm(shear[which].sum(axis=0)))

@@ -12,6 +12,7 @@ from softway.kernels.dense import shared
 from softway.kernels.impact import fading
 from softway.march.control import require_slow
 from softway.march.outcome import Outcome, contact_event, supports
+from softway.march.rub import first_impulses, rub, slipping, transitions
 from softway.march.situation import Situation
 from softway.march.step import Event
 from softway.model import Model
@@ -44,8 +45,8 @@ def solve_massless(
     require_slow(model, pairs, coasting, approach)
     system = replace(equations(model, now, slab, pairs, located), fallback=fallback)
     guess = np.where(model.free, np.where(model.massive[:, None], rate, 2.0 * rate), system.given)
-    impulse = now.pressure * h * moments(slab.weight)[1]
-    iterates = method.iterate(system, guess, carry, impulse, impulse != 0.0)
+    impulse, active = first_impulses(now, slab, system.path.rows)
+    iterates = method.iterate(system, guess, carry, impulse, active)
     solution = drive(system, iterates, method.tolerance, method.limit)
     return outcome(model, now, slab, system, solution, pairs.found), solution.last.carry
 
@@ -73,13 +74,19 @@ def equations(model: Model, now: Situation, slab: Slab, pairs: Pairs, located: L
         start=start,
         weight=slab.weight,
         path=path,
-        rows=Rows(target=target, equal=way.closed, unilateral=rows.reachable(model.free)),
+        rows=Rows(
+            target=target,
+            equal=way.closed,
+            unilateral=rows.reachable(model.free),
+            slipping=slipping(model, now, slab, rows),
+        ),
         balanced=located is None and slab.weight == EndPeaks(),
         located=located,
         pairs=None if fixed else pairs,
         searched=None if fixed else pairs,
         given=given,
         pressure=now.pressure,
+        traction=now.traction,
     )
 
 
@@ -90,9 +97,10 @@ def outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, soluti
     rows = end.near or system.path.rows
     massive = model.massive[:, None]
     velocity = np.where(massive, q, 0.5 * q)
-    closed = solution.last.impulse > 0.0
-    pressure = solution.last.impulse / (h * moments(slab.weight)[1])
+    pressure = solution.last.impulse[: len(rows.node)] / (h * moments(slab.weight)[1])
+    closed = pressure > 0.0
     first, a = system.path.rows, end.scalar[model.part_of[rows.node]]
+    rubbed = rub(now, slab, solution, (first, rows), a)
     if system.located is not None:
         force = rows.shares((end.mean_force - model.load) * ~massive, closed | now.closed, model.free)
         push = rows.spread(force, model.shape)
@@ -105,6 +113,9 @@ def outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, soluti
         tools = float(old @ first.drive + new @ rows.drive)
         events = _touches(model, now, slab, system, solution, closed)
         events += _releases(model, now, slab, rows, solution, closed)
+    if rubbed is not None:
+        push, tools = push + rubbed.push, tools + rubbed.work
+        events += transitions(model, now, slab, solution, (first, rows), rubbed)
     support = supports(model, now, end, velocity, push, h)
     return Outcome(
         system=system,
@@ -118,7 +129,10 @@ def outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, soluti
         push=push,
         support=support,
         work=tools + float(np.sum(support * (end.displacement - now.start.displacement))),
-        dissipation=0.0,
+        dissipation=0.0 if rubbed is None else rubbed.dissipation,
+        traction=None if rubbed is None else rubbed.traction,
+        sliding=None if rubbed is None else rubbed.sliding,
+        shear=None if rubbed is None else rubbed.mean,
         events=tuple(sorted(events, key=lambda e: (round((e.time - slab.start) / slab.span, 9), e.contact, e.node))),
         pairs=pairs,
         passes=1,
@@ -138,7 +152,7 @@ def _touches(
     last = end.near or rows
     fresh = closed & ~now.closed
     gap = np.where(rows.near, rows.gap(now.start.displacement), 0.0)
-    speed = 0.5 * solution.predicted - last.drive / h
+    speed = 0.5 * solution.predicted[: len(last.node)] - last.drive / h
     if fresh.any():
         unseen = ~rows.near | (gap + h * speed >= 0.0)
         coasting = now.start.displacement + h * now.start.velocity

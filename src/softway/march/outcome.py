@@ -38,13 +38,16 @@ class Outcome:
     dissipation
         Energy lost in velocity jumps [J].
     events
-        Touches and releases.
+        Touches and releases, places that stick and slip.
     pairs
         Number of pairs that the search found.
     passes
         How often the slab was solved.
     iterations
         Over all passes.
+    traction, sliding, shear
+        (m, d) tangential forces at the end, (m,) which rows slip, (m, d) tangential forces over the slab [N]; None
+        where there is no friction.
     """
 
     system: SlabSystem
@@ -63,6 +66,9 @@ class Outcome:
     pairs: int
     passes: int
     iterations: int
+    traction: Array | None = None
+    sliding: BoolArray | None = None
+    shear: Array | None = None
 
 
 def supports(model: Model, now: Situation, end: Evaluation, velocity: Array, push: Array, span: float) -> Array:

@@ -17,7 +17,8 @@ class Situation:
     """A :class:`~softway.scene.State` joined over the model, with the force and energy that belong to it.
 
     ``start`` holds displacement, velocity, internal force and stored energy; ``acceleration`` (n, d) the slope of
-    the velocity in the slab before; ``closed`` and ``pressure`` (m,) the contact rows.
+    the velocity in the slab before; ``closed`` and ``pressure`` (m,) the contact rows, ``traction`` (m, d) their
+    tangential forces and ``sliding`` (m,) which slip, both None where there is no friction.
     """
 
     time: float
@@ -25,6 +26,8 @@ class Situation:
     acceleration: Array
     closed: BoolArray
     pressure: Array
+    traction: Array | None = None
+    sliding: BoolArray | None = None
 
 
 def joined(model: Model, state: State) -> Situation:
@@ -56,6 +59,8 @@ def joined(model: Model, state: State) -> Situation:
         acceleration=model.join(state.acceleration),
         closed=np.concatenate([state.closed[n] for n in labels]) if labels else np.zeros(0, bool),
         pressure=np.concatenate([state.pressure[n] for n in labels]) if labels else np.zeros(0),
+        traction=np.concatenate([state.traction[n] for n in labels]) if model.rubbing is not None else None,
+        sliding=np.concatenate([state.sliding[n] for n in labels]) if model.rubbing is not None else None,
     )
 
 
@@ -66,6 +71,9 @@ def parted(model: Model, situation: Situation) -> State:
         array.flags.writeable = False
     situation.closed.flags.writeable = False
     situation.pressure.flags.writeable = False
+    for array in (situation.traction, situation.sliding):
+        if array is not None:
+            array.flags.writeable = False
     return State(
         time=situation.time,
         displacement=model.split(situation.start.displacement),
@@ -74,4 +82,12 @@ def parted(model: Model, situation: Situation) -> State:
         closed={n: situation.closed[rows.of(k)] for k, n in enumerate(rows.labels)},
         pressure={n: situation.pressure[rows.of(k)] for k, n in enumerate(rows.labels)},
         memory={p.name: m for p, m in zip(model.parts, situation.start.memory, strict=False) if m is not None},
+        traction=_by_contact(model, situation.traction),
+        sliding=_by_contact(model, situation.sliding),
     )
+
+
+def _by_contact(model: Model, values: Array | None) -> dict[str, Array]:
+    """Values of the rows by contact; nothing where there is no friction."""
+    rows = model.encounters
+    return {} if values is None else {n: values[rows.of(k)] for k, n in enumerate(rows.labels)}

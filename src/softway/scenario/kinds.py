@@ -10,9 +10,14 @@ from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
+from softway.laws.friction_law import FrictionLaw
 from softway.laws.law import RateLaw, StoredEnergy
 
-REGISTRIES: Mapping[type, str] = {StoredEnergy: "softway.laws.bulk", RateLaw: "softway.laws.bulk"}
+REGISTRIES: Mapping[type, str] = {
+    StoredEnergy: "softway.laws.bulk",
+    RateLaw: "softway.laws.bulk",
+    FrictionLaw: "softway.laws.friction",
+}
 
 
 @dataclass(frozen=True, slots=True)

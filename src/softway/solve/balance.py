@@ -31,7 +31,8 @@ class Ends:
 
     ``u0``, ``u1``, ``f0``, ``f1`` (n, d) displacement and internal force at both ends, ``V0``, ``V1`` (parts,) stored
     energy, ``mean`` (n, d) the mean force to complete, ``v0`` (n, d) velocity at the start; ``rows0``, ``rows1`` and
-    ``force0``, ``force1`` (m,) contact rows and normal forces at both ends.
+    ``force0``, ``force1`` (m,) contact rows and normal forces at both ends, ``shear0``, ``shear1`` (m, d) tangential
+    forces where there is friction.
     """
 
     u0: Array
@@ -46,6 +47,8 @@ class Ends:
     rows1: Candidates
     force0: Array
     force1: Array
+    shear0: Array | None = None
+    shear1: Array | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -121,7 +124,9 @@ def _energies(model: Model, ends: Ends, moving: Array) -> tuple[Array, Array, Ar
     driven = np.bincount(slave, weights=0.5 * (d0 + d1), minlength=n)
     num = ends.V1 - ends.V0 - work - still - driven
     den = model.totals((ends.f1 - ends.f0) * moving) + np.bincount(slave, weights=d1 - d0, minlength=n)
-    if model.driven:
+    if ends.shear0 is not None:
+        num, den = _rough(model, ends, moving)
+    elif model.driven:
         r0, r1 = (_held(model, f, rows, p) for f, rows, p in _both(ends))
         num = num - model.totals(0.5 * (r0 + r1) * du)
         den = den + model.totals((r1 - r0) * du)
@@ -129,6 +134,27 @@ def _energies(model: Model, ends: Ends, moving: Array) -> tuple[Array, Array, Ar
     level += model.totals(np.abs(ends.mean * moving)) + model.totals(np.abs(model.load * du))
     level += np.bincount(slave, weights=np.abs(d0) + np.abs(d1), minlength=n)
     return num, den, level
+
+
+def _rough(model: Model, ends: Ends, moving: Array) -> tuple[Array, Array]:
+    """Missing work and its slope in a (parts,) where there is friction.
+
+    At both ends the internal forces of the nodes without inertia are those of loads, contact and supports, so that all
+    that does work there is in them, friction too; but for what a normal force would do in closing or opening a gap.
+    The numerator then vanishes to rounding where a linear body stays in contact, whatever sticks or slips.
+    """
+    du = ends.u1 - ends.u0
+    slave, n = model.part_of[ends.rows0.node], len(model.parts)
+    gaps = []
+    for rows, force in ((ends.rows0, ends.force0), (ends.rows1, ends.force1)):
+        with np.errstate(invalid="ignore"):
+            change = np.where(force > 0.0, force * (rows.along(du) - rows.drive), 0.0)
+        gaps.append(np.bincount(slave, weights=change, minlength=n))
+    still = du - moving
+    work = model.totals(ends.mean * moving + 0.5 * (ends.f0 + ends.f1) * still)
+    return ends.V1 - ends.V0 - work + 0.5 * (gaps[0] + gaps[1]), model.totals((ends.f1 - ends.f0) * du) - (
+        gaps[1] - gaps[0]
+    )
 
 
 def _blurred(model: Model, ends: Ends) -> Array:
@@ -219,6 +245,9 @@ def _spin(model: Model, ends: Ends, members: BoolArray) -> _Spin:
     inner = here & model.massive
     rigid = model.opponents[model.encounters.contact, 1] < 0
     tools = [rows.spread(np.where(rigid & rows.near, p, 0.0), model.shape) for _, rows, p in _both(ends)]
+    for k, (rows, shear) in enumerate(((ends.rows0, ends.shear0), (ends.rows1, ends.shear1))):
+        if rows.shear is not None and shear is not None:
+            tools[k] = tools[k] + rows.shear.spread(np.where((rigid & rows.near)[:, None], shear, 0.0))
     outer = (here & ~model.massive)[:, None] * (model.load + 0.5 * (tools[0] + tools[1]))
     torque = moment(x, np.where(inner[:, None], ends.mean, outer))
     change = np.where(inner[:, None], ends.f1 - ends.f0, (here & ~model.massive)[:, None] * (tools[1] - tools[0]))

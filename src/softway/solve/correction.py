@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from softway.solve.along import Along
+from softway.solve.friction import rubbed
 from softway.solve.frozen import Frozen
 from softway.solve.normal import constrain
 from softway.solve.system import Evaluation, SlabSystem
@@ -31,7 +32,8 @@ def corrected(
     keep = system.model.free
     rows, conditions = system.conditions(q, end, frozen)
     free = q[keep] - frozen.solve(end.residual[keep] - frozen.push(rows.spread(impulse)))
-    solved, pressed, now = constrain(free, frozen, rows, conditions, active, impulse)
+    solve = constrain if conditions.slipping is None else rubbed
+    solved, pressed, now = solve(free, frozen, rows, conditions, active, impulse)
     new = system.filled()
     new[keep] = solved
     return Correction(q=new, rows=rows, free=free, impulse=pressed, active=now)

@@ -16,6 +16,7 @@ from softway.errors import NoConvergence
 from softway.kernels.dense import Shared, factored
 from softway.solve.along import Along, Mixed
 from softway.solve.frozen import Frozen
+from softway.solve.return_map import Slipping
 from softway.typing import Array, BoolArray, IntArray
 
 BATCH = 16
@@ -24,11 +25,14 @@ BATCH = 16
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Rows:
-    """Conditions of one slab on the contact rows: ``target`` (m,), and which are ``equal`` or ``unilateral`` (m,)."""
+    """Conditions of one slab on the contact rows: ``target`` (m,), and which are ``equal`` or ``unilateral`` (m,); where
+    there is friction, those on their ``slipping``.
+    """
 
     target: Array
     equal: BoolArray
     unilateral: BoolArray
+    slipping: Slipping | None = None
 
 
 def constrain(

@@ -25,6 +25,7 @@ from softway.solve.along import Along
 from softway.solve.balance import Closure, Ends, closed
 from softway.solve.frozen import Basis, Frozen, basis
 from softway.solve.normal import Rows
+from softway.solve.return_map import Slipping
 from softway.time.weight import Momentum, TimeWeight, moments, peaks
 from softway.typing import Array
 
@@ -93,8 +94,8 @@ class SlabSystem:
         The same with the faces chosen afresh at every iterate.
     given
         (n, d) values of q on supported components.
-    pressure
-        (m,) normal forces of the contact rows at t0 [N].
+    pressure, traction
+        (m,) normal forces of the contact rows at t0, and (m, d) tangential ones where there is friction [N].
     fallback
         Whether an energy balance that the scalar cannot close is closed along the motion.
     """
@@ -113,6 +114,7 @@ class SlabSystem:
     searched: Pairs | None = None
     given: Array | float = 0.0
     pressure: Array | None = None
+    traction: Array | None = None
     fallback: bool = False
 
     def evaluate(self, q: Array, impulse: Array) -> Evaluation:
@@ -152,7 +154,9 @@ class SlabSystem:
     def _ends(
         self, u1: Array, force: Array, energy: Array, mean: Array, near: Candidates | None, impulse: Array
     ) -> Ends:
-        start, rows = self.start, self.path.rows
+        start, rows, m = self.start, self.path.rows, len(self.path.rows.node)
+        last = rows if near is None else near
+        carried = impulse / (self.path.span * moments(self.weight)[1])
         return Ends(
             u0=start.displacement,
             u1=u1,
@@ -163,9 +167,11 @@ class SlabSystem:
             mean=mean,
             v0=start.velocity,
             rows0=rows,
-            rows1=rows if near is None else near,
-            force0=np.zeros(len(impulse)) if self.pressure is None else self.pressure,
-            force1=impulse / (self.path.span * moments(self.weight)[1]),
+            rows1=last,
+            force0=np.zeros(m) if self.pressure is None else self.pressure,
+            force1=carried[:m],
+            shear0=self.traction,
+            shear1=None if last.shear is None else last.shear.vectors(carried[m:].reshape(m, -1)),
         )
 
     def conditions(self, q: Array, end: Evaluation, frozen: Frozen) -> tuple[Along, Rows]:
@@ -180,8 +186,20 @@ class SlabSystem:
         with np.errstate(invalid="ignore"):
             target = near.along(q - fixed) - 2.0 * near.gap(end.displacement) / self.path.span
         open_ = near.reachable(self.model.free)
-        rows = Rows(target=np.where(open_, target, 0.0), equal=self.rows.equal, unilateral=open_)
+        rows = Rows(
+            target=np.where(open_, target, 0.0),
+            equal=self.rows.equal,
+            unilateral=open_,
+            slipping=self._slipping(near, fixed),
+        )
         return frozen.coefficients(near, self.model.free), rows
+
+    def _slipping(self, near: Candidates, fixed: Array) -> Slipping | None:
+        """The conditions on the slip over the slab, ``h/2 (T z - shift)`` for the free components of z."""
+        law, shear = self.rows.slipping, near.shear
+        if law is None or shear is None:
+            return None
+        return replace(law, shift=shear.flat(2.0 / self.path.span * shear.moved - shear.weights @ fixed))
 
     def steadied(self, u1: Array, count: int) -> "SlabSystem":
         """The equations after ``count`` iterations: from ``STEADY`` on nodes are kept on the faces where they are.
