@@ -28,6 +28,16 @@ from softway.laws.bulk import (
     StVenantKirchhoff,
 )
 from softway.laws.flow import JohnsonCook, NortonFlow, Perzyna, RateIndependent
+from softway.laws.friction import (
+    Coulomb,
+    Frictionless,
+    LimitedViscoplastic,
+    Lubricated,
+    StaticKinetic,
+    Stribeck,
+    Tresca,
+)
+from softway.laws.friction import NortonHoff as NortonHoffFriction
 from softway.laws.hardening import LinearHardening, PowerHardening, Voce
 from softway.laws.rates import GreenNaghdi, Jaumann, Logarithmic, Truesdell
 from softway.march.control import StepControl
@@ -67,6 +77,7 @@ __all__ = [
     "Collocation",
     "Consistent",
     "Contact",
+    "Coulomb",
     "Cylinder",
     "Disc",
     "DiscreteGradient",
@@ -82,6 +93,7 @@ __all__ = [
     "FieldSum",
     "Fixed",
     "FixedPoint",
+    "Frictionless",
     "Full",
     "Gravity",
     "GreenNaghdi",
@@ -95,10 +107,12 @@ __all__ = [
     "JohnsonCook",
     "Kelvin",
     "Ledger",
+    "LimitedViscoplastic",
     "LinearElastic",
     "LinearHardening",
     "LinearOrthotropic",
     "Logarithmic",
+    "Lubricated",
     "Lumped",
     "MatrixFree",
     "Maxwell",
@@ -112,6 +126,7 @@ __all__ = [
     "NodeToSurface",
     "NortonFlow",
     "NortonHoff",
+    "NortonHoffFriction",
     "NumericsError",
     "Off",
     "OnTag",
@@ -139,10 +154,12 @@ __all__ = [
     "Sphere",
     "StVenantKirchhoff",
     "State",
+    "StaticKinetic",
     "StaticStart",
     "Step",
     "StepControl",
     "Still",
+    "Stribeck",
     "Surface",
     "Table",
     "Time",
@@ -150,6 +167,7 @@ __all__ = [
     "Torus",
     "Traction",
     "Translation",
+    "Tresca",
     "Truesdell",
     "Turning",
     "Uniform",

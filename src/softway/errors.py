@@ -53,6 +53,14 @@ class Unbalanced(Exception):
     """The energy balance of a slab needs a scalar beyond its bound; the march tries a shorter one."""
 
 
+class Halts(Exception):
+    """A body comes to rest on another one inside a slab, after a ``share`` of it; the march ends the slab there."""
+
+    def __init__(self, share: float) -> None:
+        self.share = share
+        super().__init__(f"slip ends after {share:.6g} of the slab")
+
+
 class TooFast(Exception):
     """A slab is too long for the approach of two surfaces; the march tries a shorter one. The message says where."""
 

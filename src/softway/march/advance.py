@@ -106,8 +106,8 @@ def advance(
         acceleration=out.acceleration,
         closed=out.closed,
         pressure=out.pressure,
-        traction=out.traction,
-        sliding=out.sliding,
+        traction=None if out.rub is None else out.rub.traction,
+        sliding=None if out.rub is None else out.rub.sliding,
     )
     return after, out, carry
 

@@ -1,6 +1,7 @@
 """The first situation of a march: as described, in static equilibrium, and with massless nodes relaxed."""
 
 import logging
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,12 +15,14 @@ from softway.march.overlap import deepest, shrunk
 from softway.march.situation import Situation
 from softway.model import Model
 from softway.scene import StaticStart
-from softway.solve.equilibrium import equilibrium, fitted
+from softway.solve.equilibrium import Grip, Rest, equilibrium, fitted
 from softway.solve.system import Start
 from softway.typing import Array
 
 log = logging.getLogger("softway")
 
+SOON = 1e-7
+"""Time in which a driven tool shows its velocity at the start [s]."""
 OVERLAP = 1e-12
 """Depth inside an obstacle, relative to the coordinates, that counts as touching: rounding."""
 
@@ -34,22 +37,8 @@ def begin(model: Model, span: float = 1.0) -> Situation:
         If a body overlaps an obstacle (named with the depth), or a static start leaves rigid motions free.
     """
     model = model.during((), span)
-    u, pressure = model.displacement, np.zeros(len(model.encounters.contact))
-    require_apart(model, u)
-    start, loads = model.scene.start, model.load
-    if isinstance(start, StaticStart):
-        require_supported(model)
-        loads = dead_load(model.parts, model.weight, start.loads, "start.loads") if start.loads else model.load
-    fits = any(c.start == "fit" for c in model.scene.contacts)
-    if fits or (isinstance(start, StaticStart) and unheld(model)):
-        u, pressure = fitted(model, u, model.free, loads, shrunk(model, u, OVERLAP * _reach(model, u)))
-    elif isinstance(start, StaticStart):
-        u, pressure = equilibrium(model, u, model.free, loads)
-    if isinstance(model.timing, Energy) and not model.massive.all():
-        before = float(model.energy_and_force(u)[0].sum())
-        u, pressure = equilibrium(model, u, model.free & ~model.massive[:, None], model.load)
-        after = float(model.energy_and_force(u)[0].sum())
-        log.info("relaxing the contact nodes at the start releases %.3g J of %.3g J", before - after, before)
+    rest = _resting(model)
+    u, pressure = rest.displacement, rest.pressure
     energy, force = model.energy_and_force(u)
     memory = past.settled(model.parts, u)
     return Situation(
@@ -65,9 +54,43 @@ def begin(model: Model, span: float = 1.0) -> Situation:
         acceleration=np.zeros(model.shape),
         closed=pressure > 0.0,
         pressure=pressure,
-        traction=None if model.rubbing is None else np.zeros((len(pressure), model.shape[1])),
-        sliding=None if model.rubbing is None else np.zeros(len(pressure), bool),
+        traction=rest.traction,
+        sliding=rest.sliding,
     )
+
+
+def _resting(model: Model) -> Rest:
+    """Where the march starts, in equilibrium as far as is asked for, and with massless nodes relaxed."""
+    u, count = model.displacement, len(model.encounters.contact)
+    rest = Rest(displacement=u, pressure=np.zeros(count))
+    require_apart(model, u)
+    grip = None if model.rubbing is None else _passing(model, u)
+    start, loads = model.scene.start, model.load
+    if isinstance(start, StaticStart):
+        require_supported(model)
+        loads = dead_load(model.parts, model.weight, start.loads, "start.loads") if start.loads else model.load
+    fits = any(c.start == "fit" for c in model.scene.contacts)
+    if fits or (isinstance(start, StaticStart) and unheld(model)):
+        apart = shrunk(model, u, OVERLAP * _reach(model, u))
+        rest = fitted(model, u, model.free, loads, apart, grip=None if fits else grip)
+    elif isinstance(start, StaticStart):
+        rest = equilibrium(model, u, model.free, loads, grip=grip)
+    if isinstance(model.timing, Energy) and not model.massive.all():
+        before = float(model.energy_and_force(rest.displacement)[0].sum())
+        light = model.free & ~model.massive[:, None]
+        rest = equilibrium(model, rest.displacement, light, model.load, grip=grip)
+        after = float(model.energy_and_force(rest.displacement)[0].sum())
+        log.info("relaxing the contact nodes at the start releases %.3g J of %.3g J", before - after, before)
+    if grip is None or rest.traction is not None:
+        return rest
+    return replace(rest, traction=np.zeros((count, model.shape[1])), sliding=np.zeros(count, bool))
+
+
+def _passing(model: Model, u: Array) -> Grip:
+    """Friction with the initial velocities: what slips has the force of slip, what does not is held where it is."""
+    shear = model.encounters.meet(u, u, 0.0, SOON).at(u).shear
+    assert shear is not None
+    return Grip(held=u, velocity=shear.slip(SOON * (model.velocity + model.prescribed(0.0))) / SOON)
 
 
 def unheld(model: Model) -> dict[str, tuple[str, ...]]:

@@ -85,7 +85,7 @@ def _contacts(model: Model, before: Situation, out: Outcome, after: Situation) -
     return {
         name: ContactLedger(
             force_n=float(out.force[rows.of(k)].sum()),
-            force_t=_resultant(out.shear, rows.of(k)),
+            force_t=_resultant(None if out.rub is None else out.rub.mean, rows.of(k)),
             min_gap=float(gap1[rows.of(k)].min(initial=np.inf)),
             power_residual=float(power[rows.of(k)].sum()),
             count=int(after.closed[rows.of(k)].sum()),

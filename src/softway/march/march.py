@@ -8,11 +8,12 @@ from typing import Literal
 import numpy as np
 
 from softway.bodies.section import wave_speed
-from softway.errors import InputError, NoConvergence, NumericsError, TooFast, Unbalanced
+from softway.errors import Halts, InputError, NoConvergence, NumericsError, TooFast, Unbalanced
 from softway.march.advance import Method, Rule, advance, rule
 from softway.march.begin import begin
 from softway.march.certificate import certified, violation
 from softway.march.control import StepControl, may_grow
+from softway.march.halt import halt
 from softway.march.ledger import audited, opening
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation, joined, parted
@@ -163,6 +164,7 @@ class _Accepted:
     certificate: Certificate
     rejections: tuple[str, ...]
     closed: bool
+    halted: bool = False
 
 
 def _next(model: Model, control: StepControl, span: float, before: Situation, found: _Accepted) -> float:
@@ -173,6 +175,8 @@ def _next(model: Model, control: StepControl, span: float, before: Situation, fo
     if strained and length > STRAINED * span:
         log.info("next slab after t = %.6g s halved: the scalar of the energy balance is great", found.after.time)
         return 0.5 * length
+    if found.halted:
+        return span
     if found.rejections or length >= span:
         return min(span, length)
     return min(span, 2.0 * length) if may_grow(model, control, length, before, found.after) else length
@@ -196,6 +200,7 @@ def _accepted(
     close at half the length either is ``closed`` along the motion, and in the slabs after it.
     """
     reasons: list[str] = []
+    halted = False
     unbalanced = PATIENCE if closed else 0
     fresh = carry.frozen is None
     while length > control.least * span:
@@ -203,7 +208,10 @@ def _accepted(
         slab = Slab(start=now.time, end=end, weight=weight)
         try:
             found = _tried(rules, now, ledgers, slab, carry, control.approach, unbalanced >= PATIENCE)
-            return replace(found, rejections=tuple(reasons))
+            return replace(found, rejections=tuple(reasons), halted=halted)
+        except Halts as stop:
+            length, halted = stop.share * length, True
+            continue
         except (TooFast, Unbalanced) as failure:
             length = 0.5 * length
             unbalanced += isinstance(failure, Unbalanced)
@@ -237,6 +245,9 @@ def _tried(
         If it violates its certificate.
     """
     after, out, new = advance(rules, now, slab, carry, approach, closed)
+    share = halt(rules.model, now, out, slab.span)
+    if share is not None:
+        raise Halts(share)
     ledger = audited(rules.model, *ledgers, now, out, after)
     certificate = certified(rules.model, now, out, after, ledgers[1], ledger)
     broken = violation(rules.model, now, out, after, ledger, certificate)

@@ -12,9 +12,10 @@ from softway.kernels.dense import shared
 from softway.kernels.impact import fading
 from softway.march.control import require_slow
 from softway.march.outcome import Outcome, contact_event, supports
-from softway.march.rub import first_impulses, rub, slipping, transitions
+from softway.march.rub import Rub, first_impulses, rub, slipping
 from softway.march.situation import Situation
 from softway.march.step import Event
+from softway.march.transitions import transitions
 from softway.model import Model
 from softway.solve.carry import Carry
 from softway.solve.driver import Solution, drive
@@ -95,27 +96,22 @@ def outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, soluti
     h = slab.span
     q, end = solution.last.q, solution.end
     rows = end.near or system.path.rows
-    massive = model.massive[:, None]
-    velocity = np.where(massive, q, 0.5 * q)
+    velocity = np.where(model.massive[:, None], q, 0.5 * q)
     pressure = solution.last.impulse[: len(rows.node)] / (h * moments(slab.weight)[1])
     closed = pressure > 0.0
     first, a = system.path.rows, end.scalar[model.part_of[rows.node]]
     rubbed = rub(now, slab, solution, (first, rows), a)
+    tools = 0.0 if rubbed is None else rubbed.work
     if system.located is not None:
-        force = rows.shares((end.mean_force - model.load) * ~massive, closed | now.closed, model.free)
+        light = ~model.massive[:, None]
+        force = rows.shares((end.mean_force - model.load) * light, closed | now.closed, model.free)
         push = rows.spread(force, model.shape)
-        tools = 0.0
-        events = _branched(model, now, slab, rows, system.located, solution)
     else:
         old, new = (0.5 - a) * now.pressure, (0.5 + a) * pressure
         force = old + new
         push = first.spread(old, model.shape) + rows.spread(new, model.shape)
-        tools = float(old @ first.drive + new @ rows.drive)
-        events = _touches(model, now, slab, system, solution, closed)
-        events += _releases(model, now, slab, rows, solution, closed)
-    if rubbed is not None:
-        push, tools = push + rubbed.push, tools + rubbed.work
-        events += transitions(model, now, slab, solution, (first, rows), rubbed)
+        tools += float(old @ first.drive + new @ rows.drive)
+    push = push if rubbed is None else push + rubbed.push
     support = supports(model, now, end, velocity, push, h)
     return Outcome(
         system=system,
@@ -130,14 +126,29 @@ def outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, soluti
         support=support,
         work=tools + float(np.sum(support * (end.displacement - now.start.displacement))),
         dissipation=0.0 if rubbed is None else rubbed.dissipation,
-        traction=None if rubbed is None else rubbed.traction,
-        sliding=None if rubbed is None else rubbed.sliding,
-        shear=None if rubbed is None else rubbed.mean,
-        events=tuple(sorted(events, key=lambda e: (round((e.time - slab.start) / slab.span, 9), e.contact, e.node))),
+        events=_events(model, now, slab, system, solution, rubbed),
         pairs=pairs,
         passes=1,
         iterations=solution.iterations,
+        rub=rubbed,
     )
+
+
+def _events(
+    model: Model, now: Situation, slab: Slab, system: SlabSystem, solution: Solution, rubbed: Rub | None
+) -> tuple[Event, ...]:
+    """Touches and releases, places that stick and slip, in order."""
+    first = system.path.rows
+    rows = solution.end.near or first
+    closed = solution.last.impulse[: len(rows.node)] > 0.0
+    if system.located is not None:
+        events = _branched(model, now, slab, rows, system.located, solution)
+    else:
+        events = _touches(model, now, slab, system, solution, closed)
+        events += _releases(model, now, slab, rows, solution, closed)
+    if rubbed is not None:
+        events += transitions(model, now, slab, solution, (first, rows), rubbed)
+    return tuple(sorted(events, key=lambda e: (round((e.time - slab.start) / slab.span, 9), e.contact, e.node)))
 
 
 def _touches(

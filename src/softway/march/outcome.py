@@ -6,6 +6,7 @@ import numpy as np
 
 from softway.bodies.solid import Tool
 from softway.contact.candidates import Candidates
+from softway.march.rub import Rub
 from softway.march.situation import Situation
 from softway.march.step import Event
 from softway.model import Model
@@ -45,9 +46,8 @@ class Outcome:
         How often the slab was solved.
     iterations
         Over all passes.
-    traction, sliding, shear
-        (m, d) tangential forces at the end, (m,) which rows slip, (m, d) tangential forces over the slab [N]; None
-        where there is no friction.
+    rub
+        Friction over the slab; None where there is none.
     """
 
     system: SlabSystem
@@ -66,9 +66,7 @@ class Outcome:
     pairs: int
     passes: int
     iterations: int
-    traction: Array | None = None
-    sliding: BoolArray | None = None
-    shear: Array | None = None
+    rub: Rub | None = None
 
 
 def supports(model: Model, now: Situation, end: Evaluation, velocity: Array, push: Array, span: float) -> Array:

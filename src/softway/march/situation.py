@@ -1,8 +1,10 @@
 """The state as arrays over the whole model, and back."""
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from softway.bodies import past
 from softway.errors import InputError
@@ -10,6 +12,8 @@ from softway.model import Model
 from softway.scene import State
 from softway.solve.system import Start
 from softway.typing import Array, BoolArray
+
+Kind = TypeVar("Kind", np.float64, np.bool_)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -71,9 +75,8 @@ def parted(model: Model, situation: Situation) -> State:
         array.flags.writeable = False
     situation.closed.flags.writeable = False
     situation.pressure.flags.writeable = False
-    for array in (situation.traction, situation.sliding):
-        if array is not None:
-            array.flags.writeable = False
+    if situation.traction is not None and situation.sliding is not None:
+        situation.traction.flags.writeable = situation.sliding.flags.writeable = False
     return State(
         time=situation.time,
         displacement=model.split(situation.start.displacement),
@@ -87,7 +90,7 @@ def parted(model: Model, situation: Situation) -> State:
     )
 
 
-def _by_contact(model: Model, values: Array | None) -> dict[str, Array]:
+def _by_contact(model: Model, values: NDArray[Kind] | None) -> dict[str, NDArray[Kind]]:
     """Values of the rows by contact; nothing where there is no friction."""
     rows = model.encounters
     return {} if values is None else {n: values[rows.of(k)] for k, n in enumerate(rows.labels)}

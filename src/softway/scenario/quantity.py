@@ -16,7 +16,7 @@ _EXAMPLES = {
     "s": ("a time", "2 ms"),
     "Pa": ("a stress", "210 GPa"),
     "kg/m^3": ("a density", "7850 kg/m^3"),
-    "Pa*s": ("a viscosity", "0.1 Pa*s"),
+    "Pa s": ("a viscosity", "0.1 Pa s"),
     "m/s": ("a velocity", "4.4 m/s"),
     "m/s^2": ("an acceleration", "-9.81 m/s^2"),
     "1/s": ("a velocity gradient", "2 1/s"),

@@ -245,9 +245,9 @@ def _spin(model: Model, ends: Ends, members: BoolArray) -> _Spin:
     inner = here & model.massive
     rigid = model.opponents[model.encounters.contact, 1] < 0
     tools = [rows.spread(np.where(rigid & rows.near, p, 0.0), model.shape) for _, rows, p in _both(ends)]
-    for k, (rows, shear) in enumerate(((ends.rows0, ends.shear0), (ends.rows1, ends.shear1))):
-        if rows.shear is not None and shear is not None:
-            tools[k] = tools[k] + rows.shear.spread(np.where((rigid & rows.near)[:, None], shear, 0.0))
+    for k, (at, force) in enumerate(((ends.rows0, ends.shear0), (ends.rows1, ends.shear1))):
+        if at.shear is not None and force is not None:
+            tools[k] = tools[k] + at.shear.spread(np.where((rigid & at.near)[:, None], force, 0.0))
     outer = (here & ~model.massive)[:, None] * (model.load + 0.5 * (tools[0] + tools[1]))
     torque = moment(x, np.where(inner[:, None], ends.mean, outer))
     change = np.where(inner[:, None], ends.f1 - ends.f0, (here & ~model.massive)[:, None] * (tools[1] - tools[0]))

@@ -3,7 +3,7 @@
 Given the free solution ``y`` of A y = b, find normal and tangential multipliers of the contact rows such that
 ``z = y + A^-1 (G^T p + T^T s)`` satisfies
 
-    G z >= c,  p >= 0,  p (G z - c) = 0,     s = -resistance(T z - shift, p) along the slip, or no slip within the limit.
+    G z >= c,  p >= 0,  p (G z - c) = 0,    s = -resistance(T z - shift, p) along the slip, or no slip within a limit.
 
 The tangential condition is the return map of a trial ``s - r (T z - shift)``.  Nothing is regularised: rows that stick
 do not move, rows that slip have the force of the law (docs/theory/friction.md).
@@ -62,14 +62,14 @@ class Touching:
 
     def split(self, x: Array) -> tuple[Array, Array]:
         """Normal (c,) and tangential (c, k) parts."""
-        return x[: self.count], x[self.count :].reshape(self.count, -1)
+        return x[: self.count], x[self.count :].reshape(self.law.shift.shape)
 
 
 def touching(compliance: Array, free: Array, law: Slipping) -> Touching:
     """The contact problem of rows with their compliance."""
-    count = len(law.before)
+    count, k = law.shift.shape
     diagonal = np.diag(compliance)
-    give = diagonal[count:].reshape(count, -1).mean(axis=1)
+    give = diagonal[count:].reshape(count, k).mean(axis=1)
     least = 1e-12 * max(float(diagonal.max(initial=0.0)), 1e-300)
     return Touching(
         compliance=compliance,
@@ -175,12 +175,11 @@ def settled(problem: Touching, x: Array, floor: float) -> tuple[Array, BoolArray
     """
     if not problem.count:
         return x, np.zeros(0, bool)
-    scale = float(np.abs(problem.free).max(initial=0.0))
     for _ in range(ROUNDS):
         best, since = np.inf, 0
         for _ in range(NEWTON):
             look = looked(problem, x)
-            size = max(scale, float(np.abs(problem.compliance @ x).max(initial=0.0)), 1e-300)
+            size = _size(problem, x, look)
             best, since = (look.worst, 0) if look.worst < 0.5 * best else (best, since + 1)
             if look.worst <= SETTLED * size or (since >= 3 and look.worst <= 1e3 * SETTLED * size):
                 return _clean(problem, x, look), look.slips & look.touch
@@ -189,6 +188,14 @@ def settled(problem: Touching, x: Array, floor: float) -> tuple[Array, BoolArray
                 break
         x = swept(problem, np.nan_to_num(x), SWEEPS)
     raise NoConvergence(f"friction of {problem.count} contact rows leaves {look.worst:.1e} of {size:.1e}")
+
+
+def _size(problem: Touching, x: Array, look: _Look) -> float:
+    """What the forces move, and what the rows that hold would move without them."""
+    gap, slip = problem.split(problem.free)
+    held = np.abs(slip[~look.slips]).max(initial=0.0)
+    moved = np.abs(problem.compliance @ x).max(initial=0.0)
+    return float(max(np.abs(gap).max(initial=0.0), held, moved, 1e-300))
 
 
 def _clean(problem: Touching, x: Array, look: _Look) -> Array:

@@ -25,8 +25,8 @@ BATCH = 16
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Rows:
-    """Conditions of one slab on the contact rows: ``target`` (m,), and which are ``equal`` or ``unilateral`` (m,); where
-    there is friction, those on their ``slipping``.
+    """Conditions of one slab on the contact rows: ``target`` (m,), which are ``equal`` or ``unilateral`` (m,), and on
+    their ``slipping`` where there is friction.
     """
 
     target: Array

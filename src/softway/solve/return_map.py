@@ -9,6 +9,8 @@ from softway.typing import Array, BoolArray
 
 ITERATIONS = 100
 """Iterations of the scalar equation; bisection alone would take about 60."""
+STEEPEST = 1e3
+"""Greatest tangential force over the normal one: laws without regard to the pressure fade where a row lifts off."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -45,7 +47,7 @@ class Slipping:
 
     def limit(self, pressed: Array) -> Array:
         """Multiplier (m,) that holds rows under normal multipliers (m,)."""
-        held = self.rubbing.limit(self.unit * pressed) / self.unit
+        held = np.minimum(self.rubbing.limit(self.unit * pressed) / self.unit, STEEPEST * pressed)
         if not self.sliding.any():
             return held
         return np.where(self.sliding, self.resistance(np.zeros(len(held)), pressed)[0], held)
@@ -56,7 +58,15 @@ class Slipping:
         value, slope, share = self.rubbing.resistance(np.maximum(late, 0.0), self.unit * pressed)
         with np.errstate(invalid="ignore"):
             change = np.where(late >= 0.0, slope * ((1.0 + self.ahead) * self.pace / self.unit), 0.0)
-        return value / self.unit, np.nan_to_num(change, nan=0.0, posinf=np.inf, neginf=-np.inf), share
+        change, value = np.nan_to_num(change, nan=0.0, posinf=np.inf, neginf=-np.inf), value / self.unit
+        lifted = value > STEEPEST * pressed
+        if not lifted.any():
+            return value, change, share
+        return (
+            np.where(lifted, STEEPEST * pressed, value),
+            np.where(lifted, 0.0, change),
+            np.where(lifted, STEEPEST, share),
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

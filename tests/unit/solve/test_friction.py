@@ -1,0 +1,122 @@
+"""The return map, and Newton's method on the forces of rows with friction."""
+
+import numpy as np
+import pytest
+
+from softway.contact.rubbing import Rubbing
+from softway.laws.friction import Coulomb, NortonHoff, StaticKinetic, Stribeck, Tresca
+from softway.laws.friction_law import FrictionLaw
+from softway.solve.friction import looked, settled, swept, touching
+from softway.solve.return_map import STEEPEST, Slipping, returned
+
+
+def slipping(law: FrictionLaw, count: int, k: int = 1, *, sliding: bool = False, ahead: float = 0.0) -> Slipping:
+    """Rows of unit area, with the slip as speed."""
+    rubbing = Rubbing(laws=(law,), contact=np.zeros(count, int), area=np.ones(count))
+    return Slipping(
+        rubbing=rubbing,
+        shift=np.zeros((count, k)),
+        pace=1.0,
+        unit=1.0,
+        ahead=ahead,
+        before=np.zeros(count),
+        sliding=np.full(count, sliding),
+    )
+
+
+def test_coulomb_is_a_projection():
+    trial = np.array([0.5, 2.9, 3.1, 100.0])
+    found = returned(slipping(Coulomb(mu=0.3), 4), trial, np.full(4, 10.0), np.full(4, 7.0))
+    assert found.force.tolist() == [0.5, 2.9, 3.0, 3.0]
+    assert found.slips.tolist() == [False, False, True, True]
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        NortonHoff(alpha=1.0, p=0.3),
+        NortonHoff(alpha=2.0, p=1.0),
+        NortonHoff(alpha=1.0, p=3.0),
+        Stribeck(mu_s=0.5, mu_k=0.2, v_s=0.3, viscous=0.01),
+        Tresca(shear=1.0),
+    ],
+    ids=lambda law: type(law).__name__,
+)
+def test_the_force_is_that_of_the_slip_that_is_left(law):
+    trial, pressed, stiffness = np.geomspace(0.1, 1e3, 40), np.full(40, 2.0), np.full(40, 0.7)
+    found = returned(slipping(law, 40), trial, pressed, stiffness)
+    slip = (trial - found.force) / stiffness
+    assert (slip >= 0.0).all()
+    resisted = law.resistance(slip[found.slips], pressed[found.slips])[0]
+    assert found.force[found.slips] == pytest.approx(resisted, rel=1e-9, abs=1e-13)
+    assert (trial[~found.slips] <= law.limit(pressed[~found.slips])).all()
+
+
+def test_slopes_of_the_return_map_agree_with_differences():
+    law = slipping(NortonHoff(alpha=1.0, p=0.6), 5, ahead=0.5)
+    trial, pressed, stiffness, d = np.linspace(0.5, 3.0, 5), np.ones(5), np.full(5, 0.7), 1e-6
+    up, down = (returned(law, trial + s, pressed, stiffness).force for s in (d, -d))
+    assert returned(law, trial, pressed, stiffness).steep == pytest.approx((up - down) / (2 * d), rel=1e-7)
+    dry = slipping(Coulomb(mu=0.3), 5)
+    up, down = (returned(dry, trial, pressed + s, stiffness).force for s in (d, -d))
+    assert returned(dry, trial, pressed, stiffness).share == pytest.approx((up - down) / (2 * d), rel=1e-7)
+
+
+def test_static_friction_holds_only_what_rests():
+    law, one = StaticKinetic(mu_s=0.4, mu_k=0.2), np.ones(1)
+    resting, moving = slipping(law, 1), slipping(law, 1, sliding=True)
+    assert returned(resting, 0.3 * one, one, one).force == pytest.approx([0.3])
+    assert returned(moving, 0.3 * one, one, one).force == pytest.approx([0.2])
+    assert returned(resting, 0.5 * one, one, one).force == pytest.approx([0.2])
+
+
+def problem(seed: int, count: int, k: int, law: FrictionLaw):
+    """Rows with a random compliance that couples all of them, some pressed, some lifted, pulled along all ways."""
+    rng = np.random.default_rng(seed)
+    size = count * (1 + k)
+    root = rng.normal(size=(size, size)) / np.sqrt(size)
+    compliance = root @ root.T + 0.6 * np.eye(size)
+    free = np.concatenate([rng.normal(size=count) - 0.5, rng.normal(size=count * k)])
+    return touching(compliance, free, slipping(law, count, k))
+
+
+@pytest.mark.parametrize("k", [1, 2])
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("law", [Coulomb(mu=0.4), Tresca(shear=0.3), NortonHoff(alpha=0.5, p=0.5)], ids=repr)
+def test_the_forces_obey_the_law(seed, k, law):
+    it = problem(seed, 12, k, law)
+    x, slips = settled(it, np.zeros(12 * (1 + k)), 0.0)
+    p, s = it.split(x)
+    gap, slip = it.split(it.free + it.compliance @ x)
+    touch = p > 0.0
+    assert (p >= 0.0).all()
+    assert gap.min() > -1e-13
+    assert np.abs(gap[touch]).max() < 1e-13
+    size = np.linalg.norm(s, axis=1)
+    assert (size[touch & ~slips] <= law.limit(p[touch & ~slips]) + 1e-12).all()
+    assert np.abs(slip[touch & ~slips]).max(initial=0.0) < 1e-13
+    assert np.abs(s[~touch]).max(initial=0.0) == 0.0
+    speed = np.linalg.norm(slip[slips], axis=1)
+    resisted = np.minimum(law.resistance(speed, p[slips])[0], STEEPEST * p[slips])
+    assert size[slips] == pytest.approx(resisted, abs=1e-11)
+    assert np.sum(s[slips] * slip[slips], axis=1) == pytest.approx(-size[slips] * speed, abs=1e-12)
+
+
+def test_the_linearised_conditions_agree_with_differences():
+    it = problem(3, 6, 2, NortonHoff(alpha=0.5, p=0.7))
+    x = np.abs(np.random.default_rng(4).normal(size=18)) + 0.5
+    look, d = looked(it, x), 1e-7
+    columns = [(looked(it, x + d * e).missed - looked(it, x - d * e).missed) / (2 * d) for e in np.eye(18)]
+    assert look.matrix == pytest.approx(np.array(columns).T, abs=1e-6)
+
+
+def test_sweeps_over_the_rows_come_to_the_same_forces():
+    it = problem(5, 8, 2, Coulomb(mu=0.3))
+    assert swept(it, np.zeros(24), 400) == pytest.approx(settled(it, np.zeros(24), 0.0)[0], abs=1e-9)
+
+
+def test_the_same_row_twice_shares_the_force():
+    one = np.array([[1.0, 0.2], [0.2, 1.0]])
+    it = touching(np.kron(one, np.ones((2, 2))), np.repeat([-1.0, 0.5], 2), slipping(Coulomb(mu=2.0), 2))
+    x, _ = settled(it, np.zeros(4), 0.0)
+    assert it.free + it.compliance @ x == pytest.approx(np.zeros(4), abs=1e-13)
