@@ -1,10 +1,11 @@
 """The return map of friction: from a trial force to what the law lets through."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from softway.contact.rubbing import Rubbing
+from softway.contact.shear import Shear
 from softway.typing import Array, BoolArray
 
 ITERATIONS = 100
@@ -67,6 +68,13 @@ class Slipping:
             np.where(lifted, 0.0, change),
             np.where(lifted, STEEPEST, share),
         )
+
+
+def during(law: Slipping | None, shear: Shear | None, fixed: Array, span: float) -> Slipping | None:
+    """The conditions on the slip over a slab, ``span/2 (T z - shift)``; ``fixed`` (n, d) are given components of z."""
+    if law is None or shear is None:
+        return None
+    return replace(law, shift=shear.flat(2.0 / span * shear.moved - shear.weights @ fixed))
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

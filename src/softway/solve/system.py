@@ -25,7 +25,7 @@ from softway.solve.along import Along
 from softway.solve.balance import Closure, Ends, closed
 from softway.solve.frozen import Basis, Frozen, basis
 from softway.solve.normal import Rows
-from softway.solve.return_map import Slipping
+from softway.solve.return_map import during
 from softway.time.weight import Momentum, TimeWeight, moments, peaks
 from softway.typing import Array
 
@@ -190,16 +190,9 @@ class SlabSystem:
             target=np.where(open_, target, 0.0),
             equal=self.rows.equal,
             unilateral=open_,
-            slipping=self._slipping(near, fixed),
+            slipping=during(self.rows.slipping, near.shear, fixed, self.path.span),
         )
         return frozen.coefficients(near, self.model.free), rows
-
-    def _slipping(self, near: Candidates, fixed: Array) -> Slipping | None:
-        """The conditions on the slip over the slab, ``h/2 (T z - shift)`` for the free components of z."""
-        law, shear = self.rows.slipping, near.shear
-        if law is None or shear is None:
-            return None
-        return replace(law, shift=shear.flat(2.0 / self.path.span * shear.moved - shear.weights @ fixed))
 
     def steadied(self, u1: Array, count: int) -> "SlabSystem":
         """The equations after ``count`` iterations: from ``STEADY`` on nodes are kept on the faces where they are.
