@@ -54,10 +54,12 @@ class Unbalanced(Exception):
 
 
 class Halts(Exception):
-    """A body comes to rest on another one inside a slab, after a ``share`` of it; the march ends the slab there."""
+    """A body comes to rest on another one inside a slab, after a ``share`` of it; the march ends the slab there, and
+    lets friction turn in a slab as long as ``turns`` [s].
+    """
 
-    def __init__(self, share: float) -> None:
-        self.share = share
+    def __init__(self, share: float, turns: float) -> None:
+        self.share, self.turns = share, turns
         super().__init__(f"slip ends after {share:.6g} of the slab")
 
 

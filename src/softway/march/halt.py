@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from softway.errors import Halts
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation
 from softway.model import Model
@@ -16,20 +17,23 @@ STIFF = 4.0
 not its elasticity."""
 
 
-def halt(model: Model, now: Situation, out: Outcome, span: float) -> float | None:
-    """Share of the slab after which a contact that slipped comes to rest; None if there is none.
+def halt(model: Model, now: Situation, out: Outcome, span: float) -> None:
+    """Refuse a slab inside which a contact that slipped comes to rest.
 
     The velocity of a contact is the mean over the places that slipped, weighted by their friction at the start, of the
     velocities of the nodes with inertia behind, relative to the opponent.  Friction turns round or vanishes where it
     crosses zero: a slab that goes on beyond that instant would push the body back.
+
+    Raises
+    ------
+    Halts
+        With the share of the slab after which the first contact does.
     """
     first = out.system.path.rows
     if first.shear is None or now.traction is None or now.sliding is None:
-        return None
+        return
     weight = -now.traction * (now.sliding & now.closed)[:, None]
-    if not weight.any():
-        return None
-    shares = []
+    found = []
     for contact in np.unique(first.contact[weight.any(axis=1)]).tolist():
         here = weight * (first.contact == contact)[:, None]
         before, after = (
@@ -37,16 +41,20 @@ def halt(model: Model, now: Situation, out: Outcome, span: float) -> float | Non
             for v in (now.start.velocity, out.solution.last.q)
         )
         share = before / (before - after) if before > 0.0 > after else 1.0
-        if EARLY < share < LATE and _stops(model, out, here, before, span):
-            shares.append(share)
-    return min(shares, default=None)
+        if EARLY < share < LATE:
+            inertia, elastic = _answer(model, out, here)
+            if before**2 > STIFF * 0.25 * span**2 * inertia * elastic:
+                found.append((share, np.pi * 0.5 * span * np.sqrt(elastic / inertia)))
+    if found:
+        raise Halts(*min(found))
 
 
-def _stops(model: Model, out: Outcome, weight: Array, power: float, span: float) -> bool:
-    """Whether friction with the forces ``weight`` (m, d) and the power stops a body, or its elasticity does.
+def _answer(model: Model, out: Outcome, weight: Array) -> tuple[float, float]:
+    """Kinetic part e = z.Mz and elastic part E = z.Az - z.Mz of the answer z of the slab to forces (m, d).
 
-    The answer z of the slab to these forces has the kinetic part e = z.Mz and the elastic one E = z.Az - z.Mz.  What
-    they take to stop the slip is the energy ``power^2/2e``, and they hold the strain energy ``h^2 E/8``.
+    To stop a slip with the power P these forces take the energy ``P^2/2e``; they hold the strain energy ``h^2 E/8``:
+    friction stops a body where the first is greater, and its elasticity where the second is.  What they have strained
+    swings back in half a period, ``pi h/2 (E/e)^(1/2)``.
     """
     frozen, rows = out.solution.last.carry.frozen, out.system.path.rows
     assert frozen is not None and rows.shear is not None
@@ -56,5 +64,4 @@ def _stops(model: Model, out: Outcome, weight: Array, power: float, span: float)
     field = np.zeros(model.shape)
     field[model.free] = answer
     inertia = float(np.sum(field * (model.mass @ field)))
-    elastic = float(forces @ every.along(frozen.sense(answer))) - inertia
-    return power**2 > STIFF * 0.25 * span**2 * inertia * max(elastic, 0.0)
+    return inertia, max(float(forces @ every.along(frozen.sense(answer))) - inertia, 0.0)

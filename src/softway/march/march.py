@@ -139,7 +139,7 @@ def _steps(
 ) -> Iterator[Step]:
     model = rules.model
     initial = ledger = opening(model, now)
-    carry, current, before, closed = Carry(), span, parted(model, now), False
+    carry, current, before, closed, turning = Carry(), span, parted(model, now), False, False
     while now.time < until - 1e-9 * span:
         length = min(current, until - now.time)
         length = until - now.time if until - now.time - length < control.least * span else length
@@ -148,7 +148,8 @@ def _steps(
             log.info("operator %s: %s", found.carry.choice.operator, found.carry.choice.reason)
         step = _step(model, now, before, found)
         yield step
-        current = _next(model, control, span, now, found)
+        current = span if turning else _next(model, control, span, now, found)
+        turning = found.turns > 0.0
         now, before, ledger, carry, closed = found.after, step.after, found.ledger, found.carry, found.closed
 
 
@@ -164,19 +165,19 @@ class _Accepted:
     certificate: Certificate
     rejections: tuple[str, ...]
     closed: bool
-    halted: bool = False
+    turns: float = 0.0
 
 
 def _next(model: Model, control: StepControl, span: float, before: Situation, found: _Accepted) -> float:
     """Length of the next slab."""
     length = found.slab.span
+    if found.turns > 0.0:
+        return min(span, max(found.turns, 1e2 * control.least * span))
     end = found.out.solution.end
     strained = ((np.abs(end.scalar) > control.scalar) & (end.share > SLIGHT)).any() and not found.out.events
     if strained and length > STRAINED * span:
         log.info("next slab after t = %.6g s halved: the scalar of the energy balance is great", found.after.time)
         return 0.5 * length
-    if found.halted:
-        return span
     if found.rejections or length >= span:
         return min(span, length)
     return min(span, 2.0 * length) if may_grow(model, control, length, before, found.after) else length
@@ -200,7 +201,7 @@ def _accepted(
     close at half the length either is ``closed`` along the motion, and in the slabs after it.
     """
     reasons: list[str] = []
-    halted = False
+    turns = 0.0
     unbalanced = PATIENCE if closed else 0
     fresh = carry.frozen is None
     while length > control.least * span:
@@ -208,9 +209,9 @@ def _accepted(
         slab = Slab(start=now.time, end=end, weight=weight)
         try:
             found = _tried(rules, now, ledgers, slab, carry, control.approach, unbalanced >= PATIENCE)
-            return replace(found, rejections=tuple(reasons), halted=halted)
+            return replace(found, rejections=tuple(reasons), turns=turns)
         except Halts as stop:
-            length, halted = stop.share * length, True
+            length, turns = stop.share * length, stop.turns
             continue
         except (TooFast, Unbalanced) as failure:
             length = 0.5 * length
@@ -241,13 +242,11 @@ def _tried(
 
     Raises
     ------
-    NoConvergence
-        If it violates its certificate.
+    NoConvergence, Halts
+        If it violates its certificate, or a body comes to rest inside.
     """
     after, out, new = advance(rules, now, slab, carry, approach, closed)
-    share = halt(rules.model, now, out, slab.span)
-    if share is not None:
-        raise Halts(share)
+    halt(rules.model, now, out, slab.span)
     ledger = audited(rules.model, *ledgers, now, out, after)
     certificate = certified(rules.model, now, out, after, ledgers[1], ledger)
     broken = violation(rules.model, now, out, after, ledger, certificate)
