@@ -20,7 +20,7 @@ from softway.solve.explicit import Explicit
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
 from softway.solve.reaction import Reaction, reaction
-from softway.solve.system import Start
+from softway.solve.values import Start
 from softway.time.slab import Slab
 from softway.time.weight import EndPeaks, TimeWeight
 

@@ -16,7 +16,7 @@ from softway.march.situation import Situation
 from softway.model import Model
 from softway.scene import StaticStart
 from softway.solve.equilibrium import Grip, Rest, equilibrium, fitted
-from softway.solve.system import Start
+from softway.solve.values import Start
 from softway.typing import Array
 
 log = logging.getLogger("softway")

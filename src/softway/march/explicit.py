@@ -26,7 +26,8 @@ from softway.solve.explicit import Explicit
 from softway.solve.frozen import Frozen
 from softway.solve.inertia import Inertia, inertia
 from softway.solve.linear import Factor, SuperLU
-from softway.solve.system import Evaluation, SlabSystem
+from softway.solve.system import SlabSystem
+from softway.solve.values import Evaluation
 from softway.time.slab import Slab
 from softway.typing import Array, BoolArray, IntArray
 

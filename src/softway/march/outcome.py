@@ -11,7 +11,8 @@ from softway.march.situation import Situation
 from softway.march.step import Event
 from softway.model import Model
 from softway.solve.driver import Solution
-from softway.solve.system import Evaluation, SlabSystem
+from softway.solve.system import SlabSystem
+from softway.solve.values import Evaluation
 from softway.time.slab import Slab
 from softway.typing import Array, BoolArray
 

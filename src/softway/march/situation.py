@@ -10,7 +10,7 @@ from softway.bodies import past
 from softway.errors import InputError
 from softway.model import Model
 from softway.scene import State
-from softway.solve.system import Start
+from softway.solve.values import Start
 from softway.typing import Array, BoolArray
 
 Kind = TypeVar("Kind", np.float64, np.bool_)

@@ -6,7 +6,8 @@ from softway.solve.along import Along
 from softway.solve.friction import rubbed
 from softway.solve.frozen import Frozen
 from softway.solve.normal import constrain
-from softway.solve.system import Evaluation, SlabSystem
+from softway.solve.system import SlabSystem
+from softway.solve.values import Evaluation
 from softway.typing import Array, BoolArray
 
 

@@ -7,7 +7,8 @@ import numpy as np
 
 from softway.errors import NoConvergence
 from softway.solve.carry import Carry
-from softway.solve.system import Evaluation, SlabSystem
+from softway.solve.system import SlabSystem
+from softway.solve.values import Evaluation
 from softway.typing import Array, BoolArray
 
 

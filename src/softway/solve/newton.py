@@ -14,7 +14,8 @@ from softway.solve.frozen import Frozen
 from softway.solve.normal import untouched
 from softway.solve.operators.factored import Factored
 from softway.solve.settings import check_accuracy
-from softway.solve.system import Evaluation, SlabSystem
+from softway.solve.system import SlabSystem
+from softway.solve.values import Evaluation
 from softway.typing import Array, BoolArray
 
 HALVINGS = 6

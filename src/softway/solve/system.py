@@ -14,7 +14,7 @@ import scipy.sparse as sp
 
 from softway.bodies.force import AverageField, DiscreteGradient
 from softway.bodies.internal import InternalForce
-from softway.bodies.past import Memories, viscous_force
+from softway.bodies.past import viscous_force
 from softway.contact.candidates import Candidates
 from softway.contact.encounters import Pairs
 from softway.contact.fig4 import Split
@@ -26,6 +26,7 @@ from softway.solve.balance import Closure, Ends, closed
 from softway.solve.frozen import Basis, Frozen, basis
 from softway.solve.normal import Rows
 from softway.solve.return_map import during
+from softway.solve.values import Evaluation, Start
 from softway.time.weight import Momentum, TimeWeight, moments, peaks
 from softway.typing import Array
 
@@ -33,39 +34,6 @@ STEADY = 15
 """Iterations after which nodes are kept on their faces."""
 DEPTH = 1e-12
 """Depth at the end of a slab, relative to the coordinates, that is rounding."""
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Start:
-    """What is known at t0: displacement, velocity, internal force (n, d) and stored energy (parts,); the memories of
-    the solids, and the part of the force (n, d) that the mean rate of the slab before has made.
-    """
-
-    displacement: Array
-    velocity: Array
-    force: Array
-    energy: Array
-    memory: Memories = ()
-    viscous: Array | None = None
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Evaluation:
-    """The equations at one q: residual, end values, mean force (n, d), the scalar a of each part and the
-    share of the work that it closes, the contact rows
-    at the end where they change, and what bulk viscosity dissipates (parts,).
-    """
-
-    residual: Array
-    displacement: Array
-    force: Array
-    energy: Array
-    mean_force: Array
-    scalar: Array
-    share: Array
-    clipped: bool
-    near: Candidates | None
-    lost: Array | float = 0.0
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -85,7 +85,7 @@ def slab(block: Callable[..., Model]) -> Callable[[float], SlabSystem]:
     def make(courant: float, cells: int = 2) -> SlabSystem:
         from softway.contact.path import Path, passage
         from softway.solve.normal import Rows
-        from softway.solve.system import Start
+        from softway.solve.values import Start
 
         mesh = sw.Box(size=(1.0, 1.0, 1.0), cells=(cells,) * 3)
         solid = sw.Solid(mesh=mesh, material=sw.NeoHookean(E=1.0, nu=0.0), density=1.0)

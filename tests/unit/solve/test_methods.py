@@ -19,7 +19,8 @@ from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
 from softway.solve.normal import Rows
 from softway.solve.operators import Factored, MatrixFree, Multigrid
-from softway.solve.system import SlabSystem, Start
+from softway.solve.system import SlabSystem
+from softway.solve.values import Start
 from softway.space.curved import Sphere
 from softway.time.weight import EndPeaks
 

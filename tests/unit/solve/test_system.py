@@ -16,7 +16,8 @@ from softway.contact.timing import Impulse
 from softway.laws.bulk import LinearElastic
 from softway.model import Model
 from softway.solve.normal import Rows
-from softway.solve.system import Evaluation, SlabSystem, Start
+from softway.solve.system import SlabSystem
+from softway.solve.values import Evaluation, Start
 from softway.space.curved import Sphere
 from softway.time.weight import Collocation, EndPeaks, Momentum, TimeWeight, moments
 
