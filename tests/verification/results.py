@@ -283,6 +283,11 @@ def missed(name: str) -> set[str]:
     return {row.name for row in verdicts(name).values() if row.verdict != "pass"}
 
 
+def outside(name: str, found: Results) -> set[str]:
+    """Quantities of a case that are not within their tolerance, of results computed elsewhere."""
+    return {row.name for row in check_case.check(case(name), found) if row.verdict != "pass"}
+
+
 def main(arguments: list[str]) -> int:
     """Compute a case and write its results."""
     parser = argparse.ArgumentParser(description=__doc__)

@@ -35,8 +35,10 @@ def test_a_case_is_complete(name: str) -> None:
         assert quantity.get("tol_abs", 0.0) > 0.0 or quantity.get("tol_rel", 0.0) > 0.0
 
 
-def test_all_cases_of_the_impact_of_bars_are_there() -> None:
-    assert list(CASES) == ["A01", "A02", "A03", "A04", "A05", "A06", "A09", "A10", "A11", "A12"]
+def test_all_cases_are_there() -> None:
+    """The impact of bars, and large deformation."""
+    bars = ["A01", "A02", "A03", "A04", "A05", "A06", "A09", "A10", "A11", "A12"]
+    assert list(CASES) == [*bars, *(f"D{k:02}" for k in range(1, 11))]
 
 
 def test_a01_is_the_closed_form() -> None:
