@@ -75,13 +75,15 @@ def cycle(height: float, shift: float, steps: int) -> list[Array]:
     return [np.array([[1.0, s], [0.0, l]]) for s, l in np.concatenate(legs)]
 
 
-def equilibria(model: Model, path: Iterable[tuple[Array | None, float]], span: float = 1.0) -> Iterator[past.Memories]:
-    """Memories after each state of equilibrium on a path: displacements (n, d) to start from (those before, if None),
-    whose supported components stay, and the share of the loads.
+def equilibria(
+    model: Model, path: Iterable[tuple[Array | None, float]], span: float = 1.0
+) -> Iterator[tuple[Array, past.Memories]]:
+    """Displacement (n, d) and memories in each state of equilibrium on a path: displacements to start from (those
+    before, if None), whose supported components stay, and the share of the loads.
     """
     u, memories = model.displacement, past.known(model.parts, ())
     for guess, share in path:
         now = model.during(memories, span)
         u, _ = equilibrium(now, u if guess is None else guess, model.free, share * model.load)
         memories = past.settled(now.parts, u)
-        yield memories
+        yield u, memories

@@ -44,7 +44,7 @@ def cell(stretch: float, rate: str, plane: bool, steps: int = STEPS) -> tuple[fl
     )
     model = sw.build(sw.Scene(bodies={"cell": solid}))
     path = [(mesh.points * ([s, *[s**-POISSON] * (dim - 1)] - np.ones(dim)), 0.0) for s in steady(stretch, steps)]
-    *_, (memory,) = equilibria(model, path)
+    *_, (_, (memory,)) = equilibria(model, path)
     assert memory is not None
     part = model.parts[0]
     assert isinstance(part.internal, RateForce)
