@@ -6,18 +6,22 @@ from typing import Literal
 import numpy as np
 from scipy.sparse import csr_array, vstack
 
-from softway.bodies.dilatation import mean_dilatation
+from softway.bodies.dilatation import Dilatation
 from softway.bodies.sampling import Sampling
 from softway.bodies.section import Axisymmetric, Bar, PlaneStress, Section, check_section, sampled_rows
+from softway.bodies.smoothing import cell_mean, corner_mean
 from softway.errors import InputError
 from softway.kernels.gather import assembler, gather_table
 from softway.kernels.geometry import cell_geometry
-from softway.space.element import Element, element, stiffness_degree
+from softway.space.cells import linear
+from softway.space.element import Element, element, stiffness_degree, tabulate
 from softway.space.mesh import Mesh
 from softway.typing import Array, IntArray
 
-Dilatation = Literal["point", "mean"]
-"""Whether the change of volume is taken at each point of a cell, or as its mean over the cell."""
+Dilating = Literal["point", "mean", "corner"]
+"""Whether the change of volume is taken at each point of a cell, as its mean over the cell, or as its means around the
+corners of the cells with linear interpolation in between.
+"""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -43,11 +47,11 @@ class SampledCells:
     directions: Array
 
 
-def sampled_cells(mesh: Mesh, section: Section, dilatation: Dilatation) -> SampledCells:
+def sampled_cells(mesh: Mesh, section: Section, dilatation: Dilating, small: bool) -> SampledCells:
     """Quadrature and tables of a body.
 
     The quadrature integrates the stiffness of the undistorted cell exactly; around an axis of revolution it has two
-    degrees more.
+    degrees more.  ``small``: whether strains are those of the linear theory.
 
     Raises
     ------
@@ -55,8 +59,8 @@ def sampled_cells(mesh: Mesh, section: Section, dilatation: Dilatation) -> Sampl
         If the cells cannot fill space in this way, or have no volume of their own to take the mean of.
     """
     check_section(mesh, section)
-    if dilatation == "mean" and isinstance(section, Bar | PlaneStress):
-        problem = f"'mean' in a {type(section).__name__}, whose thickness is free to change"
+    if dilatation != "point" and isinstance(section, Bar | PlaneStress):
+        problem = f"{dilatation!r} in a {type(section).__name__}, whose thickness is free to change"
         raise InputError("dilatation", problem, "'point'")
     kinds, rows, directions = zip(*(_cells(mesh, cell, section) for cell in mesh.blocks), strict=True)
     nodes: list[IntArray] = list(mesh.blocks.values())
@@ -70,9 +74,28 @@ def sampled_cells(mesh: Mesh, section: Section, dilatation: Dilatation) -> Sampl
         transposed=table.T.tocsr(),
         rows=rows,
         pattern=assembler(nodes, mesh.n_nodes, mesh.dim),
-        dilatation=mean_dilatation(rows, volume) if dilatation == "mean" else None,
+        dilatation=_dilatation(mesh, section, dilatation, small, kinds, rows),
     )
     return SampledCells(kinds=kinds, sampling=sampling, directions=_merged(np.concatenate(directions)))
+
+
+def _dilatation(
+    mesh: Mesh,
+    section: Section,
+    chosen: Dilating,
+    small: bool,
+    kinds: tuple[Cells, ...],
+    rows: tuple[Array, ...],
+) -> Dilatation | None:
+    """What the law sees of the change of volume, None where it sees it as it is."""
+    if chosen == "point":
+        return None
+    volume = np.concatenate([cells.volume.ravel() for cells in kinds])
+    if chosen == "mean":
+        return Dilatation(section=section, rows=rows, smoothing=cell_mean(rows, volume), small=small)
+    corners = [tabulate(linear(c.element.cell), c.element.points)[0] for c in kinds]
+    smoothing = corner_mean([c.nodes for c in kinds], corners, volume, mesh.n_nodes, mesh.dim)
+    return Dilatation(section=section, rows=rows, smoothing=smoothing, small=small)
 
 
 def _cells(mesh: Mesh, cell: str, section: Section) -> tuple[Cells, Array, Array]:

@@ -1,127 +1,201 @@
-"""Mean dilatation: the change of volume of a cell is one number, so that cells of incompressible matter do not lock.
+"""The change of volume as a mean over a cell, or around a corner: incompressible matter without locking.
 
-    F_bar = (theta/J)^(1/m) F,        theta = mean of J = det F over the cell (reference volume)
+    F_bar = (theta/J)^(1/m) F
 
-at each point of a cell of m dimensions; the law sees F_bar.  Its stress acts on the nodes by the derivative of F_bar,
-so that a stored energy stays one, and the tangent is the exact second derivative (docs/theory/incompressible.md).
+at each point of a cell of m dimensions; the law sees F_bar.  J = det F, and theta is J smoothed: its mean over the cell
+(mean dilatation), or its means around the corners of the cells with linear interpolation in between (the pressure of
+Taylor and Hood's element, with a lumped mass of the pressure).  The stress acts on the nodes by the derivative of
+F_bar, so that a stored energy stays one, and the tangent is the exact second derivative.  In the linear theory J is the
+trace of the strain, and what is smoothed is added to it (docs/theory/incompressible.md).
 
 References
 ----------
 Nagtegaal, Parks, Rice (1974), Comput. Methods Appl. Mech. Engrg. 4, 153-177; Simo, Taylor, Pister (1985), Comput.
-Methods Appl. Mech. Engrg. 51, 177-208; de Souza Neto, Peric, Dutko, Owen (1996), Int. J. Solids Struct. 33, 3277-3296.
+Methods Appl. Mech. Engrg. 51, 177-208; de Souza Neto, Peric, Dutko, Owen (1996), Int. J. Solids Struct. 33, 3277-3296;
+Taylor, Hood (1973), Comput. Fluids 1, 73-100; Bonet, Burton (1998), Commun. Numer. Meth. Eng. 14, 437-449.
 """
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
+from scipy.sparse import csc_array
 
 from softway.bodies.section import Axisymmetric, Section, derivatives
 from softway.kernels import tensors
-from softway.typing import Array, IntArray
+from softway.kernels.gather import Assembler
+from softway.typing import Array
+
+
+class Smoothing(Protocol):
+    """A linear map of values (p,) at the points that keeps constants, symmetric under the volume of the points."""
+
+    @property
+    def volume(self) -> Array:
+        """(p,) reference volume of each point [m^3]."""
+        ...
+
+    def mean(self, values: Array) -> Array:
+        """The smoothed values (p,)."""
+        ...
+
+    def matrix(self, pattern: Assembler, varied: "Varied") -> csc_array:
+        """Second derivative (n d, n d) of the energy."""
+        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class MeanDilatation:
-    """One dilatation for all the points of a cell; points of a cell follow each other.
+class Dilatation:
+    """The change of volume that the law sees at the points.
 
     Parameters
     ----------
-    starts, cell
-        First point of each cell (e,), and the cell of each point (p,).
-    volume
-        (p,) reference volume of each point [m^3].
+    section
+        How the cells fill space.
+    rows
+        Per block of cells (e, q, a, k) the sampling of the nodes.
+    smoothing
+        What makes theta of J.
+    small
+        Whether strains are those of the linear theory.
     """
 
-    starts: IntArray
-    cell: IntArray
-    volume: Array
-
-    def _sum(self, values: Array) -> Array:
-        """Sums (e, ...) over the points of each cell of values (p, ...) per reference volume."""
-        weight = self.volume.reshape(-1, *[1] * (values.ndim - 1))
-        return np.add.reduceat(weight * values, self.starts)
+    section: Section
+    rows: tuple[Array, ...]
+    smoothing: Smoothing
+    small: bool
 
     def _ratios(self, f: Array) -> tuple[Array, Array, Array]:
-        """J (p,), theta (p,) and ``(theta/J)^(1/m)`` (p,); ``nan`` where matter is inverted."""
+        """J, theta and ``(theta/J)^(1/m)``, (p,); ``nan`` where matter is inverted."""
         J = tensors.determinant(f)
-        theta = (self._sum(J) / self._sum(np.ones_like(J)))[self.cell]
+        theta = self.smoothing.mean(J)
         with np.errstate(invalid="ignore", divide="ignore"):
             return J, theta, np.where((J > 0.0) & (theta > 0.0), theta / J, np.nan) ** (1.0 / f.shape[-1])
 
     def applied(self, H: Array) -> Array:
         """Displacement derivatives (p, m, m) of F_bar."""
+        if self.small:
+            own = np.trace(H, axis1=1, axis2=2) / H.shape[-1]
+            return H + (self.smoothing.mean(own) - own)[:, None, None] * np.eye(H.shape[-1])
         f = np.eye(H.shape[-1]) + H
         return self._ratios(f)[2][:, None, None] * f - np.eye(H.shape[-1])
 
     def returned(self, flux: Array, H: Array) -> Array:
         """Flux (p, m, m) on the derivatives H of the shape functions, from that on ``F_bar``."""
+        if self.small:
+            own = np.trace(flux, axis1=1, axis2=2) / H.shape[-1]
+            return flux + (self.smoothing.mean(own) - own)[:, None, None] * np.eye(H.shape[-1])
         f = np.eye(H.shape[-1]) + H
         J, theta, r = self._ratios(f)
-        mean, own = self._pressures(flux, f, r)
-        return r[:, None, None] * flux + (J / theta * mean - own)[:, None, None] * _slope(f)
-
-    def _pressures(self, flux: Array, f: Array, r: Array) -> tuple[Array, Array]:
-        """Mean (p,) over the cell, and own (p,), of ``flux : F_bar/m``."""
         own = r * tensors.double_dot(flux, f) / f.shape[-1]
-        return (self._sum(own) / self._sum(np.ones_like(own)))[self.cell], own
+        return r[:, None, None] * flux + (J * self.smoothing.mean(own / theta) - own)[:, None, None] * _slope(f)
 
-    def cell_matrices(
-        self, section: Section, rows: tuple[Array, ...], moduli: Array, flux: Array, H: Array
-    ) -> list[Array]:
-        """Second derivatives of the energy, a block (e, a, a, d, d) for each kind of cell."""
-        out, point, cell = [], 0, 0
-        for G in rows:
-            e, q, _, _ = G.shape
-            here = slice(point, point + e * q)
-            part = MeanDilatation(
-                starts=self.starts[cell : cell + e] - point, cell=self.cell[here] - cell, volume=self.volume[here]
-            )
-            out.append(part._block(section, G, moduli[here], flux[here], H[here]))
-            point, cell = point + e * q, cell + e
+    def matrix(self, pattern: Assembler, moduli: Array, flux: Array, H: Array) -> csc_array:
+        """Second derivative (n d, n d) of the energy, of moduli (p, m, m, m, m) and flux (p, m, m) on F_bar."""
+        if self.small:
+            H, flux = np.zeros_like(H), np.zeros_like(flux)
+        f = np.eye(H.shape[-1]) + H
+        J, theta, r = self._ratios(f)
+        own = r * tensors.double_dot(flux, f) / f.shape[-1]
+        return self.smoothing.matrix(
+            pattern,
+            Varied(
+                section=self.section,
+                rows=self.rows,
+                volume=self.smoothing.volume,
+                moduli=moduli,
+                flux=flux,
+                f=f,
+                ratios=(J, theta, r),
+                pressures=(own, self.smoothing.mean(own / theta)),
+            ),
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Varied:
+    """What second derivatives are made of.
+
+    ``ratios`` J, theta, r and ``pressures`` ``flux : F_bar/m`` and the smoothed quotient of it and theta, (p,) each.
+    """
+
+    section: Section
+    rows: tuple[Array, ...]
+    volume: Array
+    moduli: Array
+    flux: Array
+    f: Array
+    ratios: tuple[Array, Array, Array]
+    pressures: tuple[Array, Array]
+
+    def blocks(self) -> list["Block"]:
+        """The derivatives of each kind of cell."""
+        out, start = [], 0
+        for G in self.rows:
+            e, q = G.shape[:2]
+            out.append(self._block(G, slice(start, start + e * q)))
+            start += e * q
         return out
 
-    def _block(self, section: Section, G: Array, moduli: Array, flux: Array, H: Array) -> Array:
-        e, q, a, _ = G.shape
-        f = np.eye(H.shape[-1]) + H
-        m, (J, theta, r), V = f.shape[-1], self._ratios(f), self.volume
-        B = _units(section, G)
-        d = B.shape[1] // a
-        lnJ = np.einsum("pxJi,pJi->px", B, _slope(f))
-        lntheta = (self._sum(J[:, None] * lnJ) / self._sum(J)[:, None])[self.cell]
-        c = (lntheta - lnJ) / m
-        bar = r[:, None, None, None] * (B + c[:, :, None, None] * f[:, None])
-        mean, own = self._pressures(flux, f, r)
-        n = a * d
-        flat = bar.reshape(e * q, n, m * m)
-        stiff = (flat * V[:, None, None]) @ moduli.reshape(e * q, m * m, m * m) @ np.swapaxes(flat, 1, 2)
-        pull = (r * V)[:, None] * np.einsum("pxJi,pJi->px", B, flux)
-        cross = c[:, :, None] * pull[:, None, :]
-        stiff += cross + np.swapaxes(cross, 1, 2) + (m * own * V)[:, None, None] * _square(c)
-        weight = V * (mean * J / theta - own)
-        L = np.einsum("pJi,pxJk->pxik", _slope(f), B)
-        turned = np.swapaxes(L, 2, 3).reshape(e * q, n, m * m)
-        stiff -= weight[:, None, None] * (L.reshape(e * q, n, m * m) @ np.swapaxes(turned, 1, 2))
-        stiff += (V * mean * J / theta)[:, None, None] * _square(lnJ) - (V * mean)[:, None, None] * _square(lntheta)
-        return stiff.reshape(e, q, n, n).sum(axis=1).reshape(e, a, d, a, d).transpose(0, 1, 3, 2, 4)
+    def _block(self, G: Array, here: slice) -> "Block":
+        """All that does not ask theta how it varies."""
+        f, flux, V = self.f[here], self.flux[here], self.volume[here]
+        J, _, r = (x[here] for x in self.ratios)
+        own, quotient = (x[here] for x in self.pressures)
+        m = f.shape[-1]
+        B = _units(self.section, G)
+        p, n = B.shape[:2]
+        slope = _slope(f)
+        lnJ = np.einsum("pxJi,pJi->px", B, slope)
+        bar = (r[:, None, None, None] * (B - lnJ[:, :, None, None] * f[:, None] / m)).reshape(p, n, m * m)
+        stiff = (bar * V[:, None, None]) @ self.moduli[here].reshape(p, m * m, m * m)
+        along = (r[:, None] * f.reshape(p, m * m)) / m  # change of F_bar with ln theta
+        mixed = np.einsum("pxy,py->px", stiff, along)
+        twice = V * np.einsum("py,pyz,pz->p", along, self.moduli[here].reshape(p, m * m, m * m), along)
+        stiff = stiff @ np.swapaxes(bar, 1, 2)
+        pull = (r * V)[:, None] * np.einsum("pxJi,pJi->px", B, flux) / m
+        stiff -= both(lnJ, pull)
+        stiff += (own * V / m + V * quotient * J)[:, None, None] * lnJ[:, :, None] * lnJ[:, None, :]
+        L = np.einsum("pJi,pxJk->pxik", slope, B)
+        turned = np.swapaxes(L, 2, 3).reshape(p, n, m * m)
+        weight = V * (quotient * J - own)
+        stiff -= weight[:, None, None] * (L.reshape(p, n, m * m) @ np.swapaxes(turned, 1, 2))
+        mixed += pull - (own * V / m)[:, None] * lnJ
+        twice += V * own * (1.0 / m - 1.0)
+        return Block(cells=G.shape, local=stiff, mixed=mixed, twice=twice, slope=J[:, None] * lnJ)
 
 
-def mean_dilatation(rows: tuple[Array, ...], volume: Array) -> MeanDilatation:
-    """The :class:`MeanDilatation` of cells with the sampling ``rows`` (e, q, a, k)."""
-    points = np.concatenate([np.full(len(G), G.shape[1]) for G in rows])
-    return MeanDilatation(
-        starts=np.cumsum(points) - points, cell=np.repeat(np.arange(len(points)), points), volume=volume
-    )
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Block:
+    """Second derivatives of the cells (e, q, a, k) of one kind, over x = a d components of their nodes.
+
+    ``local`` (p, x, x) with theta as it is; ``mixed`` (p, x) with ln theta once, ``twice`` (p,) with it twice;
+    ``slope`` (p, x) of J.
+    """
+
+    cells: tuple[int, ...]
+    local: Array
+    mixed: Array
+    twice: Array
+    slope: Array
+
+    def shaped(self, stiff: Array) -> Array:
+        """Cell matrices (e, a, a, d, d) of those of the cells (e, x, x)."""
+        e, a = self.cells[0], self.cells[2]
+        d = stiff.shape[-1] // a
+        return stiff.reshape(e, a, d, a, d).transpose(0, 1, 3, 2, 4)
+
+
+def both(x: Array, y: Array) -> Array:
+    """``x y^T + y x^T`` of (..., n)."""
+    outer = x[..., :, None] * y[..., None, :]
+    return np.asarray(outer + np.swapaxes(outer, -1, -2))
 
 
 def _slope(f: Array) -> Array:
     """Derivative of ln det F to the displacement derivatives, (p, m, m)."""
-    with np.errstate(invalid="ignore", divide="ignore"):
-        finite = np.where(np.isfinite(f), f, np.eye(f.shape[-1]))
-        return np.swapaxes(np.linalg.inv(finite), -1, -2)
-
-
-def _square(x: Array) -> Array:
-    return x[:, :, None] * x[:, None, :]
+    finite = np.where(np.isfinite(f), f, np.eye(f.shape[-1]))
+    return np.swapaxes(np.linalg.inv(finite), -1, -2)
 
 
 def _units(section: Section, G: Array) -> Array:

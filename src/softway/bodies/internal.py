@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csc_array
 
-from softway.bodies.cells import Dilatation, sampled_cells
+from softway.bodies.cells import Dilating, sampled_cells
 from softway.bodies.fused import FUSED_SECTIONS, Fused, fused_force
 from softway.bodies.plain import Plain
 from softway.bodies.points import MaterialPoints, chord_average
@@ -13,6 +13,7 @@ from softway.bodies.sampling import Sampling
 from softway.bodies.section import Section, free_axes
 from softway.laws.compiled import compiled
 from softway.laws.law import StoredEnergy
+from softway.laws.measure import Small
 from softway.space.mesh import Mesh
 from softway.typing import Array
 
@@ -103,7 +104,7 @@ class InternalForce:
 
 
 def internal_force(
-    mesh: Mesh, material: StoredEnergy, section: Section, dilatation: Dilatation = "point"
+    mesh: Mesh, material: StoredEnergy, section: Section, dilatation: Dilating = "point"
 ) -> InternalForce:
     """Tables of the internal force of a body that stores energy.
 
@@ -116,7 +117,7 @@ def internal_force(
     >>> bar.tangent(np.zeros((2, 1))).toarray().round(12).tolist()
     [[3.0, -3.0], [-3.0, 3.0]]
     """
-    sampled = sampled_cells(mesh, section, dilatation)
+    sampled = sampled_cells(mesh, section, dilatation, small=isinstance(material.measure, Small))
     points = MaterialPoints(law=material, free=free_axes(section), directions=sampled.directions)
     plain = Plain(sampling=sampled.sampling, points=points)
     fused = isinstance(section, FUSED_SECTIONS) and dilatation == "point"

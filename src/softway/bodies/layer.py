@@ -78,7 +78,7 @@ def _piece(number: int, part: Part, own: BoolArray) -> Piece | None:
         nodes=nodes + part.rows.start,
         own=nodes,
         points=_points(old, list(kept.values())),
-        internal=force_of(mesh, old.material, old.section, "mean" if old.sampling.dilatation else "point"),
+        internal=force_of(mesh, old.material, old.section, part.dilatation),
         chosen=own[nodes],
     )
 

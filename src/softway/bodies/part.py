@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.sparse import csc_array
 
-from softway.bodies.cells import Dilatation
+from softway.bodies.cells import Dilating
 from softway.bodies.fields import sample
 from softway.bodies.force import SlabForce
 from softway.bodies.internal import InternalForce, internal_force
@@ -30,6 +30,7 @@ class Part:
     internal: InternalForce | RateForce
     density: float
     average: SlabForce
+    dilatation: Dilating = "point"
     shock: Shock | None = None
 
     def shock_force(self, middle: Array, change: Array, span: float) -> Array:
@@ -67,11 +68,12 @@ def part_of(name: str, solid: Solid, first: int) -> Part:
         internal=internal,
         density=solid.density,
         average=solid.force,
+        dilatation=solid.dilatation,
         shock=shock,
     )
 
 
-def force_of(mesh: Mesh, material: Material, section: Section, dilatation: Dilatation) -> InternalForce | RateForce:
+def force_of(mesh: Mesh, material: Material, section: Section, dilatation: Dilating) -> InternalForce | RateForce:
     """The internal force of a body, by what its law is."""
     if isinstance(material, RateLaw):
         return rate_force(mesh, material, section, dilatation)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.sparse import csc_array
 
-from softway.bodies.cells import Dilatation, sampled_cells
+from softway.bodies.cells import Dilating, sampled_cells
 from softway.bodies.memory import Memory, virgin
 from softway.bodies.rate_points import Answer, RatePoints
 from softway.bodies.sampling import Sampling, diagonal_blocks
@@ -146,7 +146,7 @@ class RateForce:
         return float(np.min(tensors.determinant(self.points.gradient(H, self.memory.lateral))))
 
 
-def rate_force(mesh: Mesh, material: RateLaw, section: Section, dilatation: Dilatation = "point") -> RateForce:
+def rate_force(mesh: Mesh, material: RateLaw, section: Section, dilatation: Dilating = "point") -> RateForce:
     """The :class:`RateForce` of a body to which nothing has happened.
 
     Raises
@@ -154,7 +154,7 @@ def rate_force(mesh: Mesh, material: RateLaw, section: Section, dilatation: Dila
     InputError
         In plates that stand in space: their axes are those of the plane.
     """
-    sampled = sampled_cells(mesh, section, dilatation)
+    sampled = sampled_cells(mesh, section, dilatation, small=False)
     m, size = sampled.directions.shape[-2:]
     if 1 < m < size:
         problem = f"{type(material).__name__} in a plate that stands in space"

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
-from softway.bodies.dilatation import MeanDilatation
+from softway.bodies.dilatation import Dilatation
 from softway.bodies.section import Section, derivatives, row_flux, row_moduli
 from softway.kernels.gather import Assembler
 from softway.typing import Array
@@ -31,7 +31,7 @@ class Sampling:
     pattern
         Sparsity of the tangent.
     dilatation
-        The mean over each cell that replaces the change of volume at its points, if any.
+        The means that replace the change of volume at the points, if any.
     """
 
     section: Section
@@ -40,7 +40,7 @@ class Sampling:
     transposed: csr_array
     rows: tuple[Array, ...]
     pattern: Assembler
-    dilatation: MeanDilatation | None = None
+    dilatation: Dilatation | None = None
 
     def derivatives(self, u: Array) -> Array:
         """Displacement derivatives (p, m, D) at the points, with the mean dilatation of the cells."""
@@ -67,7 +67,7 @@ class Sampling:
         """Derivative (n d, n d) [N/m] of :meth:`nodal`, of moduli (p, m, D, m, D) and flux (p, m, D) [Pa]."""
         if self.dilatation is not None:
             H = self.plain_derivatives(u)
-            return self.pattern.assemble(self.dilatation.cell_matrices(self.section, self.rows, moduli, flux, H))
+            return self.dilatation.matrix(self.pattern, moduli, flux, H)
         D = row_moduli(self.section, moduli)
         D *= self.volume[:, None, None, None, None]
         blocks, start = [], 0

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import numpy as np
 
-from softway.bodies.cells import Dilatation
+from softway.bodies.cells import Dilating
 from softway.bodies.fields import Field, Uniform
 from softway.bodies.force import AverageField, DiscreteGradient, EnergyMomentum, SlabForce, Weighted
 from softway.bodies.mass import Consistent, MassRule
@@ -98,8 +98,9 @@ class Solid:
     force
         How the internal force is averaged over a slab.
     dilatation
-        ``point``: the change of volume at each point of a cell; ``mean``: its mean over the cell, so that matter that
-        keeps its volume does not lock.
+        ``point``: the change of volume at each point of a cell; so that matter that keeps its volume does not lock,
+        ``mean``: its mean over the cell, or ``corner``: its means around the corners (with quadratic cells Taylor and
+        Hood's element).
     shock
         Bulk viscosity; none by default.
     place
@@ -115,7 +116,7 @@ class Solid:
     displacement: Annotated[Field, "m"] = Uniform()
     supports: tuple[Support, ...] = ()
     force: SlabForce = Weighted()
-    dilatation: Dilatation = "point"
+    dilatation: Dilating = "point"
     shock: BulkViscosity | None = None
     place: Placement = Placement()
 
@@ -126,7 +127,10 @@ class Solid:
         if isinstance(self.force, AverageField | DiscreteGradient) and isinstance(self.material, RateLaw):
             problem = f"{type(self.force).__name__} of {type(self.material).__name__}, which has no stored energy"
             raise InputError("force", problem, "Weighted or EnergyMomentum")
-        if isinstance(self.force, DiscreteGradient) and self.dilatation == "mean":
+        if self.dilatation == "point" and getattr(self.material, "nu", 0.0) == 0.5:
+            problem = "nu = 0.5 in cells that take the change of volume point by point: they lock"
+            raise InputError("material.nu", problem, 'dilatation = "mean", or "corner" with quadratic cells')
+        if isinstance(self.force, DiscreteGradient) and self.dilatation != "point":
             raise InputError("force", "DiscreteGradient is taken point by point", 'dilatation = "point", or Weighted')
 
 

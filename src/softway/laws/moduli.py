@@ -8,34 +8,42 @@ import numpy as np
 from softway.errors import InputError
 from softway.typing import Array
 
+STIFF = 1e6
+"""Bulk modulus of matter that keeps its volume, in units of its shear modulus."""
 _TURNS = 300  # of the search for the fastest wave; it ends long before
 
 
 def checked(E: float, nu: float) -> None:
-    """Raise :class:`~softway.errors.InputError` unless ``E > 0`` and ``-1 < nu < 1/2``.
+    """Raise :class:`~softway.errors.InputError` unless ``E > 0`` and ``-1 < nu <= 1/2``.
 
     Examples
     --------
-    >>> checked(1.0, 0.5)
+    >>> checked(1.0, 0.6)
     Traceback (most recent call last):
-    softway.errors.InputError: nu: 0.5 is not between -1 and 0.5
+    softway.errors.InputError: nu: 0.6 is not between -1 and 0.5
       try: a value such as 0.3, or 0.49 for rubber
     """
     if not (isfinite(E) and E > 0.0):
         raise InputError("E", f"{E:g} Pa is not positive", "a positive Young's modulus")
-    if not -1.0 < nu < 0.5:
+    if not -1.0 < nu <= 0.5:
         raise InputError("nu", f"{nu:g} is not between -1 and 0.5", "a value such as 0.3, or 0.49 for rubber")
 
 
 def lame(E: float, nu: float) -> tuple[float, float]:
     """Lame constants lambda and mu [Pa] of Young's modulus E [Pa] and Poisson's ratio nu.
 
+    Matter that keeps its volume, nu = 1/2, gets the bulk modulus ``STIFF mu``: a pressure p changes its volume by
+    ``p/(STIFF mu)``.
+
     Examples
     --------
     >>> lame(2.5, 0.25)
     (1.0, 1.0)
     """
-    return E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), E / (2.0 * (1.0 + nu))
+    shear = E / (2.0 * (1.0 + nu))
+    if nu == 0.5:
+        return (STIFF - 2.0 / 3.0) * shear, shear
+    return E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), shear
 
 
 def dilatational_speed(E: float, nu: float, density: float) -> float:

@@ -126,3 +126,16 @@ FLAT = {
     "quad9": tuple((a, b, 8) for a, b in zip(_RING[:-1], _RING[1:], strict=True)),
 }
 """Flat facets between the nodes of a facet."""
+
+
+def linear(cell: str) -> str:
+    """The linear cell of the same shape.
+
+    Examples
+    --------
+    >>> linear("tri6"), linear("hex8")
+    ('tri3', 'hex8')
+    """
+    it = CELLS[cell]
+    names = {(c.dim, c.corners): name for name, c in CELLS.items() if c.order == 1}
+    return names[it.dim, it.corners]

@@ -78,7 +78,7 @@ def test_laws_agree_at_small_strain() -> None:
         ({"E": 0.0}, "E"),
         ({"E": -1.0}, "E"),
         ({"E": float("nan")}, "E"),
-        ({"E": 1.0, "nu": 0.5}, "nu"),
+        ({"E": 1.0, "nu": 0.51}, "nu"),
         ({"E": 1.0, "nu": -1.0}, "nu"),
     ],
 )
