@@ -15,14 +15,15 @@ PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "own_law.md"
 def place(tmp_path, monkeypatch):
     """A folder with the laws and the scenario of the page."""
     blocks = re.findall(r"^```(\w*)\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
-    law, fluid = (text for kind, text in blocks if kind == "python" and "@dataclass" in text)
+    law, fluid, sand = (text for kind, text in blocks if kind == "python" and "@dataclass" in text)
     (tmp_path / "my_law.py").write_text(law)
     (tmp_path / "fluid.py").write_text(fluid)
+    (tmp_path / "sand.py").write_text(sand)
     (tmp_path / "block.toml").write_text(next(text for kind, text in blocks if kind == "toml"))
     uses = [text for kind, text in blocks if kind == "python" and "@dataclass" not in text]
     monkeypatch.chdir(tmp_path)
     yield uses
-    for name in ("my_law", "fluid"):
+    for name in ("my_law", "fluid", "sand"):
         sys.modules.pop(name, None)
 
 
@@ -33,6 +34,8 @@ def place(tmp_path, monkeypatch):
         ["my_law:Stiffening", "--set", "E=50 kPa", "--set", "k=0"],
         ["NeoHookean", "--set", "nu=0.49"],
         ["fluid:Fluid"],
+        ["sand:Rooted"],
+        ["friction.NortonHoff"],
     ],
 )
 def test_the_laws_pass(place, arguments, capsys):
@@ -41,6 +44,12 @@ def test_the_laws_pass(place, arguments, capsys):
 
 def test_the_scenario_runs(place):
     assert main(["run", "block.toml", "--out", "made", "--quiet"]) == 0
+
+
+def test_its_friction_stands_in_a_scenario(place):
+    friction = "contacts[0].friction={kind='sand:Rooted', mu=0.3, p0='1 kPa'}"
+    assert main(["check", "block.toml", "--quiet", "--set", friction]) == 0
+    assert main(["check", "block.toml", "--quiet", "--set", friction.replace("sand:Rooted", "my_law:Stiffening")]) == 2
 
 
 def test_the_python_runs(place, monkeypatch):

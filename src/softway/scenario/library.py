@@ -8,7 +8,7 @@ from softway.errors import InputError
 from softway.laws.law import Material as Law
 from softway.materials import find
 from softway.materials.material import LawName
-from softway.scenario.kinds import REGISTRIES, kinds, nearest
+from softway.scenario.kinds import kinds, members, nearest
 from softway.scenario.writer import write
 
 
@@ -36,7 +36,7 @@ def furnished(data: Mapping[str, Any]) -> dict[str, Any]:
 def _furnish(body: dict[str, Any], where: str) -> None:
     """Replace the material of one body, if it is of the library."""
     given = body["material"]
-    if isinstance(given, str) and given not in kinds(tuple(REGISTRIES)):
+    if isinstance(given, str) and given not in kinds(members(Law)):
         given = {"library": given}
     if not (isinstance(given, dict) and "library" in given):
         return

@@ -21,7 +21,7 @@ def law_named(name: str, changes: Iterable[str] = (), modules: Modules = Modules
     Parameters
     ----------
     name
-        That of a law of softway, or ``module:Class``.
+        That of a law of softway, ``friction.NortonHoff`` where two packages have one of that name, or ``module:Class``.
     changes
         ``parameter=value`` each, with units as in a scenario.  Parameters that have no default are taken from the first
         example in the docstring of the class that makes one.
@@ -38,10 +38,9 @@ def law_named(name: str, changes: Iterable[str] = (), modules: Modules = Modules
     >>> law_named("NeoHookean", ["nu=0.2"])
     NeoHookean(E=1.0, nu=0.2)
     """
-    protocols = tuple(REGISTRIES)
-    known = kinds(protocols)
+    known = _laws()
     if ":" in name:
-        cls = modules.law(name, protocols, "LAW")
+        cls = modules.law(name, tuple(REGISTRIES), "LAW")
     elif name in known:
         cls = known[name]
     else:
@@ -50,6 +49,17 @@ def law_named(name: str, changes: Iterable[str] = (), modules: Modules = Modules
     missing = [key for key, field in inputs(cls).items() if required(field) and key not in given]
     data = {**sample(cls), **given} if missing else given
     return Reader(Units.standard(), Path(), modules).read(data, cls, "")
+
+
+def _laws() -> dict[str, type]:
+    """Every law of softway by its name, and by that of its package where another has it already."""
+    found: dict[str, type] = {}
+    for protocol, package in REGISTRIES.items():
+        for name, cls in kinds([protocol]).items():
+            taken = found.setdefault(name, cls) is not cls
+            if taken:
+                found[f"{package.rpartition('.')[2]}.{name}"] = cls
+    return found
 
 
 def sample(cls: type) -> Mapping[str, Any]:

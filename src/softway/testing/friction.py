@@ -1,11 +1,14 @@
-"""Examination of a law of friction."""
+"""Examinations of a law of friction."""
 
 import numpy as np
 
 from softway.laws.friction_law import FrictionLaw
+from softway.testing.examination import Examination, require_all
 from softway.testing.verdict import close, require
+from softway.typing import Array
 
 STEP = 1e-6
+"""Relative difference of speeds and pressures."""
 
 
 def check_friction(law: FrictionLaw) -> None:
@@ -19,16 +22,65 @@ def check_friction(law: FrictionLaw) -> None:
     >>> from softway.laws.friction import Coulomb
     >>> check_friction(Coulomb(mu=0.3))
     """
+    require_all(law, FRICTION_LAW)
+
+
+def _slips() -> tuple[Array, Array]:
+    """Speeds [m/s] and pressures [Pa] of one shape."""
     speed, pressure = np.meshgrid([1e-3, 0.1, 0.37, 2.0], [0.1, 1.0, 30.0])
-    value, slope, share = law.resistance(speed, pressure)
-    for name, found in (("resistance", value), ("slope", slope), ("share", share), ("limit", law.limit(pressure))):
-        require(found.shape == speed.shape, law, f"{name} of speeds {speed.shape} has shape {found.shape}")
+    return speed, pressure
+
+
+def _shapes(law: FrictionLaw) -> float:
+    (speed, pressure), worst = _slips(), 0.0
+    answers = dict(zip(("resistance", "slope", "share"), law.resistance(speed, pressure), strict=True))
+    one = (*law.resistance(speed[1, 2], pressure[1, 2]), law.limit(pressure[1, 2]))
+    answers["limit"] = law.limit(pressure)
+    for (name, found), single in zip(answers.items(), one, strict=True):
+        require(np.shape(found) == speed.shape, law, f"{name} of speeds {speed.shape} has shape {np.shape(found)}")
+        told = f"{name} of one place differs from {name} of many"
+        worst = max(worst, close(found[1, 2], single, 1e-14, law, told))
+    return worst
+
+
+def _opposes(law: FrictionLaw) -> float:
+    speed, pressure = _slips()
+    value = law.resistance(speed, pressure)[0]
     require(bool((value >= 0.0).all() and (law.limit(pressure) >= 0.0).all()), law, "it drives")
+    require(law.frictionless == (not value.any()), law, "frictionless is not told")
+    return 0.0
+
+
+def _rests(law: FrictionLaw) -> float:
+    speed, pressure = _slips()
     still = law.resistance(np.zeros_like(speed), pressure)[0]
     require(bool(np.isfinite(still).all()), law, "the resistance at rest is not finite")
-    require(bool((law.limit(pressure) >= still - 1e-12).all()), law, "slip is resisted more than rest")
-    require(law.frictionless == (not value.any()), law, "frictionless is not told")
+    require(bool((law.limit(pressure) >= still * (1.0 - 1e-12)).all()), law, "slip is resisted more than rest")
+    loose = law.resistance(np.zeros(1), np.zeros(1))[0]
+    require(bool(np.isfinite(loose).all()), law, "the resistance without pressure is not finite")
+    return 0.0
+
+
+def _to_the_speed(law: FrictionLaw) -> float:
+    speed, pressure = _slips()
+    value, slope, _ = law.resistance(speed, pressure)
     up, down = (law.resistance(speed * (1.0 + d), pressure)[0] for d in (STEP, -STEP))
-    close((up - down) / (2.0 * STEP * speed), slope, 1e-6, law, "the derivative to the speed is off", scale=1.0)
+    told = "the derivative to the speed is off"
+    return close((up - down) / (2.0 * STEP), slope * speed, 1e-6, law, told, float(np.abs(value).max()))
+
+
+def _to_the_pressure(law: FrictionLaw) -> float:
+    speed, pressure = _slips()
+    value, _, share = law.resistance(speed, pressure)
     up, down = (law.resistance(speed, pressure * (1.0 + d))[0] for d in (STEP, -STEP))
-    close((up - down) / (2.0 * STEP * pressure), share, 1e-6, law, "the derivative to the pressure is off", scale=1.0)
+    told = "the derivative to the pressure is off"
+    return close((up - down) / (2.0 * STEP), share * pressure, 1e-6, law, told, float(np.abs(value).max()))
+
+
+FRICTION_LAW = (
+    Examination(name="one place is answered as one of many", look=_shapes, allowed=1e-14),
+    Examination(name="it opposes slip", look=_opposes),
+    Examination(name="rest is held at least as well as slip", look=_rests),
+    Examination(name="its derivative to the speed", look=_to_the_speed, allowed=1e-6),
+    Examination(name="its derivative to the pressure", look=_to_the_pressure, allowed=1e-6),
+)

@@ -3,13 +3,19 @@
 from typing import Any
 
 from softway.laws.fitting import asked, lacking
+from softway.laws.friction_law import FrictionLaw
 from softway.laws.law import RateLaw, StoredEnergy
 from softway.testing.described import DESCRIBED
 from softway.testing.examination import Examination, Finding, findings, require_all
+from softway.testing.friction import FRICTION_LAW
 from softway.testing.rate_law import RATE_LAW
 from softway.testing.stored_energy import STORED_ENERGY
 
-KINDS: tuple[tuple[type, tuple[Examination, ...]], ...] = ((StoredEnergy, STORED_ENERGY), (RateLaw, RATE_LAW))
+KINDS: tuple[tuple[type, tuple[Examination, ...]], ...] = (
+    (StoredEnergy, STORED_ENERGY),
+    (RateLaw, RATE_LAW),
+    (FrictionLaw, FRICTION_LAW),
+)
 """Protocols of laws with their examinations; a law belongs to the first whose members it has."""
 
 
@@ -20,8 +26,9 @@ def check_law(law: Any) -> None:
     stress, their symmetries, the energy of tiny strains against the work of the stress, indifference to rotations,
     inverted matter, and the moduli of small strains that the law reports.  For a law with a history, along paths of
     several sizes and speeds: shapes, symmetries, moduli as derivative of the stress, elastic moduli, dissipation, the
-    energies against the work of the stress, rest, and turns of the body through its points.  For every law: units of
-    its parameters, and its text in a scenario.
+    energies against the work of the stress, rest, and turns of the body through its points.  For a law of friction:
+    that it opposes slip and holds what rests, and its derivatives.  For every law: units of its parameters, and its
+    text in a scenario.
 
     Examples
     --------
