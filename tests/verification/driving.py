@@ -84,6 +84,6 @@ def equilibria(
     u, memories = model.displacement, past.known(model.parts, ())
     for guess, share in path:
         now = model.during(memories, span)
-        u, _ = equilibrium(now, u if guess is None else guess, model.free, share * model.load)
+        u = equilibrium(now, u if guess is None else guess, model.free, share * model.load).displacement
         memories = past.settled(now.parts, u)
         yield u, memories
