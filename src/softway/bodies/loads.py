@@ -1,6 +1,6 @@
 """Dead loads: gravity, and tractions on tagged parts of the boundary."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -92,15 +92,19 @@ def traction_force(mesh: Mesh, section: Section, tag: str, value: Sequence[float
 
 def traction_measure(mesh: Mesh, section: Section, tag: str) -> Array:
     """Integrals (n,) of the shape functions over the facets of a tag [m^2]: the area around each node."""
-    measure = np.zeros(mesh.n_nodes)
-    for name, nodes in mesh.facets_on(tag).items():
-        np.add.at(measure, nodes, _facet_measure(mesh, section, name, nodes))
+    return facets_measure(mesh.points, section, mesh.facets_on(tag))
+
+
+def facets_measure(points: Array, section: Section, facets: Mapping[str, IntArray]) -> Array:
+    """Integrals (n,) [m^2] as :func:`traction_measure`, over ``facets`` (f, b) of nodes at ``points`` (n, d)."""
+    measure = np.zeros(len(points))
+    for name, nodes in facets.items():
+        np.add.at(measure, nodes, _facet_measure(points[nodes], section, name))
     return measure
 
 
-def _facet_measure(mesh: Mesh, section: Section, name: str, nodes: IntArray) -> Array:
-    """Integrals (f, b) of the shape functions over facets, times thickness, circumference or cross-section."""
-    x = mesh.points[nodes]
+def _facet_measure(x: Array, section: Section, name: str) -> Array:
+    """Integrals (f, b) of the shape functions over facets at x (f, b, d), times thickness, circumference or area."""
     if name == "point1":
         return np.asarray(section.measure(x))
     degree = exact_degree(name, curved=True) + (CELLS[name].order if isinstance(section, Axisymmetric) else 0)

@@ -4,18 +4,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from softway.bodies.loads import traction_measure
 from softway.bodies.part import Part
 from softway.contact.contact import Contact
 from softway.contact.encounters import Surfaces
 from softway.contact.mortar import Mortar
 from softway.contact.nodes_on_tool import NodesOnTool
-from softway.contact.rubbing import Rubbing
+from softway.contact.rubbing import Patch, Rubbing, Surface
 from softway.errors import InputError
-from softway.typing import Array, IntArray
-
-POINT = 1e-9
-"""Area of a row without a surface of its own, as a share of the greatest one: a corner beside a mortar surface."""
+from softway.typing import IntArray
 
 
 def rubbing(
@@ -38,33 +34,33 @@ def rubbing(
     contact = np.concatenate([np.zeros(0, int), *number])
     if parts[0].mesh.dim == 1:
         raise InputError("contacts[0].friction", "friction in 1D", "a mesh of two or three dimensions")
-    area, start = np.zeros(len(contact)), 0
-    around = [_measures(c, parts) for c in contacts]
+    patches, start = [], 0
     for method in methods:
-        rows = slice(start, start + len(method.node))
+        rows = np.arange(start, start + len(method.node))
         k = int(contact[start]) if len(method.node) else 0
-        beside = any(isinstance(m, Mortar) for m, _ in _of(contact, methods, k)) and not isinstance(method, Mortar)
-        area[rows] = 0.0 if beside else around[k][method.node]
-        start = rows.stop
-    return Rubbing(
-        laws=tuple(c.friction for c in contacts),
-        contact=contact,
-        area=np.maximum(area, POINT * max(float(area.max(initial=0.0)), 1e-300)),
-    )
+        beside = any(isinstance(m, Mortar) for m in _of(contact, methods, k)) and not isinstance(method, Mortar)
+        if not beside and len(rows):
+            patches.append(Patch(rows=rows, node=method.node, surfaces=_surfaces(contacts[k], parts)))
+        start += len(rows)
+    none = np.zeros(sum(p.mesh.n_nodes for p in parts) * parts[0].mesh.dim).reshape(-1, parts[0].mesh.dim)
+    laws = tuple(c.friction for c in contacts)
+    rough = Rubbing(laws=laws, contact=contact, area=np.ones(len(contact)), patches=tuple(patches))
+    return rough.at(none)
 
 
-def _of(
-    contact: IntArray, methods: Sequence[NodesOnTool | Surfaces], k: int
-) -> list[tuple[NodesOnTool | Surfaces, int]]:
-    """The methods of a contact with their first rows."""
+def _of(contact: IntArray, methods: Sequence[NodesOnTool | Surfaces], k: int) -> list[NodesOnTool | Surfaces]:
+    """The methods of a contact."""
     starts = np.cumsum([0, *(len(m.node) for m in methods)])[:-1]
-    return [(m, int(s)) for m, s in zip(methods, starts, strict=True) if len(m.node) and contact[s] == k]
+    return [m for m, s in zip(methods, starts, strict=True) if len(m.node) and contact[s] == k]
 
 
-def _measures(contact: Contact, parts: Sequence[Part]) -> Array:
-    """Area (n,) of the declared surfaces around each node of the model, with thickness or circumference [m^2]."""
-    out = np.zeros(sum(p.mesh.n_nodes for p in parts))
-    for name, tag in ((contact.body, contact.tag), (contact.opponent, contact.opponent_tag)):
-        for part in (p for p in parts if p.name == name):
-            out[part.rows] += traction_measure(part.mesh, part.internal.section, tag)
-    return out
+def _surfaces(contact: Contact, parts: Sequence[Part]) -> tuple[Surface, ...]:
+    """The declared surfaces of a contact."""
+    return tuple(
+        Surface(
+            nodes=part.rows, points=part.mesh.points, section=part.internal.section, facets=part.mesh.facets_on(tag)
+        )
+        for name, tag in ((contact.body, contact.tag), (contact.opponent, contact.opponent_tag))
+        for part in parts
+        if part.name == name
+    )

@@ -1,12 +1,36 @@
 """The laws of friction of all contact rows, in forces."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from softway.bodies.loads import facets_measure
+from softway.bodies.section import Section
 from softway.laws.friction_law import FrictionLaw
 from softway.typing import Array, IntArray
+
+POINT = 1e-9
+"""Area of a row without a surface of its own, as a share of the greatest one: a corner beside a mortar surface."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Surface:
+    """A declared surface of a solid: its ``nodes`` in the model, their ``points`` (n, d), its section and facets."""
+
+    nodes: slice
+    points: Array
+    section: Section
+    facets: Mapping[str, IntArray]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Patch:
+    """Numbers of ``rows`` (r,) with a surface around them: their ``node`` (r,), and the surfaces of their contact."""
+
+    rows: IntArray
+    node: IntArray
+    surfaces: tuple[Surface, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -21,6 +45,8 @@ class Rubbing:
         (m,) number of the contact of each row.
     area
         (m,) positive [m^2].
+    patches
+        What the area is measured on.
 
     Examples
     --------
@@ -33,6 +59,17 @@ class Rubbing:
     laws: Sequence[FrictionLaw]
     contact: IntArray
     area: Array
+    patches: tuple[Patch, ...] = ()
+
+    def at(self, u: Array) -> "Rubbing":
+        """The same with the areas that the rows have at the displacement u (n, d) [m]."""
+        area = np.zeros(len(self.contact))
+        for patch in self.patches:
+            around = np.zeros(len(u))
+            for it in patch.surfaces:
+                around[it.nodes] += facets_measure(it.points + u[it.nodes], it.section, it.facets)
+            area[patch.rows] = around[patch.node]
+        return replace(self, area=np.maximum(area, POINT * max(float(area.max(initial=0.0)), 1e-300)))
 
     def part(self, which: IntArray) -> "Rubbing":
         """Some of the rows."""

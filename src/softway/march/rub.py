@@ -51,7 +51,7 @@ def slipping(model: Model, now: Situation, slab: Slab, rows: Candidates) -> Slip
         return None
     h, shear = slab.span, rows.shear
     return Slipping(
-        rubbing=model.rubbing,
+        rubbing=model.rubbing.at(now.start.displacement + 0.5 * h * now.start.velocity),
         shift=np.zeros(shear.tangents.shape[:2]),
         pace=0.5,
         unit=1.0 / (h * moments(slab.weight)[1]),

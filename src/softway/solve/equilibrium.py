@@ -59,7 +59,7 @@ class Grip:
         time = PSEUDO * reach / most if most > 0.0 else 1.0
         passed = rows.shear.weights @ (u - self.held) + time * self.velocity
         return Slipping(
-            rubbing=model.rubbing,
+            rubbing=model.rubbing.at(u),
             shift=-rows.shear.flat(passed),
             pace=1.0 / time if most > 0.0 else 0.0,
             unit=1.0,
