@@ -1,4 +1,4 @@
-"""The constant of Babuska and Brezzi of displacements with a pressure, on the unit square and cube with fixed boundary."""
+"""The constant of Babuska and Brezzi of displacements with a pressure, on meshes whose boundary is fixed."""
 
 import numpy as np
 import scipy.sparse as sp
