@@ -103,12 +103,12 @@ def compiled_loop() -> ctypes.CDLL | None:
 def loop(library: ctypes.CDLL, mesh: Mesh, body: InternalForce, u: Array, threads: int) -> Callable[[], Array]:
     """The internal force by the loop, compared once with that of the body."""
     nodes = np.ascontiguousarray(next(iter(mesh.blocks.values())), np.int32)
-    gradients, law = np.ascontiguousarray(body.rows[0]), lame(LAW.E, LAW.nu)
+    gradients, law = np.ascontiguousarray(body.sampling.rows[0]), lame(LAW.E, LAW.nu)
     (e, q, a, _), n = gradients.shape, len(u)
 
     def call() -> Array:
         out = np.zeros_like(u)
-        pointers = (ctypes.c_void_p(array.ctypes.data) for array in (gradients, body.volume, nodes))
+        pointers = (ctypes.c_void_p(array.ctypes.data) for array in (gradients, body.sampling.volume, nodes))
         big = ctypes.c_int64
         library.neo_hookean(
             a, *pointers, big(e), q, ctypes.c_void_p(u.ctypes.data), big(n), *map(ctypes.c_double, law), threads,

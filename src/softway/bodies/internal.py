@@ -6,7 +6,8 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from softway.bodies.cells import Dilating, sampled_cells
-from softway.bodies.fused import FUSED_SECTIONS, Fused, fused_force
+from softway.bodies.fused import Fused
+from softway.bodies.fused_cells import FUSED_SECTIONS, fused_cells
 from softway.bodies.plain import Plain
 from softway.bodies.points import MaterialPoints, chord_average
 from softway.bodies.sampling import Sampling
@@ -123,5 +124,7 @@ def internal_force(
     fused = isinstance(section, FUSED_SECTIONS) and dilatation == "point"
     law = compiled(material) if fused else None
     pattern = sampled.sampling.pattern
-    work = plain if law is None else fused_force(law, section, list(sampled.kinds), pattern, mesh.n_nodes)
+    work: Plain | Fused = plain
+    if law is not None:
+        work = Fused(law=law, cells=fused_cells(section, list(sampled.kinds), pattern, mesh.n_nodes))
     return InternalForce(material=material, section=section, plain=plain, work=work)

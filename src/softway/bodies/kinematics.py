@@ -47,7 +47,7 @@ def passage(rate: Rate, F0: Array, F1: Array) -> Passage:
         return _polar(F0, F1)
     middle = 0.5 * (F0 + F1)
     gradient = (F1 - F0) @ np.linalg.inv(middle)
-    strain = _with_volume(tensors.symmetric(gradient), F0, F1)
+    strain = _with_trace(tensors.symmetric(gradient), _dilation(gradient))
     match rate:
         case Jaumann():
             half = half_turn(gradient)
@@ -134,14 +134,27 @@ def _polar(F0: Array, F1: Array) -> Passage:
     change = F1 @ np.linalg.inv(F0)
     R = tensors.rotation(change)
     strain = 0.5 * logarithm(_transposed(change) @ change)
-    return Passage(strain=_with_volume(strain, F0, F1), first=np.broadcast_to(np.eye(3), R.shape), second=R)
-
-
-def _with_volume(strain: Array, F0: Array, F1: Array) -> Array:
-    """The strain with the trace ``ln J1/J0``; ``nan`` where matter is inverted."""
     with np.errstate(invalid="ignore", divide="ignore"):
         J0, J1 = tensors.determinant(F0), tensors.determinant(F1)
         wanted = np.log1p((J1 - J0) / J0)
+    return Passage(strain=_with_trace(strain, wanted), first=np.broadcast_to(np.eye(3), R.shape), second=R)
+
+
+def _dilation(gradient: Array) -> Array:
+    """``ln J1/J0 = ln det(I + L/2)/det(I - L/2)`` (...,) of an increment L (..., 3, 3) on the middle.
+
+    It is written with the invariants of L, so that no digits are lost where L is small; ``nan`` where the volume
+    changes its sign.
+    """
+    first = tensors.trace(gradient)
+    second = 0.5 * (first * first - np.einsum("...ij,...ji->...", gradient, gradient))
+    top = 0.5 * first + 0.125 * tensors.determinant(gradient)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.asarray(2.0 * np.arctanh(top / (1.0 + 0.25 * second)))
+
+
+def _with_trace(strain: Array, wanted: Array) -> Array:
+    """The strain (..., 3, 3) with another trace (...,)."""
     missing = (wanted - tensors.trace(strain)) / 3.0
     return strain + missing[..., None, None] * np.eye(3)
 

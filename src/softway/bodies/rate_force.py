@@ -5,14 +5,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.sparse import csc_array
 
-from softway.bodies.cells import Dilating, sampled_cells
+from softway.bodies.cells import Dilating, SampledCells, sampled_cells
+from softway.bodies.fused_cells import FUSED_SECTIONS, fused_cells
 from softway.bodies.memory import Memory, virgin
-from softway.bodies.rate_points import Answer, RatePoints
-from softway.bodies.sampling import Sampling, diagonal_blocks
+from softway.bodies.rate_fused import RateFused
+from softway.bodies.rate_plain import RatePlain
+from softway.bodies.rate_points import RatePoints
+from softway.bodies.sampling import Sampling
 from softway.bodies.section import Section, free_axes
 from softway.errors import InputError
 from softway.kernels import tensors
-from softway.laws.law import RateLaw, Viscous
+from softway.laws.compiled import compiled_rate
+from softway.laws.law import RateLaw
 from softway.space.mesh import Mesh
 from softway.typing import Array
 
@@ -28,8 +32,10 @@ class RateForce:
     ----------
     material, section
         Law, and how the cells fill space.
-    sampling, points
-        From the nodes to the points and back, and the points.
+    plain
+        The body as arrays over its points.
+    work
+        What computes forces, tangents and memories: kernels where the law has them, else the arrays.
     memory
         The past, up to the start of the slab.
     span
@@ -38,8 +44,8 @@ class RateForce:
 
     material: RateLaw
     section: Section
-    sampling: Sampling
-    points: RatePoints
+    plain: RatePlain
+    work: RatePlain | RateFused
     memory: Memory
     span: float
 
@@ -47,6 +53,16 @@ class RateForce:
     def linear(self) -> bool:
         """Never: the tangent depends on the past."""
         return False
+
+    @property
+    def sampling(self) -> Sampling:
+        """From the nodes to the points and back."""
+        return self.plain.sampling
+
+    @property
+    def points(self) -> RatePoints:
+        """The points."""
+        return self.plain.points
 
     @property
     def directions(self) -> Array:
@@ -57,18 +73,9 @@ class RateForce:
         """The force in a slab that starts with a memory."""
         return replace(self, memory=memory, span=span)
 
-    def _answer(self, u: Array) -> tuple[Array, Answer]:
-        H0, H1 = self.sampling.derivatives(self.memory.displacement), self.sampling.derivatives(u)
-        return H1, self.points.answer(H0, H1, self.memory, self.span)
-
     def energy_and_force(self, u: Array) -> tuple[float, Array]:
         """Energy [J] stored since the start, with what the slab dissipates, and the force (n, d) [N] at its end."""
-        H, found = self._answer(u)
-        with np.errstate(invalid="ignore"):
-            taken = found.ratio * (found.response.stored + found.response.dissipated)
-            flux = self.points.flux(self.points.stress(found), found.F, H)
-        energy = float(self.sampling.volume @ (self.memory.stored + taken))
-        return energy if np.isfinite(energy) else np.inf, self.sampling.nodal(flux, u)
+        return self.work.energy_and_force(u, self.memory, self.span)
 
     def energy(self, u: Array) -> float:
         """See :meth:`energy_and_force`."""
@@ -80,34 +87,27 @@ class RateForce:
 
     def viscous_force(self, u: Array) -> Array | None:
         """The part of the force that belongs to the mean rate of the slab, (n, d) [N]; None where there is none."""
-        H, found = self._answer(u)
-        viscous = self.points.viscous_stress(found)
-        return None if viscous is None else self.sampling.nodal(self.points.flux(viscous, found.F, H), u)
+        return self.work.viscous_force(u, self.memory, self.span)
 
     def tangent(self, u: Array) -> csc_array:
         """Derivative of the force, (n d, n d) [N/m], made symmetric."""
-        return self._stiffness(u, secant=False)
+        return self.work.tangent(u, self.memory, self.span)
 
     def secant(self, u: Array) -> csc_array:
         """The tangent with the viscosity held fixed, where the law has such moduli, (n d, n d) [N/m]."""
-        return self._stiffness(u, secant=isinstance(self.material, Viscous))
-
-    def _stiffness(self, u: Array, secant: bool) -> csc_array:
-        H, found = self._answer(u)
-        flux = self.points.flux(self.points.stress(found), found.F, H)
-        return self.sampling.matrix(self.points.moduli(found, H, secant), flux, u)
+        return self.work.secant(u, self.memory, self.span)
 
     def tangent_product(self, u: Array, w: Array) -> Array:
         """The tangent at u times a change w (n, d) [m] of the displacement, (n, d) [N]."""
-        return np.asarray(self.tangent(u) @ w.ravel()).reshape(w.shape)
+        return self.work.tangent_product(u, self.memory, self.span, w)
 
     def tangent_diagonal_blocks(self, u: Array) -> Array:
         """Blocks of the tangent that couple each node with itself, (n, d, d) [N/m]."""
-        return diagonal_blocks(self.tangent(u), (u.shape[0], u.shape[1]))
+        return self.work.tangent_diagonal_blocks(u, self.memory, self.span)
 
     def settled(self, u: Array) -> Memory:
         """The memory at the end of the slab."""
-        return self.points.settled(self._answer(u)[1], self.memory, u)
+        return self.work.settled(u, self.memory, self.span)
 
     def stored(self, memory: Memory) -> float:
         """Energy stored since the start [J]."""
@@ -119,21 +119,13 @@ class RateForce:
 
     def stress(self, u: Array) -> Array:
         """Cauchy stress (e, 3, 3) [Pa] at the end of the slab, mean over the present volume of each cell."""
-        _, found = self._answer(u)
+        _, found = self.plain.answer(u, self.memory, self.span)
         sigma = self.points.stress(found)
         return self.sampling.cell_means(sigma, tensors.determinant(found.F) * self.sampling.volume)
 
     def remembered(self, memory: Memory) -> tuple[float, Array, Array | None]:
         """Stored energy [J], force and its viscous part (n, d) [N] at the time of a memory."""
-        u = memory.displacement
-        H = self.sampling.derivatives(u)
-        F = self.points.gradient(H, memory.lateral)
-        force, viscous = (
-            None if s is None else self.sampling.nodal(self.points.flux(s, F, H), u)
-            for s in (memory.stress, memory.viscous)
-        )
-        assert force is not None
-        return self.stored(memory), force, viscous
+        return self.work.remembered(memory)
 
     def remembered_stress(self, memory: Memory) -> Array:
         """Cauchy stress (e, 3, 3) [Pa] of a memory, mean over the present volume of each cell."""
@@ -161,11 +153,23 @@ def rate_force(mesh: Mesh, material: RateLaw, section: Section, dilatation: Dila
         raise InputError("section", problem, "a law that stores energy, or a plate in the plane")
     free = free_axes(section)
     points = len(sampled.sampling.volume)
+    plain = RatePlain(
+        sampling=sampled.sampling, points=RatePoints(law=material, free=free, directions=sampled.directions)
+    )
     return RateForce(
         material=material,
         section=section,
-        sampling=sampled.sampling,
-        points=RatePoints(law=material, free=free, directions=sampled.directions),
+        plain=plain,
+        work=_work(plain, sampled, dilatation, mesh.n_nodes),
         memory=virgin(material.virgin(points), (mesh.n_nodes, mesh.dim), points, len(free)),
         span=1.0,
     )
+
+
+def _work(plain: RatePlain, sampled: SampledCells, dilatation: Dilating, n: int) -> RatePlain | RateFused:
+    """Kernels for a body on n nodes if there are any, else the arrays."""
+    section, pattern = plain.sampling.section, plain.sampling.pattern
+    law = compiled_rate(plain.points.law)
+    if law is None or dilatation != "point" or not isinstance(section, FUSED_SECTIONS):
+        return plain
+    return RateFused(law=law, cells=fused_cells(section, list(sampled.kinds), pattern, n), volume=plain.sampling.volume)

@@ -98,7 +98,8 @@ class RatePoints:
         )
         response = self.law.respond(increment)
         if inverted.any():
-            response = replace(response, stress=np.where(inverted[:, None, None], np.nan, response.stress))
+            stress = np.where(inverted[:, None, None], np.nan, response.stress)
+            response = replace(response, stress=stress, stored=np.where(inverted, np.nan, response.stored))
         ratio = tensors.determinant(0.5 * (F0 + F1))
         return Answer(response=response, passed=passed, F=F1, ratio=ratio, increment=increment, lateral=lateral)
 

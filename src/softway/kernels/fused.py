@@ -22,8 +22,22 @@ Arguments that the kernels share:
 import numpy as np
 
 from softway.kernels.compiled import inlined, kernel
-from softway.kernels.lanes import CHANGE, ENERGY, FRAME, LANES, NATURAL, NODES, TENSOR, TOTAL, VECTOR
-from softway.kernels.stages import collect, differentiate, flux, flux_change, gather, place, pull, scatter
+from softway.kernels.lanes import CHANGE, ENERGY, FRAME, LANES, NODES, TENSOR, TOTAL, VECTOR
+from softway.kernels.stages import (
+    collect,
+    couple,
+    differentiate,
+    enter,
+    enter_diagonal,
+    flux,
+    flux_change,
+    gather,
+    keep,
+    place,
+    pull,
+    scatter,
+    unit,
+)
 from softway.kernels.vectors import call, fma, load, spread, store
 
 
@@ -84,18 +98,8 @@ def tangent(measure, law, moduli, rows, table, geometry, starts, first, last, u,
             _respond(measure, law, moduli, s, table[q], geometry[block, q], d)
             _moduli(s, geometry[block, q], d, moved)
             for node in range(nodes):
-                _couple(s, moved, table[q], node, nodes, sums + node * nodes * TENSOR)
-        for k in range(LANES):
-            for one in range(nodes):
-                for two in range(one, nodes):
-                    here = sums + (one * nodes + two) * TENSOR + k
-                    p, r = pairs[block, one, two, k], pairs[block, two, one, k]
-                    for i in range(3):
-                        for j in range(3):
-                            value = s[here + (3 * i + j) * LANES]
-                            out[at[p] + (i % d) * step[p] + j % d] += value
-                            if one != two:
-                                out[at[r] + (j % d) * step[r] + i % d] += value
+                couple(s, moved, table[q], node, nodes, sums + node * nodes * TENSOR)
+        enter(s, sums, pairs[block], at, step, d, out)
 
 
 @kernel
@@ -112,12 +116,8 @@ def diagonal(measure, law, moduli, rows, table, geometry, starts, first, last, u
             _respond(measure, law, moduli, s, table[q], geometry[block, q], d)
             _moduli(s, geometry[block, q], d, moved)
             for node in range(nodes):
-                _couple(s, moved, table[q], node, node + 1, sums)
-        for k in range(LANES):
-            for node in range(nodes):
-                row = rows[block, node, k]
-                for entry in range(9):
-                    out[row, (entry // 3) % d, (entry % 3) % d] += s[sums + node * TENSOR + entry * LANES + k]
+                couple(s, moved, table[q], node, node + 1, sums)
+        enter_diagonal(s, sums, rows[block], d, out)
 
 
 @kernel
@@ -141,32 +141,8 @@ def _moduli(s, X, d, to):
     """Change of the NATURAL flux D_ri with the NATURAL derivative (t, j), in row (r, t, i, j) of ``s[to:]``."""
     for t in range(3):
         for j in range(3):
-            s[NATURAL : NATURAL + TENSOR] = 0.0
-            store(s, NATURAL + (3 * t + j) * LANES, spread(1.0))
+            unit(s, t, j)
             place(s, X, CHANGE, d)
             flux_change(s)
             pull(s, X)
-            for r in range(3):
-                for i in range(3):
-                    row = 27 * r + 9 * t + 3 * i + j
-                    store(s, to + row * LANES, load(s, NATURAL + (3 * r + i) * LANES))
-
-
-@inlined
-def _couple(s, moved, slopes, node, last, to):
-    """Add ``slopes_ar D_ritj slopes_bt`` of node a with the nodes b from a on to entry (b, i, j) of ``s[to:]``."""
-    a, b, c = slopes[node, 0], slopes[node, 1], slopes[node, 2]
-    for entry in range(0, TENSOR, LANES):
-        x = _along(s, moved + entry, a, b, c)
-        y = _along(s, moved + TENSOR + entry, a, b, c)
-        z = _along(s, moved + 2 * TENSOR + entry, a, b, c)
-        for other in range(node, last):
-            here = to + other * TENSOR + entry
-            rest = fma(slopes[other, 2], z, load(s, here))
-            store(s, here, fma(slopes[other, 0], x, fma(slopes[other, 1], y, rest)))
-
-
-@inlined
-def _along(s, at, a, b, c):
-    rest = fma(c, load(s, at + 6 * TENSOR), spread(0.0))
-    return fma(a, load(s, at), fma(b, load(s, at + 3 * TENSOR), rest))
+            keep(s, t, j, to)

@@ -19,9 +19,31 @@ CHANGE     9             derivatives dH of a change of the displacement
 FLUX       9             ``P = S f`` (first Piola-Kirchhoff), or its change
 NODES      ...           nodal values, and whatever else a kernel needs
 =========  ============  ==================================================================
+
+Laws with a history need more rows; ``STRAIN`` then takes the place of ``E``, and ``STRESS`` is that of Cauchy:
+
+===========  =====  ======================================================================
+name         rows   content
+===========  =====  ======================================================================
+FRAME        9      derivatives H_Ji at the end of the slab, then the cofactors J dX_J/dx_i
+BRIDGE       6      relative trial stress over its norm: the direction of the flow
+SOFT STIFF   1 1    factors of the moduli: ``ds = SOFT dev(d) + BULK tr(d) I - STIFF n (n:d)``
+STEP         9      change of H_Ji in the slab
+TURN         9      rotation from the start to the middle, and from there to the end
+STRAIN       6      strain increment of the slab, in the axes of the middle
+BACK         6      back stress
+PLASTIC      1      equivalent plastic strain
+STORED LOST  1 1    energies per present volume taken up in the slab, stored and dissipated
+RATIO        1      ratio of volumes in the middle
+SHRINK       1      1/det F at the end
+BULK         1      see above
+PAST         ...    nodal values, and whatever else a kernel needs
+===========  =====  ======================================================================
 """
 
 LANES = 8
 FRAME, SPIN, STRESS, BRIDGE, SOFT, STIFF, ENERGY, TOTAL = (LANES * row for row in (0, 9, 10, 16, 22, 23, 24, 25))
 NATURAL, CHANGE, FLUX, NODES = (LANES * row for row in (26, 35, 44, 53))
 VECTOR, TENSOR = 3 * LANES, 9 * LANES
+STEP, TURN, STRAIN, BACK, PLASTIC, STORED, LOST, RATIO = (NODES + LANES * row for row in (0, 9, 18, 24, 30, 31, 32, 33))
+SHRINK, BULK, PAST = (NODES + LANES * row for row in (34, 35, 36))

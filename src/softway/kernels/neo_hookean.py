@@ -6,11 +6,10 @@ import numpy as np
 from numba import carray
 
 from softway.kernels.compiled import Stage, inlined, stage
+from softway.kernels.functions import log1p
 from softway.kernels.lanes import BRIDGE, ENERGY, LANES, NODES, SOFT, STIFF, STRESS
 
 _SERIES_BELOW = 1e-2  # |j| under which j - ln(1 + j) is summed: 10 terms leave less than 1e-17 of j^2/2
-_SIGNIFICAND, _BIAS = 0x000FFFFFFFFFFFFF, 1023  # parts of a double number
-_HALF_ROOT, _ONE = 0x3FE6A09E00000000, 0x3FF0000000000000  # bits of sqrt(1/2), rounded, and of 1
 
 
 @cache
@@ -32,7 +31,7 @@ def _neo_hookean(state, moduli) -> None:
         j = 2.0 * (xx + yy + zz) + higher
         j = j if j > -1.0 else np.nan
         shrink = 1.0 / (1.0 + j)
-        logarithm = _log1p(j, shrink)
+        logarithm = log1p(j, shrink)
         energy = 0.5 * shear * (_excess(j, logarithm) - higher) + 0.125 * bulk_part * logarithm * logarithm
         s[ENERGY + k] = energy if energy < np.inf else np.inf
         ax, ay, az, bx, by, bz = _inverse(xx, yy, zz, xy, yz, zx, shrink)
@@ -72,25 +71,3 @@ def _excess(j, logarithm):
     for n in range(9, 1, -1):
         series = 1.0 / n - x * series
     return x * x * series if small else j - logarithm
-
-
-@inlined
-def _log1p(j, shrink):
-    """``ln(1 + j)`` without a branch; ``shrink`` is 1/(1 + j), j > -1.
-
-    ``1 + j = 2^n (1 + f)`` with ``1 + f`` between sqrt(1/2) and sqrt(2), and ``ln(1 + f)`` by the polynomial in ``s =
-    f/(2 + f)`` of FreeBSD's libm (e_log.c, 1993); what ``1 + j`` lost by rounding is added in first order.
-    """
-    bits = np.float64(1.0 + j).view(np.int64) + (_ONE - _HALF_ROOT)
-    n = np.float64((bits >> 52) - _BIAS)
-    f = np.int64((bits & _SIGNIFICAND) + _HALF_ROOT).view(np.float64) - 1.0
-    lost = (j - ((1.0 + j) - 1.0)) * shrink
-    s = f / (2.0 + f)
-    z = s * s
-    w = z * z
-    even = w * (3.999999999940941908e-01 + w * (2.222219843214978396e-01 + w * 1.531383769920937332e-01))
-    odd = 2.857142874366239149e-01 + w * (1.818357216161805012e-01 + w * 1.479819860511658591e-01)
-    tail = even + z * (6.666666666666735130e-01 + w * odd)
-    half = 0.5 * f * f
-    low = n * 1.90821492927058770002e-10 + lost
-    return n * 6.93147180369123816490e-01 - ((half - (s * (half + tail) + low)) - f)

@@ -1,19 +1,25 @@
 """A row of lanes as one value inside kernels: ``LANES`` numbers that the machine handles together.
 
 Loops over the lanes leave it to the compiler to see that arrays do not overlap, and sums in memory.  A vector is loaded
-from an array, accumulated in a register, and stored.
+from an array, accumulated in a register, and stored.  Sums, differences, products and quotients of vectors, and of
+vectors and numbers, are written as those of numbers.
 """
 
+from collections.abc import Callable
+from operator import add, sub, truediv
+from operator import mul as times
 from typing import Any
 
 from llvmlite import ir
 from numba import types
+from numba.core import cgutils
 from numba.core.datamodel import models, register_default
-from numba.extending import intrinsic
+from numba.extending import intrinsic, overload
 
 from softway.kernels.lanes import LANES
 
 _NUMBERS = ir.VectorType(ir.DoubleType(), LANES)
+_BIAS, _FRACTION = 1023, 52  # parts of a double number
 
 
 class Vector(types.Type):
@@ -78,6 +84,50 @@ def mul(typing, left, right):
 
 
 @intrinsic
+def root(typing, vector):
+    """Square root of a vector."""
+
+    def generate(context, builder, signature, args):
+        kind = ir.FunctionType(_NUMBERS, [_NUMBERS])
+        return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.sqrt.v{LANES}f64"), args)
+
+    return VECTOR(VECTOR), generate
+
+
+@intrinsic
+def pick(typing, left, right, above, otherwise):
+    """In every lane ``above`` where left > right, else ``otherwise``."""
+
+    def generate(context, builder, signature, args):
+        return builder.select(builder.fcmp_ordered(">", args[0], args[1]), args[2], args[3])
+
+    return VECTOR(VECTOR, VECTOR, VECTOR, VECTOR), generate
+
+
+@intrinsic
+def any_above(typing, left, right):
+    """Whether left > right in any lane."""
+
+    def generate(context, builder, signature, args):
+        found = builder.bitcast(builder.fcmp_ordered(">", args[0], args[1]), ir.IntType(LANES))
+        return builder.icmp_unsigned("!=", found, ir.IntType(LANES)(0))
+
+    return types.boolean(VECTOR, VECTOR), generate
+
+
+@intrinsic
+def power_of_two(typing, number):
+    """``2^number`` of whole numbers between -1022 and 1023."""
+
+    def generate(context, builder, signature, args):
+        whole = ir.VectorType(ir.IntType(64), LANES)
+        bits = builder.add(builder.fptosi(args[0], whole), ir.Constant(whole, [_BIAS] * LANES))
+        return builder.bitcast(builder.shl(bits, ir.Constant(whole, [_FRACTION] * LANES)), _NUMBERS)
+
+    return VECTOR(VECTOR), generate
+
+
+@intrinsic
 def call(typing, address, state, moduli):
     """Call the stage at an address with two arrays."""
 
@@ -89,6 +139,32 @@ def call(typing, address, state, moduli):
         return context.get_dummy_value()
 
     return types.none(types.intp, state, moduli), generate
+
+
+def _operation(name: str) -> Any:
+    """One of the four operations, of vectors and numbers."""
+
+    @intrinsic
+    def operation(typing, left, right):
+        def generate(context, builder, signature, args):
+            sides = (a if t == VECTOR else _spread(builder, a) for a, t in zip(args, signature.args, strict=True))
+            return getattr(builder, name)(*sides, flags=("contract",))
+
+        return VECTOR(*(t if t == VECTOR else types.float64 for t in (left, right))), generate
+
+    return operation
+
+
+def _overloaded(operator: Callable[..., Any], operation: Any) -> None:
+    @overload(operator)
+    def chosen(left, right):
+        if VECTOR in (left, right):
+            return lambda left, right: operation(left, right)
+        return None
+
+
+for _operator, _name in ((add, "fadd"), (sub, "fsub"), (times, "fmul"), (truediv, "fdiv")):
+    _overloaded(_operator, _operation(_name))
 
 
 def _spread(builder: Any, number: Any) -> Any:

@@ -1,0 +1,151 @@
+"""Cells of a body in the order of the fused kernels."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csc_array
+
+from softway.bodies.cells import Cells
+from softway.bodies.section import Axisymmetric, PlaneStrain, Section, Volume
+from softway.kernels import fused
+from softway.kernels.gather import Assembler
+from softway.kernels.parts import Parts, not_first, own_rows, parts
+from softway.kernels.threads import share
+from softway.typing import Array, IntArray
+
+FUSED_SECTIONS = (Volume, PlaneStrain, Axisymmetric)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Block:
+    """Cells of one kind, in the order of the kernels; shapes as in :mod:`softway.kernels.fused`.
+
+    Parameters
+    ----------
+    starts
+        First block of lanes of each part.
+    rows, pairs
+        Rows of nodal arrays, and numbers of the pairs of nodes.
+    points
+        (b, LANES) first point of each cell; the number of points where there is none.
+    table, geometry
+        What the quadrature points know of the reference cell, and of each cell.
+    """
+
+    starts: IntArray
+    rows: IntArray
+    pairs: IntArray
+    points: IntArray
+    table: Array
+    geometry: Array
+
+    def share(self, task: Callable[[int, int], object]) -> None:
+        """Call ``task(first, last)`` on ranges that make up all the parts, see :mod:`softway.kernels.threads`."""
+        share(task, len(self.starts) - 1)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FusedCells:
+    """Cells, kind by kind, and what their sums need.
+
+    Parameters
+    ----------
+    blocks
+        Cells, kind by kind.
+    pattern
+        Sparsity of the tangent.
+    extra
+        (h,) node of each row of nodal arrays beyond the nodes, where a part sums what another part sums too.
+    at, step
+        Places of the pairs of nodes among the entries of the tangent, then of the extra pairs, then of none.
+    extra_places
+        (h2 d d,) the entry of the tangent for each of the extra entries.
+    """
+
+    blocks: tuple[Block, ...]
+    pattern: Assembler
+    extra: IntArray
+    at: IntArray
+    step: IntArray
+    extra_places: IntArray
+
+    def rows(self, u: Array) -> Array:
+        """Nodal values with the extra rows, and a row of zeros for lanes without a cell."""
+        n = len(u)
+        out = np.empty((n + len(self.extra) + 1, u.shape[1]))
+        out[:n] = u
+        out[n:-1] = u[self.extra]
+        out[-1] = 0.0
+        return out
+
+    def folded(self, out: Array, n: int) -> Array:
+        """The nodal values, with the extra rows added in their order."""
+        if len(self.extra):
+            fused.fold(self.extra, n, out)
+        return out[:n]
+
+    def entries(self, d: int) -> Array:
+        """Zeros for the entries of a tangent in d dimensions, the extra ones, and those of no pair."""
+        return np.zeros(len(self.pattern.indices) + len(self.extra_places) + d * d)
+
+    def matrix(self, out: Array, d: int) -> csc_array:
+        """The tangent with the :meth:`entries` that kernels have added to."""
+        stored = len(self.pattern.indices)
+        np.add.at(out, self.extra_places, out[stored : -d * d])
+        return self.pattern.matrix(out[:stored])
+
+
+def fused_cells(section: Section, kinds: list[Cells], pattern: Assembler, n: int) -> FusedCells:
+    """The cells of a body on n nodes."""
+    d = kinds[0].corners.shape[2]
+    at, step = pattern.places(d)
+    extra, again = np.empty(0, np.int64), np.empty(0, np.int64)
+    pair_of, numbered = pattern.pair_of(), []
+    for cells in kinds:
+        it, (e, a) = parts(cells.nodes, cells.corners.mean(axis=1), cells.volume.shape[1]), cells.nodes.shape
+        rows, more = own_rows(it.part, cells.nodes, not_first(it.part, cells.nodes), n + len(extra))
+        other = rows >= n
+        pair, pair_of = pair_of[: e * a * a].reshape(e, a, a), pair_of[e * a * a :]
+        pairs, twice = own_rows(it.part, pair, other[:, :, None] & other[:, None, :], len(at) + len(again))
+        numbered.append((it, rows, pairs))
+        extra, again = np.concatenate([extra, more]), np.concatenate([again, twice])
+    entry = step[again, None, None] * np.arange(d)[:, None] + np.arange(d)
+    beyond = len(pattern.indices) + d * d * np.arange(len(again) + 1)
+    counts = np.cumsum([0] + [cells.volume.size for cells in kinds])
+    empty = n + len(extra), len(at) + len(again), int(counts[-1])
+    return FusedCells(
+        blocks=tuple(
+            _block(cells, section, it, (rows, pairs, int(first)), empty)
+            for cells, (it, rows, pairs), first in zip(kinds, numbered, counts[:-1], strict=True)
+        ),
+        pattern=pattern,
+        extra=extra,
+        at=np.concatenate([at, beyond]),
+        step=np.concatenate([step, np.full(len(beyond), d)]),
+        extra_places=(at[again, None, None] + entry).ravel(),
+    )
+
+
+def _block(
+    cells: Cells, section: Section, it: Parts, numbers: tuple[IntArray, IntArray, int], empty: tuple[int, int, int]
+) -> Block:
+    element, (e, q) = cells.element, cells.volume.shape
+    d = cells.corners.shape[2]
+    table = np.zeros((*element.N.shape, 3))
+    table[:, :, :d] = element.dN
+    inverse = np.zeros((e, q, 3, 3))
+    inverse[:, :, :d, :d] = np.linalg.inv(np.einsum("ead,qar->eqrd", cells.corners, element.dN))
+    if isinstance(section, Axisymmetric):
+        table[:, :, 2] = element.N
+        inverse[:, :, 2, 2] = 1.0 / np.einsum("qa,ea->eq", element.N, cells.corners[:, :, 0])
+    geometry = it.lanes(np.concatenate([inverse.reshape(e, q, 9), cells.volume[:, :, None]], axis=2), 0.0)
+    rows, pairs, first = numbers
+    return Block(
+        starts=it.starts,
+        rows=it.lanes(rows.astype(np.uint32), empty[0]),  # unsigned: kernels need not ask whether to count from the end
+        pairs=it.lanes(pairs.astype(np.uint32), empty[1]),
+        points=it.lanes((first + q * np.arange(e)).astype(np.uint32), empty[2]),
+        table=table,
+        geometry=geometry.reshape(*geometry.shape[:2], -1),
+    )

@@ -1,0 +1,50 @@
+"""Functions without a branch, for loops over the lanes or for vectors, accurate to about one unit in the last place."""
+
+import numpy as np
+
+from softway.kernels.compiled import inlined
+from softway.kernels.vectors import pick, power_of_two, spread
+
+_SIGNIFICAND, _BIAS = 0x000FFFFFFFFFFFFF, 1023  # parts of a double number
+_HALF_ROOT, _ONE = 0x3FE6A09E00000000, 0x3FF0000000000000  # bits of sqrt(1/2), rounded, and of 1
+_WHOLE = 6755399441055744.0  # 1.5 2^52: adding it rounds to the next integer
+_LN2_HIGH, _LN2_LOW = 6.93147180369123816490e-01, 1.90821492927058770002e-10
+_LEAST, _MOST = -700.0, 700.0  # arguments of exp whose results are ordinary numbers
+
+
+@inlined
+def log1p(j, shrink):
+    """``ln(1 + j)`` without a branch; ``shrink`` is 1/(1 + j), j > -1.
+
+    ``1 + j = 2^n (1 + f)`` with ``1 + f`` between sqrt(1/2) and sqrt(2), and ``ln(1 + f)`` by the polynomial in ``s =
+    f/(2 + f)`` of FreeBSD's libm (e_log.c, 1993); what ``1 + j`` lost by rounding is added in first order.
+    """
+    bits = np.float64(1.0 + j).view(np.int64) + (_ONE - _HALF_ROOT)
+    n = np.float64((bits >> 52) - _BIAS)
+    f = np.int64((bits & _SIGNIFICAND) + _HALF_ROOT).view(np.float64) - 1.0
+    lost = (j - ((1.0 + j) - 1.0)) * shrink
+    s = f / (2.0 + f)
+    z = s * s
+    w = z * z
+    even = w * (3.999999999940941908e-01 + w * (2.222219843214978396e-01 + w * 1.531383769920937332e-01))
+    odd = 2.857142874366239149e-01 + w * (1.818357216161805012e-01 + w * 1.479819860511658591e-01)
+    tail = even + z * (6.666666666666735130e-01 + w * odd)
+    half = 0.5 * f * f
+    low = n * _LN2_LOW + lost
+    return n * _LN2_HIGH - ((half - (s * (half + tail) + low)) - f)
+
+
+@inlined
+def exp(x):
+    """``e^x`` of a vector between -700 and 700, the ends beyond.
+
+    ``x = n ln 2 + r`` with r up to ln(2)/2, and the series of ``e^r`` up to the 13th power, which leaves 5e-17.
+    """
+    x = pick(spread(_LEAST), x, spread(_LEAST), x)
+    x = pick(x, spread(_MOST), spread(_MOST), x)
+    n = (1.44269504088896338700 * x + _WHOLE) - _WHOLE
+    r = (x - _LN2_HIGH * n) - _LN2_LOW * n
+    series = spread(1.0)
+    for k in range(13, 0, -1):
+        series = r * series * (1.0 / k) + 1.0
+    return series * power_of_two(n)
