@@ -54,12 +54,10 @@ class Unbalanced(Exception):
 
 
 class Halts(Exception):
-    """A body comes to rest on another one inside a slab, after a ``share`` of it; the march ends the slab there, and
-    lets friction turn in a slab as long as ``turns`` [s].
-    """
+    """A body comes to rest on another one inside a slab, after a ``share`` of it; the march ends the slab there."""
 
-    def __init__(self, share: float, turns: float) -> None:
-        self.share, self.turns = share, turns
+    def __init__(self, share: float) -> None:
+        self.share = share
         super().__init__(f"slip ends after {share:.6g} of the slab")
 
 

@@ -2,7 +2,10 @@
 
 The spring is a thin column on top of the block, of the same matter, whose upper end is held along the floor and free
 across it.  Its stiffness is measured by a static march of the same mesh, so that nothing depends on how well the
-elements bend; the density makes the mass.  The block is stiff: its own vibrations are thousands of times faster.
+elements bend; the mass is that of the motion in which the column bends as it does at rest.  The block is stiff: its own
+vibrations are thousands of times faster.
+
+A weight of ten times that of the cases with a tenth of their friction keeps the block from tipping over its edges.
 """
 
 from dataclasses import dataclass
@@ -12,20 +15,22 @@ import numpy as np
 
 import softway as sw
 from exact_waves import Array
+from softway.laws.friction_law import FrictionLaw
 from softway.march.begin import begin
 
-SIDE, HEIGHT = 1.0, 0.5
-COLUMN, THIN = 0.1, 4e-4
-WEIGHT = 9.81
+SIDE, HEIGHT = 0.5, 0.1
+COLUMN, THIN = 0.05, 5e-4
+ENERGY = sw.Energy(spread=2)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sprung:
-    """Block and column in ``dim`` dimensions with the ``mass`` and the ``stiffness``."""
+    """Block and column in ``dim`` dimensions with the ``mass``, the ``stiffness`` and the ``weight`` [N]."""
 
     dim: int
     mass: float
     stiffness: float
+    weight: float
 
     @property
     def mesh(self) -> sw.Mesh:
@@ -34,23 +39,41 @@ class Sprung:
 
     @property
     def density(self) -> float:
-        return self.mass / _volume(self.dim)
+        return self.mass / _inertia(self.dim)
+
+    @property
+    def gravity(self) -> sw.Gravity:
+        acceleration = self.weight / (self.density * _volume(self.dim))
+        return sw.Gravity(acceleration=(*(0.0,) * (self.dim - 1), -acceleration))
 
     @property
     def youngs(self) -> float:
         """Young's modulus that makes the stiffness."""
         return self.stiffness / _unit(self.dim)
 
-    def solid(self, velocity: tuple[float, ...], at: tuple[float, ...], gravity: float = WEIGHT) -> sw.Solid:
+    def solid(self, velocity: tuple[float, ...], at: tuple[float, ...]) -> sw.Solid:
         """At rest at the place ``at`` along the floor, compressed by its weight, but for its velocity."""
-        pull = self.stiffness / self.mass * np.array(at)
+        pull = self.stiffness * np.array(at)
         return sw.Solid(
             mesh=self.mesh,
             material=sw.LinearElastic(E=self.youngs),
             density=self.density,
             velocity=sw.Uniform(value=velocity),
-            displacement=_bent(self.dim, self.youngs, self.density, (*pull, -gravity)),
+            displacement=_bent(self.dim, self.youngs, self.density, tuple(pull), (self.gravity,)),
             supports=(sw.Fixed(on="held", components=_plane(self.dim)),),
+        )
+
+    def scene(
+        self, velocity: tuple[float, ...], at: tuple[float, ...], friction: FrictionLaw, speed: float = 0.0
+    ) -> sw.Scene:
+        """The block ``b`` on the floor, the contact ``floor``; the floor moves with the speed along the first axis."""
+        up = tuple(np.eye(self.dim)[-1])
+        belt = sw.Translation(velocity=(speed, *(0.0,) * (self.dim - 1))) if speed else sw.Still()
+        floor = sw.Tool(shape=sw.HalfSpace(point=(0.0,) * self.dim, normal=up), motion=belt)
+        return sw.Scene(
+            bodies={"b": self.solid(velocity, at), "belt": floor},
+            contacts=(sw.Contact(between=("b.bottom", "belt"), name="floor", friction=friction, timing=ENERGY),),
+            loads=(self.gravity,),
         )
 
     def mean(self, field: Array) -> Array:
@@ -92,24 +115,35 @@ def _mesh(dim: int) -> sw.Mesh:
 
 
 def _volume(dim: int) -> float:
-    return SIDE ** (dim - 1) * HEIGHT + THIN ** (dim - 1) * 1.05 * COLUMN
+    return SIDE ** (dim - 1) * HEIGHT + 1.05 * THIN ** (dim - 1) * COLUMN
+
+
+@cache
+def _inertia(dim: int) -> float:
+    """Inertia of the block and its column for the density 1, as contact distributes it."""
+    u = _bent(dim, 1.0, 1.0, (1e-9, *(0.0,) * (dim - 2)), ())[:, 0]
+    solid = sw.Solid(mesh=_mesh(dim), material=sw.LinearElastic(E=1.0), density=1.0)
+    floor = sw.Tool(shape=sw.HalfSpace(point=(0.0,) * dim, normal=tuple(np.eye(dim)[-1])))
+    contact = sw.Contact(between=("b.bottom", "floor"), timing=ENERGY)
+    model = sw.build(sw.Scene(bodies={"b": solid, "floor": floor}, contacts=(contact,)))
+    return float(u @ (model.mass @ u)) / float(u[_mesh(dim).nodes("bottom")].mean()) ** 2
 
 
 @cache
 def _unit(dim: int) -> float:
     """Stiffness of the spring for E = 1, measured."""
-    u = _bent(dim, 1.0, 1.0 / _volume(dim), (1e-9, *(0.0,) * (dim - 1)))
+    u = _bent(dim, 1.0, 1.0, (1e-9, *(0.0,) * (dim - 2)), ())
     return 1e-9 / float(u[_mesh(dim).nodes("bottom"), 0].mean())
 
 
-def _bent(dim: int, youngs: float, density: float, pull: tuple[float, ...]) -> Array:
-    """Displacement (n, d) in equilibrium under an acceleration, the lower side on rollers."""
+def _bent(dim: int, youngs: float, density: float, pull: tuple[float, ...], loads: tuple[sw.Gravity, ...]) -> Array:
+    """Displacement (n, d) in equilibrium under forces along the lower side, which is on rollers, and under loads."""
     solid = sw.Solid(
         mesh=_mesh(dim),
         material=sw.LinearElastic(E=youngs),
         density=density,
         supports=(sw.Fixed(on="held", components=_plane(dim)), sw.Fixed(on="bottom", components="xyz"[dim - 1])),
     )
-    loads = (sw.Gravity(acceleration=tuple(float(p) for p in pull)),)
-    model = sw.build(sw.Scene(bodies={"block": solid}, loads=loads, start=sw.StaticStart()))
+    traction = sw.Traction(on="block.bottom", value=(*(float(p) / SIDE ** (dim - 1) for p in pull), 0.0))
+    model = sw.build(sw.Scene(bodies={"block": solid}, loads=(traction, *loads), start=sw.StaticStart()))
     return begin(model).start.displacement.copy()

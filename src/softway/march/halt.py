@@ -8,21 +8,22 @@ from softway.march.situation import Situation
 from softway.model import Model
 from softway.typing import Array
 
+SLOWED = 0.5
+"""Share of the velocity at its start that a body has at the end of a slab in which it does not come to rest."""
 EARLY = 1e-6
 """Share of a slab before which a body counts as at rest from its start."""
 LATE = 1.0 - 1e-9
 """Share of a slab after which its end is the instant."""
 STIFF = 4.0
-"""Energy of the slip, in units of the strain energy that its friction holds, above which friction stops the body, and
-not its elasticity."""
+"""Energy of the change of the slip, in units of the strain energy that its friction holds, above which friction stops
+the body, and not its elasticity."""
 
 
 def halt(model: Model, now: Situation, out: Outcome, span: float) -> None:
     """Refuse a slab inside which a contact that slipped comes to rest.
 
-    The velocity of a contact is the mean over the places that slipped, weighted by their friction at the start, of the
-    velocities of the nodes with inertia behind, relative to the opponent.  Friction turns round or vanishes where it
-    crosses zero: a slab that goes on beyond that instant would push the body back.
+    Friction turns round or vanishes where its power crosses zero: a slab that goes on beyond that instant would push
+    the body back.
 
     Raises
     ------
@@ -33,28 +34,26 @@ def halt(model: Model, now: Situation, out: Outcome, span: float) -> None:
     if first.shear is None or now.traction is None or now.sliding is None:
         return
     weight = -now.traction * (now.sliding & now.closed)[:, None]
+    ends = now.start.velocity, out.solution.last.q
     found = []
     for contact in np.unique(first.contact[weight.any(axis=1)]).tolist():
         here = weight * (first.contact == contact)[:, None]
-        before, after = (
-            float(np.sum(here * first.shear.slip(span * (model.follow @ v)))) / span
-            for v in (now.start.velocity, out.solution.last.q)
-        )
-        share = before / (before - after) if before > 0.0 > after else 1.0
-        if EARLY < share < LATE:
-            inertia, elastic = _answer(model, out, here)
-            if before**2 > STIFF * 0.25 * span**2 * inertia * elastic:
-                found.append((share, np.pi * 0.5 * span * np.sqrt(elastic / inertia)))
+        one, other = (float(np.sum(here * first.shear.slip(span * (model.follow @ v)))) for v in ends)
+        if other < SLOWED * one:
+            share = _stopped(model, out, here, span, ends)
+            if EARLY < share < LATE:
+                found.append(share)
     if found:
-        raise Halts(*min(found))
+        raise Halts(min(found))
 
 
-def _answer(model: Model, out: Outcome, weight: Array) -> tuple[float, float]:
-    """Kinetic part e = z.Mz and elastic part E = z.Az - z.Mz of the answer z of the slab to forces (m, d).
+def _stopped(model: Model, out: Outcome, weight: Array, span: float, ends: tuple[Array, Array]) -> float:
+    """Share of the slab after which friction stops a body that forces ``weight`` (m, d) hold; 1 if it does not.
 
-    To stop a slip with the power P these forces take the energy ``P^2/2e``; they hold the strain energy ``h^2 E/8``:
-    friction stops a body where the first is greater, and its elasticity where the second is.  What they have strained
-    swings back in half a period, ``pi h/2 (E/e)^(1/2)``.
+    The answer z of the slab to these forces is the motion that they take up, with the kinetic part e = z.Mz and the
+    elastic one E = z.Az - z.Mz.  The power of the slip is ``z.Mv``.  To change it by P the forces take the energy
+    ``P^2/2e``; they hold the strain energy ``h^2 E/8``: friction stops the body where the first is greater, and its
+    elasticity where the second is.
     """
     frozen, rows = out.solution.last.carry.frozen, out.system.path.rows
     assert frozen is not None and rows.shear is not None
@@ -63,5 +62,11 @@ def _answer(model: Model, out: Outcome, weight: Array) -> tuple[float, float]:
     answer = frozen.answer(every.spread(forces))
     field = np.zeros(model.shape)
     field[model.free] = answer
-    inertia = float(np.sum(field * (model.mass @ field)))
-    return inertia, max(float(forces @ every.along(frozen.sense(answer))) - inertia, 0.0)
+    moved = model.mass @ field
+    inertia = float(np.sum(field * moved))
+    elastic = max(float(forces @ every.along(frozen.sense(answer))) - inertia, 0.0)
+    tool = float(np.sum(weight * rows.shear.moved)) / span
+    before, after = (float(np.sum(moved * v)) - tool for v in ends)
+    if not before > 0.0 > after or (before - after) ** 2 <= STIFF * 0.25 * span**2 * inertia * elastic:
+        return 1.0
+    return before / (before - after)

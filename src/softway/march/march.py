@@ -33,6 +33,9 @@ log = logging.getLogger("softway")
 PATIENCE = 1
 """Halvings after which an energy balance that the scalar cannot close is closed along the motion, for as long as it
 takes."""
+SETTLING = EndPeaks(theta=1.0)
+"""Virtual time function of the slab after a stop: the forces at its end count for all of it, so that friction may turn
+at once and what the stop has set vibrating comes to rest.  It has the operator of a slab longer by the root of 2."""
 STRAINED = 0.2
 """Fraction of the length asked for below which a great scalar asks for no shorter slab."""
 
@@ -139,17 +142,17 @@ def _steps(
 ) -> Iterator[Step]:
     model = rules.model
     initial = ledger = opening(model, now)
-    carry, current, before, closed, turning = Carry(), span, parted(model, now), False, False
+    carry, current, before, closed = Carry(), span, parted(model, now), False
+    halted = False
     while now.time < until - 1e-9 * span:
         length = min(current, until - now.time)
         length = until - now.time if until - now.time - length < control.least * span else length
-        found = _accepted(rules, now, (initial, ledger), length, span, until, weight, carry, control, closed)
+        found = _accepted(rules, now, (initial, ledger), length, span, until, weight, carry, control, closed, halted)
         if carry.choice is None and found.carry.choice is not None:
             log.info("operator %s: %s", found.carry.choice.operator, found.carry.choice.reason)
         step = _step(model, now, before, found)
         yield step
-        current = span if turning else _next(model, control, span, now, found)
-        turning = found.turns > 0.0
+        current, halted = _next(model, control, span, now, found), found.halted
         now, before, ledger, carry, closed = found.after, step.after, found.ledger, found.carry, found.closed
 
 
@@ -165,14 +168,16 @@ class _Accepted:
     certificate: Certificate
     rejections: tuple[str, ...]
     closed: bool
-    turns: float = 0.0
+    halted: bool = False
 
 
 def _next(model: Model, control: StepControl, span: float, before: Situation, found: _Accepted) -> float:
     """Length of the next slab."""
     length = found.slab.span
-    if found.turns > 0.0:
-        return min(span, max(found.turns, 1e2 * control.least * span))
+    if found.halted:
+        return span * float(np.sqrt(0.5))
+    if found.slab.weight == SETTLING:
+        return span
     end = found.out.solution.end
     strained = ((np.abs(end.scalar) > control.scalar) & (end.share > SLIGHT)).any() and not found.out.events
     if strained and length > STRAINED * span:
@@ -194,24 +199,26 @@ def _accepted(
     carry: Carry,
     control: StepControl,
     closed: bool,
+    settling: bool,
 ) -> _Accepted:
     """Advance by the length, or by half of it as often as it takes; a rejected slab leaves no trace but its reason.
 
     A slab that fails on an old operator is first tried again on a new one; an energy balance that the scalar cannot
-    close at half the length either is ``closed`` along the motion, and in the slabs after it.
+    close at half the length either is ``closed`` along the motion, and in the slabs after it.  A slab in which a body
+    comes to rest is tried again up to there; the slab after one that ended so is ``settling``.
     """
     reasons: list[str] = []
-    turns = 0.0
+    halted = False
     unbalanced = PATIENCE if closed else 0
     fresh = carry.frozen is None
     while length > control.least * span:
         end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
-        slab = Slab(start=now.time, end=end, weight=weight)
+        slab = Slab(start=now.time, end=end, weight=SETTLING if settling else weight)
         try:
             found = _tried(rules, now, ledgers, slab, carry, control.approach, unbalanced >= PATIENCE)
-            return replace(found, rejections=tuple(reasons), turns=turns)
+            return replace(found, rejections=tuple(reasons), halted=halted)
         except Halts as stop:
-            length, turns = stop.share * length, stop.turns
+            length, halted = stop.share * length, True
             continue
         except (TooFast, Unbalanced) as failure:
             length = 0.5 * length
@@ -246,7 +253,8 @@ def _tried(
         If it violates its certificate, or a body comes to rest inside.
     """
     after, out, new = advance(rules, now, slab, carry, approach, closed)
-    halt(rules.model, now, out, slab.span)
+    if slab.weight != SETTLING:
+        halt(rules.model, now, out, slab.span)
     ledger = audited(rules.model, *ledgers, now, out, after)
     certificate = certified(rules.model, now, out, after, ledgers[1], ledger)
     broken = violation(rules.model, now, out, after, ledger, certificate)

@@ -81,7 +81,7 @@ def equations(model: Model, now: Situation, slab: Slab, pairs: Pairs, located: L
             unilateral=rows.reachable(model.free),
             slipping=slipping(model, now, slab, rows),
         ),
-        balanced=located is None and slab.weight == EndPeaks(),
+        balanced=located is None and (slab.weight == EndPeaks() or now.sliding is not None),
         located=located,
         pairs=None if fixed else pairs,
         searched=None if fixed else pairs,

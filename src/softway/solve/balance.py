@@ -54,13 +54,14 @@ class Ends:
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Closure:
     """The completed mean force (n, d); for each part (parts,) the scalar and the ``share`` of the work that was
-    missing; and whether a share that the scalar cannot close is too great.
+    missing; whether a share that the scalar cannot close is too great; and the energy (parts,) that is given up.
     """
 
     mean: Array
     scalar: Array
     share: Array
     clipped: bool
+    lost: Array | float = 0.0
 
 
 def groups(model: Model, touching: BoolArray) -> IntArray:
@@ -109,6 +110,18 @@ def closed(model: Model, ends: Ends, fallback: bool) -> Closure:
     for g in np.flatnonzero(np.where(great, 0.0, rest)).tolist():
         mean += rest[g] * _along_motion(model, ends, moving, members[g])
     return Closure(mean=mean, scalar=a[label], share=share[label], clipped=bool(great.any()))
+
+
+def late(model: Model, ends: Ends) -> Closure:
+    """The forces at the end of the slab for all of it, as with a scalar of 1/2; what that dissipates is given up."""
+    du = ends.u1 - ends.u0
+    with np.errstate(invalid="ignore"):
+        change = np.where(ends.force1 > 0.0, ends.force1 * (ends.rows1.along(du) - ends.rows1.drive), 0.0)
+    gaps = np.bincount(model.part_of[ends.rows1.node], weights=change, minlength=len(model.parts))
+    work = model.totals(np.where(model.massive[:, None], ends.mean, ends.f1) * du)
+    lost = work - gaps - (ends.V1 - ends.V0)
+    half = np.full(len(lost), 0.5)
+    return Closure(mean=ends.mean, scalar=half, share=0.0 * half, clipped=False, lost=lost)
 
 
 def _energies(model: Model, ends: Ends, moving: Array) -> tuple[Array, Array, Array]:

@@ -25,7 +25,7 @@ class Carry:
     choice
         How operators are made, and why so.
     span
-        The length of the slabs that ``frozen`` serves [s].
+        The length of the slabs that ``frozen`` serves, of the default weight [s].
     analysis
         Symbolic work of the factor, the same for all lengths.
     turning, reference

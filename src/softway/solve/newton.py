@@ -98,7 +98,7 @@ class Newton:
             carry,
             frozen=made.frozen(system.directions()),
             analysis=made.analysis,
-            span=system.path.span,
+            span=system.reach,
             reference=end.displacement,
             factorisations=carry.factorisations + 1,
             taken=(),

@@ -17,7 +17,7 @@ WORTH = 0.1
 
 def prepared(system: SlabSystem, q: Array, carry: Carry, operator: Operator | Literal["auto"]) -> Carry:
     """The carry with a frozen operator that fits the slab, of which q (n, d) is a first guess."""
-    if carry.frozen is None or carry.stale or abs(carry.span / system.path.span - 1.0) > 1e-9:
+    if carry.frozen is None or carry.stale or abs(carry.span / system.reach - 1.0) > 1e-9:
         carry = renewed(system, q, carry, operator)
     return carry if system.model.linear else _turned(system, carry)
 
@@ -34,7 +34,7 @@ def renewed(system: SlabSystem, q: Array, carry: Carry, operator: Operator | Lit
         frozen=made.frozen(system.directions()),
         choice=choice,
         analysis=made.analysis,
-        span=system.path.span,
+        span=system.reach,
         stale=False,
         reference=u,
         factorisations=carry.factorisations + 1,

@@ -22,12 +22,12 @@ from softway.contact.located import LocatedMean
 from softway.contact.path import Path
 from softway.model import Model
 from softway.solve.along import Along
-from softway.solve.balance import Closure, Ends, closed
+from softway.solve.balance import Closure, Ends, closed, late
 from softway.solve.frozen import Basis, Frozen, basis
 from softway.solve.normal import Rows
 from softway.solve.return_map import during
 from softway.solve.values import Evaluation, Start
-from softway.time.weight import Momentum, TimeWeight, moments, peaks
+from softway.time.weight import EndPeaks, Momentum, TimeWeight, moments, peaks
 from softway.typing import Array
 
 STEADY = 15
@@ -101,7 +101,8 @@ class SlabSystem:
         none = np.zeros(len(energy))
         closure = Closure(mean=mean, scalar=none, share=none, clipped=False)
         if self.balanced:
-            closure = closed(model, self._ends(u1, force, energy + lost, mean, near, impulse), self.fallback)
+            ends = self._ends(u1, force, energy + lost, mean, near, impulse)
+            closure = closed(model, ends, self.fallback) if self.weight == EndPeaks() else late(model, ends)
         inertia = model.mass @ (q - start.velocity - self.unbalanced)
         residual = inertia + h * (closure.mean - model.load) - self.impulses
         still = ~model.massive
@@ -116,7 +117,7 @@ class SlabSystem:
             share=closure.share,
             clipped=closure.clipped,
             near=near,
-            lost=lost,
+            lost=lost + closure.lost,
         )
 
     def _ends(
@@ -197,6 +198,11 @@ class SlabSystem:
     def share(self) -> float:
         """What of the stiffness counts beside the mass, ``h^2/2 mu2`` [s^2]."""
         return 0.5 * self.path.span**2 * moments(self.weight)[1]
+
+    @property
+    def reach(self) -> float:
+        """Length of the slab of the default weight that has the same operator [s]."""
+        return self.path.span * float(np.sqrt(2.0 * moments(self.weight)[1]))
 
     def operator(self, u: Array, secant: bool = False) -> sp.csc_array:
         """``M + h^2/2 mu2 K(u)`` on the free components, symmetric positive definite near equilibrium."""
