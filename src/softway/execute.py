@@ -1,5 +1,6 @@
 """Execute: a scenario checked, marched and recorded, in one call."""
 
+import tomllib
 from functools import partial
 from pathlib import Path
 
@@ -12,9 +13,10 @@ from softway.model import Model
 from softway.record.conduct import Place, Progress, conduct
 from softway.record.probes import readings
 from softway.record.recorder import Opening
-from softway.record.run import Run
+from softway.record.run import SCENARIO, Run
 from softway.scenario.check import Checked, check
 from softway.scenario.codec import resolved
+from softway.scenario.modules import own_sources
 from softway.scenario.scenario import Scenario
 from softway.scene import State
 from softway.typing import Array
@@ -78,7 +80,9 @@ def run(
         state=initial,
         control=time.control,
     )
-    return conduct(steps, opening, place, title=given.title, scenario=_text(given), progress=progress)
+    text = _text(given)
+    texts = {SCENARIO: text, **own_sources(tomllib.loads(text))}
+    return conduct(steps, opening, place, title=given.title, texts=texts, progress=progress)
 
 
 def _stress(model: Model, name: str, state: State) -> Array:

@@ -2,7 +2,7 @@
 
 import shutil
 import time as clock
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +15,7 @@ from softway.record.fields import open_fields
 from softway.record.history import open_history
 from softway.record.provenance import DONE, INTERRUPTED, Stop
 from softway.record.recorder import Opener, Opening, Recorder
-from softway.record.run import SCENARIO, Run, Scratch, scratch
+from softway.record.run import Run, Scratch, scratch
 
 Progress = Callable[[Step], None]
 STANDARD: tuple[Opener, ...] = (open_history, open_events, open_fields)
@@ -64,7 +64,7 @@ def conduct(
     place: Place,
     *,
     title: str = "",
-    scenario: str = "",
+    texts: Mapping[str, str] | None = None,
     progress: Progress | None = None,
 ) -> Run:
     """Record every step of ``steps``; the folder appears when the first slab is accepted or fails.
@@ -77,8 +77,8 @@ def conduct(
         The start of the run.
     place
         Where to.
-    title, scenario
-        For the records: a line, and the text of the resolved scenario.
+    title, texts
+        For the records: a line, and files by name: the resolved scenario and what it needs beside it.
     progress
         Called with each step after it has been recorded.
 
@@ -95,8 +95,8 @@ def conduct(
     recorders: list[Recorder] = []
     try:
         record = provenance.begin(folder.path, title)
-        if scenario:
-            (folder.path / SCENARIO).write_text(scenario, encoding="utf-8")
+        for name, text in (texts or {}).items():
+            (folder.path / name).write_text(text, encoding="utf-8")
         recorders.extend(start(folder.path, opening) for start in STANDARD)
     except BaseException:
         shutil.rmtree(folder.path, ignore_errors=True)

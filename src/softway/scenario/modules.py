@@ -6,7 +6,8 @@ the one could write the other, or if the caller allows it. Nothing of the module
 
 import importlib
 import sys
-from collections.abc import Iterator
+import sysconfig
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, is_dataclass
 from importlib.machinery import PathFinder
@@ -71,8 +72,9 @@ class Modules:
         parts = module.split(".")
         if not (sign and name.isidentifier() and all(part.isidentifier() for part in parts)):
             raise InputError(where, f"{text!r} names nothing in a module", "module:name, such as my_law:MyLaw")
-        if self.folder is not None and _lies_in(self.folder, parts[0]):
-            with _first(self.folder, parts[0], where):
+        own = None if self.folder is None else _beside(self.folder, parts[0])
+        if self.folder is not None and own is not None:
+            with _first(own, parts[0], self.folder, where):
                 return _taken(text, where)
         if not self.allowed:
             problem = f"{text!r} would run Python that does not lie beside the scenario"
@@ -81,22 +83,52 @@ class Modules:
         return _taken(text, where)
 
 
-def _lies_in(folder: Path, name: str) -> bool:
-    """Whether a folder holds a module or package of that name."""
-    return (folder / f"{name}.py").is_file() or (folder / name / "__init__.py").is_file()
+def own_sources(data: Any) -> dict[str, str]:
+    """Texts of the files behind every ``module:name`` in the data of a scenario, by the name of the file.
+
+    Installed modules and packages are left out, for they are more than one file, and so is a script that runs.
+
+    Examples
+    --------
+    >>> own_sources({"kind": "math:pi", "law": [{"kind": "NeoHookean"}]})
+    {}
+    """
+    if isinstance(data, list | tuple):
+        return {name: text for item in data for name, text in own_sources(item).items()}
+    if isinstance(data, str):
+        module, sign, name = data.partition(":")
+        file = getattr(sys.modules.get(module), "__file__", None) if sign and name.isidentifier() else None
+        if file is None or module == "__main__" or _installed(Path(file)):
+            return {}
+        return {f"{module}.py": Path(file).read_text(encoding="utf-8")}
+    if isinstance(data, Mapping):
+        return {name: text for item in data.values() for name, text in own_sources(item).items()}
+    return {}
+
+
+def _installed(file: Path) -> bool:
+    """Whether a file is part of Python or of an installed package, of softway itself too."""
+    homes = [sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")]
+    places = [Path(home).resolve() for home in homes] + [Path(__file__).resolve().parents[1]]
+    return file.name == "__init__.py" or any(file.resolve().is_relative_to(place) for place in places)
+
+
+def _beside(folder: Path, name: str) -> Path | None:
+    """The file of a module or package of that name in a folder."""
+    files = (folder / f"{name}.py", folder / name / "__init__.py")
+    return next((file.resolve() for file in files if file.is_file()), None)
 
 
 @contextmanager
-def _first(folder: Path, name: str, where: str) -> Iterator[None]:
+def _first(own: Path, name: str, folder: Path, where: str) -> Iterator[None]:
     """Search the folder before all others; a module of that name beside another scenario gives way."""
-    own = [(folder / file).resolve() for file in (f"{name}.py", f"{name}/__init__.py")]
     installed = PathFinder.find_spec(name)
     origin = None if installed is None else installed.origin
-    if name in sys.stdlib_module_names or origin is not None and Path(origin).resolve() not in own:
+    if name in (*sys.stdlib_module_names, "__main__") or origin is not None and not _same(Path(origin), own):
         problem = f"{name!r} beside the scenario has the name of another module ({origin or 'part of Python'})"
         raise InputError(where, problem, f"another name for {name}.py")
     known = getattr(sys.modules.get(name), "__file__", None)
-    if known is None or Path(known).resolve() not in own:
+    if known is None or not _same(Path(known), own):
         for key in [k for k in sys.modules if k == name or k.startswith(f"{name}.")]:
             del sys.modules[key]
     importlib.invalidate_caches()
@@ -106,6 +138,11 @@ def _first(folder: Path, name: str, where: str) -> Iterator[None]:
         yield
     finally:
         sys.path.remove(place)
+
+
+def _same(one: Path, other: Path) -> bool:
+    """Whether two files are one, or copies of each other."""
+    return one.resolve() == other or one.is_file() and one.read_bytes() == other.read_bytes()
 
 
 def _taken(text: str, where: str) -> Any:

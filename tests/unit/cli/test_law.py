@@ -122,6 +122,9 @@ step = "0.1 s"
     Path("bar.toml").write_text(text)
     assert main(["run", "bar.toml", "--out", "made", "--quiet"]) == 0
     assert 'kind = "wrong_law:Wrong"' in Path("made/scenario.toml").read_text()
+    assert Path("made/wrong_law.py").read_text() == OWN
+    assert main(["run", "made/scenario.toml", "--out", "again", "--quiet"]) == 0
+    assert Path("made/history.csv").read_text() == Path("again/history.csv").read_text()
     Path("bar.toml").write_text(text.replace("wrong_law", "elsewhere.law"))
     assert main(["check", "bar.toml"]) == 2
     assert main(["check", "bar.toml", "--allow-python"]) == 2

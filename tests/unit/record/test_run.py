@@ -27,9 +27,13 @@ def broken(fake, after, error):
 def test_a_whole_run(fake, tmp_path):
     seen = []
     run = conduct(
-        fake.steps(), fake.opening(), Place(out=tmp_path / "a" / "run"), title="Drop", scenario="title = 'Drop'\n",
+        fake.steps(),
+        fake.opening(),
+        Place(out=tmp_path / "a" / "run"),
+        title="Drop",
+        texts={"scenario.toml": "title = 'Drop'\n"},
         progress=seen.append,
-    )  # fmt: skip
+    )
     assert len(seen) == fake.slabs and run.history.rows == fake.slabs + 1
     assert run.stop == Stop("done") and run.scenario == "title = 'Drop'\n"
     assert sorted(p.name for p in run.path.iterdir()) == [

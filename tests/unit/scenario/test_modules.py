@@ -116,6 +116,15 @@ def test_two_folders_with_modules_of_one_name(place, tmp_path):
     assert bar(place, "bodies.bar.material={kind='my_law:Soft', stiffness=2}").stiffness == 2.0
 
 
+def test_a_copy_of_a_module_is_that_module(place):
+    other = place / "other"
+    other.mkdir()
+    for name in ("bar.toml", "my_law.py"):
+        (other / name).write_text((place / name).read_text())
+    change = "bodies.bar.material={kind='my_law:Soft', stiffness=2}"
+    assert bar(place, change) == bar(other, change)
+
+
 def test_an_installed_module_needs_leave(place, monkeypatch):
     elsewhere = place / "elsewhere"
     elsewhere.mkdir()
