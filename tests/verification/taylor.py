@@ -1,0 +1,79 @@
+"""Taylor's bar of D09: the scene, its march, and what is measured at the end."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+import softway as sw
+from softway.bodies.rate_force import RateForce
+
+LENGTH, RADIUS, SPEED, END = 32.4e-3, 3.2e-3, 227.0, 80e-6
+COPPER = sw.J2(E=117e9, nu=0.35, yield_stress=400e6, hardening=sw.LinearHardening(modulus=100e6))
+DENSITY = 8930.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Crushed:
+    """The bar at the end.
+
+    ``length`` and ``radius`` [mm], the greatest mean plastic ``strain`` of a cell and the greatest ``peak`` at a point,
+    relative ``growth`` of the volume and its least local ratio, ``mass`` [kg], ``dissipated`` energy and greatest
+    ``error`` of the balance [J], greatest ``depth`` in the wall [m], and the numbers of ``slabs`` and ``iterations``.
+    """
+
+    length: float
+    radius: float
+    strain: float
+    peak: float
+    growth: float
+    least_ratio: float
+    mass: float
+    dissipated: float
+    error: float
+    depth: float
+    slabs: int
+    iterations: int
+
+
+def scene(cells: tuple[int, int]) -> sw.Scene:
+    """The bar on the wall; its lower side and its flank may touch."""
+    bar = sw.Solid(
+        mesh=sw.Rectangle(size=(RADIUS, LENGTH), cells=cells),
+        material=COPPER,
+        density=DENSITY,
+        section=sw.Axisymmetric(),
+        velocity=sw.Uniform(value=(0.0, -SPEED)),
+        supports=(sw.Fixed(on="left", components="x"),),
+        dilatation="mean",
+    )
+    wall = sw.Tool(shape=sw.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
+    contacts = (sw.Contact(between=("bar.bottom", "wall")), sw.Contact(between=("bar.right", "wall")))
+    return sw.Scene(bodies={"bar": bar, "wall": wall}, contacts=contacts)
+
+
+def crushed(cells: tuple[int, int], step: float) -> Crushed:
+    """March to 80 us."""
+    model = sw.build(scene(cells))
+    steps = list(sw.march(model, until=END, step=step))
+    internal, last = model.parts[0].internal, steps[-1].after
+    assert isinstance(internal, RateForce)
+    memory, volume = last.memory["bar"], internal.sampling.volume
+    x = model.points + last.displacement["bar"]
+    plain = internal.sampling.plain_derivatives(last.displacement["bar"])
+    ratio = np.linalg.det(internal.points.gradient(plain, memory.lateral))
+    seen = internal.sampling.derivatives(last.displacement["bar"])
+    strain = memory.law["plastic_strain"].reshape(cells[0] * cells[1], -1)
+    return Crushed(
+        length=1e3 * float(np.ptp(x[:, 1])),
+        radius=1e3 * float(x[:, 0].max()),
+        strain=float(strain.mean(axis=1).max()),
+        peak=float(strain.max()),
+        growth=float(ratio @ volume / volume.sum() - 1.0),
+        least_ratio=float(np.linalg.det(internal.points.gradient(seen, memory.lateral)).min()),
+        mass=DENSITY * float(volume.sum()),
+        dissipated=steps[-1].ledger.dissipation,
+        error=max(abs(s.ledger.energy_error) for s in steps),
+        depth=max(-min(c.min_gap for c in s.ledger.contacts.values()) for s in steps),
+        slabs=len(steps),
+        iterations=sum(s.report.iterations for s in steps),
+    )

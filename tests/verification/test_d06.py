@@ -1,0 +1,36 @@
+"""D06: a stretched bar spins about a pin at its end: its length stays, and energy and angular momentum do.
+
+Here it turns once or by a part; ten turns are in docs/verification/large_deformation.md.
+"""
+
+import numpy as np
+import pytest
+
+import results
+import softway as sw
+from spinning import bar
+
+DATA = results.case("D06")["definition"]
+STATIC = results.case("D06")["reference"]["u_tip_static"]
+
+
+def test_the_case() -> None:
+    """The discrete gradient keeps both to rounding."""
+    spin = bar(sw.StVenantKirchhoff(E=DATA["E"]), sw.DiscreteGradient(), DATA, turns=0.5)
+    found = {
+        "mean tip elongation": np.mean(spin.length) - 1.0,
+        "angular momentum drift": spin.drift("momentum"),
+        "energy drift": spin.drift("energy"),
+    }
+    assert results.outside("D06", found) == set()
+    assert found["energy drift"] < 1e-11
+    assert found["angular momentum drift"] < 1e-11
+
+
+@pytest.mark.parametrize("law", [sw.NeoHookean, sw.Hypoelastic])
+def test_other_laws(law: type) -> None:
+    """The energy is exact; the angular momentum of a pinned body is the average's, of second order in the slab."""
+    spin = bar(law(E=DATA["E"]), sw.Weighted(), DATA, turns=0.25)
+    assert np.mean(spin.length) - 1.0 == pytest.approx(STATIC, rel=0.1)
+    assert spin.drift("energy") < 1e-11
+    assert spin.drift("momentum") < 2e-4
