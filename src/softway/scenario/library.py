@@ -7,6 +7,7 @@ from typing import Any, get_args
 from softway.errors import InputError
 from softway.laws.law import Material as Law
 from softway.materials import find
+from softway.materials.library import everything
 from softway.materials.material import LawName
 from softway.scenario.kinds import kinds, members, nearest
 from softway.scenario.writer import write
@@ -33,9 +34,18 @@ def furnished(data: Mapping[str, Any]) -> dict[str, Any]:
     return out
 
 
+def _named(kind: Any) -> bool:
+    """Whether a kind is the name of a material, as it is where a change of one parameter made a table of it."""
+    if not isinstance(kind, str) or kind in kinds(members(Law)):
+        return False
+    return kind.casefold() in [word.casefold() for m in everything() for word in (m.name, *m.aliases)]
+
+
 def _furnish(body: dict[str, Any], where: str) -> None:
     """Replace the material of one body, if it is of the library."""
     given = body["material"]
+    if isinstance(given, dict) and "library" not in given and _named(given.get("kind")):
+        given = {"library": given["kind"], **{key: value for key, value in given.items() if key != "kind"}}
     if isinstance(given, str) and given not in kinds(members(Law)):
         given = {"library": given}
     if not (isinstance(given, dict) and "library" in given):

@@ -79,7 +79,7 @@ def _set(data: dict[str, Any], way: tuple[str | int, ...], value: Any, path: str
 
 def _table(value: Any) -> Any:
     """A kind given by its name alone becomes a table, so that its fields can be set."""
-    return {"kind": value} if isinstance(value, str) and value.isidentifier() else value
+    return {"kind": value} if isinstance(value, str) and value[:1].isalpha() else value
 
 
 def _text(way: tuple[str | int, ...]) -> str:

@@ -35,6 +35,14 @@ def test_other_laws_and_parameters() -> None:
     assert solid.material == LinearElastic(E=117e9, nu=0.343)
 
 
+@pytest.mark.parametrize("name", ["glass", "steel S235", "Ti64"])
+def test_one_parameter_may_change(name: str) -> None:
+    text = BARE.replace('{ kind = "LinearElastic", E = "1 Pa" }', f'"{name}"')
+    solid = bar(text, "bodies.bar.material.nu=0.25", "bodies.bar.material.law=linear")
+    assert solid.material == LinearElastic(E=find(name).linear().youngs(), nu=0.25)
+    assert solid.density == find(name).density
+
+
 def test_the_text_of_a_run_holds_the_numbers() -> None:
     scenario = loads(BARE, changes=["bodies.bar.material=Douglas fir"], units=UNITS)
     text = resolved(scenario)
