@@ -1,0 +1,124 @@
+"""Increments of motion: rotations leave no strain, volumes come back, maps belong together."""
+
+import numpy as np
+import pytest
+
+from softway.bodies.kinematics import (
+    carried,
+    half_turn,
+    logarithm,
+    logarithmic_extra,
+    passage,
+)
+from softway.kernels import tensors
+from softway.laws.rates import GreenNaghdi, Jaumann, Logarithmic, Truesdell
+from softway.typing import Array
+
+RATES = [Jaumann(), Jaumann(increment="polar"), GreenNaghdi(), Logarithmic(), Truesdell()]
+RANDOM = np.random.default_rng(7)
+
+
+def turns(angle: Array) -> Array:
+    """Rotations (k, 3, 3) by angles (k,) about random axes."""
+    axis = RANDOM.normal(size=(len(angle), 3))
+    axis /= np.linalg.norm(axis, axis=1)[:, None]
+    W = np.zeros((len(angle), 3, 3))
+    W[:, [2, 0, 1], [1, 2, 0]], W[:, [1, 2, 0], [2, 0, 1]] = axis, -axis
+    s, c = np.sin(angle)[:, None, None], np.cos(angle)[:, None, None]
+    return np.eye(3) + s * W + (1.0 - c) * W @ W
+
+
+def deformed(size: float, k: int = 20) -> Array:
+    """Deformation gradients (k, 3, 3)."""
+    return np.eye(3) + size * RANDOM.uniform(-1.0, 1.0, (k, 3, 3))
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_a_rigid_rotation_is_no_strain(rate) -> None:
+    """Of any angle below half a turn, of a body as it is deformed; tensors of the matter turn with it."""
+    F0, Q = deformed(0.3), turns(np.linspace(0.0, 0.97 * np.pi, 20))
+    found = passage(rate, F0, Q @ F0)
+    assert np.abs(found.strain).max() < 1e-13
+    s = tensors.symmetric(deformed(1.0))
+    end = carried(carried(s, found.first, rate), found.second, rate)
+    np.testing.assert_allclose(end, Q @ s @ np.swapaxes(Q, 1, 2), rtol=0.0, atol=1e-11)
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_the_trace_is_the_change_of_volume(rate) -> None:
+    F0, F1 = deformed(0.25), deformed(0.25)
+    found = passage(rate, F0, F1)
+    exact = np.log(np.linalg.det(F1) / np.linalg.det(F0))
+    np.testing.assert_allclose(tensors.trace(found.strain), exact, rtol=0.0, atol=1e-14)
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_the_way_back_takes_back(rate) -> None:
+    """The strain of the way back, carried, is minus that of the way; maps of corotational rates are rotations."""
+    F0, F1 = deformed(0.2), deformed(0.2)
+    there, back = passage(rate, F0, F1), passage(rate, F1, F0)
+    whole = there.second @ there.first
+    np.testing.assert_allclose(back.second @ back.first @ whole, [np.eye(3)] * 20, rtol=0.0, atol=1e-12)
+    if not isinstance(rate, Truesdell):
+        np.testing.assert_allclose(whole @ np.swapaxes(whole, 1, 2), [np.eye(3)] * 20, rtol=0.0, atol=1e-12)
+    if rate != Jaumann(increment="polar"):
+        np.testing.assert_allclose(back.strain, -there.strain, rtol=0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_what_a_frame_sees_does_not_matter(rate) -> None:
+    """Both ends turned by one rotation: strain and maps turn."""
+    F0, F1, Q = deformed(0.2), deformed(0.2), turns(np.full(1, 2.0))[0]
+    plain, turned = passage(rate, F0, F1), passage(rate, Q @ F0, Q @ F1)
+    np.testing.assert_allclose(turned.strain, Q @ plain.strain @ Q.T, rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(turned.first, Q @ plain.first @ Q.T, rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(turned.second, Q @ plain.second @ Q.T, rtol=0.0, atol=1e-12)
+
+
+def test_a_stretch_in_fixed_axes_is_its_logarithm() -> None:
+    """The polar increment to rounding, the midpoint to third order of the increment."""
+    F0, F1 = np.diag([1.0, 2.0, 0.5]), np.diag([1.1, 2.3, 0.45])
+    exact = np.log(np.diag(F1) / np.diag(F0))
+    polar = passage(Jaumann(increment="polar"), F0, F1)
+    np.testing.assert_allclose(np.diag(polar.strain), exact, rtol=0.0, atol=1e-14)
+    middle = passage(Jaumann(), F0, F1)
+    assert np.abs(np.diag(middle.strain) - exact).max() < np.abs(exact).max() ** 3 / 6.0
+
+
+def test_half_a_turn_twice_is_the_turn() -> None:
+    """Cayley's map of the skew part, for any size of it."""
+    w = RANDOM.normal(size=(30, 3, 3)) * 10.0 ** RANDOM.uniform(-6, 2, (30, 1, 1))
+    w = 0.5 * (w - np.swapaxes(w, 1, 2))
+    half = half_turn(w)
+    whole = np.linalg.solve(np.eye(3) - 0.5 * w, np.eye(3) + 0.5 * w)
+    np.testing.assert_allclose(half @ half, whole, rtol=0.0, atol=1e-11)
+
+
+def test_logarithm() -> None:
+    C = deformed(0.3)
+    C = np.swapaxes(C, 1, 2) @ C
+    L = logarithm(C)
+    values, axes = np.linalg.eigh(L)
+    np.testing.assert_allclose((axes * np.exp(values)[:, None]) @ np.swapaxes(axes, 1, 2), C, rtol=1e-12, atol=1e-13)
+
+
+def test_the_logarithmic_spin() -> None:
+    """In its axes the rate of ln V is the stretching, by differences; also where two stretches are nearly equal."""
+    for size in (0.3, 1e-4):
+        F, L, t = deformed(size, 8), deformed(1.0, 8) - np.eye(3), 1e-5
+        D, W = tensors.symmetric(L), 0.5 * (L - np.swapaxes(L, 1, 2))
+        spin = W + logarithmic_extra(F, D)
+
+        def stretch(s: float, F: Array = F, L: Array = L) -> Array:
+            G = F + s * L @ F
+            return 0.5 * logarithm(G @ np.swapaxes(G, 1, 2))
+
+        rate = (stretch(t) - stretch(-t)) / (2.0 * t)
+        h = stretch(0.0)
+        np.testing.assert_allclose(rate - spin @ h + h @ spin, D, rtol=0.0, atol=1e-8)
+
+
+def test_turned_inside_out() -> None:
+    """Inverted matter has no logarithm of its volume: nan, quietly."""
+    found = passage(Jaumann(), np.eye(3)[None], np.diag([-1.0, 1.0, 1.0])[None] + 1e-3)
+    assert np.isnan(found.strain).any()
