@@ -59,7 +59,7 @@ class RatePlain:
 
     def _stiffness(self, u: Array, memory: Memory, span: float, secant: bool) -> csc_array:
         H, found = self.answer(u, memory, span)
-        flux = self.points.flux(self.points.stress(found), found.F, H)
+        flux = self.points.flux(self.points.steady_stress(found), found.F, H)
         return self.sampling.matrix(self.points.moduli(found, H, secant), flux, u)
 
     def tangent_product(self, u: Array, memory: Memory, span: float, w: Array) -> Array:

@@ -115,6 +115,18 @@ class RatePoints:
         """Cauchy stress (p, 3, 3) at the end [Pa]."""
         return carried(found.response.stress, found.passed.second, self.law.rate)
 
+    def _steady(self, found: Answer) -> Array:
+        viscous = isinstance(self.law, Viscous)
+        return found.increment.stress if viscous else found.response.stress
+
+    def steady_stress(self, found: Answer) -> Array:
+        """The Cauchy stress (p, 3, 3) [Pa] that tangents turn with the matter: that at the end.
+
+        Of viscous matter it is that of the start: the pressure of an iterate may be far out of balance where volume is
+        kept, and would make the tangent indefinite.
+        """
+        return carried(self._steady(found), found.passed.second, self.law.rate)
+
     def viscous_stress(self, found: Answer) -> Array | None:
         """The part of :meth:`stress` that the mean rate makes."""
         viscous = found.response.viscous
@@ -144,8 +156,11 @@ class RatePoints:
         )
 
     def moduli(self, found: Answer, H: Array, secant: bool = False) -> Array:
-        """Derivative of the flux to H, (p, m, D, m, D) [Pa], made symmetric; the free faces follow."""
-        sigma, law = found.response.stress, self.law
+        """Derivative of the flux to H, (p, m, D, m, D) [Pa], made symmetric; the free faces follow.
+
+        The stress that turns with the matter is :meth:`steady_stress`.
+        """
+        sigma, law = self._steady(found), self.law
         own = law.secant(found.increment) if secant and isinstance(law, Viscous) else law.moduli(found.increment)
         C = spatial(own, sigma, law.rate)
         J = tensors.determinant(found.F)

@@ -118,7 +118,7 @@ def outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, soluti
         solution=solution,
         rows=rows,
         velocity=velocity,
-        acceleration=(velocity - now.start.velocity) / h,
+        acceleration=(velocity - now.start.velocity) / h * model.massive.any(),  # without inertia, speed may jump
         closed=closed,
         pressure=pressure,
         force=force,

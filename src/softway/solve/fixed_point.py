@@ -28,6 +28,8 @@ POOR = 0.8
 """Contraction per iteration beyond which Newton's method takes over."""
 WINDOW = 10
 """Iterations over which the contraction is judged."""
+FLOWING, PACE = 5, 0.3
+"""The same without inertia, which carries no operator from slab to slab: how many iterations, and how poor."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,12 +82,13 @@ class FixedPoint:
             yield from newton.iterate(system, q, carry, impulse, active)
             return
         carry = prepared(system, q, carry, self.operator)
+        window, poor = (WINDOW, POOR) if system.model.massive.any() else (FLOWING, PACE)
         changes: list[float] = []
         it: Iterate | None = None
         for it in self._iterates(system, q, carry, impulse, active):
             yield it
-            changes = [*changes[-WINDOW:], it.change]
-            if self.handover and len(changes) > WINDOW and it.change > POOR**WINDOW * changes[0]:
+            changes = [*changes[-window:], it.change]
+            if self.handover and len(changes) > window and it.change > poor**window * changes[0]:
                 break
         if it is not None and np.isfinite(it.change):
             yield from newton.iterate(it.system, it.q, it.carry, it.impulse, it.active)

@@ -23,9 +23,11 @@ from softway.typing import Array, BoolArray, IntArray
 
 NEWTON = 25
 """Steps of Newton's method before sweeps over the rows help it out."""
-SWEEPS = 40
+HALVINGS = 6
+"""Halvings of a step that would miss the conditions by more than before."""
+SWEEPS = 10
 """Sweeps in a row."""
-ROUNDS = 12
+ROUNDS = 6
 """Times that sweeps may help out."""
 SETTLED = 1e-14
 """Residual, relative to what the forces move, that is rounding."""
@@ -183,11 +185,23 @@ def settled(problem: Touching, x: Array, floor: float) -> tuple[Array, BoolArray
             best, since = (look.worst, 0) if look.worst < 0.5 * best else (best, since + 1)
             if look.worst <= SETTLED * size or (since >= 3 and look.worst <= 1e3 * SETTLED * size):
                 return _clean(problem, x, look), look.slips & look.touch
-            x = x - lu_solve(lu_factor(look.matrix, check_finite=False), look.missed, check_finite=False)
-            if not np.isfinite(x).all():
+            step = lu_solve(lu_factor(look.matrix, check_finite=False), look.missed, check_finite=False)
+            if not np.isfinite(step).all():
                 break
+            x = _searched(problem, x, step, look)
         x = swept(problem, np.nan_to_num(x), SWEEPS)
     raise NoConvergence(f"friction of {problem.count} contact rows leaves {look.worst:.1e} of {size:.1e}")
+
+
+def _searched(problem: Touching, x: Array, step: Array, look: _Look) -> Array:
+    """The multipliers after a step, halved while they miss more than before; whole if halving does not help."""
+    now, share = float(np.linalg.norm(look.missed)), 1.0
+    for _ in range(HALVINGS):
+        new = x - share * step
+        if float(np.linalg.norm(looked(problem, new).missed)) <= (1.0 - 0.1 * share) * now:
+            return new
+        share *= 0.5
+    return x - step
 
 
 def _size(problem: Touching, x: Array, look: _Look) -> float:
