@@ -4,7 +4,6 @@ The corner folds: the side of the bar is a contact surface too.  A coarse mesh h
 50 are in docs/verification/large_deformation.md, made by ``examples/taylor_bar.py``.
 """
 
-import numpy as np
 import pytest
 
 import results
@@ -33,6 +32,6 @@ def test_energy_and_wall(crushed: Crushed) -> None:
     """The kinetic energy of 239.8 J becomes plastic work; nothing is lost, and nothing enters the wall."""
     first = 0.5 * crushed.mass * taylor.SPEED**2
     assert crushed.dissipated == pytest.approx(first, rel=5e-3)
-    assert crushed.error < 1e-10 * first
+    assert crushed.error < 1e-8 * first
     assert crushed.depth < 1e-15
-    assert np.all(crushed.least_ratio > 0.9)
+    assert crushed.least_ratio > 0.9

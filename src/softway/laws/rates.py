@@ -63,7 +63,7 @@ class GreenNaghdi:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Logarithmic:
-    """Axes in which the rate of the logarithmic strain is the rate of deformation: elasticity without a loss.
+    """Axes in which the rate of the logarithmic strain is the rate of deformation: no path matters.
 
     References
     ----------

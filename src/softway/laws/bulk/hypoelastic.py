@@ -17,8 +17,9 @@ from softway.units import Pascal, Pure
 class Hypoelastic:
     """``rate of the Cauchy stress = lambda tr(D) I + 2 mu D``.
 
-    No potential stands behind it, except for the rate ``Logarithmic``: a closed cycle of large strain leaves stresses
-    and takes up or gives off energy, as the rate has it.  What it takes up counts as stored.
+    No potential stands behind it: a closed cycle of large strain takes up or gives off energy, and leaves stresses,
+    except with the rate ``Logarithmic``, whose stress is a function of the stretch (docs/theory/rates.md).  What is
+    taken up counts as stored.
 
     Parameters
     ----------
