@@ -25,12 +25,16 @@ ENERGY = sw.Energy(spread=2)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sprung:
-    """Block and column in ``dim`` dimensions with the ``mass``, the ``stiffness`` and the ``weight`` [N]."""
+    """Block and column in ``dim`` dimensions with the ``mass``, the ``stiffness`` and the ``weight`` [N].
+
+    It stands on its lower side, ``bottom``, or on the corners of it, ``feet``.
+    """
 
     dim: int
     mass: float
     stiffness: float
     weight: float
+    touching: str = "bottom"
 
     @property
     def mesh(self) -> sw.Mesh:
@@ -39,7 +43,7 @@ class Sprung:
 
     @property
     def density(self) -> float:
-        return self.mass / _inertia(self.dim)
+        return self.mass / _inertia(self.dim, self.touching)
 
     @property
     def gravity(self) -> sw.Gravity:
@@ -49,7 +53,7 @@ class Sprung:
     @property
     def youngs(self) -> float:
         """Young's modulus that makes the stiffness."""
-        return self.stiffness / _unit(self.dim)
+        return self.stiffness / _unit(self.dim, self.touching)
 
     def solid(self, velocity: tuple[float, ...], at: tuple[float, ...]) -> sw.Solid:
         """At rest at the place ``at`` along the floor, compressed by its weight, but for its velocity."""
@@ -59,7 +63,7 @@ class Sprung:
             material=sw.LinearElastic(E=self.youngs),
             density=self.density,
             velocity=sw.Uniform(value=velocity),
-            displacement=_bent(self.dim, self.youngs, self.density, tuple(pull), (self.gravity,)),
+            displacement=_bent(self.dim, self.touching, self.youngs, self.density, tuple(pull), (self.gravity,)),
             supports=(sw.Fixed(on="held", components=_plane(self.dim)),),
         )
 
@@ -72,7 +76,9 @@ class Sprung:
         floor = sw.Tool(shape=sw.HalfSpace(point=(0.0,) * self.dim, normal=up), motion=belt)
         return sw.Scene(
             bodies={"b": self.solid(velocity, at), "belt": floor},
-            contacts=(sw.Contact(between=("b.bottom", "belt"), name="floor", friction=friction, timing=ENERGY),),
+            contacts=(
+                sw.Contact(between=(f"b.{self.touching}", "belt"), name="floor", friction=friction, timing=ENERGY),
+            ),
             loads=(self.gravity,),
         )
 
@@ -111,6 +117,7 @@ def _mesh(dim: int) -> sw.Mesh:
     cells = number.ravel()[np.concatenate([block[1], column[1] + len(block[0])])]
     mesh = sw.Mesh(points=points[first], blocks={kind: cells})
     mesh = mesh.with_tag("bottom", lambda x: x[:, -1] == 0.0)
+    mesh = mesh.with_tag("feet", lambda x: (x[:, -1] == 0.0) & (np.abs(x[:, :-1]) > 0.4999 * SIDE).all(axis=1))
     return mesh.with_tag("held", lambda x: x[:, -1] >= HEIGHT + COLUMN - 1e-9)
 
 
@@ -119,30 +126,32 @@ def _volume(dim: int) -> float:
 
 
 @cache
-def _inertia(dim: int) -> float:
+def _inertia(dim: int, touching: str) -> float:
     """Inertia of the block and its column for the density 1, as contact distributes it."""
-    u = _bent(dim, 1.0, 1.0, (1e-9, *(0.0,) * (dim - 2)), ())[:, 0]
+    u = _bent(dim, touching, 1.0, 1.0, (1e-9, *(0.0,) * (dim - 2)), ())[:, 0]
     solid = sw.Solid(mesh=_mesh(dim), material=sw.LinearElastic(E=1.0), density=1.0)
     floor = sw.Tool(shape=sw.HalfSpace(point=(0.0,) * dim, normal=tuple(np.eye(dim)[-1])))
-    contact = sw.Contact(between=("b.bottom", "floor"), timing=ENERGY)
+    contact = sw.Contact(between=(f"b.{touching}", "floor"), timing=ENERGY)
     model = sw.build(sw.Scene(bodies={"b": solid, "floor": floor}, contacts=(contact,)))
     return float(u @ (model.mass @ u)) / float(u[_mesh(dim).nodes("bottom")].mean()) ** 2
 
 
 @cache
-def _unit(dim: int) -> float:
+def _unit(dim: int, touching: str) -> float:
     """Stiffness of the spring for E = 1, measured."""
-    u = _bent(dim, 1.0, 1.0, (1e-9, *(0.0,) * (dim - 2)), ())
+    u = _bent(dim, touching, 1.0, 1.0, (1e-9, *(0.0,) * (dim - 2)), ())
     return 1e-9 / float(u[_mesh(dim).nodes("bottom"), 0].mean())
 
 
-def _bent(dim: int, youngs: float, density: float, pull: tuple[float, ...], loads: tuple[sw.Gravity, ...]) -> Array:
-    """Displacement (n, d) in equilibrium under forces along the lower side, which is on rollers, and under loads."""
+def _bent(
+    dim: int, touching: str, youngs: float, density: float, pull: tuple[float, ...], loads: tuple[sw.Gravity, ...]
+) -> Array:
+    """Displacement (n, d) in equilibrium under forces along the lower side and under loads, on rollers."""
     solid = sw.Solid(
         mesh=_mesh(dim),
         material=sw.LinearElastic(E=youngs),
         density=density,
-        supports=(sw.Fixed(on="held", components=_plane(dim)), sw.Fixed(on="bottom", components="xyz"[dim - 1])),
+        supports=(sw.Fixed(on="held", components=_plane(dim)), sw.Fixed(on=touching, components="xyz"[dim - 1])),
     )
     traction = sw.Traction(on="block.bottom", value=(*(float(p) / SIDE ** (dim - 1) for p in pull), 0.0))
     model = sw.build(sw.Scene(bodies={"block": solid}, loads=(traction, *loads), start=sw.StaticStart()))

@@ -36,9 +36,10 @@ def test_a_case_is_complete(name: str) -> None:
 
 
 def test_all_cases_are_there() -> None:
-    """The impact of bars, and large deformation."""
+    """The impact of bars, friction, and large deformation."""
     bars = ["A01", "A02", "A03", "A04", "A05", "A06", "A09", "A10", "A11", "A12"]
-    assert list(CASES) == [*bars, *(f"D{k:02}" for k in range(1, 11))]
+    friction = ["C01", "C02", "C04", "C08", "C09"]
+    assert list(CASES) == [*bars, *friction, *(f"D{k:02}" for k in range(1, 11))]
 
 
 def test_a01_is_the_closed_form() -> None:

@@ -69,7 +69,7 @@ class Rubbing:
             for it in patch.surfaces:
                 around[it.nodes] += facets_measure(it.points + u[it.nodes], it.section, it.facets)
             area[patch.rows] = around[patch.node]
-        return replace(self, area=np.maximum(area, POINT * max(float(area.max(initial=0.0)), 1e-300)))
+        return replace(self, area=np.maximum(area, POINT * float(area.max(initial=0.0))) if area.any() else area + 1.0)
 
     def part(self, which: IntArray) -> "Rubbing":
         """Some of the rows."""

@@ -79,9 +79,17 @@ def rule(model: Model, method: Method, weight: TimeWeight) -> Rule:
 
 
 def advance(
-    rule: Rule, now: Situation, slab: Slab, carry: Carry, approach: float = np.inf, fallback: bool = False
+    rule: Rule,
+    now: Situation,
+    slab: Slab,
+    carry: Carry,
+    approach: float = np.inf,
+    fallback: bool = False,
+    held: bool = False,
 ) -> tuple[Situation, Outcome, Carry]:
     """The situation at the end of the slab; nothing of the old one is changed.
+
+    With ``held`` friction holds what rests at any force.
 
     Raises
     ------
@@ -94,7 +102,7 @@ def advance(
             assert rule.central is not None
             out, carry = solve_explicit(model, now, slab, carry, method, rule.central, approach)
         case method if rule.inertia is None:
-            out, carry = solve_massless(model, now, slab, carry, method, rule.located, approach, fallback)
+            out, carry = solve_massless(model, now, slab, carry, method, rule.located, approach, fallback, held)
         case method:
             out, carry = solve_carrying(model, now, slab, carry, method, rule.inertia, approach, rule.split)
     end = out.solution.end

@@ -21,8 +21,10 @@ from softway.typing import Array
 
 log = logging.getLogger("softway")
 
-SOON = 1e-7
+SOON = 1e-6
 """Time in which a driven tool shows its velocity at the start [s]."""
+TOGETHER = 1e-7
+"""Share of the greatest speed below which surfaces move along together at the start: rounding."""
 OVERLAP = 1e-12
 """Depth inside an obstacle, relative to the coordinates, that counts as touching: rounding."""
 
@@ -90,7 +92,11 @@ def _passing(model: Model, u: Array) -> Grip:
     """Friction with the initial velocities: what slips has the force of slip, what does not is held where it is."""
     shear = model.encounters.meet(u, u, 0.0, SOON).at(u).shear
     assert shear is not None
-    return Grip(held=u, velocity=shear.slip(SOON * (model.velocity + model.prescribed(0.0))) / SOON)
+    velocity = model.velocity + model.prescribed(0.0)
+    passing = shear.slip(SOON * velocity) / SOON
+    most = max(float(np.abs(velocity).max()), float(np.abs(shear.moved).max(initial=0.0)) / SOON)
+    moves = np.linalg.norm(passing, axis=1) > TOGETHER * most
+    return Grip(held=u, velocity=np.where(moves[:, None], passing, 0.0))
 
 
 def unheld(model: Model) -> dict[str, tuple[str, ...]]:

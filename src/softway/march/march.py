@@ -11,6 +11,7 @@ from softway.bodies.section import wave_speed
 from softway.errors import Halts, InputError, NoConvergence, NumericsError, TooFast, Unbalanced
 from softway.march.advance import Method, Rule, advance, rule
 from softway.march.begin import begin
+from softway.march.breakaway import breakaway
 from softway.march.certificate import certified, violation
 from softway.march.control import StepControl, may_grow
 from softway.march.halt import halt
@@ -255,6 +256,7 @@ def _tried(
     after, out, new = advance(rules, now, slab, carry, approach, closed)
     if slab.weight != SETTLING:
         halt(rules.model, now, out, slab.span)
+        breakaway(rules.model, now, out, lambda: advance(rules, now, slab, new, approach, closed, held=True)[1])
     ledger = audited(rules.model, *ledgers, now, out, after)
     certificate = certified(rules.model, now, out, after, ledgers[1], ledger)
     broken = violation(rules.model, now, out, after, ledger, certificate)

@@ -37,6 +37,7 @@ def solve_massless(
     located: LocatedMean | None,
     approach: float,
     fallback: bool,
+    held: bool = False,
 ) -> tuple[Outcome, Carry]:
     """Solve the slab; the contact rows are inequalities on the gap at its end."""
     h, start = slab.span, now.start
@@ -44,7 +45,7 @@ def solve_massless(
     coasting = start.displacement + h * np.where(model.massive[:, None], 0.5 * (start.velocity + rate), rate)
     pairs = model.encounters.meet(start.displacement, coasting, slab.start, slab.end)
     require_slow(model, pairs, coasting, approach)
-    system = replace(equations(model, now, slab, pairs, located), fallback=fallback)
+    system = replace(equations(model, now, slab, pairs, located, held), fallback=fallback)
     guess = np.where(model.free, np.where(model.massive[:, None], rate, 2.0 * rate), system.given)
     impulse, active = first_impulses(now, slab, system.path.rows)
     iterates = method.iterate(system, guess, carry, impulse, active)
@@ -52,7 +53,9 @@ def solve_massless(
     return outcome(model, now, slab, system, solution, pairs.found), solution.last.carry
 
 
-def equations(model: Model, now: Situation, slab: Slab, pairs: Pairs, located: LocatedMean | None) -> SlabSystem:
+def equations(
+    model: Model, now: Situation, slab: Slab, pairs: Pairs, located: LocatedMean | None, held: bool = False
+) -> SlabSystem:
     """The equations of the slab."""
     h, start = slab.span, now.start
     rows = pairs.start(start.displacement)
@@ -79,7 +82,7 @@ def equations(model: Model, now: Situation, slab: Slab, pairs: Pairs, located: L
             target=target,
             equal=way.closed,
             unilateral=rows.reachable(model.free),
-            slipping=slipping(model, now, slab, rows),
+            slipping=slipping(model, now, slab, rows, held),
         ),
         balanced=located is None and (slab.weight == EndPeaks() or now.sliding is not None),
         located=located,

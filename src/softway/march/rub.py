@@ -45,7 +45,7 @@ class Rub:
     dissipation: float
 
 
-def slipping(model: Model, now: Situation, slab: Slab, rows: Candidates) -> Slipping | None:
+def slipping(model: Model, now: Situation, slab: Slab, rows: Candidates, held: bool) -> Slipping | None:
     """The conditions on the slip in a slab that begins with these rows; None where there is no friction."""
     if model.rubbing is None or rows.shear is None or now.sliding is None:
         return None
@@ -58,6 +58,7 @@ def slipping(model: Model, now: Situation, slab: Slab, rows: Candidates) -> Slip
         ahead=AHEAD,
         before=np.where(rows.near, np.linalg.norm(shear.slip(h * now.start.velocity), axis=1) / h, 0.0),
         sliding=now.sliding,
+        held=held,
     )
 
 

@@ -9,7 +9,7 @@ The tangential condition is the return map of a trial ``s - r (T z - shift)``.  
 do not move, rows that slip have the force of the law (docs/theory/friction.md).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
@@ -110,7 +110,7 @@ def rubbed(
         every = stacked(index, m, k)
         part = coefficients.part(every)
         problem = touching(delassus(frozen, part), slack[every], _part(law, index))
-        x[every], slips = settled(problem, x[every], floor)
+        x[every], slips = settled(problem, x[every])
         push = part.spread(x[every])
         gap = slack[:m] + coefficients.along(frozen.give(push))[:m]
         fresh = rows.unilateral & ~near & (gap < -floor)
@@ -147,6 +147,7 @@ def _part(law: Slipping, index: IntArray) -> Slipping:
         ahead=law.ahead,
         before=law.before[index],
         sliding=law.sliding[index],
+        held=law.held,
     )
 
 
@@ -167,14 +168,32 @@ class _Look:
         return float(np.abs(self.missed).max(initial=0.0))
 
 
-def settled(problem: Touching, x: Array, floor: float) -> tuple[Array, BoolArray]:
+def settled(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
     """Multipliers (c (1 + k),) from a guess x, and which rows slip (c,).
+
+    Where friction drops with the slip, rows that rest are held at any force, then those let go whose force is beyond
+    the limit, and so on: a row that let go is not held again.
 
     Raises
     ------
     NoConvergence
         If Newton's method and sweeps over the rows find no forces.
     """
+    law = problem.law
+    if not problem.count or not law.drops(np.maximum(x[: problem.count], 0.0)):
+        return _solved(problem, x)
+    going = law.sliding
+    while True:
+        x, slips = _solved(replace(problem, law=replace(law, sliding=going, held=True)), x)
+        p, s = problem.split(x)
+        more = ~going & (np.linalg.norm(s, axis=1) > law.limit(p))
+        if law.held or not more.any():
+            return x, slips
+        going = going | more
+
+
+def _solved(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
+    """The multipliers and the rows that slip under a law that does not drop."""
     if not problem.count:
         return x, np.zeros(0, bool)
     for _ in range(ROUNDS):

@@ -36,6 +36,8 @@ class Slipping:
         See above; ``before`` (m,) [m/s].
     sliding
         (m,) rows that slip at the start of the slab: they are held by the resistance at rest, not by the limit.
+    held
+        Whether the other rows are held at any force.
     """
 
     rubbing: Rubbing
@@ -45,13 +47,21 @@ class Slipping:
     ahead: float
     before: Array
     sliding: BoolArray
+    held: bool = False
 
     def limit(self, pressed: Array) -> Array:
         """Multiplier (m,) that holds rows under normal multipliers (m,)."""
+        if self.held:
+            return np.where(self.sliding, self.resistance(np.zeros(len(pressed)), pressed)[0], np.inf)
         held = np.minimum(self.rubbing.limit(self.unit * pressed) / self.unit, STEEPEST * pressed)
         if not self.sliding.any():
             return held
         return np.where(self.sliding, self.resistance(np.zeros(len(held)), pressed)[0], held)
+
+    def drops(self, pressed: Array) -> bool:
+        """Whether friction is less in slip than at rest, under normal multipliers (m,)."""
+        force = self.unit * pressed
+        return bool((self.rubbing.resistance(np.zeros(len(force)), force)[0] < self.rubbing.limit(force)).any())
 
     def resistance(self, slip: Array, pressed: Array) -> tuple[Array, Array, Array]:
         """Multiplier (m,) of slips ``|y|`` (m,), and its derivatives to the slip and to the normal multiplier."""

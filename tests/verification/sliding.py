@@ -1,0 +1,58 @@
+"""Stiff blocks on a plane with friction, as good as rigid: C01, C04, C09.
+
+Gravity is turned instead of the plane.  The march starts from the equilibrium in the frame that moves with the block,
+so that its own vibrations, which nothing would damp, are not excited: the static loads hold the inertia force.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+import softway as sw
+from softway.laws.friction_law import FrictionLaw
+from softway.march.step import Step
+
+GRAVITY = 9.81
+
+
+def on_plane(
+    *,
+    friction: FrictionLaw,
+    velocity: float,
+    gravity: tuple[float, float],
+    resisted: float,
+    size: tuple[float, float] = (0.2, 0.1),
+    cells: tuple[int, int] = (8, 4),
+    E: float = 1e9,
+    nu: float = 0.3,
+    density: float = 1000.0,
+) -> sw.Scene:
+    """A block ``b`` whose ``velocity`` along the plane friction changes at the rate ``resisted`` at the start."""
+    block = sw.Solid(
+        mesh=sw.Rectangle(size=size, cells=cells),
+        material=sw.LinearElastic(E=E, nu=nu),
+        density=density,
+        velocity=sw.Uniform(value=(velocity, 0.0)),
+    )
+    plane = sw.Tool(shape=sw.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
+    still = sw.Gravity(acceleration=(-resisted, gravity[1]))
+    return sw.Scene(
+        bodies={"b": block, "plane": plane},
+        contacts=(sw.Contact(between=("b.bottom", "plane"), name="plane", friction=friction),),
+        loads=(sw.Gravity(acceleration=gravity),),
+        start=sw.StaticStart(loads=(still,)),
+    )
+
+
+def incline(degrees: float, mu: float, speed: float, rest: bool = False, **given: object) -> sw.Scene:
+    """A block on an incline, thrown up it with the speed; or at ``rest`` under its weight, held by friction."""
+    slope = np.deg2rad(degrees)
+    gravity = (-GRAVITY * np.sin(slope), -GRAVITY * np.cos(slope))
+    resisted = -gravity[0] if rest else np.sign(speed) * mu * gravity[1]
+    return on_plane(friction=sw.Coulomb(mu=mu), velocity=speed, gravity=gravity, resisted=resisted, **given)  # type: ignore[arg-type]
+
+
+def travelled(steps: Iterator[Step]) -> Iterator[tuple[float, float, Step]]:
+    """Time and mean displacement along the plane, with each step."""
+    for step in steps:
+        yield step.after.time, float(step.after.displacement["b"][:, 0].mean()), step
