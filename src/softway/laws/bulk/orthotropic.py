@@ -34,7 +34,8 @@ class LinearOrthotropic:
         Shear moduli G12, G13, G23 [Pa], positive.
     axes
         First and second material axis, perpendicular; the third completes a right-handed set.  They are directions of
-        the body as it is placed in space; in a bar the first direction is the one along it.
+        the body as it is placed in space; in a bar the first direction is the one along it.  A bar or a plate in plane
+        stress keeps its section free of shear: axes that are tilted out of it make it stiffer than it is.
     measure
         ``Small`` for small rotations, with a force that is linear in the displacement; ``Green`` for any rotation
         (orthotropic St. Venant-Kirchhoff).
