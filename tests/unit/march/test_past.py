@@ -38,7 +38,7 @@ def thrown(law: RateLaw, dilatation: str = "point", speed: float = 0.1) -> sw.Sc
     return sw.Scene(bodies={"block": block, "wall": wall}, contacts=(sw.Contact(between=("block", "wall")),))
 
 
-def marched(scene: sw.Scene, until: float = 3.0, **given: object) -> list[Step]:
+def marched(scene: sw.Scene, until: float = 2.0, **given: object) -> list[Step]:
     """All slabs."""
     return list(sw.march(scene, until=until, **given))
 
