@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import softway as sw
 from softway.bodies.kinematics import (
     carried,
     half_turn,
@@ -10,6 +11,7 @@ from softway.bodies.kinematics import (
     logarithmic_extra,
     passage,
 )
+from softway.bodies.rate_force import rate_force
 from softway.kernels import tensors
 from softway.laws.rates import GreenNaghdi, Jaumann, Logarithmic, Truesdell
 from softway.typing import Array
@@ -122,3 +124,35 @@ def test_turned_inside_out() -> None:
     """Inverted matter has no logarithm of its volume: nan, quietly."""
     found = passage(Jaumann(), np.eye(3)[None], np.diag([-1.0, 1.0, 1.0])[None] + 1e-3)
     assert np.isnan(found.strain).any()
+
+
+@pytest.mark.parametrize("dilatation", ["point", "mean"])
+def test_closed_paths_leave_no_pressure(dilatation) -> None:
+    """Nodes that wander and come back: the pressure is that of the volume, to rounding, however great the slabs."""
+    mesh = sw.Rectangle(size=(1.0, 1.0), cells=(2, 2)).build()
+    body = rate_force(mesh, sw.J2(E=1.0, nu=0.3, yield_stress=0.02), sw.PlaneStrain(), dilatation)
+    path = 0.08 * RANDOM.uniform(-1.0, 1.0, (6, *mesh.points.shape))
+    memory = body.memory
+    for u in (*path, 0.0 * path[0]):
+        memory = body.during(memory, 1.0).settled(u)
+    assert memory.law["plastic_strain"].min() > 0.1
+    assert np.abs(memory.stress).max() > 0.005
+    assert np.abs(tensors.trace(memory.stress)).max() < 1e-14
+
+
+def test_a_homogeneous_motion_is_one_for_all_points() -> None:
+    """The patch test: cells of any shape, with a mean dilatation or without, have one stress, and inner nodes rest."""
+    plain = sw.Box(size=(1.0, 1.0, 1.0), cells=(2, 2, 2)).build()
+    inner = np.flatnonzero(np.abs(plain.points - 0.5).max(axis=1) < 0.1)
+    points = plain.points.copy()
+    points[inner] += (0.1, -0.08, 0.12)
+    mesh = sw.Mesh(points=points, blocks=plain.blocks)
+    for dilatation in ("point", "mean"):
+        body = rate_force(mesh, sw.J2(E=1.0, nu=0.3, yield_stress=0.02), sw.Volume(), dilatation)
+        memory = body.memory
+        for k in (1, 2, 3):
+            H = 0.03 * k * np.array([[1.0, 0.8, 0.0], [-0.3, -0.5, 0.2], [0.0, 0.4, 0.2]])
+            now = body.during(memory, 1.0)
+            memory = now.settled(points @ H.T)
+        assert np.ptp(memory.stress, axis=0).max() < 1e-14
+        assert np.abs(now.force(points @ H.T)[inner]).max() < 1e-15
