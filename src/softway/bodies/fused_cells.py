@@ -96,8 +96,8 @@ class FusedCells:
         return self.pattern.matrix(out[:stored])
 
 
-def fused_cells(section: Section, kinds: list[Cells], pattern: Assembler, n: int) -> FusedCells:
-    """The cells of a body on n nodes."""
+def fused_cells(section: Section, kinds: list[Cells], pattern: Assembler, n: int, past: bool = False) -> FusedCells:
+    """The cells of a body on n nodes; ``past``: for laws with a history."""
     d = kinds[0].corners.shape[2]
     at, step = pattern.places(d)
     extra, again = np.empty(0, np.int64), np.empty(0, np.int64)
@@ -116,7 +116,7 @@ def fused_cells(section: Section, kinds: list[Cells], pattern: Assembler, n: int
     empty = n + len(extra), len(at) + len(again), int(counts[-1])
     return FusedCells(
         blocks=tuple(
-            _block(cells, section, it, (rows, pairs, int(first)), empty)
+            _block(cells, section, it, (rows, pairs, int(first)), empty, past)
             for cells, (it, rows, pairs), first in zip(kinds, numbered, counts[:-1], strict=True)
         ),
         pattern=pattern,
@@ -128,18 +128,19 @@ def fused_cells(section: Section, kinds: list[Cells], pattern: Assembler, n: int
 
 
 def _block(
-    cells: Cells, section: Section, it: Parts, numbers: tuple[IntArray, IntArray, int], empty: tuple[int, int, int]
+    cells: Cells,
+    section: Section,
+    it: Parts,
+    numbers: tuple[IntArray, IntArray, int],
+    empty: tuple[int, int, int],
+    past: bool,
 ) -> Block:
     element, (e, q) = cells.element, cells.volume.shape
-    d = cells.corners.shape[2]
     table = np.zeros((*element.N.shape, 3))
-    table[:, :, :d] = element.dN
-    inverse = np.zeros((e, q, 3, 3))
-    inverse[:, :, :d, :d] = np.linalg.inv(np.einsum("ead,qar->eqrd", cells.corners, element.dN))
+    table[:, :, : cells.corners.shape[2]] = element.dN
     if isinstance(section, Axisymmetric):
         table[:, :, 2] = element.N
-        inverse[:, :, 2, 2] = 1.0 / np.einsum("qa,ea->eq", element.N, cells.corners[:, :, 0])
-    geometry = it.lanes(np.concatenate([inverse.reshape(e, q, 9), cells.volume[:, :, None]], axis=2), 0.0)
+    geometry = _natural(cells, section, it) if past else _inverse(cells, section, it)
     rows, pairs, first = numbers
     return Block(
         starts=it.starts,
@@ -149,3 +150,38 @@ def _block(
         table=table,
         geometry=geometry.reshape(*geometry.shape[:2], -1),
     )
+
+
+def _slopes(cells: Cells, section: Section) -> Array:
+    """Derivatives (e, q, 3, 3) of the places along the reference coordinates [m]; beyond a plane 1, or the radius."""
+    element, (e, q), d = cells.element, cells.volume.shape, cells.corners.shape[2]
+    out = np.zeros((e, q, 3, 3))
+    out[:, :, :d, :d] = np.einsum("ead,qar->eqrd", cells.corners, element.dN)
+    if isinstance(section, Axisymmetric):
+        out[:, :, 2, 2] = np.einsum("qa,ea->eq", element.N, cells.corners[:, :, 0])
+    elif d == 2:
+        out[:, :, 2, 2] = 1.0
+    return out
+
+
+def _inverse(cells: Cells, section: Section, it: Parts) -> Array:
+    """(b, q, 10, LANES) inverse of :func:`_slopes`, zero beyond a plane, and the volume of the points."""
+    inverse = np.linalg.inv(_slopes(cells, section))
+    if isinstance(section, PlaneStrain):
+        inverse[:, :, 2, 2] = 0.0
+    return it.lanes(np.concatenate([inverse.reshape(*cells.volume.shape, 9), cells.volume[:, :, None]], axis=2), 0.0)
+
+
+def _natural(cells: Cells, section: Section, it: Parts) -> Array:
+    """(b, q, 11, LANES) as :func:`_slopes`, the volume over their determinant, and one over it."""
+    slopes = _slopes(cells, section)
+    determinant = np.linalg.det(slopes)
+    rows = [
+        slopes.reshape(*cells.volume.shape, 9),
+        (cells.volume / determinant)[:, :, None],
+        1.0 / determinant[:, :, None],
+    ]
+    out = it.lanes(np.concatenate(rows, axis=2), 0.0)
+    none = (it.cell == len(cells.nodes)).reshape(-1, 1, 1, out.shape[-1])
+    out[:, :, [0, 4, 8]] += none  # what is no cell has a shape
+    return out

@@ -172,4 +172,6 @@ def _work(plain: RatePlain, sampled: SampledCells, dilatation: Dilating, n: int)
     law = compiled_rate(plain.points.law)
     if law is None or dilatation != "point" or not isinstance(section, FUSED_SECTIONS):
         return plain
-    return RateFused(law=law, cells=fused_cells(section, list(sampled.kinds), pattern, n), volume=plain.sampling.volume)
+    return RateFused(
+        law=law, cells=fused_cells(section, list(sampled.kinds), pattern, n, past=True), volume=plain.sampling.volume
+    )

@@ -39,11 +39,11 @@ class RateFused:
 
     def energy_and_force(self, u: Array, memory: Memory, span: float) -> tuple[float, Array]:
         """Energy [J] stored since the start, with what the slab dissipates, and the force (n, d) [N] at its end."""
-        return self._force(self.law.law, u, memory, span)
+        return self._force(self.law.law, u, memory)
 
     def remembered(self, memory: Memory) -> tuple[float, Array, Array | None]:
         """Stored energy [J] and force (n, d) [N] at the time of a memory; nothing is viscous."""
-        return *self._force(resting(), memory.displacement, memory, 1.0), None
+        return *self._force(resting(), memory.displacement, memory), None
 
     def viscous_force(self, u: Array, memory: Memory, span: float) -> Array | None:
         """None: nothing is viscous."""
@@ -54,7 +54,9 @@ class RateFused:
         given, d = self._given(u, memory), u.shape[1]
         out = self.cells.entries(d)
         for block in self.cells.blocks:
-            self._share(fused_past.tangent, block, span, *given, block.pairs, self.cells.at, self.cells.step, out)
+            self._share(
+                fused_past.tangent, block, *given, block.pairs, self.cells.at, self.cells.step, out, moduli=True
+            )
         return self.cells.matrix(out, d)
 
     def secant(self, u: Array, memory: Memory, span: float) -> csc_array:
@@ -66,7 +68,7 @@ class RateFused:
         given, change = self._given(u, memory), self.cells.rows(w)
         out = np.zeros_like(change)
         for block in self.cells.blocks:
-            self._share(fused_past.product, block, span, *given, change, out)
+            self._share(fused_past.product, block, *given, change, out, moduli=True)
         return self.cells.folded(out, len(u))
 
     def tangent_diagonal_blocks(self, u: Array, memory: Memory, span: float) -> Array:
@@ -74,7 +76,7 @@ class RateFused:
         given = self._given(u, memory)
         out = np.zeros((*given[0].shape, u.shape[1]))
         for block in self.cells.blocks:
-            self._share(fused_past.diagonal, block, span, *given, out)
+            self._share(fused_past.diagonal, block, *given, out, moduli=True)
         return self.cells.folded(out, len(u))
 
     def settled(self, u: Array, memory: Memory, span: float) -> Memory:
@@ -82,7 +84,7 @@ class RateFused:
         rows, step, past = self._given(u, memory)
         after = tuple(np.empty_like(a) for a in past)
         for block in self.cells.blocks:
-            self._share(fused_past.settle, block, span, rows, step, past, after)
+            self._share(fused_past.settle, block, rows, step, past, after)
         law = {name: after[k] for k, name in enumerate(_NAMES, 1) if name in memory.law}
         return Memory(
             displacement=np.array(u),
@@ -93,12 +95,12 @@ class RateFused:
             dissipated=after[4],
         )
 
-    def _force(self, law: Stage, u: Array, memory: Memory, span: float) -> tuple[float, Array]:
+    def _force(self, law: Stage, u: Array, memory: Memory) -> tuple[float, Array]:
         given = self._given(u, memory)
         energies = [np.zeros(len(block.starts) - 1) for block in self.cells.blocks]
         out = np.zeros_like(given[0])
         for block, energy in zip(self.cells.blocks, energies, strict=True):
-            self._share(fused_past.force, block, span, *given, out, energy, law=law)
+            self._share(fused_past.force, block, *given, out, energy, law=law)
         total = float(np.einsum("p,p->", self.volume, memory.stored)) + float(np.concatenate(energies).sum())
         return total if np.isfinite(total) else np.inf, self.cells.folded(out, len(u))
 
@@ -109,9 +111,9 @@ class RateFused:
         return self.cells.rows(u), self.cells.rows(u - memory.displacement), tuple(_fixed(a) for a in past)
 
     def _share(
-        self, kernel: Callable[..., None], block: Block, span: float, *arrays: Any, law: Stage | None = None
+        self, kernel: Callable[..., None], block: Block, *arrays: Any, moduli: bool = False, law: Stage | None = None
     ) -> None:
-        motion, law, numbers = self.law.motion, self.law.law if law is None else law, self.law.numbers(span)
+        motion, law, numbers = self.law.motion, self.law.law if law is None else law, self.law.numbers(moduli)
         cells = block.rows, block.points, block.table, block.geometry, block.starts
 
         def task(first: int, last: int) -> None:

@@ -24,14 +24,19 @@ def log1p(j, shrink):
     f = np.int64((bits & _SIGNIFICAND) + _HALF_ROOT).view(np.float64) - 1.0
     lost = (j - ((1.0 + j) - 1.0)) * shrink
     s = f / (2.0 + f)
-    z = s * s
-    w = z * z
-    even = w * (3.999999999940941908e-01 + w * (2.222219843214978396e-01 + w * 1.531383769920937332e-01))
-    odd = 2.857142874366239149e-01 + w * (1.818357216161805012e-01 + w * 1.479819860511658591e-01)
-    tail = even + z * (6.666666666666735130e-01 + w * odd)
+    tail = log_tail(s * s)
     half = 0.5 * f * f
     low = n * _LN2_LOW + lost
     return n * _LN2_HIGH - ((half - (s * (half + tail) + low)) - f)
+
+
+@inlined
+def log_tail(z):
+    """What ``ln((1 + s)/(1 - s))/s`` has beyond 2, of ``z = s^2`` up to (3 - 2 sqrt(2))^2; of a number or a vector."""
+    w = z * z
+    even = w * (3.999999999940941908e-01 + w * (2.222219843214978396e-01 + w * 1.531383769920937332e-01))
+    odd = 2.857142874366239149e-01 + w * (1.818357216161805012e-01 + w * 1.479819860511658591e-01)
+    return even + z * (6.666666666666735130e-01 + w * odd)
 
 
 @inlined

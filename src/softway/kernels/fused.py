@@ -22,7 +22,7 @@ Arguments that the kernels share:
 import numpy as np
 
 from softway.kernels.compiled import inlined, kernel
-from softway.kernels.lanes import CHANGE, ENERGY, FRAME, LANES, NODES, TENSOR, TOTAL, VECTOR
+from softway.kernels.lanes import CHANGE, ENERGY, FRAME, LANES, NATURAL, NODES, TENSOR, TOTAL, VECTOR
 from softway.kernels.stages import (
     collect,
     couple,
@@ -73,7 +73,7 @@ def product(measure, law, moduli, rows, table, geometry, starts, first, last, u,
         s[sums:] = 0.0
         for q in range(table.shape[0]):
             _respond(measure, law, moduli, s, table[q], geometry[block, q], u.shape[1])
-            differentiate(s, change, table[q])
+            differentiate(s, change, table[q], NATURAL)
             place(s, geometry[block, q], CHANGE, u.shape[1])
             flux_change(s)
             pull(s, geometry[block, q])
@@ -130,7 +130,7 @@ def fold(rows, start, out):
 @inlined
 def _respond(measure, law, moduli, s, slopes, X, d):
     """Everything that the stages of a point say about the displacement at ``s[NODES:]``."""
-    differentiate(s, NODES, slopes)
+    differentiate(s, NODES, slopes, NATURAL)
     place(s, X, FRAME, d)
     call(measure, s, moduli)
     call(law, s, moduli)
@@ -141,7 +141,7 @@ def _moduli(s, X, d, to):
     """Change of the NATURAL flux D_ri with the NATURAL derivative (t, j), in row (r, t, i, j) of ``s[to:]``."""
     for t in range(3):
         for j in range(3):
-            unit(s, t, j)
+            unit(s, t, j, NATURAL)
             place(s, X, CHANGE, d)
             flux_change(s)
             pull(s, X)

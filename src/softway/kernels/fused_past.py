@@ -5,6 +5,9 @@ Arguments are those of :mod:`softway.kernels.fused`, and
 ``motion``, ``law``, ``numbers``
     Addresses of the stages of one point (motion of the slab, then stress, memory and energies), and the numbers of the
     law.
+``geometry`` (b, q, 11 LANES)
+    Derivatives ``dX_I/dxi_r`` of the places in row 3 r + I [m], the volume of the point over their determinant, zero
+    where no cell is, and one over their determinant.
 ``points`` (b, LANES)
     First point of the cell in each lane; the number of points where no cell is.
 ``u``, ``step`` (n, d)
@@ -26,12 +29,14 @@ from softway.kernels.lanes import (
     PAST,
     PLASTIC,
     RATIO,
+    SHRINK,
     STEP,
     STORED,
     STRESS,
     TENSOR,
     TOTAL,
     VECTOR,
+    VOLUME,
 )
 from softway.kernels.past import piola, piola_change, recall, turn, write
 from softway.kernels.stages import (
@@ -42,9 +47,8 @@ from softway.kernels.stages import (
     enter_diagonal,
     gather,
     keep,
-    place,
-    pull,
     scatter,
+    uncouple,
     unit,
 )
 from softway.kernels.vectors import call, fma, load, mul, spread, store
@@ -70,8 +74,7 @@ def force(motion, law, numbers, rows, points, table, geometry, starts, first, la
                 taken = mul(load(s, RATIO), fma(1.0, load(s, STORED), load(s, LOST)))
                 store(s, TOTAL, fma(load(X, TENSOR), taken, load(s, TOTAL)))
                 turn(s, STRESS)
-                piola(s)
-                pull(s, X)
+                piola(s, load(X, TENSOR))
                 collect(s, table[q], sums)
             scatter(s, sums, rows[block], out)
         energy[part] += s[TOTAL : TOTAL + LANES].sum()
@@ -100,8 +103,9 @@ def settle(motion, law, numbers, rows, points, table, geometry, starts, first, l
                         after[1][p] = s[PLASTIC + k]
                     if len(past[2]) > 0:
                         write(s, BACK + k, after[2], p)
-                    after[3][p] = past[3][p] + s[RATIO + k] * s[STORED + k]
-                    after[4][p] = past[4][p] + s[RATIO + k] * s[LOST + k]
+                    ratio = s[RATIO + k] * geometry[block, q, TENSOR + LANES + k]
+                    after[3][p] = past[3][p] + ratio * s[STORED + k]
+                    after[4][p] = past[4][p] + ratio * s[LOST + k]
 
 
 @kernel
@@ -120,10 +124,9 @@ def product(motion, law, numbers, rows, points, table, geometry, starts, first, 
         for q in range(table.shape[0]):
             X = geometry[block, q]
             _stiff(motion, law, numbers, s, other, table[q], X, d, points[block], q, past)
-            differentiate(s, change, table[q])
-            place(s, X, CHANGE, d)
-            piola_change(s)
-            pull(s, X)
+            differentiate(s, change, table[q], CHANGE)
+            uncouple(s, CHANGE, d)
+            piola_change(s, load(X, TENSOR))
             collect(s, table[q], sums)
         scatter(s, sums, rows[block], out)
 
@@ -174,11 +177,13 @@ def diagonal(motion, law, numbers, rows, points, table, geometry, starts, first,
 
 @inlined
 def _moved(s, other, slopes, X, d):
-    """Derivatives of the displacement at the end, and of its change in the slab."""
-    differentiate(s, PAST, slopes)
-    place(s, X, FRAME, d)
-    differentiate(s, other, slopes)
-    place(s, X, STEP, d)
+    """Derivatives of the places at the end, and their change in the slab."""
+    differentiate(s, PAST, slopes, FRAME)
+    uncouple(s, FRAME, d)
+    for row in range(0, TENSOR, LANES):
+        store(s, FRAME + row, load(X, row) + load(s, FRAME + row))
+    differentiate(s, other, slopes, STEP)
+    uncouple(s, STEP, d)
 
 
 @inlined
@@ -199,6 +204,7 @@ def _stiff(motion, law, numbers, s, other, slopes, X, d, points, q, past):
     _answer(motion, law, numbers, s, len(past[2]) > 0)
     turn(s, STRESS)
     turn(s, BRIDGE)
+    store(s, SHRINK, 1.0 / load(s, VOLUME))
 
 
 @inlined
@@ -206,8 +212,7 @@ def _moduli(s, X, d, to):
     """Change of the NATURAL flux with the NATURAL derivatives, as in softway.kernels.fused."""
     for t in range(3):
         for j in range(3):
-            unit(s, t, j)
-            place(s, X, CHANGE, d)
-            piola_change(s)
-            pull(s, X)
+            unit(s, t, j, CHANGE)
+            uncouple(s, CHANGE, d)
+            piola_change(s, load(X, TENSOR))
             keep(s, t, j, to)

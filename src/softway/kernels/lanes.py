@@ -20,22 +20,24 @@ FLUX       9             ``P = S f`` (first Piola-Kirchhoff), or its change
 NODES      ...           nodal values, and whatever else a kernel needs
 =========  ============  ==================================================================
 
-Laws with a history need more rows; ``STRAIN`` then takes the place of ``E``, and ``STRESS`` is that of Cauchy:
+Laws with a history need more rows.  Their derivatives are those along the reference coordinates xi of the cell, and
+``STRESS`` is that of Cauchy:
 
 ===========  =====  ======================================================================
 name         rows   content
 ===========  =====  ======================================================================
-FRAME        9      derivatives H_Ji at the end of the slab, then the cofactors J dX_J/dx_i
+FRAME        9      derivatives dx_i/dxi_r of the places at the end of the slab, then their cofactors
 BRIDGE       6      relative trial stress over its norm: the direction of the flow
 SOFT STIFF   1 1    factors of the moduli: ``ds = SOFT dev(d) + BULK tr(d) I - STIFF n (n:d)``
-STEP         9      change of H_Ji in the slab
+STEP         9      change of these derivatives in the slab
 TURN         9      rotation from the start to the middle, and from there to the end
 STRAIN       6      strain increment of the slab, in the axes of the middle
 BACK         6      back stress
 PLASTIC      1      equivalent plastic strain
 STORED LOST  1 1    energies per present volume taken up in the slab, stored and dissipated
-RATIO        1      ratio of volumes in the middle
-SHRINK       1      1/det F at the end
+RATIO        1      determinant of these derivatives in the middle
+VOLUME       1      their determinant at the end
+SHRINK       1      1/VOLUME
 BULK         1      see above
 PAST         ...    nodal values, and whatever else a kernel needs
 ===========  =====  ======================================================================
@@ -46,4 +48,4 @@ FRAME, SPIN, STRESS, BRIDGE, SOFT, STIFF, ENERGY, TOTAL = (LANES * row for row i
 NATURAL, CHANGE, FLUX, NODES = (LANES * row for row in (26, 35, 44, 53))
 VECTOR, TENSOR = 3 * LANES, 9 * LANES
 STEP, TURN, STRAIN, BACK, PLASTIC, STORED, LOST, RATIO = (NODES + LANES * row for row in (0, 9, 18, 24, 30, 31, 32, 33))
-SHRINK, BULK, PAST = (NODES + LANES * row for row in (34, 35, 36))
+VOLUME, SHRINK, BULK, PAST = (NODES + LANES * row for row in (34, 35, 36, 37))

@@ -11,9 +11,9 @@ from softway.kernels.lanes import (
     BRIDGE,
     BULK,
     CHANGE,
-    FLUX,
     FRAME,
     LANES,
+    NATURAL,
     PLASTIC,
     SHRINK,
     SOFT,
@@ -40,11 +40,8 @@ def recall(s, points, q, past):
                 _read(s, BACK + k, back, p)
         else:
             for row in range(6):
-                s[STRESS + k + row * LANES] = 0.0
+                s[STRESS + k + row * LANES] = s[BACK + k + row * LANES] = 0.0
             s[PLASTIC + k] = 0.0
-    if len(back) == 0:
-        for row in range(6):
-            store(s, BACK + row * LANES, spread(0.0))
 
 
 @inlined
@@ -83,37 +80,39 @@ def turn(s, at):
 
 
 @inlined
-def piola(s):
-    """``P_Ji = J dX_J/dx_a s_ai`` of Cauchy's stress to FLUX; the cofactors are in FRAME."""
+def piola(s, weight):
+    """``D_ri = weight j d xi_r/dx_a s_ai`` of Cauchy's stress to NATURAL; the cofactors are in FRAME."""
     xx, yy, zz, xy, yz, zx = six(s, STRESS)
+    xx, yy, zz, xy, yz, zx = weight * xx, weight * yy, weight * zz, weight * xy, weight * yz, weight * zx
     for J in range(0, TENSOR, VECTOR):
         a, b, c = _row(s, FRAME + J)
-        store(s, FLUX + J, dot(xx, xy, zx, a, b, c))
-        store(s, FLUX + J + LANES, dot(xy, yy, yz, a, b, c))
-        store(s, FLUX + J + 2 * LANES, dot(zx, yz, zz, a, b, c))
+        store(s, NATURAL + J, dot(xx, xy, zx, a, b, c))
+        store(s, NATURAL + J + LANES, dot(xy, yy, yz, a, b, c))
+        store(s, NATURAL + J + 2 * LANES, dot(zx, yz, zz, a, b, c))
 
 
 @inlined
-def piola_change(s):
-    """Change of P under the change dH of the derivatives to FLUX.
+def piola_change(s, weight):
+    """Change of D under the CHANGE of the derivatives to NATURAL.
 
-    ``dP_Ji = K_Ja (C:d + s l^T)_ai`` with ``l = dF F^-1``, d its symmetric part, the cofactors K and the moduli C of
-    Truesdell's rate, made symmetric: see softway.bodies.rate_points.spatial.
+    ``dD_ri = weight K_ra (C:d + s l^T)_ai`` with the gradient l of the change, d its symmetric part, the cofactors K
+    and the moduli C of Truesdell's rate, made symmetric: see softway.bodies.rate_points.spatial.
     """
     l1, l2, l3 = _change(s, 0), _change(s, LANES), _change(s, 2 * LANES)
     xx, yy, zz, xy, yz, zx = six(s, STRESS)
     a, b, c, p, q, r = _moduli(s, l1, l2, l3)
     for J in range(0, TENSOR, VECTOR):
         f, g, h = _row(s, FRAME + J)
+        f, g, h = weight * f, weight * g, weight * h
         x, y, z = dot(xx, xy, zx, f, g, h), dot(xy, yy, yz, f, g, h), dot(zx, yz, zz, f, g, h)
-        store(s, FLUX + J, fma(1.0, dot(a, p, r, f, g, h), dot(x, y, z, *l1)))
-        store(s, FLUX + J + LANES, fma(1.0, dot(p, b, q, f, g, h), dot(x, y, z, *l2)))
-        store(s, FLUX + J + 2 * LANES, fma(1.0, dot(r, q, c, f, g, h), dot(x, y, z, *l3)))
+        store(s, NATURAL + J, fma(1.0, dot(a, p, r, f, g, h), dot(x, y, z, *l1)))
+        store(s, NATURAL + J + LANES, fma(1.0, dot(p, b, q, f, g, h), dot(x, y, z, *l2)))
+        store(s, NATURAL + J + 2 * LANES, fma(1.0, dot(r, q, c, f, g, h), dot(x, y, z, *l3)))
 
 
 @inlined
 def _change(s, i):
-    """Row i of ``l_ia = dH_Ji K_Ja / det F``."""
+    """Row i of the gradient ``l_ia = dD_ri K_ra / j``."""
     shrink = load(s, SHRINK)
     x, y, z = load(s, CHANGE + i), load(s, CHANGE + VECTOR + i), load(s, CHANGE + 2 * VECTOR + i)
     x, y, z = mul(shrink, x), mul(shrink, y), mul(shrink, z)

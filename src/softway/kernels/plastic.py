@@ -6,6 +6,7 @@ In the axes of the middle of the slab.  Numbers of the laws:
 0, 1   bulk modulus and shear modulus [Pa]
 2, 3   yield stress, and modulus of kinematic hardening in tension [Pa]
 4..6   those of the hardening: H; H, saturation [Pa], exponent
+7      whether moduli are asked for
 =====  ==================================================================================
 """
 
@@ -31,8 +32,8 @@ from softway.kernels.lanes import (
 )
 from softway.kernels.vectors import any_above, load, pick, root, spread, store
 
-NUMBERS = 8
-"""Numbers that a law may have."""
+NUMBERS, MODULI = 8, 7
+"""Numbers that a law may have, and the place of what is asked for."""
 _LIMIT, _TOLERANCE = 60, 1e-14  # as in softway.laws.return_mapping
 
 
@@ -64,90 +65,108 @@ def _hypoelastic(state, numbers) -> None:
     none = spread(0.0)
     store(s, STORED, 0.5 * _dot(_sum(old, new), e))
     store(s, LOST, none)
-    _put(s, BRIDGE, (none, none, none, none, none, none))
-    store(s, SOFT, spread(twice))
-    store(s, STIFF, none)
-    store(s, BULK, spread(bulk))
+    if law[MODULI] > 0.0:
+        _put(s, BRIDGE, (none, none, none, none, none, none))
+        store(s, SOFT, spread(twice))
+        store(s, STIFF, none)
+        store(s, BULK, spread(bulk))
 
 
 def _j2_linear(state, numbers) -> None:
     s, law = carray(state, (PAST,)), carray(numbers, (NUMBERS,))
     slope, initial, modulus = 3.0 * law[1] + law[3], law[2], law[4]
-    norm = _trial(s, 2.0 * law[1])
-    gain, most = (norm - (initial + modulus * load(s, PLASTIC))) / (slope + modulus), norm / slope
+    n, norm = _trial(s, law)
+    rise = 1.0 / (slope + modulus)
+    gain, most = rise * (norm - (initial + modulus * load(s, PLASTIC))), (1.0 / slope) * norm
     gain = pick(gain, spread(0.0), pick(gain, most, most, gain), spread(0.0))
-    _return(s, law, norm, gain, spread(1.0 / (slope + modulus)))
+    _return(s, law, n, norm, gain, spread(rise))
 
 
 def _j2_voce(state, numbers) -> None:
     s, law = carray(state, (PAST,)), carray(numbers, (NUMBERS,))
-    norm = _trial(s, 2.0 * law[1])
+    n, norm = _trial(s, law)
     gain, rise = _gain_voce(norm, load(s, PLASTIC), 3.0 * law[1] + law[3], law[2], (law[4], law[5], law[6]))
-    _return(s, law, norm, gain, rise)
+    _return(s, law, n, norm, gain, rise)
 
 
 @inlined
 def _gain_voce(norm, p, slope, initial, hardening):
     """Gain x of ``norm - slope x = s(p + x)``, and its derivative to the norm, by Newton's method inside a bracket.
 
-    All lanes together, as softway.laws.return_mapping.
+    All lanes together, as softway.laws.return_mapping; a step is the last where the square of it, by the curvature of
+    s, is less than what is accepted.
     """
     none = spread(0.0)
-    high = pick(norm, _voce(initial, hardening, p)[0], norm * (1.0 / slope), none)
-    x, low, fall = none, none, none
+    still, up, bend = _voce(initial, hardening, p)
+    rest, fall = norm - still, slope + up
+    high = pick(rest, none, (1.0 / slope) * norm, none)
+    x, low = none, none
     for _ in range(_LIMIT):
-        still, up = _voce(initial, hardening, p + x)
-        rest, fall = norm - slope * x - still, slope + up
-        low, high = pick(rest, none, x, low), pick(rest, none, high, x)
-        new, half = x + rest / fall, 0.5 * (low + high)
-        new = pick(low, new, half, new)
-        new = pick(new, high, half, new)
-        change = new - x
-        x = new
-        if not any_above(pick(none, change, none - change, change), _TOLERANCE * high):
+        if not any_above(high, low):
             break
+        step, half = rest / fall, 0.5 * (low + high)
+        new = x + step
+        inside = pick(low, new, none, pick(new, high, none, spread(1.0)))
+        error = pick(inside, none, 0.5 * bend * step * step, fall * high)
+        x = pick(inside, none, new, half)
+        still, up, bend = _voce(initial, hardening, p + x)
+        rest, fall = norm - slope * x - still, slope + up
+        if not any_above(error, _TOLERANCE * fall * high):
+            break
+        low, high = pick(rest, none, x, low), pick(rest, none, high, x)
     return x, 1.0 / fall
 
 
 @inlined
 def _voce(initial, hardening, p):
-    """Yield stress and its slope."""
+    """Yield stress, its slope, and the size of its curvature."""
     modulus, most, exponent = hardening
     fade = (most - initial) * exp(-exponent * p)
-    return most - fade + modulus * p, exponent * fade + modulus
+    up = exponent * fade
+    bend = exponent * up
+    return most - fade + modulus * p, up + modulus, pick(bend, spread(0.0), bend, -1.0 * bend)
 
 
 @inlined
-def _trial(s, twice):
-    """Norm of the relative trial stress, which goes to BRIDGE."""
-    e, old, back = _six(s, STRAIN), _six(s, STRESS), _six(s, BACK)
-    trial = _sum(old, _sum(_times(e, twice), _times(back, -1.0)))  # a back stress has no trace
-    trial = _sum(trial, _isotropic((trial[0] + trial[1] + trial[2]) * (-1.0 / 3.0)))
-    _put(s, BRIDGE, trial)
-    return root(1.5 * _dot(trial, trial))
+def _trial(s, law):
+    """Relative trial stress, and its norm."""
+    trial = _sum(_six(s, STRESS), _times(_six(s, STRAIN), 2.0 * law[1]))
+    if law[3] > 0.0:
+        trial = _sum(trial, _times(_six(s, BACK), -1.0))
+    trial = _sum(trial, _isotropic((-1.0 / 3.0) * (trial[0] + trial[1] + trial[2])))  # a back stress has no trace
+    return trial, root(1.5 * _dot(trial, trial))
 
 
 @inlined
-def _return(s, law, norm, gain, rise):
+def _return(s, law, n, norm, gain, rise):
     """Stress, memory, energies and moduli by the gain of the plastic strain, which rises with the trial stress."""
-    bulk, shear, kinematic = law[0], law[1], law[3]
-    e, old, back, n = _six(s, STRAIN), _six(s, STRESS), _six(s, BACK), _six(s, BRIDGE)
-    none = spread(0.0)
+    bulk, shear, none = law[0], law[1], spread(0.0)
+    e, old = _six(s, STRAIN), _six(s, STRESS)
     shrink = 1.0 / pick(norm, none, norm, spread(1.0))
     ratio = gain * shrink
     plastic, kept = _times(n, 1.5 * ratio), 1.0 - 3.0 * shear * ratio
-    pressure = (old[0] + old[1] + old[2]) * (1.0 / 3.0) + bulk * (e[0] + e[1] + e[2])
-    new = _sum(_sum(_times(n, kept), back), _isotropic(pressure))
-    held = kinematic / 3.0 * _dot(plastic, plastic) + _dot(back, plastic)
+    pressure = (1.0 / 3.0) * (old[0] + old[1] + old[2]) + bulk * (e[0] + e[1] + e[2])
+    new = _sum(_times(n, kept), _isotropic(pressure))
+    held = none
+    if law[3] > 0.0:
+        new, held = _sum(new, _six(s, BACK)), _kinematic(s, law[3], plastic)
     store(s, STORED, 0.5 * _dot(_sum(old, new), _sum(e, _times(plastic, -1.0))) + held)
     store(s, LOST, _dot(new, plastic) - held)
     store(s, PLASTIC, load(s, PLASTIC) + gain)
     _put(s, STRESS, new)
-    _put(s, BACK, _sum(back, _times(plastic, 2.0 / 3.0 * kinematic)))
-    _put(s, BRIDGE, _times(n, shrink))
-    store(s, SOFT, 2.0 * shear * kept)
-    store(s, STIFF, pick(gain, none, 9.0 * shear * shear * (rise - ratio), none))
-    store(s, BULK, spread(bulk))
+    if law[MODULI] > 0.0:
+        _put(s, BRIDGE, _times(n, shrink))
+        store(s, SOFT, 2.0 * shear * kept)
+        store(s, STIFF, pick(gain, none, 9.0 * shear * shear * (rise - ratio), none))
+        store(s, BULK, spread(bulk))
+
+
+@inlined
+def _kinematic(s, modulus, plastic):
+    """Move the back stress; the energy that it keeps."""
+    back = _six(s, BACK)
+    _put(s, BACK, _sum(back, _times(plastic, 2.0 / 3.0 * modulus)))
+    return modulus / 3.0 * _dot(plastic, plastic) + _dot(back, plastic)
 
 
 @inlined

@@ -47,8 +47,8 @@ def scatter(s, at, rows, out):
 
 
 @inlined
-def differentiate(s, at, slopes):
-    """NATURAL ``D_ri = sum_a slopes_ar u_ai`` of the nodal vectors ``s[at:]``."""
+def differentiate(s, at, slopes, to):
+    """``D_ri = sum_a slopes_ar u_ai`` of the nodal vectors ``s[at:]`` to ``s[to:]``."""
     for i in range(0, VECTOR, LANES):
         one = two = three = spread(0.0)
         for node in range(slopes.shape[0]):
@@ -56,9 +56,9 @@ def differentiate(s, at, slopes):
             one = fma(slopes[node, 0], value, one)
             two = fma(slopes[node, 1], value, two)
             three = fma(slopes[node, 2], value, three)
-        store(s, NATURAL + i, one)
-        store(s, NATURAL + VECTOR + i, two)
-        store(s, NATURAL + 2 * VECTOR + i, three)
+        store(s, to + i, one)
+        store(s, to + VECTOR + i, two)
+        store(s, to + 2 * VECTOR + i, three)
 
 
 @inlined
@@ -74,11 +74,17 @@ def collect(s, slopes, at):
 
 @inlined
 def place(s, X, to, d):
-    """``H_Ji = X_Jr D_ri`` to ``s[to:]``; in two dimensions none couple the plane with its normal."""
+    """``H_Ji = X_Jr D_ri`` of the NATURAL derivatives to ``s[to:]``."""
     for i in range(0, VECTOR, LANES):
         one, two, three = load(s, NATURAL + i), load(s, NATURAL + VECTOR + i), load(s, NATURAL + 2 * VECTOR + i)
         for J in range(0, TENSOR, VECTOR):
             store(s, to + J + i, dot(load(X, J), load(X, J + LANES), load(X, J + 2 * LANES), one, two, three))
+    uncouple(s, to, d)
+
+
+@inlined
+def uncouple(s, to, d):
+    """In two dimensions no derivatives couple the plane with its normal."""
     if d == 2:
         for row in (2, 5, 6, 7):
             store(s, to + row * LANES, spread(0.0))
@@ -151,10 +157,10 @@ def _symmetric(s, J, L):
 
 
 @inlined
-def unit(s, t, j):
-    """The NATURAL derivatives whose entry (t, j) is one, the others zero."""
-    s[NATURAL : NATURAL + TENSOR] = 0.0
-    store(s, NATURAL + (3 * t + j) * LANES, spread(1.0))
+def unit(s, t, j, to):
+    """Derivatives to ``s[to:]`` whose entry (t, j) is one, the others zero."""
+    s[to : to + TENSOR] = 0.0
+    store(s, to + (3 * t + j) * LANES, spread(1.0))
 
 
 @inlined

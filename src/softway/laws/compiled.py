@@ -9,7 +9,7 @@ from softway.kernels.compiled import Stage
 from softway.kernels.hooke import hooke
 from softway.kernels.motion import midpoint
 from softway.kernels.neo_hookean import neo_hookean
-from softway.kernels.plastic import NUMBERS, hypoelastic, j2_linear, j2_voce
+from softway.kernels.plastic import MODULI, NUMBERS, hypoelastic, j2_linear, j2_voce
 from softway.kernels.strain import green, small
 from softway.laws.bulk import J2, Hypoelastic, LinearElastic, NeoHookean, StVenantKirchhoff
 from softway.laws.flow import RateIndependent
@@ -78,9 +78,11 @@ class CompiledRateLaw:
     law: Stage
     constants: Array
 
-    def numbers(self, span: float) -> Array:
-        """Numbers of the law in a slab of length ``span`` [s]."""
-        return self.constants
+    def numbers(self, moduli: bool) -> Array:
+        """Numbers of the law for its stage, and whether moduli are asked for."""
+        out = self.constants.copy()
+        out[MODULI] = moduli
+        return out
 
 
 def compiled_rate(material: RateLaw) -> CompiledRateLaw | None:
