@@ -10,6 +10,7 @@ from softway.bodies.cells import Cells
 from softway.bodies.section import Axisymmetric, PlaneStrain, Section, Volume
 from softway.kernels import fused
 from softway.kernels.gather import Assembler
+from softway.kernels.lanes import LANES
 from softway.kernels.parts import Parts, not_first, own_rows, parts
 from softway.kernels.threads import share
 from softway.typing import Array, IntArray
@@ -148,8 +149,17 @@ def _block(
         pairs=it.lanes(pairs.astype(np.uint32), empty[1]),
         points=it.lanes((first + q * np.arange(e)).astype(np.uint32), empty[2]),
         table=table,
-        geometry=geometry.reshape(*geometry.shape[:2], -1),
+        geometry=_aligned(geometry).reshape(*geometry.shape[:2], -1),
     )
+
+
+def _aligned(values: Array) -> Array:
+    """The same numbers, whose rows of lanes are whole lines of memory."""
+    room = np.empty(values.size + LANES)
+    start = -room.ctypes.data // 8 % LANES
+    out = room[start : start + values.size].reshape(values.shape)
+    out[:] = values
+    return out
 
 
 def _slopes(cells: Cells, section: Section) -> Array:

@@ -19,8 +19,6 @@ Arguments that the kernels share:
     Displacement [m].
 """
 
-import numpy as np
-
 from softway.kernels.compiled import inlined, kernel
 from softway.kernels.lanes import CHANGE, ENERGY, FRAME, LANES, NATURAL, NODES, TENSOR, TOTAL, VECTOR
 from softway.kernels.stages import (
@@ -36,6 +34,7 @@ from softway.kernels.stages import (
     place,
     pull,
     scatter,
+    scratch,
     unit,
 )
 from softway.kernels.vectors import call, fma, load, spread, store
@@ -45,7 +44,7 @@ from softway.kernels.vectors import call, fma, load, spread, store
 def force(measure, law, moduli, rows, table, geometry, starts, first, last, u, out, energy):
     """Add nodal forces [N] to ``out`` (n, d), and the energy of each part [J] to ``energy``."""
     sums = NODES + rows.shape[1] * VECTOR
-    s = np.empty(sums + rows.shape[1] * VECTOR)
+    s = scratch(sums + rows.shape[1] * VECTOR)
     for part in range(first, last):
         store(s, TOTAL, spread(0.0))
         for block in range(starts[part], starts[part + 1]):
@@ -66,7 +65,7 @@ def product(measure, law, moduli, rows, table, geometry, starts, first, last, u,
     """Add the change of the nodal forces [N] under a change ``w`` (n, d) [m] of the displacement to ``out`` (n, d)."""
     change = NODES + rows.shape[1] * VECTOR
     sums = change + rows.shape[1] * VECTOR
-    s = np.empty(sums + rows.shape[1] * VECTOR)
+    s = scratch(sums + rows.shape[1] * VECTOR)
     for block in range(starts[first], starts[last]):
         gather(u, rows[block], s, NODES)
         gather(w, rows[block], s, change)
@@ -90,7 +89,7 @@ def tangent(measure, law, moduli, rows, table, geometry, starts, first, last, u,
     nodes, d = rows.shape[1], u.shape[1]
     moved = NODES + nodes * VECTOR
     sums = moved + 9 * TENSOR
-    s = np.empty(sums + nodes * nodes * TENSOR)
+    s = scratch(sums + nodes * nodes * TENSOR)
     for block in range(starts[first], starts[last]):
         gather(u, rows[block], s, NODES)
         s[sums:] = 0.0
@@ -108,7 +107,7 @@ def diagonal(measure, law, moduli, rows, table, geometry, starts, first, last, u
     nodes, d = rows.shape[1], u.shape[1]
     moved = NODES + nodes * VECTOR
     sums = moved + 9 * TENSOR
-    s = np.empty(sums + nodes * TENSOR)
+    s = scratch(sums + nodes * TENSOR)
     for block in range(starts[first], starts[last]):
         gather(u, rows[block], s, NODES)
         s[sums:] = 0.0

@@ -16,8 +16,6 @@ Arguments are those of :mod:`softway.kernels.fused`, and
     Arrays of the points, see :mod:`softway.kernels.past`.
 """
 
-import numpy as np
-
 from softway.kernels.compiled import inlined, kernel
 from softway.kernels.lanes import (
     BACK,
@@ -38,7 +36,7 @@ from softway.kernels.lanes import (
     VECTOR,
     VOLUME,
 )
-from softway.kernels.past import piola, piola_change, recall, turn, write
+from softway.kernels.past import foresee, piola, piola_change, recall, turn, write
 from softway.kernels.stages import (
     collect,
     couple,
@@ -48,6 +46,7 @@ from softway.kernels.stages import (
     gather,
     keep,
     scatter,
+    scratch,
     uncouple,
     unit,
 )
@@ -59,7 +58,7 @@ def force(motion, law, numbers, rows, points, table, geometry, starts, first, la
     """Add nodal forces [N] to ``out`` (n, d), and what each part stores and dissipates [J] to ``energy``."""
     other = PAST + rows.shape[1] * VECTOR
     sums = other + rows.shape[1] * VECTOR
-    s = np.empty(sums + rows.shape[1] * VECTOR)
+    s = scratch(sums + rows.shape[1] * VECTOR)
     for part in range(first, last):
         store(s, TOTAL, spread(0.0))
         for block in range(starts[part], starts[part + 1]):
@@ -69,6 +68,7 @@ def force(motion, law, numbers, rows, points, table, geometry, starts, first, la
             for q in range(table.shape[0]):
                 X = geometry[block, q]
                 _moved(s, other, table[q], X, u.shape[1])
+                foresee(points, block, starts[part + 1] - 1, q, table.shape[0], past)
                 recall(s, points[block], q, past)
                 _answer(motion, law, numbers, s, len(past[2]) > 0)
                 taken = mul(load(s, RATIO), fma(1.0, load(s, STORED), load(s, LOST)))
@@ -84,12 +84,13 @@ def force(motion, law, numbers, rows, points, table, geometry, starts, first, la
 def settle(motion, law, numbers, rows, points, table, geometry, starts, first, last, u, step, past, after):
     """Put the memory of the points at the end of the slab to ``after``, arrays as those of ``past``."""
     other = PAST + rows.shape[1] * VECTOR
-    s = np.empty(other + rows.shape[1] * VECTOR)
+    s = scratch(other + rows.shape[1] * VECTOR)
     for block in range(starts[first], starts[last]):
         gather(u, rows[block], s, PAST)
         gather(step, rows[block], s, other)
         for q in range(table.shape[0]):
             _moved(s, other, table[q], geometry[block, q], u.shape[1])
+            foresee(points, block, starts[last] - 1, q, table.shape[0], past)
             recall(s, points[block], q, past)
             _answer(motion, law, numbers, s, len(past[2]) > 0)
             turn(s, STRESS)
@@ -115,7 +116,7 @@ def product(motion, law, numbers, rows, points, table, geometry, starts, first, 
     other = PAST + nodes * VECTOR
     change = other + nodes * VECTOR
     sums = change + nodes * VECTOR
-    s = np.empty(sums + nodes * VECTOR)
+    s = scratch(sums + nodes * VECTOR)
     for block in range(starts[first], starts[last]):
         gather(u, rows[block], s, PAST)
         gather(step, rows[block], s, other)
@@ -140,7 +141,7 @@ def tangent(
     other = PAST + nodes * VECTOR
     moved = other + nodes * VECTOR
     sums = moved + 9 * TENSOR
-    s = np.empty(sums + nodes * nodes * TENSOR)
+    s = scratch(sums + nodes * nodes * TENSOR)
     for block in range(starts[first], starts[last]):
         gather(u, rows[block], s, PAST)
         gather(step, rows[block], s, other)
@@ -161,7 +162,7 @@ def diagonal(motion, law, numbers, rows, points, table, geometry, starts, first,
     other = PAST + nodes * VECTOR
     moved = other + nodes * VECTOR
     sums = moved + 9 * TENSOR
-    s = np.empty(sums + nodes * TENSOR)
+    s = scratch(sums + nodes * TENSOR)
     for block in range(starts[first], starts[last]):
         gather(u, rows[block], s, PAST)
         gather(step, rows[block], s, other)

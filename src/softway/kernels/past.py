@@ -5,6 +5,8 @@ The past of the points lies as the rest of the program has it, point after point
 stored and dissipated (p,) [J/m^3].  Lanes without a cell stand behind the last point.
 """
 
+import numpy as np
+
 from softway.kernels.compiled import inlined
 from softway.kernels.lanes import (
     BACK,
@@ -24,7 +26,9 @@ from softway.kernels.lanes import (
     VECTOR,
 )
 from softway.kernels.stages import dot, six
-from softway.kernels.vectors import fma, load, mul, spread, store
+from softway.kernels.vectors import fetch, fma, load, mul, spread, store
+
+_AHEAD = 16  # points of a lane between fetching and reading
 
 
 @inlined
@@ -42,6 +46,20 @@ def recall(s, points, q, past):
             for row in range(6):
                 s[STRESS + k + row * LANES] = s[BACK + k + row * LANES] = 0.0
             s[PLASTIC + k] = 0.0
+
+
+@inlined
+def foresee(points, block, last, q, of, past):
+    """Fetch what :func:`recall` will read of point q, of as many, a few blocks later: no machine foresees it."""
+    there = min(block + 1 + (_AHEAD - 1) // of, last)
+    for k in range(LANES):
+        p = min(np.int64(points[there, k]) + q, len(past[0]) - 1)
+        fetch(past[0], 9 * p)
+        fetch(past[0], 9 * p + 8)
+        if q == 0 and len(past[1]):
+            fetch(past[1], p)
+        if len(past[2]):
+            fetch(past[2], 9 * p + 8)
 
 
 @inlined

@@ -4,6 +4,8 @@
 In two dimensions the third component of a nodal vector repeats the first: it is what the hoop strain needs.
 """
 
+import numpy as np
+
 from softway.kernels.compiled import inlined
 from softway.kernels.lanes import (
     BRIDGE,
@@ -20,6 +22,14 @@ from softway.kernels.lanes import (
     VECTOR,
 )
 from softway.kernels.vectors import fma, load, mul, spread, store
+
+
+@inlined
+def scratch(size):
+    """An array for the rows of a point, whose rows are whole lines of memory."""
+    s = np.empty(size + LANES)
+    start = np.int64(s.ctypes.data) // 8 % LANES
+    return s[LANES - start : LANES - start + size]
 
 
 @inlined

@@ -128,6 +128,22 @@ def power_of_two(typing, number):
 
 
 @intrinsic
+def fetch(typing, array, start):
+    """Let the machine bring the line of memory with the number ``start`` of an array near, and go on."""
+
+    def generate(context, builder, signature, args):
+        words, line = ir.IntType(32), ir.IntType(8).as_pointer()
+        kind = ir.FunctionType(ir.VoidType(), [line, words, words, words])
+        function = cgutils.get_or_insert_function(builder.module, kind, "llvm.prefetch.p0i8")
+        data = context.make_array(signature.args[0])(context, builder, args[0]).data
+        place = builder.bitcast(builder.gep(data, [args[1]]), line)
+        builder.call(function, [place, words(0), words(3), words(1)])
+        return context.get_dummy_value()
+
+    return types.none(array, types.intp), generate
+
+
+@intrinsic
 def call(typing, address, state, moduli):
     """Call the stage at an address with two arrays."""
 
