@@ -15,7 +15,7 @@ from softway.bodies.internal import InternalForce, internal_force
 from softway.bodies.plain import Plain
 from softway.bodies.section import Axisymmetric, Bar, PlaneStrain, PlaneStress, Section, Volume
 from softway.kernels import fused
-from softway.kernels.functions import exp, log1p
+from softway.kernels.functions import exp, inverse_cube_root, log1p
 from softway.kernels.lanes import LANES
 from softway.kernels.threads import share, threads, use
 from softway.kernels.vectors import load, store
@@ -213,6 +213,24 @@ def test_exponential() -> None:
     assert np.max(np.abs(found / np.exp(x) - 1.0)) < 4.5e-16
     exponentials(np.array([-1e9, 1e9] * 4), ends := np.empty(8))
     assert ends[:2].tolist() == pytest.approx([np.exp(-700.0), np.exp(700.0)])
+
+
+def test_inverse_cube_root() -> None:
+    """To one unit in the last place; ``nan`` where the number is not positive."""
+
+    @njit
+    def roots(x, out):  # type: ignore[no-untyped-def]
+        for k in range(0, len(x), LANES):
+            store(out, k, inverse_cube_root(load(x, k)))
+
+    rng = np.random.default_rng(0)
+    x = np.concatenate([10.0 ** rng.uniform(-200.0, 200.0, 8000), rng.uniform(0.5, 2.0, 8000), [1.0, 1.0 + 2e-16] * 4])
+    found = np.empty_like(x)
+    roots(x, found)
+    assert np.max(np.abs(found * np.cbrt(x) - 1.0)) < 5e-16
+    roots(np.array([0.0, -1.0, np.nan, 8.0] * 2), ends := np.empty(8))
+    assert np.isnan(ends[:3]).all()
+    assert ends[3] == 0.5
 
 
 OTHER_PROCESS = """

@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from softway.bodies.cells import Dilating
 from softway.bodies.memory import Memory
 from softway.bodies.rate_force import RateForce, rate_force
 from softway.bodies.rate_fused import RateFused
+from softway.bodies.rate_mean import RateMean
 from softway.bodies.rate_plain import RatePlain
 from softway.bodies.section import Axisymmetric, PlaneStrain, PlaneStress, Section, Volume
 from softway.kernels.threads import use
@@ -84,6 +86,18 @@ def test_kernels_agree_with_arrays(law: RateLaw, cell: str, section: Section) ->
     assert flowed > 0.0
 
 
+@pytest.mark.parametrize("name", ["hypoelastic", "linear", "both"])
+@pytest.mark.parametrize(("cell", "section"), BODIES, ids=lambda x: x if isinstance(x, str) else type(x).__name__)
+def test_mean_dilatation(name: str, cell: str, section: Section) -> None:
+    mesh = irregular_patch(cell)
+    body = rate_force(mesh, LAWS[name], section, "mean")
+    assert isinstance(body.work, RateMean)
+    for path in paths(mesh, section):
+        memory = body.memory
+        for u in path:
+            memory = compare(body.during(memory, 0.1), u, noise(mesh, 1.0, 3))
+
+
 def compare(body: RateForce, u: Array, w: Array) -> Memory:
     """Everything the kernels compute at the end of a slab; the memory after."""
     arrays = plain(body)
@@ -147,6 +161,7 @@ def test_other_laws_sections_and_rates_keep_the_arrays() -> None:
     ):
         assert isinstance(rate_force(square, law, PlaneStrain()).work, RatePlain)
     assert isinstance(rate_force(square, LAWS["linear"], PlaneStress()).work, RatePlain)
+    assert isinstance(rate_force(square, LAWS["linear"], PlaneStrain(), "corner").work, RatePlain)
 
 
 def test_cells_of_two_kinds() -> None:
@@ -157,12 +172,13 @@ def test_cells_of_two_kinds() -> None:
     compare(body.during(memory, 1.0), noise(mesh, 0.05, 5), noise(mesh, 1.0, 2))
 
 
-@pytest.mark.parametrize("cell", ["hex8", "tet4", "quad4"])
-def test_the_bits_do_not_depend_on_the_threads(cell: str) -> None:
+@pytest.mark.parametrize(("cell", "dilatation"), [*product(["hex8", "tet4", "quad4"], ["point"]), ("hex8", "mean")])
+def test_the_bits_do_not_depend_on_the_threads(cell: str, dilatation: Dilating) -> None:
     n = 16 if cell == "hex8" else 18
     mesh = rectangle((3.0, 1.0), cells=(150, 60)) if cell == "quad4" else box((1.0,) * 3, cells=(n, n, n), cell=cell)
-    body = rate_force(mesh, LAWS["both"], PlaneStrain() if mesh.dim == 2 else Volume())
-    assert len(body.work.cells.blocks[0].starts) - 1 >= 4
+    body = rate_force(mesh, LAWS["both"], PlaneStrain() if mesh.dim == 2 else Volume(), dilatation)
+    cells = body.work.kernels.cells if isinstance(body.work, RateMean) else body.work.cells
+    assert len(cells.blocks[0].starts) - 1 >= 4
     u = noise(mesh, 0.02)
     body, v = body.during(body.settled(u), 1.0), 1.5 * u
     with use(1):
@@ -182,10 +198,11 @@ def everything(body: RateForce, u: Array) -> list[Array]:
     return [np.array(energy), force, again, tangent, blocks, body.tangent_product(u, force), *memory]
 
 
+@pytest.mark.parametrize("dilatation", ["point", "mean"])
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
-def test_one_inverted_cell_spoils_no_other(law: RateLaw) -> None:
+def test_one_inverted_cell_spoils_no_other(law: RateLaw, dilatation: Dilating) -> None:
     mesh = box((3.0, 1.0, 1.0), cells=(3, 1, 1), cell="hex8")
-    body = rate_force(mesh, law, Volume())
+    body = rate_force(mesh, law, Volume(), dilatation)
     u = np.zeros_like(mesh.points)
     u[mesh.points[:, 0] > 2.5, 0] = -2.0
     for way in (body, plain(body)):

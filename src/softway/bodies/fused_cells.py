@@ -183,15 +183,15 @@ def _inverse(cells: Cells, section: Section, it: Parts) -> Array:
 
 
 def _natural(cells: Cells, section: Section, it: Parts) -> Array:
-    """(b, q, 11, LANES) as :func:`_slopes`, the volume over their determinant, and one over it."""
+    """(b, q, 11, LANES) as :func:`_slopes`, the volume over their determinant, and the volume."""
     slopes = _slopes(cells, section)
     determinant = np.linalg.det(slopes)
     rows = [
         slopes.reshape(*cells.volume.shape, 9),
         (cells.volume / determinant)[:, :, None],
-        1.0 / determinant[:, :, None],
+        cells.volume[:, :, None],
     ]
     out = it.lanes(np.concatenate(rows, axis=2), 0.0)
     none = (it.cell == len(cells.nodes)).reshape(-1, 1, 1, out.shape[-1])
-    out[:, :, [0, 4, 8]] += none  # what is no cell has a shape
+    out[:, :, [0, 4, 8, 9, 10]] += none  # what is no cell is a unit cube
     return out

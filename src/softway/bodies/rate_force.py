@@ -9,10 +9,11 @@ from softway.bodies.cells import Dilating, SampledCells, sampled_cells
 from softway.bodies.fused_cells import FUSED_SECTIONS, fused_cells
 from softway.bodies.memory import Memory, virgin
 from softway.bodies.rate_fused import RateFused
+from softway.bodies.rate_mean import RateMean
 from softway.bodies.rate_plain import RatePlain
 from softway.bodies.rate_points import RatePoints
 from softway.bodies.sampling import Sampling
-from softway.bodies.section import Section, free_axes
+from softway.bodies.section import PlaneStrain, Section, free_axes
 from softway.errors import InputError
 from softway.kernels import tensors
 from softway.laws.compiled import compiled_rate
@@ -45,7 +46,7 @@ class RateForce:
     material: RateLaw
     section: Section
     plain: RatePlain
-    work: RatePlain | RateFused
+    work: RatePlain | RateFused | RateMean
     memory: Memory
     span: float
 
@@ -166,12 +167,14 @@ def rate_force(mesh: Mesh, material: RateLaw, section: Section, dilatation: Dila
     )
 
 
-def _work(plain: RatePlain, sampled: SampledCells, dilatation: Dilating, n: int) -> RatePlain | RateFused:
+def _work(plain: RatePlain, sampled: SampledCells, dilatation: Dilating, n: int) -> RatePlain | RateFused | RateMean:
     """Kernels for a body on n nodes if there are any, else the arrays."""
     section, pattern = plain.sampling.section, plain.sampling.pattern
     law = compiled_rate(plain.points.law)
-    if law is None or dilatation != "point" or not isinstance(section, FUSED_SECTIONS):
+    if law is None or dilatation == "corner" or not isinstance(section, FUSED_SECTIONS):
         return plain
-    return RateFused(
-        law=law, cells=fused_cells(section, list(sampled.kinds), pattern, n, past=True), volume=plain.sampling.volume
-    )
+    cells, volume = fused_cells(section, list(sampled.kinds), pattern, n, past=True), plain.sampling.volume
+    if dilatation == "point":
+        return RateFused(law=law, cells=cells, volume=volume)
+    m = 2 if isinstance(section, PlaneStrain) else 3
+    return RateMean(kernels=RateFused(law=law, cells=cells, volume=volume, mean=m), arrays=plain)

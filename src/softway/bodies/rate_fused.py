@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from scipy.sparse import csc_array
 
 from softway.bodies.fused_cells import Block, FusedCells
 from softway.bodies.memory import Memory
-from softway.kernels import fused_past
+from softway.kernels import fused_mean, fused_past
 from softway.kernels.compiled import Stage
 from softway.laws.compiled import CompiledRateLaw, resting
 from softway.typing import Array
@@ -31,11 +32,15 @@ class RateFused:
         The cells in the order of the kernels.
     volume
         (p,) reference volume of each point [m^3].
+    mean
+        Number of dimensions whose change of volume is the mean of the cell; 0 where it is that of the point.  Tangents
+        are those of the point.
     """
 
     law: CompiledRateLaw
     cells: FusedCells
     volume: Array
+    mean: int = 0
 
     def energy_and_force(self, u: Array, memory: Memory, span: float) -> tuple[float, Array]:
         """Energy [J] stored since the start, with what the slab dissipates, and the force (n, d) [N] at its end."""
@@ -84,7 +89,8 @@ class RateFused:
         rows, step, past = self._given(u, memory)
         after = tuple(np.empty_like(a) for a in past)
         for block in self.cells.blocks:
-            self._share(fused_past.settle, block, rows, step, past, after)
+            kernel = partial(fused_mean.settle, self.mean) if self.mean else fused_past.settle
+            self._share(kernel, block, rows, step, past, after)
         law = {name: after[k] for k, name in enumerate(_NAMES, 1) if name in memory.law}
         return Memory(
             displacement=np.array(u),
@@ -100,7 +106,8 @@ class RateFused:
         energies = [np.zeros(len(block.starts) - 1) for block in self.cells.blocks]
         out = np.zeros_like(given[0])
         for block, energy in zip(self.cells.blocks, energies, strict=True):
-            self._share(fused_past.force, block, *given, out, energy, law=law)
+            kernel = partial(fused_mean.force, self.mean) if self.mean else fused_past.force
+            self._share(kernel, block, *given, out, energy, law=law)
         total = float(np.einsum("p,p->", self.volume, memory.stored)) + float(np.concatenate(energies).sum())
         return total if np.isfinite(total) else np.inf, self.cells.folded(out, len(u))
 

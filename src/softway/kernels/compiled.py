@@ -19,7 +19,7 @@ _EXACT: dict[str, Any] = {"fastmath": {"contract"}, "error_model": "numpy"}
 _KERNEL = _EXACT | {"nogil": True, "no_cfunc_wrapper": True}
 _PART = _EXACT | {"forceinline": True, "no_cfunc_wrapper": True, "no_cpython_wrapper": True}
 _POINT = types.void(types.CPointer(types.float64), types.CPointer(types.float64))
-_SHARED = ("compiled.py", "functions.py", "lanes.py", "past.py", "stages.py", "vectors.py")
+_SHARED = ("compiled.py", "functions.py", "fused_past.py", "lanes.py", "past.py", "stages.py", "vectors.py")
 _SOURCES = b"".join(Path(__file__).with_name(name).read_bytes() for name in _SHARED)
 _DIGEST = sha256(_SOURCES).hexdigest()[:12]
 

@@ -6,8 +6,8 @@ Arguments are those of :mod:`softway.kernels.fused`, and
     Addresses of the stages of one point (motion of the slab, then stress, memory and energies), and the numbers of the
     law.
 ``geometry`` (b, q, 11 LANES)
-    Derivatives ``dX_I/dxi_r`` of the places in row 3 r + I [m], the volume of the point over their determinant, zero
-    where no cell is, and one over their determinant.
+    Derivatives ``dX_I/dxi_r`` of the places in row 3 r + I [m], the volume of the point over their determinant, and
+    the volume [m^3]; a unit cube where no cell is.
 ``points`` (b, LANES)
     First point of the cell in each lane; the number of points where no cell is.
 ``u``, ``step`` (n, d)
@@ -67,10 +67,10 @@ def force(motion, law, numbers, rows, points, table, geometry, starts, first, la
             s[sums:] = 0.0
             for q in range(table.shape[0]):
                 X = geometry[block, q]
-                _moved(s, other, table[q], X, u.shape[1])
+                moved(s, other, table[q], X, u.shape[1])
                 foresee(points, block, starts[part + 1] - 1, q, table.shape[0], past)
                 recall(s, points[block], q, past)
-                _answer(motion, law, numbers, s, len(past[2]) > 0)
+                answered(motion, law, numbers, s, len(past[2]) > 0)
                 taken = mul(load(s, RATIO), fma(1.0, load(s, STORED), load(s, LOST)))
                 store(s, TOTAL, fma(load(X, TENSOR), taken, load(s, TOTAL)))
                 turn(s, STRESS)
@@ -89,24 +89,14 @@ def settle(motion, law, numbers, rows, points, table, geometry, starts, first, l
         gather(u, rows[block], s, PAST)
         gather(step, rows[block], s, other)
         for q in range(table.shape[0]):
-            _moved(s, other, table[q], geometry[block, q], u.shape[1])
+            moved(s, other, table[q], geometry[block, q], u.shape[1])
             foresee(points, block, starts[last] - 1, q, table.shape[0], past)
             recall(s, points[block], q, past)
-            _answer(motion, law, numbers, s, len(past[2]) > 0)
+            answered(motion, law, numbers, s, len(past[2]) > 0)
             turn(s, STRESS)
             if len(past[2]) > 0:
                 turn(s, BACK)
-            for k in range(LANES):
-                p = points[block, k] + q
-                if p < len(past[0]):
-                    write(s, STRESS + k, after[0], p)
-                    if len(past[1]) > 0:
-                        after[1][p] = s[PLASTIC + k]
-                    if len(past[2]) > 0:
-                        write(s, BACK + k, after[2], p)
-                    ratio = s[RATIO + k] * geometry[block, q, TENSOR + LANES + k]
-                    after[3][p] = past[3][p] + ratio * s[STORED + k]
-                    after[4][p] = past[4][p] + ratio * s[LOST + k]
+            remember(s, points[block], q, geometry[block, q], past, after)
 
 
 @kernel
@@ -177,7 +167,23 @@ def diagonal(motion, law, numbers, rows, points, table, geometry, starts, first,
 
 
 @inlined
-def _moved(s, other, slopes, X, d):
+def remember(s, points, q, X, past, after):
+    """What the points remember from now on."""
+    for k in range(LANES):
+        p = points[k] + q
+        if p < len(past[0]):
+            write(s, STRESS + k, after[0], p)
+            if len(past[1]) > 0:
+                after[1][p] = s[PLASTIC + k]
+            if len(past[2]) > 0:
+                write(s, BACK + k, after[2], p)
+            ratio = s[RATIO + k] * X[TENSOR + k] / X[TENSOR + LANES + k]
+            after[3][p] = past[3][p] + ratio * s[STORED + k]
+            after[4][p] = past[4][p] + ratio * s[LOST + k]
+
+
+@inlined
+def moved(s, other, slopes, X, d):
     """Derivatives of the places at the end, and their change in the slab."""
     differentiate(s, PAST, slopes, FRAME)
     uncouple(s, FRAME, d)
@@ -188,7 +194,7 @@ def _moved(s, other, slopes, X, d):
 
 
 @inlined
-def _answer(motion, law, numbers, s, kinematic):
+def answered(motion, law, numbers, s, kinematic):
     """Motion and law, in the axes of the middle."""
     call(motion, s, numbers)
     turn(s, STRESS)
@@ -200,9 +206,9 @@ def _answer(motion, law, numbers, s, kinematic):
 @inlined
 def _stiff(motion, law, numbers, s, other, slopes, X, d, points, q, past):
     """What the moduli need, in the axes of the end."""
-    _moved(s, other, slopes, X, d)
+    moved(s, other, slopes, X, d)
     recall(s, points, q, past)
-    _answer(motion, law, numbers, s, len(past[2]) > 0)
+    answered(motion, law, numbers, s, len(past[2]) > 0)
     turn(s, STRESS)
     turn(s, BRIDGE)
     store(s, SHRINK, 1.0 / load(s, VOLUME))

@@ -20,6 +20,7 @@ from softway.kernels.lanes import LANES
 
 _NUMBERS = ir.VectorType(ir.DoubleType(), LANES)
 _BIAS, _FRACTION = 1023, 52  # parts of a double number
+_CUBE = 4.0 / 3.0 * (_BIAS - 0.045) * 2.0**_FRACTION
 
 
 class Vector(types.Type):
@@ -123,6 +124,19 @@ def power_of_two(typing, number):
         whole = ir.VectorType(ir.IntType(64), LANES)
         bits = builder.add(builder.fptosi(args[0], whole), ir.Constant(whole, [_BIAS] * LANES))
         return builder.bitcast(builder.shl(bits, ir.Constant(whole, [_FRACTION] * LANES)), _NUMBERS)
+
+    return VECTOR(VECTOR), generate
+
+
+@intrinsic
+def inverse_cube_guess(typing, number):
+    """``number^(-1/3)`` of positive numbers to some hundredths: the exponent, with the fraction, over -3."""
+
+    def generate(context, builder, signature, args):
+        whole = ir.VectorType(ir.IntType(64), LANES)
+        bits = builder.sitofp(builder.bitcast(args[0], whole), _NUMBERS)
+        third, start = (ir.Constant(_NUMBERS, [x] * LANES) for x in (-1.0 / 3.0, _CUBE))
+        return builder.bitcast(builder.fptosi(builder.fadd(builder.fmul(bits, third), start), whole), _NUMBERS)
 
     return VECTOR(VECTOR), generate
 
