@@ -63,6 +63,13 @@ def kernels(cell: str, cells: int, repeats: int) -> list[dict[str, Any]]:
     return [asdict(rate) for rate in measured(cell, cells, repeats)]
 
 
+def history(cell: str, cells: int, dilatation: str) -> list[dict[str, Any]]:
+    """Rates of the internal force of laws with a history."""
+    from bench_history import measured
+
+    return [asdict(rate) for rate in measured(cell, cells, dilatation)]
+
+
 def factor(cells: int, cases: list[list[Any]]) -> list[dict[str, Any]]:
     """Costs of direct solvers: backend, precision, threads."""
     from bench_factor import measured, operator, streaming
@@ -87,7 +94,7 @@ def slabs(largest: int) -> list[dict[str, Any]]:
 
 
 PROBLEMS: dict[str, Callable[..., Any]] = {
-    f.__name__: f for f in (cube, explicit, impact, bent, block, kernels, factor, contact, slabs)
+    f.__name__: f for f in (cube, explicit, impact, bent, block, kernels, history, factor, contact, slabs)
 }
 
 

@@ -32,6 +32,7 @@ GROUPS: dict[str, Group] = {
     "newton": methods.newton,
     "incompressible": methods.incompressible,
     "kernels": parts.kernels,
+    "history": parts.history,
     "factor": parts.factors,
     "contact": parts.contact,
     "slab": parts.slabs,

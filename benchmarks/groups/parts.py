@@ -37,6 +37,25 @@ def _asked(cell: str, work: str, rival: str, threads: int) -> str:
     return ">= 0.9" if plain else "higher"
 
 
+def history(asked: Asked) -> Iterator[Figure]:
+    """The force and the memory of laws with a history, as times of the neo-Hookean force of the same cells."""
+    for cell, dilatation in asked.pick(
+        (("hex8", "point"),), (("hex8", "point"), ("hex8", "mean"), ("tet4", "point"), ("quad4", "point"))
+    ):
+        rows = alone("history", threads=2, cell=cell, cells=CELLS, dilatation=dilatation)["result"]
+        base = {r["threads"]: r["rate"] for r in rows if r["law"] == "neo-Hookean"}
+        for r in rows:
+            if r["law"] != "neo-Hookean":
+                words = (
+                    f"{cell}, {dilatation}, {r['law']}, {r['work']}, {r['threads']} thread{'s' * (r['threads'] > 1)}"
+                )
+                asked_for = "<= 2" if r["work"] == "force" and dilatation == "point" else "lower"
+                yield Figure(
+                    name=f"history/{words}", value=r["rate"], unit="Mcells/s; neo-Hookean", baseline=base[r["threads"]],
+                    ratio=r["against"], target=asked_for,
+                )  # fmt: skip
+
+
 def factors(asked: Asked) -> Iterator[Figure]:
     """Factors and solves of PARDISO, and the share that a solve has of the bandwidth of reading."""
     cases = [["pardiso", "double", 1], ["pardiso", "single", 1]]
