@@ -10,18 +10,19 @@ from softway.typing import Array
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Event:
-    """A contact node that touched or let go inside a slab.
+    """A contact node that touched or let go inside a slab, came to rest on its opponent or began to slip.
 
     Parameters
     ----------
     time
         Instant located inside the slab [s].
     contact, kind, node
-        Contact label; ``touch`` or ``release``; node number in its body.
+        Contact label; ``touch``, ``release``, ``stick`` or ``slip``; node number in its body.
     position
         (d,) where it happened [m].
     velocity_before, velocity_after
-        Normal velocity on both sides of the instant, negative towards the obstacle [m/s].
+        Normal velocity on both sides of the instant, negative towards the obstacle; of ``stick`` and ``slip`` the speed
+        along it [m/s].
     impulse
         Normal impulse of the velocity jump [N s]; zero at a release.
     """
