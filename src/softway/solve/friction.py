@@ -9,7 +9,7 @@ The tangential condition is the return map of a trial ``s - r (T z - shift)``.  
 do not move, rows that slip have the force of the law (docs/theory/friction.md).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
@@ -18,68 +18,21 @@ from softway.errors import NoConvergence
 from softway.solve.along import Along
 from softway.solve.frozen import Frozen
 from softway.solve.normal import Rows, delassus, untouched
-from softway.solve.return_map import Slipping, returned
+from softway.solve.touching import Look, Touching, linearised, looked, swept, touching
 from softway.typing import Array, BoolArray, IntArray
 
 NEWTON = 25
 """Steps of Newton's method before sweeps over the rows help it out."""
 HALVINGS = 6
 """Halvings of a step that would miss the conditions by more than before."""
+FALLS = 0.1
+"""Share to which a step must bring the violation, or the next one has a linearisation of its own."""
 SWEEPS = 10
 """Sweeps in a row."""
 ROUNDS = 6
 """Times that sweeps may help out."""
 SETTLED = 1e-14
 """Residual, relative to what the forces move, that is rounding."""
-LIFT = 1e-12
-"""Share of the compliance by which rows that depend on each other are told apart."""
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Touching:
-    """The contact problem of some rows (c,), with k tangential directions each.
-
-    Parameters
-    ----------
-    compliance
-        (c (1 + k), c (1 + k)): normals first, then the tangential directions row by row.
-    free
-        (c (1 + k),) gaps and slips without contact force.
-    law
-        The conditions on the slip.
-    reach
-        (c,) compliance of each normal; ``give`` (c,) that of each row along its surface.
-    """
-
-    compliance: Array
-    free: Array
-    law: Slipping
-    reach: Array
-    give: Array
-
-    @property
-    def count(self) -> int:
-        """Number of rows."""
-        return len(self.reach)
-
-    def split(self, x: Array) -> tuple[Array, Array]:
-        """Normal (c,) and tangential (c, k) parts."""
-        return x[: self.count], x[self.count :].reshape(self.law.shift.shape)
-
-
-def touching(compliance: Array, free: Array, law: Slipping) -> Touching:
-    """The contact problem of rows with their compliance."""
-    count, k = law.shift.shape
-    diagonal = np.diag(compliance)
-    give = diagonal[count:].reshape(count, k).mean(axis=1)
-    least = 1e-12 * max(float(diagonal.max(initial=0.0)), 1e-300)
-    return Touching(
-        compliance=compliance,
-        free=free,
-        law=law,
-        reach=np.maximum(diagonal[:count], least),
-        give=np.maximum(give, least),
-    )
 
 
 def rubbed(
@@ -109,7 +62,7 @@ def rubbed(
         index = np.flatnonzero(near)
         every = stacked(index, m, k)
         part = coefficients.part(every)
-        problem = touching(delassus(frozen, part), slack[every], _part(law, index))
+        problem = touching(delassus(frozen, part), slack[every], law.part(index))
         x[every], slips = settled(problem, x[every])
         push = part.spread(x[every])
         gap = slack[:m] + coefficients.along(frozen.give(push))[:m]
@@ -136,36 +89,6 @@ def stacked(index: IntArray, m: int, k: int) -> IntArray:
     [1, 4, 5]
     """
     return np.concatenate([index, (m + k * index[:, None] + np.arange(k)).ravel()])
-
-
-def _part(law: Slipping, index: IntArray) -> Slipping:
-    return Slipping(
-        rubbing=law.rubbing.part(index),
-        shift=law.shift[index],
-        pace=law.pace,
-        unit=law.unit,
-        ahead=law.ahead,
-        before=law.before[index],
-        sliding=law.sliding[index],
-        held=law.held,
-    )
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class _Look:
-    """The conditions at some multipliers: what they miss (c (1 + k),), in units of y; rows that touch and slip (c,);
-    the matrix of the linearised conditions.
-    """
-
-    missed: Array
-    touch: BoolArray
-    slips: BoolArray
-    matrix: Array
-
-    @property
-    def worst(self) -> float:
-        """Greatest violation."""
-        return float(np.abs(self.missed).max(initial=0.0))
 
 
 def settled(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
@@ -197,14 +120,17 @@ def _solved(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
     if not problem.count:
         return x, np.zeros(0, bool)
     for _ in range(ROUNDS):
-        best, since = np.inf, 0
+        best, since, factor, before, known = np.inf, 0, None, np.inf, b""
         for _ in range(NEWTON):
             look = looked(problem, x)
             size = _size(problem, x, look)
             best, since = (look.worst, 0) if look.worst < 0.5 * best else (best, since + 1)
             if look.worst <= SETTLED * size or (since >= 3 and look.worst <= 1e3 * SETTLED * size):
                 return _clean(problem, x, look), look.slips & look.touch
-            step = lu_solve(lu_factor(look.matrix, check_finite=False), look.missed, check_finite=False)
+            status = look.touch.tobytes() + look.slips.tobytes()
+            if factor is None or look.worst > FALLS * before or status != known:
+                known, factor = status, lu_factor(linearised(problem, look), overwrite_a=True, check_finite=False)
+            step, before = lu_solve(factor, look.missed, check_finite=False), look.worst
             if not np.isfinite(step).all():
                 break
             x = _searched(problem, x, step, look)
@@ -212,7 +138,7 @@ def _solved(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
     raise NoConvergence(f"friction of {problem.count} contact rows leaves {look.worst:.1e} of {size:.1e}")
 
 
-def _searched(problem: Touching, x: Array, step: Array, look: _Look) -> Array:
+def _searched(problem: Touching, x: Array, step: Array, look: Look) -> Array:
     """The multipliers after a step, halved while they miss more than before; whole if halving does not help."""
     now, share = float(np.linalg.norm(look.missed)), 1.0
     for _ in range(HALVINGS):
@@ -223,7 +149,7 @@ def _searched(problem: Touching, x: Array, step: Array, look: _Look) -> Array:
     return x - step
 
 
-def _size(problem: Touching, x: Array, look: _Look) -> float:
+def _size(problem: Touching, x: Array, look: Look) -> float:
     """What the forces move, and what the rows that hold would move without them."""
     gap, slip = problem.split(problem.free)
     held = np.abs(slip[~look.slips]).max(initial=0.0)
@@ -231,58 +157,7 @@ def _size(problem: Touching, x: Array, look: _Look) -> float:
     return float(max(np.abs(gap).max(initial=0.0), held, moved, 1e-300))
 
 
-def _clean(problem: Touching, x: Array, look: _Look) -> Array:
+def _clean(problem: Touching, x: Array, look: Look) -> Array:
     """The multipliers with those of rows that do not touch set to zero."""
     p, s = problem.split(x)
     return np.concatenate([np.where(look.touch, p, 0.0), np.where(look.touch[:, None], s, 0.0).ravel()])
-
-
-def looked(problem: Touching, x: Array) -> _Look:
-    """Conditions and their linearisation at multipliers x (c (1 + k),)."""
-    c, W = problem.count, problem.compliance
-    p, s = problem.split(x)
-    gap, slip = problem.split(problem.free + W @ x)
-    k = s.shape[1]
-    touch = p - gap / problem.reach > 0.0
-    trial = s - slip / problem.give[:, None]
-    size = np.linalg.norm(trial, axis=1)
-    way = trial / np.maximum(size, 1e-300)[:, None]
-    found = returned(problem.law, size, np.maximum(p, 0.0), 1.0 / problem.give)
-    slips = touch & found.slips
-    missed_s = np.where(slips[:, None], (s - found.force[:, None] * way) * problem.give[:, None], slip)
-    missed_p = np.where(touch, gap, p * problem.reach)
-    missed_s = np.where(touch[:, None], missed_s, s * problem.give[:, None])
-    turn = np.where(size > 0.0, found.force / np.maximum(size, 1e-300), 0.0)
-    along = way[:, :, None] * way[:, None, :]
-    P = turn[:, None, None] * (np.eye(k) - along) + found.steep[:, None, None] * along
-    matrix = np.where(np.concatenate([touch, np.repeat(touch & ~slips, k)])[:, None], W, 0.0)
-    diagonal = np.arange(c)
-    matrix[diagonal, diagonal] += np.where(touch, LIFT, 1.0) * problem.reach
-    places = c + k * diagonal[:, None] + np.arange(k)
-    lifted = np.where(slips, 0.0, np.where(touch, LIFT, 1.0)) * problem.give
-    matrix[places, places] += lifted[:, None]
-    at, give = places[slips], problem.give[slips][:, None, None]
-    matrix[at] = np.einsum("cij,cjn->cin", P[slips], W[at])
-    matrix[at[:, :, None], at[:, None, :]] += give * (np.eye(k) - P[slips])
-    matrix[at, diagonal[slips][:, None]] -= give[:, 0] * found.share[slips, None] * way[slips]
-    return _Look(missed=np.concatenate([missed_p, missed_s.ravel()]), touch=touch, slips=slips, matrix=matrix)
-
-
-def swept(problem: Touching, x: Array, count: int) -> Array:
-    """Multipliers after some sweeps: each row in turn meets its conditions while the others wait (Gauss-Seidel)."""
-    c, W = problem.count, problem.compliance
-    x = x.copy()
-    k = (len(x) - c) // c
-    parts = [_part(problem.law, np.array([i])) for i in range(c)]
-    for _ in range(count):
-        for i in range(c):
-            at = c + k * i + np.arange(k)
-            gap = problem.free[i] + W[i] @ x
-            x[i] = max(x[i] - gap / problem.reach[i], 0.0)
-            slip = problem.free[at] + W[at] @ x
-            stiff = 1.0 / max(float(np.linalg.eigvalsh(W[np.ix_(at, at)]).max(initial=0.0)), 1e-12 * problem.give[i])
-            trial = x[at] - stiff * slip
-            size = np.linalg.norm(trial)
-            force = returned(parts[i], np.array([size]), x[i : i + 1], np.array([stiff])).force[0]
-            x[at] = force * trial / max(size, 1e-300)
-    return x

@@ -6,7 +6,7 @@ import numpy as np
 
 from softway.contact.rubbing import Rubbing
 from softway.contact.shear import Shear
-from softway.typing import Array, BoolArray
+from softway.typing import Array, BoolArray, IntArray
 
 ITERATIONS = 100
 """Iterations of the scalar equation; bisection alone would take about 60."""
@@ -48,6 +48,16 @@ class Slipping:
     before: Array
     sliding: BoolArray
     held: bool = False
+
+    def part(self, which: IntArray) -> "Slipping":
+        """Some of the rows."""
+        return replace(
+            self,
+            rubbing=self.rubbing.part(which),
+            shift=self.shift[which],
+            before=self.before[which],
+            sliding=self.sliding[which],
+        )
 
     def limit(self, pressed: Array) -> Array:
         """Multiplier (m,) that holds rows under normal multipliers (m,)."""
