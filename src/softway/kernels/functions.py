@@ -1,5 +1,7 @@
 """Functions without a branch, for loops over the lanes or for vectors, accurate to about one unit in the last place."""
 
+from math import factorial
+
 import numpy as np
 
 from softway.kernels.compiled import inlined
@@ -9,6 +11,7 @@ _SIGNIFICAND, _BIAS = 0x000FFFFFFFFFFFFF, 1023  # parts of a double number
 _HALF_ROOT, _ONE = 0x3FE6A09E00000000, 0x3FF0000000000000  # bits of sqrt(1/2), rounded, and of 1
 _WHOLE = 6755399441055744.0  # 1.5 2^52: adding it rounds to the next integer
 _LN2_HIGH, _LN2_LOW = 6.93147180369123816490e-01, 1.90821492927058770002e-10
+_SERIES = tuple(1.0 / factorial(k) for k in range(14))
 _LEAST, _MOST = -700.0, 700.0  # arguments of exp whose results are ordinary numbers
 
 
@@ -49,10 +52,11 @@ def exp(x):
     x = pick(x, spread(_MOST), spread(_MOST), x)
     n = (1.44269504088896338700 * x + _WHOLE) - _WHOLE
     r = (x - _LN2_HIGH * n) - _LN2_LOW * n
-    series = spread(1.0)
-    for k in range(13, 0, -1):
-        series = r * series * (1.0 / k) + 1.0
-    return series * power_of_two(n)
+    square = r * r
+    even, odd = spread(_SERIES[12]), spread(_SERIES[13])
+    for k in range(10, -1, -2):
+        even, odd = even * square + _SERIES[k], odd * square + _SERIES[k + 1]
+    return (even + r * odd) * power_of_two(n)
 
 
 @inlined
