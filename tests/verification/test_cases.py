@@ -36,10 +36,10 @@ def test_a_case_is_complete(name: str) -> None:
 
 
 def test_all_cases_are_there() -> None:
-    """The impact of bars, friction, and large deformation."""
+    """The impact of bars, friction, large deformation, and forming."""
     bars = ["A01", "A02", "A03", "A04", "A05", "A06", "A09", "A10", "A11", "A12"]
     friction = ["C01", "C02", "C04", "C08", "C09"]
-    assert list(CASES) == [*bars, *friction, *(f"D{k:02}" for k in range(1, 11))]
+    assert list(CASES) == [*bars, *friction, *(f"D{k:02}" for k in range(1, 11)), *(f"E{k:02}" for k in range(1, 7))]
 
 
 def test_a01_is_the_closed_form() -> None:

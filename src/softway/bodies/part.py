@@ -16,6 +16,7 @@ from softway.bodies.shock import Shock, shock_of
 from softway.bodies.solid import Solid, Support
 from softway.errors import InputError, within
 from softway.laws.law import Material, RateLaw
+from softway.space.cells import CELLS
 from softway.space.mesh import Mesh
 from softway.typing import Array, BoolArray
 
@@ -57,6 +58,9 @@ def part_of(name: str, solid: Solid, first: int) -> Part:
     with within("place"):
         mesh = solid.place.applied(mesh)
     section = default_section(mesh) if solid.section is None else solid.section
+    if solid.dilatation == "mean" and any(CELLS[cell].order > 1 for cell in mesh.blocks):
+        problem = "'mean' in quadratic cells: a single mean leaves some of their motions without stiffness"
+        raise InputError("dilatation", problem, "'corner'")
     internal = force_of(mesh, solid.material, section, solid.dilatation)
     rows = slice(first, first + mesh.n_nodes)
     with within("shock"):

@@ -117,7 +117,7 @@ class RatePoints:
 
     def _steady(self, found: Answer) -> Array:
         viscous = isinstance(self.law, Viscous)
-        return found.increment.stress if viscous else found.response.stress
+        return np.zeros_like(found.response.stress) if viscous else found.response.stress
 
     def steady_stress(self, found: Answer) -> Array:
         """The Cauchy stress (p, 3, 3) [Pa] that tangents turn with the matter: that at the end.

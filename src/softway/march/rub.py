@@ -55,7 +55,7 @@ def slipping(model: Model, now: Situation, slab: Slab, rows: Candidates, held: b
         shift=np.zeros(shear.tangents.shape[:2]),
         pace=0.5,
         unit=1.0 / (h * moments(slab.weight)[1]),
-        ahead=AHEAD,
+        ahead=AHEAD if model.massive.any() else 0.0,
         before=np.where(rows.near, np.linalg.norm(shear.slip(h * now.start.velocity), axis=1) / h, 0.0),
         sliding=now.sliding,
         held=held,

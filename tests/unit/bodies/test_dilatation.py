@@ -92,3 +92,10 @@ def test_free_faces_refuse_means(section: Section) -> None:
     body = sw.Solid(mesh=mesh, material=sw.LinearElastic(E=1.0), density=1.0, section=section, dilatation="mean")
     with pytest.raises(InputError, match="dilatation: 'mean' in a"):
         sw.build(sw.Scene(bodies={"b": body}))
+
+
+def test_quadratic_cells_refuse_one_mean_for_all() -> None:
+    mesh = sw.Rectangle(size=(1.0, 1.0), cells=(1, 1), cell="quad9")
+    body = sw.Solid(mesh=mesh, material=sw.NeoHookean(E=1.0, nu=0.4), density=1.0, dilatation="mean")
+    with pytest.raises(InputError, match=r"b\.dilatation: 'mean' in quadratic cells"):
+        sw.build(sw.Scene(bodies={"b": body}))

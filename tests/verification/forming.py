@@ -1,0 +1,95 @@
+"""Bodies pressed between platens without inertia: forces and shapes over the stroke.
+
+The upper half of the body stands on its plane of symmetry; a platen comes down on it.  The force of a slab is its mean,
+which belongs to the middle of the slab.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+import softway as sw
+from exact_waves import Array
+from softway.laws.friction_law import FrictionLaw
+from softway.laws.law import RateLaw
+
+
+@dataclass(frozen=True, kw_only=True)
+class Press:
+    """A body of revolution, or a slice in plane strain, between x = ``inner`` and ``outer`` under a platen."""
+
+    material: RateLaw
+    outer: float
+    height: float
+    inner: float = 0.0
+    friction: FrictionLaw = sw.Frictionless()
+    section: sw.Axisymmetric | sw.PlaneStrain = sw.Axisymmetric()
+    cells: tuple[int, int] = (12, 10)
+    cell: str = "quad4"
+    speed: float = 1.0
+    stroke: float = 0.3
+    slabs: int = 15
+    solver: sw.FixedPoint | sw.Newton = sw.FixedPoint()
+
+    @cached_property
+    def steps(self) -> tuple[sw.Step, ...]:
+        """The slabs of the stroke, ``stroke`` being the reduction of the height."""
+        supports = [sw.Fixed(on="bottom", components="y")]
+        if self.inner == 0.0:
+            supports.append(sw.Fixed(on="left", components="x"))
+        body = sw.Solid(
+            mesh=sw.Rectangle(size=(self.outer - self.inner, self.height), cells=self.cells, cell=self.cell),
+            place=sw.Placement(translation=(self.inner, 0.0)),
+            material=self.material,
+            density=1.0,
+            section=self.section,
+            dilatation="mean" if self.cell == "quad4" else "corner",
+            supports=tuple(supports),
+        )
+        platen = sw.Tool(
+            shape=sw.HalfSpace(point=(0.0, self.height), normal=(0.0, -1.0)),
+            motion=sw.Translation(velocity=(0.0, -self.speed)),
+        )
+        contact = sw.Contact(between=("body.top", "platen"), name="platen", friction=self.friction)
+        scene = sw.Scene(bodies={"body": body, "platen": platen}, contacts=(contact,), inertia=sw.Off())
+        until = self.stroke * self.height / self.speed
+        return tuple(sw.march(scene, until=until, step=until / self.slabs, method=self.solver))
+
+    @property
+    def reduction(self) -> Array:
+        """Reduction of the height in the middle of each slab."""
+        return np.array([0.5 * (s.before.time + s.after.time) for s in self.steps]) * self.speed / self.height
+
+    @property
+    def force(self) -> Array:
+        """Mean force of the platen in each slab."""
+        return np.array([s.ledger.contacts["platen"].force_n for s in self.steps])
+
+    def force_at(self, reduction: float) -> float:
+        """The force at a reduction, on a smooth curve through the means of the slabs but the first."""
+        fit = np.polynomial.Polynomial.fit(self.reduction[1:], self.force[1:], 4)
+        return float(fit(reduction))
+
+    def radius(self, side: str, height: str) -> float:
+        """Coordinate x of a corner at the end: ``side`` inner or outer, ``height`` middle or platen."""
+        place = np.array([self.outer if side == "outer" else self.inner, self.height * (height == "platen")])
+        rest = self.points
+        node = int(np.argmin(np.abs(rest - place).sum(axis=1)))
+        return float(rest[node, 0] + self.steps[-1].after.displacement["body"][node, 0])
+
+    @cached_property
+    def points(self) -> Array:
+        """Places of the nodes before the stroke."""
+        mesh = sw.Rectangle(size=(self.outer - self.inner, self.height), cells=self.cells, cell=self.cell).build()
+        return np.asarray(mesh.points + [self.inner, 0.0])
+
+    @property
+    def ledger_error(self) -> float:
+        """Greatest error of the energy balance over the stroke, relative to the work done."""
+        return max(abs(s.ledger.energy_error) for s in self.steps) / self.steps[-1].ledger.work_external
+
+    @property
+    def most_iterations(self) -> int:
+        """Most iterations that a slab takes."""
+        return max(s.report.iterations for s in self.steps)
