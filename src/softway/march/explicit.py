@@ -17,6 +17,7 @@ from softway.errors import InputError, NoConvergence
 from softway.march.control import require_slow
 from softway.march.massless import equations, outcome
 from softway.march.outcome import Outcome
+from softway.march.rub import first_impulses
 from softway.march.situation import Situation
 from softway.model import Model
 from softway.solve.carry import Carry
@@ -80,7 +81,7 @@ def solve_explicit(
     system = replace(equations(model, now, slab, pairs, None), balanced=False)
     central = replace(central, layer=central.layer.during(model.parts))
     q = np.where(model.free, np.where(model.massive[:, None], moving, 2.0 * start.velocity), system.given)
-    it, count = _settled(system, central, q, 0.5 * h * now.pressure, carry, method)
+    it, count = _settled(system, central, q, first_impulses(now, slab, system.path.rows), carry, method)
     end = _evaluated(system, it, model.load - push)
     solution = Solution(last=it, end=end, predicted=it.free, iterations=count, contraction=0.0)
     out = outcome(model, now, slab, system, solution, pairs.found)
@@ -90,10 +91,11 @@ def solve_explicit(
 
 
 def _settled(
-    system: SlabSystem, central: Central, q: Array, impulse: Array, carry: Carry, method: Explicit
+    system: SlabSystem, central: Central, q: Array, first: tuple[Array, BoolArray], carry: Carry, method: Explicit
 ) -> tuple[Iterate, int]:
     """The last iterate of the contact nodes on their way to equilibrium, and how many there were."""
-    active, scale = impulse != 0.0, float(np.abs(q).max(initial=1e-300))
+    impulse, active = first
+    scale = float(np.abs(q).max(initial=1e-300))
     carry = _prepared(system, central, system.path.end(q), carry)
     frozen, predicted = carry.frozen, q
     assert frozen is not None

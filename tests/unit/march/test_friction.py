@@ -135,3 +135,42 @@ def test_bars_refuse_friction():
     contact = sw.Contact(between=("bar.right", "wall"), friction=sw.Coulomb(mu=0.3))
     with pytest.raises(sw.InputError, match="friction in 1D"):
         sw.build(sw.Scene(bodies={"bar": bar, "wall": wall}, contacts=(contact,)))
+
+
+def colliding(force: sw.Weighted | sw.EnergyMomentum, material: sw.LinearElastic | sw.NeoHookean) -> sw.Scene:
+    """Two blocks that meet off centre and rub."""
+    meshes = {"lower": (4, (0.0, 0.0), -1.0), "upper": (5, (0.3, 1.01), 1.0)}
+    bodies = {
+        name: sw.Solid(
+            mesh=sw.Rectangle(size=(1.0, 1.0), cells=(cells, cells)),
+            material=material,
+            density=1.0,
+            velocity=sw.Uniform(value=(0.02 * sign, -0.1 * sign)),
+            place=sw.Placement(translation=place),
+            force=force,
+        )
+        for name, (cells, place, sign) in meshes.items()
+    }
+    return sw.Scene(bodies=bodies, contacts=(sw.Contact(between=("lower", "upper"), name="both", friction=DRY),))
+
+
+@pytest.mark.parametrize("law", [sw.LinearElastic(E=1.0, nu=0.3), sw.NeoHookean(E=1.0, nu=0.3)], ids=repr)
+def test_two_bodies_keep_energy_momentum_and_spin(law):
+    steps = list(sw.march(colliding(sw.EnergyMomentum(), law), until=4.0, step=0.1))
+    ledgers = [s.ledger for s in steps]
+    assert ledgers[-1].dissipation > 1e-4
+    assert max(abs(m.energy_error) for m in ledgers) < 1e-14
+    assert np.ptp([m.momentum for m in ledgers], axis=0).max() < 1e-13
+    assert np.ptp([m.spin for m in ledgers], axis=0).max() < 1e-13
+    for m in ledgers:
+        assert m.contacts["both"].force_t <= 0.3 * m.contacts["both"].force_n + 1e-12
+    assert {e.kind for s in steps for e in s.events} == {"touch", "release", "stick", "slip"}
+    assert not any(s.report.rejections for s in steps)
+
+
+def test_central_differences_lose_as_much_by_friction():
+    scene = colliding(sw.Weighted(), sw.NeoHookean(E=1.0, nu=0.3))
+    implicit = list(sw.march(scene, until=4.0, step=0.1))[-1].ledger
+    explicit = list(sw.march(scene, until=4.0, method=sw.Explicit()))[-1].ledger
+    assert explicit.dissipation == pytest.approx(implicit.dissipation, rel=0.1)
+    assert np.abs(explicit.momentum).max() < 1e-9
