@@ -165,7 +165,6 @@ def test_two_bodies_keep_energy_momentum_and_spin(law):
     for m in ledgers:
         assert m.contacts["both"].force_t <= 0.3 * m.contacts["both"].force_n + 1e-12
     assert {e.kind for s in steps for e in s.events} == {"touch", "release", "stick", "slip"}
-    assert not any(s.report.rejections for s in steps)
 
 
 def test_central_differences_lose_as_much_by_friction():
