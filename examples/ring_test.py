@@ -1,0 +1,95 @@
+"""The ring test of metal forming: force curves of upsetting, and the calibration curves of the friction.
+
+Run it with ``python examples/ring_test.py``.  A ring of 6 : 3 : 2 is pressed between platens; how its hole changes tells
+the friction.  It prints the change of the inner radius at a reduction of 30 per cent and draws ``demo/ring_test.png``,
+with the references of the verification cases E02 and E03 as points.
+"""
+
+import sys
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+
+import softway as sw
+
+mpl.use("Agg")
+import matplotlib.pyplot as plt
+
+ROOT = Path(__file__).resolve().parents[1]
+OUT = ROOT / "demo"
+sys.path.insert(0, str(ROOT / "tests" / "verification"))
+
+import results  # noqa: E402
+from forming import Press  # noqa: E402  the press of the verification cases
+
+ALPHAS = (0.05, 0.2, 0.5)
+INK = ("#1b6ca8", "#3a923a", "#b3443c")
+
+
+def ring(alpha: float) -> Press:
+    """Half of the ring, its consistency and rate sensitivity 1 and 0.2, with a friction of ``alpha K |v|^0.2``."""
+    return Press(
+        material=sw.NortonHoff(K=1.0, m=0.2),
+        inner=1.5,
+        outer=3.0,
+        height=1.0,
+        friction=sw.NortonHoffFriction(alpha=alpha, p=0.2, K=1.0),
+        cells=(16, 8),
+        slabs=24,
+    )
+
+
+def cylinder() -> Press:
+    """Half of the cylinder of E02."""
+    friction = sw.NortonHoffFriction(alpha=0.3, p=0.3, K=1.0)
+    return Press(material=sw.NortonHoff(K=1.0, m=0.3), outer=1.0, height=0.75, friction=friction, slabs=24)
+
+
+def inner_radius(press: Press) -> tuple[np.ndarray, np.ndarray]:
+    """Reduction, and inner radius in the plane of symmetry, after each slab."""
+    node = int(np.argmin(np.abs(press.points - [press.inner, 0.0]).sum(axis=1)))
+    reduction = [s.after.time * press.speed / press.height for s in press.steps]
+    return np.array(reduction), press.inner + np.array([s.after.displacement["body"][node, 0] for s in press.steps])
+
+
+def picture(rings: dict[float, Press], upset: Press, file: Path) -> None:
+    """Calibration curves and force curves side by side."""
+    fig, (left, right) = plt.subplots(1, 2, figsize=(9.6, 3.8), layout="constrained")
+    table = results.case("E03")["reference"]["table"]
+    for (alpha, press), ink in zip(rings.items(), INK, strict=True):
+        reduction, radius = inner_radius(press)
+        left.plot(100 * reduction, 100 * (radius / press.inner - 1.0), color=ink, label=rf"$\alpha$ = {alpha:g}")
+        points = np.array(table[str(alpha)])
+        left.plot(100 * points[:, 0], 100 * (points[:, 4] / press.inner - 1.0), "o", ms=3.5, color=ink)
+        right.plot(100 * press.reduction[1:], press.force[1:], color=ink)
+        right.plot(100 * points[:, 0], points[:, 1], "o", ms=3.5, color=ink)
+    left.axhline(0.0, color="0.7", lw=0.8, zorder=0)
+    left.set(xlabel="reduction of the height [%]", ylabel="change of the inner radius [%]", title="Ring test 6 : 3 : 2")
+    left.legend(frameon=False)
+    points = np.array(results.case("E02")["reference"]["fine_12x10x24"])
+    right.plot(100 * upset.reduction[1:], upset.force[1:], color="0.3", label="cylinder, E02")
+    right.plot(100 * points[:, 0], points[:, 1], "o", ms=3.5, color="0.3", label="references")
+    right.set(
+        xlabel="reduction of the height [%]", ylabel=r"force of the platen [$K\,s^{-m} m^2$]", title="Force", ylim=0.0
+    )
+    right.legend(frameon=False)
+    for ax in (left, right):
+        ax.spines[["top", "right"]].set_visible(False)
+    file.parent.mkdir(exist_ok=True)
+    fig.savefig(file, dpi=150)
+
+
+def main() -> int:
+    """Press the rings and the cylinder."""
+    rings = {alpha: ring(alpha) for alpha in ALPHAS}
+    for alpha, press in rings.items():
+        change = press.radius("inner", "middle") - press.inner
+        print(f"alpha = {alpha:4.2f}: inner radius {change:+.4f}, force {press.force_at(0.3):.2f}")
+    picture(rings, cylinder(), OUT / "ring_test.png")
+    print(f"picture: {OUT / 'ring_test.png'}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
