@@ -1,8 +1,8 @@
 """The ring test of metal forming: force curves of upsetting, and the calibration curves of the friction.
 
-Run it with ``python examples/ring_test.py``.  A ring of 6 : 3 : 2 is pressed between platens; how its hole changes tells
-the friction.  It prints the change of the inner radius at a reduction of 30 per cent and draws ``demo/ring_test.png``,
-with the references of the verification cases E02 and E03 as points.
+Run it with ``python examples/ring_test.py``.  A ring of 6 : 3 : 2 is pressed between platens; how its hole changes
+tells the friction.  It prints the change of the inner radius at a reduction of 30 per cent and draws
+``demo/ring_test.png``, with the references of the verification cases E02 and E03 as points.
 """
 
 import sys

@@ -8,6 +8,7 @@ from softway.contact.encounters import Pairs
 from softway.errors import InputError, TooFast
 from softway.march.situation import Situation
 from softway.model import Model
+from softway.solve.explicit import Explicit
 from softway.typing import Array
 
 SMALL_STRAIN = 1.0
@@ -80,3 +81,14 @@ def may_grow(model: Model, control: StepControl, length: float, before: Situatio
     jump = np.abs(after.acceleration - before.acceleration)[moving].max(axis=1, initial=0.0)
     error = 8.0 * length**2 / 12.0 * jump
     return bool((error <= control.growth * model.edge[moving]).all())
+
+
+def crushed(model: Model, method: object, u: Array) -> float:
+    """Share of the slab's length that is left to central differences as cells get shorter; 1 for other methods.
+
+    Waves cross the shortest edge of all cells in a time that falls with it; the slab was chosen for that at the start.
+    """
+    if not isinstance(method, Explicit) or model.linear:
+        return 1.0
+    ratios = [min(float(e.min()) for e in p.mesh.cell_edges(u[p.rows])) / p.mesh.edge() for p in model.parts]
+    return min(1.0, *ratios)

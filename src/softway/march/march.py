@@ -13,7 +13,7 @@ from softway.march.advance import Method, Rule, advance, rule
 from softway.march.begin import begin
 from softway.march.breakaway import breakaway
 from softway.march.certificate import certified, violation
-from softway.march.control import StepControl, may_grow
+from softway.march.control import StepControl, crushed, may_grow
 from softway.march.halt import halt
 from softway.march.ledger import audited, opening
 from softway.march.outcome import Outcome
@@ -154,6 +154,7 @@ def _steps(
         step = _step(model, now, before, found)
         yield step
         current, halted = _next(model, control, span, now, found), found.halted
+        current = min(current, span * crushed(model, rules.method, found.after.start.displacement))
         now, before, ledger, carry, closed = found.after, step.after, found.ledger, found.carry, found.closed
 
 

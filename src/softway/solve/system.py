@@ -227,9 +227,9 @@ class SlabSystem:
                     out[part.rows] = part.internal.discrete_gradient(u0[part.rows], u1[part.rows])
                 case _:
                     pass
-        viscous = viscous_force(self.model.parts, u1) if self.model.massive.any() else None
-        if viscous is not None:
-            before = 0.0 if self.start.viscous is None else self.start.viscous
+        before = self.start.viscous
+        viscous = None if before is None or not self.model.massive.any() else viscous_force(self.model.parts, u1)
+        if before is not None and viscous is not None:
             out = out + _first(self.weight) * (viscous - before)
         handed = viscous is not None or any(_chord(p.average) for p in self.model.parts)
         return self._handed_on(out, force) if handed else out

@@ -137,11 +137,11 @@ class Mesh:
             np.minimum.at(shortest, cells, lengths[:, None])
         return shortest
 
-    def cell_edges(self) -> tuple[Array, ...]:
-        """Shortest edge (e,) of each cell, kind by kind [m]."""
-        out = []
+    def cell_edges(self, moved: Array | float = 0.0) -> tuple[Array, ...]:
+        """Shortest edge (e,) of each cell, kind by kind, with the nodes ``moved`` (n, d) [m]."""
+        out, points = [], self.points + moved
         for name, cells in self.blocks.items():
-            ends = self.points[cells[:, np.array(CELLS[name].edges)]]
+            ends = points[cells[:, np.array(CELLS[name].edges)]]
             out.append(np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=-1).min(axis=1))
         return tuple(out)
 
