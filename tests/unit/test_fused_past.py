@@ -87,7 +87,11 @@ def test_kernels_agree_with_arrays(law: RateLaw, cell: str, section: Section) ->
 
 
 @pytest.mark.parametrize("name", ["hypoelastic", "linear", "both"])
-@pytest.mark.parametrize(("cell", "section"), BODIES, ids=lambda x: x if isinstance(x, str) else type(x).__name__)
+@pytest.mark.parametrize(
+    ("cell", "section"),
+    [b for b in BODIES if b[0] not in ("hex27", "tet10")],
+    ids=lambda x: x if isinstance(x, str) else type(x).__name__,
+)
 def test_mean_dilatation(name: str, cell: str, section: Section) -> None:
     mesh = irregular_patch(cell)
     body = rate_force(mesh, LAWS[name], section, "mean")
