@@ -1,5 +1,6 @@
 """softway: dynamic contact of solids, with the velocity as unknown and contact as a constraint on it."""
 
+from softway.bodies.amplitude import Ramp
 from softway.bodies.fields import Affine, FieldSum, OnTag, Profile, Uniform
 from softway.bodies.force import AverageField, DiscreteGradient, EnergyMomentum, Weighted
 from softway.bodies.inertia import Full, Off, Scaled
@@ -139,6 +140,7 @@ __all__ = [
     "PowerHardening",
     "Probe",
     "Profile",
+    "Ramp",
     "RateIndependent",
     "Rectangle",
     "RigidCylinder",

@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.sparse as sp
 
-from softway.bodies.dead_load import dead_load
+from softway.bodies.dead_load import DeadLoads, dead_load
 from softway.bodies.memory import Memory
-from softway.bodies.part import Part, held_components, initial, part_of
+from softway.bodies.part import Part, driven_components, initial, part_of
 from softway.bodies.part_mass import part_following, part_mass
 from softway.bodies.past import Memories, during, remembered_stress, remembering
 from softway.bodies.section import wave_speed
@@ -41,8 +41,11 @@ class Model:
         (n,) nodes with inertia.
     free
         (n, d) components without support.
-    load
-        (n, d) dead loads [N].
+    load, load_before
+        (n, d) dead loads of a slab [N]: on nodes with inertia their mean, on those without the ones at its end, and at
+        its start.
+    loads
+        How they change with time.
     weight
         (n,) mass that weighs, at its nodes [kg].
     displacement, velocity
@@ -74,6 +77,8 @@ class Model:
     massive: BoolArray
     free: BoolArray
     load: Array
+    load_before: Array
+    loads: DeadLoads
     weight: Array
     displacement: Array
     velocity: Array
@@ -130,6 +135,19 @@ class Model:
     def during(self, memory: Memories, span: float) -> "Model":
         """The model in a slab of length ``span`` [s]: bodies with a memory answer from it."""
         return replace(self, parts=during(self.parts, memory, span)) if remembering(self.parts) else self
+
+    def pushed(self, start: float, end: float) -> "Model":
+        """The model in a slab from ``start`` to ``end`` [s], under the loads of that time."""
+        if self.loads.steady:
+            return self
+        mean, still = self.loads.mean(start, end), ~self.massive[:, None]
+        before, after = (np.where(still, self.loads.at(t), mean) for t in (start, end))
+        return replace(self, load=after, load_before=before)
+
+    def slab_load(self, scalar: Array) -> Array:
+        """Loads (n, d) over the slab where the ends of nodes without inertia count by the scalars (parts,) [N]."""
+        a = self.nodal(np.asarray(scalar))
+        return (0.5 - a) * self.load_before + (0.5 + a) * self.load
 
     def split(self, field: Array) -> dict[str, Array]:
         """The field of each solid by name."""
@@ -214,6 +232,7 @@ def build(scene: Scene) -> Model:
     free = np.concatenate([held for _, _, held in fields])
     weights = np.asarray(weight.sum(axis=1)).ravel()
     displacement = np.concatenate([u for u, _, _ in fields]) * free
+    loads = dead_load(parts, weights, scene.loads, "loads")
     inertia = sp.csc_array(sp.kron(mass, sp.eye_array(free.shape[1]), format="csc"))
     return Model(
         scene=scene,
@@ -222,7 +241,9 @@ def build(scene: Scene) -> Model:
         follow=sp.csr_array(sp.block_diag(follow, format="csr")),
         massive=np.asarray(mass.diagonal()) > 0.0,
         free=free,
-        load=dead_load(parts, weights, scene.loads, "loads"),
+        load=loads.at(0.0),
+        load_before=loads.at(0.0),
+        loads=loads,
         weight=weights,
         displacement=displacement,
         velocity=np.concatenate([v for _, v, _ in fields]) * free,
@@ -230,7 +251,7 @@ def build(scene: Scene) -> Model:
         opponents=met.opponents,
         touchable=met.nodes,
         edge=np.concatenate([p.mesh.edges() for p in parts]),
-        driven=_driven(parts, solids, free.shape),
+        driven=driven_components(parts, solids, free.shape),
         floor=np.array([_floor(p) for p in parts]),
         total=sum_of(inertia, _tangent(parts, np.zeros_like(displacement)), free.ravel()),
         timing=timing,
@@ -246,21 +267,6 @@ def _parts(solids: Mapping[str, Solid]) -> tuple[Part, ...]:
     if len({p.mesh.dim for p in parts}) > 1:
         raise InputError("bodies", "solids of different space dimension in one scene", "meshes of one dimension")
     return tuple(parts)
-
-
-def _driven(
-    parts: Sequence[Part], solids: Mapping[str, Solid], shape: tuple[int, ...]
-) -> tuple[tuple[Driven, BoolArray], ...]:
-    """The driven supports with the components (n, d) that they move; a later support takes over from an earlier."""
-    found = []
-    for part in parts:
-        for k, support in enumerate(solids[part.name].supports):
-            if isinstance(support, Driven):
-                with within(f"bodies.{part.name}.supports[{k}]"):
-                    where = np.zeros(shape, bool)
-                    where[part.rows] = held_components(support, part.mesh)
-                found.append((support, where))
-    return tuple(found)
 
 
 def _tangent(parts: Sequence[Part], u: Array) -> sp.csc_array:

@@ -132,8 +132,8 @@ def test_loads_add_up() -> None:
     assert model.load[:15].sum(axis=0) == pytest.approx([0.0, -12.0])
     assert model.load[15:].sum(axis=0) == pytest.approx([0.5 * 2.0, -20.0])
     assert not model.load[~model.massive].any(), "gravity pulls the inertia"
-    np.testing.assert_array_equal(dead_load(model.parts, model.weight, loads, "loads"), model.load)
-    assert not dead_load(model.parts, model.weight, (), "loads").any()
+    np.testing.assert_array_equal(dead_load(model.parts, model.weight, loads, "loads").at(0.0), model.load)
+    assert not dead_load(model.parts, model.weight, (), "loads").at(0.0).any()
 
 
 def test_recipes_and_sections() -> None:

@@ -1,32 +1,63 @@
 """Dead loads as nodal forces of all solids."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
+from softway.bodies.amplitude import Ramp
 from softway.bodies.loads import Gravity, Load, Traction, traction_force
 from softway.bodies.part import Part
 from softway.errors import InputError, within
 from softway.typing import Array
 
 
-def dead_load(parts: Sequence[Part], weight: Array, loads: Sequence[Load], where: str) -> Array:
-    """Nodal forces (n, d) [N] of dead loads on solids whose nodes have the mass ``weight`` (n,) [kg].
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class DeadLoads:
+    """The dead loads of a scene: nodal forces (n, d) [N] at full strength, each with its ramp."""
+
+    fields: tuple[tuple[Ramp, Array], ...]
+    shape: tuple[int, int]
+
+    @property
+    def steady(self) -> bool:
+        """Whether none changes with time."""
+        return all(ramp.steady for ramp, _ in self.fields)
+
+    def at(self, time: float) -> Array:
+        """Their sum (n, d) at a time [N]."""
+        return self._sum([ramp.at(time) for ramp, _ in self.fields])
+
+    def mean(self, start: float, end: float) -> Array:
+        """The mean (n, d) of their sum from ``start`` to ``end`` [N]."""
+        return self._sum([ramp.mean(start, end) for ramp, _ in self.fields])
+
+    def _sum(self, factors: list[float]) -> Array:
+        out = np.zeros(self.shape)
+        for factor, (_, field) in zip(factors, self.fields, strict=True):
+            out += factor * field
+        return out
+
+
+def dead_load(parts: Sequence[Part], weight: Array, loads: Sequence[Load], where: str) -> DeadLoads:
+    """The dead loads on solids whose nodes have the mass ``weight`` (n,) [kg].
 
     Gravity acts on the inertia, so that massless nodes have no weight; ``where`` is the place of the loads in the
     scene, for errors.
     """
-    dim = parts[0].mesh.dim
-    out = np.zeros((len(weight), dim))
+    shape = (len(weight), parts[0].mesh.dim)
+    fields = []
     for k, item in enumerate(loads):
+        out = np.zeros(shape)
         with within(f"{where}[{k}]"):
             match item:
                 case Gravity():
-                    out += weight[:, None] * item.vector(dim)
+                    out += weight[:, None] * item.vector(shape[1])
                 case Traction():
                     part = _solid(parts, item.body, "on")
                     out[part.rows] += traction_force(part.mesh, part.internal.section, item.tag, item.value)
-    return out
+        fields.append((item.ramp, out))
+    return DeadLoads(fields=tuple(fields), shape=shape)
 
 
 def _solid(parts: Sequence[Part], name: str, where: str) -> Part:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softway.bodies.amplitude import Ramp
 from softway.bodies.fields import components
 from softway.bodies.section import Axisymmetric, Section
 from softway.errors import InputError
@@ -23,6 +24,8 @@ class Gravity:
     ----------
     acceleration
         A vector; a number in one dimension [m/s^2].
+    ramp
+        How it changes with time; constant by default.
 
     Examples
     --------
@@ -31,6 +34,7 @@ class Gravity:
     """
 
     acceleration: tuple[MetrePerSecondSquared, ...] | MetrePerSecondSquared
+    ramp: Ramp = Ramp()
 
     def vector(self, dim: int) -> Array:
         """Acceleration (d,) [m/s^2]."""
@@ -47,6 +51,8 @@ class Traction:
         ``body.tag``.
     value
         Force per area, its direction fixed; a number in one dimension [Pa].
+    ramp
+        How it changes with time; constant by default.
 
     Examples
     --------
@@ -57,6 +63,7 @@ class Traction:
 
     on: str
     value: tuple[Pascal, ...] | Pascal
+    ramp: Ramp = Ramp()
 
     @property
     def body(self) -> str:

@@ -1,5 +1,6 @@
 """One solid as arrays: its mesh in place, its internal force, its supports and initial fields."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,7 +14,7 @@ from softway.bodies.memory import Memory
 from softway.bodies.rate_force import RateForce, rate_force
 from softway.bodies.section import Section, default_section
 from softway.bodies.shock import Shock, shock_of
-from softway.bodies.solid import Solid, Support
+from softway.bodies.solid import Driven, Solid, Support
 from softway.errors import InputError, within
 from softway.laws.law import Material, RateLaw
 from softway.space.cells import CELLS
@@ -128,3 +129,18 @@ def held_components(support: Support, mesh: Mesh) -> BoolArray:
     for letter in letters:
         held[nodes, axes.index(letter)] = True
     return held
+
+
+def driven_components(
+    parts: Sequence[Part], solids: Mapping[str, Solid], shape: tuple[int, ...]
+) -> tuple[tuple[Driven, BoolArray], ...]:
+    """The driven supports with the components (n, d) that they move; a later support takes over from an earlier."""
+    found = []
+    for part in parts:
+        for k, support in enumerate(solids[part.name].supports):
+            if isinstance(support, Driven):
+                with within(f"bodies.{part.name}.supports[{k}]"):
+                    where = np.zeros(shape, bool)
+                    where[part.rows] = held_components(support, part.mesh)
+                found.append((support, where))
+    return tuple(found)

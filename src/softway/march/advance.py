@@ -96,7 +96,7 @@ def advance(
     NoConvergence, TooFast, Unbalanced
         If the method does not settle, the slab is too long for the approach, or the energy balance cannot be closed.
     """
-    model = rule.model.during(now.start.memory, slab.span)
+    model = rule.model.during(now.start.memory, slab.span).pushed(slab.start, slab.end)
     match rule.method:
         case Explicit() as method:
             assert rule.central is not None

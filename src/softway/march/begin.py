@@ -70,7 +70,7 @@ def _resting(model: Model) -> Rest:
     start, loads = model.scene.start, model.load
     if isinstance(start, StaticStart):
         require_supported(model)
-        loads = dead_load(model.parts, model.weight, start.loads, "start.loads") if start.loads else model.load
+        loads = dead_load(model.parts, model.weight, start.loads, "start.loads").at(0.0) if start.loads else model.load
     fits = any(c.start == "fit" for c in model.scene.contacts)
     if fits or (isinstance(start, StaticStart) and unheld(model)):
         apart = shrunk(model, u, OVERLAP * _reach(model, u))

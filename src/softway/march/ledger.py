@@ -58,7 +58,8 @@ def spin(model: Model, u: Array, v: Array) -> Array:
 def audited(model: Model, initial: Ledger, last: Ledger, before: Situation, out: Outcome, after: Situation) -> Ledger:
     """The ledger after a slab, continuing the one before it."""
     moved = after.start.displacement - before.start.displacement
-    work = last.work_external + float(np.sum(model.load * moved)) + out.work
+    load = out.system.model.slab_load(out.solution.end.scalar)
+    work = last.work_external + float(np.sum(load * moved)) + out.work
     lost = last.dissipation + out.dissipation + float(np.sum(out.solution.end.lost))
     lost += past.dissipated(model.parts, after.start.memory) - past.dissipated(model.parts, before.start.memory)
     kinetic = float(model.kinetic(after.start.velocity).sum())

@@ -73,7 +73,7 @@ class Outcome:
 def supports(model: Model, now: Situation, end: Evaluation, velocity: Array, push: Array, span: float) -> Array:
     """Mean force (n, d) of the supports on the nodes [N]; ``push`` (n, d) is that of contact."""
     inertia = model.mass @ ((velocity - now.start.velocity) / span)
-    return np.where(model.free, 0.0, inertia + end.mean_force - model.load - push)
+    return np.where(model.free, 0.0, inertia + end.mean_force - model.slab_load(end.scalar) - push)
 
 
 def contact_event(

@@ -113,6 +113,11 @@ class _Slab:
     def span(self) -> float:
         return self.end - self.now.time
 
+    @property
+    def load(self) -> Array:
+        """Mean loads (n, d) over the slab [N]."""
+        return self.rules.model.loads.mean(self.now.time, self.end)
+
     def displaced(self, q: Array) -> Array:
         """Displacement (n, d) at the end."""
         return self.now.displacement + 0.5 * self.span * (self.now.velocity + q)
@@ -133,7 +138,7 @@ class _Slab:
             mean = 0.5 * (np.maximum(self.before, 0.0) + depth)
             slope = np.where(depth > 0.0, 0.5, 0.0)
         h, push = self.span, rows.spread(rules.springs * mean, u.shape)
-        forces = 0.5 * (self.now.force + force) - rules.model.load - push
+        forces = 0.5 * (self.now.force + force) - self.load - push
         left = rules.model.mass @ (q - self.now.velocity) + h * forces
         return _Look(
             rows=rows,
@@ -228,6 +233,6 @@ def _arrived(slab: _Slab, q: Array, look: _Look) -> Pressed:
         force=look.force,
         pressure=look.pressure,
         energy=look.energy + float(model.kinetic(q).sum()),
-        work=now.work + tools + float(np.sum((model.load + look.reaction) * (u1 - now.displacement))),
+        work=now.work + tools + float(np.sum((slab.load + look.reaction) * (u1 - now.displacement))),
         gap=look.gap,
     )

@@ -128,7 +128,7 @@ def _energies(model: Model, ends: Ends, moving: Array) -> tuple[Array, Array, Ar
     """Missing work, its slope in a, and the rounding level (parts,)."""
     du = ends.u1 - ends.u0
     work = model.totals(ends.mean * moving)
-    still = model.totals(model.load * (du - moving))
+    still = model.totals(0.5 * (model.load_before + model.load) * (du - moving))
     slave = model.part_of[ends.rows0.node]
     n = len(model.parts)
     with np.errstate(invalid="ignore"):
@@ -137,10 +137,12 @@ def _energies(model: Model, ends: Ends, moving: Array) -> tuple[Array, Array, Ar
     driven = np.bincount(slave, weights=0.5 * (d0 + d1), minlength=n)
     num = ends.V1 - ends.V0 - work - still - driven
     den = model.totals((ends.f1 - ends.f0) * moving) + np.bincount(slave, weights=d1 - d0, minlength=n)
+    den = den + model.totals((model.load - model.load_before) * (du - moving))
     if ends.shear0 is not None:
         num, den = _rough(model, ends, moving)
     elif model.driven:
-        r0, r1 = (_held(model, f, rows, p) for f, rows, p in _both(ends))
+        loads = (model.load_before, model.load)
+        r0, r1 = (_held(model, f - q, rows, p) for (f, rows, p), q in zip(_both(ends), loads, strict=True))
         num = num - model.totals(0.5 * (r0 + r1) * du)
         den = den + model.totals((r1 - r0) * du)
     level = np.abs(ends.V1) + np.abs(ends.V0) + model.kinetic(ends.v0)
@@ -183,8 +185,8 @@ def _both(ends: Ends) -> tuple[tuple[Array, Candidates, Array], tuple[Array, Can
 
 
 def _held(model: Model, force: Array, rows: Candidates, push: Array) -> Array:
-    """Forces (n, d) of supports on components without inertia."""
-    out = force - model.load - rows.spread(push, model.shape)
+    """Forces (n, d) of supports on components without inertia, ``force`` (n, d) being the internal less the loads."""
+    out = force - rows.spread(push, model.shape)
     return np.where(model.free | model.massive[:, None], 0.0, out)
 
 
@@ -261,7 +263,8 @@ def _spin(model: Model, ends: Ends, members: BoolArray) -> _Spin:
     for k, (at, force) in enumerate(((ends.rows0, ends.shear0), (ends.rows1, ends.shear1))):
         if at.shear is not None and force is not None:
             tools[k] = tools[k] + at.shear.spread(np.where((rigid & at.near)[:, None], force, 0.0))
-    outer = (here & ~model.massive)[:, None] * (model.load + 0.5 * (tools[0] + tools[1]))
+    tools[0], tools[1] = tools[0] + model.load_before, tools[1] + model.load
+    outer = (here & ~model.massive)[:, None] * (0.5 * (tools[0] + tools[1]))
     torque = moment(x, np.where(inner[:, None], ends.mean, outer))
     change = np.where(inner[:, None], ends.f1 - ends.f0, (here & ~model.massive)[:, None] * (tools[1] - tools[0]))
     return _Spin(

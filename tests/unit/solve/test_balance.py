@@ -198,7 +198,7 @@ def test_a_body_that_is_not_deformed_needs_no_scalar() -> None:
     model = row_of_blocks(2, EnergyMomentum())
     e = ends(model, 0, size=0.0, touching=())
     moved = np.tile([0.3, -0.2], (len(model.points), 1))
-    light = replace(model, load=np.zeros(model.shape))
+    light = replace(model, load=np.zeros(model.shape), load_before=np.zeros(model.shape))
     found = closed(light, replace(e, u1=moved), fallback=False)
     assert found.scalar.tolist() == [0.0] * 4
     np.testing.assert_allclose(found.mean, 0.0, atol=1e-17)

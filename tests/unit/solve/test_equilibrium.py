@@ -18,7 +18,7 @@ from softway.space.shapes import rectangle
 
 
 def pulled(model: Model, acceleration: float | tuple[float, ...]) -> np.ndarray:
-    return dead_load(model.parts, model.weight, (Gravity(acceleration=acceleration),), "loads")
+    return dead_load(model.parts, model.weight, (Gravity(acceleration=acceleration),), "loads").at(0.0)
 
 
 def test_a_bar_under_its_weight(bar: Callable[..., Model]) -> None:

@@ -25,7 +25,8 @@ masses = pytest.mark.parametrize("mass", [Consistent(), Lumped()], ids=["consist
 @pytest.fixture(params=["free", "held"])
 def model(request: pytest.FixtureRequest, block: Callable[..., Model]) -> Model:
     model = block(timing=Impulse(), supports=(Fixed(on="left"),) if request.param == "held" else ())
-    return replace(model, load=np.random.default_rng(7).normal(size=model.shape))
+    load = np.random.default_rng(7).normal(size=model.shape)
+    return replace(model, load=load, load_before=load)
 
 
 def rows(model: Model) -> Candidates:

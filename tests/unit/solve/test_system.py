@@ -179,8 +179,8 @@ def test_loads_and_known_impulses_enter_the_balance(block: Callable[..., Model])
     np.testing.assert_allclose(evaluated(replace(s, impulses=kick), q).residual, plain - kick, atol=1e-14)
     jumped = evaluated(replace(s, unbalanced=jump), q).residual
     np.testing.assert_allclose(jumped, plain - model.mass @ jump, atol=1e-14)
-    load = dead_load(model.parts, model.weight, (Gravity(acceleration=(0.0, -1.0)),), "loads")
-    heavy = replace(s, model=replace(model, load=load))
+    load = dead_load(model.parts, model.weight, (Gravity(acceleration=(0.0, -1.0)),), "loads").at(0.0)
+    heavy = replace(s, model=replace(model, load=load, load_before=load))
     np.testing.assert_allclose(evaluated(heavy, q).residual, plain - 0.3 * load, atol=1e-14)
 
 
