@@ -215,10 +215,7 @@ def build(scene: Scene) -> Model:
     InputError
         Naming the place in the scene: a tag that matches nothing, a body that does not exist, mixed dimensions.
     """
-    solids = {n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}
-    if not solids:
-        raise InputError("bodies", "no Solid among them", "at least one body of kind Solid")
-    timing, factor = _timing(scene), scene.inertia.factor
+    solids, timing, factor = _solids(scene), _timing(scene), scene.inertia.factor
     parts = _parts(solids)
     met = pairing(scene.contacts, scene.bodies, parts)
     light = met.nodes if isinstance(timing, Energy) and factor > 0.0 else np.zeros(0, int)
@@ -257,6 +254,13 @@ def build(scene: Scene) -> Model:
         timing=timing,
         rubbing=met.rubbing,
     )
+
+
+def _solids(scene: Scene) -> dict[str, Solid]:
+    solids = {n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}
+    if not solids:
+        raise InputError("bodies", "no Solid among them", "at least one body of kind Solid")
+    return solids
 
 
 def _parts(solids: Mapping[str, Solid]) -> tuple[Part, ...]:

@@ -129,8 +129,7 @@ def _energies(model: Model, ends: Ends, moving: Array) -> tuple[Array, Array, Ar
     du = ends.u1 - ends.u0
     work = model.totals(ends.mean * moving)
     still = model.totals(0.5 * (model.load_before + model.load) * (du - moving))
-    slave = model.part_of[ends.rows0.node]
-    n = len(model.parts)
+    slave, n = model.part_of[ends.rows0.node], len(model.parts)
     with np.errstate(invalid="ignore"):
         d0 = np.where(ends.force0 > 0.0, ends.force0 * ends.rows0.drive, 0.0)
         d1 = np.where(ends.force1 > 0.0, ends.force1 * ends.rows1.drive, 0.0)
