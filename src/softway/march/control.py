@@ -4,12 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softway.bodies.part import Part
 from softway.contact.encounters import Pairs
 from softway.errors import InputError, TooFast
+from softway.kernels.shortest import shortest
 from softway.march.situation import Situation
 from softway.model import Model
 from softway.solve.explicit import Explicit
-from softway.typing import Array
+from softway.typing import Array, IntArray
 
 SMALL_STRAIN = 1.0
 """Approach in edges that bodies of small strain may have at least: their cells cannot be crushed."""
@@ -83,12 +85,22 @@ def may_grow(model: Model, control: StepControl, length: float, before: Situatio
     return bool((error <= control.growth * model.edge[moving]).all())
 
 
-def crushed(model: Model, method: object, u: Array) -> float:
-    """Share of the slab's length that is left to central differences as cells get shorter; 1 for other methods.
-
-    Waves cross the shortest edge of all cells in a time that falls with it; the slab was chosen for that at the start.
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Crushing:
+    """What central differences watch: the edges (e, 2) of each solid whose cells may get shorter, and its shortest one
+    at rest [m].
     """
+
+    edges: tuple[tuple[Part, IntArray, float], ...]
+
+    def share(self, u: Array) -> float:
+        """Share of the slab's length that is left at the displacement u (n, d), as waves cross shorter edges sooner."""
+        ratios = [shortest(p.mesh.points, u[p.rows], ends) / first for p, ends, first in self.edges]
+        return min([1.0, *ratios])
+
+
+def crushing(model: Model, method: object) -> Crushing:
+    """The :class:`Crushing` of a march; empty for methods other than central differences, and small strain."""
     if not isinstance(method, Explicit) or model.linear:
-        return 1.0
-    ratios = [min(float(e.min()) for e in p.mesh.cell_edges(u[p.rows])) / p.mesh.edge() for p in model.parts]
-    return min(1.0, *ratios)
+        return Crushing(edges=())
+    return Crushing(edges=tuple((p, p.mesh.edge_ends(), p.mesh.edge()) for p in model.parts))

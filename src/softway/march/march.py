@@ -13,7 +13,7 @@ from softway.march.advance import Method, Rule, advance, rule
 from softway.march.begin import begin
 from softway.march.breakaway import breakaway
 from softway.march.certificate import certified, violation
-from softway.march.control import StepControl, crushed, may_grow
+from softway.march.control import StepControl, crushing, may_grow
 from softway.march.halt import halt
 from softway.march.ledger import audited, opening
 from softway.march.outcome import Outcome
@@ -144,7 +144,7 @@ def _steps(
     model = rules.model
     initial = ledger = opening(model, now)
     carry, current, before, closed = Carry(), span, parted(model, now), False
-    halted = False
+    halted, watch = False, crushing(model, rules.method)
     while now.time < until - 1e-9 * span:
         length = min(current, until - now.time)
         length = until - now.time if until - now.time - length < control.least * span else length
@@ -154,7 +154,7 @@ def _steps(
         step = _step(model, now, before, found)
         yield step
         current, halted = _next(model, control, span, now, found), found.halted
-        current = min(current, span * crushed(model, rules.method, found.after.start.displacement))
+        current = min(current, span * watch.share(found.after.start.displacement))
         now, before, ledger, carry, closed = found.after, step.after, found.ledger, found.carry, found.closed
 
 

@@ -121,8 +121,8 @@ def _solved(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
         return x, np.zeros(0, bool)
     for _ in range(ROUNDS):
         best, since, factor, before, known = np.inf, 0, None, np.inf, b""
+        look = looked(problem, x)
         for _ in range(NEWTON):
-            look = looked(problem, x)
             size = _size(problem, x, look)
             best, since = (look.worst, 0) if look.worst < 0.5 * best else (best, since + 1)
             if look.worst <= SETTLED * size or (since >= 3 and look.worst <= 1e3 * SETTLED * size):
@@ -133,20 +133,23 @@ def _solved(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
             step, before = lu_solve(factor, look.missed, check_finite=False), look.worst
             if not np.isfinite(step).all():
                 break
-            x = _searched(problem, x, step, look)
+            x, look = _searched(problem, x, step, look)
         x = swept(problem, np.nan_to_num(x), SWEEPS)
     raise NoConvergence(f"friction of {problem.count} contact rows leaves {look.worst:.1e} of {size:.1e}")
 
 
-def _searched(problem: Touching, x: Array, step: Array, look: Look) -> Array:
-    """The multipliers after a step, halved while they miss more than before; whole if halving does not help."""
+def _searched(problem: Touching, x: Array, step: Array, look: Look) -> tuple[Array, Look]:
+    """The multipliers after a step, halved while they miss more than before, or whole if that is no help; the look."""
     now, share = float(np.linalg.norm(look.missed)), 1.0
+    whole = x - step, looked(problem, x - step)
+    new, found = whole
     for _ in range(HALVINGS):
-        new = x - share * step
-        if float(np.linalg.norm(looked(problem, new).missed)) <= (1.0 - 0.1 * share) * now:
-            return new
+        if float(np.linalg.norm(found.missed)) <= (1.0 - 0.1 * share) * now:
+            return new, found
         share *= 0.5
-    return x - step
+        new = x - share * step
+        found = looked(problem, new)
+    return whole
 
 
 def _size(problem: Touching, x: Array, look: Look) -> float:

@@ -137,11 +137,16 @@ class Mesh:
             np.minimum.at(shortest, cells, lengths[:, None])
         return shortest
 
-    def cell_edges(self, moved: Array | float = 0.0) -> tuple[Array, ...]:
-        """Shortest edge (e,) of each cell, kind by kind, with the nodes ``moved`` (n, d) [m]."""
-        out, points = [], self.points + moved
+    def edge_ends(self) -> IntArray:
+        """Corners (e, 2) that edges join, each pair once."""
+        pairs = [cells[:, np.array(CELLS[name].edges)].reshape(-1, 2) for name, cells in self.blocks.items()]
+        return np.unique(np.sort(np.concatenate(pairs), axis=1), axis=0)
+
+    def cell_edges(self) -> tuple[Array, ...]:
+        """Shortest edge (e,) of each cell, kind by kind [m]."""
+        out = []
         for name, cells in self.blocks.items():
-            ends = points[cells[:, np.array(CELLS[name].edges)]]
+            ends = self.points[cells[:, np.array(CELLS[name].edges)]]
             out.append(np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=-1).min(axis=1))
         return tuple(out)
 

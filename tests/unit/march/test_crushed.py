@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import softway as sw
-from softway.march.control import crushed
+from softway.march.control import crushing
 
 
 def bar(law: object, speed: float) -> sw.Scene:
@@ -24,10 +24,10 @@ def test_the_share_is_that_of_the_shortest_edge() -> None:
     model = sw.build(bar(sw.NeoHookean(E=1.0), 0.0))
     u = np.zeros(model.shape)
     u[5:] = -0.04
-    assert crushed(model, sw.Explicit(), u) == pytest.approx(0.6)
-    assert crushed(model, sw.Explicit(), -u) == 1.0
-    assert crushed(model, sw.FixedPoint(), u) == 1.0
-    assert crushed(sw.build(bar(sw.LinearElastic(E=1.0), 0.0)), sw.Explicit(), u) == 1.0
+    assert crushing(model, sw.Explicit()).share(u) == pytest.approx(0.6)
+    assert crushing(model, sw.Explicit()).share(-u) == 1.0
+    assert crushing(model, sw.FixedPoint()).share(u) == 1.0
+    assert crushing(sw.build(bar(sw.LinearElastic(E=1.0), 0.0)), sw.Explicit()).share(u) == 1.0
 
 
 def test_a_plastic_bar_is_crushed_to_the_end() -> None:
