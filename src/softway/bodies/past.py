@@ -57,6 +57,17 @@ def viscous_force(parts: Sequence[Part], u: Array) -> Array | None:
     )
 
 
+def remembered_viscous(parts: Sequence[Part], memories: Memories) -> Array | None:
+    """:func:`viscous_force` of the slab that left the memories, (n, d) [N]: nothing is asked of the laws again."""
+    found = [
+        p.internal.remembered(m)[2]
+        if isinstance(p.internal, RateForce) and m is not None and m.viscous is not None
+        else None
+        for p, m in zip(parts, known(parts, memories), strict=True)
+    ]
+    return _joined(parts, found)
+
+
 def remembered(parts: Sequence[Part], memories: Memories, u: Array) -> tuple[Array, Array, Array | None]:
     """Stored energy (parts,) [J], force (n, d) and its viscous part [N] at the time of the memories."""
     found: list[tuple[float, Array, Array | None]] = []

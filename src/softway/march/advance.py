@@ -110,7 +110,7 @@ def advance(
         raise Unbalanced("the scalar that closes the energy balance leaves [-1/2, 1/2]")
     after = Situation(
         time=slab.end,
-        start=_arrived(model, now.start, out),
+        start=_arrived(model, out),
         acceleration=out.acceleration,
         closed=out.closed,
         pressure=out.pressure,
@@ -120,7 +120,7 @@ def advance(
     return after, out, carry
 
 
-def _arrived(model: Model, first: Start, out: Outcome) -> Start:
+def _arrived(model: Model, out: Outcome) -> Start:
     """What the slab after starts from."""
     end = out.solution.end
     memory = past.settled(model.parts, end.displacement)
@@ -130,7 +130,7 @@ def _arrived(model: Model, first: Start, out: Outcome) -> Start:
         force=end.force,
         energy=past.stored(model.parts, memory, end.energy),
         memory=memory,
-        viscous=None if first.viscous is None else past.viscous_force(model.parts, end.displacement),
+        viscous=past.remembered_viscous(model.parts, memory),
     )
 
 

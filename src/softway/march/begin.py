@@ -51,7 +51,7 @@ def begin(model: Model, span: float = 1.0) -> Situation:
             force=force,
             energy=past.stored(model.parts, memory, energy),
             memory=memory,
-            viscous=past.viscous_force(model.parts, u),
+            viscous=past.remembered_viscous(model.parts, memory),
         ),
         acceleration=np.zeros(model.shape),
         closed=pressure > 0.0,
