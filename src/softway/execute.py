@@ -1,9 +1,13 @@
 """Execute: a scenario checked, marched and recorded, in one call."""
 
 import tomllib
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 
+from softway.bodies.part import Part
+from softway.bodies.past import remembered_scalars
+from softway.contact.tractions import Spread, spread
 from softway.errors import InputError
 from softway.march.begin import begin
 from softway.march.ledger import opening as audit
@@ -63,6 +67,8 @@ def run(
         scene=model.scene,
         meshes=model.meshes,
         stresses={name: partial(_stress, model, name) for name in model.meshes},
+        remembered={part.name: partial(_remembered, part) for part in model.parts},
+        spread=partial(_spread, model, spread(model.scene.contacts, model.parts)) if model.scene.contacts else None,
         touching={label: met.node[met.of(k)] for k, label in enumerate(met.labels)},
         initial=initial,
         ledger=audit(model, start),
@@ -88,6 +94,16 @@ def run(
 def _stress(model: Model, name: str, state: State) -> Array:
     """Mean Cauchy stress (cells, 3, 3) of a solid [Pa]."""
     return model.stress(name, state.displacement[name], state.memory.get(name))
+
+
+def _remembered(part: Part, state: State) -> Mapping[str, Array]:
+    """What the cells of a solid remember, arrays (cells,) by name."""
+    return remembered_scalars(part, state.memory.get(part.name))
+
+
+def _spread(model: Model, surfaces: Spread, state: State, force: Array) -> Array:
+    """Contact forces (n, k) of the nodes [N] per present area, (n, k) [Pa]."""
+    return surfaces.at(model.join(state.displacement), force)
 
 
 def _every(scenario: Scenario) -> float:

@@ -87,6 +87,13 @@ def remembered_stress(part: Part, u: Array, memory: Memory | None) -> Array:
     return part.internal.remembered_stress(memory)
 
 
+def remembered_scalars(part: Part, memory: Memory | None) -> dict[str, Array]:
+    """What a memory of a solid holds for each cell (e,) by name; nothing where it has none."""
+    if memory is None or not isinstance(part.internal, RateForce):
+        return {}
+    return part.internal.remembered_scalars(memory)
+
+
 def _joined(parts: Sequence[Part], fields: list[Array | None]) -> Array | None:
     """The field (n, d) of those of the solids, zero where a solid has none; None if none has."""
     if all(f is None for f in fields):

@@ -133,6 +133,14 @@ class RateForce:
         F = self.points.gradient(self.sampling.derivatives(memory.displacement), memory.lateral)
         return self.sampling.cell_means(memory.stress, tensors.determinant(F) * self.sampling.volume)
 
+    def remembered_scalars(self, memory: Memory) -> dict[str, Array]:
+        """What a memory holds for each cell (e,), means over its reference volume: ``dissipation`` since the start
+        [J/m^3] and every scalar of the law.
+        """
+        scalars = {name: values for name, values in memory.law.items() if values.ndim == 1}
+        found = {**scalars, "dissipation": memory.dissipated}
+        return {name: self.sampling.cell_means(values, self.sampling.volume) for name, values in found.items()}
+
     def volume_ratio(self, u: Array) -> float:
         """Least det F over all points; zero or less where matter is inverted."""
         H = self.sampling.derivatives(u)

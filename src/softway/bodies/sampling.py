@@ -78,11 +78,11 @@ class Sampling:
         return self.pattern.assemble(blocks)
 
     def cell_means(self, values: Array, weight: Array) -> Array:
-        """Means (e, 3, 3) over each cell of values (p, 3, 3) at its points, by a weight (p,)."""
+        """Means (e, ...) over each cell of values (p, ...) at its points, by a weight (p,)."""
         points_of = np.concatenate([np.full(len(G), G.shape[1]) for G in self.rows])
         starts = np.cumsum(points_of) - points_of
-        total = np.add.reduceat(weight[:, None, None] * values, starts)
-        return np.asarray(total / np.add.reduceat(weight, starts)[:, None, None])
+        total = np.add.reduceat((weight * values.T).T, starts)
+        return np.asarray((total.T / np.add.reduceat(weight, starts)).T)
 
 
 def diagonal_blocks(matrix: csc_array, shape: tuple[int, int]) -> Array:

@@ -40,7 +40,7 @@ def rubbing(
         k = int(contact[start]) if len(method.node) else 0
         beside = any(isinstance(m, Mortar) for m in _of(contact, methods, k)) and not isinstance(method, Mortar)
         if not beside and len(rows):
-            patches.append(Patch(rows=rows, node=method.node, surfaces=_surfaces(contacts[k], parts)))
+            patches.append(Patch(rows=rows, node=method.node, surfaces=surfaces_of(contacts[k], parts)))
         start += len(rows)
     none = np.zeros(sum(p.mesh.n_nodes for p in parts) * parts[0].mesh.dim).reshape(-1, parts[0].mesh.dim)
     laws = tuple(c.friction for c in contacts)
@@ -54,7 +54,7 @@ def _of(contact: IntArray, methods: Sequence[NodesOnTool | Surfaces], k: int) ->
     return [m for m, s in zip(methods, starts, strict=True) if len(m.node) and contact[s] == k]
 
 
-def _surfaces(contact: Contact, parts: Sequence[Part]) -> tuple[Surface, ...]:
+def surfaces_of(contact: Contact, parts: Sequence[Part]) -> tuple[Surface, ...]:
     """The declared surfaces of a contact."""
     return tuple(
         Surface(

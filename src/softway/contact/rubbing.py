@@ -24,6 +24,14 @@ class Surface:
     facets: Mapping[str, IntArray]
 
 
+def around(surfaces: Sequence[Surface], u: Array) -> Array:
+    """Area (n,) of surfaces around each node of the model at its displacement u (n, d) [m^2]."""
+    out = np.zeros(len(u))
+    for it in surfaces:
+        out[it.nodes] += facets_measure(it.points + u[it.nodes], it.section, it.facets)
+    return out
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Patch:
     """Numbers of ``rows`` (r,) with a surface around them: their ``node`` (r,), and the surfaces of their contact."""
@@ -65,10 +73,7 @@ class Rubbing:
         """The same with the areas that the rows have at the displacement u (n, d) [m]."""
         area = np.zeros(len(self.contact))
         for patch in self.patches:
-            around = np.zeros(len(u))
-            for it in patch.surfaces:
-                around[it.nodes] += facets_measure(it.points + u[it.nodes], it.section, it.facets)
-            area[patch.rows] = around[patch.node]
+            area[patch.rows] = around(patch.surfaces, u)[patch.node]
         return replace(self, area=np.maximum(area, POINT * float(area.max(initial=0.0))) if area.any() else area + 1.0)
 
     def part(self, which: IntArray) -> "Rubbing":

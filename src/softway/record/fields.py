@@ -27,6 +27,9 @@ from softway.typing import Array
 FILE = "fields.vtkhdf"
 POINT_DATA = {"displacement": "m", "velocity": "m/s", "contact_force": "N"}
 CELL_DATA = {"stress": "Pa", "von_mises": "Pa"}
+"""Names and units of what every frame holds."""
+MORE = {"contact_pressure": "Pa", "tangential_traction": "Pa", "dissipation": "J/m^3"}
+"""Units of what a frame holds where there is contact, friction, or a law with a history; other fields have none."""
 PACKED = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
 CHUNK = 65536
 SIZES = ("NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds")
@@ -56,24 +59,48 @@ def open_fields(folder: Path, opening: Opening) -> Frames:
     """Start ``fields.vtkhdf`` with the cells and the frame of the initial situation."""
     cells = layout(opening.meshes, opening.touching)
     file = h5py.File(folder / FILE, "w", locking=False)
-    _write_cells(file, cells, opening.scene)
-    _append(file, cells.reference, _frame(cells, opening, opening.initial), opening.initial.time)
+    first = _frame(cells, opening, opening.initial)
+    _write_cells(file, cells, opening.scene, first)
+    _append(file, cells.reference, first, opening.initial.time)
     return Frames(file=file, layout=cells, opening=opening)
 
 
 def _frame(cells: Layout, opening: Opening, state: State) -> dict[str, dict[str, Array]]:
     stress = np.concatenate([opening.stresses[name](state) for name in cells.names])
+    force = cells.forces(state.pressure)
     return {
         "PointData": {
+            **_tractions(cells, opening, state, force),
             "displacement": cells.nodal(state.displacement),
             "velocity": cells.nodal(state.velocity),
-            "contact_force": cells.forces(state.pressure),
+            "contact_force": force,
         },
-        "CellData": {"stress": components(stress), "von_mises": von_mises(stress)},
+        "CellData": {**_past(cells, opening, state), "stress": components(stress), "von_mises": von_mises(stress)},
     }
 
 
-def _write_cells(file: h5py.File, cells: Layout, scene: Scene) -> None:
+def _tractions(cells: Layout, opening: Opening, state: State, force: Array) -> dict[str, Array]:
+    """Contact pressure (n,) and, with friction, tangential traction (n, 3) [Pa]."""
+    if opening.spread is None:
+        return {}
+    if not state.traction:
+        return {"contact_pressure": opening.spread(state, force[:, None])[:, 0]}
+    found = opening.spread(state, np.column_stack([force, cells.tangential(state.traction)]))
+    return {"contact_pressure": found[:, 0], "tangential_traction": found[:, 1:]}
+
+
+def _past(cells: Layout, opening: Opening, state: State) -> dict[str, Array]:
+    """What cells remember (e,) by name, zero in solids that do not."""
+    found = [opening.remembered[name](state) if name in opening.remembered else {} for name in cells.names]
+    counts = [mesh.n_cells for mesh in opening.meshes.values()]
+    names = dict.fromkeys(name for one in found for name in one if name.isidentifier())
+    return {
+        name: np.concatenate([one.get(name, np.zeros(n)) for one, n in zip(found, counts, strict=True)])
+        for name in names
+    }
+
+
+def _write_cells(file: h5py.File, cells: Layout, scene: Scene, first: Mapping[str, Mapping[str, Array]]) -> None:
     """Everything that stays the same, and empty series for everything that changes."""
     n, e = len(cells.reference), len(cells.types)
     root = file.create_group("VTKHDF")
@@ -90,10 +117,10 @@ def _write_cells(file: h5py.File, cells: Layout, scene: Scene) -> None:
         _series(steps, name, (), 1, dtype=np.int64)
     for name in ("CellOffsets", "ConnectivityIdOffsets"):
         _series(steps, name, (1,), 1, dtype=np.int64)
-    for group, units, rows in (("PointData", POINT_DATA, n), ("CellData", CELL_DATA, e)):
-        for name, unit in units.items():
-            shape = {"displacement": (3,), "velocity": (3,), "stress": (6,)}.get(name, ())
-            _series(root.require_group(group), name, shape, rows, unit)
+    units = {**MORE, **POINT_DATA, **CELL_DATA}
+    for group, rows in (("PointData", n), ("CellData", e)):
+        for name, data in first[group].items():
+            _series(root.require_group(group), name, data.shape[1:], rows, units.get(name, ""))
             _series(steps.require_group(f"{group}Offsets"), name, (), 1, dtype=np.int64)
     root["CellData/body"] = cells.body.astype(np.int32)
     _series(steps["CellDataOffsets"], "body", (), 1, dtype=np.int64)

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -82,6 +82,9 @@ class Frame:
         (n,) normal force of the obstacles [N].
     stress, von_mises
         (e, 6) mean Cauchy stress of the cells, xx yy zz xy yz xz, and (e,) its equivalent [Pa].
+    more
+        What else the run has recorded, by name: ``contact_pressure`` (n,) and ``tangential_traction`` (n, 3) [Pa],
+        ``plastic_strain`` and other scalars (e,) that a law remembers, ``dissipation`` (e,) [J/m^3].
     """
 
     time: float
@@ -91,6 +94,20 @@ class Frame:
     contact_force: Array
     stress: Array
     von_mises: Array
+    more: Mapping[str, Array] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> Array:
+        """A field by its name."""
+        return self.more[name] if name in self.more else np.asarray(getattr(self, name))
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A field lives ``on`` "nodes" or "cells", has a ``unit`` (empty for numbers) and 1, 3 or 6 ``components``."""
+
+    on: str
+    unit: str
+    components: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -118,9 +135,22 @@ class Fields:
                 raise IndexError(f"frame {k} of {count}")
             n, e = (int(root[name][0]) for name in SIZES[:2])
             at, k = slice(k % count * n, (k % count + 1) * n), k % count
-            point = {name: root["PointData"][name][at] for name in POINT_DATA}
-            cell = {name: root["CellData"][name][k * e : (k + 1) * e] for name in CELL_DATA}
-            return Frame(time=float(root["Steps/Values"][k]), points=root["Points"][at], **point, **cell)
+            point = {name: data[at] for name, data in root["PointData"].items()}
+            cell = {name: d[k * e : (k + 1) * e] for name, d in root["CellData"].items() if name != "body"}
+            data = {**point, **cell}
+            always = {name: data.pop(name) for name in (*POINT_DATA, *CELL_DATA)}
+            return Frame(time=float(root["Steps/Values"][k]), points=root["Points"][at], **always, more=data)
+
+    @property
+    def kinds(self) -> dict[str, Kind]:
+        """Where every field lives and what its unit is, by name."""
+        with reading(self.path) as file:
+            return {
+                name: Kind(on=on, unit=str(data.attrs.get("unit", "")), components=int(np.prod(data.shape[1:])))
+                for on, group in (("nodes", "PointData"), ("cells", "CellData"))
+                for name, data in file["VTKHDF"][group].items()
+                if name != "body"
+            }
 
     @property
     def times(self) -> Array:
@@ -153,11 +183,9 @@ class Fields:
             raise InputError("fields", "PyVista is not installed", "pip install pyvista") from None
         frame, cells = self[k], self.cells
         grid = pyvista.UnstructuredGrid(_padded(cells), cells.types.astype(np.uint8), frame.points)
-        for name in POINT_DATA:
-            grid.point_data[name] = getattr(frame, name)
-        data: dict[str, Any] = {name: getattr(frame, name) for name in CELL_DATA}
-        for name, values in {**data, "body": cells.body}.items():
-            grid.cell_data[name] = values
+        for name, kind in self.kinds.items():
+            (grid.point_data if kind.on == "nodes" else grid.cell_data)[name] = frame[name]
+        grid.cell_data["body"] = cells.body
         return grid
 
 

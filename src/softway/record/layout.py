@@ -69,6 +69,13 @@ class Layout:
             np.add.at(out, points, pressure[name])
         return out
 
+    def tangential(self, traction: Mapping[str, Array]) -> Array:
+        """Tangential contact force (n, 3) on the slave points from that of the rows (m, d) [N]."""
+        out = np.zeros((len(self.reference), 3))
+        for name, points in self.touching.items():
+            np.add.at(out[:, : self.dimension], points, traction[name])
+        return out
+
 
 def layout(meshes: Mapping[str, Mesh], touching: Mapping[str, IntArray]) -> Layout:
     """The layout of solids, and the points that may touch in each contact."""

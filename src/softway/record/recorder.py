@@ -1,7 +1,7 @@
 """What every recorder is given at the start, and what it must be able to do."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
@@ -28,6 +28,10 @@ class Opening:
         Contact -> (m,) slave node of each of its rows, numbered over all solids in order.
     initial, ledger
         Situation and audit at the start.
+    remembered
+        Solid -> function from a state to what its cells remember, arrays (e,) by name; empty where there is none.
+    spread
+        Function from a state and contact forces (n, k) of all nodes [N] to force per present area (n, k) [Pa].
     until
         End of the march [s].
     fields_every
@@ -45,6 +49,8 @@ class Opening:
     until: float
     fields_every: float
     readings: tuple[Reading, ...] = ()
+    remembered: Mapping[str, Callable[[State], Mapping[str, Array]]] = field(default_factory=dict)
+    spread: Callable[[State, Array], Array] | None = None
 
 
 class Recorder(Protocol):
