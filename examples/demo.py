@@ -16,16 +16,14 @@ from scipy.optimize import brentq
 
 import softway as sw
 from softway.record.view import pictures
+from softway.verify.exact import semidiscrete
+from softway.verify.exact.thrown import Thrown
 
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "demo"
-sys.path.insert(0, str(ROOT / "tests" / "verification"))
-
-import semidiscrete  # noqa: E402  the exact solutions of the tests
-from exact_thrown import Thrown  # noqa: E402
 
 CONSOLE = Console(width=100)
 GAP = 0.25

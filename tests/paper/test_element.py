@@ -8,27 +8,27 @@ and what remains is solved by every wave of d'Alembert.  The element sits on its
 import numpy as np
 import pytest
 
-import exact_bar as waves
-import runs
 import softway as sw
-from results import HAT
+from softway.verify.cases.a06 import HAT
+from softway.verify.exact import bar as waves
+from softway.verify.scenes import bars
 
-WALL = sw.HalfSpace(point=1.0 + runs.OUT_OF_REACH, normal=-1.0)
+WALL = sw.HalfSpace(point=1.0 + bars.OUT_OF_REACH, normal=-1.0)
 meshes = pytest.mark.parametrize("cells", [10, 20])
 
 
-def free_motion(cells: int, bar: sw.Solid, until: float) -> runs.Record:
+def free_motion(cells: int, bar: sw.Solid, until: float) -> bars.Record:
     """The march with h = edge / c."""
-    return runs.run(bar, WALL, sw.Impulse(), until=until, step=1.0 / cells, weight=sw.Momentum())
+    return bars.run(bar, WALL, sw.Impulse(), until=until, step=1.0 / cells, weight=sw.Momentum())
 
 
 @meshes
 def test_the_hat_of_the_second_example_is_nodally_exact(cells: int) -> None:
     bar = sw.Solid(
         mesh=sw.Interval(length=1.0, cells=cells),
-        material=runs.ELASTIC,
+        material=bars.ELASTIC,
         density=1.0,
-        velocity=runs.HAT,
+        velocity=bars.HAT,
         supports=(sw.Fixed(on="left"),),
     )
     march = free_motion(cells, bar, until=6.0)
@@ -48,7 +48,7 @@ def test_a_vibration_is_nodally_exact(cells: int) -> None:
     ):
         bar = sw.Solid(
             mesh=sw.Interval(length=1.0, cells=cells),
-            material=runs.ELASTIC,
+            material=bars.ELASTIC,
             density=1.0,
             displacement=0.01 * wave[:, None],
             supports=supports,
@@ -65,7 +65,7 @@ def test_free_flight_with_a_travelling_wave_is_nodally_exact(cells: int) -> None
     at = (0.0, 0.5, 1.0)
     bar = sw.Solid(
         mesh=sw.Interval(length=length, cells=cells),
-        material=runs.ELASTIC,
+        material=bars.ELASTIC,
         density=1.0,
         velocity=sw.Profile(at=at, values=(-1.0, -0.5, -1.0)),
     )
@@ -77,13 +77,13 @@ def test_free_flight_with_a_travelling_wave_is_nodally_exact(cells: int) -> None
 
 
 def test_a_longer_slab_is_refused() -> None:
-    bar = sw.Solid(mesh=sw.Interval(length=1.0, cells=10), material=runs.ELASTIC, density=1.0)
+    bar = sw.Solid(mesh=sw.Interval(length=1.0, cells=10), material=bars.ELASTIC, density=1.0)
     with pytest.raises(sw.InputError, match="beyond the stability limit 0.1 s of Momentum"):
-        runs.run(bar, WALL, sw.Impulse(), until=1.001, step=0.1001, weight=sw.Momentum())
+        bars.run(bar, WALL, sw.Impulse(), until=1.001, step=0.1001, weight=sw.Momentum())
 
 
 def test_with_the_end_peaks_it_disperses() -> None:
     """The same mesh and slab with the default weight: exactness belongs to the constant one."""
-    march = runs.struck(40, sw.Impulse(), velocity=runs.HAT, step=1.0 / 40.0, until=8.0)
+    march = bars.struck(40, sw.Impulse(), velocity=bars.HAT, step=1.0 / 40.0, until=8.0)
     exact = waves.solve(waves.Bar(velocity=HAT, far="fixed"), 8.5)
     assert 1e-3 <= np.abs(march.displacement[:, -1] - exact.tip(march.times)).max() <= 0.05

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-import runs
-import semidiscrete as discrete
 import softway as sw
-from exact_thrown import Thrown
+from orders import order
+from softway.verify.exact import semidiscrete as discrete
+from softway.verify.exact.thrown import Thrown
+from softway.verify.scenes import bars
 
 GAP, UNTIL = 0.25, 4.0
 STEP, COARSE = 0.01, 0.025
@@ -34,15 +35,15 @@ with_jump = pytest.mark.parametrize("name", ["paper", "paper, extrapolated", "im
 
 
 @cache
-def marched(name: str, step: float = STEP) -> runs.Record:
+def marched(name: str, step: float = STEP) -> bars.Record:
     """The example by a rule."""
-    return runs.thrown(2, RULES[name], gap=GAP, until=UNTIL, step=step)
+    return bars.thrown(2, RULES[name], gap=GAP, until=UNTIL, step=step)
 
 
 @cache
-def scaled(name: str, material: sw.NeoHookean | sw.StVenantKirchhoff, speed: float) -> runs.Record:
+def scaled(name: str, material: sw.NeoHookean | sw.StVenantKirchhoff, speed: float) -> bars.Record:
     """The example in large deformation with the speed and the gap scaled."""
-    return runs.thrown(2, RULES[name], gap=GAP * speed, until=UNTIL, step=COARSE, speed=speed, material=material)
+    return bars.thrown(2, RULES[name], gap=GAP * speed, until=UNTIL, step=COARSE, speed=speed, material=material)
 
 
 def difference(name: str, material: sw.NeoHookean | sw.StVenantKirchhoff, speed: float) -> float:
@@ -106,7 +107,7 @@ def test_the_energy_rule_approaches_its_own_limit_at_second_order(name: str) -> 
     exact = massless_release()
     steps = (0.05, 0.025)
     errors = [abs(marched(name, h).first("release") - GAP - exact) for h in steps]
-    assert runs.order(errors, steps) >= 1.9
+    assert order(errors, steps) >= 1.9
     assert marched(name).first("release") - GAP == pytest.approx(exact, abs=0.6 * STEP**2)
     assert exact == pytest.approx(2.29722, abs=1e-5)
     assert np.abs(marched(name).error).max() <= 1e-12 * EXACT.energy

@@ -5,9 +5,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-import runs
-import semidiscrete as discrete
 import softway as sw
+from softway.verify.exact import semidiscrete as discrete
+from softway.verify.scenes import bars
 
 UNTIL, STEP, COARSE, SPEED = 10.0, 0.02, 0.04, 0.01
 RULES = {"impulse": sw.Impulse(), "literal": sw.Paper(approach="extrapolated"), "kept": sw.Paper()}
@@ -15,10 +15,10 @@ RULES = {"impulse": sw.Impulse(), "literal": sw.Paper(approach="extrapolated"), 
 
 @cache
 def marched(
-    rule: str, gap: float = runs.OUT_OF_REACH, weight: sw.EndPeaks | sw.Collocation = sw.EndPeaks()
-) -> runs.Record:
+    rule: str, gap: float = bars.OUT_OF_REACH, weight: sw.EndPeaks | sw.Collocation = sw.EndPeaks()
+) -> bars.Record:
     """The example in small strain."""
-    return runs.struck(2, RULES[rule], gap=gap, until=UNTIL, step=STEP, weight=weight)
+    return bars.struck(2, RULES[rule], gap=gap, until=UNTIL, step=STEP, weight=weight)
 
 
 @cache
@@ -28,14 +28,14 @@ def solved(rule: str, gap: float = np.inf) -> discrete.Motion:
     return discrete.solve(mesh, np.zeros(2), start, gap=gap, until=UNTIL, rule=rule)
 
 
-def table(motion: discrete.Motion, march: runs.Record) -> np.ndarray:
+def table(motion: discrete.Motion, march: bars.Record) -> np.ndarray:
     """Displacement of both nodes at the ends of the slabs."""
     return np.array([motion.at(t)[0] for t in march.times])
 
 
 def test_without_the_stop() -> None:
     """Two oscillators: within 0.02 up to t = 10 with the end peaks, 2e-4 with the fourth-order weight, at h = 0.02."""
-    default, better = marched("impulse"), marched("impulse", weight=runs.FOURTH)
+    default, better = marched("impulse"), marched("impulse", weight=bars.FOURTH)
     exact = table(solved("impulse"), default)
     assert np.abs(default.displacement[:, 1:] - exact).max() <= 0.02
     assert np.abs(better.displacement[:, 1:] - exact).max() <= 2e-4
@@ -62,15 +62,15 @@ def test_the_instant_predicted_with_the_velocity_kept(gap: float) -> None:
 
 
 @cache
-def coarse(rule: str, gap: float) -> runs.Record:
+def coarse(rule: str, gap: float) -> bars.Record:
     """The example in small strain with the step of the comparisons."""
-    return runs.struck(2, RULES[rule], gap=gap, until=UNTIL, step=COARSE)
+    return bars.struck(2, RULES[rule], gap=gap, until=UNTIL, step=COARSE)
 
 
 def difference(rule: str, gap: float, material: sw.NeoHookean | sw.StVenantKirchhoff) -> float:
     """Greatest difference of the curves at v/c = 0.01, relative to the largest displacement."""
     small = coarse(rule, gap)
-    large = runs.struck(
+    large = bars.struck(
         2,
         RULES[rule],
         gap=gap * SPEED,
@@ -86,7 +86,7 @@ def difference(rule: str, gap: float, material: sw.NeoHookean | sw.StVenantKirch
 @pytest.mark.parametrize(
     ("rule", "gap"),
     [
-        ("impulse", runs.OUT_OF_REACH),
+        ("impulse", bars.OUT_OF_REACH),
         ("impulse", 0.1),
         ("impulse", 0.2),
         ("literal", 0.2),
@@ -98,7 +98,7 @@ def test_in_large_deformation_the_curves_are_the_same(rule: str, gap: float) -> 
     assert difference(rule, gap, sw.NeoHookean(E=1.0, nu=0.0)) <= 0.01
 
 
-@pytest.mark.parametrize(("gap", "most"), [(0.2, 0.008), (runs.OUT_OF_REACH, 0.015)])
+@pytest.mark.parametrize(("gap", "most"), [(0.2, 0.008), (bars.OUT_OF_REACH, 0.015)])
 def test_st_venant_kirchhoff_where_the_stop_keeps_the_strain_small(gap: float, most: float) -> None:
     """Within 1 % behind a stop at 0.2; the free bar is stretched to 0.8 %, and its phase drifts by 1.3 %."""
     assert difference("impulse", gap, sw.StVenantKirchhoff(E=1.0, nu=0.0)) <= most
@@ -109,8 +109,8 @@ def test_the_energy_rule_with_the_hat_spread_over_the_mesh() -> None:
 
     The motion sits in the last elements, where the inertia is kept as near to its place as can be.
     """
-    march = runs.struck(20, sw.Energy(spread=1), gap=0.2, velocity=runs.HAT, until=5.0)
-    located = runs.struck(20, sw.Energy(located=True, spread=1), gap=0.2, velocity=runs.HAT, until=5.0)
+    march = bars.struck(20, sw.Energy(spread=1), gap=0.2, velocity=bars.HAT, until=5.0)
+    located = bars.struck(20, sw.Energy(located=True, spread=1), gap=0.2, velocity=bars.HAT, until=5.0)
     for m in (march, located):
         assert np.abs(m.error).max() <= 1e-12 * m.energy[0]
         assert m.gap.min() >= -1e-12

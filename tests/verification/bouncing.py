@@ -9,10 +9,10 @@ from math import sqrt
 import numpy as np
 
 import softway as sw
-from exact_waves import Array
 from softway.bodies.mass import MassRule
 from softway.contact.timing import Timing
 from softway.march.step import Step
+from softway.typing import Array
 
 RUBBER = sw.NeoHookean(E=1.0, nu=0.3)
 SPEED = sqrt(0.7 / (1.3 * 0.4))

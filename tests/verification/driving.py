@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import softway as sw
-from exact_waves import Array
 from softway.bodies import past
 from softway.bodies.memory import Memory
 from softway.bodies.rate_force import RateForce, rate_force
 from softway.laws.law import RateLaw
 from softway.model import Model
 from softway.solve.equilibrium import equilibrium
+from softway.typing import Array
 
 RATES = {
     "jaumann": sw.Jaumann(),

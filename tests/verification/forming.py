@@ -10,9 +10,9 @@ from functools import cached_property
 import numpy as np
 
 import softway as sw
-from exact_waves import Array
 from softway.laws.friction_law import FrictionLaw
 from softway.laws.law import RateLaw
+from softway.typing import Array
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,8 +5,7 @@ from itertools import combinations
 import numpy as np
 
 import softway as sw
-from exact_waves import Array
-from softway.typing import IntArray
+from softway.typing import Array, IntArray
 
 SIMPLICES = {
     "tri3": ((0, 1, 2),),

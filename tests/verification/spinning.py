@@ -5,10 +5,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import softway as sw
-from exact_waves import Array
 from softway.bodies.force import SlabForce
 from softway.laws.law import Material
 from softway.march.step import Step
+from softway.typing import Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

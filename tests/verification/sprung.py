@@ -14,9 +14,9 @@ from functools import cache
 import numpy as np
 
 import softway as sw
-from exact_waves import Array
 from softway.laws.friction_law import FrictionLaw
 from softway.march.begin import begin
+from softway.typing import Array
 
 SIDE, HEIGHT = 0.5, 0.1
 COLUMN, THIN = 0.05, 5e-4

@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-import exact_oscillator as exact
 import results
-import runs
-import semidiscrete as discrete
 import softway as sw
 from softway.time.weight import TimeWeight, amplification, limit, moments
+from softway.verify.exact import oscillator as exact
+from softway.verify.exact import semidiscrete as discrete
+from softway.verify.scenes import bars
 
 PEAK = sw.Collocation(at=(0.75,), weights=(1.0,))
-WEIGHTS = [sw.Momentum(), runs.MIDDLE, PEAK, runs.FOURTH, sw.EndPeaks(), sw.EndPeaks(theta=0.7), sw.EndPeaks(theta=1.0)]
+WEIGHTS = [sw.Momentum(), bars.MIDDLE, PEAK, bars.FOURTH, sw.EndPeaks(), sw.EndPeaks(theta=0.7), sw.EndPeaks(theta=1.0)]
 FREQUENCY = {sw.Consistent(): np.sqrt(3.0), sw.Lumped(): np.sqrt(2.0)}
 masses = pytest.mark.parametrize("mass", FREQUENCY, ids=lambda m: type(m).__name__)
 weights = pytest.mark.parametrize("weight", WEIGHTS, ids=str)
@@ -22,7 +22,7 @@ def oscillator(mass: sw.Consistent | sw.Lumped, displacement: float, velocity: f
     """One element of unit stiffness, one end fixed."""
     return sw.Solid(
         mesh=sw.Interval(length=1.0, cells=1),
-        material=runs.ELASTIC,
+        material=bars.ELASTIC,
         density=1.0,
         displacement=sw.OnTag(tag="right", value=displacement),
         velocity=sw.OnTag(tag="right", value=velocity),
@@ -36,8 +36,8 @@ def marched(
 ) -> np.ndarray:
     """End values of (x, h v) after some slabs, with a stop out of reach."""
     bar = oscillator(mass, start[0], start[1] / step)
-    stop = sw.HalfSpace(point=1.0 + runs.OUT_OF_REACH, normal=-1.0)
-    march = runs.run(bar, stop, sw.Impulse(), until=slabs * step, step=step, weight=weight)
+    stop = sw.HalfSpace(point=1.0 + bars.OUT_OF_REACH, normal=-1.0)
+    march = bars.run(bar, stop, sw.Impulse(), until=slabs * step, step=step, weight=weight)
     return np.array([march.displacement[-1, 1], step * march.velocity[-1, 1]])
 
 
@@ -66,7 +66,7 @@ def test_a_slab_of_the_march_is_the_matrix(mass: sw.Consistent | sw.Lumped, weig
 def test_the_weight_acts_the_same_in_a_scene_without_contact(weight: TimeWeight) -> None:
     for start in ((1.0, 0.0), (0.0, 1.0)):
         bar = oscillator(sw.Consistent(), start[0], start[1] * np.sqrt(3.0))
-        march = runs.run(bar, None, sw.Energy(), until=1.0 / np.sqrt(3.0), step=1.0 / np.sqrt(3.0), weight=weight)
+        march = bars.run(bar, None, sw.Energy(), until=1.0 / np.sqrt(3.0), step=1.0 / np.sqrt(3.0), weight=weight)
         found = march.displacement[-1, 1], march.velocity[-1, 1] / np.sqrt(3.0)
         np.testing.assert_allclose(found, amplification(weight, 1.0) @ start, rtol=0.0, atol=1e-13)
 
@@ -88,7 +88,7 @@ def test_a_step_beyond_the_limit_is_refused_with_the_limit(mass: sw.Consistent |
         marched(mass, sw.Momentum(), 1.0001 * greatest, (1.0, 0.0))
     assert caught.value.where == "time.step"
     with pytest.raises(sw.InputError, match="stability limit"):
-        marched(mass, runs.MIDDLE, 1.0001 * 2.0 * np.sqrt(2.0) / FREQUENCY[mass], (1.0, 0.0))
+        marched(mass, bars.MIDDLE, 1.0001 * 2.0 * np.sqrt(2.0) / FREQUENCY[mass], (1.0, 0.0))
 
 
 def test_the_end_peaks_are_stable_for_every_step() -> None:
@@ -103,5 +103,5 @@ def test_the_limit_of_a_bar_is_that_of_its_highest_mode() -> None:
         mesh = discrete.bar(cells, fixed=True)
         greatest = np.sqrt(12.0 / eigh(mesh.stiffness, mesh.mass, eigvals_only=True)[-1])
         with pytest.raises(sw.InputError, match=f"limit {greatest:.6g} s"):
-            runs.struck(cells, sw.Impulse(), step=1.1 * greatest, weight=sw.Momentum())
+            bars.struck(cells, sw.Impulse(), step=1.1 * greatest, weight=sw.Momentum())
     assert greatest * cells == pytest.approx(1.0, abs=1e-3)

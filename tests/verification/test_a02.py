@@ -6,19 +6,21 @@ from scipy.linalg import eigh
 from scipy.optimize import brentq
 
 import results
-import runs
-import semidiscrete as discrete
 import softway as sw
-from exact_thrown import Thrown
-from exact_waves import Array
+from orders import order
+from softway.typing import Array
+from softway.verify.cases.a02 import thrown
+from softway.verify.exact import semidiscrete as discrete
+from softway.verify.exact.thrown import Thrown
+from softway.verify.scenes import bars
 
 EXACT = Thrown(gap=0.3)
 
 
 @pytest.fixture(scope="module")
-def courant() -> dict[int, runs.Record]:
+def courant() -> dict[int, bars.Record]:
     """20 and 100 elements with h c = edge."""
-    return {n: runs.thrown(n, sw.Energy(), step=1.0 / n) for n in (20, 100)}
+    return {n: bars.thrown(n, sw.Energy(), step=1.0 / n) for n in (20, 100)}
 
 
 def chain(nodes: int, spread: int) -> tuple[Array, Array]:
@@ -79,7 +81,7 @@ def test_case() -> None:
 @pytest.mark.parametrize(("cells", "most"), [(20, 1.1), (50, 1.1), (100, 1.1)])
 def test_the_force_starts_without_overshoot(cells: int, most: float) -> None:
     """The inertia of the contact node, spread over five cells, comes back as a force of 1 + 1/15 (theory/overshoot)."""
-    march = results.thrown(cells)
+    march = thrown(cells)
     assert 1.0 + 1.0 / 15.0 - 0.01 <= march.force.max() <= most
     assert march.error[-1] == pytest.approx(0.0, abs=1e-12)
 
@@ -89,14 +91,14 @@ def test_the_overshoot_follows_the_spread(spread: int) -> None:
     """The chain behind the contact node: 1.270 with one cell, and with more nearly 1 + 1/(3 k), the missing momentum
     within the round trip through k cells.  The mean over a slab is a little less than the peak.
     """
-    march = results.thrown(100) if spread == 5 else runs.thrown(100, sw.Energy(spread=spread), until=1.5)
+    march = thrown(100) if spread == 5 else bars.thrown(100, sw.Energy(spread=spread), until=1.5)
     assert march.force.max() == pytest.approx(first_peak(spread), abs=0.012)
     if spread > 1:
         assert march.force.max() == pytest.approx(1.0 + 1.0 / (3.0 * spread), abs=0.007)
 
 
 @pytest.mark.parametrize(("cells", "most"), [(20, 0.08), (100, 0.05)])
-def test_with_the_step_of_an_element_transit(cells: int, most: float, courant: dict[int, runs.Record]) -> None:
+def test_with_the_step_of_an_element_transit(cells: int, most: float, courant: dict[int, bars.Record]) -> None:
     march, transit = courant[cells], 1.0 / cells
     assert march.kinds == ["touch", "release"]
     assert march.first("touch") == pytest.approx(EXACT.touch, abs=1e-10)
@@ -107,7 +109,7 @@ def test_with_the_step_of_an_element_transit(cells: int, most: float, courant: d
 
 @pytest.mark.parametrize(("cells", "most"), [(20, 0.08), (50, 0.05), (100, 0.03)])
 def test_with_the_automatic_step(cells: int, most: float) -> None:
-    march, transit = results.thrown(cells), 1.0 / cells
+    march, transit = thrown(cells), 1.0 / cells
     assert march.kinds == ["touch", "release"]
     assert march.first("touch") == pytest.approx(EXACT.touch, abs=1e-10)
     assert abs(march.first("release") - EXACT.release) <= 0.9 * transit
@@ -117,7 +119,7 @@ def test_with_the_automatic_step(cells: int, most: float) -> None:
 @pytest.mark.parametrize("cells", [20, 50, 100])
 def test_the_energy_rule_keeps_what_it_promises(cells: int) -> None:
     """Energy, no penetration at slab ends, no power of the contact force, momentum balanced by the impulse."""
-    march = results.thrown(cells)
+    march = thrown(cells)
     assert np.abs(march.error).max() <= 1e-12 * EXACT.energy
     assert march.gap.min() >= -1e-12
     assert march.power.max() <= 1e-12 * EXACT.energy
@@ -126,7 +128,7 @@ def test_the_energy_rule_keeps_what_it_promises(cells: int) -> None:
 
 
 def test_the_ends_follow_the_exact_bar() -> None:
-    march = results.thrown(100)
+    march = thrown(100)
     assert np.abs(march.displacement[:, -1] - EXACT.tip(march.times)).max() <= 0.012
     assert np.abs(march.displacement[:, 0] - EXACT.rear(march.times)).max() <= 0.012
 
@@ -134,7 +136,7 @@ def test_the_ends_follow_the_exact_bar() -> None:
 @pytest.mark.parametrize(("cells", "late", "slow"), [(20, 0.036, 0.0030), (50, 0.016, 0.0017), (100, 0.0085, 0.0012)])
 def test_the_end_of_the_contact_is_that_of_the_chain(cells: int, late: float, slow: float) -> None:
     """Dispersion, layer and massless node together, each within .06 of a cell; and both errors are small."""
-    march = results.thrown(cells)
+    march = thrown(cells)
     duration, lack = rebound(cells)
     assert march.first("release") - EXACT.touch == pytest.approx(duration, abs=0.06 / cells)
     assert march.momentum[-1] + 1.0 == pytest.approx(lack, abs=0.06 / cells)
@@ -145,10 +147,10 @@ def test_the_end_of_the_contact_is_that_of_the_chain(cells: int, late: float, sl
 def test_the_errors_fall_with_the_mesh() -> None:
     """The instant nearly linearly; the speed less than the 4/5 of the front (theory/overshoot)."""
     sizes = [1 / 20, 1 / 50, 1 / 100]
-    release = [abs(results.thrown(n).first("release") - EXACT.release) for n in (20, 50, 100)]
-    speed = [abs(results.thrown(n).momentum[-1] + 1.0) for n in (20, 50, 100)]
-    assert runs.order(release, sizes) >= 0.85
-    assert runs.order(speed, sizes) >= 0.5
+    release = [abs(thrown(n).first("release") - EXACT.release) for n in (20, 50, 100)]
+    speed = [abs(thrown(n).momentum[-1] + 1.0) for n in (20, 50, 100)]
+    assert order(release, sizes) >= 0.85
+    assert order(speed, sizes) >= 0.5
 
 
 @pytest.mark.parametrize(
@@ -164,7 +166,7 @@ def test_a_node_with_inertia_loses_the_theoretical_energy(
     rule: sw.Paper | sw.Impulse, mass: sw.Consistent | sw.Lumped, lost: float
 ) -> None:
     """Fractions of the kinetic energy at the first touch of 20 elements: 2/(3N), 1/(m (M^-1)_tip), 1/(2N)."""
-    march = runs.thrown(20, rule, mass=mass, step=0.01, until=1.0)
+    march = bars.thrown(20, rule, mass=mass, step=0.01, until=1.0)
     assert march.kinds == ["touch"]
     assert march.first("touch") == pytest.approx(0.3, abs=1e-12)
     assert march.dissipation[-1] / EXACT.energy == pytest.approx(lost, rel=1e-12)
@@ -174,7 +176,7 @@ def test_a_node_with_inertia_loses_the_theoretical_energy(
 def test_located_instants_give_the_same_motion(cells: int, factor: float) -> None:
     """With the instants located no scalar is needed; both forms agree to O(h^2), and both keep the energy to 1e-12."""
     for step in (0.05, 0.025):
-        pair = [runs.thrown(cells, sw.Energy(located=x), step=step, until=2.8) for x in (False, True)]
+        pair = [bars.thrown(cells, sw.Energy(located=x), step=step, until=2.8) for x in (False, True)]
         assert all(np.abs(m.error).max() <= 1e-12 * EXACT.energy for m in pair)
         assert all(m.gap.min() >= -1e-12 and m.kinds == ["touch", "release"] for m in pair)
         assert abs(pair[0].first("release") - pair[1].first("release")) <= factor * step**2

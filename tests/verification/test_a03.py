@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 import results
-import runs
-import semidiscrete as discrete
 import softway as sw
+from orders import order
+from softway.verify.cases.a03 import at_the_wall
+from softway.verify.exact import semidiscrete as discrete
+from softway.verify.scenes import bars
 
 STEPS = (0.02, 0.01, 0.005)
 UNTIL = 2.5
@@ -19,10 +21,10 @@ RULES = {
 every = pytest.mark.parametrize("name", RULES)
 
 
-def marched(name: str, step: float) -> runs.Record:
+def marched(name: str, step: float) -> bars.Record:
     """The march of a rule from the wall."""
     rule, mass, *_ = RULES[name]
-    return results.at_the_wall(rule, step, mass, UNTIL)
+    return at_the_wall(rule, step, mass, UNTIL)
 
 
 def solved(name: str) -> discrete.Motion:
@@ -66,7 +68,7 @@ def test_the_release_converges_at_second_order(name: str) -> None:
     exact = solved(name).times("release")[0]
     errors = [abs(marched(name, step).first("release") - exact) for step in STEPS]
     assert marched(name, STEPS[-1]).kinds == ["touch", "release"]
-    assert runs.order(errors, STEPS) >= 1.8
+    assert order(errors, STEPS) >= 1.8
     assert errors[-1] <= 2.1 * STEPS[-1] ** 2
 
 
@@ -75,9 +77,9 @@ def test_the_motion_converges_at_second_order(name: str) -> None:
     motion, instants = solved(name), np.linspace(0.0, UNTIL, 26)
     table = np.array([motion.at(t)[0] for t in instants])
     errors = [np.abs(marched(name, step).at(instants) - table).max() for step in STEPS]
-    assert runs.order(errors, STEPS) >= 1.9
+    assert order(errors, STEPS) >= 1.9
     speeds = [abs(marched(name, step).momentum[-1] - motion.mean_velocity(UNTIL)) for step in STEPS]
-    assert runs.order(speeds, STEPS) >= 1.9
+    assert order(speeds, STEPS) >= 1.9
 
 
 def test_better_weights_have_smaller_phase_errors() -> None:
@@ -85,8 +87,8 @@ def test_better_weights_have_smaller_phase_errors() -> None:
     quantity = next(q for q in results.case("A03")["qoi"] if q["name"] == "u(t) table csv")
     times, table = results.case("A03")["definition"]["times"], np.array(quantity["value"])
     errors = []
-    for weight in (sw.EndPeaks(), runs.FOURTH):
-        march = results.at_the_wall(sw.Impulse(), 0.01, until=times[-1], weight=weight)
+    for weight in (sw.EndPeaks(), bars.FOURTH):
+        march = at_the_wall(sw.Impulse(), 0.01, until=times[-1], weight=weight)
         errors.append(np.abs(march.at(times) - table).max())
     assert errors == pytest.approx([9.5e-4, 3.8e-5], rel=0.05)
 
@@ -94,7 +96,7 @@ def test_better_weights_have_smaller_phase_errors() -> None:
 @pytest.mark.parametrize("gap", [0.25, 0.3, 1.0 / 3.0])
 @pytest.mark.parametrize("rule", [sw.Paper(), sw.Paper(approach="extrapolated"), sw.Impulse(), sw.Energy()], ids=str)
 def test_the_instant_of_the_touch_is_exact(rule: sw.Paper | sw.Impulse | sw.Energy, gap: float) -> None:
-    march = runs.thrown(2, rule, gap=gap, until=gap + 0.1, step=0.03)
+    march = bars.thrown(2, rule, gap=gap, until=gap + 0.1, step=0.03)
     assert march.first("touch") == pytest.approx(gap, abs=1e-12)
 
 
@@ -102,5 +104,5 @@ def test_the_instant_of_the_touch_is_exact(rule: sw.Paper | sw.Impulse | sw.Ener
 def test_the_located_form_finds_the_touch_to_third_order(gap: float) -> None:
     """Its instants lie on the chord of the slab, whose end the contact force has already moved: an error of 0.1 h^3."""
     for step in (0.06, 0.03):
-        march = runs.thrown(2, sw.Energy(located=True), gap=gap, until=gap + 0.1, step=step)
+        march = bars.thrown(2, sw.Energy(located=True), gap=gap, until=gap + 0.1, step=step)
         assert march.first("touch") == pytest.approx(gap, abs=0.2 * step**3)

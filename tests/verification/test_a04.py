@@ -4,19 +4,21 @@ import numpy as np
 import pytest
 
 import results
-import runs
-import semidiscrete as discrete
 import softway as sw
+from orders import order
 from softway.time.weight import TimeWeight, moments
+from softway.verify.cases.a04 import free
+from softway.verify.exact import semidiscrete as discrete
+from softway.verify.scenes import bars
 
 STEPS = (0.04, 0.02)
-WEIGHTS = (sw.EndPeaks(), sw.Momentum(), runs.MIDDLE, runs.FOURTH)
+WEIGHTS = (sw.EndPeaks(), sw.Momentum(), bars.MIDDLE, bars.FOURTH)
 
 
 def error(step: float, weight: TimeWeight) -> float:
     """Greatest error of both nodes at t = 10, consistent mass."""
     exact = results.case("A04")["reference"]["consistent"]["displacement"]["10.0"]
-    return float(np.abs(results.free(step, weight).displacement[-1, 1:] - exact).max())
+    return float(np.abs(free(step, weight).displacement[-1, 1:] - exact).max())
 
 
 def test_case() -> None:
@@ -24,8 +26,8 @@ def test_case() -> None:
 
 
 def test_the_end_of_the_motion_converges_at_second_order() -> None:
-    for weight in (sw.EndPeaks(), runs.FOURTH):
-        assert runs.order([error(h, weight) for h in STEPS], STEPS) >= 1.9
+    for weight in (sw.EndPeaks(), bars.FOURTH):
+        assert order([error(h, weight) for h in STEPS], STEPS) >= 1.9
 
 
 def test_the_weights_differ_in_their_phase_errors() -> None:
@@ -39,7 +41,7 @@ def test_the_weights_differ_in_their_phase_errors() -> None:
 def test_the_energy_of_the_slab_is_constant(weight: TimeWeight) -> None:
     """It is T + V + h^2 (m2/2 - 1/4) 1/2 v K v for the moments 1/2, m2: with the end peaks T + V itself."""
     step = 0.02
-    march = results.free(step, weight)
+    march = free(step, weight)
     mesh = discrete.bar(2, fixed=True)
     u, v = march.displacement[:, 1:], march.velocity[:, 1:]
     _, m2 = moments(weight)
@@ -51,6 +53,6 @@ def test_the_energy_of_the_slab_is_constant(weight: TimeWeight) -> None:
 
 def test_the_motion_is_that_of_two_oscillators() -> None:
     motion = discrete.solve(discrete.bar(2, fixed=True), np.zeros(2), np.array([0.0, 1.0]), gap=np.inf, until=10.0)
-    march = results.free(0.02, runs.FOURTH)
+    march = free(0.02, bars.FOURTH)
     table = np.array([motion.at(t)[0] for t in march.times])
     assert np.abs(march.displacement[:, 1:] - table).max() <= 2e-4

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import results
-import runs
 import softway as sw
+from orders import order
+from softway.verify.scenes import bars
 
 SEQUENCES = results.case("A05")["reference"]["cases"]
 EXTRAPOLATED = sw.Paper(approach="extrapolated")
@@ -21,14 +22,14 @@ def name(sequence: dict) -> str:
 
 
 @cache
-def coarse(k: int) -> runs.Record:
+def coarse(k: int) -> bars.Record:
     """The march of the sequence k with h = 0.02."""
     return marched(SEQUENCES[k], STEP)
 
 
-def marched(sequence: dict, step: float, rule: sw.Impulse | sw.Paper | None = None) -> runs.Record:
+def marched(sequence: dict, step: float, rule: sw.Impulse | sw.Paper | None = None) -> bars.Record:
     """The march of a sequence of the case."""
-    return runs.struck(
+    return bars.struck(
         2,
         rule or RULES[sequence["rule"]],
         gap=sequence["gap"],
@@ -38,7 +39,7 @@ def marched(sequence: dict, step: float, rule: sw.Impulse | sw.Paper | None = No
     )
 
 
-def compared(march: runs.Record, sequence: dict) -> tuple[float, float, float]:
+def compared(march: bars.Record, sequence: dict) -> tuple[float, float, float]:
     """Greatest error of an instant, of the displacement at t = 10, and of the energy there."""
     assert march.kinds == [kind for kind, _ in sequence["events"]]
     instants = np.array([t for _, t in sequence["events"]])
@@ -72,8 +73,8 @@ def test_every_event_is_found_in_its_order(k: int) -> None:
 def test_instants_and_displacements_are_of_second_order(k: int) -> None:
     marches = coarse(k), marched(SEQUENCES[k], 0.01)
     instants, displacement, _ = zip(*(compared(m, SEQUENCES[k]) for m in marches), strict=True)
-    assert runs.order(instants, (STEP, 0.01)) >= 1.8
-    assert runs.order(displacement, (STEP, 0.01)) >= 1.8
+    assert order(instants, (STEP, 0.01)) >= 1.8
+    assert order(displacement, (STEP, 0.01)) >= 1.8
 
 
 def test_the_paper_rule_with_a_lumped_mass_is_the_impulse_rule() -> None:
@@ -101,5 +102,5 @@ def test_the_first_instant_is_of_second_order(mass: sw.Consistent | sw.Lumped, f
     """With the end peaks and the gap 0.2 the error is 0.172 h^2 (consistent) and 0.128 h^2 (lumped mass)."""
     exact = results.case("A05")["qoi"][0 if mass == sw.Consistent() else 1]["value"]
     for step in (0.01, 0.002):
-        march = runs.struck(2, sw.Impulse(), gap=0.2, step=step, until=0.25, mass=mass)
+        march = bars.struck(2, sw.Impulse(), gap=0.2, step=step, until=0.25, mass=mass)
         assert march.first("touch") - exact == pytest.approx(factor * step**2, rel=0.02)

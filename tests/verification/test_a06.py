@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-import exact_bar as waves
 import results
-import runs
 import softway as sw
+from softway.verify.cases.a06 import HAT, STOPPED, departure, stopped
+from softway.verify.exact import bar as waves
+from softway.verify.scenes import bars
 
-FREE = waves.Bar(velocity=results.HAT, far="fixed")
-STOPPED = waves.Bar(velocity=results.HAT, far="fixed", gap=0.2)
+FREE = waves.Bar(velocity=HAT, far="fixed")
 
 
 def test_case() -> None:
@@ -18,7 +18,7 @@ def test_case() -> None:
 
 def test_the_force_vanishes_before_the_tip_leaves() -> None:
     """From 0.5 to 1.5 the exact tip rests at the stop without force; the march opens by 1e-4 and stays there."""
-    march, exact = results.stopped(100, 2.0), waves.solve(STOPPED, 2.0)
+    march, exact = stopped(100, 2.0), waves.solve(STOPPED, 2.0)
     assert max(exact.force(t) for t in np.linspace(0.501, 1.499, 50)) == 0.0
     assert march.kinds == ["touch", "release"]
     assert march.first("release") == pytest.approx(0.5, abs=0.01)
@@ -29,7 +29,7 @@ def test_the_force_vanishes_before_the_tip_leaves() -> None:
 
 
 def test_the_force_is_that_of_the_exact_bar() -> None:
-    march, exact = results.stopped(200, 10.0), waves.solve(STOPPED, 10.5)
+    march, exact = stopped(200, 10.0), waves.solve(STOPPED, 10.5)
     force = np.array([exact.force(t) for t in march.middles])
     jumps = np.concatenate([[t.start, t.release] for t in exact.touches])
     smooth = np.abs(march.middles[:, None] - jumps).min(axis=1) > 0.02
@@ -38,7 +38,7 @@ def test_the_force_is_that_of_the_exact_bar() -> None:
 
 def test_three_contacts_and_the_energy() -> None:
     """In the first one the tip may open by some 1e-5 and close again while it rests without force."""
-    march, exact = results.stopped(200, 10.0), waves.solve(STOPPED, 10.5)
+    march, exact = stopped(200, 10.0), waves.solve(STOPPED, 10.5)
     contacts = march.contacts(apart=1.0)
     assert [start for start, _ in contacts] == pytest.approx([t.start for t in exact.touches], abs=2e-3)
     assert [end for _, end in contacts][1:] == pytest.approx([t.release for t in exact.touches][1:], abs=5e-3)
@@ -48,18 +48,18 @@ def test_three_contacts_and_the_energy() -> None:
 
 
 def test_without_the_stop() -> None:
-    march = runs.struck(100, sw.Energy(), velocity=runs.HAT, until=4.0)
+    march = bars.struck(100, sw.Energy(), velocity=bars.HAT, until=4.0)
     exact = waves.solve(FREE, 4.5)
     assert march.events == ()
-    assert results.norm(march, march.displacement[:, -1] - exact.tip(march.times)) <= 0.01
+    assert march.norm(march.displacement[:, -1] - exact.tip(march.times)) <= 0.01
 
 
 @pytest.mark.parametrize("rule", [sw.Impulse(), sw.Paper()], ids=str)
 def test_rules_with_inertia_reach_the_same_continuum(rule: sw.Impulse | sw.Paper) -> None:
     """They lose energy at the touch, 2/(3N) and less of that of the tip's speed."""
-    march = runs.struck(100, rule, gap=0.2, velocity=runs.HAT, until=4.0)
+    march = bars.struck(100, rule, gap=0.2, velocity=bars.HAT, until=4.0)
     exact = waves.solve(STOPPED, 4.5)
     assert march.first("touch") == pytest.approx(exact.touches[0].start, abs=2e-3)
-    assert results.departure(march, 0.2) == pytest.approx(1.5, abs=0.02)
-    assert results.norm(march, march.displacement[:, -1] - exact.tip(march.times)) <= 0.01
+    assert departure(march, 0.2) == pytest.approx(1.5, abs=0.02)
+    assert march.norm(march.displacement[:, -1] - exact.tip(march.times)) <= 0.01
     assert 0.0 < march.dissipation[-1] <= 1e-2 * march.energy[0] + 2e-3

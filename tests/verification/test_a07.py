@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import softway as sw
-from colliding import Bar, Collision, collided, pair
+from softway.verify.scenes.colliding import Bar, Collision, collided, pair
 
 SPEED = {1: 1.0, 2: 0.01, 3: 0.01}
 SCENES = {

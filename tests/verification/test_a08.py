@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from colliding import Bar, Collision, collided, pair
+from softway.verify.scenes.colliding import Bar, Collision, collided, pair
 
 CASES = {
     "a": (Bar(), Bar(length=2.0, along=100)),

@@ -3,25 +3,16 @@
 import numpy as np
 import pytest
 
-import exact_bar as waves
 import results
-import runs
-
-BAR = waves.Bar(
-    length=10.0,
-    youngs=900.0,
-    acceleration=10.0,
-    gap=5.0,
-    velocity=((0.0, 10.0, 0.0, 0.0),),
-    strain=((0.0, 10.0, 0.0, 0.0),),
-)
-ENERGY = 500.0  # with the potential energy zero at the floor
+from softway.verify.cases.a09 import BAR, ENERGY, dropped
+from softway.verify.exact import bar as waves
+from softway.verify.scenes import bars
 
 
 @pytest.fixture(scope="module")
-def march() -> runs.Record:
+def march() -> bars.Record:
     """The march of the case: 100 elements, automatic step."""
-    return results.dropped(100, None, 25.2)
+    return dropped(100, None, 25.2)
 
 
 def test_case() -> None:
@@ -29,22 +20,22 @@ def test_case() -> None:
     assert results.missed("A09") == set()
 
 
-def test_up_to_the_fifth_bounce_the_instants_are_closer(march: runs.Record) -> None:
+def test_up_to_the_fifth_bounce_the_instants_are_closer(march: bars.Record) -> None:
     starts = np.array([start for start, _ in march.contacts(apart=1.0)])
     assert np.abs(starts[:5] - [1.0 + 8.0 * k / 3.0 for k in range(5)]).max() <= 0.0125
 
 
-def test_every_contact_lasts_a_round_trip(march: runs.Record) -> None:
+def test_every_contact_lasts_a_round_trip(march: bars.Record) -> None:
     lengths = np.array([end - start for start, end in march.contacts(apart=1.0)[:9]])
     assert np.abs(lengths - 2.0 / 3.0).max() <= 0.05
 
 
-def test_the_force_of_the_first_contact_grows_linearly(march: runs.Record) -> None:
+def test_the_force_of_the_first_contact_grows_linearly(march: bars.Record) -> None:
     for s in (0.1, 0.2, 1.0 / 3.0, 0.5, 0.6):
         assert march.mean_force(1.0 + s - 0.02, 1.0 + s + 0.02) == pytest.approx(300.0 + 300.0 * s, rel=0.01)
 
 
-def test_the_lower_end_falls_as_the_exact_bar(march: runs.Record) -> None:
+def test_the_lower_end_falls_as_the_exact_bar(march: bars.Record) -> None:
     exact = waves.solve(BAR, 25.0)
     error = march.displacement[:, 0] + exact.tip(march.times)
     early = march.times <= 11.0
@@ -52,7 +43,7 @@ def test_the_lower_end_falls_as_the_exact_bar(march: runs.Record) -> None:
     assert np.sqrt(np.mean(error[early] ** 2)) <= 0.08
 
 
-def test_energy_and_penetration(march: runs.Record) -> None:
+def test_energy_and_penetration(march: bars.Record) -> None:
     assert np.abs(march.error).max() <= 1e-12 * ENERGY
     assert march.gap.min() >= -1e-12 * BAR.length
     assert march.power.max() <= 1e-12 * ENERGY
@@ -64,7 +55,7 @@ def test_six_periods_of_fifty_elements() -> None:
     The step is that of an element transit, which disperses more than the automatic one: the bounces come early, the
     tenth by 0.8 s, while the energy stays.
     """
-    march = results.dropped(50, 1.0, 32.0)
+    march = dropped(50, 1.0, 32.0)
     assert len(march.contacts(apart=1.0)) >= 12
     assert np.abs(march.error).max() <= 1e-9 * ENERGY
     assert march.gap.min() >= -1e-12 * BAR.length

@@ -1,8 +1,8 @@
 """A10 and A12: thrown bars in inches and pounds, read from a scenario file, and in SI units."""
 
 import results
-import runs
 import softway as sw
+from softway.verify.scenes import bars
 
 
 def test_rod_in_inches_and_pounds() -> None:
@@ -23,7 +23,7 @@ def test_the_scale_does_not_matter() -> None:
     """The steel bar of A12 is the bar of A02 with gap c / (v L) = 2.594..., in other units."""
     d = results.case("A12")["definition"]
     c = (d["youngs"] / d["density"]) ** 0.5
-    steel = runs.thrown(
+    steel = bars.thrown(
         20,
         sw.Energy(),
         gap=d["gap"],
@@ -34,7 +34,7 @@ def test_the_scale_does_not_matter() -> None:
         area=d["area"],
         speed=d["speed"],
     )
-    plain = runs.thrown(20, sw.Energy(), gap=d["gap"] * c / d["speed"], until=6.0, step=0.04)
+    plain = bars.thrown(20, sw.Energy(), gap=d["gap"] * c / d["speed"], until=6.0, step=0.04)
     assert steel.kinds == plain.kinds == ["touch", "release"]
     assert abs(steel.instants * c - plain.instants).max() <= 1e-9
     scale = d["area"] * d["speed"] * (d["youngs"] * d["density"]) ** 0.5

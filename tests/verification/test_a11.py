@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
-import exact_bar as waves
 import results
-import runs
 import softway as sw
-
-BAR = waves.Bar(strain=((0.0, 1.0, 0.5, 0.5),), tip=-0.5, gap=0.0, far="fixed")
+from softway.verify.cases.a11 import BAR, pulled
+from softway.verify.exact import bar as waves
+from softway.verify.scenes import bars
 
 
 def test_case() -> None:
@@ -18,13 +17,13 @@ def test_case() -> None:
 @pytest.mark.parametrize("cells", [100, 200])
 def test_the_start_relaxes_the_node_without_inertia(cells: int) -> None:
     """The uniform strain is not in equilibrium at the free end: the share 1/N of the energy 1/8 goes at once."""
-    march = results.pulled(cells)
+    march = pulled(cells)
     assert march.energy[0] == pytest.approx(0.125 * (1.0 - 1.0 / cells), rel=1e-12)
 
 
 @pytest.mark.parametrize("cells", [100, 200])
 def test_after_that_the_energy_stays(cells: int) -> None:
-    march = results.pulled(cells)
+    march = pulled(cells)
     assert np.abs(march.error).max() <= 1e-9 * 0.125
     assert np.ptp(march.energy) <= 1e-12 * 0.125
     assert march.gap.min() >= -1e-12
@@ -32,7 +31,7 @@ def test_after_that_the_energy_stays(cells: int) -> None:
 
 
 def test_the_force_level() -> None:
-    march = results.pulled(200)
+    march = pulled(200)
     for k in range(3):
         assert march.mean_force(1.1 + 3 * k, 1.9 + 3 * k) == pytest.approx(0.5, rel=0.01)
         assert march.force_error(1.1 + 3 * k, 1.9 + 3 * k, 0.5) <= 0.05
@@ -40,17 +39,17 @@ def test_the_force_level() -> None:
 
 def test_the_drift_over_the_periods_is_small() -> None:
     """Each touch comes later than the exact one by about 0.002 to 0.003 a period with 100 elements."""
-    starts = np.array([start for start, _ in results.pulled(100).contacts(apart=0.5)])
+    starts = np.array([start for start, _ in pulled(100).contacts(apart=0.5)])
     assert np.all(np.diff(starts - [1.0, 4.0, 7.0]) <= 0.004)
 
 
 def test_the_tip_follows_the_exact_bar() -> None:
-    march, exact = results.pulled(200), waves.solve(BAR, 9.5)
+    march, exact = pulled(200), waves.solve(BAR, 9.5)
     assert np.abs(march.displacement[:, 0] + exact.tip(march.times)).max() <= 0.01
 
 
 def test_located_instants_give_the_same_motion() -> None:
-    scalar, located = (runs.pulled(20, sw.Energy(located=x), until=6.0, step=0.02) for x in (False, True))
+    scalar, located = (bars.pulled(20, sw.Energy(located=x), until=6.0, step=0.02) for x in (False, True))
     assert located.kinds == scalar.kinds
     assert np.abs(located.error).max() <= 1e-12 * 0.125
     assert np.abs(located.instants - scalar.instants).max() <= 0.1 * 0.02

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import softway as sw
-from exact_contact import Patch
-from exact_waves import Array
 from softway.march.begin import begin
+from softway.typing import Array
+from softway.verify.exact.contact import Patch
 
 YOUNGS, POISSON = 1e3, 0.3
 Method = sw.DualMortar | sw.NodeToSurface

@@ -8,7 +8,7 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from colliding import Bar, Collision, collided, pair
+from softway.verify.scenes.colliding import Bar, Collision, collided, pair
 
 WAVE = sqrt(0.7 / (1.3 * 0.4))
 PRESSURE = 0.5 * WAVE

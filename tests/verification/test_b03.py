@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import softway as sw
-from exact_contact import LineContact, contact_modulus
-from pressing import POISSON, YOUNGS, Footprint, approached, loaded
 from softway.space.sources import GradedDisc
+from softway.verify.exact.contact import LineContact, contact_modulus
+from softway.verify.scenes.pressing import POISSON, YOUNGS, Footprint, approached, loaded
 
 LOAD = 0.01
 MODULUS = contact_modulus(YOUNGS, POISSON)

@@ -9,10 +9,10 @@ import pytest
 from scipy.optimize import brentq
 
 import softway as sw
-from exact_ball import pressed_ball
-from exact_contact import CircleContact, contact_modulus
-from pressing import POISSON, YOUNGS, Footprint, approached
 from softway.space.sources import GradedDisc
+from softway.verify.exact.ball import pressed_ball
+from softway.verify.exact.contact import CircleContact, contact_modulus
+from softway.verify.scenes.pressing import POISSON, YOUNGS, Footprint, approached
 
 MODULUS = contact_modulus(YOUNGS, POISSON)
 APPROACH = 0.01

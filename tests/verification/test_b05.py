@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import softway as sw
-from exact_contact import Impact, contact_modulus
-from exact_waves import Array
 from softway.space.sources import GradedDisc
+from softway.typing import Array
+from softway.verify.exact.contact import Impact, contact_modulus
 
 RADIUS, DENSITY, YOUNGS, POISSON = 0.01, 7850.0, 210e9, 0.3
 STIFFNESS = 4.0 / 3.0 * contact_modulus(YOUNGS, POISSON) * RADIUS**0.5

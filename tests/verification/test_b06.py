@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 import softway as sw
-from exact_contact import PressFit, Tube
-from exact_waves import Array
 from softway.bodies.loads import traction_force
 from softway.march.begin import begin
 from softway.march.situation import Situation
 from softway.model import Model
 from softway.space.sources import Ring
+from softway.typing import Array
+from softway.verify.exact.contact import PressFit, Tube
 
 INNER, MIDDLE, OUTER, INTERFERENCE = 0.01, 0.02, 0.04, 1e-5
 YOUNGS, POISSON = 210e9, 0.3

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import softway as sw
-from exact_contact import LineContact, contact_modulus
-from exact_waves import Array
-from pressing import ELASTIC, POISSON, YOUNGS, Footprint, footprint
 from softway.space.sources import GradedDisc
+from softway.typing import Array
+from softway.verify.exact.contact import LineContact, contact_modulus
+from softway.verify.scenes.pressing import ELASTIC, POISSON, YOUNGS, Footprint, footprint
 
 APPROACH, FOCUS = 0.02, 0.18
 PARTS = {"upper": 14, "lower": 10}

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import softway as sw
-from exact_waves import Array
+from softway.typing import Array
 
 YOUNGS, NU, MU, RADIUS = 1.0, 0.45, 0.3, 1.0
 STIFF = YOUNGS / (1.0 - NU**2)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import softway as sw
-from exact_waves import Array
 from softway.space.sources import GradedDisc
+from softway.typing import Array
 
 LAWS = {"small strain": sw.LinearElastic(E=1000.0, nu=0.3), "finite strain": sw.NeoHookean(E=1000.0, nu=0.3)}
 WALL = sw.HalfSpace(point=(0.0, -1.05), normal=(0.0, 1.0))

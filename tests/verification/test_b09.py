@@ -12,11 +12,11 @@ import pytest
 from scipy.optimize import linprog
 
 import softway as sw
-from exact_waves import Array
 from overlap import overlap
 from softway.march.step import Step
 from softway.model import Model
 from softway.space.sources import MeshSource
+from softway.typing import Array
 
 SPEED, GAP, THICKNESS, STEP = 100.0, 0.3, 0.01, 1e-2
 Method = sw.DualMortar | sw.NodeToSurface | None

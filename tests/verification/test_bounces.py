@@ -8,7 +8,7 @@ from scipy.sparse.linalg import spsolve
 
 import softway as sw
 from bouncing import CLEARANCE, SPEED, ball, between_planes, bounced, cube, step_of
-from runs import order
+from orders import order
 
 BODIES = {"cube": cube(4), "ball": ball(4)}
 TIMES = (0.5, 1.0, 2.0)

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import results
-import runs
 import softway as sw
 from driving import RATES, sheared, square
-from exact_waves import Array
+from orders import order
+from softway.typing import Array
 
 YOUNGS, POISSON = 2.6, 0.3
 """Shear modulus 1."""
@@ -62,7 +62,7 @@ def test_closed_forms(rate: str, g: float) -> None:
 def test_the_error_is_of_second_order(rate: str) -> None:
     steps = np.array([50, 100, 200])
     errors = [np.abs(found(rate, 5.0, n)[[0, 0], [0, 1]] - exact(rate, 5.0)[:2]).max() for n in steps]
-    assert runs.order(errors, 1.0 / steps) == pytest.approx(2.0, abs=0.02)
+    assert order(errors, 1.0 / steps) == pytest.approx(2.0, abs=0.02)
 
 
 def test_the_shear_of_truesdell_is_exact() -> None:

@@ -6,8 +6,8 @@ import pytest
 import results
 import softway as sw
 from driving import RATES, cube, square
-from exact_waves import Array
 from softway.bodies.memory import Memory
+from softway.typing import Array
 
 CASE = results.case("D02")["definition"]
 LAW = {name: sw.Hypoelastic(E=1.0, nu=0.3, rate=rate) for name, rate in RATES.items()}

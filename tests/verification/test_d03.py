@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import results
-import runs
 import softway as sw
 from driving import RATES, cycle, square
-from exact_waves import Array
+from orders import order
+from softway.typing import Array
 
 LAW = {name: sw.Hypoelastic(E=2.5, nu=0.25, rate=rate) for name, rate in RATES.items()}
 """Both constants of Lame are 1."""
@@ -46,7 +46,7 @@ def test_the_logarithmic_rate_leaves_nothing() -> None:
     """The stress is a function of the stretch: what is left falls with the square of the step."""
     for amplitude in (1.0, 0.1):
         left = [np.abs(closed("log", amplitude, n)[:3]).max() for n in (20, 40, 80)]
-        assert runs.order(left, (4.0, 2.0, 1.0)) == pytest.approx(2.0, abs=0.05)
+        assert order(left, (4.0, 2.0, 1.0)) == pytest.approx(2.0, abs=0.05)
         assert left[-1] < 1e-5 * amplitude**3
 
 

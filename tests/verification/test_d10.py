@@ -10,10 +10,10 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import results
-import runs
 import softway as sw
 from driving import RATES, sheared, square
-from exact_waves import Array
+from orders import order
+from softway.typing import Array
 
 GAMMA, STEPS = 5.0, 1600
 
@@ -65,7 +65,7 @@ def test_the_steady_state(k: float) -> None:
 def test_the_error_is_of_first_order() -> None:
     steps = np.array([50, 100, 200])
     errors = [abs(path(0.5, n)[-1, 0] - 0.5 * np.sin(angle(0.5, GAMMA))) for n in steps]
-    assert runs.order(errors, 1.0 / steps) == pytest.approx(1.0, abs=0.05)
+    assert order(errors, 1.0 / steps) == pytest.approx(1.0, abs=0.05)
 
 
 def test_the_turning_rates_agree_where_elastic_strains_are_small() -> None:

@@ -7,8 +7,8 @@ import pytest
 
 import results
 import softway as sw
-from exact_waves import Array
 from forming import Press
+from softway.typing import Array
 
 
 def exact(reduction: Array, m: float) -> Array:

@@ -11,7 +11,7 @@ import pytest
 
 import results
 import softway as sw
-from exact_waves import Array
+from softway.typing import Array
 
 M, LONG, CELLS = 0.3, 8.0, 16
 

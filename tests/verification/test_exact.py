@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-import exact_bar as waves
-import semidiscrete as discrete
-from exact_oscillator import CONSTANT, eigenvalue, frequency, limit, peak, radius
-from exact_thrown import Thrown
+from softway.verify.exact import bar as waves
+from softway.verify.exact import semidiscrete as discrete
+from softway.verify.exact.oscillator import CONSTANT, eigenvalue, frequency, limit, peak, radius
+from softway.verify.exact.thrown import Thrown
 
 HAT = ((0.0, 0.5, 1.0, 0.0), (0.5, 1.0, 0.0, 0.0))
 THROWN = waves.Bar(velocity=((0.0, 1.0, 1.0, 1.0),), gap=0.3)

@@ -8,9 +8,9 @@ import pytest
 from numpy.polynomial.legendre import legval
 from scipy.integrate import quad, solve_ivp
 
-from exact_ball import _amplitudes, pressed_ball
-from exact_contact import CircleContact, Impact, LineContact, Patch, PressFit, Tube, contact_modulus
-from exact_waves import Array
+from softway.typing import Array
+from softway.verify.exact.ball import _amplitudes, pressed_ball
+from softway.verify.exact.contact import CircleContact, Impact, LineContact, Patch, PressFit, Tube, contact_modulus
 
 LINE = LineContact(load=0.3, radius=2.0, modulus=5.0)
 CIRCLE = CircleContact(approach=0.02, radius=3.0, modulus=5.0)

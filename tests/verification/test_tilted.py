@@ -14,9 +14,9 @@ from scipy.linalg import cho_factor, cho_solve, solve_triangular
 from scipy.optimize import nnls
 
 import softway as sw
-from exact_waves import Array
-from runs import order
+from orders import order
 from softway.model import Model
+from softway.typing import Array
 
 ELASTIC = sw.LinearElastic(E=1.0, nu=0.3)
 SPEED = 0.1 * np.sqrt(0.7 / (1.3 * 0.4))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import softway as sw
-from runs import order
+from orders import order
 from softway.bodies.force import SlabForce, Weighted
 from softway.march.begin import begin
 from softway.march.ledger import opening

@@ -1,6 +1,7 @@
-"""Verbs over a scenario: new, check, run, show, plot, race.
+"""Verbs over a scenario: new, check, run, show, plot, race; those over laws, materials and the suite come from beside.
 
-Exit codes: 0 done, 1 a law failed its examination, 2 input wrong, 3 numerics failed, 130 interrupted.
+Exit codes: 0 done, 1 a law failed its examination or a case missed its reference, 2 input wrong, 3 numerics failed,
+130 interrupted.
 """
 
 import logging
@@ -19,6 +20,7 @@ from softway.cli.law import check_law
 from softway.cli.materials import materials
 from softway.cli.progress import laps_of, progress_of
 from softway.cli.tables import ranking, scales, summary
+from softway.cli.verify import verify
 from softway.errors import InputError, NumericsError
 from softway.execute import run as execute
 from softway.race.contest import contest, entrants
@@ -49,6 +51,7 @@ app = App(
 )
 app.command(check_law)
 app.command(materials)
+app.command(verify)
 Set = Annotated[tuple[str, ...], Parameter(name="--set", negative=())]
 Quiet = Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())]
 AllowPython = Annotated[bool, Parameter(negative=())]

@@ -5,13 +5,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-import semidiscrete
 from softway.bodies.loads import Gravity
 from softway.bodies.mass import Consistent, Lumped, MassRule
 from softway.contact.timing import Energy, Impulse, Paper, Timing
 from softway.laws.bulk import NeoHookean
 from softway.march.control import StepControl
 from softway.time.weight import Collocation, EndPeaks, Momentum
+from softway.verify.exact import semidiscrete
 
 RULES = [Energy(), Energy(located=True), Impulse(), Paper(), Paper(approach="extrapolated")]
 LOSSLESS, LOSSY = RULES[:2], RULES[2:]

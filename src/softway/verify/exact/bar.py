@@ -24,10 +24,9 @@ from math import inf, nan, sqrt
 
 import numpy as np
 
-from exact_waves import Array, Wave, joined
-
-Profile = tuple[tuple[float, float, float, float], ...]
-Piece = tuple[float, float, float, float]
+from softway.typing import Array
+from softway.verify.exact.pieces import Piece, Profile, Same, cut, on
+from softway.verify.exact.waves import Wave, joined
 
 ROUND = 1e-11  # relative to the round trip, the displacement it allows, or the largest force: what counts as the same
 
@@ -189,12 +188,13 @@ def solve(bar: Bar, until: float) -> Motion:
     [(0.3, 2.3, 1.0)]
     """
     queue = deque(_initial(bar))
-    heard, left, touches = list(queue), [], []
+    heard, left = list(queue), list[Piece]()
+    touches: list[Touch] = []
     t, u, closed, largest = 0.0, bar.tip, False, max(max(abs(p0), abs(p1)) for _, _, p0, p1 in heard)
     while t < until:
         piece = queue.popleft()
         largest = max(largest, abs(piece[2]), abs(piece[3]), abs(bar.acceleration) * piece[1])
-        same = _Same(time=ROUND * bar.trip, velocity=ROUND * largest, displacement=ROUND * largest * bar.trip)
+        same = Same(time=ROUND * bar.trip, velocity=ROUND * largest, displacement=ROUND * largest * bar.trip)
         if _switches(bar, piece, u, closed, same):
             closed = not closed
             u = bar.gap
@@ -208,7 +208,7 @@ def solve(bar: Bar, until: float) -> Motion:
             u = bar.gap
             queue.appendleft(piece)
             continue
-        used, rest = _cut(piece, x, same)
+        used, rest = cut(piece, x, same)
         if rest is not None:
             queue.appendleft(rest)
         v, dv = _motion(bar, used)
@@ -223,31 +223,16 @@ def solve(bar: Bar, until: float) -> Motion:
     return Motion(bar=bar, arriving=joined(heard), leaving=joined(left), touches=tuple(touches), until=until)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Same:
-    """Differences that rounding may make: of times, velocities, displacements."""
-
-    time: float
-    velocity: float
-    displacement: float
-
-
 def _initial(bar: Bar) -> list[Piece]:
     """The waves of the initial data in the order in which they arrive at the tip."""
     c, k, length = bar.speed, bar.echo, bar.length
     knots = sorted({s for profile in (bar.velocity, bar.strain) for part in profile for s in part[:2]})
-    direct, echoed = [], []
+    direct, echoed = list[Piece](), list[Piece]()
     for a, b in zip(knots[:-1], knots[1:], strict=True):
-        (va, vb), (ea, eb) = _on(bar.velocity, a, b), _on(bar.strain, a, b)
+        (va, vb), (ea, eb) = on(bar.velocity, a, b), on(bar.strain, a, b)
         direct.append((a / c, b / c, 0.5 * (va + c * ea), 0.5 * (vb + c * eb)))
         echoed.insert(0, ((2 * length - b) / c, (2 * length - a) / c, 0.5 * k * (vb - c * eb), 0.5 * k * (va - c * ea)))
     return direct + echoed
-
-
-def _on(profile: Profile, a: float, b: float) -> tuple[float, float]:
-    """Values of a profile at both ends of an interval that lies in one of its parts."""
-    s0, s1, f0, f1 = next(part for part in profile if part[0] <= a and b <= part[1])
-    return f0 + (f1 - f0) * (a - s0) / (s1 - s0), f0 + (f1 - f0) * (b - s0) / (s1 - s0)
 
 
 def _start(bar: Bar, s: float | Array) -> Array:
@@ -265,7 +250,7 @@ def _motion(bar: Bar, piece: Piece) -> tuple[float, float]:
     return 2.0 * p0 + bar.acceleration * a, 2.0 * (p1 - p0) / (b - a) + bar.acceleration
 
 
-def _switches(bar: Bar, piece: Piece, u: float, closed: bool, same: _Same) -> bool:
+def _switches(bar: Bar, piece: Piece, u: float, closed: bool, same: Same) -> bool:
     """Whether the tip, at the start of a piece, touches and comes in, or is closed and would be pulled."""
     v, dv = _motion(bar, piece)
     change = dv * (piece[1] - piece[0])
@@ -275,7 +260,7 @@ def _switches(bar: Bar, piece: Piece, u: float, closed: bool, same: _Same) -> bo
     return comes and u >= bar.gap - same.displacement
 
 
-def _root(bar: Bar, piece: Piece, u: float, closed: bool, same: _Same) -> float | None:
+def _root(bar: Bar, piece: Piece, u: float, closed: bool, same: Same) -> float | None:
     """Time since the start of a piece at which the open tip reaches the stop, or the force on the closed one ends."""
     v, dv = _motion(bar, piece)
     if closed:
@@ -287,15 +272,6 @@ def _root(bar: Bar, piece: Piece, u: float, closed: bool, same: _Same) -> float 
     if v > 0.0:
         return 2.0 * way / (v + sqrt(square))
     return (sqrt(square) - v) / dv if dv > 0.0 else None
-
-
-def _cut(piece: Piece, x: float | None, same: _Same) -> tuple[Piece, Piece | None]:
-    """The piece up to x and what is left of it."""
-    a, b, p0, p1 = piece
-    if x is None or x >= b - a - same.time:
-        return piece, None
-    p = p0 + (p1 - p0) * x / (b - a)
-    return (a, a + x, p0, p), (a + x, b, p, p1)
 
 
 def _reflected(bar: Bar, piece: Piece, closed: bool) -> Piece:

@@ -10,7 +10,7 @@ from math import sqrt
 
 import numpy as np
 
-from exact_waves import Array
+from softway.typing import Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

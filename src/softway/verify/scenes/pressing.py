@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 import softway as sw
-from exact_waves import Array
 from softway.bodies.loads import traction_force
 from softway.bodies.section import Section
 from softway.space.sources import GradedDisc
-from softway.typing import BoolArray
+from softway.typing import Array, BoolArray
 
 YOUNGS, POISSON = 1.0, 0.3
 ELASTIC = sw.LinearElastic(E=YOUNGS, nu=POISSON)
@@ -94,7 +93,7 @@ def _resting(
     body = sw.Solid(mesh=mesh, material=ELASTIC, density=1.0, section=section, supports=supports)
     plane = sw.Tool(shape=sw.HalfSpace(point=(0.0, height), normal=(0.0, 1.0)))
     contact = sw.Contact(between=("body.boundary", "plane"), name="plane", start="fit")
-    bodies = {"body": body, "plane": plane}
+    bodies: dict[str, sw.Solid | sw.Tool] = {"body": body, "plane": plane}
     scene = sw.Scene(bodies=bodies, contacts=(contact,), loads=loads, start=sw.StaticStart())
     step = next(iter(sw.march(scene, until=1e-3, step=1e-3)))
     assert np.abs(step.after.velocity["body"]).max() < 1e-10

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
-from exact_waves import Array
+from softway.typing import Array
 
 GRAZING = 1e-12  # a touch that would not pass the stop by more is rounding
 
@@ -243,8 +243,12 @@ def _first(f: Scalar, rate: Scalar, start: float, end: float, step: float) -> fl
             if float(f(b)) <= GRAZING:
                 continue
         level = 0.0 if values[k] < 0.0 else GRAZING
-        return _zero(lambda t, z=level: f(t) - z, a, b)
+        return _zero(_above(f, level), a, b)
     return None
+
+
+def _above(f: Scalar, level: float) -> Scalar:
+    return lambda t: f(t) - level
 
 
 def _zero(f: Scalar, a: float, b: float) -> float:

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 import softway as sw
-from exact_waves import Array
 from softway.march.step import Step
+from softway.typing import Array
 
 Method = sw.DualMortar | sw.NodeToSurface | None
 SIDES = {1: (), 2: (("bottom", "y"), ("top", "y")), 3: (("front", "y"), ("back", "y"), ("bottom", "z"), ("top", "z"))}

@@ -10,7 +10,7 @@ from math import gamma, inf, log, pi, sqrt
 
 import numpy as np
 
-from exact_waves import Array
+from softway.typing import Array
 
 
 def contact_modulus(youngs: float, poisson: float, other: float = inf, other_poisson: float = 0.0) -> float:

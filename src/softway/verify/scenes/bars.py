@@ -11,12 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 
 import softway as sw
-from exact_waves import Array
 from softway.bodies.mass import MassRule
 from softway.contact.timing import Timing
 from softway.laws.law import StoredEnergy
 from softway.march.step import Step
+from softway.scene import State
 from softway.time.weight import TimeWeight
+from softway.typing import Array
 
 ELASTIC = sw.LinearElastic(E=1.0)
 MIDDLE = sw.Collocation(at=(0.5,), weights=(1.0,))
@@ -96,6 +97,10 @@ class Record:
         """Instant of the first event of a kind."""
         return next(e.time for e in self.events if e.kind == kind)
 
+    def norm(self, error: Array) -> float:
+        """L2 norm in time of what is given at the ends of the slabs (m + 1,)."""
+        return float(np.sqrt(np.trapezoid(error**2, self.times)))
+
     def at(self, instants: Array | list[float]) -> Array:
         """Displacement (j, n) at instants, linear between the ends of the slabs."""
         return np.stack([np.interp(instants, self.times, u) for u in self.displacement.T], axis=1)
@@ -123,7 +128,9 @@ class Record:
 
 def recorded(steps: Iterable[Step]) -> Record:
     """The march of a scene of this module."""
-    states, rows, events = [], [], []
+    states: list[State] = []
+    rows: list[tuple[float, ...]] = []
+    events: list[Event] = []
     for step in steps:
         states += [step.after] if states else [step.before, step.after]
         ledger = step.ledger
@@ -271,13 +278,3 @@ def pulled(
         supports=(sw.Fixed(on="right"),),
     )
     return run(bar, sw.HalfSpace(point=0.0, normal=1.0), rule, tip="left", until=until, step=step)
-
-
-def order(errors: Iterable[float], steps: Iterable[float]) -> float:
-    """Least observed order between successive steps.
-
-    >>> round(order([4e-4, 1e-4, 2.5e-5], [0.04, 0.02, 0.01]), 12)
-    2.0
-    """
-    e, h = np.array(list(errors)), np.array(list(steps))
-    return float(np.min(np.log(e[:-1] / e[1:]) / np.log(h[:-1] / h[1:])))

@@ -11,7 +11,7 @@ from math import pi
 
 import numpy as np
 
-from exact_waves import Array
+from softway.typing import Array
 
 POINTS = 300
 """Quadrature points over a cap."""
@@ -70,7 +70,7 @@ def _axial(
         if n % 2 == 0:
             slope = -n / sine * (before - cosine * now)
             normal, tangent = (2 * n + 1) * (radial @ now), (2 * n + 1) / max(n * (n + 1), 1) * (along @ slope)
-            first, second, mix = _amplitudes(n, bulk, shear, normal, tangent)
+            first, second, mix = _amplitudes(n, bulk, shear, float(normal), float(tangent))
             outward, sideways = (n * first + (n + mix) * second) * now, (first + second) * slope
             found += outward * cosine - sideways * sine
     return found

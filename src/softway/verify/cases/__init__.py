@@ -1,0 +1,1 @@
+"""The cases: each module computes one of them, ``compute() -> Outcome``."""

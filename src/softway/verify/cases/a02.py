@@ -1,0 +1,62 @@
+"""A02: an elastic bar thrown at a rigid wall: 20, 50 and 100 elements, the default rule and the automatic step."""
+
+from functools import cache
+
+import numpy as np
+
+import softway as sw
+from softway.record.view_curves import Curve, Panel
+from softway.verify.case import Outcome
+from softway.verify.exact.thrown import Thrown
+from softway.verify.scenes import bars
+
+EXACT = Thrown(gap=0.3)
+
+
+@cache
+def thrown(cells: int) -> bars.Record:
+    """The bar with the gap 0.3."""
+    return bars.thrown(cells, sw.Energy())
+
+
+def compute() -> Outcome:
+    """Each quantity on the mesh that the case names for it."""
+    middle, fine = thrown(50), thrown(100)
+    ((start, end),) = middle.contacts(apart=0.5)
+    found = {
+        "contact start (gap .3)": thrown(20).first("touch"),
+        "contact duration": end - start,
+        "impulse": middle.impulse,
+        "rms error of force/(rho c v0) over contact, excluding 2 el transit at ends": fine.force_error(0.32, 2.28, 1.0),
+        "overshoot of contact force": float(fine.force.max()) - 1.0,
+        "COM rebound velocity": float(middle.momentum[-1]),
+        "total energy after release": float(fine.energy[-1]),
+        "penetration": max(0.0, *(-float(thrown(n).gap.min()) for n in (20, 50, 100))),
+    }
+    return Outcome(values=found, panels=_panels(fine))
+
+
+def _panels(march: bars.Record) -> tuple[Panel, ...]:
+    t = np.linspace(0.0, march.times[-1], 801)
+    return (
+        Panel(
+            title="Force of the wall, 100 elements",
+            x="t c / L",
+            y="force / (rho c v A)",
+            curves=(
+                Curve(x=march.times, y=march.force, kind="steps", label="softway"),
+                Curve(x=t, y=EXACT.push(t), kind="exact", label="d'Alembert"),
+            ),
+        ),
+        Panel(
+            title="Ends of the bar",
+            x="t c / L",
+            y="displacement",
+            curves=(
+                Curve(x=march.times, y=march.displacement[:, -1], label="tip"),
+                Curve(x=march.times, y=march.displacement[:, 0], label="rear"),
+                Curve(x=t, y=EXACT.tip(t), kind="exact", label="d'Alembert"),
+                Curve(x=t, y=EXACT.rear(t), kind="exact"),
+            ),
+        ),
+    )

@@ -1,0 +1,71 @@
+"""The cases there are."""
+
+import difflib
+from collections.abc import Iterable
+
+from softway.errors import InputError
+from softway.verify.case import Case
+
+QUICK = 8.0
+"""Seconds that a case of the quick suite may take."""
+
+
+def listed() -> tuple[Case, ...]:
+    """All cases in order, with the seconds that each takes alone on one core.
+
+    Examples
+    --------
+    >>> [case.id for case in listed()][:3]
+    ['A01', 'A02', 'A03']
+    """
+    return (
+        Case(id="A01", seconds=0.1),
+        Case(id="A02", seconds=2.0),
+        Case(id="A03", seconds=2.0),
+        Case(id="A04", seconds=2.0),
+        Case(id="A05", seconds=2.0),
+        Case(id="A06", seconds=2.0),
+        Case(id="A09", seconds=2.0),
+        Case(id="A10", seconds=2.0),
+        Case(id="A11", seconds=2.0),
+        Case(id="A12", seconds=2.0),
+    )
+
+
+def chosen(ids: Iterable[str] = (), *, quick: bool = False) -> tuple[Case, ...]:
+    """The cases of some ids, capitals aside, or of the beginnings of ids; all without any.
+
+    Parameters
+    ----------
+    ids
+        ``A02`` is that case, ``B`` all whose id begins with B.
+    quick
+        Only those that take at most :data:`QUICK` seconds.
+
+    Raises
+    ------
+    InputError
+        There is no such case, or none is left.
+
+    Examples
+    --------
+    >>> [case.id for case in chosen(["a02"])]
+    ['A02']
+    """
+    everything = listed()
+    wanted = [word.upper() for word in ids]
+    for word in wanted:
+        if not any(case.id.upper().startswith(word) for case in everything):
+            raise _unknown(word, [case.id for case in everything])
+    found = [c for c in everything if not wanted or any(c.id.upper().startswith(word) for word in wanted)]
+    kept = tuple(case for case in found if not quick or case.seconds <= QUICK)
+    if not kept:
+        names = ", ".join(case.id for case in found)
+        raise InputError("--quick", f"none of {names} takes less than {QUICK:g} s", "the same without --quick")
+    return kept
+
+
+def _unknown(word: str, known: list[str]) -> InputError:
+    near = difflib.get_close_matches(word, known, n=1, cutoff=0.5)
+    guess = f"did you mean {near[0]}? " if near else ""
+    return InputError("IDS", f"no case '{word}'", f"{guess}known: {', '.join(known)}")

@@ -1,0 +1,1 @@
+"""Exact solutions: motions and equilibria that are known without the method."""

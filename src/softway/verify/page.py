@@ -1,0 +1,131 @@
+"""The suite as one page of HTML that needs no other file."""
+
+import platform
+from base64 import b64encode
+from collections.abc import Iterable, Sequence
+from html import escape
+from importlib.metadata import PackageNotFoundError, version
+
+from softway.record.view_curves import Curve, Panel, drawing
+from softway.verify.case import Beside
+from softway.verify.report import Row, causes, counts, rows
+from softway.verify.result import Result
+
+STYLE = """
+body { font: 15px/1.45 system-ui, sans-serif; color: #222; max-width: 72rem; margin: 2rem auto; padding: 0 1rem; }
+h1 { font-size: 1.6rem; } h2 { font-size: 1.15rem; margin: 2.2rem 0 .3rem; }
+table { border-collapse: collapse; margin: .6rem 0; font-size: .88rem; }
+th, td { padding: .2rem .7rem; text-align: right; border-bottom: 1px solid #e4e4e4; }
+th:first-child, td:first-child, .left { text-align: left; }
+tr.ours td { font-weight: 600; } .pass { color: #00704f; } .fail { color: #b43c00; font-weight: 600; }
+p.small, ul { font-size: .88rem; color: #555; } img { max-width: 100%; display: block; margin: .5rem 0; }
+nav a { margin-right: .6rem; white-space: nowrap; }
+"""
+HEADS = ("quantity", "reference", "softway", "error", "tolerance", "")
+
+
+def page(results: Sequence[Result]) -> str:
+    """The page: what passed, why something did not, and each case with its quantities and curves.
+
+    Examples
+    --------
+    >>> from softway.verify import chosen, examined
+    >>> text = page([examined(chosen(["A01"])[0])])
+    >>> text.startswith("<!DOCTYPE html>"), "http" in text.replace("http://www.w3.org", "")
+    (True, False)
+    """
+    count = counts(results)
+    told = f"{count['passed']} of {count['quantities']} quantities of {count['cases']} cases are within their tolerance"
+    links = " ".join(f'<a class="{_word(r.passed)}" href="#{r.case.id}">{r.case.id}</a>' for r in results)
+    body = [
+        "<h1>Verification of softway</h1>",
+        f"<p>{told}.</p>",
+        f'<p class="small">{escape(_circumstances(results))}</p>',
+        _list(causes(results)),
+        f"<nav>{links}</nav>",
+        _picture((_overview(results),), "Error over tolerance of every quantity"),
+        *(_section(result) for result in results),
+    ]
+    head = f'<meta charset="utf-8"><title>Verification of softway</title><style>{STYLE}</style>'
+    return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head><body>\n' + "\n".join(body) + "\n</body></html>\n"
+
+
+def _section(result: Result) -> str:
+    """A case: title, table, pictures."""
+    complaint = f'<p class="fail">Not computed: {escape(result.complaint)}</p>' if result.complaint else ""
+    parts = [
+        f'<h2 id="{result.case.id}">{result.case.id} {escape(result.case.title)}</h2>',
+        f'<p class="small">Reference: {escape(_source(result))}. {result.wall:.1f} s.</p>',
+        complaint,
+        _table(HEADS, [_cells(row) for row in rows([result])]),
+        _picture(result.panels, f"Curves of {result.case.id}"),
+        *(_beside(beside) for beside in result.tables),
+    ]
+    return "\n".join(part for part in parts if part)
+
+
+def _source(result: Result) -> str:
+    return str(result.case.sheet["reference"].get("source", "")).rstrip(".")
+
+
+def _cells(row: Row) -> tuple[str, ...]:
+    word = _word(row.passed)
+    numbers = (row.quantity, row.reference, row.ours, row.error, row.tolerance)
+    return (*(escape(text) for text in numbers), f'<span class="{word}">{word}</span>')
+
+
+def _word(passed: bool) -> str:
+    return "pass" if passed else "fail"
+
+
+def _table(heads: Iterable[str], body: Sequence[Sequence[str]], ours: int = -1) -> str:
+    """A table of cells that are HTML already."""
+    lines = ["<tr>" + "".join(f"<th>{head}</th>" for head in heads) + "</tr>"]
+    for k, cells in enumerate(body):
+        mark = ' class="ours"' if k == ours else ""
+        lines.append(f"<tr{mark}>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
+    return "<table>" + "\n".join(lines) + "</table>"
+
+
+def _beside(beside: Beside) -> str:
+    """Figures of others, ours in the last line."""
+    body = [[escape(cell) for cell in row] for row in beside.rows]
+    grid = _table([escape(head) for head in beside.heads], body, len(body) - 1)
+    return f'<p><b>{escape(beside.title)}</b></p>{grid}<p class="small">{escape(beside.note)}</p>'
+
+
+def _list(sentences: Sequence[str]) -> str:
+    return "<ul>" + "".join(f"<li>{escape(s)}</li>" for s in sentences) + "</ul>" if sentences else ""
+
+
+def _picture(panels: Sequence[Panel], told: str) -> str:
+    """A drawing as an image of its own, so that names inside it stay its own."""
+    if not panels:
+        return ""
+    data = b64encode(drawing(panels).encode()).decode()
+    return f'<img alt="{escape(told)}" src="data:image/svg+xml;base64,{data}">'
+
+
+def _overview(results: Sequence[Result]) -> Panel:
+    """Error over tolerance of all quantities, in the order of the table."""
+    ratios = [max(q.error / q.tolerance, 1e-8) for r in results for q in r.quantities if q.value is not None]
+    places = list(range(1, len(ratios) + 1))
+    curves = (
+        Curve(x=places, y=ratios, kind="dots"),
+        Curve(x=[0, len(ratios) + 1], y=[1.0, 1.0], kind="exact", label="allowed"),
+    )
+    return Panel(title="Every quantity", x="line of the table", y="error / tolerance", curves=curves, log="y")
+
+
+def _circumstances(results: Sequence[Result]) -> str:
+    """Versions, machine, seconds."""
+    packages = ", ".join(f"{name} {_version(name)}" for name in ("softway", "numpy", "scipy", "numba"))
+    wall = sum(result.wall for result in results)
+    return f"{packages}, Python {platform.python_version()}, {platform.machine()}; {wall:.0f} s of computation."
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "?"

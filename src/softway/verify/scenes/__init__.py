@@ -1,0 +1,1 @@
+"""Scenes that several cases march, and their marches as arrays."""
