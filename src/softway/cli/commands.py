@@ -18,6 +18,7 @@ from rich.markup import escape
 
 from softway.cli.law import check_law
 from softway.cli.materials import materials
+from softway.cli.plot import plot
 from softway.cli.progress import laps_of, progress_of
 from softway.cli.tables import ranking, scales, summary
 from softway.cli.verify import verify
@@ -28,7 +29,6 @@ from softway.race.report import FILE as RACE
 from softway.race.report import record
 from softway.race.report import save as save_race
 from softway.record.run import Run
-from softway.record.view import pictures
 from softway.scenario.check import check as examine
 from softway.scenario.codec import load, resolved
 from softway.scenario.templates import templates
@@ -52,6 +52,7 @@ app = App(
 app.command(check_law)
 app.command(materials)
 app.command(verify)
+app.command(plot)
 Set = Annotated[tuple[str, ...], Parameter(name="--set", negative=())]
 Quiet = Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())]
 AllowPython = Annotated[bool, Parameter(negative=())]
@@ -163,21 +164,6 @@ def show(folder: Path, /) -> None:
         Run folder.
     """
     summary(Run(folder), Console())
-
-
-@app.command
-def plot(folder: Path, /, *, out: Path | None = None) -> None:
-    """Draw the bodies and the history of a run.
-
-    Parameters
-    ----------
-    folder
-        Run folder.
-    out
-        File of the first picture (.png, .pdf, .svg), the second beside it; by default both go into the run folder.
-    """
-    for file in pictures(Run(folder), out):
-        Console().print(escape(str(file)), soft_wrap=True)
 
 
 @app.command

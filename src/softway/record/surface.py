@@ -28,21 +28,32 @@ class Patches:
         return np.asarray(corners.reshape(-1, 3, *nodal.shape[1:]))
 
 
-def mesh_of(cells: Cells) -> Mesh:
-    """The reference mesh of all solids together."""
-    return Mesh(points=cells.reference[:, : cells.dimension], blocks=cells.blocks())
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Skin:
+    """What of a mesh can be seen: the ``boundary`` of volumes, the cells of plane bodies, in patches."""
+
+    mesh: Mesh
+    boundary: Mapping[str, IntArray]
+    patches: tuple[Patches, ...]
+
+    def spread(self, nodal: Array) -> Array:
+        """Corners of all small triangles (t, 3, ...) from a nodal field (n, ...)."""
+        return np.concatenate([patch.spread(nodal) for patch in self.patches])
 
 
-def patches(mesh: Mesh) -> tuple[Patches, ...]:
-    """What of a mesh can be seen: the boundary of volumes, the cells of plane bodies."""
-    seen: Mapping[str, IntArray] = mesh.boundary() if mesh.dim == 3 else mesh.blocks
+def skin_of(cells: Cells, most: int = MOST) -> Skin:
+    """The skin of all solids together, in about ``most`` small triangles."""
+    mesh = Mesh(points=cells.reference[:, : cells.dimension], blocks=cells.blocks())
+    boundary = mesh.boundary()
+    seen: Mapping[str, IntArray] = boundary if mesh.dim == 3 else mesh.blocks
     count = sum(len(f) for f in seen.values())
-    return tuple(_patches(name, facets, count) for name, facets in seen.items())
+    made = tuple(_patches(name, facets, count, most) for name, facets in seen.items())
+    return Skin(mesh=mesh, boundary=boundary, patches=made)
 
 
-def _patches(name: str, facets: IntArray, count: int) -> Patches:
+def _patches(name: str, facets: IntArray, count: int, most: int) -> Patches:
     flat = name == "tri3"
-    k = 1 if flat else int(np.clip(np.sqrt(MOST / (2.0 * max(count, 1))), 1, 8))
+    k = 1 if flat else int(np.clip(np.sqrt(most / (2.0 * max(count, 1))), 1, 8))
     points, triangles = _triangle(k) if name.startswith("tri") else _square(k)
     return Patches(facets=facets, shape=SHAPES[name](points[:, 0], points[:, 1]), triangles=triangles)
 

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from softway.errors import InputError
+from softway.record.look import STANDARD, Look
 from softway.record.run import Run
 from softway.record.view_body import bodies
 from softway.record.view_history import history
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def pictures(run: Run, out: Path | None = None) -> tuple[Path, ...]:
+def pictures(run: Run, out: Path | None = None, look: Look = STANDARD) -> tuple[Path, ...]:
     """Draw a run into PNG files: the bodies (bars: their paths), and the history.
 
     Parameters
@@ -25,21 +26,25 @@ def pictures(run: Run, out: Path | None = None) -> tuple[Path, ...]:
     out
         File of the first picture, by default ``bodies.png`` in the run folder; the history goes beside it, with
         ``_history`` added to the name.
+    look
+        Field, instants and size of the pictures.
     """
     bars = set(run.fields.cells.blocks()) <= {"bar2", "bar3"}
+    if bars and (look.times or look.field is not None):
+        raise InputError("--field, --at", "the picture of bars shows every time and no field", "to leave them out")
     first = out or run.path / "bodies.png"
     second = first.with_name(f"{first.stem}_history{first.suffix}") if out else run.path / "history.png"
-    return save(paths if bars else bodies, run, first), save(history, run, second)
+    return save(paths if bars else bodies, run, first, look), save(history, run, second, look)
 
 
-def save(draw: "Callable[[Run], Figure]", run: Run, file: Path) -> Path:
+def save(draw: "Callable[[Run, Look], Figure]", run: Run, file: Path, look: Look = STANDARD) -> Path:
     """Draw one picture into a file; its ending names the format."""
     matplotlib = library()
     with matplotlib.rc_context(STYLE):
-        figure = draw(run)
+        figure = draw(run, look)
         try:
             file.parent.mkdir(parents=True, exist_ok=True)
-            figure.savefig(file, dpi=160, facecolor="white")
+            figure.savefig(file, dpi=look.dpi, facecolor="white")
         except (OSError, ValueError) as error:
             raise InputError("out", f"cannot write '{file}': {error}", "a file such as picture.png") from None
     return file

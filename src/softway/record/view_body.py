@@ -1,115 +1,220 @@
-"""The deformed bodies, coloured by von Mises stress, at the instant of greatest strain energy.
+"""The deformed bodies, coloured by a field, at one instant or several."""
 
-Volumes are drawn by the painter's algorithm: small flat triangles of the surface in parallel projection, the far ones
-first, shaded by a lamp beside the eye.
-"""
-
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from softway.bodies.motion import Placed
+from softway.errors import InputError
 from softway.record.frames import Cells, Frame
+from softway.record.look import STANDARD, Look
 from softway.record.run import Run
 from softway.record.summary import contacts_of
-from softway.record.surface import at_nodes, mesh_of, patches
+from softway.record.surface import MOST, Skin, skin_of
+from softway.record.view_field import Colour, Range, colour_of, range_of
+from softway.record.view_paint import paint
 from softway.record.view_place import Placing, placing
-from softway.record.view_scene import Camera, camera, edges, ground, ruler, strokes
+from softway.record.view_scene import Camera, camera, ground, ruler
 from softway.record.view_style import canvas, library, scaled
-from softway.space.mesh import Mesh
 from softway.typing import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-MAP = "viridis"
 WIDTH = 7.6
 """Of the picture [inches]."""
-LAMP = np.array([-0.35, 0.75, 0.6])
-"""Direction to the lamp in the axes of the picture: right, up, towards the eye."""
+LASTING = ("plastic_strain", "dissipation")
+"""Fields that only grow: they are shown at the end."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Shown:
-    """What is drawn; nodal stress (n,)."""
+    """What is drawn of one frame; nodal ``values`` (n,) of the field."""
 
     frame: Frame
-    cells: Cells
     tools: Mapping[str, Placed]
     place: Placing
-    stress: Array
+    values: Array
 
 
-def bodies(run: Run) -> "Figure":
-    """The bodies with their stress at the instant of greatest strain energy, the floor, and the undeformed outline."""
-    shown = _shown(run)
-    top = _top(shown.stress)
-    colour, stress_unit = scaled(top, "Pa")
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Stage:
+    """What all frames of a picture share: skin, field with its range, the eye, the factor by which deformations are
+    enlarged, and the corners ``box`` (2, 2) of all that is seen of the bodies.
+    """
+
+    cells: Cells
+    skin: Skin
+    colour: Colour
+    range: Range
+    view: Camera
+    factor: float
+    box: Array
+
+    def shown(self, frame: Frame) -> Shown:
+        """A frame, placed so that the bodies touch what they really touch."""
+        tools = self.cells.obstacles(frame.time)
+        place = placing(self.cells, frame, tools, self.factor)
+        return Shown(frame=frame, tools=tools, place=place, values=self.colour.at_nodes(self.cells, frame))
+
+    @property
+    def mapped(self):  # type: ignore[no-untyped-def]  # a mappable of Matplotlib
+        """Colours of the values."""
+        factor, _ = self.colour.label(self.range.scale)
+        high = factor * self.range.high or 1.0
+        return library().cm.ScalarMappable(library().colors.Normalize(factor * self.range.low, high), self.range.map)
+
+    def draw(self, axis: "Axes", shown: Shown) -> None:
+        """Draw one frame with the obstacles and a ruler."""
+        ground(axis, self.skin, shown.place.points, shown.tools, self.view)
+        factor, _ = self.colour.label(self.range.scale)
+        values = factor * self.skin.spread(shown.values).mean(axis=1)
+        paint(axis, self.skin, shown.place, self.view, self.mapped.to_rgba(values)[:, :3])
+        axis.set_aspect("equal")
+        axis.set_axis_off()
+
+    def bar(self, figure: "Figure", axes: "Sequence[Axes]") -> None:
+        """The scale of the colours beside the pictures."""
+        peaked = {(False, False): "neither", (True, False): "max", (True, True): "both"}
+        extend = peaked[self.range.peaked, self.range.peaked and self.range.low < 0.0]
+        bar = figure.colorbar(self.mapped, ax=list(axes), shrink=0.8, pad=0.02, aspect=28, extend=extend)
+        bar.set_label(self.colour.label(self.range.scale)[1])
+        bar.outline.set_visible(False)  # type: ignore[operator]
+
+
+def bodies(run: Run, look: Look = STANDARD) -> "Figure":
+    """The bodies coloured by a field, the floor, and the undeformed outline; a panel for each instant."""
+    colour = colour_of(run, look.field)
+    numbers, when = _chosen(run, look, colour)
+    stage = stage_of(run, colour, numbers)
+    shown = [stage.shown(run.fields[number]) for number in numbers]
+    columns = 1 if len(shown) == 1 else min(len(shown), 4)
+    rows = -(-len(shown) // columns)
     figure = canvas(WIDTH, 6.0)
-    axis = figure.subplots()
-    view = camera(shown.cells, shown.place.points, shown.tools, _focus(shown))
-    ground(axis, shown.cells, shown.place.points, shown.tools, view)
-    norm = library().colors.Normalize(0.0, colour * top or 1.0)
-    mapped = library().cm.ScalarMappable(norm, MAP)
-    _paint(axis, shown, view, mapped, colour)
-    ruler(axis, shown.cells.reference, view)
-    axis.set_aspect("equal")
-    axis.set_axis_off()
-    axis.margins(0.02)
-    peaked = "max" if top < shown.stress.max() else "neither"
-    bar = figure.colorbar(mapped, ax=axis, shrink=0.8, pad=0.02, aspect=28, extend=peaked)
-    bar.set_label(f"von Mises stress [{stress_unit}]")
-    bar.outline.set_visible(False)  # type: ignore[operator]
-    box = axis.dataLim
-    figure.set_size_inches(WIDTH, float(np.clip(0.8 * WIDTH * box.height / box.width + 1.0, 3.4, 8.5)))
-    _words(figure, run, shown)
+    axes = list(figure.subplots(rows, columns, squeeze=False).ravel())
+    for axis, one in zip(axes, shown, strict=False):
+        stage.draw(axis, one)
+        if len(shown) > 1:
+            axis.set_title(instant(one.frame.time), fontsize=9.5, fontweight="normal")
+    for axis in axes[len(shown) :]:
+        axis.remove()
+    _fit(figure, axes[: len(shown)], stage, look, (rows, columns))
+    stage.bar(figure, axes[: len(shown)])
+    caption(figure, run, stage, shown, when)
     return figure
 
 
-def _focus(shown: Shown) -> Array | None:
-    """Centre (3,) of the contact forces, if there are any."""
-    force = shown.frame.contact_force
-    return np.average(shown.place.points, axis=0, weights=force) if force.any() else None
+def stage_of(run: Run, colour: Colour, numbers: Sequence[int], most: int = MOST) -> Stage:
+    """What some frames share; they are read one after the other, none is kept."""
+    cells = run.fields.cells
+    factors, spots, corners, values = [], [], [], []
+    for number in numbers:
+        frame = run.fields[number]
+        place = placing(cells, frame, cells.obstacles(frame.time))
+        low, high = place.points.min(axis=0), place.points.max(axis=0)
+        factors.append(place.factor)
+        corners.append(np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T)
+        values.append(np.quantile(colour.at_nodes(cells, frame), np.linspace(0.0, 1.0, 1001)))
+        spots.append((float(frame.contact_force.sum()), number))
+    frame = run.fields[max(spots)[1]]
+    tools = cells.obstacles(frame.time)
+    place = placing(cells, frame, tools, min(factors))
+    view = camera(cells, place.points, tools, _focus(place, frame))
+    seen = view.seen(np.concatenate(corners))[:, :2]
+    return Stage(
+        cells=cells,
+        skin=skin_of(cells, most),
+        colour=colour,
+        range=range_of(np.concatenate(values)),
+        view=view,
+        factor=min(factors),
+        box=np.array([seen.min(axis=0), seen.max(axis=0)]),
+    )
 
 
-def _words(figure: "Figure", run: Run, shown: Shown) -> None:
+def caption(figure: "Figure", run: Run, stage: Stage, shown: Sequence[Shown], when: str) -> None:
     """Title above, and below it what is shown."""
-    second, unit = scaled(shown.frame.time, "s")
-    enlarged = "to scale" if shown.place.factor == 1.0 else f"enlarged {shown.place.factor:g} times"
-    missing = f" Not drawn: {', '.join(shown.cells.lost)}." if shown.cells.lost else ""
+    enlarged = "to scale" if shown[0].place.factor == 1.0 else f"enlarged {shown[0].place.factor:g} times"
+    missing = f" Not drawn: {', '.join(stage.cells.lost)}." if stage.cells.lost else ""
     title = run.provenance.get("title", "") or "Deformed body"
     figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold")
-    when = "at the greatest strain energy" + (" in contact" if shown.frame.contact_force.any() else "")
-    dashed = "; dashed: undeformed shape" if shown.place.shaped.any() else ""
+    dashed = "; dashed: undeformed shape" if any(one.place.shaped.any() for one in shown) else ""
+    time = f"t = {instant(shown[0].frame.time)}{when}. " if len(shown) == 1 else ""
+    greatest = max((one.values for one in shown), key=lambda values: float(np.abs(values).max()))
     figure.supxlabel(
-        f"t = {second * shown.frame.time:.4g} {unit}, {when}. Deformation {enlarged}{dashed}.\n"
-        f"Stress: mean of the cells at a node, at most {_stress(shown)}.{missing}",
+        f"{time}Deformation {enlarged}{dashed}.\n{_most(stage.colour, greatest)}{missing}",
         x=0.01,
         ha="left",
         fontsize=8.5,
     )
 
 
-def _top(stress: Array) -> float:
-    """Where the colours end [Pa]: at the greatest stress, or where a few nodes far above the others begin."""
-    most, usual = float(stress.max()), float(np.percentile(stress, 99.0))
-    return usual if most > 2.0 * usual > 0.0 else most
+def nearest(run: Run, time: float) -> int:
+    """Number of the frame next to a time [s].
+
+    Raises
+    ------
+    InputError
+        If the run does not reach it.
+    """
+    times = run.fields.times
+    if not times[0] - 1e-9 * times[-1] <= time <= times[-1] * (1.0 + 1e-9):
+        problem = f"{instant(time)} is outside of the run"
+        raise InputError("--at", problem, f"a time from {instant(times[0])} to {instant(times[-1])}")
+    return int(np.argmin(np.abs(times - time)))
 
 
-def _stress(shown: Shown) -> str:
-    factor, unit = scaled(float(shown.stress.max()), "Pa")
-    return f"{factor * shown.stress.max():.3g} {unit}"
+def _chosen(run: Run, look: Look, colour: Colour) -> tuple[list[int], str]:
+    """Numbers of the frames, and what is special about their time."""
+    if look.times:
+        return [nearest(run, time) for time in look.times], ""
+    if colour.name in LASTING:
+        return [len(run.fields) - 1], ", the end"
+    frame = _strained(run)
+    contact = " in contact" if run.fields[frame].contact_force.any() else ""
+    return [frame], f", at the greatest strain energy{contact}"
 
 
-def _shown(run: Run) -> Shown:
-    """The frame of greatest strain energy in contact, placed so that the bodies touch what they really touch."""
-    fields, cells = run.fields, run.fields.cells
-    frame = fields[_strained(run)]
-    tools, stress = cells.obstacles(frame.time), at_nodes(cells, frame.von_mises)
-    return Shown(frame=frame, cells=cells, tools=tools, place=placing(cells, frame, tools), stress=stress)
+def _fit(figure: "Figure", axes: "Sequence[Axes]", stage: Stage, look: Look, grid: tuple[int, int]) -> None:
+    """The same window in every panel, a ruler, and a figure without empty margins."""
+    boxes = [axis.dataLim for axis in axes]
+    low = np.min([box.min for box in boxes], axis=0)
+    high = np.max([box.max for box in boxes], axis=0)
+    ruler(axes[0], stage.cells.reference, (low[0], low[1]))
+    low[1] = axes[0].dataLim.y0
+    width, height = high - low
+    for axis in axes:
+        axis.set_xlim(low[0] - 0.02 * width, high[0] + 0.02 * width)
+        axis.set_ylim(low[1] - 0.02 * height, high[1] + 0.02 * height)
+    rows, columns = grid
+    tall = 0.8 * WIDTH * rows * height / (columns * width) + 1.0 + 0.2 * (rows if len(axes) > 1 else 0)
+    figure.set_size_inches(*(look.inches or (WIDTH, float(np.clip(tall, 3.4 if len(axes) == 1 else 2.0, 8.5)))))
+
+
+def _focus(place: Placing, frame: Frame) -> Array | None:
+    """Centre (3,) of the contact forces, if there are any."""
+    force = frame.contact_force
+    return np.average(place.points, axis=0, weights=force) if force.any() else None
+
+
+def instant(time: float) -> str:
+    """A time [s] in words."""
+    factor, unit = scaled(time, "s")
+    return f"{factor * time:.4g} {unit}"
+
+
+def _most(colour: Colour, values: Array) -> str:
+    """The field and its greatest value in words."""
+    greatest = float(values[np.argmax(np.abs(values))])
+    factor, label = colour.label(abs(greatest))
+    unit = label.rpartition(" [")[2].rstrip("]") if colour.kind.unit else ""
+    how = "mean of the cells at a node, " if colour.kind.on == "cells" else ""
+    most = "at most" if greatest >= 0.0 else "greatest"
+    word = colour.word[0].upper() + colour.word[1:]
+    return f"{word}: {how}{most} {factor * greatest:.3g} {unit}".rstrip() + "."
 
 
 def _strained(run: Run) -> int:
@@ -120,52 +225,3 @@ def _strained(run: Run) -> int:
     touching = np.sum(forces, axis=0) > 0.0
     strain = history["energy_strain"][row]
     return int(np.argmax(np.where(touching, strain, -1.0) if touching.any() else strain))
-
-
-def _paint(axis: "Axes", shown: Shown, view: Camera, mapped: object, colour: float) -> None:
-    """Draw the small triangles and the outlines, far ones first."""
-    mesh = mesh_of(shown.cells)
-    corners, values = [], []
-    for patch in patches(mesh):
-        corners.append(view.seen(patch.spread(shown.place.points)))
-        values.append(patch.spread(shown.stress).mean(axis=1))
-    triangles, stress = np.concatenate(corners), np.concatenate(values)
-    rgb = mapped.to_rgba(colour * stress)[:, :3]  # type: ignore[attr-defined]
-    if mesh.dim == 3:
-        triangles, rgb = _lit(triangles, rgb)
-    lines, dashes = _outlines(shown, mesh, view)
-    pieces = np.concatenate([triangles, lines, dashes])
-    groups = np.repeat([0, 1, 2], [len(triangles), len(lines), len(dashes)])
-    colours = np.concatenate([rgb, np.zeros((len(lines), 3)), np.full((len(dashes), 3), 0.1)])
-    order = np.argsort(pieces[:, :, 2].mean(axis=1), kind="stable")
-    polygons = library().collections.PolyCollection(
-        pieces[order][:, :, :2],
-        facecolors=colours[order],
-        edgecolors=colours[order],
-        linewidths=np.array([0.7, 0.45, 0.75])[groups[order]],
-        capstyle="butt",
-        zorder=3,
-    )
-    axis.add_collection(polygons)
-
-
-def _lit(triangles: Array, rgb: Array) -> tuple[Array, Array]:
-    """The triangles that face the eye, and their colours under the lamp."""
-    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
-    front = normal[:, 2] > 0.0
-    light = 0.86 + 0.18 * (normal[front] @ (LAMP / np.linalg.norm(LAMP)))
-    return triangles[front], np.clip(rgb[front] * light[:, None], 0.0, 1.0)
-
-
-def _outlines(shown: Shown, mesh: Mesh, view: Camera) -> tuple[Array, Array]:
-    """Edges of the deformed body, dashes of the undeformed one: triangles without width, a hair nearer the eye."""
-    size = float(np.linalg.norm(np.ptp(shown.cells.reference, axis=0)))
-    found = []
-    for points, every in ((shown.place.points, 1), (shown.place.shape, 2)):
-        lines = edges(mesh, points, view)
-        lines = lines if every == 1 else lines[shown.place.shaped[lines[:, 0]]]
-        dash = strokes(points, lines, size / 90.0)[:, ::every].reshape(-1, 2, 3)
-        flat = view.seen(dash)[:, [0, 1, 1]]
-        found.append(flat + np.array([0.0, 0.0, 0.006 * size * every]))
-    return found[0], found[1]

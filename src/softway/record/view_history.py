@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from softway.record.history import CERTIFICATE, COLUMNS
+from softway.record.look import STANDARD, Look
 from softway.record.run import Run
 from softway.record.summary import contacts_of
 from softway.record.table import Table
@@ -22,13 +23,13 @@ WORDS = {"m": "position, displacement", "m/s": "velocity", "N": "reaction"}
 """What probes with a unit record."""
 
 
-def history(run: Run) -> "Figure":
+def history(run: Run, look: Look = STANDARD) -> "Figure":
     """Energies, error of the energy balance, contact force, least gap, and probes over time."""
     table, title = run.history, run.provenance.get("title", "")
     factor, unit = scaled(table["time"], "s")
     time, panels = factor * table["time"], _panels(table)
     rows = -(-len(panels) // 2)
-    figure = canvas(9.0, 3.1 * rows + 0.2)
+    figure = canvas(*(look.inches or (9.0, 3.1 * rows + 0.2)))
     axes = figure.subplots(rows, 2, sharex=True, squeeze=False).ravel()
     for draw, axis in zip(panels, axes, strict=False):
         draw(axis, time, table)
@@ -47,7 +48,7 @@ def _panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
     contacts = contacts_of(table)
     panels: list[Callable[[Axes, Array, Table], None]] = [_energies, _balance]
     if contacts:
-        panels += [partial(_forces, contacts=contacts), partial(_gaps, contacts=contacts)]
+        panels += [partial(forces, contacts=contacts), partial(_gaps, contacts=contacts)]
     known = {name for name, _ in (*COLUMNS, *CERTIFICATE)}
     probes = [n for n in table if n not in known and not n.startswith("contact.")]
     units = dict.fromkeys(table.units[n] for n in probes)
@@ -77,7 +78,7 @@ def _balance(axis: "Axes", time: Array, table: Table) -> None:
     axis.set(title=f"Energy balance: worst error {relative.max():.1e}", ylabel="|error| / greatest energy")
 
 
-def _forces(axis: "Axes", time: Array, table: Table, contacts: tuple[str, ...]) -> None:
+def forces(axis: "Axes", time: Array, table: Table, contacts: tuple[str, ...]) -> None:
     """Mean force of each slab, as a staircase."""
     factor, unit = scaled(np.concatenate([table[f"contact.{c}.force_n"] for c in contacts]), "N")
     for contact, color in zip(contacts, _cycle(len(contacts)), strict=True):

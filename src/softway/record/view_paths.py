@@ -1,13 +1,18 @@
 """Bars in one picture: how their ends move, and the paths of all nodes in the x-t plane."""
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from softway.bodies.solid import Tool
+from softway.record.look import STANDARD, Look
 from softway.record.run import Run
+from softway.record.summary import contacts_of
+from softway.record.view_history import forces
 from softway.record.view_scene import plane
 from softway.record.view_style import BLACK, CYCLE, GREEN, RED, canvas, scaled
+from softway.record.world_lines import kinks, world_lines
 from softway.typing import Array
 
 if TYPE_CHECKING:
@@ -20,29 +25,65 @@ TOOL: dict[str, Any] = {"color": BLACK, "lw": 2.0, "alpha": 0.5}
 CUT: dict[str, Any] = {"levels": [0.0], "colors": BLACK, "linewidths": 2.0, "alpha": 0.5}
 
 
-def paths(run: Run) -> "Figure":
-    """Positions of the ends over time, and the x-t diagram of the nodes with touches and releases.
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Diagrams:
+    """The figure, its panels over time at the ``left``, the x-t diagram at the ``right``, and the factor of time."""
+
+    figure: "Figure"
+    left: "tuple[Axes, ...]"
+    right: "Axes"
+    second: float
+
+
+def paths(run: Run, look: Look = STANDARD) -> "Figure":
+    """Positions and velocities of the ends and contact forces over time, and the x-t diagram of the nodes with the
+    kinks of their paths where they touch and let go.
 
     Bars in the plane or in space are shown by the coordinate along which they are longest.
     """
+    return diagrams(run, look).figure
+
+
+def diagrams(run: Run, look: Look = STANDARD) -> Diagrams:
+    """The figure of :func:`paths` with its panels."""
     cells, fields = run.fields.cells, run.fields
     axis = int(np.argmax(np.ptp(cells.reference, axis=0)))
     track = np.array([frame.points[:, axis] for frame in fields])
+    speed = np.array([frame.velocity[:, axis] for frame in fields])
     times = fields.times
     (second, unit), (metre, length) = scaled(times, "s"), scaled(track, "m")
-    figure = canvas(9.0, 4.4)
-    left, right = figure.subplots(1, 2)
+    contacts = contacts_of(run.history)
+    figure = canvas(*(look.inches or (9.6, 6.4 if contacts else 5.0)))
+    grid = figure.add_gridspec(3 if contacts else 2, 2, width_ratios=(1.0, 1.05))
+    left = [figure.add_subplot(grid[row, 0]) for row in range(grid.nrows)]
+    right = figure.add_subplot(grid[:, 1])
     title = run.provenance.get("title", "")
     figure.suptitle(title or "Paths", x=0.01, ha="left", fontsize=12, fontweight="bold")
     letter = "xyz"[axis]
-    _ends(left, second * times, metre * track, cells.reference[:, axis], letter)
-    left.set(title="Ends", xlabel=f"time [{unit}]", ylabel=f"position {letter} [{length}]")
-    order = np.argsort(cells.reference[:, axis])
-    chosen = order[np.unique(np.linspace(0, len(order) - 1, min(MOST, len(order))).astype(int))]
-    right.plot(metre * track[:, chosen], second * times, color="#7f9db9", lw=0.8)
+    across = cells.reference[:, axis]
+    _ends(left[0], second * times, metre * track, across, letter)
+    left[0].set(title="Ends", ylabel=f"{letter} [{length}]")
+    quick, speed_unit = scaled(speed, "m/s")
+    _ends(left[1], second * times, quick * speed, across, letter)
+    left[1].set(title="Velocity of the ends", ylabel=f"velocity [{speed_unit}]")
+    if contacts:
+        forces(left[2], second * run.history["time"], run.history, contacts=contacts)
+    for panel in left:
+        panel.sharex(left[0])
+        panel.tick_params(labelbottom=panel is left[-1])
+    left[-1].set_xlabel(f"time [{unit}]")
+    shown = _fan(right, run, axis, second, metre)
     _marks(right, run, axis, second, metre)
-    right.set(title=f"Paths of {len(chosen)} nodes", xlabel=f"position {letter} [{length}]", ylabel=f"time [{unit}]")
-    right.set_ylim(bottom=second * times[0])
+    right.set(title=f"Paths of {shown} nodes", xlabel=f"position {letter} [{length}]", ylabel=f"time [{unit}]")
+    right.set_ylim(second * times[0], second * times[-1])
+    _obstacles(left[0], right, run, axis, (second, metre), track)
+    left[0].legend(loc="best")
+    return Diagrams(figure=figure, left=tuple(left), right=right, second=second)
+
+
+def _obstacles(left: "Axes", right: "Axes", run: Run, axis: int, factors: tuple[float, float], track: Array) -> None:
+    """Where the obstacles stand, over time and in the x-t diagram."""
+    (second, metre), times, cells = factors, run.fields.times, run.fields.cells
     moments = np.linspace(times[0], times[-1], 8 * len(times)) if len(times) > 1 else times
     for name, tool in cells.tools.items():
         level = metre * _level(tool, axis, moments)
@@ -54,8 +95,17 @@ def paths(run: Run) -> "Figure":
             if gaps.min() < 0.0 < gaps.max():
                 left.contour(second * times, metre * along, gaps.T, **CUT)
                 right.contour(metre * along, second * times, gaps, **CUT)
-    left.legend(loc="best")
-    return figure
+
+
+def _fan(right: "Axes", run: Run, axis: int, second: float, metre: float) -> int:
+    """Paths of some nodes with their kinks; how many."""
+    reference = run.fields.cells.reference[:, axis]
+    order = np.argsort(reference)
+    chosen = order[np.unique(np.linspace(0, len(order) - 1, min(MOST, len(order))).astype(int))]
+    touched = np.array(sorted(kinks(run)), int)
+    for path in world_lines(run, np.union1d(chosen, touched), axis):
+        right.plot(metre * path[:, 1], second * path[:, 0], color="#7f9db9", lw=0.8)
+    return len(np.union1d(chosen, touched))
 
 
 def _level(tool: Tool, axis: int, times: Array) -> Array:

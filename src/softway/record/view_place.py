@@ -29,9 +29,9 @@ class Placing:
     factor: float
 
 
-def placing(cells: Cells, frame: Frame, tools: Mapping[str, Placed]) -> Placing:
-    """Enlarge the deformation of every body alike until it can be seen, and move the bodies back to the obstacles and
-    to each other.
+def placing(cells: Cells, frame: Frame, tools: Mapping[str, Placed], most: float = np.inf) -> Placing:
+    """Enlarge the deformation of every body alike until it can be seen, at ``most`` so many times, and move the bodies
+    back to the obstacles and to each other.
     """
     real, shape = frame.points, frame.points.copy()
     members = [_nodes_of(cells, number) for number in range(len(cells.bodies))]
@@ -43,7 +43,7 @@ def placing(cells: Cells, frame: Frame, tools: Mapping[str, Placed]) -> Placing:
         depth = float(np.linalg.norm(real[mine] - shape[mine], axis=1).max())
         shaped[mine] = depth < BENT * size
         factors += [exaggeration(size, depth)] if depth > UNDEFORMED * size else []
-    factor = min(factors) if len(factors) > 1 else 1.0
+    factor = min(*factors, most) if len(factors) > 1 else min(most, 1.0)
     points = shape + factor * (real - shape)
     for number, mine in enumerate(members):
         shift = _to_others(members[:number], mine, frame, points)

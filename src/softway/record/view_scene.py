@@ -8,10 +8,9 @@ import numpy as np
 
 from softway.bodies.motion import Placed
 from softway.record.frames import Cells
-from softway.record.surface import mesh_of, patches
+from softway.record.surface import Skin
 from softway.record.view_shape import draw
 from softway.record.view_style import library, scaled
-from softway.space.mesh import Mesh
 from softway.space.obstacles import HalfSpace
 from softway.typing import Array, IntArray
 
@@ -56,7 +55,7 @@ def camera(cells: Cells, points: Array, tools: Mapping[str, Placed], focus: Arra
     return Camera(np.array([right, np.cross(eye, right), eye]))
 
 
-def ground(axis: "Axes", cells: Cells, points: Array, tools: Mapping[str, Placed], view: Camera) -> None:
+def ground(axis: "Axes", skin: Skin, points: Array, tools: Mapping[str, Placed], view: Camera) -> None:
     """Each obstacle near the body: a plate with the body's shadow, or in the plane a hatched band."""
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
     for tool in tools.values():
@@ -68,8 +67,8 @@ def ground(axis: "Axes", cells: Cells, points: Array, tools: Mapping[str, Placed
         if ((points - point) @ normal).min() > 0.75 * size:
             continue
         centre = points.mean(axis=0) - ((points.mean(axis=0) - point) @ normal) * normal
-        if cells.dimension == 3:
-            _plate(axis, cells, points, view, (normal, point, centre))
+        if skin.mesh.dim == 3:
+            _plate(axis, skin, points, view, (normal, point, centre))
         else:
             _band(axis, normal, centre, 0.75 * size)
 
@@ -84,7 +83,7 @@ def plane(tool: Placed) -> tuple[Array, Array] | None:
     return point, normal
 
 
-def _plate(axis: "Axes", cells: Cells, points: Array, view: Camera, plane: tuple[Array, Array, Array]) -> None:
+def _plate(axis: "Axes", skin: Skin, points: Array, view: Camera, plane: tuple[Array, Array, Array]) -> None:
     normal, point, centre = plane
     if normal @ view.axes[2] <= 0.0:
         return
@@ -95,7 +94,7 @@ def _plate(axis: "Axes", cells: Cells, points: Array, view: Camera, plane: tuple
     angle = np.linspace(0.0, 2.0 * np.pi, 97)[:, None]
     rim = centre + reach * (np.cos(angle) * first + np.sin(angle) * np.cross(normal, first))
     axis.fill(*view.seen(rim).T[:2], facecolor=FLOOR, edgecolor="none", zorder=0)
-    shadow = np.concatenate([view.seen(patch.spread(flat)) for patch in patches(mesh_of(cells))])
+    shadow = view.seen(skin.spread(flat))
     collection = library().collections.PolyCollection
     axis.add_collection(collection(shadow[:, :, :2], facecolors=SHADOW, edgecolors=SHADOW, linewidths=0.4, zorder=1))
 
@@ -109,15 +108,15 @@ def _band(axis: "Axes", normal: Array, centre: Array, reach: float) -> None:
     axis.plot(*ends[:, :2].T, color="#444444", lw=1.4, zorder=1)
 
 
-def edges(mesh: Mesh, shape: Array, view: Camera) -> IntArray:
+def edges(skin: Skin, shape: Array, view: Camera) -> IntArray:
     """Nodes (k, 3), ends around the middle, of what outlines a shape (n, 3).
 
     Of volumes: sharp edges and the silhouette, on the side of the eye; of plane bodies: the boundary.
     """
-    if mesh.dim == 2:
-        return np.concatenate([f[:, [0, 0 if f.shape[1] == 2 else 2, 1]] for f in mesh.boundary().values()])
+    if skin.mesh.dim == 2:
+        return np.concatenate([f[:, [0, 0 if f.shape[1] == 2 else 2, 1]] for f in skin.boundary.values()])
     sides, normals = [], []
-    for name, facets in mesh.boundary().items():
+    for name, facets in skin.boundary.items():
         c = 3 if name.startswith("tri") else 4
         normal = np.cross(shape[facets[:, 1]] - shape[facets[:, 0]], shape[facets[:, 2]] - shape[facets[:, 0]])
         normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
@@ -150,12 +149,12 @@ def _sides(facets: IntArray, corners: int) -> IntArray:
     return np.stack([ends[..., 0], middle, ends[..., 1]], axis=-1)
 
 
-def ruler(axis: "Axes", reference: Array, view: Camera) -> None:
-    """A bar of round length at the lower left, since the axes have no numbers."""
+def ruler(axis: "Axes", reference: Array, corner: tuple[float, float]) -> None:
+    """A bar of round length below a corner at the lower left, since the axes have no numbers."""
     size = float(np.linalg.norm(np.ptp(reference, axis=0)))
     power = 10.0 ** np.floor(np.log10(0.4 * size))
     length = float(power * max(m for m in (1, 2, 5) if m * power <= 0.4 * size))
     factor, metre = scaled(length, "m")
-    x, y = axis.dataLim.x0, axis.dataLim.y0 - 0.06 * size
+    x, y = corner[0], corner[1] - 0.06 * size
     axis.plot([x, x + length], [y, y], color="#222222", lw=2.0, solid_capstyle="butt", zorder=5)
     axis.annotate(f"{factor * length:g} {metre}", (x, y), (0, -4), textcoords="offset points", va="top", fontsize=9)

@@ -144,3 +144,9 @@ def bar() -> Fake:
 def probe() -> type[FakeProbe]:
     """Maker of probe declarations."""
     return FakeProbe
+
+
+@pytest.fixture
+def square() -> Fake:
+    """A made-up run of a square."""
+    return Fake(MESHES["quad9"]())

@@ -133,7 +133,7 @@ def test_facets_are_drawn_where_they_stand(volume, tmp_path):
 def test_a_moving_wall_is_a_line_in_the_picture_of_a_bar(bar, tmp_path):
     pytest.importorskip("matplotlib")
     ram = Tool(shape=HalfSpace(point=-0.5, normal=1.0), motion=Translation(velocity=0.25))
-    left, right = paths(With(bar, ram).run(tmp_path / "run")).axes
+    (left, *_, right) = paths(With(bar, ram).run(tmp_path / "run")).axes
     line = next(k for k in left.lines if k.get_label() == "floor")
     np.testing.assert_allclose(line.get_ydata(), -0.5 + 0.25 * line.get_xdata() / 1e0, atol=1e-12)
     assert len(right.lines) >= 2
@@ -142,7 +142,7 @@ def test_a_moving_wall_is_a_line_in_the_picture_of_a_bar(bar, tmp_path):
 def test_other_obstacles_of_a_bar_are_drawn_where_they_cut_its_line(bar, tmp_path):
     pytest.importorskip("matplotlib")
     wall = SignedDistance(function=level, dim=1)
-    left, right = paths(With(bar, Tool(shape=wall)).run(tmp_path / "run")).axes
+    (left, *_, right) = paths(With(bar, Tool(shape=wall)).run(tmp_path / "run")).axes
     found = [axis.collections[-1].get_paths()[0].vertices for axis in (left, right)]
     np.testing.assert_allclose(found[0][:, 1], -0.2, atol=1e-12)
     np.testing.assert_allclose(found[1][:, 0], -0.2, atol=1e-12)

@@ -9,9 +9,9 @@ from softway.bodies.solid import Tool
 from softway.errors import InputError
 from softway.record.conduct import Place, conduct
 from softway.record.frames import Cells, Frame
-from softway.record.surface import SHAPES, at_nodes, exaggeration, mesh_of, patches, rigid
+from softway.record.surface import SHAPES, at_nodes, exaggeration, rigid, skin_of
 from softway.record.view import pictures
-from softway.record.view_body import _top
+from softway.record.view_field import range_of
 from softway.record.view_place import placing
 from softway.record.view_scene import camera, edges, strokes
 from softway.record.view_style import scaled
@@ -61,10 +61,10 @@ def test_shape_functions_of_facets(name):
 def test_small_triangles_cover_the_surface_and_face_outward(run):
     """Area 1 of the unit square, 6 of the unit cube; the volume by the divergence theorem is 1."""
     cells = run.fields.cells
-    mesh = mesh_of(cells)
-    if mesh.cell_dim == 1:
+    if cells.types.max() in (3, 21):
         pytest.skip("bars have no surface")
-    triangles = np.concatenate([p.spread(cells.reference) for p in patches(mesh)])
+    skin = skin_of(cells)
+    mesh, triangles = skin.mesh, skin.spread(cells.reference)
     normal = 0.5 * np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     assert np.linalg.norm(normal, axis=1).sum() == pytest.approx({2: 1.0, 3: 6.0}[mesh.dim], rel=1e-12)
     if mesh.dim == 3:
@@ -74,21 +74,26 @@ def test_small_triangles_cover_the_surface_and_face_outward(run):
 def test_edges_of_a_cube_or_square(run):
     """A cube shows 9 of its edges to the eye, a square its 4 sides: lengths add up."""
     cells = run.fields.cells
-    mesh = mesh_of(cells)
-    if mesh.cell_dim == 1:
+    if cells.types.max() in (3, 21):
         pytest.skip("bars have no outline")
+    skin = skin_of(cells)
     view = camera(cells, cells.reference, cells.obstacles(0.0))
-    pieces = strokes(cells.reference, edges(mesh, cells.reference, view), 0.05)
+    pieces = strokes(cells.reference, edges(skin, cells.reference, view), 0.05)
     length = np.linalg.norm(pieces[..., 1, :] - pieces[..., 0, :], axis=-1).sum()
-    assert length == pytest.approx({2: 4.0, 3: 9.0}[mesh.dim], rel=1e-12)
+    assert length == pytest.approx({2: 4.0, 3: 9.0}[skin.mesh.dim], rel=1e-12)
 
 
 def test_colours_end_below_a_lonely_peak():
     """Above twice the 99th percentile the colours stop there; otherwise at the greatest value."""
     even = np.linspace(0.0, 1.0, 1001)
-    assert (
-        _top(even) == 1.0 and _top(np.append(even, 50.0)) == pytest.approx(0.99, abs=2e-3) and _top(0.0 * even) == 0.0
-    )
+    peaked = range_of(np.append(even, 50.0))
+    assert range_of(even).high == 1.0 and range_of(0.0 * even).high == 0.0
+    assert peaked.high == pytest.approx(0.99, abs=2e-3) and peaked.peaked and peaked.low == 0.0
+
+
+def test_colours_of_both_signs_are_alike_around_zero():
+    found = range_of(np.linspace(-3.0, 1.0, 101))
+    assert found.low == -found.high and found.high == pytest.approx(3.0, rel=0.02) and found.map == "RdBu_r"
 
 
 def test_nodal_means(run):

@@ -1,0 +1,1 @@
+"""A run in the browser: moving mesh, fields, curves and events, from this machine to this machine."""

@@ -1,0 +1,159 @@
+"""Films: every stored frame drawn from the same place, written as MP4 through ffmpeg or as GIF through Pillow."""
+
+import logging
+import shutil
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from softway.errors import InputError
+from softway.record.look import STANDARD, Look
+from softway.record.run import Run
+from softway.record.view_body import caption, stage_of
+from softway.record.view_field import colour_of
+from softway.record.view_paths import diagrams
+from softway.record.view_scene import ruler
+from softway.record.view_style import BLACK, STYLE, canvas, library
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+log = logging.getLogger("softway")
+FAST = 20
+"""Pictures in a second."""
+LONGEST = 300
+"""Pictures of a film; of longer runs some frames are left out."""
+FINE = 16000
+"""Small triangles of a surface."""
+SIZE, DPI = (1280, 720), 120
+
+Draw = Callable[[int], None]
+"""Draws the picture with a number into the figure."""
+
+
+def film(run: Run, file: Path, look: Look = STANDARD, watch: Callable[[int, int], None] | None = None) -> Path:
+    """Write a film of a run; MP4 without ffmpeg becomes a GIF beside it.
+
+    Parameters
+    ----------
+    run
+        The run.
+    file
+        ``.mp4`` or ``.gif``.
+    look
+        Field and size; ``times``, if two are given, are the first and the last instant.
+    watch
+        Called with the number of pictures done and of all.
+
+    Returns
+    -------
+    Path
+        The file that has been written.
+
+    Raises
+    ------
+    InputError
+        For another ending, a folder that does not exist, or fewer than two frames.
+    """
+    file = Path(file)
+    if file.suffix.lower() not in (".mp4", ".gif"):
+        raise InputError("--film", f"'{file.name}'", "a file such as film.mp4 or film.gif")
+    numbers = _numbers(run, look)
+    if len(numbers) < 2:
+        raise InputError("--film", "fewer than two frames", "a run with more of them: output.fields_every")
+    file.parent.mkdir(parents=True, exist_ok=True)
+    matplotlib = library()
+    import matplotlib.animation as animation
+
+    with matplotlib.rc_context({**STYLE, "animation.ffmpeg_path": _ffmpeg() or "ffmpeg"}):
+        file, writer = _writer(animation, file)
+        look = replace(look, size=look.size or SIZE, dpi=look.dpi if look != STANDARD else DPI)
+        bars = set(run.fields.cells.blocks()) <= {"bar2", "bar3"}
+        figure, draw = (_bars if bars else _solids)(run, look, numbers)
+        part = file.with_name(f".{file.stem}.part{file.suffix}")
+        try:
+            with writer.saving(figure, str(part), look.dpi):
+                for done, number in enumerate(numbers):
+                    draw(number)
+                    writer.grab_frame(facecolor="white")
+                    figure.set_layout_engine("none")
+                    if watch is not None:
+                        watch(done + 1, len(numbers))
+            part.replace(file)
+        except OSError as error:
+            raise InputError("--film", f"cannot write '{file}': {error}", "a folder that can be written") from None
+        finally:
+            part.unlink(missing_ok=True)
+    return file
+
+
+def _numbers(run: Run, look: Look) -> list[int]:
+    """Numbers of the frames, evenly chosen where there are too many."""
+    times = run.fields.times
+    if look.times and len(look.times) != 2:
+        raise InputError("--times", f"{len(look.times)} instants for a film", "two: where it begins and ends")
+    begin, end = look.times or (times[0], times[-1])
+    slack = 1e-9 * times[-1]
+    inside = np.flatnonzero((times >= begin - slack) & (times <= end + slack))
+    chosen = np.unique(np.linspace(0, len(inside) - 1, min(len(inside), LONGEST)).round().astype(int))
+    return [int(k) for k in inside[chosen]]
+
+
+def _ffmpeg() -> str | None:
+    """The ffmpeg of the system or of the package imageio-ffmpeg."""
+    found = shutil.which("ffmpeg")
+    if found is None:
+        try:
+            import imageio_ffmpeg
+        except ImportError:
+            return None
+        found = str(imageio_ffmpeg.get_ffmpeg_exe())
+    return found
+
+
+def _writer(animation: Any, file: Path) -> tuple[Path, Any]:
+    """What writes the film, and into which file."""
+    if file.suffix.lower() == ".mp4" and animation.FFMpegWriter.isAvailable():
+        return file, animation.FFMpegWriter(fps=FAST, extra_args=["-pix_fmt", "yuv420p"])
+    if file.suffix.lower() == ".mp4":
+        log.warning("no ffmpeg here (pip install 'softway[film]'): the film becomes a GIF")
+    return file.with_suffix(".gif"), animation.PillowWriter(fps=FAST)
+
+
+def _solids(run: Run, look: Look, numbers: list[int]) -> "tuple[Figure, Draw]":
+    """Bodies in one window, seen from one place in one scale of colours."""
+    stage = stage_of(run, colour_of(run, look.field), numbers, FINE)
+    figure = canvas(*(look.inches or (8.0, 4.5)))
+    axis = figure.subplots()
+    (x0, y0), (x1, y1) = stage.box
+    margin = 0.1 * float(np.hypot(x1 - x0, y1 - y0))
+    stage.bar(figure, [axis])
+
+    def draw(number: int) -> None:
+        axis.clear()
+        shown = stage.shown(run.fields[number])
+        stage.draw(axis, shown)
+        axis.set_aspect("equal", adjustable="datalim", anchor="C")
+        ruler(axis, stage.cells.reference, (x0, y0))
+        axis.set(xlim=(x0 - margin, x1 + margin), ylim=(y0 - 1.3 * margin, y1 + margin))
+        caption(figure, run, stage, [shown], "")
+
+    return figure, draw
+
+
+def _bars(run: Run, look: Look, numbers: list[int]) -> "tuple[Figure, Draw]":
+    """The diagrams of a bar, with the present instant."""
+    made, times = diagrams(run, look), run.fields.times
+    upright = [axis.axvline(0.0, color=BLACK, lw=1.0) for axis in made.left]
+    level = made.right.axhline(0.0, color=BLACK, lw=1.0)
+
+    def draw(number: int) -> None:
+        now = [made.second * float(times[number])] * 2
+        for line in upright:
+            line.set_xdata(now)
+        level.set_ydata(now)
+
+    return made.figure, draw
