@@ -9,22 +9,6 @@ import numpy as np
 import softway as sw
 from softway.march.step import Step
 
-END, STEP, ENERGY = 0.05, 5e-4, 12.5
-"""Of the thrown cube: end of the run, slab, energy at the start."""
-
-
-def drop(cells: int, cell: str = "hex8", mass: Any = None) -> sw.Scene:
-    """The peers' problem: a neo-Hookean cube thrown at a plane 0.05 below it."""
-    cube = sw.Solid(
-        mesh=sw.Box(size=(1.0, 1.0, 1.0), cells=(cells, cells, cells), cell=cell),
-        material=sw.NeoHookean(E=1e4, nu=0.3),
-        density=1.0,
-        velocity=sw.Uniform(value=(0.0, 0.0, -5.0)),
-        **({} if mass is None else {"mass": mass}),
-    )
-    floor = sw.Tool(shape=sw.HalfSpace(point=(0.0, 0.0, -0.05), normal=(0.0, 0.0, 1.0)))
-    return sw.Scene(bodies={"cube": cube, "floor": floor}, contacts=(sw.Contact(between=("cube.bottom", "floor")),))
-
 
 def ball(cells: int) -> sw.Scene:
     """A neo-Hookean ball of diameter 1 that meets a plane with a twentieth of the speed of waves."""

@@ -3,27 +3,22 @@
 import numpy as np
 import pytest
 
+import results
 import softway as sw
 from softway.space.sources import GradedDisc
-from softway.verify.exact.contact import LineContact, contact_modulus
-from softway.verify.scenes.pressing import POISSON, YOUNGS, Footprint, approached, loaded
-
-LOAD = 0.01
-MODULUS = contact_modulus(YOUNGS, POISSON)
-HERTZ = LineContact(load=LOAD, radius=1.0, modulus=MODULUS)
-
-
-def pressed(across: int, cell: str = "quad4", load: float = LOAD) -> Footprint:
-    """A mesh with ``across`` elements in the half width of the contact."""
-    width = LineContact(load=load, radius=1.0, modulus=MODULUS).half_width
-    cells = round(1.3 * across)
-    return loaded(load, GradedDisc(radius=1.0, focus=cells / across * width, cells=cells, part="quarter", cell=cell))
+from softway.verify.cases.b03 import HERTZ, LOAD, MODULUS, pressed
+from softway.verify.exact.contact import LineContact
+from softway.verify.scenes.pressing import Footprint, approached
 
 
 @pytest.fixture(scope="module")
 def contact() -> Footprint:
     """Ten elements across b."""
     return pressed(10)
+
+
+def test_case():
+    assert results.missed("B03") == set()
 
 
 def test_the_peak_and_the_half_width(contact):

@@ -4,131 +4,25 @@ Facets are straight: two polygons on one circle differ by more than the interfer
 Meshes that do not match have a common polygon here, on which some facets of the one are two of the other.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+import results
 import softway as sw
-from softway.bodies.loads import traction_force
-from softway.march.begin import begin
-from softway.march.situation import Situation
-from softway.model import Model
-from softway.space.sources import Ring
-from softway.typing import Array
-from softway.verify.exact.contact import PressFit, Tube
-
-INNER, MIDDLE, OUTER, INTERFERENCE = 0.01, 0.02, 0.04, 1e-5
-YOUNGS, POISSON = 210e9, 0.3
-LAYERS, FACETS, QUARTER = 8, 32, 0.5 * np.pi
-EXACT = PressFit(
-    radii=(INNER, MIDDLE, OUTER), interference=INTERFERENCE, youngs=(YOUNGS, YOUNGS), poisson=(POISSON, POISSON)
-)
-SIDES = {"inner": "outer", "outer": "inner"}
-
-
-def on_polygon(inner: float, outer: float, halved: int) -> sw.Mesh:
-    """A quarter whose circles are polygons of 32 facets, of which so many are two; all layers follow them."""
-    facet = QUARTER / FACETS
-    middles = facet * (np.arange(FACETS)[:: FACETS // halved] + 0.5) if halved else []
-    turns = np.sort(np.append(facet * np.arange(FACETS + 1), middles))
-    mesh = Ring(inner=inner, outer=outer, cells=(LAYERS, len(turns) - 1), angle=QUARTER).build()
-    radius, even = np.hypot(*mesh.points.T), np.arctan2(*mesh.points.T[::-1])
-    turn = np.interp(even, np.linspace(0.0, QUARTER, len(turns)), turns)
-    off = (turn + 1e-9) % facet - 0.5 * facet
-    radius *= np.cos(0.5 * facet) / np.cos(off)
-    return replace(mesh, points=radius[:, None] * np.column_stack([np.cos(turn), np.sin(turn)]))
-
-
-def rings(facets: tuple[int, int], cell: str = "quad4", angle: float = QUARTER, fit: float = INTERFERENCE):
-    """Meshes of both rings with so many facets each."""
-    radii = ((INNER, MIDDLE + fit), (MIDDLE, OUTER))
-    return tuple(
-        Ring(inner=a, outer=b, cells=(LAYERS, n), angle=angle, cell=cell).build()
-        for (a, b), n in zip(radii, facets, strict=True)
-    )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Fitted:
-    """Two rings pressed into each other."""
-
-    model: Model
-    start: Situation
-
-    @classmethod
-    def of(cls, meshes: tuple[sw.Mesh, ...]) -> "Fitted":
-        """Quarters with symmetric sides, or whole rings that only the contact holds.
-
-        Whole rings need a law that knows rotations: one of small strain widens a ring that turns, and so sets it free.
-        """
-        whole = "start" not in meshes[0].tags
-        supports = () if whole else (sw.Fixed(on="start", components="y"), sw.Fixed(on="end", components="x"))
-        law = sw.StVenantKirchhoff(E=YOUNGS, nu=POISSON) if whole else sw.LinearElastic(E=YOUNGS, nu=POISSON)
-        bodies = {
-            name: sw.Solid(
-                mesh=mesh,
-                material=law,
-                density=7850.0,
-                section=sw.PlaneStress(),
-                supports=supports,
-            )
-            for name, mesh in zip(SIDES, meshes, strict=True)
-        }
-        contact = sw.Contact(between=("inner.outer", "outer.inner"), name="fit", start="fit")
-        model = sw.build(sw.Scene(bodies=bodies, contacts=(contact,)))
-        return cls(model=model, start=begin(model))
-
-    def _outward(self, name: str, field: Array) -> tuple[Array, Array]:
-        """Radial component (k,) of a nodal field on the contact side of a ring, and the length (k,) of each node."""
-        part = next(p for p in self.model.parts if p.name == name)
-        nodes = part.mesh.nodes(SIDES[name])
-        x = part.mesh.points[nodes]
-        length = traction_force(part.mesh, sw.PlaneStress(), SIDES[name], (1.0, 0.0))[nodes, 0]
-        return (field[part.rows][nodes] * x).sum(axis=1) / np.hypot(*x.T), length
-
-    def force(self, name: str) -> tuple[Array, Array]:
-        """Nodal forces (k,) on a ring, and the length (k,) that each node has."""
-        rows = self.model.rows(self.start.start.displacement)
-        force, length = self._outward(name, rows.spread(self.start.pressure, self.model.shape))
-        return np.abs(force), length
-
-    def pressure(self, name: str) -> Array:
-        """Nodal pressure (k,) on a ring."""
-        force, length = self.force(name)
-        return force / length
-
-    def displacement(self, name: str) -> Array:
-        """Radial displacement (k,) of a ring at the contact."""
-        return self._outward(name, self.start.start.displacement)[0]
-
-    def stress(self, name: str) -> tuple[Array, Array, Array]:
-        """Radii of the middles of the cells, radial and hoop stress there."""
-        part = next(p for p in self.model.parts if p.name == name)
-        middle = part.mesh.points[next(iter(part.mesh.blocks.values()))].mean(axis=1)
-        stress = self.model.stress(name, self.start.start.displacement[part.rows])[:, :2, :2]
-        along = middle / np.hypot(*middle.T)[:, None]
-        radial = np.einsum("ci,cij,cj->c", along, stress, along)
-        return np.hypot(*middle.T), radial, np.trace(stress, axis1=1, axis2=2) - radial
-
-
-def tube(name: str) -> Tube:
-    """The exact ring."""
-    return EXACT.inner if name == "inner" else EXACT.outer
-
-
-FITS = {
-    "matching": lambda: rings((FACETS, FACETS)),
-    "matching, quadratic": lambda: rings((FACETS, FACETS), "quad9"),
-    "40 and 32": lambda: (on_polygon(INNER, MIDDLE + INTERFERENCE, 8), on_polygon(MIDDLE, OUTER, 0)),
-    "whole rings": lambda: rings((4 * FACETS, 4 * FACETS), angle=2.0 * np.pi),
-}
+from softway.verify.cases import b06
+from softway.verify.cases.b06 import EXACT, FITS, MIDDLE, QUARTER, SIDES, Fitted, rings, tube
 
 
 @pytest.fixture(scope="module", params=FITS)
 def fitted(request: pytest.FixtureRequest) -> Fitted:
     """The rings of the case."""
-    return Fitted.of(FITS[request.param]())
+    return b06.fitted(request.param)
+
+
+def test_case():
+    assert results.missed("B06") == set()
 
 
 @pytest.mark.parametrize("name", SIDES)

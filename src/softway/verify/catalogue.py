@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from softway.errors import InputError
 from softway.verify.case import Case
 
-QUICK = 8.0
+QUICK = 12.0
 """Seconds that a case of the quick suite may take."""
 
 
@@ -20,15 +20,28 @@ def listed() -> tuple[Case, ...]:
     """
     return (
         Case(id="A01", seconds=0.1),
-        Case(id="A02", seconds=2.0),
-        Case(id="A03", seconds=2.0),
-        Case(id="A04", seconds=2.0),
-        Case(id="A05", seconds=2.0),
-        Case(id="A06", seconds=2.0),
-        Case(id="A09", seconds=2.0),
-        Case(id="A10", seconds=2.0),
-        Case(id="A11", seconds=2.0),
-        Case(id="A12", seconds=2.0),
+        Case(id="A02", seconds=3.0),
+        Case(id="A03", seconds=11.0),
+        Case(id="A04", seconds=4.0),
+        Case(id="A05", seconds=6.0),
+        Case(id="A06", seconds=11.0),
+        Case(id="A07", seconds=14.0),
+        Case(id="A08", seconds=45.0),
+        Case(id="A09", seconds=45.0),
+        Case(id="A10", seconds=4.0),
+        Case(id="A11", seconds=12.0),
+        Case(id="A12", seconds=1.5),
+        Case(id="B01", seconds=3.0),
+        Case(id="B02", seconds=17.0),
+        Case(id="B03", seconds=0.3),
+        Case(id="B04", seconds=1.0),
+        Case(id="B05", seconds=1.0),
+        Case(id="B06", seconds=0.5),
+        Case(id="B07", seconds=1.0),
+        Case(id="B08", seconds=2.0),
+        Case(id="B09", seconds=90.0),
+        Case(id="classic", seconds=1.0),
+        Case(id="peers", seconds=3.0),
     )
 
 
