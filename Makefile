@@ -5,11 +5,12 @@ DEMO := .venv-demo
 TEST := .venv-test
 DOCS := .venv-docs
 
-.PHONY: help demo test coverage check bench bench-check docs clean
+.PHONY: help demo test test-view coverage check bench bench-check docs clean
 
 help:
 	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
 	@echo "make test   unit tests, verification cases, doctests"
+	@echo "make test-view the page of softway view in a Chromium without a screen, which has to be there"
 	@echo "make coverage  the same, with the lines and branches that did not run"
 	@echo "make check  ruff, mypy, import-linter, house rules"
 	@echo "make bench  all measurements: docs/benchmarks.md and benchmarks/results/latest.json; BENCH=--quick for a few"
@@ -38,6 +39,10 @@ demo: $(DEMO)/ready
 
 test: $(TEST)/ready
 	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope
+
+test-view: $(TEST)/ready
+	$(TEST)/bin/python -m pip install --quiet --constraint constraints.txt --editable '.[dev,browser]'
+	$(TEST)/bin/python -m pytest -q tests/unit/page
 
 coverage: $(TEST)/ready
 	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope --cov --cov-report=term-missing:skip-covered

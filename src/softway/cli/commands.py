@@ -22,6 +22,7 @@ from softway.cli.plot import plot
 from softway.cli.progress import laps_of, progress_of
 from softway.cli.tables import ranking, scales, summary
 from softway.cli.verify import verify
+from softway.cli.view import view
 from softway.errors import InputError, NumericsError
 from softway.execute import run as execute
 from softway.race.contest import contest, entrants
@@ -53,6 +54,7 @@ app.command(check_law)
 app.command(materials)
 app.command(verify)
 app.command(plot)
+app.command(view)
 Set = Annotated[tuple[str, ...], Parameter(name="--set", negative=())]
 Quiet = Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())]
 AllowPython = Annotated[bool, Parameter(negative=())]

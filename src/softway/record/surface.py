@@ -23,9 +23,17 @@ class Patches:
 
     def spread(self, nodal: Array) -> Array:
         """Corners of all small triangles (f t, 3, ...) from a nodal field (n, ...)."""
-        at = np.einsum("pb,fb...->fp...", self.shape, nodal[self.facets])
-        corners = at[:, self.triangles]
+        corners = self.lattice(nodal)[:, self.triangles]
         return np.asarray(corners.reshape(-1, 3, *nodal.shape[1:]))
+
+    def lattice(self, nodal: Array) -> Array:
+        """A nodal field (n, ...) at the lattice points of the facets (f, p, ...)."""
+        return np.asarray(np.einsum("pb,fb...->fp...", self.shape, nodal[self.facets]))
+
+    def numbered(self, first: int) -> IntArray:
+        """The small triangles (f t, 3) by their lattice points, numbered from ``first``."""
+        facets = np.arange(len(self.facets))[:, None, None] * len(self.shape)
+        return np.asarray((first + facets + self.triangles).reshape(-1, 3))
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -40,6 +48,17 @@ class Skin:
         """Corners of all small triangles (t, 3, ...) from a nodal field (n, ...)."""
         return np.concatenate([patch.spread(nodal) for patch in self.patches])
 
+    def lattice(self, nodal: Array) -> Array:
+        """A nodal field (n, ...) at the points (k, ...) between which the small triangles stand."""
+        return np.concatenate([patch.lattice(nodal).reshape(-1, *nodal.shape[1:]) for patch in self.patches])
+
+    @property
+    def triangles(self) -> IntArray:
+        """The small triangles (t, 3) by the points of :meth:`lattice`."""
+        counts = [len(patch.facets) * len(patch.shape) for patch in self.patches]
+        starts = np.cumsum([0, *counts[:-1]])
+        return np.concatenate([patch.numbered(int(s)) for patch, s in zip(self.patches, starts, strict=True)])
+
 
 def skin_of(cells: Cells, most: int = MOST) -> Skin:
     """The skin of all solids together, in about ``most`` small triangles."""
@@ -47,7 +66,7 @@ def skin_of(cells: Cells, most: int = MOST) -> Skin:
     boundary = mesh.boundary()
     seen: Mapping[str, IntArray] = boundary if mesh.dim == 3 else mesh.blocks
     count = sum(len(f) for f in seen.values())
-    made = tuple(_patches(name, facets, count, most) for name, facets in seen.items())
+    made = tuple(_patches(name, facets, count, most) for name, facets in seen.items() if name in SHAPES)
     return Skin(mesh=mesh, boundary=boundary, patches=made)
 
 

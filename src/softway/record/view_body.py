@@ -1,7 +1,7 @@
 """The deformed bodies, coloured by a field, at one instant or several."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -43,7 +43,7 @@ class Shown:
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Stage:
     """What all frames of a picture share: skin, field with its range, the eye, the factor by which deformations are
-    enlarged, and the corners ``box`` (2, 2) of all that is seen of the bodies.
+    enlarged, the corners ``box`` (2, 2) of all that is seen of the bodies, and those in space ``bounds`` (2, 3).
     """
 
     cells: Cells
@@ -53,12 +53,17 @@ class Stage:
     view: Camera
     factor: float
     box: Array
+    bounds: Array
 
     def shown(self, frame: Frame) -> Shown:
         """A frame, placed so that the bodies touch what they really touch."""
         tools = self.cells.obstacles(frame.time)
         place = placing(self.cells, frame, tools, self.factor)
         return Shown(frame=frame, tools=tools, place=place, values=self.colour.at_nodes(self.cells, frame))
+
+    def to_scale(self) -> "Stage":
+        """The same without enlargement."""
+        return replace(self, factor=1.0)
 
     @property
     def mapped(self):  # type: ignore[no-untyped-def]  # a mappable of Matplotlib
@@ -123,7 +128,8 @@ def stage_of(run: Run, colour: Colour, numbers: Sequence[int], most: int = MOST)
     tools = cells.obstacles(frame.time)
     place = placing(cells, frame, tools, min(factors))
     view = camera(cells, place.points, tools, _focus(place, frame))
-    seen = view.seen(np.concatenate(corners))[:, :2]
+    everywhere = np.concatenate(corners)
+    seen = view.seen(everywhere)[:, :2]
     return Stage(
         cells=cells,
         skin=skin_of(cells, most),
@@ -132,6 +138,7 @@ def stage_of(run: Run, colour: Colour, numbers: Sequence[int], most: int = MOST)
         view=view,
         factor=min(factors),
         box=np.array([seen.min(axis=0), seen.max(axis=0)]),
+        bounds=np.array([everywhere.min(axis=0), everywhere.max(axis=0)]),
     )
 
 

@@ -46,16 +46,17 @@ def history(run: Run, look: Look = STANDARD) -> "Figure":
 def _panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
     """What is drawn, panel after panel; probes of the same unit share one."""
     contacts = contacts_of(table)
-    panels: list[Callable[[Axes, Array, Table], None]] = [_energies, _balance]
+    panels: list[Callable[[Axes, Array, Table], None]] = [energies, balance]
     if contacts:
-        panels += [partial(forces, contacts=contacts), partial(_gaps, contacts=contacts)]
+        panels += [partial(forces, contacts=contacts), partial(gaps, contacts=contacts)]
     known = {name for name, _ in (*COLUMNS, *CERTIFICATE)}
     probes = [n for n in table if n not in known and not n.startswith("contact.")]
     units = dict.fromkeys(table.units[n] for n in probes)
     return panels + [partial(_probes, names=[n for n in probes if table.units[n] == unit]) for unit in units]
 
 
-def _energies(axis: "Axes", time: Array, table: Table) -> None:
+def energies(axis: "Axes", time: Array, table: Table) -> None:
+    """Energies and works that matter."""
     kinetic, strain = table["energy_kinetic"], table["energy_strain"]
     total = kinetic + strain
     factor, unit = scaled(total, "J")
@@ -70,12 +71,13 @@ def _energies(axis: "Axes", time: Array, table: Table) -> None:
     axis.legend(loc="best")
 
 
-def _balance(axis: "Axes", time: Array, table: Table) -> None:
+def balance(axis: "Axes", time: Array, table: Table) -> None:
+    """The error of the energy balance against the greatest energy."""
     scale = float((table["energy_kinetic"] + table["energy_strain"]).max()) or 1.0
     relative = np.maximum(np.abs(table["energy_error"]) / scale, 1e-17)
     axis.semilogy(time, relative, color=PURPLE, lw=1.2)
     axis.set_ylim(min(1e-17, relative.min()), max(1e-11, 10.0 * relative.max()))
-    axis.set(title=f"Energy balance: worst error {relative.max():.1e}", ylabel="|error| / greatest energy")
+    axis.set(title=f"Energy balance: worst error {relative.max():.1e}", ylabel="relative error")
 
 
 def forces(axis: "Axes", time: Array, table: Table, contacts: tuple[str, ...]) -> None:
@@ -89,7 +91,8 @@ def forces(axis: "Axes", time: Array, table: Table, contacts: tuple[str, ...]) -
     axis.legend(loc="best")
 
 
-def _gaps(axis: "Axes", time: Array, table: Table, contacts: tuple[str, ...]) -> None:
+def gaps(axis: "Axes", time: Array, table: Table, contacts: tuple[str, ...]) -> None:
+    """Least gap of each contact."""
     factor, unit = scaled(np.concatenate([table[f"contact.{c}.min_gap"] for c in contacts]), "m")
     axis.axhline(0.0, color=BLACK, lw=0.8)
     for contact, color in zip(contacts, _cycle(len(contacts)), strict=True):

@@ -73,15 +73,15 @@ def diagrams(run: Run, look: Look = STANDARD) -> Diagrams:
         panel.tick_params(labelbottom=panel is left[-1])
     left[-1].set_xlabel(f"time [{unit}]")
     shown = _fan(right, run, axis, second, metre)
-    _marks(right, run, axis, second, metre)
+    marks(right, run, axis, second, metre)
     right.set(title=f"Paths of {shown} nodes", xlabel=f"position {letter} [{length}]", ylabel=f"time [{unit}]")
     right.set_ylim(second * times[0], second * times[-1])
-    _obstacles(left[0], right, run, axis, (second, metre), track)
+    obstacles(left[0], right, run, axis, (second, metre), track)
     left[0].legend(loc="best")
     return Diagrams(figure=figure, left=tuple(left), right=right, second=second)
 
 
-def _obstacles(left: "Axes", right: "Axes", run: Run, axis: int, factors: tuple[float, float], track: Array) -> None:
+def obstacles(left: "Axes", right: "Axes", run: Run, axis: int, factors: tuple[float, float], track: Array) -> None:
     """Where the obstacles stand, over time and in the x-t diagram."""
     (second, metre), times, cells = factors, run.fields.times, run.fields.cells
     moments = np.linspace(times[0], times[-1], 8 * len(times)) if len(times) > 1 else times
@@ -132,7 +132,8 @@ def _ends(left: "Axes", times: Array, track: Array, reference: Array, letter: st
         left.plot(times, track[:, node], color=color, label=f"end at {word} {letter}")
 
 
-def _marks(right: "Axes", run: Run, axis: int, second: float, metre: float) -> None:
+def marks(right: "Axes", run: Run, axis: int, second: float, metre: float) -> None:
+    """Where and when nodes touched and let go."""
     events = run.events
     for kind, color, marker in (("touch", RED, "v"), ("release", GREEN, "^")):
         found = events["kind"] == kind

@@ -115,14 +115,14 @@ def edges(skin: Skin, shape: Array, view: Camera) -> IntArray:
     """
     if skin.mesh.dim == 2:
         return np.concatenate([f[:, [0, 0 if f.shape[1] == 2 else 2, 1]] for f in skin.boundary.values()])
-    sides, normals = [], []
+    found, normals = [], []
     for name, facets in skin.boundary.items():
         c = 3 if name.startswith("tri") else 4
         normal = np.cross(shape[facets[:, 1]] - shape[facets[:, 0]], shape[facets[:, 2]] - shape[facets[:, 0]])
         normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
-        sides.append(_sides(facets, c).reshape(-1, 3))
+        found.append(sides(facets, c).reshape(-1, 3))
         normals.append(np.repeat(normal, c, axis=0))
-    side, normal = np.concatenate(sides), np.concatenate(normals)
+    side, normal = np.concatenate(found), np.concatenate(normals)
     order = np.lexsort(side.T)
     side, normal = side[order], normal[order]
     same = np.flatnonzero((side[1:] == side[:-1]).all(axis=1))
@@ -142,7 +142,7 @@ def strokes(points: Array, lines: IntArray, length: float) -> Array:
     return np.stack([at[:, :-1], at[:, 1:]], axis=2)
 
 
-def _sides(facets: IntArray, corners: int) -> IntArray:
+def sides(facets: IntArray, corners: int) -> IntArray:
     """Nodes (f, corners, 3) of the sides: the lower corner, the middle (of a linear side a corner again), the other."""
     ends = np.sort(np.stack([facets[:, :corners], np.roll(facets[:, :corners], -1, axis=1)], axis=-1), axis=-1)
     middle = facets[:, corners : 2 * corners] if facets.shape[1] > corners else ends[..., 0]

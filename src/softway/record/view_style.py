@@ -49,6 +49,12 @@ def canvas(width: float, height: float) -> "Figure":
     return made
 
 
+def stops(name: str, count: int = 24) -> tuple[str, ...]:
+    """Colours of a map from its low end to its high end, as #rrggbb."""
+    chosen = library().colormaps[name](np.linspace(0.0, 1.0, count))
+    return tuple(library().colors.to_hex(colour) for colour in chosen)
+
+
 def scaled(values: Array | float, unit: str) -> tuple[float, str]:
     """Factor and unit with prefix that make the greatest of the finite ``values`` legible.
 

@@ -1,0 +1,132 @@
+"""How the page is laid out: the window with its colours, the time below, curves and events beside."""
+
+from typing import Any
+
+from trame.ui.vuetify3 import VAppLayout
+from trame.widgets import html, vtk
+from trame.widgets import vuetify3 as v3
+
+PLACE = "(100 * (c.low + (c.high - c.low) * (now - c.begin) / (c.end - c.begin || 1)))"
+"""Where the present instant lies in a drawing ``c`` [%]."""
+
+
+def lay_out(page: Any) -> None:
+    """Write the page into its server."""
+    with VAppLayout(page.server) as layout:
+        layout.root.style = "height:100vh; overflow:hidden; background:white"
+        with html.Div(style="display:flex; flex-direction:column; height:100vh"):
+            _head(page)
+            with html.Div(style="display:flex; flex:1; min-height:0"):
+                with html.Div(style="flex:1; min-width:0; position:relative", id="window"):
+                    view = vtk.VtkLocalView(page.solids.plotter.render_window, style="width:100%; height:100%")
+                    page.server.controller.redraw = view.update
+                    page.server.controller.look = view.push_camera
+                    _scale()
+                _beside(page)
+            _time(page)
+
+
+def _head(page: Any) -> None:
+    """Title, state of the run, field, enlargement."""
+    with html.Div(style="display:flex; align-items:center; gap:16px; padding:6px 16px; border-bottom:1px solid #ddd"):
+        html.Div("{{ heading }}", style="font-weight:600; font-size:17px", id="heading")
+        v3.VChip("{{ status }}", size="small", color=("status === 'done' ? 'green' : 'orange'",), id="status")
+        v3.VSpacer()
+        v3.VSwitch(
+            v_model=("enlarged",),
+            v_show=("factor > 1",),
+            label=("`deformation × ${factor}`",),
+            density="compact",
+            hide_details=True,
+            color="primary",
+        )
+        v3.VBtn(icon="mdi-crop-free", title="all in view", variant="text", density="compact", click=page.reset)
+        v3.VSelect(
+            v_model=("colour",),
+            items=("fields",),
+            label="field",
+            id="field",
+            density="compact",
+            variant="outlined",
+            hide_details=True,
+            style="max-width:240px",
+        )
+
+
+def _scale() -> None:
+    """The colours with their values, over the window."""
+    with html.Div(
+        style="position:absolute; left:16px; bottom:10px; width:300px; background:#fffc; padding:4px 8px",
+        id="scale",
+    ):
+        html.Div("{{ label }}", style="font-size:13px")
+        html.Div(style=("`height:12px; background:${gradient}`",))
+        with html.Div(style="display:flex; justify-content:space-between; font-size:12px"):
+            html.Span("{{ mark }}", v_for="(mark, i) in marks", key="i")
+
+
+def _time(page: Any) -> None:
+    """Play, one back, one on, and the slider over the frames."""
+    with html.Div(style="display:flex; align-items:center; gap:8px; padding:4px 16px; border-top:1px solid #ddd"):
+        v3.VBtn(
+            icon=("playing ? 'mdi-pause' : 'mdi-play'",),
+            click="playing = !playing",
+            variant="tonal",
+            density="comfortable",
+            id="play",
+        )
+        for icon, change in (("mdi-skip-previous", -1), ("mdi-skip-next", 1)):
+            v3.VBtn(icon=icon, click=(page.step, f"[{change}]"), variant="text", density="compact")
+        v3.VSlider(
+            v_model_number=("frame",), min=0, max=("last",), step=1, hide_details=True, id="slider", color="primary"
+        )
+        html.Div("{{ clock }}", id="clock", style="min-width:96px; text-align:right; font-variant-numeric:tabular-nums")
+
+
+def _beside(page: Any) -> None:
+    """Curves, mesh of space-time, events."""
+    with html.Div(style="width:430px; border-left:1px solid #ddd; display:flex; flex-direction:column; min-height:0"):
+        with v3.VTabs(v_model=("panel",), density="compact", grow=True, style="flex:none"):
+            v3.VTab("curves", value="curves")
+            v3.VTab("space-time", value="world", v_if=("world",))
+            v3.VTab("events ({{ events.length }})", value="events")
+        with html.Div(style="flex:1; overflow:auto; min-height:0"):
+            with (
+                html.Div(v_if=("panel === 'curves'",)),
+                html.Div(v_for="(c, i) in curves", key="i", style="position:relative"),
+            ):
+                share = "$event.offsetX / $event.target.clientWidth"
+                _drawing(page, share)
+                html.Div(style=(f"`{_LINE}; top:12%; bottom:20%; width:1px; left:${{{PLACE}}}%`",), classes="cursor")
+            with (
+                html.Div(v_if=("panel === 'world' && world",)),
+                html.Div(v_for="c in [world]", key="c.end", style="position:relative"),
+            ):
+                _drawing(page, "1 - $event.offsetY / $event.target.clientHeight")
+                html.Div(style=(f"`{_LINE}; left:12%; right:3%; height:1px; bottom:${{{PLACE}}}%`",), classes="cursor")
+            with html.Div(v_if=("panel === 'events'",), id="events"):
+                _events(page)
+
+
+_LINE = "position:absolute; background:#D55E00; pointer-events:none"
+
+
+def _drawing(page: Any, share: str) -> None:
+    """A drawing; a click goes to the instant at a share of its size."""
+    time = f"c.begin + ({share} - c.low) / (c.high - c.low) * (c.end - c.begin)"
+    html.Img(src=("c.src",), style="width:100%; display:block; cursor:pointer", click=(page.pick, f"[{time}]"))
+
+
+def _events(page: Any) -> None:
+    """The list of touches and releases; a click goes there."""
+    titles = {"when": "time", "kind": "", "node": "node", "contact": "contact", "before": "v before", "after": "after"}
+    with v3.VTable(density="compact", hover=True):
+        with html.Thead(), html.Tr():
+            for title in titles.values():
+                html.Th(title, style="padding:0 6px")
+        with (
+            html.Tbody(),
+            html.Tr(v_for="(e, i) in events", key="i", click=(page.pick, "[e.time]"), style="cursor:pointer"),
+        ):
+            for key in titles:
+                html.Td(f"{{{{ e.{key} }}}}", style="padding:0 6px; white-space:nowrap; font-size:12px")

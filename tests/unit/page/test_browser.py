@@ -1,0 +1,149 @@
+"""The page in a browser without a screen: it shows, it moves, it follows, and it talks to this machine alone."""
+
+import io
+import os
+import re
+import shutil
+import socket
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from urllib.parse import urlsplit
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import softway as sw
+from softway.record.view_body import instant
+
+sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed: make test-view installs it")
+pytest.importorskip("trame")
+CHROMIUM = next(
+    (found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))), None
+)
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no Chromium found (Debian: apt-get install chromium)")
+FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking"]
+FLAGS += ["--disable-component-update", "--disable-sync", "--disable-quic"]
+FLAGS += ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+
+
+@contextmanager
+def served(*words: str) -> Iterator[str]:
+    """The address of the page that ``softway view`` serves."""
+    command = [sys.executable, "-m", "softway", "view", *words, "--no-browser"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=os.environ)
+    try:
+        text = ""
+        for line in process.stdout:
+            text += line
+            if found := re.search(r"http://\S+", line):
+                yield found[0]
+                break
+        else:
+            pytest.fail(text)
+    finally:
+        process.terminate()
+        process.wait(20)
+        process.stdout.close()
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    with sync_api.sync_playwright() as driver:
+        folder = str(tmp_path_factory.mktemp("profile"))
+        made = driver.chromium.launch_persistent_context(
+            folder, executable_path=CHROMIUM, args=FLAGS, viewport={"width": 1000, "height": 700}
+        )
+        yield made
+        made.close()
+
+
+@contextmanager
+def opened(browser, address):
+    """A page, and the hosts that it asked."""
+    page, asked = browser.new_page(), []
+    page.on("request", lambda request: asked.append(urlsplit(request.url)))
+    page.on("websocket", lambda talk: asked.append(urlsplit(talk.url)))
+    page.goto(address)
+    yield page, asked
+    page.close()
+
+
+def seen(page):
+    """Pixels (h, w, 3) of the window."""
+    picture = page.locator("#window canvas").first.screenshot()
+    return np.asarray(Image.open(io.BytesIO(picture)).convert("RGB"), float)
+
+
+def settled(page):
+    """The window once two pictures of it are alike and not empty."""
+    before = np.zeros(1)
+    for _ in range(40):
+        page.wait_for_timeout(250)
+        now = seen(page)
+        if now.shape == before.shape and np.ptp(now) > 50.0 and not np.abs(now - before).any():
+            return now
+        before = now
+    pytest.fail("the window does not settle")
+
+
+def test_the_page_shows_the_run_and_moves(square, browser):
+    with served(str(square.path)) as address, opened(browser, address) as (page, asked):
+        page.wait_for_selector("#clock")
+        first = settled(page)
+        assert page.locator("#heading").inner_text() == "A fall"
+        assert len(np.unique(first.reshape(-1, 3), axis=0)) > 5
+        page.locator(".v-slider-thumb").focus()
+        for _ in range(3):
+            page.keyboard.press("ArrowRight")
+        page.wait_for_function("document.querySelector('#clock').innerText === '1.2 s'")
+        last = settled(page)
+        assert (np.abs(last - first).max(axis=2) > 30.0).mean() > 0.01
+        page.locator("#play").click()
+        page.wait_for_function("document.querySelector('#clock').innerText !== '1.2 s'")
+        page.locator("#play").click()
+        page.get_by_role("tab", name=re.compile("events")).click()
+        rows = page.locator("#events tbody tr")
+        assert rows.count() == len(square.events["time"])
+        rows.first.click()
+        time = float(square.events["time"][0])
+        nearest = square.fields.times[np.argmin(np.abs(square.fields.times - time))]
+        page.wait_for_function(f"document.querySelector('#clock').innerText === '{instant(nearest)}'")
+        assert {place.hostname for place in asked if place.scheme not in ("data", "blob")} == {"127.0.0.1"}
+        assert any(place.scheme == "ws" for place in asked)
+
+
+def test_only_this_machine_with_the_token_is_answered(square, browser):
+    """Another address of the loopback is refused, as it would not be if all were listened to."""
+    with served(str(square.path)) as address:
+        port = urlsplit(address).port
+        with pytest.raises(ConnectionRefusedError), socket.create_connection(("127.0.0.2", port), 2):
+            pass
+        with opened(browser, address.partition("?")[0]) as (page, _):
+            page.wait_for_timeout(3000)
+            assert page.locator("#clock").count() == 0
+
+
+def test_a_run_that_goes_on_is_followed(tmp_path, browser, fall):
+    """The page is opened while the run rests after half its slabs; the others appear by themselves."""
+    go_on, half = threading.Event(), threading.Event()
+
+    def rest(step):
+        if step.after.time > 2.0 and not half.is_set():
+            half.set()
+            go_on.wait(60)
+
+    made = fall(sw.Interval(length=1.0, cells=5), -0.1)
+    work = threading.Thread(target=lambda: sw.run(made, tmp_path / "run", progress=rest))
+    work.start()
+    half.wait(60)
+    with served(str(tmp_path / "run"), "--live") as address, opened(browser, address) as (page, _):
+        page.wait_for_selector("#clock")
+        assert page.locator("#status").inner_text() == "running" and page.locator("#clock").inner_text() == "2 s"
+        go_on.set()
+        page.wait_for_function("document.querySelector('#clock').innerText === '4 s'")
+        page.wait_for_function("document.querySelector('#status').innerText === 'done'")
+    work.join()
