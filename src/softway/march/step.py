@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from softway.markup import table
 from softway.scene import State
 from softway.time.slab import Slab
 from softway.typing import Array
@@ -118,3 +119,22 @@ class Step:
     events: tuple[Event, ...]
     reactions: Mapping[str, Array]
     report: Report
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        ledger = self.ledger
+        rows = {
+            "iterations": self.report.iterations,
+            "kinetic, strain energy": f"{ledger.energy_kinetic:.4g} J, {ledger.energy_strain:.4g} J",
+            "energy error": f"{ledger.energy_error:.2g} J",
+            **{f"contact {name}": _contact(found) for name, found in ledger.contacts.items()},
+            "events": "\n".join(f"{e.kind} of node {e.node} ({e.contact}) at {e.time:.6g} s" for e in self.events[:8]),
+        }
+        more = f"\nand {len(self.events) - 8} more" if len(self.events) > 8 else ""
+        rows["events"] = f"{rows['events']}{more}" or "none"
+        return table(f"Slab from {self.slab.start:.6g} s to {self.slab.end:.6g} s", rows)
+
+
+def _contact(found: ContactLedger) -> str:
+    """A contact in words."""
+    return f"{found.count} nodes closed, {found.force_n:.4g} N, least gap {found.min_gap:.3g} m"

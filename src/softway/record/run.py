@@ -91,6 +91,12 @@ class Run:
         written = self.path / SCENARIO
         return written.read_text(encoding="utf-8") if written.is_file() else ""
 
+    def _repr_html_(self) -> str:
+        """A table and a picture for notebooks; nothing is drawn before there is a frame."""
+        from softway.record.notebook import shown
+
+        return shown(self)
+
     @property
     def stop(self) -> Stop:
         """Why the run stopped, or that it is running."""

@@ -1,5 +1,6 @@
 """Pictures of a run: its history, the paths of a bar, the deformed body with its stress."""
 
+import io
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -29,12 +30,25 @@ def pictures(run: Run, out: Path | None = None, look: Look = STANDARD) -> tuple[
     look
         Field, instants and size of the pictures.
     """
-    bars = set(run.fields.cells.blocks()) <= {"bar2", "bar3"}
+    bars = is_bars(run)
     if bars and (look.times or look.field is not None):
         raise InputError("--field, --at", "the picture of bars shows every time and no field", "to leave them out")
     first = out or run.path / "bodies.png"
     second = first.with_name(f"{first.stem}_history{first.suffix}") if out else run.path / "history.png"
     return save(paths if bars else bodies, run, first, look), save(history, run, second, look)
+
+
+def is_bars(run: Run) -> bool:
+    """Whether there are bars only: they are shown by their paths."""
+    return set(run.fields.cells.blocks()) <= {"bar2", "bar3"}
+
+
+def drawn(run: Run, look: Look = STANDARD) -> bytes:
+    """The picture of the bodies as PNG."""
+    out = io.BytesIO()
+    with library().rc_context(STYLE):
+        (paths if is_bars(run) else bodies)(run, look).savefig(out, format="png", dpi=look.dpi, facecolor="white")
+    return out.getvalue()
 
 
 def save(draw: "Callable[[Run, Look], Figure]", run: Run, file: Path, look: Look = STANDARD) -> Path:

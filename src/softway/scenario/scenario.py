@@ -12,6 +12,7 @@ from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact
 from softway.errors import InputError
 from softway.march.control import StepControl
+from softway.markup import table as html_table
 from softway.scene import AsGiven, Scene, StaticStart
 from softway.solve.explicit import Explicit
 from softway.solve.fixed_point import FixedPoint
@@ -138,6 +139,23 @@ class Scenario:
     solver: FixedPoint | Newton | Explicit = FixedPoint()
     output: Output = Output()
 
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        step = self.time.step if isinstance(self.time.step, str) else f"{self.time.step:.4g} s"
+        rows = {
+            "bodies": "\n".join(_described(name, body) for name, body in self.bodies.items()),
+            "contacts": "\n".join(
+                f"{c.between[0]} – {c.between[1]}: {type(c.timing).__name__}, {type(c.friction).__name__}"
+                for c in self.contacts
+            )
+            or "none",
+            "loads": ", ".join(type(load).__name__ for load in self.loads) or "none",
+            "time": f"{self.time.end:.4g} s, step {step}",
+            "solver": type(self.solver).__name__,
+            "inertia": type(self.inertia).__name__,
+        }
+        return html_table(self.title or "Scenario", rows)
+
     @property
     def scene(self) -> Scene:
         """What there is, with the meshes as recipes."""
@@ -148,6 +166,14 @@ class Scenario:
             start=self.start,
             inertia=self.inertia,
         )
+
+
+def _described(name: str, body: Solid | Tool) -> str:
+    """A body in words."""
+    if isinstance(body, Tool):
+        return f"{name}: {type(body.shape).__name__}, {type(body.motion).__name__}"
+    size = f" of {body.mesh.n_nodes} nodes" if isinstance(body.mesh, Mesh) else ""
+    return f"{name}: {type(body.mesh).__name__}{size}, {type(body.material).__name__}"
 
 
 def built(scenario: Scenario) -> Scene:

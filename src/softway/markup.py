@@ -1,0 +1,27 @@
+"""Small tables for notebooks."""
+
+from collections.abc import Mapping
+from html import escape
+
+CELL = "text-align:left; padding:1px 12px 1px 0; vertical-align:top"
+
+
+def table(title: str, rows: Mapping[str, object]) -> str:
+    """A table in HTML of names and values; a value that is text with line breaks takes several lines.
+
+    Examples
+    --------
+    >>> table("a < b", {"x": 1})[:29]
+    '<div><strong>a &lt; b</strong'
+    """
+    lines = "".join(
+        f'<tr><th style="{CELL}; font-weight:normal; opacity:.65">{escape(name)}</th>'
+        f'<td style="{CELL}">{_text(value)}</td></tr>'
+        for name, value in rows.items()
+    )
+    return f"<div><strong>{escape(title)}</strong><table>{lines}</table></div>"
+
+
+def _text(value: object) -> str:
+    """A value in words: numbers with four digits."""
+    return escape(f"{value:.4g}" if isinstance(value, float) else str(value)).replace("\n", "<br>")
