@@ -103,7 +103,7 @@ def bodies(run: Run, look: Look = STANDARD) -> "Figure":
     for axis, one in zip(axes, shown, strict=False):
         stage.draw(axis, one)
         if len(shown) > 1:
-            axis.set_title(instant(one.frame.time), fontsize=9.5, fontweight="normal")
+            axis.set_title(instant(one.frame.time), fontsize=9.5, fontweight="normal", loc="center")
     for axis in axes[len(shown) :]:
         axis.remove()
     _fit(figure, axes[: len(shown)], stage, look, (rows, columns))
@@ -187,11 +187,12 @@ def _chosen(run: Run, look: Look, colour: Colour) -> tuple[list[int], str]:
 
 def _fit(figure: "Figure", axes: "Sequence[Axes]", stage: Stage, look: Look, grid: tuple[int, int]) -> None:
     """The same window in every panel, a ruler, and a figure without empty margins."""
-    boxes = [axis.dataLim for axis in axes]
-    low = np.min([box.min for box in boxes], axis=0)
-    high = np.max([box.max for box in boxes], axis=0)
+    low, high = axes[0].dataLim.min, axes[0].dataLim.max
+    if len(axes) > 1:
+        margin = 0.12 * float(np.linalg.norm(np.ptp(stage.box, axis=0)))
+        low, high = stage.box[0] - margin, stage.box[1] + margin
     ruler(axes[0], stage.cells.reference, (low[0], low[1]))
-    low[1] = axes[0].dataLim.y0
+    low = np.array([low[0], min(low[1], axes[0].dataLim.y0)])
     width, height = high - low
     for axis in axes:
         axis.set_xlim(low[0] - 0.02 * width, high[0] + 0.02 * width)
