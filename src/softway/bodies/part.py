@@ -45,6 +45,17 @@ class Part:
             return self.internal.secant(u)
         return self.internal.tangent(u)
 
+    def rate_stiffness(self, u: Array, chosen: BoolArray) -> Array | float:
+        """Values, on the pattern of :meth:`stiffness`, of the part that the mean rate of the slab makes, [N/m].
+
+        Between the ``chosen`` nodes (n,) of its own; zero elsewhere and without such a part.
+        """
+        made = self.internal.viscous_tangent(u) if isinstance(self.internal, RateForce) else None
+        if made is None:
+            return 0.0
+        keep = np.repeat(chosen, self.mesh.dim)
+        return np.asarray(made.data * keep[made.indices] * np.repeat(keep, np.diff(made.indptr)))
+
     def during(self, memory: Memory | None, span: float) -> "Part":
         """The solid in a slab of length ``span`` [s] that it meets with a memory."""
         if memory is None or not isinstance(self.internal, RateForce):

@@ -98,6 +98,10 @@ class RateForce:
         """The tangent with the viscosity held fixed, where the law has such moduli, (n d, n d) [N/m]."""
         return self.work.secant(u, self.memory, self.span)
 
+    def viscous_tangent(self, u: Array) -> csc_array | None:
+        """Derivative of :meth:`viscous_force` on the pattern of the tangent, (n d, n d) [N/m]; None without."""
+        return self.plain.viscous_tangent(u, self.memory, self.span)
+
     def tangent_product(self, u: Array, w: Array) -> Array:
         """The tangent at u times a change w (n, d) [m] of the displacement, (n, d) [N]."""
         return self.work.tangent_product(u, self.memory, self.span, w)

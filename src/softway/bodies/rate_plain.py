@@ -62,6 +62,12 @@ class RatePlain:
         flux = self.points.flux(self.points.steady_stress(found), found.F, H)
         return self.sampling.matrix(self.points.moduli(found, H, secant), flux, u)
 
+    def viscous_tangent(self, u: Array, memory: Memory, span: float) -> csc_array | None:
+        """Derivative of :meth:`viscous_force` on the pattern of the tangent, (n d, n d) [N/m]; None without."""
+        H, found = self.answer(u, memory, span)
+        moduli = self.points.viscous_moduli(found, H)
+        return None if moduli is None else self.sampling.matrix(moduli, np.zeros_like(H), u)
+
     def tangent_product(self, u: Array, memory: Memory, span: float, w: Array) -> Array:
         """The tangent times w (n, d), (n, d) [N]."""
         return np.asarray(self.tangent(u, memory, span) @ w.ravel()).reshape(w.shape)

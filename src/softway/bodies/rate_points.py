@@ -8,7 +8,7 @@ import numpy as np
 from softway.bodies.kinematics import Passage, carried, passage
 from softway.bodies.memory import Memory
 from softway.kernels import tensors
-from softway.laws.law import Increment, RateLaw, Response, Viscous
+from softway.laws.law import Damped, Increment, RateLaw, Response, Viscous
 from softway.laws.rates import Rate, Truesdell
 from softway.typing import Array
 
@@ -162,7 +162,10 @@ class RatePoints:
         """
         sigma, law = self._steady(found), self.law
         own = law.secant(found.increment) if secant and isinstance(law, Viscous) else law.moduli(found.increment)
-        C = spatial(own, sigma, law.rate)
+        return self._spread(own, sigma, found, H)
+
+    def _spread(self, own: Array, sigma: Array, found: Answer, H: Array) -> Array:
+        C = spatial(own, sigma, self.law.rate)
         J = tensors.determinant(found.F)
         m, size = H.shape[1:]
         if m == 1:
@@ -178,6 +181,14 @@ class RatePoints:
         spin = np.einsum("pJa,pab,pLb->pJL", to, sigma, to, optimize=True)
         out += spin[:, :, None, :, None] * np.eye(size)[:, None, :]
         return J[:, None, None, None, None] * out
+
+    def viscous_moduli(self, found: Answer, H: Array) -> Array | None:
+        """The part of :meth:`moduli` that the mean rate makes; None where there is none."""
+        if not isinstance(self.law, Damped):
+            return None
+        own, still = self.law.moduli(found.increment), np.zeros_like(found.F)
+        more = own + self.law.viscous_moduli(found.increment)
+        return self._spread(more, still, found, H) - self._spread(own, still, found, H)
 
     def _bar_moduli(self, C: Array, sigma: Array, found: Answer, H: Array, J: Array) -> Array:
         """Moduli (p, 1, D, 1, D) of a bar: stiff along its axis, pulled across it."""

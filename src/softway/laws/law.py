@@ -137,6 +137,15 @@ class Viscous(Protocol):
         ...
 
 
+@runtime_checkable
+class Damped(Protocol):
+    """A :class:`RateLaw` a part of whose stress is made by the mean rate of the slab: ``Response.viscous``."""
+
+    def viscous_moduli(self, increment: Increment) -> Array:
+        """Derivative of that part to the strain of the slab, (..., 3, 3, 3, 3) [Pa]."""
+        ...
+
+
 Material = StoredEnergy | RateLaw
 
 

@@ -206,7 +206,8 @@ class SlabSystem:
 
     def operator(self, u: Array, secant: bool = False) -> sp.csc_array:
         """``M + h^2/2 mu2 K(u)`` on the free components, symmetric positive definite near equilibrium."""
-        return self.model.inertia_and_stiffness(u, self.share, secant)
+        again = _first(self.weight) / moments(self.weight)[1]
+        return self.model.inertia_and_stiffness(u, self.share, secant, again)
 
     def _mean_force(self, q: Array, u1: Array, force: Array) -> Array:
         if self.located is not None:
@@ -240,7 +241,9 @@ class SlabSystem:
         Massless nodes are in equilibrium at the two ends of the slab, where only contact pushes them; an average
         along the chord would add a push of its own.
         """
-        excess = (mean - 0.5 * (self.start.force + force)) * ~self.model.massive[:, None]
+        first = _first(self.weight)
+        ends = first * self.start.force + (1.0 - first) * force
+        excess = (mean - ends) * ~self.model.massive[:, None]
         return np.asarray(mean - excess + self.model.follow.T @ excess)
 
     def _weighted(self, q: Array, u1: Array, force: Array) -> Array:

@@ -98,10 +98,14 @@ class NortonHoff:
 
     def moduli(self, increment: Increment) -> Array:
         """``2 viscosity/span (I' + (m - 1) 2/3 D' x D'/d^2) + bulk I x I``, (..., 3, 3, 3, 3) [Pa]."""
+        return self.viscous_moduli(increment) + self._bulk() * volumetric()
+
+    def viscous_moduli(self, increment: Increment) -> Array:
+        """The moduli without those of the volume, (..., 3, 3, 3, 3) [Pa]."""
         n = deviator(increment.strain) / (increment.span * self._speed(increment))[..., None, None]
         shape = projector() + 2.0 / 3.0 * (self.m - 1.0) * n[..., :, :, None, None] * n[..., None, None, :, :]
         stiff = 2.0 * self.viscosity(increment) / increment.span
-        return np.asarray(stiff[..., None, None, None, None] * shape + self._bulk() * volumetric())
+        return np.asarray(stiff[..., None, None, None, None] * shape)
 
     def secant(self, increment: Increment) -> Array:
         """The moduli with the viscosity held fixed: those of the plain fixed point, (..., 3, 3, 3, 3) [Pa]."""

@@ -75,8 +75,11 @@ class Kelvin:
 
     def moduli(self, increment: Increment) -> Array:
         """Those of spring and dashpot, (..., 3, 3, 3, 3) [Pa]."""
-        C = self.elastic_moduli() + self._viscosity() / increment.span
-        return np.broadcast_to(C, (*increment.strain.shape, 3, 3))
+        return self.viscous_moduli(increment) + self.elastic_moduli()
+
+    def viscous_moduli(self, increment: Increment) -> Array:
+        """Those of the dashpot, (..., 3, 3, 3, 3) [Pa]."""
+        return np.broadcast_to(self._viscosity() / increment.span, (*increment.strain.shape, 3, 3))
 
     def elastic_moduli(self) -> Array:
         """Isotropic, (3, 3, 3, 3) [Pa]."""
