@@ -181,15 +181,12 @@ class Model:
     def inertia_and_stiffness(self, u: Array, factor: float, secant: bool = False, again: float = 0.0) -> sp.csc_array:
         """``M + factor K(u)`` (f, f) on the free components, K of tangent or secant moduli.
 
-        What the mean rate of the slab makes of K counts ``again`` as often between nodes with inertia: it acts from
-        the start of the slab, other forces grow from there.
+        The part that the mean rate makes counts ``again`` between nodes with inertia: it acts from the slab's start.
         """
-        values = [p.stiffness(u[p.rows], secant).data for p in self.parts]
-        if again > 0.0:
-            values = [
-                v + again * p.rate_stiffness(u[p.rows], self.massive[p.rows])
-                for v, p in zip(values, self.parts, strict=True)
-            ]
+        values = [
+            p.stiffness(u[p.rows], secant).data + again * p.rate_stiffness(u[p.rows], self.massive[p.rows])
+            for p in self.parts
+        ]
         return self.total.of(np.concatenate(values), factor)
 
     def tangent_product(self, u: Array, w: Array) -> Array:

@@ -8,7 +8,7 @@ from scipy.sparse import csc_array
 from softway.bodies.memory import Memory
 from softway.bodies.rate_points import Answer, RatePoints
 from softway.bodies.sampling import Sampling, diagonal_blocks
-from softway.laws.law import Viscous
+from softway.laws.law import Damped, Viscous
 from softway.typing import Array
 
 
@@ -64,9 +64,11 @@ class RatePlain:
 
     def viscous_tangent(self, u: Array, memory: Memory, span: float) -> csc_array | None:
         """Derivative of :meth:`viscous_force` on the pattern of the tangent, (n d, n d) [N/m]; None without."""
+        law = self.points.law
+        if not isinstance(law, Damped):
+            return None
         H, found = self.answer(u, memory, span)
-        moduli = self.points.viscous_moduli(found, H)
-        return None if moduli is None else self.sampling.matrix(moduli, np.zeros_like(H), u)
+        return self.sampling.matrix(self.points.viscous_moduli(law, found, H), np.zeros_like(H), u)
 
     def tangent_product(self, u: Array, memory: Memory, span: float, w: Array) -> Array:
         """The tangent times w (n, d), (n, d) [N]."""

@@ -182,12 +182,10 @@ class RatePoints:
         out += spin[:, :, None, :, None] * np.eye(size)[:, None, :]
         return J[:, None, None, None, None] * out
 
-    def viscous_moduli(self, found: Answer, H: Array) -> Array | None:
-        """The part of :meth:`moduli` that the mean rate makes; None where there is none."""
-        if not isinstance(self.law, Damped):
-            return None
+    def viscous_moduli(self, law: Damped, found: Answer, H: Array) -> Array:
+        """The part of :meth:`moduli` that the mean rate makes, by what the ``law`` of the points says of it."""
         own, still = self.law.moduli(found.increment), np.zeros_like(found.F)
-        more = own + self.law.viscous_moduli(found.increment)
+        more = own + law.viscous_moduli(found.increment)
         return self._spread(more, still, found, H) - self._spread(own, still, found, H)
 
     def _bar_moduli(self, C: Array, sigma: Array, found: Answer, H: Array, J: Array) -> Array:

@@ -232,11 +232,8 @@ def _accepted(
             fresh, carry = True, replace(carry, stale=True)
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
     last = reasons[-1] if reasons else f"h = {length:.3g} s: a body comes to rest again and again"
-    raise NumericsError(
-        f"no slab holds, the last of {len(reasons) + (not reasons)} tries with {last}",
-        now.time,
-        "a smaller step, a finer mesh where the cells are crushed, or Newton",
-    )
+    remedy = "a smaller step, a finer mesh where the cells are crushed, or Newton"
+    raise NumericsError(f"no slab holds, the last of {len(reasons)} tries with {last}", now.time, remedy)
 
 
 def _tried(
