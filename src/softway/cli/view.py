@@ -1,5 +1,6 @@
 """The verb view: a run in the browser."""
 
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
 
@@ -39,4 +40,5 @@ def view(
     def ready(address: str) -> None:
         console.print(f"{address}  (Ctrl-C to stop)", soft_wrap=True, highlight=False)
 
-    serve(Run(folder), port=port, browser=browser, live=live, ready=ready)
+    with suppress(KeyboardInterrupt):
+        serve(Run(folder), port=port, browser=browser, live=live, ready=ready)

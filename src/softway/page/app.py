@@ -2,11 +2,13 @@
 
 import asyncio
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
 from trame.app import asynchronous, get_server
 
+from softway.errors import InputError
 from softway.page.layout import lay_out
 from softway.page.shown import described, events_of, pictures_of
 from softway.page.solids import Solids, dress, solids, stage
@@ -88,12 +90,13 @@ class Page:
         state = self.server.state
         while True:
             await asyncio.sleep(PERIOD)
-            last, reason = len(self.run.fields) - 1, self.run.stop.reason
-            if last > int(state.last) or reason != state.status:
-                with state:
-                    self._refresh(last, reason)
-            if reason != "running":
-                return
+            with suppress(InputError, OSError, ValueError):  # a file that is being written: the next look finds it
+                last, reason = len(self.run.fields) - 1, self.run.stop.reason
+                if last > int(state.last) or reason != state.status:
+                    with state:
+                        self._refresh(last, reason)
+                if reason != "running":
+                    return
 
     def _refresh(self, last: int, reason: str) -> None:
         state = self.server.state

@@ -1,6 +1,7 @@
 """The page of a run served to this machine alone."""
 
 import secrets
+import socket
 import webbrowser
 from collections.abc import Callable
 from functools import partial
@@ -43,16 +44,22 @@ def serve(run: Run, *, port: int = 0, browser: bool = True, live: bool = False, 
         raise InputError("view", problem, "pip install 'softway[view]'") from None
     if not len(run.fields):
         raise InputError("view", "the run has no frames yet", "a run that has begun")
+    require_free(port)
     made, token = page(run, live), secrets.token_urlsafe(16)
     server = made.server
     server.cli.parse_known_args = partial(server.cli.parse_known_args, ["--authKey", token])
     server.controller.on_server_ready.add(partial(_opened, server, token, browser, ready))
+    server.start(port=port, host=HOST, open_browser=False, show_connection_info=False, disable_logging=True, timeout=0)
+
+
+def require_free(port: int) -> None:
+    """Refuse a port that is taken."""
     try:
-        server.start(
-            port=port, host=HOST, open_browser=False, show_connection_info=False, disable_logging=True, timeout=0
-        )
+        with socket.socket() as trial:
+            trial.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            trial.bind((HOST, port))
     except OSError as error:
-        raise InputError("--port", f"{port}: {error.strerror}", "another port, or none for any free one") from None
+        raise InputError("--port", f"{port}: {error.strerror}", "another port, or none for any that is free") from None
 
 
 def _opened(server: Any, token: str, browser: bool, ready: Ready | None, **_: object) -> None:

@@ -77,9 +77,9 @@ class Solids:
 def solids() -> Solids:
     """An empty window."""
     pyvista = _library()
+    pyvista.vtk_verbosity("off")  # there is no window of its own
     plotter = pyvista.Plotter(off_screen=True, lighting="light kit")
     plotter.set_background("white")
-    pyvista.vtk_verbosity("off")  # there is no window of its own
     return Solids(plotter=plotter, skin=pyvista.PolyData(), lines=pyvista.PolyData(), tools=pyvista.PolyData())
 
 

@@ -17,6 +17,7 @@ import h5py
 import numpy as np
 
 from softway.bodies.solid import Tool
+from softway.errors import InputError
 from softway.march.step import Step
 from softway.record.layout import Layout, components, layout, von_mises
 from softway.record.recorder import Opening
@@ -171,6 +172,17 @@ def _put(series: h5py.Dataset, start: int, data: Array) -> None:
 
 @contextmanager
 def reading(path: Path) -> Iterator[h5py.File]:
-    """The file for reading, also while a run still writes to it."""
-    with h5py.File(path, "r", locking=False) as file:
+    """The file for reading, also while a run still writes to it.
+
+    Raises
+    ------
+    InputError
+        If there is none or it is cut.
+    """
+    try:
+        opened = h5py.File(path, "r", locking=False)
+    except OSError as error:
+        problem = "is missing" if not path.exists() else f"cannot be read: {error}"
+        raise InputError(str(path), problem, "a run folder with its frames") from None
+    with opened as file:
         yield file

@@ -187,7 +187,7 @@ def _chosen(run: Run, look: Look, colour: Colour) -> tuple[list[int], str]:
 
 def _fit(figure: "Figure", axes: "Sequence[Axes]", stage: Stage, look: Look, grid: tuple[int, int]) -> None:
     """The same window in every panel, a ruler, and a figure without empty margins."""
-    low, high = axes[0].dataLim.min, axes[0].dataLim.max
+    low, high = np.array(axes[0].dataLim.min), np.array(axes[0].dataLim.max)
     if len(axes) > 1:
         margin = 0.12 * float(np.linalg.norm(np.ptp(stage.box, axis=0)))
         low, high = stage.box[0] - margin, stage.box[1] + margin

@@ -1,5 +1,7 @@
 """The page of a run without a browser: what it shows, and how it is served."""
 
+import shutil
+import socket
 import sys
 
 import numpy as np
@@ -85,6 +87,27 @@ def test_without_the_extra_the_error_tells_the_command(square, monkeypatch, caps
 def test_what_cannot_be_served_is_named(square, capsys, words, told):
     assert main(["view", str(square.path), "--no-browser", *words]) == 2
     assert told in "".join(capsys.readouterr())
+
+
+def test_a_port_that_is_taken_is_named(square, capsys):
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        assert main(["view", str(square.path), "--no-browser", "--port", str(port)]) == 2
+    assert f"{port}: Address already in use" in " ".join("".join(capsys.readouterr()).split())
+
+
+@pytest.mark.parametrize("left", [0, 1000])
+def test_missing_or_cut_frames_are_named(square, tmp_path, capsys, left):
+    shutil.copytree(square.path, tmp_path / "run")
+    file = tmp_path / "run" / "fields.vtkhdf"
+    data = file.read_bytes()[:left]
+    file.write_bytes(data) if left else file.unlink()
+    for verb in (["view", "--no-browser"], ["plot"]):
+        assert main([verb[0], str(tmp_path / "run"), *verb[1:]]) == 2
+        told = "".join(capsys.readouterr())
+        assert "fields.vtkhdf" in told and "Traceback" not in told
 
 
 def test_no_run_folder(tmp_path, capsys):
