@@ -5,7 +5,7 @@ DEMO := .venv-demo
 TEST := .venv-test
 DOCS := .venv-docs
 
-.PHONY: help demo test test-view coverage check bench bench-check docs clean
+.PHONY: help demo test test-view coverage check bench bench-check manual docs clean
 
 help:
 	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
@@ -15,6 +15,7 @@ help:
 	@echo "make check  ruff, mypy, import-linter, house rules"
 	@echo "make bench  all measurements: docs/benchmarks.md and benchmarks/results/latest.json; BENCH=--quick for a few"
 	@echo "make bench-check  a few measurements against the stored ones: fails where a ratio got worse by a fifth"
+	@echo "make manual  all verification cases: docs/verification/manual.md, and docs/_build/verification.html with curves"
 	@echo "make docs   the documentation as HTML in docs/_build/html"
 
 # $(call environment,folder,extras): the file "ready" comes last, so that an interrupted installation is repeated
@@ -59,6 +60,11 @@ bench: $(TEST)/ready
 
 bench-check: $(TEST)/ready
 	$(TEST)/bin/python benchmarks/run.py --quick --check
+
+manual: $(TEST)/ready
+	mkdir -p docs/_build
+	$(TEST)/bin/softway verify --jobs $(JOBS) --json docs/_build/verification.json --out docs/_build/verification.html || test $$? -eq 1
+	$(TEST)/bin/python docs/manual.py docs/_build/verification.json docs/verification/manual.md
 
 docs: $(DOCS)/ready
 	$(DOCS)/bin/python -m sphinx --fail-on-warning --keep-going -q -b html docs docs/_build/html

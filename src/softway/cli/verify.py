@@ -10,7 +10,7 @@ from typing import Annotated
 from cyclopts import Parameter
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, Progress, TextColumn
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table as Grid
 
 from softway.errors import InputError
@@ -129,7 +129,8 @@ def _progress(cases: Sequence[Case], jobs: int, console: Console) -> Iterator[Wa
     columns = (
         BarColumn(bar_width=24),
         TextColumn("{task.completed} of {task.total} cases"),
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}, after"),
+        TimeElapsedColumn(),
     )
     left = {case.id: case.seconds for case in cases}
     whole, begun = sum(left.values()), perf_counter()

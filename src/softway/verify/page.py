@@ -55,7 +55,7 @@ def _section(result: Result) -> str:
     complaint = f'<p class="fail">Not computed: {escape(result.complaint)}</p>' if result.complaint else ""
     parts = [
         f'<h2 id="{result.case.id}">{result.case.id} {escape(result.case.title)}</h2>',
-        f'<p class="small">Reference: {escape(_source(result))}. {result.wall:.1f} s.</p>',
+        f'<p class="small">{escape(_source(result))}{result.wall:.1f} s.</p>',
         complaint,
         _table(HEADS, [_cells(row) for row in rows([result])]),
         _picture(result.panels, f"Curves of {result.case.id}"),
@@ -65,7 +65,8 @@ def _section(result: Result) -> str:
 
 
 def _source(result: Result) -> str:
-    return str(result.case.sheet["reference"].get("source", "")).rstrip(".")
+    source = str(result.case.sheet["reference"].get("source", "")).rstrip(".")
+    return f"Reference: {source}. " if source else ""
 
 
 def _cells(row: Row) -> tuple[str, ...]:

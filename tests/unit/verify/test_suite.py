@@ -24,8 +24,8 @@ def test_groups_and_cases_in_any_case() -> None:
 
 
 def test_the_quick_suite_takes_less_than_two_minutes_on_two_cores() -> None:
-    """By the seconds of the catalogue, with half a minute for two processes that start."""
-    assert sum(c.seconds for c in chosen(quick=True)) / 2.0 <= 90.0
+    """By the seconds of the catalogue, and half as much again, with fifteen seconds for two processes that start."""
+    assert 15.0 + 1.5 * sum(c.seconds for c in chosen(quick=True)) / 2.0 <= 120.0
 
 
 def test_a_wrong_id_names_the_known_ones() -> None:

@@ -102,10 +102,10 @@ def compute() -> Outcome:
 
 
 def _quasi_static(hertz: Impact, times: Array) -> Array:
-    """Force of the spring of Hertz on a mass that meets it at t = 0."""
-    near = np.linspace(0.0, hertz.approach, 4001)
-    speed = np.sqrt(np.maximum(hertz.speed**2 - 0.8 * hertz.stiffness / hertz.mass * near**2.5, 1e-12))
-    since = np.concatenate([[0.0], np.cumsum(np.diff(near) * 0.5 * (1.0 / speed[1:] + 1.0 / speed[:-1]))])
+    """Force of the spring of Hertz on a mass that meets it at t = 0, by its times at approaches d (1 - s^2)."""
+    s = np.linspace(1.0, 0.0, 2001)
+    middle = 0.5 * (s[1:] + s[:-1])
+    since = np.concatenate([[0.0], np.cumsum(middle / np.sqrt(1.0 - (1.0 - middle**2) ** 2.5))])
     half = 0.5 * hertz.duration
     inside = np.clip(half - np.abs(times - half), 0.0, half)
-    return hertz.stiffness * np.interp(inside, since * half / since[-1], near) ** 1.5
+    return np.asarray(hertz.force * np.interp(inside, since * half / since[-1], 1.0 - s**2) ** 1.5)

@@ -43,8 +43,8 @@ def _table() -> Beside:
     ours = [(-thrown(n).momentum[-1], thrown(n).energy[-1] / EXACT.energy, _rms(thrown(n))) for n in (2, 20)]
     mine = ("softway", *("{:.2f} / {:.2f} / {:.2f}".format(*numbers) for numbers in ours))
     return Beside(
-        title="Thrown bar, gap 0.25: rebound speed / energy / rms error of the force; exact 1 / 1 / 0",
-        heads=("scheme", "2 elements", "20 elements"),
+        title=known["caption"],
+        heads=tuple(known["heads"]),
         rows=(*(tuple(row) for row in known["others"]), mine),
         note=known["note"],
     )

@@ -23,8 +23,8 @@ def compute() -> Outcome:
     known = sheet("peers")["reference"]
     mine = ("softway (this run)", f"{wall:.1f}", f"{energy:.3f}", f"{found['mean velocity at the end']:.3f}")
     table = Beside(
-        title="Cube thrown at a plane, 3000 unknowns, 100 steps",
-        heads=("package", "wall [s]", "energy kept", "mean velocity at the end"),
+        title=known["caption"],
+        heads=tuple(known["heads"]),
         rows=(*(tuple(row) for row in known["others"]), mine),
         note=known["note"],
     )

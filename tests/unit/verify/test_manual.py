@@ -1,0 +1,27 @@
+"""The page of the manual follows from the table of the suite."""
+
+import json
+import runpy
+from pathlib import Path
+
+from softway.verify import chosen, examined
+from softway.verify.report import in_json
+
+SCRIPT = Path(__file__).parents[3] / "docs" / "manual.py"
+
+
+def test_the_page(tmp_path: Path) -> None:
+    lines = json.loads(in_json([examined(chosen(["A01"])[0])]))
+    lines[2]["value"] = 3.0
+    table, target = tmp_path / "table.json", tmp_path / "page.md"
+    table.write_text(json.dumps(lines))
+    assert runpy.run_path(str(SCRIPT))["main"]([str(table), str(target)]) == 0
+    text = target.read_text()
+    assert "**2 of 3 quantities of 1 cases are within their tolerance.**" in text
+    assert "| stability limit of const weighting | 3.46410 | 3.00000 | 4.6e-01 | 3.5e-06 | **no** |" in text
+    assert "* A01, stability limit of const weighting: the cause is not known" in text
+
+
+def test_figures_of_others_are_in_it() -> None:
+    script = runpy.run_path(str(SCRIPT))
+    assert "| Akantu 5.0.7, explicit tetrahedra, 252 steps | 1.7 |" in script["_others"](chosen(["peers"])[0])
