@@ -12,17 +12,14 @@ import matplotlib as mpl
 import numpy as np
 
 import softway as sw
+from softway.verify.case import sheet
+from softway.verify.scenes.forming import Press
 
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "demo"
-sys.path.insert(0, str(ROOT / "tests" / "verification"))
-
-import results  # noqa: E402
-from forming import Press  # noqa: E402  the press of the verification cases
-
 ALPHAS = (0.05, 0.2, 0.5)
 INK = ("#1b6ca8", "#3a923a", "#b3443c")
 
@@ -56,7 +53,7 @@ def inner_radius(press: Press) -> tuple[np.ndarray, np.ndarray]:
 def picture(rings: dict[float, Press], upset: Press, file: Path) -> None:
     """Calibration curves and force curves side by side."""
     fig, (left, right) = plt.subplots(1, 2, figsize=(9.6, 3.8), layout="constrained")
-    table = results.case("E03")["reference"]["table"]
+    table = sheet("E03")["reference"]["table"]
     for (alpha, press), ink in zip(rings.items(), INK, strict=True):
         reduction, radius = inner_radius(press)
         left.plot(100 * reduction, 100 * (radius / press.inner - 1.0), color=ink, label=rf"$\alpha$ = {alpha:g}")
@@ -67,7 +64,7 @@ def picture(rings: dict[float, Press], upset: Press, file: Path) -> None:
     left.axhline(0.0, color="0.7", lw=0.8, zorder=0)
     left.set(xlabel="reduction of the height [%]", ylabel="change of the inner radius [%]", title="Ring test 6 : 3 : 2")
     left.legend(frameon=False)
-    points = np.array(results.case("E02")["reference"]["fine_12x10x24"])
+    points = np.array(sheet("E02")["reference"]["fine_12x10x24"])
     right.plot(100 * upset.reduction[1:], upset.force[1:], color="0.3", label="cylinder, E02")
     right.plot(100 * points[:, 0], points[:, 1], "o", ms=3.5, color="0.3", label="references")
     right.set(

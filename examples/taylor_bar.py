@@ -5,7 +5,6 @@ dimensions.  It prints what the bar has become and draws ``demo/taylor_bar.png``
 """
 
 import argparse
-import sys
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +13,7 @@ import matplotlib as mpl
 import numpy as np
 
 import softway as sw
+from softway.verify.scenes import taylor
 
 mpl.use("Agg")
 import matplotlib.pyplot as plt
@@ -21,10 +21,6 @@ from matplotlib.collections import PolyCollection
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "demo"
-sys.path.insert(0, str(ROOT / "tests" / "verification"))
-
-import taylor  # noqa: E402  the scene of the verification case D09
-
 FRAMES = (0.0, 10e-6, 20e-6, 40e-6, 80e-6)
 STEP = 0.78e-6
 """Slab [s] for five cells across the radius, eight times the automatic one."""

@@ -6,9 +6,9 @@ The block is elastic, 0.2 x 0.1, stiff: E = 1e9 for rho = 1000, so that its defl
 import numpy as np
 import pytest
 
-import sliding
 import softway as sw
 from results import case
+from softway.verify.scenes import sliding
 
 REFERENCE = case("C01")["reference"]
 

@@ -1,15 +1,15 @@
 """C02: a mass on a spring on a rough floor goes to rest at an offset.
 
-A stiff block on a thin column that bends, see ``sprung.py``; ten times the weight and a tenth of the friction, whose
-product is that of the case.
+A stiff block on a thin column that bends, see ``scenes/sprung.py``; ten times the weight and a tenth of the friction,
+whose product is that of the case.
 """
 
 import numpy as np
 import pytest
 
 import softway as sw
-import sprung
 from results import case
+from softway.verify.scenes import sprung
 
 REFERENCE = case("C02")["reference"]
 

@@ -6,9 +6,9 @@ A block of length 1 and mass 1.3, E = 1e6, pressed to the floor; K = 1 over its 
 import numpy as np
 import pytest
 
-import sliding
 import softway as sw
 from results import case
+from softway.verify.scenes import sliding
 
 CASE = case("C04")
 MASS, ALPHA, START = 1.3, 0.9, 2.0

@@ -1,15 +1,15 @@
 """C08: the friction oscillator of SDND100 (Code_Aster), displaced at 45 degrees in the plane of the floor.
 
-A stiff block in space on a column that bends both ways alike, see ``sprung.py``; ten times the weight and a tenth of
-the friction.
+A stiff block in space on a column that bends both ways alike, see ``scenes/sprung.py``; ten times the weight and a
+tenth of the friction.
 """
 
 import numpy as np
 import pytest
 
 import softway as sw
-import sprung
 from results import case
+from softway.verify.scenes import sprung
 
 
 def test_it_swings_along_its_diagonal_and_stops():

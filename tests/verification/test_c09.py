@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-import sliding
 import softway as sw
 from results import case
+from softway.verify.scenes import sliding
 
 SLOPE = float(np.rad2deg(np.arctan(0.5)))
 UNIT = {"size": (1.0, 1.0), "cells": (4, 4)}

@@ -5,9 +5,9 @@ import pytest
 
 import results
 import softway as sw
-from driving import RATES, sheared, square
 from orders import order
 from softway.typing import Array
+from softway.verify.scenes.driving import RATES, sheared, square
 
 YOUNGS, POISSON = 2.6, 0.3
 """Shear modulus 1."""

@@ -5,9 +5,9 @@ import pytest
 
 import results
 import softway as sw
-from driving import RATES, cube, square
 from softway.bodies.memory import Memory
 from softway.typing import Array
+from softway.verify.scenes.driving import RATES, cube, square
 
 CASE = results.case("D02")["definition"]
 LAW = {name: sw.Hypoelastic(E=1.0, nu=0.3, rate=rate) for name, rate in RATES.items()}

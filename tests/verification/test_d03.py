@@ -5,9 +5,9 @@ import pytest
 
 import results
 import softway as sw
-from driving import RATES, cycle, square
 from orders import order
 from softway.typing import Array
+from softway.verify.scenes.driving import RATES, cycle, square
 
 LAW = {name: sw.Hypoelastic(E=2.5, nu=0.25, rate=rate) for name, rate in RATES.items()}
 """Both constants of Lame are 1."""

@@ -5,8 +5,8 @@ import pytest
 
 import results
 import softway as sw
-from driving import RATES, equilibria
 from softway.bodies.rate_force import RateForce, rate_force
+from softway.verify.scenes.driving import RATES, equilibria
 
 YOUNGS, POISSON, STEPS = 1.0, 0.3, 50
 EXACT = {float(k): v for k, v in results.case("D04")["reference"]["sigma"].items()}

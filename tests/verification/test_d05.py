@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import results
-from spinning import Spin, pendulum
+from softway.verify.scenes.spinning import Spin, pendulum
 
 CASE = results.case("D05")
 

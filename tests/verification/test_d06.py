@@ -8,7 +8,7 @@ import pytest
 
 import results
 import softway as sw
-from spinning import bar
+from softway.verify.scenes.spinning import bar
 
 DATA = results.case("D06")["definition"]
 STATIC = results.case("D06")["reference"]["u_tip_static"]

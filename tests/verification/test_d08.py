@@ -5,8 +5,8 @@ import pytest
 
 import results
 import softway as sw
-from driving import equilibria
 from softway.laws.law import Material
+from softway.verify.scenes.driving import equilibria
 
 YOUNGS, HEIGHT = 1e4, 1.0 / 50.0
 STIFFNESS = YOUNGS * HEIGHT**3 / 12.0

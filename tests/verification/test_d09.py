@@ -7,8 +7,8 @@ The corner folds: the side of the bar is a contact surface too.  A coarse mesh h
 import pytest
 
 import results
-import taylor
-from taylor import Crushed
+from softway.verify.scenes import taylor
+from softway.verify.scenes.taylor import Crushed
 
 
 @pytest.fixture(scope="module")

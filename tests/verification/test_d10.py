@@ -11,9 +11,9 @@ from scipy.integrate import solve_ivp
 
 import results
 import softway as sw
-from driving import RATES, sheared, square
 from orders import order
 from softway.typing import Array
+from softway.verify.scenes.driving import RATES, sheared, square
 
 GAMMA, STEPS = 5.0, 1600
 

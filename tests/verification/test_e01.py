@@ -7,8 +7,8 @@ import pytest
 
 import results
 import softway as sw
-from forming import Press
 from softway.typing import Array
+from softway.verify.scenes.forming import Press
 
 
 def exact(reduction: Array, m: float) -> Array:

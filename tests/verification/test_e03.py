@@ -6,7 +6,7 @@ import pytest
 
 import results
 import softway as sw
-from forming import Press
+from softway.verify.scenes.forming import Press
 
 
 @cache

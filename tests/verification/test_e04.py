@@ -4,7 +4,7 @@ import numpy as np
 
 import results
 import softway as sw
-from forming import Press
+from softway.verify.scenes.forming import Press
 
 PRESS = Press(
     material=sw.NortonHoff(K=1.0, m=1.0),

@@ -5,7 +5,7 @@ import pytest
 
 import results
 import softway as sw
-from forming import Press
+from softway.verify.scenes.forming import Press
 
 MU, E = 0.05, 2000.0
 

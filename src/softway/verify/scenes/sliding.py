@@ -5,6 +5,7 @@ so that its own vibrations, which nothing would damp, are not excited: the stati
 """
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -44,12 +45,12 @@ def on_plane(
     )
 
 
-def incline(degrees: float, mu: float, speed: float, rest: bool = False, **given: object) -> sw.Scene:
+def incline(degrees: float, mu: float, speed: float, rest: bool = False, **given: Any) -> sw.Scene:
     """A block on an incline, thrown up it with the speed; or at ``rest`` under its weight, held by friction."""
     slope = np.deg2rad(degrees)
     gravity = (-GRAVITY * np.sin(slope), -GRAVITY * np.cos(slope))
     resisted = -gravity[0] if rest else np.sign(speed) * mu * gravity[1]
-    return on_plane(friction=sw.Coulomb(mu=mu), velocity=speed, gravity=gravity, resisted=resisted, **given)  # type: ignore[arg-type]
+    return on_plane(friction=sw.Coulomb(mu=mu), velocity=speed, gravity=gravity, resisted=resisted, **given)
 
 
 def travelled(steps: Iterator[Step]) -> Iterator[tuple[float, float, Step]]:

@@ -10,13 +10,14 @@ A weight of ten times that of the cases with a tenth of their friction keeps the
 
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 import numpy as np
 
 import softway as sw
 from softway.laws.friction_law import FrictionLaw
 from softway.march.begin import begin
-from softway.typing import Array
+from softway.typing import Array, IntArray
 
 SIDE, HEIGHT = 0.5, 0.1
 COLUMN, THIN = 0.05, 5e-4
@@ -43,10 +44,12 @@ class Sprung:
 
     @property
     def density(self) -> float:
+        """Mass per volume."""
         return self.mass / _inertia(self.dim, self.touching)
 
     @property
     def gravity(self) -> sw.Gravity:
+        """Makes the weight."""
         acceleration = self.weight / (self.density * _volume(self.dim))
         return sw.Gravity(acceleration=(*(0.0,) * (self.dim - 1), -acceleration))
 
@@ -58,12 +61,13 @@ class Sprung:
     def solid(self, velocity: tuple[float, ...], at: tuple[float, ...]) -> sw.Solid:
         """At rest at the place ``at`` along the floor, compressed by its weight, but for its velocity."""
         pull = self.stiffness * np.array(at)
+        bent: Any = _bent(self.dim, self.touching, self.youngs, self.density, tuple(pull), (self.gravity,))
         return sw.Solid(
             mesh=self.mesh,
             material=sw.LinearElastic(E=self.youngs),
             density=self.density,
             velocity=sw.Uniform(value=velocity),
-            displacement=_bent(self.dim, self.touching, self.youngs, self.density, tuple(pull), (self.gravity,)),
+            displacement=bent,
             supports=(sw.Fixed(on="held", components=_plane(self.dim)),),
         )
 
@@ -92,10 +96,10 @@ def _plane(dim: int) -> str:
     return "xy"[: dim - 1]
 
 
-def _grid(axes: list[Array], kind: str) -> tuple[Array, Array]:
+def _grid(axes: list[Array], kind: str) -> tuple[Array, IntArray]:
     """Points and cells of second order on a grid whose axes list corners."""
-    size = tuple(float(a[-1] - a[0]) for a in axes)
-    cells = tuple(len(a) - 1 for a in axes)
+    size: Any = tuple(float(a[-1] - a[0]) for a in axes)
+    cells: Any = tuple(len(a) - 1 for a in axes)
     source = sw.Rectangle if len(axes) == 2 else sw.Box
     mesh = source(size=size, cells=cells, cell=kind).build()
     moved = []
