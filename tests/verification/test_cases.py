@@ -8,6 +8,7 @@ import pytest
 
 import check_case
 from softway import verify
+from softway.verify.cases import a08, b02, b03, b04, b05, b06
 from softway.verify.exact import bar as waves
 from softway.verify.exact import semidiscrete as discrete
 from softway.verify.exact.oscillator import CONSTANT, frequency, limit, peak, radius
@@ -137,6 +138,24 @@ def test_tables_of_the_continuum(name: str, column: str, bar: waves.Bar) -> None
 def test_thrown_bars_in_units(name: str, bar: Thrown, touch: str, release: str, force: str) -> None:
     found = (value(name, touch), value(name, release), value(name, force))
     assert found == pytest.approx((bar.touch, bar.release, bar.force), rel=1e-12)
+
+
+def test_the_cases_of_hertz_and_lame_are_the_closed_forms() -> None:
+    half, peak, force = b03.HERTZ.half_width, b03.HERTZ.peak, b04.hertz().force
+    assert (value("B03", "b"), value("B03", "p0"), value("B04", "F")) == pytest.approx((half, peak, force), rel=1e-12)
+    assert value("B04", "p0") == pytest.approx(b04.hertz().peak, rel=1e-12)
+    impact = b05.exact(1.0)
+    found = [value("B05", name) for name in ("contact duration", "F_max", "delta_max")]
+    assert found == pytest.approx([impact.duration, impact.force, impact.approach], rel=1e-9)
+    assert value("B06", "p") == pytest.approx(b06.EXACT.pressure, rel=1e-12)
+
+
+def test_the_cases_of_bars_that_collide_are_the_closed_forms() -> None:
+    assert value("B02", "duration") == pytest.approx(b02.DURATION, rel=1e-12)
+    assert value("B02", "mean interface pressure over contact") == pytest.approx(b02.PRESSURE, rel=1e-12)
+    for case in "ac":
+        assert value("A08", f"{case}: v_after") == pytest.approx(a08.VELOCITY[case], rel=1e-12)
+    assert value("A08", "b: force") == pytest.approx(a08.FORCE["b"][0], rel=1e-12)
 
 
 QUANTITIES = [

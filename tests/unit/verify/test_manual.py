@@ -25,3 +25,12 @@ def test_the_page(tmp_path: Path) -> None:
 def test_figures_of_others_are_in_it() -> None:
     script = runpy.run_path(str(SCRIPT))
     assert "| Akantu 5.0.7, explicit tetrahedra, 252 steps | 1.7 |" in script["_others"](chosen(["peers"])[0])
+
+
+def test_every_line_of_the_suite_is_in_the_manual() -> None:
+    """The page under version control was written after the last case was added; `make manual` renews it."""
+    page = (SCRIPT.parent / "verification" / "manual.md").read_text(encoding="utf-8")
+    headings = [line.split()[1] for line in page.splitlines() if line.startswith("## ")]
+    known = [case.id for case in chosen()]
+    assert headings == [name for name in known if name in headings]
+    assert {name for name in known if name[0] in "AB" or not name[0].isupper()} <= set(headings)

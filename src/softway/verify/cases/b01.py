@@ -63,8 +63,10 @@ class Pressed:
 
 
 @cache
-def pressed(dim: Literal[2, 3], *, ratio: float = 1.0, pressure: float = 1.0, method: Method | None = None) -> Pressed:
-    """The patch; ``ratio`` is the modulus of the upper block over that of the lower one."""
+def pressed(
+    dim: Literal[2, 3], *, ratio: float = 1.0, pressure: float = 1.0, method: Method | None = None, mu: float = 0.0
+) -> Pressed:
+    """The patch; ``ratio`` is the modulus of the upper block over that of the lower one, ``mu`` the friction."""
     plane = "x" if dim == 2 else "xz"
     held = [sw.Fixed(on="corner", components=plane), *([sw.Fixed(on="end", components="z")] if dim == 3 else [])]
     meshes = {"lower": irregular(dim, 4, 2, seed=1), "upper": irregular(dim, 7, 3, seed=2)}
@@ -81,9 +83,11 @@ def pressed(dim: Literal[2, 3], *, ratio: float = 1.0, pressure: float = 1.0, me
         supports=tuple(held),
         place=sw.Placement(translation=(0.0, HEIGHT, 0.0)[:dim]),
     )
+    friction = sw.Coulomb(mu=mu) if mu else sw.Frictionless()
+    contact = sw.Contact(between=("lower.high", "upper.low"), name="middle", method=method, friction=friction)
     scene = sw.Scene(
         bodies={"lower": lower, "upper": upper},
-        contacts=(sw.Contact(between=("lower.high", "upper.low"), name="middle", method=method),),
+        contacts=(contact,),
         loads=(sw.Traction(on="upper.high", value=(0.0, -pressure, 0.0)[:dim]),),
         start=sw.StaticStart(),
     )
@@ -109,6 +113,8 @@ def compute() -> Outcome:
         found["max |sigma_yy+1|" + tail] = mortar.missed
         found["same, node-to-segment single pass" + tail] = nodes.missed
         found["force balance of both sides" + tail] = max(mortar.unbalanced, nodes.unbalanced)
+        found["max |sigma_yy+1|, mu = 0.3" + tail] = pressed(dim, mu=0.3).missed
+        found["max |sigma_yy+1|, E2 = 10 E1" + tail] = pressed(dim, ratio=10.0).missed
         found["max |sigma_yy+1|, E2 = 10 E1, limit of small loads" + tail] = stiffer(dim)
     both = pressed(2, method=sw.NodeToSurface(nodes="both"))
     found["same, node-to-segment two passes"] = both.missed
