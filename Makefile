@@ -5,7 +5,7 @@ DEMO := .venv-demo
 TEST := .venv-test
 DOCS := .venv-docs
 
-.PHONY: help demo test test-view coverage check bench bench-check manual docs clean
+.PHONY: help demo test test-view coverage check bench bench-check kills manual docs clean
 
 help:
 	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
@@ -15,6 +15,7 @@ help:
 	@echo "make check  ruff, mypy, import-linter, house rules"
 	@echo "make bench  all measurements: docs/benchmarks.md and benchmarks/results/latest.json; BENCH=--quick for a few"
 	@echo "make bench-check  a few measurements against the stored ones: fails where a ratio got worse by a fifth"
+	@echo "make kills  runs killed at 50 random instants, resumed and compared bit by bit: KILLS='--kills 500 --seed 2' for more"
 	@echo "make manual  all verification cases: docs/verification/manual.md, and docs/_build/verification.html with curves"
 	@echo "make docs   the documentation as HTML in docs/_build/html"
 
@@ -60,6 +61,9 @@ bench: $(TEST)/ready
 
 bench-check: $(TEST)/ready
 	$(TEST)/bin/python benchmarks/run.py --quick --check
+
+kills: $(TEST)/ready
+	$(TEST)/bin/python tests/robustness/kills.py $(KILLS)
 
 manual: $(TEST)/ready
 	mkdir -p docs/_build

@@ -14,7 +14,7 @@ from softway.bodies.solid import Driven, Fixed, Solid, Tool
 from softway.contact.contact import Contact, DualMortar, NodeToSurface
 from softway.contact.timing import Energy, Impulse, Paper
 from softway.errors import InputError, NumericsError, SoftwayError
-from softway.execute import run
+from softway.execute import resume, run
 from softway.laws.bulk import (
     J2,
     Hencky,
@@ -43,8 +43,10 @@ from softway.laws.hardening import LinearHardening, PowerHardening, Voce
 from softway.laws.rates import GreenNaghdi, Jaumann, Logarithmic, Truesdell
 from softway.march.control import StepControl
 from softway.march.march import march
+from softway.march.standing import Standing
 from softway.march.step import Certificate, Event, Ledger, Step
 from softway.model import build
+from softway.record.checkpoint import Checkpoints
 from softway.record.run import Run
 from softway.scenario.codec import load, resolved
 from softway.scenario.scenario import Output, Probe, Scenario, Time
@@ -75,6 +77,7 @@ __all__ = [
     "BulkViscosity",
     "Cavity",
     "Certificate",
+    "Checkpoints",
     "Collocation",
     "Consistent",
     "Contact",
@@ -155,6 +158,7 @@ __all__ = [
     "Solid",
     "Sphere",
     "StVenantKirchhoff",
+    "Standing",
     "State",
     "StaticKinetic",
     "StaticStart",
@@ -180,5 +184,6 @@ __all__ = [
     "load",
     "march",
     "resolved",
+    "resume",
     "run",
 ]

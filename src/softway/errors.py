@@ -45,6 +45,20 @@ class NumericsError(SoftwayError):
         super().__init__(f"t = {when:.6g} s: {what}" + (f"\n  try: {remedy}" if remedy else ""))
 
 
+class StorageError(SoftwayError):
+    """The records of a run could not be written; those written before stay valid, and the run can be resumed.
+
+    Parameters
+    ----------
+    place, problem, remedy
+        Which folder, what the system says, and what to do.
+    """
+
+    def __init__(self, place: str, problem: str, remedy: str) -> None:
+        self.place, self.problem, self.remedy = place, problem, remedy
+        super().__init__(f"{place}: {problem}\n  try: {remedy}")
+
+
 class NoConvergence(Exception):
     """A slab could not be solved; the march drops it and tries a shorter one. The message says what happened."""
 

@@ -1,7 +1,8 @@
-"""Execute: a scenario checked, marched and recorded, in one call."""
+"""Execute: a scenario checked, marched and recorded, in one call; and a run that stopped, resumed."""
 
+import logging
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import partial
 from pathlib import Path
 
@@ -13,18 +14,26 @@ from softway.march.begin import begin
 from softway.march.ledger import opening as audit
 from softway.march.march import march, proposed
 from softway.march.situation import parted
+from softway.march.standing import Standing
+from softway.march.step import Step
 from softway.model import Model
-from softway.record.conduct import Place, Progress, conduct
+from softway.record import provenance
+from softway.record.checkpoint import last
+from softway.record.conduct import Progress, conduct, proceed
+from softway.record.lock import held
+from softway.record.place import Place
 from softway.record.probes import readings
+from softway.record.provenance import DONE
 from softway.record.recorder import Opening
 from softway.record.run import SCENARIO, Run
 from softway.scenario.check import Checked, check
-from softway.scenario.codec import resolved
+from softway.scenario.codec import load, resolved
 from softway.scenario.modules import own_sources
 from softway.scenario.scenario import Scenario
 from softway.scene import State
 from softway.typing import Array
 
+LOG = logging.getLogger("softway")
 FRAMES = 100
 """Number of stored fields when the scenario leaves it open."""
 
@@ -53,17 +62,83 @@ def run(
     ------
     InputError
         Something in the scenario is wrong; no folder is left.
-    NumericsError, KeyboardInterrupt
+    NumericsError, KeyboardInterrupt, StorageError
         The folder ``out`` holds what was computed until then.
     """
     place = Place(out=None if out is None else Path(out), overwrite=overwrite)
     place.check()
     checked = scenario if isinstance(scenario, Checked) else check(scenario)
-    given = checked.scenario
-    model = checked.model
+    given, opening = checked.scenario, _opening(checked)
+    steps = _steps(checked, opening.initial)
+    plan = given.output.checkpoints
+    return conduct(steps, opening, place, title=given.title, texts=_texts(given), plan=plan, progress=progress)
+
+
+def resume(
+    folder: str | Path,
+    *,
+    scenario: Scenario | Checked | None = None,
+    progress: Progress | None = None,
+    allow_python: bool = False,
+) -> Run:
+    """Go on with a run that was killed, interrupted or failed, from its last checkpoint.
+
+    What comes out has the same bits as that of a run that was never stopped, on the same machine with the same number
+    of threads.  A run that is done is left as it is.
+
+    Parameters
+    ----------
+    folder
+        Of the run.
+    scenario
+        The scenario, where parts of it were built in Python; by default that in the folder.
+    progress
+        Called with each accepted step.
+    allow_python
+        Whether ``module:name`` in the scenario may also name an installed module.
+
+    Raises
+    ------
+    InputError
+        ``folder`` holds no run, one that is still going on, another scenario than it began with, or records that lack
+        something.
+    NumericsError, KeyboardInterrupt, StorageError
+        As of :func:`run`.
+    """
+    stopped = Run(Path(folder))
+    if stopped.stop == DONE:
+        LOG.info("'%s' is done: nothing is left to compute", stopped.path)
+        return stopped
+    with held(stopped.path):
+        given = stored(stopped.path, allow_python) if scenario is None else scenario
+        checked = given if isinstance(given, Checked) else check(given)
+        provenance.require_same(stopped.path, stopped.provenance, _texts(checked.scenario))
+        opening, found = _opening(checked), last(stopped.path)
+        steps = _steps(checked, opening.initial if found is None else found.standing)
+        return proceed(steps, opening, stopped, found, plan=checked.scenario.output.checkpoints, progress=progress)
+
+
+def stored(folder: Path, allow_python: bool = False) -> Scenario:
+    """The scenario in a run folder.
+
+    Raises
+    ------
+    InputError
+        If parts of it were built in Python.
+    """
+    file = folder / SCENARIO
+    if file.is_file() and not tomllib.loads(file.read_text(encoding="utf-8")):
+        remedy = "softway.resume(folder, scenario=...) with the same scenario"
+        raise InputError(str(file), "parts of the scenario were built in Python", remedy)
+    return load(file, allow_python=allow_python)
+
+
+def _opening(checked: Checked) -> Opening:
+    """The start of the run of a scenario."""
+    given, model = checked.scenario, checked.model
     start = begin(model, proposed(model, checked.step, given.time.weight, given.time.end, given.solver))
     initial, met = parted(model, start), model.encounters
-    opening = Opening(
+    return Opening(
         scene=model.scene,
         meshes=model.meshes,
         stresses={name: partial(_stress, model, name) for name in model.meshes},
@@ -76,19 +151,26 @@ def run(
         fields_every=_every(given),
         readings=readings(given.output.probes, model.meshes),
     )
-    time = given.time
-    steps = march(
-        model,
+
+
+def _steps(checked: Checked, state: State | Standing) -> Iterator[Step]:
+    """The march of a scenario."""
+    time = checked.scenario.time
+    return march(
+        checked.model,
         until=time.end,
         step=checked.step,
         weight=time.weight,
-        method=given.solver,
-        state=initial,
+        method=checked.scenario.solver,
+        state=state,
         control=time.control,
     )
-    text = _text(given)
-    texts = {SCENARIO: text, **own_sources(tomllib.loads(text))}
-    return conduct(steps, opening, place, title=given.title, texts=texts, progress=progress)
+
+
+def _texts(scenario: Scenario) -> dict[str, str]:
+    """The resolved scenario and what it needs beside it, by the names of the files."""
+    text = _text(scenario)
+    return {SCENARIO: text, **own_sources(tomllib.loads(text))}
 
 
 def _stress(model: Model, name: str, state: State) -> Array:

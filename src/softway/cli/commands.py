@@ -1,7 +1,7 @@
-"""Verbs over a scenario: new, check, run, show, plot, race; those over laws, materials and the suite come from beside.
+"""Verbs over a scenario: new, check, run, show, race; the others come from the files beside this one.
 
-Exit codes: 0 done, 1 a law failed its examination or a case missed its reference, 2 input wrong, 3 numerics failed,
-130 interrupted.
+Exit codes: 0 done, 1 a law failed its examination or a case missed its reference, 2 input wrong, 3 numerics or
+storage failed, 130 interrupted.
 """
 
 import logging
@@ -20,10 +20,11 @@ from softway.cli.law import check_law
 from softway.cli.materials import materials
 from softway.cli.plot import plot
 from softway.cli.progress import laps_of, progress_of
+from softway.cli.resume import resume
 from softway.cli.tables import ranking, scales, summary
 from softway.cli.verify import verify
 from softway.cli.view import view
-from softway.errors import InputError, NumericsError
+from softway.errors import InputError, NumericsError, StorageError
 from softway.execute import run as execute
 from softway.race.contest import contest, entrants
 from softway.race.report import FILE as RACE
@@ -55,6 +56,7 @@ app.command(materials)
 app.command(verify)
 app.command(plot)
 app.command(view)
+app.command(resume)
 Set = Annotated[tuple[str, ...], Parameter(name="--set", negative=())]
 Quiet = Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())]
 AllowPython = Annotated[bool, Parameter(negative=())]
@@ -151,7 +153,9 @@ def run(
             done = execute(checked, folder, progress=progress, overwrite=overwrite)
     except (NumericsError, KeyboardInterrupt):
         if folder.is_dir():
-            Console(stderr=True).print(f"what was computed until then: {escape(str(folder))}", soft_wrap=True)
+            name = escape(str(folder))
+            Console(stderr=True).print(f"what was computed until then: {name}", soft_wrap=True)
+            Console(stderr=True).print(f"go on with: softway resume {name}", soft_wrap=True)
         raise
     summary(done, console)
 
@@ -247,7 +251,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
     except (CycloptsError, InputError) as error:
         return _failed(errors, error, WRONG_INPUT)
-    except NumericsError as error:
+    except (NumericsError, StorageError) as error:
         return _failed(errors, error, FAILED)
     except KeyboardInterrupt:
         errors.print("interrupted")

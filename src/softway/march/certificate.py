@@ -6,6 +6,7 @@ from softway.bodies.section import Axisymmetric
 from softway.contact.timing import Energy, Paper
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation
+from softway.march.standing import Account
 from softway.march.step import Certificate, Ledger
 from softway.model import Model
 from softway.time.weight import EndPeaks
@@ -31,7 +32,7 @@ INTERNAL = 1e-4
 
 
 def certified(
-    model: Model, before: Situation, out: Outcome, after: Situation, last: Ledger, ledger: Ledger
+    model: Model, before: Situation, out: Outcome, after: Situation, last: Account, ledger: Ledger
 ) -> Certificate:
     """What a solved slab leaves over."""
     searched = out.system.searched

@@ -20,7 +20,7 @@ from softway.march.outcome import Outcome
 from softway.march.rub import first_impulses
 from softway.march.situation import Situation
 from softway.model import Model
-from softway.solve.carry import Carry
+from softway.solve.carry import Carry, Origin
 from softway.solve.correction import corrected
 from softway.solve.driver import Iterate, Solution
 from softway.solve.explicit import Explicit
@@ -175,15 +175,25 @@ class _Light:
 
 def _prepared(system: SlabSystem, central: Central, u: Array, carry: Carry) -> Carry:
     """The carry with the stiffness of the contact nodes factored."""
-    if carry.frozen is not None and not carry.stale and abs(carry.span / system.path.span - 1.0) < 1e-9:
-        return carry
-    model = system.model
-    where = np.flatnonzero(central.light[model.free])
-    factor = SuperLU().factor(sp.csc_array(system.operator(u)[where][:, where])) if len(where) else None
+    serves = not carry.stale and abs(carry.span / system.path.span - 1.0) < 1e-9
+    if carry.origin is not None and serves:
+        if carry.frozen is not None:
+            return carry
+        return replace(carry, frozen=_frozen(system, central, carry.origin).filled(carry.batches))
+    origin = Origin.of(system, u)
     return replace(
         carry,
-        frozen=Frozen(_Light(factor, where), system.directions()),
+        frozen=_frozen(system, central, origin),
+        origin=origin,
         span=system.path.span,
         stale=False,
         factorisations=carry.factorisations + 1,
     )
+
+
+def _frozen(system: SlabSystem, central: Central, origin: Origin) -> Frozen:
+    """The stiffness of the contact nodes as it was somewhere, factored."""
+    where = np.flatnonzero(central.light[system.model.free])
+    matrix = origin.stiffness(system.model).operator(origin.at)
+    factor = SuperLU().factor(sp.csc_array(matrix[where][:, where])) if len(where) else None
+    return Frozen(_Light(factor, where), system.directions())

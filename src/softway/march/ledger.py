@@ -1,11 +1,14 @@
 """The audit of a slab: energies, works, momentum, and the power of the contact force (eq. 3.9)."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from softway.bodies import past
 from softway.bodies.section import Axisymmetric
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation
+from softway.march.standing import Account
 from softway.march.step import ContactLedger, Ledger
 from softway.model import Model
 from softway.solve.balance import moment
@@ -55,8 +58,23 @@ def spin(model: Model, u: Array, v: Array) -> Array:
     return out
 
 
-def audited(model: Model, initial: Ledger, last: Ledger, before: Situation, out: Outcome, after: Situation) -> Ledger:
-    """The ledger after a slab, continuing the one before it."""
+def opened(ledger: Ledger) -> Account:
+    """The account of a march that starts with a ledger."""
+    return Account(energy_start=ledger.energy_kinetic + ledger.energy_strain)
+
+
+def booked(account: Account, ledger: Ledger) -> Account:
+    """The account after a slab with its ledger."""
+    return replace(
+        account,
+        work_external=ledger.work_external,
+        dissipation=ledger.dissipation,
+        energy_error=ledger.energy_error,
+    )
+
+
+def audited(model: Model, last: Account, before: Situation, out: Outcome, after: Situation) -> Ledger:
+    """The ledger after a slab, continuing the account."""
     moved = after.start.displacement - before.start.displacement
     load = out.system.model.slab_load(out.solution.end.scalar)
     work = last.work_external + float(np.sum(load * moved)) + out.work
@@ -64,13 +82,12 @@ def audited(model: Model, initial: Ledger, last: Ledger, before: Situation, out:
     lost += past.dissipated(model.parts, after.start.memory) - past.dissipated(model.parts, before.start.memory)
     kinetic = float(model.kinetic(after.start.velocity).sum())
     strain = float(after.start.energy.sum())
-    first = initial.energy_kinetic + initial.energy_strain
     return Ledger(
         energy_kinetic=kinetic,
         energy_strain=strain,
         work_external=work,
         dissipation=lost,
-        energy_error=kinetic + strain - first - work + lost,
+        energy_error=kinetic + strain - last.energy_start - work + lost,
         momentum=momentum(model, after.start.velocity),
         spin=spin(model, after.start.displacement, after.start.velocity),
         contacts=_contacts(model, before, out, after),

@@ -2,41 +2,30 @@
 
 import logging
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
 from softway.bodies.section import wave_speed
-from softway.errors import Halts, InputError, NoConvergence, NumericsError, TooFast, Unbalanced
-from softway.march.advance import Method, Rule, advance, rule
+from softway.errors import InputError
+from softway.march.advance import Method, Rule, rule
 from softway.march.begin import begin
-from softway.march.breakaway import breakaway
-from softway.march.certificate import certified, violation
 from softway.march.control import StepControl, crushing, may_grow
-from softway.march.halt import halt
-from softway.march.ledger import audited, opening
-from softway.march.outcome import Outcome
+from softway.march.ledger import booked, opened, opening
 from softway.march.situation import Situation, joined, parted
-from softway.march.step import Certificate, Ledger, Report, Step
+from softway.march.standing import Pace, Settings, Standing
+from softway.march.step import Report, Step
+from softway.march.tries import SETTLING, Accepted, accepted
 from softway.model import Model, build
 from softway.scene import Scene, State
-from softway.solve.balance import BOUND, SLIGHT
-from softway.solve.carry import Carry
+from softway.solve.balance import SLIGHT
 from softway.solve.explicit import Explicit
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.stability import require_stable, stable_step
-from softway.time.slab import Slab
 from softway.time.weight import EndPeaks, TimeWeight
 from softway.units import Second
 
 log = logging.getLogger("softway")
-PATIENCE = 1
-"""Halvings after which an energy balance that the scalar cannot close is closed along the motion, for as long as it
-takes."""
-SETTLING = EndPeaks(theta=1.0)
-"""Virtual time function of the slab after a stop: the forces at its end count for all of it, so that friction may turn
-at once and what the stop has set vibrating comes to rest.  It has the operator of a slab longer by the root of 2."""
 STRAINED = 0.2
 """Fraction of the length asked for below which a great scalar asks for no shorter slab."""
 
@@ -48,7 +37,7 @@ def march(
     step: Second | Literal["auto"] = "auto",
     weight: TimeWeight = EndPeaks(),
     method: Method = FixedPoint(),
-    state: State | None = None,
+    state: State | Standing | None = None,
     control: StepControl = StepControl(),
 ) -> Iterator[Step]:
     """Accepted slabs from the start, or from ``state``, to the time ``until``.
@@ -68,7 +57,8 @@ def march(
     method
         Fixed point, Newton, or explicit.
     state
-        Where to begin; by default the start of the scene.
+        Where to begin: a situation, or where another march stood after a step, ``step.standing``; by default the start
+        of the scene.
     control
         Limits of a slab; one that breaks them is tried again shorter.
 
@@ -91,11 +81,30 @@ def march(
     True
     """
     model = scene if isinstance(scene, Model) else build(scene)
-    span = proposed(model, step, weight, until - (0.0 if state is None else state.time), method)
-    now = begin(model, span) if state is None else joined(model, state)
+    settings = Settings(until=until, step=step, weight=weight, method=method, control=control)
+    stand = _begun(model, settings, state)
     prepared = rule(model, method, weight)
-    require_stable(model, now.start.displacement, method if isinstance(method, Explicit) else weight, span)
-    return _steps(prepared, now, until, span, weight, control)
+    if not stand.slabs:
+        stepping = method if isinstance(method, Explicit) else weight
+        require_stable(model, stand.situation.start.displacement, stepping, stand.pace.span)
+    return _steps(prepared, stand)
+
+
+def _begun(model: Model, settings: Settings, state: State | Standing | None) -> Standing:
+    """Where the march stands at its start."""
+    if isinstance(state, Standing) and state.settings == settings:
+        return state.fitting(model)
+    past = 0.0 if state is None else state.situation.time if isinstance(state, Standing) else state.time
+    span = proposed(model, settings.step, settings.weight, settings.until - past, settings.method)
+    if isinstance(state, Standing):
+        return state.fitting(model).asked(settings, span)
+    now = begin(model, span) if state is None else joined(model, state)
+    return Standing(
+        settings=settings,
+        situation=now,
+        account=opened(opening(model, now)),
+        pace=Pace(span=span, length=span),
+    )
 
 
 def proposed(
@@ -138,42 +147,34 @@ def evenly(duration: float, step: float) -> float:
     return float(duration / np.ceil(duration / step - 1e-9))
 
 
-def _steps(
-    rules: Rule, now: Situation, until: float, span: float, weight: TimeWeight, control: StepControl
-) -> Iterator[Step]:
-    model = rules.model
-    initial = ledger = opening(model, now)
-    carry, current, before, closed = Carry(), span, parted(model, now), False
-    halted, watch = False, crushing(model, rules.method)
-    while now.time < until - 1e-9 * span:
-        length = min(current, until - now.time)
-        length = until - now.time if until - now.time - length < control.least * span else length
-        found = _accepted(rules, now, (initial, ledger), length, span, until, weight, carry, control, closed, halted)
+def _steps(rules: Rule, stand: Standing) -> Iterator[Step]:
+    model, settings, span = rules.model, stand.settings, stand.pace.span
+    until, least = settings.until, settings.control.least * span
+    carry, before = stand.carry, parted(model, stand.situation)
+    watch = crushing(model, rules.method)
+    while stand.situation.time < until - 1e-9 * span:
+        time = stand.situation.time
+        length = min(stand.pace.length, until - time)
+        length = until - time if until - time - length < least else length
+        found = accepted(rules, stand, length, carry)
         if carry.choice is None and found.carry.choice is not None:
             log.info("operator %s: %s", found.carry.choice.operator, found.carry.choice.reason)
-        step = _step(model, now, before, found)
+        following = _next(model, settings.control, span, stand.situation, found)
+        following = min(following, span * watch.share(found.after.start.displacement))
+        stand = Standing(
+            settings=settings,
+            situation=found.after,
+            account=booked(stand.account, found.ledger),
+            pace=Pace(span=span, length=following, closed=found.closed, halted=found.halted),
+            carry=found.carry.bare(),
+            slabs=stand.slabs + 1,
+        )
+        step = _step(model, before, found, stand)
         yield step
-        current, halted = _next(model, control, span, now, found), found.halted
-        current = min(current, span * watch.share(found.after.start.displacement))
-        now, before, ledger, carry, closed = found.after, step.after, found.ledger, found.carry, found.closed
+        before, carry = step.after, found.carry
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class _Accepted:
-    """A slab that holds its certificate, with the reasons of the tries that were dropped."""
-
-    after: Situation
-    out: Outcome
-    carry: Carry
-    slab: Slab
-    ledger: Ledger
-    certificate: Certificate
-    rejections: tuple[str, ...]
-    closed: bool
-    halted: bool = False
-
-
-def _next(model: Model, control: StepControl, span: float, before: Situation, found: _Accepted) -> float:
+def _next(model: Model, control: StepControl, span: float, before: Situation, found: Accepted) -> float:
     """Length of the next slab."""
     length = found.slab.span
     if found.halted:
@@ -190,90 +191,7 @@ def _next(model: Model, control: StepControl, span: float, before: Situation, fo
     return min(span, 2.0 * length) if may_grow(model, control, length, before, found.after) else length
 
 
-def _accepted(
-    rules: Rule,
-    now: Situation,
-    ledgers: tuple[Ledger, Ledger],
-    length: float,
-    span: float,
-    until: float,
-    weight: TimeWeight,
-    carry: Carry,
-    control: StepControl,
-    closed: bool,
-    settling: bool,
-) -> _Accepted:
-    """Advance by the length, or by half of it as often as it takes; a rejected slab leaves no trace but its reason.
-
-    A slab that fails on an old operator is first tried again on a new one; an energy balance that the scalar cannot
-    close at half the length either is ``closed`` along the motion, and in the slabs after it.  A slab in which a body
-    comes to rest is tried again up to there; the slab after one that ended so is ``settling``.
-    """
-    reasons: list[str] = []
-    halted = False
-    unbalanced = PATIENCE if closed else 0
-    fresh = carry.frozen is None
-    while length > control.least * span:
-        end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
-        slab = Slab(start=now.time, end=end, weight=SETTLING if settling else weight)
-        try:
-            found = _tried(rules, now, ledgers, slab, carry, control.approach, unbalanced >= PATIENCE)
-            return replace(found, rejections=tuple(reasons), halted=halted)
-        except Halts as stop:
-            length, halted = stop.share * length, True
-            continue
-        except (TooFast, Unbalanced) as failure:
-            length = 0.5 * length
-            unbalanced += isinstance(failure, Unbalanced)
-            reasons.append(f"h = {slab.span:.3g} s: {failure}")
-        except NoConvergence as failure:
-            reasons.append(f"h = {slab.span:.3g} s: {failure}")
-            length = 0.5 * length if fresh else length
-            fresh, carry = True, replace(carry, stale=True)
-        log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
-    last = reasons[-1] if reasons else f"h = {length:.3g} s: a body comes to rest again and again"
-    remedy = "a smaller step, a finer mesh where the cells are crushed, or Newton"
-    raise NumericsError(f"no slab holds, the last of {len(reasons)} tries with {last}", now.time, remedy)
-
-
-def _tried(
-    rules: Rule,
-    now: Situation,
-    ledgers: tuple[Ledger, Ledger],
-    slab: Slab,
-    carry: Carry,
-    approach: float,
-    closed: bool,
-) -> _Accepted:
-    """One slab with its audit.
-
-    Raises
-    ------
-    NoConvergence, Halts
-        If it violates its certificate, or a body comes to rest inside.
-    """
-    after, out, new = advance(rules, now, slab, carry, approach, closed)
-    if slab.weight != SETTLING:
-        halt(rules.model, now, out, slab.span)
-        breakaway(rules.model, now, out, lambda: advance(rules, now, slab, new, approach, closed, held=True)[1])
-    ledger = audited(rules.model, *ledgers, now, out, after)
-    certificate = certified(rules.model, now, out, after, ledgers[1], ledger)
-    broken = violation(rules.model, now, out, after, ledger, certificate)
-    if broken is not None:
-        raise NoConvergence(f"certificate: {broken}")
-    return _Accepted(
-        after=after,
-        out=out,
-        carry=new.after(out.iterations // out.passes),
-        slab=slab,
-        ledger=ledger,
-        certificate=certificate,
-        rejections=(),
-        closed=closed and bool((np.abs(out.solution.end.scalar) >= BOUND).any()),
-    )
-
-
-def _step(model: Model, now: Situation, before: State, found: _Accepted) -> Step:
+def _step(model: Model, before: State, found: Accepted, stand: Standing) -> Step:
     out = found.out
     names = [p.name for p in model.parts]
     return Step(
@@ -293,4 +211,5 @@ def _step(model: Model, now: Situation, before: State, found: _Accepted) -> Step
             rejections=found.rejections,
             scalars=dict(zip(names, out.solution.end.scalar.tolist(), strict=True)),
         ),
+        standing=stand,
     )

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from softway.march.standing import Standing
 from softway.markup import table
 from softway.scene import State
 from softway.time.slab import Slab
@@ -109,7 +110,11 @@ class Report:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Step:
-    """An accepted slab. ``reactions``: body -> (n, d) mean force of the supports on the nodes [N]."""
+    """An accepted slab.
+
+    ``reactions``: body -> (n, d) mean force of the supports on the nodes [N]; ``standing``: where the march stands
+    after it, from which another march goes on with the same bits.
+    """
 
     before: State
     after: State
@@ -119,6 +124,7 @@ class Step:
     events: tuple[Event, ...]
     reactions: Mapping[str, Array]
     report: Report
+    standing: Standing
 
     def _repr_html_(self) -> str:
         """A table for notebooks."""

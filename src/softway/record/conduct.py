@@ -1,61 +1,28 @@
 """Conduct: take the steps of a march one by one, record each, and leave a readable folder however it ends."""
 
 import shutil
-import time as clock
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import ExitStack
-from dataclasses import dataclass
+from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
 from pathlib import Path
+from types import MappingProxyType
 
-from softway.errors import InputError, NumericsError
+from softway.errors import NumericsError, StorageError
 from softway.march.step import Step
-from softway.record import provenance, summary
-from softway.record.events import open_events
-from softway.record.fields import open_fields
-from softway.record.history import open_history
+from softway.record import checkpoint, events, fields, history, provenance, summary
+from softway.record.checkpoint import Checkpoint, Checkpoints
+from softway.record.keeper import Keeper
+from softway.record.lock import held
+from softway.record.place import Place
 from softway.record.provenance import DONE, INTERRUPTED, Stop
 from softway.record.recorder import Opener, Opening, Recorder
-from softway.record.run import Run, Scratch, scratch
+from softway.record.run import Run
 
 Progress = Callable[[Step], None]
-STANDARD: tuple[Opener, ...] = (open_history, open_events, open_fields)
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Place:
-    """Where the records go.
-
-    Parameters
-    ----------
-    out
-        Folder to be made; ``None`` for a temporary one that lives as long as its :class:`Run`.
-    overwrite
-        Whether a run folder of that name may be replaced.
-    """
-
-    out: Path | None = None
-    overwrite: bool = False
-
-    def check(self) -> None:
-        """Refuse a folder that holds something else, before anything is computed."""
-        if self.out is None or not self.out.exists():
-            return
-        if not self.out.is_dir():
-            raise InputError("out", f"'{self.out}' is a file", "the name of a folder")
-        ours = (self.out / provenance.FILE).is_file()
-        if any(self.out.iterdir()) and not (ours and self.overwrite):
-            known = "already holds a run" if ours else "is not empty"
-            raise InputError("out", f"'{self.out}' {known}", "another folder" + (", or --overwrite" if ours else ""))
-
-    def make(self) -> Scratch:
-        """Make the folder, empty."""
-        if self.out is None:
-            return scratch()
-        self.check()
-        if self.out.exists():
-            shutil.rmtree(self.out)
-        self.out.mkdir(parents=True)
-        return Scratch(self.out)
+STANDARD: Mapping[str, Opener] = MappingProxyType(
+    {history.FILE: history.open_history, events.FILE: events.open_events, fields.FILE: fields.open_fields}
+)
+"""The records of every run, by the name of their file."""
+NO_CHECKPOINTS = Checkpoints(keep=0)
 
 
 def conduct(
@@ -65,6 +32,7 @@ def conduct(
     *,
     title: str = "",
     texts: Mapping[str, str] | None = None,
+    plan: Checkpoints = NO_CHECKPOINTS,
     progress: Progress | None = None,
 ) -> Run:
     """Record every step of ``steps``; the folder appears when the first slab is accepted or fails.
@@ -79,6 +47,8 @@ def conduct(
         Where to.
     title, texts
         For the records: a line, and files by name: the resolved scenario and what it needs beside it.
+    plan
+        Checkpoints to write; a folder without a name has none.
     progress
         Called with each step after it has been recorded.
 
@@ -86,40 +56,106 @@ def conduct(
     ------
     InputError
         Found before the first slab; no folder is left.
-    NumericsError, KeyboardInterrupt
+    NumericsError, KeyboardInterrupt, StorageError
         After the records have been closed; a named folder stays, with the reason in ``provenance.json``.
     """
-    begun = clock.perf_counter()
     first, early = _first(steps)
-    folder = place.make()
-    recorders: list[Recorder] = []
-    try:
-        record = provenance.begin(folder.path, title)
-        for name, text in (texts or {}).items():
-            (folder.path / name).write_text(text, encoding="utf-8")
-        recorders.extend(start(folder.path, opening) for start in STANDARD)
-    except BaseException:
-        shutil.rmtree(folder.path, ignore_errors=True)
-        raise
+    given = texts or {}
+
+    def fill(folder: Path) -> None:
+        for name, text in given.items():
+            (folder / name).write_text(text, encoding="utf-8")
+        provenance.begin(folder, title, given)
+
+    with _stored(place.out):
+        folder = place.make(fill)
     run = Run(folder.path, folder if place.out is None else None)
+    kept = NO_CHECKPOINTS if place.out is None else plan
+    with held(folder.path):
+        try:
+            with _stored(place.out):
+                recorders = _opened(folder.path, opening, {})
+        except BaseException:
+            shutil.rmtree(folder.path, ignore_errors=True)
+            raise
+        keeper = Keeper(folder.path, kept, recorders, 0.0)
+        return _carried_on(_chain(first, early, steps), run, keeper, run.provenance, progress)
+
+
+def proceed(
+    steps: Iterator[Step],
+    opening: Opening,
+    run: Run,
+    found: Checkpoint | None,
+    *,
+    plan: Checkpoints,
+    progress: Progress | None = None,
+) -> Run:
+    """Go on with the records of a run that stopped, cut back to the checkpoint, or from the start where there is none.
+
+    The caller holds the folder.
+
+    Parameters
+    ----------
+    steps
+        The march from the checkpoint on.
+    opening
+        The start of the run.
+    run
+        The run that stopped.
+    found
+        Where it stood.
+    plan, progress
+        As for :func:`conduct`.
+
+    Raises
+    ------
+    InputError
+        If a record is shorter than it was at the checkpoint.
+    NumericsError, KeyboardInterrupt, StorageError
+        As for :func:`conduct`.
+    """
+    with _stored(run.path):
+        recorders = _opened(run.path, opening, {} if found is None else found.marks)
+        slabs, time = (0, 0.0) if found is None else (found.standing.slabs, found.standing.situation.time)
+        record = provenance.resume(run.path, run.provenance, slabs, time)
+        (run.path / summary.FILE).unlink(missing_ok=True)
+    keeper = Keeper(run.path, plan, recorders, 0.0 if found is None else found.wall)
+    return _carried_on(steps, run, keeper, record, progress)
+
+
+def _carried_on(
+    steps: Iterator[Step], run: Run, keeper: Keeper, record: Mapping[str, object], progress: Progress | None
+) -> Run:
+    """Record the steps and finish."""
     stop = Stop("failed", "unexpected error")
     try:
-        if early is not None:
-            raise early
-        for step in _chain(first, steps):
-            _take(recorders, step)
+        for step in steps:
+            with _stored(run.path):
+                _take(keeper, step)
             if progress is not None:
                 progress(step)
         stop = DONE
     except KeyboardInterrupt:
         stop = INTERRUPTED
         raise
-    except NumericsError as error:
+    except (NumericsError, StorageError) as error:
         stop = Stop("failed", str(error))
         raise
     finally:
-        _finish(run, recorders, record, stop, clock.perf_counter() - begun)
+        _finish(run, keeper, record, stop)
     return run
+
+
+def _opened(folder: Path, opening: Opening, marks: Mapping[str, int]) -> dict[str, Recorder]:
+    """The records, all of them or none, cut back to their marks."""
+    found: dict[str, Recorder] = {}
+    with ExitStack() as failing:
+        for name, start in STANDARD.items():
+            found[name] = start(folder, opening, marks.get(name))
+            failing.callback(found[name].close)
+        failing.pop_all()
+    return found
 
 
 def _first(steps: Iterator[Step]) -> tuple[Step | None, BaseException | None]:
@@ -130,22 +166,47 @@ def _first(steps: Iterator[Step]) -> tuple[Step | None, BaseException | None]:
         return None, error
 
 
-def _chain(first: Step | None, rest: Iterator[Step]) -> Iterator[Step]:
+def _chain(first: Step | None, early: BaseException | None, rest: Iterator[Step]) -> Iterator[Step]:
+    if early is not None:
+        raise early
     if first is not None:
         yield first
         yield from rest
 
 
-def _take(recorders: list[Recorder], step: Step) -> None:
-    for recorder in recorders:
+def _take(keeper: Keeper, step: Step) -> None:
+    for recorder in keeper.recorders.values():
         recorder.take(step)
+    keeper.took(step.standing)
 
 
-def _finish(run: Run, recorders: list[Recorder], record: object, stop: Stop, wall: float) -> None:
-    """Close the records, then the summary, then the provenance that says it is over."""
-    with ExitStack() as closing:
-        for recorder in recorders:
+@contextmanager
+def _stored(place: Path | None) -> Iterator[None]:
+    """Say where there was no room, and that the run can go on once there is."""
+    try:
+        yield
+    except OSError as error:
+        name = str(place or "temporary folder")
+        problem = f"cannot be written: {error.strerror or error}"
+        raise StorageError(name, problem, f"make room, then softway resume {name}") from error
+
+
+def _finish(run: Run, keeper: Keeper, record: Mapping[str, object], stop: Stop) -> None:
+    """Write a last checkpoint or forget them all, close the records, then the summary, then the provenance that says
+    it is over.
+    """
+
+    def storing() -> AbstractContextManager[None]:  # of a run that went wrong, what did so first is what is raised
+        return _stored(run.path) if stop is DONE else suppress(OSError)
+
+    with storing(), ExitStack() as closing:
+        for recorder in keeper.recorders.values():
             closing.callback(recorder.close)
+        if stop is not DONE:
+            keeper.write()
     numbers = summary.summarise(run.history, run.events)
-    provenance.save_json(run.path / summary.FILE, {**numbers, "wall_time": wall, "stop_reason": stop.reason})
-    provenance.end(run.path, record, stop)  # type: ignore[arg-type]
+    with storing():
+        provenance.save_json(run.path / summary.FILE, {**numbers, "wall_time": keeper.wall, "stop_reason": stop.reason})
+        provenance.end(run.path, record, stop)
+        if stop is DONE:
+            checkpoint.forget(run.path)

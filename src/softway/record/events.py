@@ -2,13 +2,13 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TextIO
 
 import numpy as np
 
 from softway.march.step import Step
 from softway.record import table
 from softway.record.recorder import Opening
+from softway.record.table import Lines
 
 FILE = "events.csv"
 COLUMNS = (
@@ -29,7 +29,7 @@ COLUMNS = (
 class Events:
     """The open file."""
 
-    stream: TextIO
+    lines: Lines
 
     def take(self, step: Step) -> None:
         """Write the events inside one slab, in order of time."""
@@ -37,15 +37,25 @@ class Events:
             place = np.zeros(3)
             place[: len(event.position)] = event.position
             numbers = [float(x) for x in (*place, event.velocity_before, event.velocity_after, event.impulse)]
-            table.write(self.stream, [float(event.time), event.contact, event.kind, int(event.node), *numbers])
+            self.lines.write([float(event.time), event.contact, event.kind, int(event.node), *numbers])
+
+    @property
+    def mark(self) -> int:
+        """Length of the file [bytes]."""
+        return self.lines.mark
+
+    def sync(self) -> None:
+        """Bring the lines to the disk."""
+        self.lines.sync()
 
     def close(self) -> None:
         """Close the file."""
-        self.stream.close()
+        self.lines.close()
 
 
-def open_events(folder: Path, opening: Opening) -> Events:
-    """Start ``events.csv`` with its header."""
-    stream = (folder / FILE).open("w", encoding="utf-8", newline="")
-    table.write(stream, table.header(COLUMNS))
-    return Events(stream)
+def open_events(folder: Path, opening: Opening, mark: int | None = None) -> Events:
+    """Start ``events.csv`` with its header, or go on with it."""
+    rows = table.lines(folder / FILE, mark)
+    if mark is None:
+        rows.write(table.header(COLUMNS))
+    return Events(rows)

@@ -1,13 +1,14 @@
 """fields.vtkhdf: deformed solids with their fields at a series of instants, in one file for ParaView, PyVista and h5py.
 
 The file follows VTK's HDF format 2.0 for a transient unstructured grid whose cells stay the same.  Data are written
-before the counts that announce them, so a run that is killed leaves the frames written until then.
+before the counts that announce them, and a frame that does not come to its end is taken back, so a run that is killed
+leaves the frames written until then.
 Reference: VTK documentation, *VTKHDF file format*.
 """
 
 import json
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from math import floor
 from pathlib import Path
@@ -19,6 +20,7 @@ import numpy as np
 from softway.bodies.solid import Tool
 from softway.errors import InputError
 from softway.march.step import Step
+from softway.record.guarded import Guarded, undone
 from softway.record.layout import Layout, components, layout, von_mises
 from softway.record.recorder import Opening
 from softway.record.tools import described
@@ -33,14 +35,20 @@ MORE = {"contact_pressure": "Pa", "tangential_traction": "Pa", "dissipation": "J
 """Units of what a frame holds where there is contact, friction, or a law with a history; other fields have none."""
 PACKED = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
 CHUNK = 65536
+REMEDY = "a new run, or a copy of the file"
 SIZES = ("NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds")
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Frames:
-    """The open file; a frame is taken whenever the time passes a multiple of ``every``, and at the end."""
+    """The open file; a frame is taken whenever the time passes a multiple of ``every``, and at the end.
+
+    ``before`` counts the frames that were there before the first change of ``guarded``.
+    """
 
     file: h5py.File
+    guarded: Guarded
+    before: int
     layout: Layout
     opening: Opening
 
@@ -49,21 +57,102 @@ class Frames:
         every, until = self.opening.fields_every, self.opening.until
         due = floor(step.after.time / every + 1e-9) > floor(step.before.time / every + 1e-9)
         if due or step.after.time >= until * (1.0 - 1e-12):
-            _append(self.file, self.layout.reference, _frame(self.layout, self.opening, step.after), step.after.time)
+            with _changing(self.guarded):
+                _append(
+                    self.file, self.layout.reference, _frame(self.layout, self.opening, step.after), step.after.time
+                )
+
+    @property
+    def mark(self) -> int:
+        """Number of frames."""
+        return self.before + self.guarded.changes
+
+    def sync(self) -> None:
+        """Bring the frames to the disk."""
+        self.guarded.sync()
 
     def close(self) -> None:
-        """Close the file."""
-        self.file.close()
+        """Close the file, without a frame that did not come to its end."""
+        with ExitStack() as closing:
+            closing.callback(self.guarded.close)
+            closing.callback(self.file.close)
+            if not self.guarded.broken:
+                self.guarded.begin()
 
 
-def open_fields(folder: Path, opening: Opening) -> Frames:
-    """Start ``fields.vtkhdf`` with the cells and the frame of the initial situation."""
-    cells = layout(opening.meshes, opening.touching)
-    file = h5py.File(folder / FILE, "w", locking=False)
-    first = _frame(cells, opening, opening.initial)
-    _write_cells(file, cells, opening.scene, first)
-    _append(file, cells.reference, first, opening.initial.time)
-    return Frames(file=file, layout=cells, opening=opening)
+def open_fields(folder: Path, opening: Opening, mark: int | None = None) -> Frames:
+    """Start ``fields.vtkhdf`` with the cells and the frame of the initial situation, or go on after ``mark`` frames.
+
+    Raises
+    ------
+    InputError
+        If there are fewer frames.
+    """
+    path, cells = folder / FILE, layout(opening.meshes, opening.touching)
+    undone(path)
+    if mark is not None and not path.is_file():
+        raise InputError(str(path), "is not there", REMEDY)
+    with ExitStack() as failing:
+        guarded = Guarded(path, new=mark is None)
+        failing.callback(guarded.close)
+        with _changing(guarded):
+            file = _file(path, guarded, new=mark is None)
+            failing.callback(file.close)
+            if mark is None:
+                first = _frame(cells, opening, opening.initial)
+                _write_cells(file, cells, opening.scene, first)
+                _append(file, cells.reference, first, opening.initial.time)
+            else:
+                _cut(path, file, mark)
+        failing.pop_all()
+    return Frames(file=file, guarded=guarded, before=(mark or 1) - 1, layout=cells, opening=opening)
+
+
+def _file(path: Path, guarded: Guarded, new: bool) -> h5py.File:
+    """The file for HDF5."""
+    try:
+        return h5py.File(guarded, "w" if new else "r+")
+    except OSError as error:
+        if new:
+            raise
+        raise InputError(str(path), f"is damaged: {error}", REMEDY) from None
+
+
+@contextmanager
+def _changing(guarded: Guarded) -> Iterator[None]:
+    """A change of the file that comes to its end or is taken back when the file is closed."""
+    try:
+        guarded.begin()
+        yield
+        guarded.commit()
+    except BaseException:
+        guarded.give_up()
+        raise
+
+
+def _cut(path: Path, file: h5py.File, mark: int) -> None:
+    """Cut the file of an earlier part of the run back to ``mark`` frames."""
+    root = file["VTKHDF"]
+    steps = root["Steps"]
+    count = int(steps.attrs["NSteps"])
+    if count < mark:
+        raise InputError(str(path), f"has {count} frames of {mark} at the checkpoint", REMEDY)
+    steps.attrs["NSteps"] = np.int64(mark)
+    sizes = dict(zip(SIZES, (int(root[name][0]) for name in SIZES), strict=True))
+    _shorten(root["Points"], mark * sizes["NumberOfPoints"])
+    for group, size in (("PointData", "NumberOfPoints"), ("CellData", "NumberOfCells")):
+        for name, series in steps[f"{group}Offsets"].items():
+            _shorten(root[group][name], mark * sizes[size])
+            _shorten(series, mark)
+    for series in steps.values():
+        if isinstance(series, h5py.Dataset):
+            _shorten(series, mark)
+    file.flush()
+
+
+def _shorten(series: h5py.Dataset, rows: int) -> None:
+    if len(series) > rows:
+        series.resize(rows, axis=0)
 
 
 def _frame(cells: Layout, opening: Opening, state: State) -> dict[str, dict[str, Array]]:

@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TextIO
 
 from softway.march.step import Ledger, Step
 from softway.record import table
 from softway.record.probes import Reading
 from softway.record.recorder import Opening
+from softway.record.table import Lines
 
 FILE = "history.csv"
 COLUMNS = (
@@ -43,7 +43,7 @@ CONTACT = (("force_n", "N"), ("force_t", "N"), ("min_gap", "m"), ("power_residua
 class History:
     """The open file; ``contacts`` and ``readings`` are its columns after those of ``COLUMNS``."""
 
-    stream: TextIO
+    lines: Lines
     contacts: tuple[str, ...]
     readings: tuple[Reading, ...]
 
@@ -52,24 +52,39 @@ class History:
         start = [step.after.time, step.slab.span, step.report.iterations, step.report.pairs, step.report.contraction]
         left = [float(getattr(step.certificate, name.partition(".")[2])) for name, _ in CERTIFICATE]
         probes = [r.value(step.after, step.reactions) for r in self.readings]
-        table.write(self.stream, [*start, *_audit(step.ledger, self.contacts), *left, *probes])
+        self.lines.write([*start, *_audit(step.ledger, self.contacts), *left, *probes])
+
+    @property
+    def mark(self) -> int:
+        """Length of the file [bytes]."""
+        return self.lines.mark
+
+    def sync(self) -> None:
+        """Bring the lines to the disk."""
+        self.lines.sync()
 
     def close(self) -> None:
         """Close the file."""
-        self.stream.close()
+        self.lines.close()
 
 
-def open_history(folder: Path, opening: Opening) -> History:
-    """Start ``history.csv``; its first line is the initial situation, with ``h = 0``."""
+def open_history(folder: Path, opening: Opening, mark: int | None = None) -> History:
+    """Start ``history.csv``, or go on with it; its first line is the initial situation, with ``h = 0``."""
     contacts = tuple(c.label for c in opening.scene.contacts)
+    rows = table.lines(folder / FILE, mark)
+    if mark is None:
+        _begin(rows, opening, contacts)
+    return History(lines=rows, contacts=contacts, readings=opening.readings)
+
+
+def _begin(rows: Lines, opening: Opening, contacts: tuple[str, ...]) -> None:
+    """Write the heads of the columns and the initial situation."""
     columns = [*COLUMNS, *((f"contact.{c}.{name}", unit) for c in contacts for name, unit in CONTACT), *CERTIFICATE]
-    stream = (folder / FILE).open("w", encoding="utf-8", newline="")
-    table.write(stream, table.header([*columns, *((r.name, r.unit) for r in opening.readings)]))
+    rows.write(table.header([*columns, *((r.name, r.unit) for r in opening.readings)]))
     probes = [r.value(opening.initial, {}) for r in opening.readings]
     gaps = [c.min_gap for c in opening.ledger.contacts.values()]
     left = [min(gaps, default=float("inf")), *[0.0] * (len(CERTIFICATE) - 1)]
-    table.write(stream, [opening.initial.time, 0.0, 0, 0, 0.0, *_audit(opening.ledger, contacts), *left, *probes])
-    return History(stream=stream, contacts=contacts, readings=opening.readings)
+    rows.write([opening.initial.time, 0.0, 0, 0, 0.0, *_audit(opening.ledger, contacts), *left, *probes])
 
 
 def _audit(ledger: Ledger, contacts: tuple[str, ...]) -> list[float]:

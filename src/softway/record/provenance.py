@@ -1,6 +1,8 @@
 """provenance.json: what computed a run, when, and why it stopped."""
 
+import hashlib
 import json
+import logging
 import os
 import platform
 import subprocess
@@ -11,6 +13,10 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from softway.errors import InputError
+from softway.record.whole import replaced
+
+LOG = logging.getLogger("softway")
 FILE = "provenance.json"
 PACKAGES = ("softway", "numpy", "scipy", "h5py", "fenics-basix", "meshio", "pint")
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -35,14 +41,12 @@ class Stop:
 RUNNING, DONE, INTERRUPTED = Stop("running"), Stop("done"), Stop("interrupted")
 
 
-def begin(folder: Path, title: str) -> Mapping[str, Any]:
-    """Write the file at the start of a run; returns what :func:`end` completes."""
+def begin(folder: Path, title: str, texts: Mapping[str, str]) -> Mapping[str, Any]:
+    """Write the file at the start of a run from some ``texts`` by name; returns what :func:`end` completes."""
     record = {
         "title": title,
-        "versions": {"python": platform.python_version(), **{p: v for p in PACKAGES if (v := _version(p))}},
-        "platform": {"system": platform.platform(), "machine": platform.machine()},
-        "threads": {"processors": os.cpu_count(), **{t: os.environ[t] for t in THREADS if t in os.environ}},
-        "commit": _commit(),
+        **_surroundings(),
+        "input": digest(texts),
         "start": _now(),
         "stop": None,
         "stop_reason": RUNNING.reason,
@@ -57,15 +61,71 @@ def end(folder: Path, record: Mapping[str, Any], stop: Stop) -> None:
     _save(folder, {**record, "stop": _now(), "stop_reason": stop.reason, "message": stop.message})
 
 
+def resume(folder: Path, record: Mapping[str, Any], slabs: int, time: float) -> Mapping[str, Any]:
+    """Note in the file that the run goes on now after so many slabs, at a time [s]; returns what :func:`end` completes.
+
+    An entry of ``resumed`` holds when, from where, why the run had stopped, and what is not as it was.
+    """
+    now = _surroundings()
+    entry = {
+        "at": _now(),
+        "slabs": slabs,
+        "time": time,
+        "stopped": record["stop_reason"],
+        "changed": {k: v for k, v in now.items() if record.get(k) != v},
+    }
+    past = [*record.get("resumed", []), entry]
+    again = {**record, "resumed": past, "stop": None, "stop_reason": RUNNING.reason, "message": ""}
+    _save(folder, again)
+    return again
+
+
+def require_same(folder: Path, record: Mapping[str, Any], texts: Mapping[str, str]) -> None:
+    """Refuse to resume what would become another run; warn of what may change the last digits.
+
+    Raises
+    ------
+    InputError
+        If the scenario, or a file that it needs, is not as it was, or the version of softway is another one.
+    """
+    before, now = record["versions"].get("softway"), _version("softway")
+    if record.get("input") != digest(texts):
+        what = ", ".join(texts)
+        raise InputError(
+            str(folder / next(iter(texts))),
+            f"is not what the run began with ({what})",
+            "put it back as it was, or begin another run: softway run FILE --out FOLDER",
+        )
+    if before != now:
+        remedy = f"pip install softway=={before}, or begin another run: softway run {folder / next(iter(texts))}"
+        raise InputError(str(folder), f"was computed with softway {before}, and this is {now}", remedy)
+    for name, value in _surroundings().items():
+        if record.get(name) != value:
+            LOG.warning("%s: %s was %s, now %s; the last digits may differ", folder, name, record.get(name), value)
+
+
+def digest(texts: Mapping[str, str]) -> str:
+    """Checksum of the files that say what is computed."""
+    return hashlib.sha256(json.dumps(dict(sorted(texts.items()))).encode()).hexdigest()
+
+
 def save_json(path: Path, record: Mapping[str, Any]) -> None:
     """Write a whole file or none: readers never see half of it."""
-    partial = path.with_name(f".{path.name}.partial")
-    partial.write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
-    partial.replace(path)
+    replaced(path, (json.dumps(record, indent=2) + "\n").encode())
 
 
 def _save(folder: Path, record: Mapping[str, Any]) -> None:
     save_json(folder / FILE, record)
+
+
+def _surroundings() -> dict[str, Any]:
+    """What the last digits of a computation may depend on."""
+    return {
+        "versions": {"python": platform.python_version(), **{p: v for p in PACKAGES if (v := _version(p))}},
+        "platform": {"system": platform.platform(), "machine": platform.machine()},
+        "threads": {"processors": os.cpu_count(), **{t: os.environ[t] for t in THREADS if t in os.environ}},
+        "commit": _commit(),
+    }
 
 
 def _now() -> str:

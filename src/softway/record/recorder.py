@@ -60,10 +60,26 @@ class Recorder(Protocol):
         """Record one accepted slab."""
         ...
 
+    @property
+    def mark(self) -> int:
+        """How long the record is: what its opener cuts it back to when a run is resumed."""
+        ...
+
+    def sync(self) -> None:
+        """Bring what was taken to the disk."""
+        ...
+
     def close(self) -> None:
         """End the record; nothing is taken afterwards."""
         ...
 
 
-Opener = Callable[[Path, Opening], Recorder]
-"""Starts a recorder in a folder: it writes the initial situation and returns what takes the steps."""
+class Opener(Protocol):
+    """Starts a recorder in a folder: it writes the initial situation and returns what takes the steps.
+
+    With a ``mark`` it goes on with the record that is there, cut back to that length.
+    """
+
+    def __call__(self, folder: Path, opening: Opening, mark: int | None = None) -> Recorder:
+        """Open the record."""
+        ...

@@ -2,14 +2,17 @@
 
 import csv
 import io
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, TextIO
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from softway.errors import InputError
 
 TEXT = "-"
 """Unit written in the header of a column of words."""
@@ -62,12 +65,59 @@ def header(columns: Sequence[tuple[str, str]]) -> list[str]:
     return [f"{name} [{unit}]" for name, unit in columns]
 
 
-def write(stream: TextIO, cells: Sequence[str | int | float]) -> None:
-    """Append one line in one piece and push it to the disk; floats keep all their digits."""
-    line = io.StringIO()
-    csv.writer(line, lineterminator="\n").writerow([format(c, ".17g") if isinstance(c, float) else c for c in cells])
-    stream.write(line.getvalue())
-    stream.flush()
+@dataclass(frozen=True, slots=True, eq=False)
+class Lines:
+    """A file that grows by whole lines, each there for readers at once; ``mark`` is its length in bytes."""
+
+    file: io.FileIO
+
+    @property
+    def mark(self) -> int:
+        """Length of the file [bytes]."""
+        return self.file.tell()
+
+    def write(self, cells: Sequence[str | int | float]) -> None:
+        """Append one line; floats keep all their digits.
+
+        Raises
+        ------
+        OSError
+            If there is no room; a part of the line may be there.
+        """
+        text = io.StringIO()
+        csv.writer(text, lineterminator="\n").writerow(
+            [format(c, ".17g") if isinstance(c, float) else c for c in cells]
+        )
+        rest = text.getvalue().encode()
+        while rest:
+            rest = rest[self.file.write(rest) or 0 :]
+
+    def sync(self) -> None:
+        """Bring the lines to the disk."""
+        os.fsync(self.file.fileno())
+
+    def close(self) -> None:
+        """Close the file."""
+        self.file.close()
+
+
+def lines(path: Path, mark: int | None = None) -> Lines:
+    """A new file of lines, or the one that is there, cut back to a mark.
+
+    Raises
+    ------
+    InputError
+        If the file is shorter than the mark.
+    """
+    if mark is None:
+        return Lines(io.FileIO(path, "w"))
+    size = path.stat().st_size if path.is_file() else 0
+    if size < mark:
+        raise InputError(str(path), f"has {size} bytes of {mark} at the checkpoint", "a new run, or a copy of the file")
+    file = io.FileIO(path, "r+")
+    file.truncate(mark)
+    file.seek(mark)
+    return Lines(file)
 
 
 def read(path: Path) -> Table:

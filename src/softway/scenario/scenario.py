@@ -13,6 +13,7 @@ from softway.contact.contact import Contact
 from softway.errors import InputError
 from softway.march.control import StepControl
 from softway.markup import table as html_table
+from softway.record.checkpoint import Checkpoints
 from softway.scene import AsGiven, Scene, StaticStart
 from softway.solve.explicit import Explicit
 from softway.solve.fixed_point import FixedPoint
@@ -96,6 +97,8 @@ class Output:
         Time between stored fields [s]; ``auto``: about a hundred in all.
     probes
         Further columns of the history.
+    checkpoints
+        How often the run notes where it stands, so that it can be resumed.
 
     Examples
     --------
@@ -105,6 +108,7 @@ class Output:
 
     fields_every: Second | Literal["auto"] = "auto"
     probes: tuple[Probe, ...] = ()
+    checkpoints: Checkpoints = Checkpoints()
 
     def __post_init__(self) -> None:
         if self.fields_every != "auto" and not self.fields_every > 0.0:

@@ -1,12 +1,20 @@
-"""What is kept between slabs besides the state: the frozen operator, and when it is worth a new one."""
+"""What is kept between slabs besides the situation: the frozen operator, and when it is worth a new one.
+
+The operator itself is a cache: :class:`Origin` says how it came about, and :func:`softway.solve.prepared.restored`
+makes it again with the same bits.
+"""
 
 from dataclasses import dataclass, replace
 
+from softway.bodies.past import Memories
+from softway.model import Model
 from softway.solve.frozen import Frozen
 from softway.solve.linear import Analysis
-from softway.solve.operators import Choice
+from softway.solve.operators import Choice, Operator
+from softway.solve.stiffness import Stiffness
+from softway.solve.system import SlabSystem
 from softway.solve.turning import Turning
-from softway.typing import Array
+from softway.typing import Array, IntArray
 
 USUAL = 6
 """Iterations of a slab with a fresh factor, where the slabs since the last one were easier."""
@@ -15,21 +23,72 @@ WORN = 1.5
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Origin:
+    """Where an operator was made.
+
+    Parameters
+    ----------
+    operator, analyst
+        What made it, and the symbolic work that it uses; None for the operator of central differences, and for one
+        without symbolic work.
+    at
+        (n, d) displacement [m].
+    memory, span
+        Past of the matter, and length of the slab [s].
+    share, again
+        How stiffness counts, see :class:`~softway.solve.stiffness.Stiffness`.
+    """
+
+    operator: Operator | None
+    analyst: Operator | None
+    at: Array
+    memory: Memories
+    span: float
+    share: float
+    again: float
+
+    @classmethod
+    def of(
+        cls, system: SlabSystem, at: Array, operator: Operator | None = None, analyst: Operator | None = None
+    ) -> "Origin":
+        """The origin of an operator of this slab."""
+        matrix = system.stiffness
+        return cls(
+            operator=operator,
+            analyst=analyst,
+            at=at,
+            memory=system.start.memory,
+            span=system.path.span,
+            share=matrix.share,
+            again=matrix.again,
+        )
+
+    def stiffness(self, model: Model) -> Stiffness:
+        """The matrix that was inverted."""
+        return Stiffness(model=model.during(self.memory, self.span), share=self.share, again=self.again)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Carry:
-    """All of it disposable: without it the next slab makes its own.
+    """All of it disposable: without it the next slab makes its own, which differs in the last digits.
 
     Parameters
     ----------
     frozen
         The operator.
+    origin
+        Where it was made; None before the first.
+    mixed, batches
+        Of :meth:`bare` carries, what the operator knows by now: whether contact directions are components, and which
+        columns of the compliance were made together, in order.
     choice
         How operators are made, and why so.
     span
         The length of the slabs that ``frozen`` serves, of the default weight [s].
     analysis
         Symbolic work of the factor, the same for all lengths.
-    turning, reference
-        What the turning of nodes is measured with, and from: the displacement (n, d) of the factor [m].
+    turning
+        What the turning of nodes is measured with.
     stale
         Whether the next slab asks for a new factor.
     factorisations
@@ -41,11 +100,13 @@ class Carry:
     """
 
     frozen: Frozen | None = None
+    origin: Origin | None = None
+    mixed: bool = False
+    batches: tuple[IntArray, ...] = ()
     choice: Choice | None = None
     span: float = 0.0
     analysis: Analysis | None = None
     turning: Turning | None = None
-    reference: Array | None = None
     stale: bool = False
     factorisations: int = 0
     taken: tuple[int, ...] = ()
@@ -62,3 +123,16 @@ class Carry:
         mean = (sum(taken) + self.price) / len(taken)
         dear = len(taken) > 1 and recent > max(mean, WORN * max(min(taken), USUAL))
         return replace(self, taken=taken, stale=self.stale or dear)
+
+    def bare(self) -> "Carry":
+        """What is light of it: all but the operator, which can be made again as it is now."""
+        if self.frozen is None:
+            return self
+        return replace(
+            self,
+            frozen=None,
+            analysis=None,
+            turning=None,
+            mixed=self.frozen.basis.component is not None,
+            batches=self.frozen.table.batches,
+        )

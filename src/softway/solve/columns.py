@@ -11,7 +11,7 @@ GROWTH = 256
 
 
 class Columns:
-    """Columns, stored one after the other in the order in which they were added.
+    """Columns, stored one after the other in the order in which they were added; ``batches`` tells which came together.
 
     Examples
     --------
@@ -21,10 +21,11 @@ class Columns:
     ([2], [13.0, 24.0])
     """
 
-    __slots__ = ("count", "place", "room", "stored")
+    __slots__ = ("batches", "count", "place", "room", "stored")
 
     def __init__(self) -> None:
         self.count, self.room = 0, ROOM
+        self.batches: tuple[IntArray, ...] = ()
         self.place = np.full(0, -1)
         self.stored = np.zeros((0, 0))
 
@@ -57,6 +58,7 @@ class Columns:
         self.stored[self.count : end] = columns
         self.place[which] = np.arange(self.count, end)
         self.count = end
+        self.batches = (*self.batches, which)
 
     def columns(self, which: IntArray) -> Array:
         """Columns (m, k)."""

@@ -78,7 +78,7 @@ class FixedPoint:
     ) -> Iterator[Iterate]:
         """Iterates from q (n, d), with first impulses (m,) and active rows (m,) of the contact."""
         newton = Newton(tolerance=self.tolerance, limit=self.limit)
-        if self.handover and carry.frozen is None and _starts_flowing(system):
+        if self.handover and carry.origin is None and _starts_flowing(system):
             yield from newton.iterate(system, q, carry, impulse, active)
             return
         carry = prepared(system, q, carry, self.operator)

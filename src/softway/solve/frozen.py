@@ -58,7 +58,8 @@ class Frozen:
     nodes, so that the compliance stays.
 
     ``table`` (columns (b,) of ``B^T A^-1 B``), ``answers`` (columns (f,) of ``A^-1 B``, kept where directions are rows)
-    and ``held`` are caches of values that depend on A and B only, so the answer does not depend on when they were made.
+    and ``held`` are caches of values that depend on A and B only; in the last digits also on which columns were made
+    together, which ``table`` keeps.
 
     Parameters
     ----------
@@ -84,6 +85,12 @@ class Frozen:
     table: Columns = field(default_factory=Columns)
     answers: Columns = field(default_factory=Columns)
     held: dict[bytes, Shared] = field(default_factory=dict)
+
+    def filled(self, batches: tuple[IntArray, ...]) -> "Frozen":
+        """The same, with columns made in these batches."""
+        for which in batches:
+            self.fill(which)
+        return self
 
     def turned(self, turning: sp.csr_array | None) -> "Frozen":
         """The same factor for nodes turned by R (f, f) since it was made."""

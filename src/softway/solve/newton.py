@@ -7,12 +7,13 @@ from typing import Literal
 
 import numpy as np
 
-from softway.solve.carry import Carry
+from softway.solve.carry import Carry, Origin
 from softway.solve.correction import corrected
 from softway.solve.driver import Iterate, lost
 from softway.solve.frozen import Frozen
 from softway.solve.normal import untouched
 from softway.solve.operators.factored import Factored
+from softway.solve.prepared import analyst
 from softway.solve.settings import check_accuracy
 from softway.solve.system import SlabSystem
 from softway.solve.values import Evaluation
@@ -93,13 +94,13 @@ class Newton:
 
     def _renewed(self, system: SlabSystem, carry: Carry, end: Evaluation) -> Carry:
         """The carry with the operator at the end of the slab; later slabs may go on with it."""
-        made = self.operator.make(system, end.displacement, carry.analysis)
+        made = self.operator.make(system.stiffness, end.displacement, carry.analysis)
         return replace(
             carry,
             frozen=made.frozen(system.directions()),
             analysis=made.analysis,
+            origin=Origin.of(system, end.displacement, self.operator, analyst(carry, made, self.operator)),
             span=system.reach,
-            reference=end.displacement,
             factorisations=carry.factorisations + 1,
             taken=(),
             price=made.price,

@@ -10,7 +10,6 @@ Energy rule (docs/theory/energy.md); ``J`` are the unbalanced jumps of the Paper
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy.sparse as sp
 
 from softway.bodies.force import AverageField, DiscreteGradient
 from softway.bodies.internal import InternalForce
@@ -26,6 +25,7 @@ from softway.solve.balance import Closure, Ends, closed, late
 from softway.solve.frozen import Basis, Frozen, basis
 from softway.solve.normal import Rows
 from softway.solve.return_map import during
+from softway.solve.stiffness import Stiffness
 from softway.solve.values import Evaluation, Start
 from softway.time.weight import EndPeaks, Momentum, TimeWeight, moments, peaks
 from softway.typing import Array
@@ -204,10 +204,10 @@ class SlabSystem:
         """Length of the slab of the default weight that has the same operator [s]."""
         return self.path.span * float(np.sqrt(2.0 * moments(self.weight)[1]))
 
-    def operator(self, u: Array, secant: bool = False) -> sp.csc_array:
-        """``M + h^2/2 mu2 K(u)`` on the free components, symmetric positive definite near equilibrium."""
-        again = _first(self.weight) / moments(self.weight)[1]
-        return self.model.inertia_and_stiffness(u, self.share, secant, again)
+    @property
+    def stiffness(self) -> Stiffness:
+        """``M + h^2/2 mu2 K`` on the free components."""
+        return Stiffness(model=self.model, share=self.share, again=_first(self.weight) / moments(self.weight)[1])
 
     def _mean_force(self, q: Array, u1: Array, force: Array) -> Array:
         if self.located is not None:

@@ -10,6 +10,7 @@ import pytest
 from softway.contact.timing import Energy, Impulse, Paper, Timing
 from softway.errors import NoConvergence, NumericsError
 from softway.march import march as module
+from softway.march import tries
 from softway.solve.carry import Carry
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
@@ -79,8 +80,8 @@ def test_the_answer_follows_the_tolerance(shop, fall, plain, tolerance: float) -
 @rules
 def test_nothing_but_the_state_matters(shop, fall, plain, rule: Timing, monkeypatch: pytest.MonkeyPatch) -> None:
     kept = plain(rule)
-    advance = module.advance
-    monkeypatch.setattr(module, "advance", lambda r, now, slab, carry, *rest: advance(r, now, slab, Carry(), *rest))
+    advance = tries.advance
+    monkeypatch.setattr(tries, "advance", lambda r, now, slab, carry, *rest: advance(r, now, slab, Carry(), *rest))
     assert shop.distance(fall(rule), kept) <= NEAR
 
 
@@ -94,7 +95,7 @@ def test_a_failed_try_leaves_no_trace_but_its_reason(
     shop, fall, plain, rule: Timing, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     kept = plain(rule)
-    advance, calls = module.advance, []
+    advance, calls = tries.advance, []
 
     def stumbling(r, now, slab, carry, *rest):
         out = advance(r, now, slab, carry, *rest)
@@ -103,7 +104,7 @@ def test_a_failed_try_leaves_no_trace_but_its_reason(
             raise NoConvergence("stumbled")
         return out
 
-    monkeypatch.setattr(module, "advance", stumbling)
+    monkeypatch.setattr(tries, "advance", stumbling)
     motion = fall(rule)
     assert shop.distance(motion, kept) <= NEAR
     reasons = [reason for s in motion.steps for reason in s.report.rejections]
@@ -112,14 +113,14 @@ def test_a_failed_try_leaves_no_trace_but_its_reason(
 
 
 def test_a_slab_that_fails_is_halved_and_the_length_recovers(shop, monkeypatch: pytest.MonkeyPatch) -> None:
-    advance = module.advance
+    advance = tries.advance
 
     def short_of_breath(r, now, slab, carry, *rest):
         if slab.span > 0.02 and 0.3 < slab.end < 0.6:
             raise NoConvergence("too long")
         return advance(r, now, slab, carry, *rest)
 
-    monkeypatch.setattr(module, "advance", short_of_breath)
+    monkeypatch.setattr(tries, "advance", short_of_breath)
     motion = shop.move(shop.block(), shop.floor, until=1.0, step=0.05)
     spans = np.array([s.slab.span for s in motion.steps])
     ends = np.array([s.slab.end for s in motion.steps])
@@ -131,7 +132,7 @@ def test_a_slab_that_fails_is_halved_and_the_length_recovers(shop, monkeypatch: 
 
 
 def test_a_march_that_cannot_go_on_says_so_and_stops(shop, monkeypatch: pytest.MonkeyPatch) -> None:
-    advance = module.advance
+    advance = tries.advance
     calls = []
 
     def blocked(r, now, slab, carry, *rest):
@@ -140,7 +141,7 @@ def test_a_march_that_cannot_go_on_says_so_and_stops(shop, monkeypatch: pytest.M
             raise NoConvergence("a stone")
         return advance(r, now, slab, carry, *rest)
 
-    monkeypatch.setattr(module, "advance", blocked)
+    monkeypatch.setattr(tries, "advance", blocked)
     found = []
     with pytest.raises(NumericsError, match="a stone") as error:
         found.extend(module.march(shop.move(shop.bar(), until=0.05).model, until=1.0, step=0.05))

@@ -106,7 +106,7 @@ class Fake:
             certificate=certificate, before=before, after=after, slab=Slab(start=begin, end=end),
             ledger=self.ledger(after), events=events,
             reactions={"part": np.ones_like(self.mesh.points)},
-            report=Report(iterations=3, pairs=4, factorisations=1, passes=1),
+            report=Report(iterations=3, pairs=4, factorisations=1, passes=1), standing=None,
         )  # fmt: skip
 
 

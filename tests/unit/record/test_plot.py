@@ -7,8 +7,9 @@ from PIL import Image
 from softway.cli import main
 from softway.errors import InputError
 from softway.record import view_film as films
-from softway.record.conduct import Place, conduct
+from softway.record.conduct import conduct
 from softway.record.look import Look
+from softway.record.place import Place
 from softway.record.view_body import bodies
 from softway.record.view_field import colour_of
 from softway.record.world_lines import kinks, world_lines

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from softway.errors import InputError, NumericsError
-from softway.record.conduct import Place, conduct
+from softway.record.conduct import conduct
 from softway.record.history import CERTIFICATE, COLUMNS
+from softway.record.place import Place
 from softway.record.provenance import Stop
 from softway.record.run import Run
 from softway.record.summary import summarise

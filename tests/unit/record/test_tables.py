@@ -92,7 +92,8 @@ def test_tables_cannot_be_changed(tmp_path):
 
 
 def test_names_with_commas_survive(tmp_path):
-    with (tmp_path / "t.csv").open("w", newline="") as stream:
-        table.write(stream, table.header([("contact.a,b.force_n", "N")]))
-        table.write(stream, [0.1])
+    rows = table.lines(tmp_path / "t.csv")
+    rows.write(table.header([("contact.a,b.force_n", "N")]))
+    rows.write([0.1])
+    rows.close()
     assert table.read(tmp_path / "t.csv")["contact.a,b.force_n"].tolist() == [0.1]

@@ -10,7 +10,8 @@ import pytest
 
 from softway.bodies.motion import Still, Table, Translation, Turning
 from softway.bodies.solid import Tool
-from softway.record.conduct import Place, conduct
+from softway.record.conduct import conduct
+from softway.record.place import Place
 from softway.record.tools import described, recovered
 from softway.record.view import save
 from softway.record.view_body import bodies

@@ -7,8 +7,9 @@ import pytest
 
 from softway.bodies.solid import Tool
 from softway.errors import InputError
-from softway.record.conduct import Place, conduct
+from softway.record.conduct import conduct
 from softway.record.frames import Cells, Frame
+from softway.record.place import Place
 from softway.record.surface import SHAPES, at_nodes, exaggeration, rigid, skin_of
 from softway.record.view import pictures
 from softway.record.view_field import range_of

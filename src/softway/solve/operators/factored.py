@@ -8,7 +8,7 @@ import numpy as np
 from softway.solve.backends.choice import best, named
 from softway.solve.linear import Analysis, LinearSolver, Precision, SuperLU, number_type
 from softway.solve.operators.operator import Made
-from softway.solve.system import SlabSystem
+from softway.solve.stiffness import Stiffness
 from softway.typing import Array
 
 MANY = 2000
@@ -53,10 +53,10 @@ class Factored:
     moduli: Literal["tangent", "secant"] = "tangent"
     threads: int | None = None
 
-    def make(self, system: SlabSystem, u: Array, analysis: Analysis | None) -> Made:
+    def make(self, slab: Stiffness, u: Array, analysis: Analysis | None) -> Made:
         """The factor of a slab at the displacement ``u`` (n, d)."""
-        matrix = system.operator(u, secant=self.moduli == "secant")
-        precision = self._precision(system)
+        matrix = slab.operator(u, secant=self.moduli == "secant")
+        precision = self._precision(slab)
         if analysis is None:
             analysis = self._solver(matrix.shape[0], precision).analyse(matrix)
         factor = analysis.factor(matrix)
@@ -70,7 +70,7 @@ class Factored:
         threads = 1 if self.threads is None and size < ALONE else self.threads
         return SuperLU(precision) if size < FEW else best(precision, threads)
 
-    def _precision(self, system: SlabSystem) -> Precision:
+    def _precision(self, slab: Stiffness) -> Precision:
         if self.precision != "auto":
             return self.precision
-        return "double" if system.model.linear or system.model.free.sum() < MANY else "single"
+        return "double" if slab.model.linear or slab.model.free.sum() < MANY else "single"

@@ -10,7 +10,7 @@ from softway.errors import NoConvergence
 from softway.solve.linear import Analysis, Factor
 from softway.solve.operators.operator import Made
 from softway.solve.settings import check_products
-from softway.solve.system import SlabSystem
+from softway.solve.stiffness import Stiffness
 from softway.typing import Array
 
 
@@ -44,16 +44,16 @@ class MatrixFree:
     def __post_init__(self) -> None:
         check_products(self.tolerance, self.limit)
 
-    def make(self, system: SlabSystem, u: Array, analysis: Analysis | None) -> Made:
+    def make(self, slab: Stiffness, u: Array, analysis: Analysis | None) -> Made:
         """The operator of a slab at the displacement ``u`` (n, d)."""
-        model, share, free = system.model, system.share, system.model.free
+        model, share, free = slab.model, slab.share, slab.model.free
 
         def times(x: Array) -> Array:
             field = np.zeros(free.shape)
             field[free] = x
             return np.asarray((model.mass @ field + share * model.tangent_product(u, field))[free])
 
-        local = nodal(system, u)
+        local = nodal(slab, u)
         return Made(factor=Gradients(times, local, self.tolerance, self.limit), local=local, analysis=None, price=1.0)
 
 
@@ -70,7 +70,7 @@ class Blocks:
         return found
 
 
-def nodal(system: SlabSystem, u: Array) -> Blocks:
+def nodal(slab: Stiffness, u: Array) -> Blocks:
     """Inverse of the diagonal blocks of the operator at the displacement ``u`` (n, d), one for each node.
 
     Raises
@@ -78,9 +78,9 @@ def nodal(system: SlabSystem, u: Array) -> Blocks:
     NoConvergence
         If a block is singular.
     """
-    model, free = system.model, system.model.free
+    model, free = slab.model, slab.model.free
     n, d = free.shape
-    blocks = system.share * model.tangent_blocks(u) + model.mass.diagonal()[:, None, None] * np.eye(d)
+    blocks = slab.share * model.tangent_blocks(u) + model.mass.diagonal()[:, None, None] * np.eye(d)
     both = free[:, :, None] & free[:, None, :]
     try:
         inverse = np.linalg.inv(np.where(both, blocks, np.eye(d)))

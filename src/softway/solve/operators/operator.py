@@ -7,7 +7,7 @@ import numpy as np
 
 from softway.solve.frozen import Basis, Frozen
 from softway.solve.linear import Analysis, Factor
-from softway.solve.system import SlabSystem
+from softway.solve.stiffness import Stiffness
 from softway.typing import Array
 
 
@@ -34,7 +34,7 @@ class Made:
 class Operator(Protocol):
     """A way to make operators."""
 
-    def make(self, system: SlabSystem, u: Array, analysis: Analysis | None) -> Made:
+    def make(self, slab: Stiffness, u: Array, analysis: Analysis | None) -> Made:
         """The operator of a slab at the displacement ``u`` (n, d), with the symbolic work of the last one.
 
         Raises

@@ -1,0 +1,110 @@
+"""The next slab: tried at a length, judged, and tried again until one holds."""
+
+import logging
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from softway.errors import Halts, NoConvergence, NumericsError, TooFast, Unbalanced
+from softway.march.advance import Rule, advance
+from softway.march.breakaway import breakaway
+from softway.march.certificate import certified, violation
+from softway.march.halt import halt
+from softway.march.ledger import audited
+from softway.march.outcome import Outcome
+from softway.march.situation import Situation
+from softway.march.standing import Standing
+from softway.march.step import Certificate, Ledger
+from softway.solve.balance import BOUND
+from softway.solve.carry import Carry
+from softway.time.slab import Slab
+from softway.time.weight import EndPeaks
+
+log = logging.getLogger("softway")
+PATIENCE = 1
+"""Halvings after which an energy balance that the scalar cannot close is closed along the motion, for as long as it
+takes."""
+SETTLING = EndPeaks(theta=1.0)
+"""Virtual time function of the slab after a stop: the forces at its end count for all of it, so that friction may turn
+at once and what the stop has set vibrating comes to rest.  It has the operator of a slab longer by the root of 2."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Accepted:
+    """A slab that holds its certificate, with the reasons of the tries that were dropped."""
+
+    after: Situation
+    out: Outcome
+    carry: Carry
+    slab: Slab
+    ledger: Ledger
+    certificate: Certificate
+    rejections: tuple[str, ...]
+    closed: bool
+    halted: bool = False
+
+
+def accepted(rules: Rule, stand: Standing, length: float, carry: Carry) -> Accepted:
+    """Advance by the length, or by half of it as often as it takes; a rejected slab leaves no trace but its reason.
+
+    A slab that fails on an old operator is first tried again on a new one; an energy balance that the scalar cannot
+    close at half the length either is ``closed`` along the motion, and in the slabs after it.  A slab in which a body
+    comes to rest is tried again up to there; the slab after one that ended so settles.  ``carry`` is that of the
+    standing, with its operator if that is at hand.
+    """
+    now, until, settings = stand.situation, stand.settings.until, stand.settings
+    reasons: list[str] = []
+    halted = False
+    unbalanced = PATIENCE if stand.pace.closed else 0
+    fresh = carry.origin is None
+    while length > settings.control.least * stand.pace.span:
+        end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
+        slab = Slab(start=now.time, end=end, weight=SETTLING if stand.pace.halted else settings.weight)
+        try:
+            found = _tried(rules, stand, slab, carry, unbalanced >= PATIENCE)
+            return replace(found, rejections=tuple(reasons), halted=halted)
+        except Halts as stop:
+            length, halted = stop.share * length, True
+            continue
+        except (TooFast, Unbalanced) as failure:
+            length = 0.5 * length
+            unbalanced += isinstance(failure, Unbalanced)
+            reasons.append(f"h = {slab.span:.3g} s: {failure}")
+        except NoConvergence as failure:
+            reasons.append(f"h = {slab.span:.3g} s: {failure}")
+            length = 0.5 * length if fresh else length
+            fresh, carry = True, replace(carry, stale=True)
+        log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
+    last = reasons[-1] if reasons else f"h = {length:.3g} s: a body comes to rest again and again"
+    remedy = "a smaller step, a finer mesh where the cells are crushed, or Newton"
+    raise NumericsError(f"no slab holds, the last of {len(reasons)} tries with {last}", now.time, remedy)
+
+
+def _tried(rules: Rule, stand: Standing, slab: Slab, carry: Carry, closed: bool) -> Accepted:
+    """One slab with its audit.
+
+    Raises
+    ------
+    NoConvergence, Halts
+        If it violates its certificate, or a body comes to rest inside.
+    """
+    now, approach = stand.situation, stand.settings.control.approach
+    after, out, new = advance(rules, now, slab, carry, approach, closed)
+    if slab.weight != SETTLING:
+        halt(rules.model, now, out, slab.span)
+        breakaway(rules.model, now, out, lambda: advance(rules, now, slab, new, approach, closed, held=True)[1])
+    ledger = audited(rules.model, stand.account, now, out, after)
+    certificate = certified(rules.model, now, out, after, stand.account, ledger)
+    broken = violation(rules.model, now, out, after, ledger, certificate)
+    if broken is not None:
+        raise NoConvergence(f"certificate: {broken}")
+    return Accepted(
+        after=after,
+        out=out,
+        carry=new.after(out.iterations // out.passes),
+        slab=slab,
+        ledger=ledger,
+        certificate=certificate,
+        rejections=(),
+        closed=closed and bool((np.abs(out.solution.end.scalar) >= BOUND).any()),
+    )

@@ -1,0 +1,97 @@
+"""Data classes as a text and some arrays, and back: nothing that is read can run code.
+
+Only the classes of ``KINDS`` are made, from numbers, words, tuples, tables and arrays.
+"""
+
+import json
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from softway.bodies.memory import Memory
+from softway.march.control import StepControl
+from softway.march.situation import Situation
+from softway.march.standing import Account, Pace, Settings, Standing
+from softway.solve.carry import Carry, Origin
+from softway.solve.explicit import Explicit
+from softway.solve.fixed_point import FixedPoint
+from softway.solve.newton import Newton
+from softway.solve.operators import Choice, Factored, MatrixFree, Multigrid
+from softway.solve.values import Start
+from softway.time.weight import Collocation, EndPeaks, Momentum
+
+Arrays = dict[str, NDArray[Any]]
+
+KINDS: Mapping[str, type] = MappingProxyType(
+    {
+        kind.__name__: kind
+        for kind in (
+            *(Standing, Settings, Situation, Start, Memory, Account, Pace, Carry, Origin, Choice, StepControl),
+            *(FixedPoint, Newton, Explicit, Factored, MatrixFree, Multigrid, Collocation, EndPeaks, Momentum),
+        )
+    }
+)
+"""What a standing is made of."""
+
+
+def packed(value: object) -> tuple[str, Arrays]:
+    """A value as text, with the arrays that it names.
+
+    Examples
+    --------
+    >>> packed(EndPeaks())
+    ('{"kind": "EndPeaks", "with": {"theta": 0.5}}', {})
+    """
+    arrays: Arrays = {}
+    known: dict[int, str] = {}
+    return json.dumps(_plain(value, arrays, known)), arrays
+
+
+def unpacked(text: str, arrays: Mapping[str, NDArray[Any]]) -> Any:
+    """The value of :func:`packed`; its arrays are read-only.
+
+    Examples
+    --------
+    >>> unpacked(*packed((1.5, None, np.ones(2))))
+    (1.5, None, array([1., 1.]))
+    """
+    return _made(json.loads(text), arrays)
+
+
+def _plain(value: Any, arrays: Arrays, known: dict[int, str]) -> Any:
+    """A value as JSON has it; an array is stored once, in the order in which its entries lie in memory."""
+    if value is None or isinstance(value, bool | int | float | str):
+        return value
+    if isinstance(value, np.ndarray):
+        order = sorted(range(value.ndim), key=lambda axis: -value.strides[axis])
+        name = known.setdefault(id(value), f"array{len(known)}")
+        arrays[name] = value.transpose(order)
+        return {"array": name, "axes": order}
+    if isinstance(value, np.bool_ | np.integer | np.floating):
+        return value.item()
+    if isinstance(value, tuple):
+        return [_plain(v, arrays, known) for v in value]
+    if isinstance(value, Mapping):
+        return {"table": {k: _plain(v, arrays, known) for k, v in value.items()}}
+    if is_dataclass(value) and KINDS.get(type(value).__name__) is type(value):
+        content = {f.name: _plain(getattr(value, f.name), arrays, known) for f in fields(value)}
+        return {"kind": type(value).__name__, "with": content}
+    raise TypeError(f"a {type(value).__name__} cannot be stored")
+
+
+def _made(plain: Any, arrays: Mapping[str, NDArray[Any]]) -> Any:
+    if isinstance(plain, list):
+        return tuple(_made(v, arrays) for v in plain)
+    if not isinstance(plain, Mapping):
+        return plain
+    if "array" in plain:
+        found = arrays[plain["array"]].transpose(np.argsort(plain["axes"]))
+        found.flags.writeable = False
+        return found
+    if "table" in plain:
+        return {k: _made(v, arrays) for k, v in plain["table"].items()}
+    return KINDS[plain["kind"]](**{k: _made(v, arrays) for k, v in plain["with"].items()})
