@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from softway.verify import Case, Result, compared, listed
-from softway.verify.report import causes, counts, rows
+from softway.verify.report import causes, rows, verdict
 
 HEAD = """# Verification manual
 
@@ -21,7 +21,7 @@ computes them anew and writes this page; `softway verify A02` computes one of th
 states it in full, and a module of `softway/verify/cases`. Of quantities that are many numbers the one with the greatest
 error is shown.
 
-**{passed} of {quantities} quantities of {cases} cases are within their tolerance.**
+**{verdict}.**
 """
 HEADS = "| quantity | reference | softway | error | tolerance | pass |\n|---|--:|--:|--:|--:|---|"
 
@@ -38,7 +38,7 @@ def results(table: Sequence[Mapping[str, Any]]) -> tuple[Result, ...]:
 
 def page(found: Sequence[Result]) -> str:
     """The manual."""
-    parts = [HEAD.format(version=version("softway"), **counts(found))]
+    parts = [HEAD.format(version=version("softway"), verdict=verdict(found))]
     if missed := causes(found):
         told = "\n".join(f"* {cell(sentence)}" for sentence in missed)
         parts.append(f"Outside their tolerance, and why:\n\n{told}\n")

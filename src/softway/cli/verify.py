@@ -17,7 +17,7 @@ from softway.errors import InputError
 from softway.verify.case import Beside, Case
 from softway.verify.catalogue import QUICK, chosen
 from softway.verify.page import page
-from softway.verify.report import causes, counts, in_json, rows, writable, write
+from softway.verify.report import causes, in_json, rows, verdict, writable, write
 from softway.verify.result import Result
 from softway.verify.suite import Watch, verified
 
@@ -105,9 +105,7 @@ def _show(results: Sequence[Result], console: Console, quiet: bool) -> None:
     for sentence in causes(results):
         console.print(escape(sentence), soft_wrap=True, highlight=False, style="red")
     if not quiet:
-        count = counts(results)
-        told = f"{count['passed']} of {count['quantities']} quantities of {count['cases']} cases passed"
-        console.print(told, highlight=False)
+        console.print(verdict(results), highlight=False)
 
 
 def _beside(beside: Beside, console: Console) -> None:

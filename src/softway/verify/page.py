@@ -8,7 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 from softway.record.view_curves import Curve, Panel, drawing
 from softway.verify.case import Beside
-from softway.verify.report import Row, causes, counts, rows
+from softway.verify.report import Row, causes, rows, verdict
 from softway.verify.result import Result
 
 STYLE = """
@@ -34,12 +34,10 @@ def page(results: Sequence[Result]) -> str:
     >>> text.startswith("<!DOCTYPE html>"), "http" in text.replace("http://www.w3.org", "")
     (True, False)
     """
-    count = counts(results)
-    told = f"{count['passed']} of {count['quantities']} quantities of {count['cases']} cases are within their tolerance"
     links = " ".join(f'<a class="{_word(r.passed)}" href="#{r.case.id}">{r.case.id}</a>' for r in results)
     body = [
         "<h1>Verification of softway</h1>",
-        f"<p>{told}.</p>",
+        f"<p>{verdict(results)}.</p>",
         f'<p class="small">{escape(_circumstances(results))}</p>',
         _list(causes(results)),
         f"<nav>{links}</nav>",

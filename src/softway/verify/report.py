@@ -109,13 +109,28 @@ def in_json(results: Iterable[Result]) -> str:
 
 
 def counts(results: Sequence[Result]) -> Mapping[str, int]:
-    """Numbers of ``cases``, ``quantities`` and those that ``passed``."""
+    """Numbers of ``cases``, ``quantities``, those that ``passed``, and those that are missed for a ``known`` cause."""
     quantities = [quantity for result in results for quantity in result.quantities]
     return {
         "cases": len(results),
         "quantities": len(quantities),
         "passed": sum(quantity.passed for quantity in quantities),
+        "known": sum(bool(q.why) and q.value is not None and not q.passed for q in quantities),
     }
+
+
+def verdict(results: Sequence[Result]) -> str:
+    """How many are within their tolerance, in one sentence.
+
+    Examples
+    --------
+    >>> from softway.verify import chosen, examined
+    >>> verdict([examined(chosen(["A01"])[0])])
+    '3 of 3 quantities of 1 cases are within their tolerance'
+    """
+    count = counts(results)
+    told = f"{count['passed']} of {count['quantities']} quantities of {count['cases']} cases are within their tolerance"
+    return told + (f", {count['known']} are not, for a cause that is known" if count["known"] else "")
 
 
 def writable(option: str, file: Path) -> Path:

@@ -18,7 +18,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_case_that_passes(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["verify", "A01", "--json", "table.json"]) == 0
     told = capsys.readouterr().out
-    assert "3 of 3 quantities of 1 cases passed" in told
+    assert "3 of 3 quantities of 1 cases are within their tolerance" in told
     assert {p.name for p in here.iterdir()} == {"verification.html", "table.json"}
     assert [line["pass"] for line in json.loads((here / "table.json").read_text())] == [True] * 3
 

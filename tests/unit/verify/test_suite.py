@@ -9,7 +9,7 @@ from softway import InputError
 from softway.verify import Case, Result, chosen, compared, listed, verified
 from softway.verify.catalogue import QUICK
 from softway.verify.page import page
-from softway.verify.report import causes, in_json, rows
+from softway.verify.report import causes, in_json, rows, verdict
 from softway.verify.result import failed
 
 RAISES = "def compute():\n    raise ValueError('no such thing')\n"
@@ -89,5 +89,7 @@ def test_a_known_miss_says_why() -> None:
     asked = {"qoi": [{"name": "force", "value": 2.0, "tol_rel": 0.1, "why": "the mesh is coarse"}]}
     (quantity,) = compared(asked, {"force": 2.5})
     assert not quantity.passed
-    assert causes([Result(case=case, quantities=(quantity,))]) == ("A12, force: the mesh is coarse",)
+    result = Result(case=case, quantities=(quantity,))
+    assert causes([result]) == ("A12, force: the mesh is coarse",)
+    assert verdict([result]).endswith(", 1 are not, for a cause that is known")
     assert not failed(case, "x").passed
