@@ -40,6 +40,11 @@ def listed() -> tuple[Case, ...]:
         Case(id="B07", seconds=1.0),
         Case(id="B08", seconds=2.0),
         Case(id="B09", seconds=90.0),
+        Case(id="C01", seconds=8.0),
+        Case(id="C02", seconds=11.0),
+        Case(id="C04", seconds=6.0),
+        Case(id="C08", seconds=8.0),
+        Case(id="C09", seconds=8.0),
         Case(id="classic", seconds=1.0),
         Case(id="peers", seconds=3.0),
     )

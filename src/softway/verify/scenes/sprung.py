@@ -17,11 +17,25 @@ import numpy as np
 import softway as sw
 from softway.laws.friction_law import FrictionLaw
 from softway.march.begin import begin
+from softway.march.step import Step
 from softway.typing import Array, IntArray
 
 SIDE, HEIGHT = 0.5, 0.1
 COLUMN, THIN = 0.05, 5e-4
 ENERGY = sw.Energy(spread=2)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Swing:
+    """A march of n slabs: ``time`` (n,) at their ends, and mean ``place`` (n, d) of the lower side of the block."""
+
+    time: Array
+    place: Array
+    steps: tuple[Step, ...]
+
+    def at(self, time: float) -> Array:
+        """The place (d,) at the end of a slab nearest to a time."""
+        return np.asarray(self.place[int(np.argmin(np.abs(self.time - time)))])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,6 +99,12 @@ class Sprung:
             ),
             loads=(self.gravity,),
         )
+
+    def swing(self, scene: sw.Scene, until: float, step: float) -> Swing:
+        """March a scene of this block."""
+        steps = tuple(sw.march(scene, until=until, step=step))
+        place = np.array([self.mean(s.after.displacement["b"]) for s in steps])
+        return Swing(time=np.array([s.after.time for s in steps]), place=place, steps=steps)
 
     def mean(self, field: Array) -> Array:
         """Mean (d,) of a nodal field over the lower side of the block."""
