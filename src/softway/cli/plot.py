@@ -50,7 +50,7 @@ def plot(
     instants = _instants("--at", (at,) if at is not None else ())
     instants += _instants("--times", times.split(",") if times is not None else ())
     run, console = Run(folder), Console()
-    look = Look(field=field, times=instants, size=size_of(size), dpi=dpi or (160 if film is None else 120))
+    look = Look(field=field, times=instants, size=size_of(size), dpi=_dots(dpi, film))
     if film is None:
         for file in pictures(run, out, look):
             console.print(escape(str(file)), soft_wrap=True)
@@ -58,6 +58,13 @@ def plot(
     with console.status("") as status:
         file = make_film(run, film, look, lambda done, of: status.update(f"picture {done} of {of}"))
     console.print(escape(str(file)), soft_wrap=True)
+
+
+def _dots(dpi: int | None, film: Path | None) -> int:
+    """Pixels of an inch, where nothing is asked for a few less in films."""
+    if dpi is None:
+        return 160 if film is None else 120
+    return dpi
 
 
 def _instants(where: str, texts: Sequence[str]) -> tuple[float, ...]:

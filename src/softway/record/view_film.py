@@ -2,6 +2,7 @@
 
 import logging
 import shutil
+import subprocess
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -17,6 +18,7 @@ from softway.record.view_field import colour_of
 from softway.record.view_paths import diagrams
 from softway.record.view_scene import ruler
 from softway.record.view_style import BLACK, STYLE, canvas, library
+from softway.typing import Array
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -64,7 +66,6 @@ def film(run: Run, file: Path, look: Look = STANDARD, watch: Callable[[int, int]
     numbers = _numbers(run, look)
     if len(numbers) < 2:
         raise InputError("--film", "fewer than two frames", "a run with more of them: output.fields_every")
-    file.parent.mkdir(parents=True, exist_ok=True)
     matplotlib = library()
     import matplotlib.animation as animation
 
@@ -75,6 +76,7 @@ def film(run: Run, file: Path, look: Look = STANDARD, watch: Callable[[int, int]
         figure, draw = (_bars if bars else _solids)(run, look, numbers)
         part = file.with_name(f".{file.stem}.part{file.suffix}")
         try:
+            file.parent.mkdir(parents=True, exist_ok=True)
             with writer.saving(figure, str(part), look.dpi):
                 for done, number in enumerate(numbers):
                     draw(number)
@@ -83,10 +85,11 @@ def film(run: Run, file: Path, look: Look = STANDARD, watch: Callable[[int, int]
                     if watch is not None:
                         watch(done + 1, len(numbers))
             part.replace(file)
-        except OSError as error:
+        except (OSError, subprocess.CalledProcessError) as error:
             raise InputError("--film", f"cannot write '{file}': {error}", "a folder that can be written") from None
         finally:
-            part.unlink(missing_ok=True)
+            if part.is_file():
+                part.unlink()
     return file
 
 
@@ -128,20 +131,31 @@ def _solids(run: Run, look: Look, numbers: list[int]) -> "tuple[Figure, Draw]":
     stage = stage_of(run, colour_of(run, look.field), numbers, FINE)
     figure = canvas(*(look.inches or (8.0, 4.5)))
     axis = figure.subplots()
-    (x0, y0), (x1, y1) = stage.box
-    margin = 0.1 * float(np.hypot(x1 - x0, y1 - y0))
     stage.bar(figure, [axis])
+    axis.set_axis_off()
+    caption(figure, run, stage, [stage.shown(run.fields[numbers[0]])], "")
+    figure.draw_without_rendering()
+    low, high = _window(stage.box, np.array(axis.get_window_extent().size))
 
     def draw(number: int) -> None:
         axis.clear()
         shown = stage.shown(run.fields[number])
         stage.draw(axis, shown)
-        axis.set_aspect("equal", adjustable="datalim", anchor="C")
-        ruler(axis, stage.cells.reference, (x0, y0))
-        axis.set(xlim=(x0 - margin, x1 + margin), ylim=(y0 - 1.3 * margin, y1 + margin))
+        axis.set_anchor("C")
+        ruler(axis, stage.cells.reference, (stage.box[0, 0], stage.box[0, 1]))
+        axis.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
         caption(figure, run, stage, [shown], "")
 
     return figure, draw
+
+
+def _window(box: Array, size: Array) -> tuple[Array, Array]:
+    """Corners (2,) around a box (2, 2) with a margin, in the proportions of axes of a size (2,)."""
+    margin = 0.1 * float(np.linalg.norm(np.ptp(box, axis=0)))
+    low, high = box[0] - margin * np.array([1.0, 1.3]), box[1] + margin
+    unit = float(((high - low) / size).max())
+    middle = 0.5 * (low + high)
+    return middle - 0.5 * unit * size, middle + 0.5 * unit * size
 
 
 def _bars(run: Run, look: Look, numbers: list[int]) -> "tuple[Figure, Draw]":

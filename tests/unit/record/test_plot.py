@@ -56,6 +56,9 @@ def test_every_field_can_be_asked_for(flat):
         (["--at", "3 kg"], "a time"),
         (["--size", "big"], "such as 1280x720"),
         (["--dpi", "1"], "--dpi"),
+        (["--dpi", "0"], "--dpi"),
+        (["--film", "/dev/null/a.gif"], "cannot write"),
+        (["--film", "new/a.gif", "--field", "heat"], "no field"),
         (["--film", "a.avi"], "film.mp4"),
         (["--film", "a.gif", "--times", "1 s"], "two"),
     ],
@@ -65,10 +68,10 @@ def test_what_cannot_be_drawn_is_named(flat, capsys, words, told, monkeypatch, t
     assert main(["plot", str(flat.path), *words]) == 2
     text = "".join(capsys.readouterr())
     assert told in " ".join(text.split()) and "Traceback" not in text
-    assert not list(tmp_path.glob("*.*")) and not list(flat.path.glob("*.png"))
+    assert not list(tmp_path.glob("*.*")) and not (tmp_path / "new").exists() and not list(flat.path.glob("*.png"))
 
 
-def test_a_film_moves(flat, tmp_path):
+def test_a_film_moves(flat, tmp_path, caplog):
     """Eleven pictures of the size that was asked for; the falling square stands elsewhere in each."""
     file = films.film(flat, tmp_path / "fall.gif", Look(size=(320, 240), dpi=60))
     with Image.open(file) as film:
@@ -77,7 +80,7 @@ def test_a_film_moves(flat, tmp_path):
         for k in (0, 5):
             film.seek(k)
             pictures.append(np.asarray(film.convert("L"), float))
-    assert np.abs(pictures[0] - pictures[1]).max() > 100.0
+    assert np.abs(pictures[0] - pictures[1]).max() > 100.0 and not caplog.records
 
 
 def test_a_film_of_a_bar_between_two_instants(thin, tmp_path):
