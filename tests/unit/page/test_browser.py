@@ -78,6 +78,11 @@ def seen(page):
     return np.asarray(Image.open(io.BytesIO(picture)).convert("RGB"), float)
 
 
+def shows(page, name, text):
+    """Wait until a part of the page has a text."""
+    sync_api.expect(page.locator(f"#{name}")).to_have_text(text, timeout=30_000)
+
+
 def settled(page):
     """The window once two pictures of it are alike and not empty."""
     before = np.zeros(1)
@@ -99,11 +104,11 @@ def test_the_page_shows_the_run_and_moves(square, browser):
         page.locator(".v-slider-thumb").focus()
         for _ in range(3):
             page.keyboard.press("ArrowRight")
-        page.wait_for_function("document.querySelector('#clock').innerText === '1.2 s'")
+        shows(page, "clock", "1.2 s")
         last = settled(page)
         assert (np.abs(last - first).max(axis=2) > 30.0).mean() > 0.01
         page.locator("#play").click()
-        page.wait_for_function("document.querySelector('#clock').innerText !== '1.2 s'")
+        sync_api.expect(page.locator("#clock")).not_to_have_text("1.2 s", timeout=30_000)
         page.locator("#play").click()
         page.get_by_role("tab", name=re.compile("events")).click()
         rows = page.locator("#events tbody tr")
@@ -111,7 +116,7 @@ def test_the_page_shows_the_run_and_moves(square, browser):
         rows.first.click()
         time = float(square.events["time"][0])
         nearest = square.fields.times[np.argmin(np.abs(square.fields.times - time))]
-        page.wait_for_function(f"document.querySelector('#clock').innerText === '{instant(nearest)}'")
+        shows(page, "clock", instant(nearest))
         assert {place.hostname for place in asked if place.scheme not in ("data", "blob")} == {"127.0.0.1"}
         assert any(place.scheme == "ws" for place in asked)
 
@@ -144,6 +149,6 @@ def test_a_run_that_goes_on_is_followed(tmp_path, browser, fall):
         page.wait_for_selector("#clock")
         assert page.locator("#status").inner_text() == "running" and page.locator("#clock").inner_text() == "2 s"
         go_on.set()
-        page.wait_for_function("document.querySelector('#clock').innerText === '4 s'")
-        page.wait_for_function("document.querySelector('#status').innerText === 'done'")
+        shows(page, "clock", "4 s")
+        shows(page, "status", "done")
     work.join()
