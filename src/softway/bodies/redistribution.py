@@ -10,7 +10,7 @@ import logging
 import numpy as np
 from scipy import sparse
 
-from softway.bodies.mass import Consistent, MassRule, assembled, body_of, neighbours
+from softway.bodies.mass import Consistent, Lumped, MassRule, assembled, body_of, neighbours
 from softway.bodies.section import Section
 from softway.errors import InputError
 from softway.space.mesh import Mesh
@@ -67,6 +67,7 @@ def redistributed(
     y = _scaled(mesh, exact)
     plain = assembled(body, rule, ones)
     highest = 2 if y.shape[1] > 1 else 1
+    weights = plain if (plain @ ones > 0.0).all() else assembled(body, Lumped(), ones)
     every = np.array(_monomials(y, highest))
     matrices = [assembled(body, rule, form) for form in every]
     for order in range(highest, -1, -1):
@@ -74,7 +75,7 @@ def redistributed(
         target[1 + y.shape[1] :] = _moments(plain, y, order)[1 + y.shape[1] :]
         forms, parts = every[: len(target)], matrices[: len(target)]
         for k in range(min(cells, max(int(depth.max()) // 2, 1)), 0, -1):
-            scale = sparse.diags_array(_scale(plain, near, depth, k))
+            scale = sparse.diags_array(_scale(weights, near, depth, k))
             filled = [scale @ m @ scale for m in parts]
             found = np.array([_moments(m, y, order) for m in filled]).T
             factor = np.linalg.lstsq(found, target, rcond=1e-12)[0]
@@ -93,15 +94,16 @@ def _sum(factor: Array, parts: list[sparse.csr_array]) -> sparse.csr_array:
     return total
 
 
-def _scale(plain: sparse.csr_array, near: sparse.csr_array, depth: IntArray, cells: int) -> Array:
+def _scale(weights: sparse.csr_array, near: sparse.csr_array, depth: IntArray, cells: int) -> Array:
     """Factors (n,) of rows and columns: none at candidates, more than one within some cells of them.
 
     Around each candidate the mass that is missing is compared with that of the layer; a node of the layer grows by the
-    mean of what the candidates around it say.  Where all of them say the same, so does the layer.
+    mean of what the candidates around it say.  Where all of them say the same, so does the layer.  The mass matrix
+    ``weights`` (n, n) has positive sums of rows; the consistent one of ten-node tetrahedra has not.
     """
     light, layer = depth == 0, (depth > 0) & (depth <= cells)
-    left = ~light * (plain @ (~light).astype(float))
-    lost = plain @ np.ones(len(depth)) - left
+    left = ~light * (weights @ (~light).astype(float))
+    lost = weights @ np.ones(len(depth)) - left
     missing, own, count = lost, left * layer, light.astype(float)
     for _ in range(cells):
         missing, own, count = near @ missing, near @ own, near @ count
