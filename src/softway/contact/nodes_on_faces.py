@@ -17,6 +17,8 @@ from softway.typing import Array, BoolArray, IntArray
 
 INSIDE = 0.1
 """Share of the size of a facet by which a slave may begin a slab inside a body and is still led out."""
+LOOKING = -0.2
+"""Product of the normals of a facet and of the surface around a slave up to which they look at each other."""
 SWELLING = 0.3
 """Share of its width by which a quadratic facet may stick out of the box of its nodes."""
 LEBESGUE = 5.0 / 3.0
@@ -39,6 +41,9 @@ class NodesOnFaces:
         Facets that the slaves may touch.
     slots
         Rows of each slave; by default the dimension of space.
+    own
+        Side that the slaves belong to.  A facet that none of its facets around a slave looks at is no candidate: the
+        lower corner of a block that stands on another one does not touch the walls of that one.
 
     Examples
     --------
@@ -54,6 +59,7 @@ class NodesOnFaces:
     slaves: IntArray
     side: Side
     slots: int = 0
+    own: Side | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "slaves", np.asarray(self.slaves, dtype=np.int64))
@@ -87,7 +93,7 @@ class NodesOnFaces:
         apart = [(x1 - x0)[nodes] - (x1 - x0)[pairs.node] for nodes in pairs.masters.T]
         travel = np.sqrt(reduce(np.maximum, [dot(way, way) for way in apart]))
         close = seen.distance <= (LEBESGUE if curved else 1.0) * travel + reach
-        keep = close & _in_front(seen)
+        keep = close & _in_front(seen) & self._looked_at(seen)
         return Meeting(
             pairs=pairs.take(keep),
             count=len(self.slaves),
@@ -96,6 +102,13 @@ class NodesOnFaces:
             size=size[keep],
             above=seen.height[keep],
         )
+
+    def _looked_at(self, seen: Sight) -> BoolArray:
+        """Facets (p,) that the surface around their slave looks at."""
+        if self.own is None or self.side.dim == 1:
+            return np.ones(len(seen.size), bool)
+        looks = self.own.looks(seen.x)[np.searchsorted(self.own.nodes, seen.pairs.node)]
+        return np.asarray(np.einsum("pkd,pd->pk", looks, seen.feet.normal).min(axis=1) <= LOOKING)
 
 
 def _in_front(seen: Sight) -> BoolArray:

@@ -67,7 +67,7 @@ def pairing(contacts: Sequence[Contact], bodies: Mapping[str, Solid | Tool], par
         methods += found
         if any(isinstance(m, Mortar) for m in found):
             fine, coarse = surfaces
-            watchers += [_on(fine.side.nodes, coarse), _on(coarse.side.nodes, fine)]
+            watchers += [_on(fine.side.nodes, fine, coarse), _on(coarse.side.nodes, coarse, fine)]
             watched += [k, k]
         number.append(np.full(sum(len(m.node) for m in found), k))
         opponents.append(pair)
@@ -148,24 +148,24 @@ def _between(contact: Contact, fine: _Surface, coarse: _Surface, dim: int) -> li
     found: list[NodesOnTool | Surfaces]
     if isinstance(method, NodeToSurface):
         found = [
-            _on(fine.side.nodes, coarse),
-            _on(coarse.side.nodes if method.nodes == "both" else coarse.corners, fine),
+            _on(fine.side.nodes, fine, coarse),
+            _on(coarse.side.nodes if method.nodes == "both" else coarse.corners, coarse, fine),
         ]
     elif dim == 1 or located:
         problem = f"DualMortar with {contact.timing}" if located else "DualMortar between bars in 1D"
         raise InputError("method", problem, "NodeToSurface, or nothing")
     else:
         found = [Mortar(slave_facets=fine.side.facets, master_facets=coarse.side.facets)]
-        found += [_on(fine.corners, coarse), _on(coarse.corners, fine)]
+        found += [_on(fine.corners, fine, coarse), _on(coarse.corners, coarse, fine)]
     found = [m for m in found if len(m.node)]
     if fine.edges is not None and coarse.edges is not None and len(fine.edges.ends) and len(coarse.edges.ends):
         found.append(EdgesOnEdges(first=fine.edges, second=coarse.edges))
     return found
 
 
-def _on(nodes: IntArray, surface: _Surface) -> NodesOnFaces:
-    """Nodes (k,) against the faces of a surface."""
-    return NodesOnFaces(slaves=nodes, side=surface.side)
+def _on(nodes: IntArray, own: _Surface, surface: _Surface) -> NodesOnFaces:
+    """Nodes (k,) of their ``own`` surface against the faces of another one."""
+    return NodesOnFaces(slaves=nodes, side=surface.side, own=own.side)
 
 
 def _surface(part: Part, tag: str, points: Array) -> _Surface:

@@ -117,6 +117,25 @@ class Side:
                 np.add.at(total, np.searchsorted(self.nodes, found[:, k]), angle[:, None] * normal)
         return _unit(total)
 
+    def looks(self, x: Array) -> Array:
+        """Directions (k, l, d) in which the surface looks at each node: outward normals of the facets around it.
+
+        Where a node has fewer of them than another one its nodal normal stands instead, once at least.  ``x`` (n, d)
+        are the positions of the nodes of the model.
+        """
+        node, found = [], []
+        for kind, _, nodes in self.numbers:
+            for k, reference in enumerate(CELLS[kind].nodes):
+                local = np.broadcast_to(reference, (len(nodes), len(reference)))
+                node.append(np.searchsorted(self.nodes, nodes[:, k]))
+                found.append(self.ends[:, None] if kind == "point1" else normals(kind, x[nodes], local))
+        order = np.argsort(np.concatenate(node), kind="stable")
+        count = np.bincount(np.concatenate(node), minlength=len(self.nodes))
+        place = np.arange(len(order)) - np.repeat(np.cumsum(count) - count, count)
+        out = np.repeat(self.nodal_normals(x)[:, None], count.max() + 1, axis=1)
+        out[np.concatenate(node)[order], place] = np.concatenate(found)[order]
+        return out
+
     def sharp_corners(self, points: Array) -> IntArray:
         """Nodes (c,) of the plane where two facets meet at a sharp convex corner, for points (n, 2) of the model."""
         ends = np.concatenate([found[:, :2] for found in self.facets.values()])
