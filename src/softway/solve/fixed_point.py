@@ -91,7 +91,7 @@ class FixedPoint:
             if self.handover and len(changes) > window and it.change > poor**window * changes[0]:
                 break
         if it is not None and np.isfinite(it.change):
-            yield from newton.iterate(it.system, it.q, it.carry, it.impulse, it.active)
+            yield from newton.onward(it.system, it.q, it.carry, it.impulse, it.active)
 
     def _iterates(
         self, system: SlabSystem, q: Array, carry: Carry, impulse: Array, active: BoolArray

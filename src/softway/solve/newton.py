@@ -66,8 +66,23 @@ class Newton:
     def iterate(
         self, system: SlabSystem, q: Array, carry: Carry, impulse: Array, active: BoolArray
     ) -> Iterator[Iterate]:
-        """Iterates from q (n, d), with first impulses (m,) and active rows (m,) of the contact."""
-        end = system.evaluate(q, impulse)
+        """Iterates from q (n, d), with first impulses (m,) and active rows (m,) of the contact.
+
+        The first step is without scalar: before it the nodes without inertia are in no equilibrium, and the work that
+        is missing says nothing.
+        """
+        end = replace(system, balanced=False).evaluate(q, impulse)
+        yield from self._iterates(system, q, end, carry, impulse, active)
+
+    def onward(
+        self, system: SlabSystem, q: Array, carry: Carry, impulse: Array, active: BoolArray
+    ) -> Iterator[Iterate]:
+        """Iterates from one of another method."""
+        yield from self._iterates(system, q, system.evaluate(q, impulse), carry, impulse, active)
+
+    def _iterates(
+        self, system: SlabSystem, q: Array, end: Evaluation, carry: Carry, impulse: Array, active: BoolArray
+    ) -> Iterator[Iterate]:
         for count in itertools.count():
             system = system.steadied(end.displacement, count)
             if not np.isfinite(end.residual).all():
