@@ -74,10 +74,17 @@ class Candidates:
         """Least nodal field (n, d) on the free components of the slave nodes whose normal components are ``values``
         (m,) on some rows.
 
-        A node in several of the rows gets the least one that meets them all.
+        A node in several of the rows gets the least one that meets them all, and so do slave nodes that rows of
+        others slide on.
         """
         out = np.zeros(free.shape)
         rows = self._own(which, free)
+        own = np.unique(self.node[rows])
+        parts = (own[:, None] * free.shape[1] + np.arange(free.shape[1])).ravel()
+        felt = self.gradient[rows][:, parts[free.ravel()[parts]]]
+        if felt.nnz > (free[self.node[rows]] & (self.normal[rows] != 0.0)).sum():
+            out.ravel()[parts[free.ravel()[parts]]] = np.linalg.lstsq(felt.toarray(), values[rows], rcond=1e-12)[0]
+            return out
         node, n = self.node[rows], self.normal[rows] * free[self.node[rows]]
         if len(np.unique(node)) == len(node):
             out[node] = (values[rows] / (n**2).sum(axis=1))[:, None] * n

@@ -8,10 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from softway.contact.encounters import Pairs
 from softway.contact.fig4 import Split
 from softway.contact.path import Path
 from softway.contact.timing import Paper
 from softway.errors import NoConvergence
+from softway.march.certificate import DEPTH
 from softway.march.control import require_slow
 from softway.march.course import Course, revised, turned, undisturbed
 from softway.march.jumps import Jump, jumps, loss
@@ -29,8 +31,10 @@ from softway.solve.system import SlabSystem
 from softway.time.slab import Slab
 from softway.typing import Array
 
-PASSES = 400
+PASSES = 60
 """A slab whose events ask for more solutions than this is tried again shorter."""
+STEADY = 15
+"""Solutions after which nodes are kept on the faces where they are: one between two faces would go to and fro."""
 
 
 def solve_carrying(
@@ -50,7 +54,7 @@ def solve_carrying(
     coasting = now.start.displacement + 0.5 * slab.span * (now.start.velocity + guess)
     pairs = model.encounters.meet(now.start.displacement, coasting, slab.start, slab.end)
     require_slow(model, pairs, coasting, approach)
-    known = undisturbed(now, pairs.at(coasting))
+    known, faces = undisturbed(now, pairs.at(coasting)), pairs
     passes = iterations = 0
     while passes < PASSES:
         found = jumps(model, known.rows, known.way, now.closed, inertia, slab.span)
@@ -58,13 +62,21 @@ def solve_carrying(
         iterates = method.iterate(system, guess, carry, np.zeros(len(known.way.closed)), known.way.closed)
         solution = drive(system, iterates, method.tolerance, method.limit)
         passes, iterations, carry = passes + 1, iterations + solution.iterations, solution.last.carry
-        revision = turned(model, pairs, known, solution) or revised(model, now, system, known, solution, inertia)
-        if revision is None:
+        faces = pairs.held(solution.end.displacement) if passes == STEADY and pairs.known is None else faces
+        revision = turned(model, faces, known, solution) or revised(model, now, system, known, solution, inertia)
+        if revision is None and (faces is pairs or _apart(model, pairs, solution.end.displacement)):
             return _outcome(
                 now, slab, system, known, solution, found, inertia, pairs.found, (passes, iterations)
             ), carry
+        if revision is None:
+            break
         known, guess = revision, solution.last.q
     raise NoConvergence(f"the contact events of the slab do not settle in {PASSES} passes")
+
+
+def _apart(model: Model, pairs: Pairs, u1: Array) -> bool:
+    """Whether faces that were kept leave no overlap at the end position ``u1`` (n, d)."""
+    return pairs.overlap(u1) <= DEPTH * float(np.abs(model.points + u1).max())
 
 
 def _system(
