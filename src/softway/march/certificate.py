@@ -54,6 +54,9 @@ def violation(
     model: Model, before: Situation, out: Outcome, after: Situation, ledger: Ledger, found: Certificate
 ) -> str | None:
     """The first condition that a certificate violates, in words; None if it holds."""
+    kept = (found.min_gap, found.min_force, found.power_residual, found.momentum_error, found.energy_error)
+    if np.isnan(kept).any() or not np.isfinite(kept[1:]).all():
+        return "a gap, a force or a balance is not a number"
     reach = float(np.abs(model.points + after.start.displacement).max())
     if found.min_gap < -DEPTH * reach:
         return f"a node ends {-found.min_gap:.3g} m inside its opponent"

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softway.errors import NoConvergence
 from softway.solve.return_map import Slipping, returned
 from softway.typing import Array, BoolArray
 
@@ -132,7 +133,10 @@ def swept(problem: Touching, x: Array, count: int) -> Array:
             gap = problem.free[i] + W[i] @ x
             x[i] = max(x[i] - gap / problem.reach[i], 0.0)
             slip = problem.free[at] + W[at] @ x
-            stiff = 1.0 / max(float(np.linalg.eigvalsh(W[np.ix_(at, at)]).max(initial=0.0)), 1e-12 * problem.give[i])
+            soft = max(float(np.linalg.eigvalsh(W[np.ix_(at, at)]).max(initial=0.0)), 1e-12 * problem.give[i])
+            if not soft > 0.0:
+                raise NoConvergence(f"a contact row has the compliance {soft:g} along the surface")
+            stiff = 1.0 / soft
             trial = x[at] - stiff * slip
             size = np.linalg.norm(trial)
             force = returned(parts[i], np.array([size]), x[i : i + 1], np.array([stiff])).force[0]
