@@ -1,0 +1,106 @@
+"""Drops that once stopped, found no end or broke off, and what they were about."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+import softway as sw
+from softway.bodies.mass import Consistent
+from softway.bodies.redistribution import redistributed
+from softway.contact.candidates import Candidates
+from softway.march.certificate import violation
+from softway.march.march import march
+from softway.model import build
+from softway.space.shapes import box
+
+
+def boxes() -> sw.Scene:
+    """A block flush on another one, pressed on it by its speed."""
+    soft = sw.NeoHookean(E=1.0, nu=0.3)
+    below = sw.Solid(
+        mesh=sw.Box(size=(1.0, 1.0, 1.0), cells=(2, 2, 2)),
+        material=soft,
+        density=1.0,
+        supports=(sw.Fixed(on="bottom"),),
+    )
+    above = sw.Solid(
+        mesh=sw.Box(size=(1.0, 1.0, 1.0), cells=(3, 3, 2), origin=(0.0, 0.0, 1.0)),
+        material=soft,
+        density=1.0,
+        velocity=sw.Uniform(value=(0.0, 0.0, -0.05)),
+    )
+    return sw.Scene(bodies={"below": below, "above": above}, contacts=(sw.Contact(between=("above", "below")),))
+
+
+def test_corners_of_flush_blocks_do_not_touch_the_walls_beside_them():
+    scene = boxes()
+    made = {n: replace(b, mesh=b.mesh.build()) for n, b in scene.bodies.items()}
+    model = build(replace(scene, bodies=made))
+    rows = model.rows(model.displacement)
+    touching = rows.near & (rows.gap(model.displacement) < 1e-9)
+    np.testing.assert_allclose(np.abs(rows.normal[touching][:, 2]), 1.0, atol=1e-12)
+
+
+def test_flush_blocks_press_each_other_without_halving():
+    steps = list(march(boxes(), until=1.0, step=0.1))
+    assert len(steps) == 10
+    assert max(s.ledger.contacts["above-below"].force_n for s in steps) > 0.01
+    assert abs(steps[-1].ledger.energy_error) < 1e-10 * steps[0].ledger.energy_kinetic
+
+
+def test_a_bar_in_free_fall_asks_newton_for_a_few_iterations():
+    bar = sw.Solid(
+        mesh=sw.Interval(length=1.0, cells=8),
+        material=sw.NeoHookean(E=1e6),
+        density=1.0,
+        mass=sw.Lumped(),
+        velocity=sw.Uniform(value=-1.0),
+    )
+    floor = sw.Tool(shape=sw.HalfSpace(point=-1.0, normal=1.0))
+    scene = sw.Scene(
+        bodies={"bar": bar, "floor": floor},
+        contacts=(sw.Contact(between=("bar", "floor")),),
+        loads=(sw.Gravity(acceleration=(-10.0,)),),
+    )
+    steps = list(march(scene, until=5e-3, step=2.5e-4, method=sw.Newton()))
+    assert len(steps) == 20
+    assert max(s.report.iterations for s in steps) <= 5
+    assert steps[-1].ledger.energy_strain < 1e-20
+
+
+def test_quadratic_tetrahedra_may_touch_with_all_their_surface():
+    mesh = box((1.0, 1.0, 1.0), (2, 2, 2), cell="tet10")
+    mass = redistributed(
+        mesh, 3.0, sw.Volume(), Consistent(), np.unique(np.concatenate(list(mesh.boundary().values()), axis=None))
+    )
+    assert np.isfinite(mass.data).all()
+    assert mass.sum() == pytest.approx(3.0, rel=1e-9)
+
+
+def test_rows_whose_slaves_slide_on_each_other_move_together():
+    """Node 1 touches the segment of nodes 0 and 2, node 0 that of nodes 1 and 3: both gaps come out as asked for."""
+    gradient = np.zeros((2, 8))
+    gradient[0, [3, 1, 5]] = 1.0, -0.5, -0.5
+    gradient[1, [1, 3, 7]] = -1.0, 0.25, 0.75
+    rows = Candidates(
+        node=np.array([1, 0]),
+        contact=np.zeros(2, int),
+        normal=np.array([[0.0, 1.0], [0.0, -1.0]]),
+        gradient=sp.csr_array(gradient),
+        offset=np.zeros(2),
+        drive=np.zeros(2),
+        labels=("c",),
+    )
+    field = rows.motion(np.array([0.3, -0.2]), np.ones(2, bool), np.ones((4, 2), bool))
+    np.testing.assert_allclose(rows.along(field), [0.3, -0.2], atol=1e-14)
+    assert not field[2:].any()
+
+
+def test_what_is_not_a_number_breaks_the_certificate():
+    good = next(march(boxes(), until=0.1, step=0.1)).certificate
+    for name in ("min_gap", "min_force", "power_residual", "momentum_error", "energy_error"):
+        bad = replace(good, **{name: float("nan")})
+        told = violation(None, None, None, None, None, bad)  # type: ignore[arg-type]
+        assert told == "a gap, a force or a balance is not a number"
