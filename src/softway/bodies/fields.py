@@ -171,6 +171,9 @@ def components(where: str, value: Sequence[float] | float, dim: int) -> Array:
 
 def _affine(field: Affine, mesh: Mesh) -> Array:
     d = mesh.dim
+    rows = field.gradient if isinstance(field.gradient, tuple | list) else ()
+    if len({np.size(row) for row in rows}) > 1:
+        raise InputError("gradient", f"rows of {[np.size(row) for row in rows]} numbers", f"{d} rows of {d} numbers")
     gradient = np.asarray(field.gradient, dtype=float)
     if gradient.ndim == 0 and (d == 1 or gradient == 0.0):
         gradient = np.full((d, d), float(gradient))

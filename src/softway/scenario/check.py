@@ -33,6 +33,9 @@ from softway.solve.explicit import Explicit
 from softway.solve.stability import require_stable
 from softway.typing import Array
 
+MOST = 1_000_000_000
+"""Slabs that nobody waits for."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Checked:
@@ -95,6 +98,8 @@ def check(scenario: Scenario) -> Checked:
     step = proposed(model, time.step, time.weight, time.end, solver)
     require_stable(model, model.displacement, solver if isinstance(solver, Explicit) else time.weight, step)
     slabs = int(np.ceil(time.end / step * (1.0 - 1e-12)))
+    if slabs > MOST:
+        raise InputError("time.end", f"{slabs:.3g} slabs of {step:.3g} s", "an earlier end, or longer slabs")
     return Checked(scenario=scenario, model=model, bodies=bodies, contacts=contacts, step=step, slabs=slabs)
 
 

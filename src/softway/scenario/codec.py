@@ -3,6 +3,7 @@
 import tomllib
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import tomli_w
 
@@ -14,6 +15,11 @@ from softway.scenario.quantity import Units
 from softway.scenario.reader import Reader
 from softway.scenario.scenario import Scenario
 from softway.scenario.writer import write
+
+LONGEST = 20_000_000
+"""Characters of the longest scenario."""
+NESTED = 50
+"""Levels of tables and lists in the deepest scenario."""
 
 
 def load(
@@ -39,11 +45,16 @@ def load(
     """
     file = Path(path)
     try:
-        text = file.read_text(encoding="utf-8")
+        if file.exists() and not file.is_file():
+            raise InputError(str(file), "cannot be read: a folder or a device", "a TOML file in UTF-8")
+        with file.open(encoding="utf-8") as opened:
+            text = opened.read(LONGEST + 1)
     except FileNotFoundError:
         raise InputError(str(file), "no such scenario file", "softway new FILE makes one") from None
-    except (OSError, UnicodeDecodeError) as error:
+    except (OSError, ValueError) as error:
         raise InputError(str(file), f"cannot be read: {error}", "a TOML file in UTF-8") from None
+    if len(text) > LONGEST:
+        raise InputError(str(file), f"is longer than {LONGEST} characters", "large data in mesh files")
     modules = Modules(folder=file.resolve().parent, allowed=allow_python)
     return loads(text, changes=changes, units=units, name=str(file), modules=modules)
 
@@ -83,13 +94,31 @@ def loads(
     ... ''').time.end
     4.0
     """
-    try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(name, f"is not TOML: {error}", "keys as name = value, texts in quotes") from None
+    data = parsed(text, name)
     reader = Reader(units or Units.standard(), folder or modules.folder or Path(), modules)
     scenario: Scenario = reader.read(furnished(overridden(data, changes)), Scenario, "")
     return scenario
+
+
+def parsed(text: str, name: str) -> dict[str, Any]:
+    """The data of a TOML text called ``name``.
+
+    Raises
+    ------
+    InputError
+        It is no TOML, or tables and lists are nested deeper than any scenario has them.
+    """
+    try:
+        data = tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        problem = "tables or lists nested without end" if isinstance(error, RecursionError) else str(error)
+        raise InputError(name, f"is not TOML: {problem}", "keys as name = value, texts in quotes") from None
+    level: list[Any] = [data]
+    for _ in range(NESTED):
+        level = [v for d in level for v in (d.values() if isinstance(d, dict) else d) if isinstance(v, dict | list)]
+        if not level:
+            return data
+    raise InputError(name, f"tables or lists nested deeper than {NESTED}", "the tables of a scenario")
 
 
 def resolved(scenario: Scenario) -> str:

@@ -94,5 +94,5 @@ def _value(text: str) -> Any:
     """A TOML value; what is none is taken as text."""
     try:
         return tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):
         return text

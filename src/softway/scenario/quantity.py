@@ -62,7 +62,7 @@ class Units:
         if isinstance(value, bool) or not isinstance(value, int | float | str):
             raise InputError(where, f"{value!r} is not {expected(unit)}", example(unit))
         if not isinstance(value, str):
-            return _finite(float(value), value, where, unit)
+            return _finite(_real(value), value, where, unit)
         found = _NUMBER.match(value)
         if found is None:
             raise InputError(where, f"{value!r} is not {expected(unit)}", example(unit))
@@ -118,6 +118,14 @@ def _angle(registry: pint.UnitRegistry[Any], unit: Any) -> bool:
     """Whether a dimensionless unit measures an angle: degrees are no share of anything."""
     root = registry.get_root_units(unit)[1]
     return any(str(part) == "radian" for part in root._units)
+
+
+def _real(value: float) -> float:
+    """A number as float; infinite where it is a whole number beyond all floats."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
 
 
 def _finite(number: float, value: object, where: str, unit: str) -> float:

@@ -141,7 +141,7 @@ class Reader:
             raise InputError(f"{where}.kind", "missing", f"one of: {', '.join(known)}")
         if isinstance(name, str) and ":" in name and protocols:
             return self._own(value, self.modules.law(name, protocols, f"{where}.kind"), where, unit)
-        if name not in known:
+        if not isinstance(name, str) or name not in known:
             raise InputError(f"{where}.kind", f"{name!r} is unknown", nearest(str(name), known))
         return self._object(value, known[name], where, unit)
 
@@ -239,4 +239,7 @@ def _remedy(value: Any, options: tuple[Any, ...], known: dict[str, type], unit: 
         parts.append(nearest(value, known))
     elif known:
         parts.append(f"a table with kind = one of: {', '.join(known)}")
-    return ", or ".join(parts)
+    other = [o.__name__ for o in options if o in (int, bool, str)] if not parts else []
+    names = {"int": "a whole number", "bool": "true or false", "str": "text in quotes"}
+    lists = ["a list of numbers"] if not parts and any(is_tuple(o) for o in options) else []
+    return ", or ".join(parts + [names[o] for o in other] + lists)

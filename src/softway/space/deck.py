@@ -12,6 +12,9 @@ _TYPES = (
     (re.compile(r"T[23]D(2|3)[A-Z]*"), {"2": "T3D2", "3": "T3D3"}),
 )
 
+DEEPEST = 8
+"""Levels of included files."""
+
 
 def plain_type(name: str) -> str:
     """A type of the same cell that the reader knows: plane strain, axial symmetry and membranes become plane stress.
@@ -27,7 +30,7 @@ def plain_type(name: str) -> str:
     return name.upper()
 
 
-def plain_deck(path: Path, depth: int = 0) -> tuple[str, list[str | None]]:
+def plain_deck(path: Path, within: tuple[Path, ...] = ()) -> tuple[str, list[str | None]]:
     """The text of a deck with included files in place, known types, and every block of elements in a set of its own.
 
     Returns
@@ -36,8 +39,11 @@ def plain_deck(path: Path, depth: int = 0) -> tuple[str, list[str | None]]:
         The sets of the blocks of elements are called ``block 0``, ``block 1``, ...; ``names`` holds what the deck calls
         them.
     """
-    if not path.is_file() or depth > 8:
+    if not path.is_file() or len(within) > DEEPEST:
         raise InputError("path", f"no such file: {path}", "the path of the file that the deck includes")
+    within = (*within, path.resolve())
+    if within[-1] in within[:-1]:
+        raise InputError("path", f"{path} includes itself", "a deck that ends")
     lines: list[str] = []
     names: list[str | None] = []
     for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
@@ -45,7 +51,7 @@ def plain_deck(path: Path, depth: int = 0) -> tuple[str, list[str | None]]:
         values = {key.strip().upper(): value.strip() for key, _, value in (option.partition("=") for option in options)}
         match keyword.upper().replace(" ", ""):
             case "*INCLUDE":
-                text, more = plain_deck(path.parent / values.get("INPUT", "").strip('"'), depth + 1)
+                text, more = plain_deck(path.parent / values.get("INPUT", "").strip('"'), within)
                 for k in reversed(range(len(more))):
                     text = text.replace(f"ELSET=block {k}\n", f"ELSET=block {k + len(names)}\n")
                 lines.append(text.rstrip("\n"))

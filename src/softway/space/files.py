@@ -33,6 +33,10 @@ _READERS = {".msh": "gmsh", ".inp": "abaqus"}
 _SURFACES = {".stl": "stl", ".obj": "obj", ".ply": "ply", ".msh": "gmsh", ".vtu": "vtu"}
 _BODIES = (".msh", ".vtu")
 """Files whose plane cells are a body in the plane; in the others they are a sheet in space."""
+LARGEST = 8_000_000_000
+"""Bytes of the largest mesh file."""
+PLY_ENDS, HEAD = b"end_header", 100_000
+"""What ends the head of a PLY file, and bytes within which it has to be."""
 _DIMS = {
     "vertex": 0,
     "line": 1,
@@ -121,7 +125,13 @@ def _read(path: Path, readers: Mapping[str, str]) -> tuple[meshio.Mesh, list[str
         )
     if path.suffix.lower() not in readers:
         raise InputError("path", f"{path.name} has the ending {path.suffix!r}", f"one of: {known}")
+    size = path.stat().st_size
+    if not 0 < size <= LARGEST:
+        raise InputError("path", f"{path.name} has {size} bytes", f"a mesh file of up to {LARGEST:.0e} bytes")
     reader = readers[path.suffix.lower()]
+    with path.open("rb") as opened:
+        if reader == "ply" and PLY_ENDS not in opened.read(HEAD):  # meshio would look for it for ever
+            raise InputError("path", f"{path.name} has no {PLY_ENDS.decode()}", "save the mesh again")
     text, sets = plain_deck(path) if reader == "abaqus" else ("", [])
     try:
         hushed = contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO())

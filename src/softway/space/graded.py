@@ -15,7 +15,7 @@ from softway.errors import InputError
 from softway.space.cells import CELLS
 from softway.space.lattice import merged, tensor_cells
 from softway.space.mesh import Mesh
-from softway.space.shapes import box, rectangle
+from softway.space.shapes import box, rectangle, require_few
 from softway.typing import Array, IntArray
 
 Complex = NDArray[np.complex128]
@@ -175,6 +175,7 @@ def graded_disc(
         raise InputError("cells", f"{cells} is not a number of cells", "a whole number from 2 on")
     if cell not in ("quad4", "quad9"):
         raise InputError("cell", f"{cell!r} does not fit", "quad4 or quad9")
+    require_few(cells, cells)
     edge = tan(0.5 * focus / radius)
     order = CELLS[cell].order
     lower = _rings(edge, cells)
