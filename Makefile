@@ -5,7 +5,7 @@ DEMO := .venv-demo
 TEST := .venv-test
 DOCS := .venv-docs
 
-.PHONY: help demo test test-view coverage check bench bench-check kills manual docs clean
+.PHONY: help demo test test-view coverage check bench bench-check kills manual fuzz drops endurance docs clean
 
 help:
 	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
@@ -17,6 +17,9 @@ help:
 	@echo "make bench-check  a few measurements against the stored ones: fails where a ratio got worse by a fifth"
 	@echo "make kills  runs killed at 50 random instants, resumed and compared bit by bit: KILLS='--kills 500 --seed 2' for more"
 	@echo "make manual  all verification cases: docs/verification/manual.md, and docs/_build/verification.html with curves"
+	@echo "make fuzz   ten thousand damaged scenarios, mesh files and command lines, into docs/verification/robustness.md"
+	@echo "make drops  five hundred random drops, into the same page"
+	@echo "make endurance  a hundred thousand slabs with all records, and their memory, into the same page"
 	@echo "make docs   the documentation as HTML in docs/_build/html"
 
 # $(call environment,folder,extras): the file "ready" comes last, so that an interrupted installation is repeated
@@ -69,6 +72,18 @@ manual: $(TEST)/ready
 	mkdir -p docs/_build
 	$(TEST)/bin/softway verify --jobs $(JOBS) --json docs/_build/verification.json --out docs/_build/verification.html || test $$? -eq 1
 	$(TEST)/bin/python docs/manual.py docs/_build/verification.json docs/verification/manual.md
+
+fuzz: $(TEST)/ready
+	$(TEST)/bin/python tests/robustness/fuzz.py 10000 --out docs/verification/robustness/fuzz.json
+	$(TEST)/bin/python tests/robustness/page.py
+
+drops: $(TEST)/ready
+	$(TEST)/bin/python -W ignore tests/robustness/run_drops.py 500 --out docs/verification/robustness/drops.jsonl
+	$(TEST)/bin/python tests/robustness/page.py
+
+endurance: $(TEST)/ready
+	$(TEST)/bin/python tests/robustness/endurance.py 100000 --out docs/verification/robustness/endurance.json
+	$(TEST)/bin/python tests/robustness/page.py
 
 docs: $(DOCS)/ready
 	$(DOCS)/bin/python -m sphinx --fail-on-warning --keep-going -q -b html docs docs/_build/html

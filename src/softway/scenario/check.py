@@ -77,6 +77,11 @@ def check(scenario: Scenario) -> Checked:
     if not solids:
         raise InputError("bodies", f"no Solid among {list(scene.bodies)}", 'at least one body of kind = "Solid"')
     check_dimensions(scene, solids)
+    for name, solid in solids.items():
+        if not mesh_of(solid).edge() > 0.0:
+            raise InputError(
+                f"bodies.{name}.mesh", "an edge of length zero", "a node of its own at each corner of a cell"
+            )
     fixed = {n: check_solid(s, f"bodies.{n}") for n, s in solids.items()}
     check_loads(scenario.loads, "loads", solids)
     check_contacts(scene.contacts)

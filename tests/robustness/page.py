@@ -1,0 +1,103 @@
+"""The page of robustness, docs/verification/robustness.md, from the results beside it."""
+
+import collections
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+PLACE = Path(__file__).parents[2] / "docs" / "verification" / "robustness"
+ENDS = ("done", "stops", "slow", "refused", "defect")
+HEAD = """# Robustness
+
+`make fuzz`, `make drops` and `make endurance` make this page. What each does is said in `tests/robustness`.
+"""
+
+
+def page(place: Path = PLACE) -> str:
+    """The text of the page; a part whose results are missing is left out."""
+    parts = [HEAD]
+    if (place / "fuzz.json").is_file():
+        parts.append(fuzz(json.loads((place / "fuzz.json").read_text())))
+    if (place / "drops.jsonl").is_file():
+        parts.append(drops([json.loads(line) for line in (place / "drops.jsonl").read_text().splitlines()]))
+    if (place / "endurance.json").is_file():
+        parts.append(endurance(json.loads((place / "endurance.json").read_text())))
+    return "\n".join(parts)
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
+    r"""A table in Markdown.
+
+    Examples
+    --------
+    >>> table(["a", "b"], [[1, 2]])
+    '| a | b |\n|---|---|\n| 1 | 2 |\n'
+    """
+    lines = [head, ["---"] * len(head), *rows]
+    text = ["| " + " | ".join(str(cell) for cell in line) + " |" for line in lines]
+    return "\n".join(text).replace("| --- | --- ", "|---|---").replace("| --- ", "|---").replace("--- |", "---|") + "\n"
+
+
+def fuzz(found: dict[str, Any]) -> str:
+    """Damaged inputs and what became of them."""
+    kinds = ("ok", "refused", "failed", "defect")
+    rows = [[name, *(counts.get(k, 0) for k in kinds)] for name, counts in sorted(found["families"].items())]
+    text = f"""## Damaged inputs
+
+{found["inputs"]} scenarios, mesh files (msh, inp, stl, ply, obj, vtu) and command lines with bytes, numbers, keys
+and parts changed, each given to the command line in a process with a limit of memory and 20 s. A defect is a
+traceback, a hang, a dead process, a refusal without place or remedy, or a file left behind: {found["defects"]}. The
+slowest took {found["slowest"]} s (a `run` of a scenario that is right may take its time).
+
+"""
+    return text + table(["damage to", "accepted", "refused (exit 2)", "failed (exit 3)", "defects"], rows)
+
+
+def drops(found: list[dict[str, Any]]) -> str:
+    """Random drops and how they ended."""
+    ends = collections.Counter(d["end"] for d in found)
+    text = f"""## Random drops
+
+{len(found)} drops of random bodies (bars, rectangles, discs, rings, boxes, balls, cylinders, the bracket; all cells;
+ten laws) on random obstacles (half space, ball, block, roller, torus, STL, another body), at v/c up to 0.3, tilted,
+with and without friction and gravity, by the three contact rules and two solvers; `tests/robustness/drops.py` makes
+the scenario of each number. Every accepted slab is looked at: depth over the size of the displacements, tension over
+force, and error of the energy balance over energy. The rules Impulse and Paper give no promise on energy. *Slow* is
+more than a minute of processor time.
+
+"""
+    rows = []
+    for rule in ("Energy", "Impulse", "Paper"):
+        mine = [d for d in found if d["rule"] == rule]
+        counts = collections.Counter(d["end"] for d in mine)
+        worst = [max((d[k] for d in mine), default=0.0) for k in ("depth", "tension", "energy")]
+        rows.append([rule, len(mine), *(counts[e] for e in ENDS), *(f"{w:.1e}" for w in worst)])
+    out = text + table(["rule", "drops", *ENDS, "depth", "tension", "energy"], rows)
+    stopped = [d for d in found if d["end"] not in ("done", "refused")]
+    if stopped:
+        out += f"\nThe {len(stopped)} that did not finish:\n\n"
+        keys = ("number", "space", "body", "cells", "law", "obstacle", "rule", "solver", "friction", "speed")
+        lines = [[*(d[k] for k in keys), d["end"], d["why"].replace("|", "/")] for d in stopped]
+        out += table(["drop", *keys[1:], "end", "reason"], lines)
+    return out + f"\nIn all: {', '.join(f'{ends[e]} {e}' for e in ENDS if ends[e])}.\n"
+
+
+def endurance(found: dict[str, float]) -> str:
+    """A long run and its memory."""
+    early, late = (f"{found[key]:.1f} MB" for key in ("early", "late"))
+    return f"""## Endurance
+
+A bar of two elements between two walls, {found["slabs"]:.0f} slabs with {found["touches"]:.0f} touches, history, events
+and fields recorded: the process holds {early} after a tenth of the slabs and {late} at the end; the error of energy is
+at most {found["energy"]:.1e} of the energy.
+"""
+
+
+def main() -> None:
+    """Write the page."""
+    PLACE.with_suffix(".md").write_text(page(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,110 @@
+"""Random drops marched and judged: ``python tests/robustness/run_drops.py COUNT``."""
+
+import argparse
+import collections
+import json
+import signal
+import tempfile
+from pathlib import Path
+from time import process_time
+from typing import Any
+
+import numpy as np
+
+from drops import Drop, drop
+from softway.errors import InputError, NumericsError
+from softway.execute import run
+from softway.march.step import Step
+from softway.record.run import Run
+from softway.scenario.check import Checked, check
+from softway.scenario.codec import loads
+from softway.scenario.quantity import Units
+
+ROOT = Path(__file__).parents[2]
+SECONDS = 60
+"""Processor time of one drop [s]."""
+
+
+class TooLong(BaseException):
+    """The drop took more than its time."""
+
+
+class Watch:
+    """The worst figures of a march: depth over the size of the coordinates, tension over force, energy over energy."""
+
+    def __init__(self) -> None:
+        self.worst = {"depth": 0.0, "tension": 0.0, "energy": 0.0}
+        self.slabs = self.rejections = 0
+        self.first = 0.0
+
+    def __call__(self, step: Step) -> None:
+        """Look at an accepted slab."""
+        found, ledger = step.certificate, step.ledger
+        self.slabs, self.rejections = self.slabs + 1, self.rejections + len(step.report.rejections)
+        self.first = max(self.first, ledger.energy_kinetic + ledger.energy_strain + abs(ledger.dissipation))
+        reach = max(float(np.abs(u).max()) for u in step.after.displacement.values()) + 1e-300
+        force = max([abs(c.force_n) for c in ledger.contacts.values()] + [1e-300])
+        self._worse("depth", -found.min_gap / reach)
+        self._worse("tension", -found.min_force / force)
+        self._worse("energy", abs(ledger.energy_error) / self.first)
+
+    def _worse(self, name: str, value: float) -> None:
+        self.worst[name] = max(self.worst[name], value) if np.isfinite(value) or value < 0 else float("inf")
+
+
+def judged(given: Drop, units: Units) -> dict[str, Any]:
+    """How a drop ends: ``done``, ``stops`` with a reason, ``refused``, ``slow``, or ``defect``; and its figures."""
+    watch, begun = Watch(), process_time()
+    signal.signal(signal.SIGVTALRM, _stop)
+    signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
+    end, why = "done", ""
+    try:
+        checked: Checked = check(loads(given.text, folder=ROOT, units=units))
+        with tempfile.TemporaryDirectory() as place:
+            why = _unrecorded(run(checked, Path(place) / "run", progress=watch))
+            end = "defect" if why else "done"
+    except NumericsError as error:
+        end, why = "stops", error.what.rpartition(" s: ")[2]
+    except InputError as error:
+        end, why = "refused", str(error).splitlines()[0]
+    except TooLong:
+        end, why = "slow", f"{watch.slabs} slabs in {SECONDS} s"
+    except Exception as error:
+        end, why = "defect", f"{type(error).__name__}: {error}"
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+    told = {"number": given.number, "end": end, "why": why, "slabs": watch.slabs, "rejections": watch.rejections}
+    return {**told, "seconds": round(process_time() - begun, 2), **watch.worst, **given.traits}
+
+
+def _unrecorded(done: Run) -> str:
+    """What in the records is not a number; empty where all is."""
+    history = done.history
+    bad = [name for name in history if not np.isfinite(history[name][1:]).all() and "gap" not in name]
+    return f"not a number in {', '.join(bad)}" if bad else ""
+
+
+def _stop(*_: object) -> None:
+    raise TooLong
+
+
+def main() -> None:
+    """March so many drops and write what became of them as JSON, one line each."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("count", type=int, nargs="?", default=500)
+    parser.add_argument("--out", type=Path)
+    given = parser.parse_args()
+    units, lines = Units.standard(), []
+    for number in range(given.count):
+        found = judged(drop(number), units)
+        lines.append(json.dumps(found))
+        if found["end"] != "done":
+            print(number, found["end"], found["why"], flush=True)
+    print(dict(collections.Counter(json.loads(line)["end"] for line in lines)))
+    if given.out:
+        given.out.parent.mkdir(parents=True, exist_ok=True)
+        given.out.write_text("\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    main()

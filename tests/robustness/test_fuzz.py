@@ -1,0 +1,45 @@
+"""A few of the damaged inputs, a long run, and the page of the results."""
+
+import warnings
+from contextlib import suppress
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from endurance import endured
+from fuzz import judged
+from mutations import damaged
+from page import drops, endurance, fuzz
+from softway.errors import InputError
+from softway.scenario.codec import loads
+
+
+def test_damaged_inputs_are_told_apart_from_right_ones():
+    for number in (747, 1542, *range(20)):
+        assert judged(damaged(number)) in ("ok", "refused", "failed"), number
+
+
+@settings(max_examples=100)
+@given(text=st.text(max_size=200))
+def test_any_text_is_read_or_refused(text):
+    with suppress(InputError):
+        loads(text)
+
+
+def test_a_short_run_of_endurance():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        found = endured(400)
+    assert found["touches"] > 3
+    assert found["energy"] < 1e-10
+
+
+def test_the_page():
+    told = fuzz({"inputs": 3, "families": {"bytes": {"ok": 1, "refused": 2}}, "defects": 0, "slowest": 0.1})
+    assert "| bytes | 1 | 2 | 0 | 0 |" in told
+    one = dict.fromkeys(("space", "body", "cells", "law", "obstacle", "solver", "friction", "speed", "why"), "x")
+    figures = {"depth": 1e-16, "tension": 0.0, "energy": 1e-12}
+    told = drops([{**one, **figures, "number": 7, "end": "stops", "rule": "Energy"}])
+    assert "| Energy | 1 | 0 | 1 | 0 | 0 | 0 | 1.0e-16 |" in told
+    assert "| 7 | x |" in told
+    assert "12 touches" in endurance({"slabs": 10, "touches": 12, "early": 1.0, "late": 1.0, "energy": 0.0})
