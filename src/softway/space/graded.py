@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from softway.errors import InputError
 from softway.space.cells import CELLS
-from softway.space.lattice import merged, tensor_cells
+from softway.space.lattice import merged, require_few, tensor_cells
 from softway.space.mesh import Mesh
-from softway.space.shapes import box, rectangle, require_few
+from softway.space.shapes import box, rectangle
 from softway.typing import Array, IntArray
 
 Complex = NDArray[np.complex128]

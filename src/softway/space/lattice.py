@@ -5,15 +5,35 @@ every dimension and order, and points that blocks share are merged exactly.
 """
 
 from collections.abc import Callable
+from decimal import Decimal
 from itertools import permutations
+from math import prod
 
 import numpy as np
 
+from softway.errors import InputError
 from softway.space.cells import CELLS, FACETS
 from softway.typing import Array, IntArray
 
 SIMPLEX = {1: ("bar2", "bar3"), 2: ("tri3", "tri6"), 3: ("tet4", "tet10")}
 """Dimension -> names of the linear and the quadratic simplex."""
+MOST = 20_000_000
+"""Cells that a mesh may have at most."""
+
+
+def require_few(*cells: int) -> None:
+    """Refuse numbers of cells whose product no memory holds.
+
+    Examples
+    --------
+    >>> require_few(100_000, 100_000)
+    Traceback (most recent call last):
+    softway.errors.InputError: cells: 1e+10 cells are more than 2e+07
+      try: fewer
+    """
+    total = prod(cells)
+    if total > MOST:
+        raise InputError("cells", f"{Decimal(total):.0e} cells are more than {MOST:.0e}", "fewer")
 
 
 def corners_of(shape: tuple[int, ...]) -> IntArray:

@@ -5,14 +5,12 @@ boundary lie on it.
 """
 
 from collections.abc import Sequence
-from decimal import Decimal
-from math import prod
 
 import numpy as np
 
 from softway.errors import InputError
 from softway.space.cells import CELLS
-from softway.space.lattice import SIMPLEX, kuhn_cells, merged, quadratic_simplices, tensor_cells
+from softway.space.lattice import SIMPLEX, kuhn_cells, merged, quadratic_simplices, require_few, tensor_cells
 from softway.space.mesh import Mesh
 from softway.space.round import ball_lattice, extruded, rounded_simplices
 from softway.typing import Array, BoolArray, IntArray
@@ -23,8 +21,6 @@ KINDS = {
     3: ("tet4", "tet10", "hex8", "hex27"),
 }
 """Topological dimension -> cells that the shapes of that dimension can be made of."""
-MOST = 20_000_000
-"""Cells that a mesh may have at most."""
 
 
 def interval(
@@ -266,21 +262,6 @@ def _check(cell: str, dim: int, size: Sequence[float], cells: Sequence[int], nam
         if not isinstance(count, int | np.integer) or count < 1:
             raise InputError("cells", f"{count} is not a number of cells", "a whole number from 1 on")
     require_few(*cells, *[cells[0]] * (dim - len(cells)))
-
-
-def require_few(*cells: int) -> None:
-    """Refuse numbers of cells whose product no memory holds.
-
-    Examples
-    --------
-    >>> require_few(100_000, 100_000)
-    Traceback (most recent call last):
-    softway.errors.InputError: cells: 1e+10 cells are more than 2e+07
-      try: fewer
-    """
-    total = prod(cells)
-    if total > MOST:
-        raise InputError("cells", f"{Decimal(total):.0e} cells are more than {MOST:.0e}", "fewer")
 
 
 def _vector(where: str, value: Sequence[float] | float | None, dim: int) -> Array:
