@@ -13,6 +13,18 @@ HEAD = """# Robustness
 `make fuzz`, `make drops` and `make endurance` make this page. What each does is said in `tests/robustness`.
 """
 
+KNOWN = """## What is known to stop or to take long
+
+- A block of few cells on a roller with friction near 1 (NeoHookean, v/c = 0.26): places without inertia have no
+  neighbouring equilibrium with such friction; the march ends with the overlap that no slab avoids.
+- Two blocks in space that stand flush on each other, the whole surfaces in contact, with friction: the rows of
+  mortar, corners and edges at one place share the friction in more than one way, and slabs are halved without end.
+  Without friction, or with the faces named (`above.bottom`, `below.top`), they march.
+- Matter crushed beyond what its cells can follow: StVenantKirchhoff and J2 at v/c > 0.2.
+- Impulse and Paper between the corners of two bodies may need minutes for a slab.
+- The one damaged mesh that is counted as a defect above had an edge of length zero; it is refused since.
+"""
+
 
 def page(place: Path = PLACE) -> str:
     """The text of the page; a part whose results are missing is left out."""
@@ -23,7 +35,7 @@ def page(place: Path = PLACE) -> str:
         parts.append(drops([json.loads(line) for line in (place / "drops.jsonl").read_text().splitlines()]))
     if (place / "endurance.json").is_file():
         parts.append(endurance(json.loads((place / "endurance.json").read_text())))
-    return "\n".join(parts)
+    return "\n".join([*parts, KNOWN])
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
