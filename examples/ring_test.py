@@ -11,8 +11,9 @@ from pathlib import Path
 import matplotlib as mpl
 import numpy as np
 
-import softway as sw
 from softway.verify.case import sheet
+from softway.verify.cases import e02
+from softway.verify.cases.e03 import ALPHAS, ring
 from softway.verify.scenes.forming import Press
 
 mpl.use("Agg")
@@ -20,34 +21,7 @@ import matplotlib.pyplot as plt
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "demo"
-ALPHAS = (0.05, 0.2, 0.5)
 INK = ("#1b6ca8", "#3a923a", "#b3443c")
-
-
-def ring(alpha: float) -> Press:
-    """Half of the ring, its consistency and rate sensitivity 1 and 0.2, with a friction of ``alpha K |v|^0.2``."""
-    return Press(
-        material=sw.NortonHoff(K=1.0, m=0.2),
-        inner=1.5,
-        outer=3.0,
-        height=1.0,
-        friction=sw.NortonHoffFriction(alpha=alpha, p=0.2, K=1.0),
-        cells=(16, 8),
-        slabs=24,
-    )
-
-
-def cylinder() -> Press:
-    """Half of the cylinder of E02."""
-    friction = sw.NortonHoffFriction(alpha=0.3, p=0.3, K=1.0)
-    return Press(material=sw.NortonHoff(K=1.0, m=0.3), outer=1.0, height=0.75, friction=friction, slabs=24)
-
-
-def inner_radius(press: Press) -> tuple[np.ndarray, np.ndarray]:
-    """Reduction, and inner radius in the plane of symmetry, after each slab."""
-    node = int(np.argmin(np.abs(press.points - [press.inner, 0.0]).sum(axis=1)))
-    reduction = [s.after.time * press.speed / press.height for s in press.steps]
-    return np.array(reduction), press.inner + np.array([s.after.displacement["body"][node, 0] for s in press.steps])
 
 
 def picture(rings: dict[float, Press], upset: Press, file: Path) -> None:
@@ -55,7 +29,7 @@ def picture(rings: dict[float, Press], upset: Press, file: Path) -> None:
     fig, (left, right) = plt.subplots(1, 2, figsize=(9.6, 3.8), layout="constrained")
     table = sheet("E03")["reference"]["table"]
     for (alpha, press), ink in zip(rings.items(), INK, strict=True):
-        reduction, radius = inner_radius(press)
+        reduction, radius = press.bore
         left.plot(100 * reduction, 100 * (radius / press.inner - 1.0), color=ink, label=rf"$\alpha$ = {alpha:g}")
         points = np.array(table[str(alpha)])
         left.plot(100 * points[:, 0], 100 * (points[:, 4] / press.inner - 1.0), "o", ms=3.5, color=ink)
@@ -79,11 +53,11 @@ def picture(rings: dict[float, Press], upset: Press, file: Path) -> None:
 
 def main() -> int:
     """Press the rings and the cylinder."""
-    rings = {alpha: ring(alpha) for alpha in ALPHAS}
+    rings = {alpha: ring(alpha, 24) for alpha in ALPHAS}
     for alpha, press in rings.items():
         change = press.radius("inner", "middle") - press.inner
         print(f"alpha = {alpha:4.2f}: inner radius {change:+.4f}, force {press.force_at(0.3):.2f}")
-    picture(rings, cylinder(), OUT / "ring_test.png")
+    picture(rings, e02.upset(), OUT / "ring_test.png")
     print(f"picture: {OUT / 'ring_test.png'}")
     return 0
 

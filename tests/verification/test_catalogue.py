@@ -9,6 +9,8 @@ ELSEWHERE = {
     *(f"A{k:02}" for k in range(1, 13)),
     *(f"B{k:02}" for k in range(1, 10)),
     *(f"C{k:02}" for k in (1, 2, 4, 8, 9)),
+    *(f"D{k:02}" for k in range(1, 11)),
+    *(f"E{k:02}" for k in range(1, 7)),
 }
 """Computed by a dedicated test, which says more about the same marches."""
 DEAR = 10.0

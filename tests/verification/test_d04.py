@@ -5,10 +5,10 @@ import pytest
 
 import results
 import softway as sw
-from softway.bodies.rate_force import RateForce, rate_force
-from softway.verify.scenes.driving import RATES, equilibria
+from softway.bodies.rate_force import rate_force
+from softway.verify.cases.d04 import POISSON, STEPS, YOUNGS, cell
+from softway.verify.scenes.driving import RATES
 
-YOUNGS, POISSON, STEPS = 1.0, 0.3, 50
 EXACT = {float(k): v for k, v in results.case("D04")["reference"]["sigma"].items()}
 TURNING = [name for name in RATES if name != "truesdell"]
 
@@ -27,36 +27,6 @@ def bar(stretch: float, dim: int, rate: str, steps: int = STEPS) -> tuple[float,
         memory = now.settled(u)
     pull = now.force(u)[1] @ axis
     return float(memory.stress[0, 0, 0]), float(np.prod(memory.lateral[0])), float(pull)
-
-
-def cell(stretch: float, rate: str, plane: bool, steps: int = STEPS) -> tuple[float, float, float]:
-    """The same of a cell whose sides are free: a cube, or a square in plane stress."""
-    dim = 2 if plane else 3
-    size, cells = (1.0,) * dim, (1,) * dim
-    mesh = (sw.Rectangle(size=size, cells=cells) if plane else sw.Box(size=size, cells=cells)).build()
-    axes = [("left", "x"), ("bottom", "y")] if plane else [("left", "x"), ("front", "y"), ("bottom", "z")]
-    solid = sw.Solid(
-        mesh=mesh,
-        material=sw.Hypoelastic(E=YOUNGS, nu=POISSON, rate=RATES[rate]),
-        density=1.0,
-        section=sw.PlaneStress() if plane else None,
-        supports=(*(sw.Fixed(on=tag, components=c) for tag, c in axes), sw.Fixed(on="right", components="x")),
-    )
-    model = sw.build(sw.Scene(bodies={"cell": solid}))
-    path = [(mesh.points * ([s, *[s**-POISSON] * (dim - 1)] - np.ones(dim)), 0.0) for s in steady(stretch, steps)]
-    *_, (_, (memory,)) = equilibria(model, path)
-    assert memory is not None
-    part = model.parts[0]
-    assert isinstance(part.internal, RateForce)
-    now = part.internal.during(memory, 1.0)
-    F = now.points.gradient(now.sampling.derivatives(memory.displacement), memory.lateral)[0]
-    force = now.remembered(memory)[1][mesh.nodes("right"), 0].sum()
-    return float(memory.stress[0, 0, 0]), float(F[1, 1] * F[2, 2]), float(force)
-
-
-def steady(stretch: float, steps: int) -> list[float]:
-    """Stretches in equal increments of length."""
-    return [1.0 + (stretch - 1.0) * k / steps for k in range(1, steps + 1)]
 
 
 @pytest.mark.parametrize("stretch", EXACT)
@@ -82,4 +52,4 @@ def test_cell_with_free_sides(rate: str, plane: bool) -> None:
 
 
 def test_the_case() -> None:
-    assert results.outside("D04", {"sigma(2)": cell(2.0, "jaumann", plane=False)[0]}) == set()
+    assert results.missed("D04") == set()

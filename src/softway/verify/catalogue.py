@@ -1,7 +1,7 @@
 """The cases there are."""
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from softway.errors import InputError
 from softway.verify.case import Case
@@ -10,44 +10,64 @@ QUICK = 12.0
 """Seconds that a case of the quick suite may take."""
 
 
+SECONDS: Mapping[str, float] = {
+    "A01": 0.1,
+    "A02": 3.0,
+    "A03": 11.0,
+    "A04": 4.0,
+    "A05": 6.0,
+    "A06": 11.0,
+    "A07": 14.0,
+    "A08": 45.0,
+    "A09": 45.0,
+    "A10": 4.0,
+    "A11": 12.0,
+    "A12": 1.5,
+    "B01": 3.0,
+    "B02": 17.0,
+    "B03": 0.3,
+    "B04": 1.0,
+    "B05": 1.0,
+    "B06": 0.5,
+    "B07": 1.0,
+    "B08": 2.0,
+    "B09": 90.0,
+    "C01": 8.0,
+    "C02": 11.0,
+    "C04": 6.0,
+    "C08": 8.0,
+    "C09": 8.0,
+    "D01": 0.6,
+    "D02": 0.3,
+    "D03": 0.3,
+    "D04": 6.0,
+    "D05": 60.0,
+    "D06": 30.0,
+    "D07": 0.5,
+    "D08": 0.6,
+    "D09": 120.0,
+    "D10": 2.0,
+    "E01": 5.0,
+    "E02": 8.0,
+    "E03": 15.0,
+    "E04": 8.0,
+    "E05": 8.0,
+    "E06": 5.0,
+    "classic": 1.0,
+    "peers": 3.0,
+}
+"""Seconds that each case takes alone on one core."""
+
+
 def listed() -> tuple[Case, ...]:
-    """All cases in order, with the seconds that each takes alone on one core.
+    """All cases in order.
 
     Examples
     --------
     >>> [case.id for case in listed()][:3]
     ['A01', 'A02', 'A03']
     """
-    return (
-        Case(id="A01", seconds=0.1),
-        Case(id="A02", seconds=3.0),
-        Case(id="A03", seconds=11.0),
-        Case(id="A04", seconds=4.0),
-        Case(id="A05", seconds=6.0),
-        Case(id="A06", seconds=11.0),
-        Case(id="A07", seconds=14.0),
-        Case(id="A08", seconds=45.0),
-        Case(id="A09", seconds=45.0),
-        Case(id="A10", seconds=4.0),
-        Case(id="A11", seconds=12.0),
-        Case(id="A12", seconds=1.5),
-        Case(id="B01", seconds=3.0),
-        Case(id="B02", seconds=17.0),
-        Case(id="B03", seconds=0.3),
-        Case(id="B04", seconds=1.0),
-        Case(id="B05", seconds=1.0),
-        Case(id="B06", seconds=0.5),
-        Case(id="B07", seconds=1.0),
-        Case(id="B08", seconds=2.0),
-        Case(id="B09", seconds=90.0),
-        Case(id="C01", seconds=8.0),
-        Case(id="C02", seconds=11.0),
-        Case(id="C04", seconds=6.0),
-        Case(id="C08", seconds=8.0),
-        Case(id="C09", seconds=8.0),
-        Case(id="classic", seconds=1.0),
-        Case(id="peers", seconds=3.0),
-    )
+    return tuple(Case(id=name, seconds=seconds) for name, seconds in SECONDS.items())
 
 
 def chosen(ids: Iterable[str] = (), *, quick: bool = False) -> tuple[Case, ...]:

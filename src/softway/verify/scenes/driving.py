@@ -10,11 +10,12 @@ from softway.bodies import past
 from softway.bodies.memory import Memory
 from softway.bodies.rate_force import RateForce, rate_force
 from softway.laws.law import RateLaw
+from softway.laws.rates import Rate
 from softway.model import Model
 from softway.solve.equilibrium import equilibrium
 from softway.typing import Array
 
-RATES = {
+RATES: dict[str, Rate] = {
     "jaumann": sw.Jaumann(),
     "jaumann, polar": sw.Jaumann(increment="polar"),
     "green_naghdi": sw.GreenNaghdi(),

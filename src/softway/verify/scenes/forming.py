@@ -67,9 +67,12 @@ class Press:
         return np.array([s.ledger.contacts["platen"].force_n for s in self.steps])
 
     def force_at(self, reduction: float) -> float:
-        """The force at a reduction, on a smooth curve through the means of the slabs but the first."""
-        fit = np.polynomial.Polynomial.fit(self.reduction[1:], self.force[1:], 4)
-        return float(fit(reduction))
+        """The force at a reduction, on a smooth curve through the means of the slabs but the first: its logarithm over
+        that of the height, which is a straight line where the body stays a cylinder.
+        """
+        height, force = np.log(1.0 - self.reduction[1:]), np.log(self.force[1:])
+        fit = np.polynomial.Polynomial.fit(height, force, 4)
+        return float(np.exp(fit(np.log(1.0 - reduction))))
 
     def radius(self, side: str, height: str) -> float:
         """Coordinate x of a corner at the end: ``side`` inner or outer, ``height`` middle or platen."""
@@ -77,6 +80,13 @@ class Press:
         rest = self.points
         node = int(np.argmin(np.abs(rest - place).sum(axis=1)))
         return float(rest[node, 0] + self.steps[-1].after.displacement["body"][node, 0])
+
+    @property
+    def bore(self) -> tuple[Array, Array]:
+        """Reduction, and inner radius in the plane of symmetry, after each slab."""
+        node = int(np.argmin(np.abs(self.points - [self.inner, 0.0]).sum(axis=1)))
+        reduction = np.array([s.after.time for s in self.steps]) * self.speed / self.height
+        return reduction, self.inner + np.array([s.after.displacement["body"][node, 0] for s in self.steps])
 
     @cached_property
     def points(self) -> Array:

@@ -55,10 +55,10 @@ def scene(cells: tuple[int, int]) -> sw.Scene:
     return sw.Scene(bodies={"bar": bar, "wall": wall}, contacts=contacts)
 
 
-def crushed(cells: tuple[int, int], step: float) -> Crushed:
-    """What a march to 80 us makes of the bar."""
+def marched(cells: tuple[int, int], step: float) -> tuple[Model, list[Step]]:
+    """The bar, and its slabs up to 80 us."""
     model = sw.build(scene(cells))
-    return measured(model, list(sw.march(model, until=END, step=step, method=METHOD)))
+    return model, list(sw.march(model, until=END, step=step, method=METHOD))
 
 
 def measured(model: Model, steps: list[Step]) -> Crushed:
