@@ -12,6 +12,9 @@ from softway.record.view_curves import Curve, Panel
 from softway.verify.case import Outcome, sheet
 from softway.verify.scenes.spinning import Spin, bar
 
+TURN = 60
+"""Slabs of a turn."""
+
 
 @cache
 def spun(turns: float) -> Spin:
@@ -34,8 +37,8 @@ def compute() -> Outcome:
     spin = spun(10.0)
     static = sheet("D06")["reference"]["u_tip_static"]
     curves = (
-        Curve(x=spin.time, y=spin.length - 1.0, label="softway"),
-        Curve(x=[0.0, float(spin.time[-1])], y=[static, static], kind="exact", label="linear, at rest"),
+        Curve(x=spin.time[:TURN], y=spin.length[:TURN] - 1.0, label="softway"),
+        Curve(x=[0.0, float(spin.time[TURN])], y=[static, static], kind="exact", label="linear, at rest"),
     )
-    panel = Panel(title="Elongation of the bar", x="t [s]", y="elongation / L", curves=curves)
+    panel = Panel(title="Elongation in the first turn", x="t [s]", y="elongation / L", curves=curves)
     return Outcome(values=quantities(spin), panels=(panel,))

@@ -6,6 +6,7 @@ import numpy as np
 
 import softway as sw
 from softway.record.view_curves import Curve, Panel
+from softway.typing import Array
 from softway.verify.case import Outcome, sheet
 from softway.verify.scenes.forming import Press
 
@@ -34,22 +35,22 @@ def compute() -> Outcome:
     return Outcome(values=found, panels=(_calibration(), _forces()))
 
 
-def _table(alpha: float) -> np.ndarray:
-    return np.array(sheet("E03")["reference"]["table"][str(alpha)])
-
-
 def _calibration() -> Panel:
-    curves = []
-    for alpha in ALPHAS:
-        reduction, radius = ring(alpha).bore
-        curves.append(Curve(x=100.0 * reduction, y=radius, label=f"alpha = {alpha}"))
-        curves.append(Curve(x=100.0 * _table(alpha)[:, 0], y=_table(alpha)[:, 4], kind="dots"))
-    return Panel(title="Inner radius of the ring", x="reduction [%]", y="radius", curves=tuple(curves))
+    ours = [(100.0 * ring(alpha).bore[0], ring(alpha).bore[1]) for alpha in ALPHAS]
+    return _panel("Inner radius of the ring", "radius", ours, 4)
 
 
 def _forces() -> Panel:
-    curves = []
-    for alpha in ALPHAS:
-        curves.append(Curve(x=100.0 * ring(alpha).reduction, y=ring(alpha).force, label=f"alpha = {alpha}"))
-        curves.append(Curve(x=100.0 * _table(alpha)[:, 0], y=_table(alpha)[:, 1], kind="dots"))
-    return Panel(title="Force of the platen", x="reduction [%]", y="force", curves=tuple(curves))
+    ours = [(100.0 * ring(alpha).reduction, ring(alpha).force) for alpha in ALPHAS]
+    return _panel("Force of the platen", "force", ours, 1)
+
+
+def _panel(title: str, name: str, ours: list[tuple[Array, Array]], column: int) -> Panel:
+    """Our curves over a column of the table."""
+    lines = [Curve(x=x, y=y, label=f"alpha = {alpha}") for (x, y), alpha in zip(ours, ALPHAS, strict=True)]
+    tables = [np.array(sheet("E03")["reference"]["table"][str(alpha)]) for alpha in ALPHAS]
+    known = [
+        Curve(x=100.0 * t[:, 0], y=t[:, column], kind="exact", label="quadratic cells" * (k == 0))
+        for k, t in enumerate(tables)
+    ]
+    return Panel(title=title, x="reduction [%]", y=name, curves=(*lines, *known))
