@@ -1,7 +1,7 @@
 """C06: a ball that is thrown along a rough floor without spin slides until it rolls.
 
-It hops from facet to facet: the velocities stand while it flies.  It rolls from where its slip, averaged over a facet or
-two, has come down to one hundredth of the speed.
+It hops from facet to facet: the velocities stand while it flies.  It rolls from where its slip has come down to one
+hundredth of the speed.
 """
 
 from functools import cache
