@@ -62,6 +62,7 @@ from softway.space.faceted import Facets, Surface
 from softway.space.mesh import Mesh
 from softway.space.obstacles import HalfSpace
 from softway.space.sources import Ball, Box, Cylinder, Disc, Interval, MeshFile, Rectangle
+from softway.study import Sweep, sweep
 from softway.time.weight import Collocation, EndPeaks, Momentum
 
 __all__ = [
@@ -167,6 +168,7 @@ __all__ = [
     "Still",
     "Stribeck",
     "Surface",
+    "Sweep",
     "Table",
     "Time",
     "Tool",
@@ -186,4 +188,5 @@ __all__ = [
     "resolved",
     "resume",
     "run",
+    "sweep",
 ]

@@ -118,6 +118,11 @@ def resume(
         return proceed(steps, opening, stopped, found, plan=checked.scenario.output.checkpoints, progress=progress)
 
 
+def of_same_input(folder: Path, scenario: Scenario) -> bool:
+    """Whether the run in a folder began with this scenario and the files that it names."""
+    return bool(Run(folder).provenance.get("input") == provenance.digest(_texts(scenario)))
+
+
 def stored(folder: Path, allow_python: bool = False) -> Scenario:
     """The scenario in a run folder.
 

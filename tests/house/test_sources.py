@@ -45,6 +45,7 @@ DOORS = {
     "rich": ("softway.cli.*",),
     "pypardiso": ("softway.solve.backends.pardiso",),
     "sksparse": ("softway.solve.backends.cholmod",),
+    "distributed": ("softway.study.cluster",),
     "mumps": ("softway.solve.backends.mumps",),
     "gmsh": (),
     "numba": ("softway.kernels.*",),

@@ -8,8 +8,11 @@ from rich.console import Console
 from rich.table import Table as Grid
 
 from softway.record.run import Run
+from softway.record.summary import UNITS as NUMBERS
+from softway.record.table import RATIO
 
 UNITS = {
+    **{name: unit for name, unit in NUMBERS.items() if unit != RATIO},
     "wave_speed": "m/s",
     "length": "m",
     "transit": "s",
@@ -18,24 +21,6 @@ UNITS = {
     "gap": "m",
     "approach": "m/s",
     "duration": "s",
-    "first_touch": "s",
-    "last_release": "s",
-    "impulse": "N s",
-    "peak_force": "N",
-    "peak_force_time": "s",
-    "penetration_worst": "m",
-    "power_residual_worst": "J",
-    "time_end": "s",
-    "energy_error_worst": "J",
-    "dissipation": "J",
-    "work_external": "J",
-    "wall_time": "s",
-    "min_gap": "m",
-    "min_force": "N",
-    "complementarity": "J",
-    "power_residual": "J",
-    "momentum_error": "kg m/s",
-    "energy_error": "J",
     "wall": "s",
     "cpu": "s",
     "first_slab_cpu": "s",

@@ -1,6 +1,5 @@
 """The verb over the verification suite."""
 
-import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +12,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table as Grid
 
-from softway.errors import InputError
+from softway.cli.jobs import processes
 from softway.verify.case import Beside, Case
 from softway.verify.catalogue import QUICK, chosen
 from softway.verify.page import page
@@ -58,7 +57,7 @@ def verify(
     if list_:
         _listing(cases, console)
         return PASSED
-    number = _jobs(jobs)
+    number = processes(jobs)
     files = {"--out": writable("--out", out)} | ({"--json": writable("--json", json)} if json else {})
     with _progress(cases, number, Console(quiet=quiet)) as watch:
         results = verified(cases, jobs=number, watch=watch)
@@ -70,12 +69,6 @@ def verify(
         for file in files.values():
             console.print(escape(str(file)), soft_wrap=True, highlight=False)
     return PASSED if all(result.passed for result in results) else NOT_PASSED
-
-
-def _jobs(asked: int | None) -> int:
-    if asked is not None and asked < 1:
-        raise InputError("--jobs", f"{asked}", "1 or more")
-    return asked or os.cpu_count() or 1
 
 
 def _listing(cases: Sequence[Case], console: Console) -> None:

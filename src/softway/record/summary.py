@@ -1,6 +1,8 @@
 """summary.json: a run in a few numbers, computed from its history and its events."""
 
+from collections.abc import Mapping
 from math import isfinite
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -10,6 +12,31 @@ from softway.record.table import Table
 FILE = "summary.json"
 LEAST = ("min_gap", "min_force")
 LEFT = ("complementarity", "power_residual", "momentum_error", "energy_error")
+
+UNITS: Mapping[str, str] = MappingProxyType(
+    {
+        "time_end": "s",
+        "energy_error_worst": "J",
+        "energy_error_relative": "ratio",
+        "dissipation": "J",
+        "work_external": "J",
+        "penetration_worst": "m",
+        "power_residual_worst": "J",
+        "wall_time": "s",
+        "min_gap": "m",
+        "min_force": "N",
+        "complementarity": "J",
+        "power_residual": "J",
+        "momentum_error": "kg m/s",
+        "energy_error": "J",
+        "first_touch": "s",
+        "last_release": "s",
+        "impulse": "N s",
+        "peak_force": "N",
+        "peak_force_time": "s",
+    }
+)
+"""Units of what is no count."""
 
 
 def summarise(history: Table, events: Table) -> dict[str, Any]:

@@ -1,0 +1,154 @@
+"""The verb over a scenario and some values: sweep."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from time import perf_counter
+from typing import Annotated
+
+from cyclopts import Parameter
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Table as Grid
+
+from softway.cli.jobs import processes
+from softway.study.plan import parsed, trials
+from softway.study.rows import NAME, Row, Sweep
+from softway.study.sweep import Watch
+from softway.study.sweep import sweep as execute
+
+DONE, FAILED = 0, 3
+SHOWN = ("energy_error_relative", "wall_time", "slabs")
+"""Numbers of a run on the terminal; of a contact those below.  The file has all of them."""
+OF_CONTACT = ("first_touch", "last_release", "impulse", "peak_force")
+HEADS = {
+    "energy_error_relative": ("energy error", ""),
+    "wall_time": ("wall", "s"),
+    "slabs": ("slabs", ""),
+    "first_touch": ("touch", "s"),
+    "last_release": ("release", "s"),
+    "impulse": ("impulse", "N s"),
+    "peak_force": ("peak force", "N"),
+}
+
+
+def sweep(
+    file: Path,
+    /,
+    *,
+    over: Annotated[tuple[str, ...], Parameter(negative=())] = (),
+    jobs: int | None = None,
+    out: Path | None = None,
+    scheduler: str | None = None,
+    set_: Annotated[tuple[str, ...], Parameter(name="--set", negative=())] = (),
+    again: Annotated[bool, Parameter(negative=())] = False,
+    quiet: Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())] = False,
+    allow_python: Annotated[bool, Parameter(negative=())] = False,
+) -> int:
+    """Compute a scenario with every combination of some values, and write one table; the same command goes on.
+
+    Parameters
+    ----------
+    file
+        Scenario in TOML.
+    over
+        Values: path=v1,v2, with units; any number of times.
+    jobs
+        Processes beside each other; by default one for each processor.
+    out
+        Folder for the runs and sweep.csv; by default sweeps/ and the name of the file.
+    scheduler
+        Address of a Dask scheduler whose workers compute instead: pip install 'softway[dask]'.
+    set_
+        Change before reading, for all runs: path=value, any number of times.
+    again
+        Compute the runs that failed before once more.
+    quiet
+        Print errors only.
+    allow_python
+        Let module:name in the scenario run code of installed modules, not only of those beside the file.
+    """
+    values, number, console = parsed(over), processes(jobs), Console(quiet=quiet)
+    with _interruption(), _progress(len(trials(values)), console) as watch:
+        done = execute(
+            file,
+            values,
+            out=out,
+            changes=set_,
+            jobs=number,
+            scheduler=scheduler,
+            again=again,
+            allow_python=allow_python,
+            watch=watch,
+        )
+    _table(done, console)
+    for row in done.failed:
+        told = f"{row.folder.name}: {row.stop.message}"
+        Console(stderr=True).print(escape(told), soft_wrap=True, highlight=False, style="red")
+    console.print(escape(str(done.path / NAME)), soft_wrap=True, highlight=False)
+    return FAILED if done.failed else DONE
+
+
+@contextmanager
+def _interruption() -> Iterator[None]:
+    try:
+        yield
+    except KeyboardInterrupt:
+        Console(stderr=True).print("go on with the same command", soft_wrap=True)
+        raise
+
+
+def _table(done: Sweep, console: Console) -> None:
+    """One line for each run."""
+    known = dict.fromkeys(name for row in done.rows for name in row.numbers)
+    numbers = [*SHOWN, *(n for n in known if n.startswith("contact.") and n.rpartition(".")[2] in OF_CONTACT)]
+    contacts = {n.rpartition(".")[0] for n in numbers} - {""}
+    paths = list(done.rows[0].values)
+    ends = [path.rpartition(".")[2] for path in paths]
+    grid = Grid(box=None, pad_edge=False, header_style="bold")
+    for path, end in zip(paths, ends, strict=True):
+        grid.add_column(escape(end if ends.count(end) == 1 else path), justify="right", overflow="fold")
+    grid.add_column("stop")
+    for name in numbers:
+        contact, _, last = name.rpartition(".")
+        which = f"{contact.removeprefix('contact.')} " if contact and len(contacts) > 1 else ""
+        grid.add_column(escape(which + HEADS[last][0]), justify="right", overflow="fold")
+    units = (HEADS[name.rpartition(".")[2]][1] for name in numbers)
+    grid.add_row(*("" for _ in paths), "", *units)
+    for row in done.rows:
+        cells = (_cell(name, row.numbers.get(name)) for name in numbers)
+        style = "red" if row.failed else ""
+        grid.add_row(*map(escape, row.values.values()), row.stop.reason, *cells, style=style)
+    console.print(grid)
+
+
+def _cell(name: str, value: float | int | None) -> str:
+    if value is None:
+        return "-"
+    return f"{value:.1e}" if name == SHOWN[0] else f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+@contextmanager
+def _progress(runs: int, console: Console) -> Iterator[Watch | None]:
+    """What to call with each run that ends; ``None`` where nobody watches."""
+    if console.quiet or not console.is_terminal:
+        yield None
+        return
+    columns = (
+        BarColumn(bar_width=24),
+        TextColumn("{task.completed} of {task.total} runs"),
+        TextColumn("{task.description}, after"),
+        TimeElapsedColumn(),
+    )
+    begun, ended = perf_counter(), 0
+    with Progress(*columns, console=console, transient=True) as display:
+        task = display.add_task("ETA -", total=runs)
+
+        def watch(row: Row, left: int) -> None:
+            nonlocal ended
+            ended += 1
+            ahead = (perf_counter() - begun) * left / ended
+            display.update(task, completed=runs - left, description=f"{row.stop.reason}, ETA {ahead:.0f} s")
+
+        yield watch

@@ -1,0 +1,119 @@
+"""The table of a sweep: a row for each run, read from its folder."""
+
+import csv
+import io
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import nan
+from pathlib import Path
+
+from softway.record.provenance import DONE, FILE, RUNNING, Stop
+from softway.record.run import Run
+from softway.record.summary import UNITS
+from softway.record.table import COUNT, TEXT, Table, header, read
+from softway.record.whole import replaced
+from softway.study.attempt import Attempt
+
+NAME = "sweep.csv"
+WAITING = Stop("waiting")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Row:
+    """A run of a sweep.
+
+    Parameters
+    ----------
+    values
+        What was swept over, by path, as text.
+    folder
+        Of the run; a run that was refused has none.
+    stop
+        Why it stopped; ``waiting``: it has not begun.
+    numbers
+        Those of its summary, by name: ``energy_error_relative``, ``certificate.min_gap``, ``contact.wall.impulse``.
+    """
+
+    values: Mapping[str, str]
+    folder: Path
+    stop: Stop
+    numbers: Mapping[str, float | int | None]
+
+    @property
+    def failed(self) -> bool:
+        """Whether the run did not come to its end by a fault of its own."""
+        return self.stop.reason == "failed"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sweep:
+    """The runs of a sweep.
+
+    Parameters
+    ----------
+    path
+        Folder with a folder for each run, and the table ``sweep.csv``.
+    rows
+        In the order of the values, the last path fastest.
+    """
+
+    path: Path
+    rows: tuple[Row, ...]
+
+    @property
+    def failed(self) -> tuple[Row, ...]:
+        """The runs that failed."""
+        return tuple(row for row in self.rows if row.failed)
+
+    @property
+    def table(self) -> Table:
+        """Columns by name, with units: the values as text, ``stop``, ``reason``, ``run``, and the numbers."""
+        return read(self.path / NAME)
+
+
+def row_of(attempt: Attempt, complaint: str = "", wall: float = nan) -> Row:
+    """The row of a run as its folder tells it; ``complaint`` is what the folder cannot know, ``wall`` likewise [s]."""
+    stop, found = attempt.stop, {}
+    if complaint and (stop is None or stop in (DONE, RUNNING) or not stop.message):
+        stop = Stop("failed", complaint)
+    if (attempt.folder / FILE).is_file():
+        found = {"wall_time": wall, **_numbers(Run(attempt.folder).summary)}
+    return Row(values=dict(attempt.trial.values), folder=attempt.folder, stop=stop or WAITING, numbers=found)
+
+
+def save(sweep: Sweep) -> None:
+    """Write the table, whole or not at all: numbers that a run does not have are ``nan``, counts 0."""
+    columns = list(dict.fromkeys(name for row in sweep.rows for name in row.numbers))
+    counts = {n for row in sweep.rows for n, v in row.numbers.items() if isinstance(v, int)}
+    units = {name: COUNT if name in counts else UNITS.get(name.rpartition(".")[2], COUNT) for name in columns}
+    text = io.StringIO()
+    write = csv.writer(text, lineterminator="\n").writerow
+    words = [(name, TEXT) for name in (*sweep.rows[0].values, "stop", "reason", "run")]
+    write(header(words + list(units.items())))
+    for row in sweep.rows:
+        cells = [_cell(row.numbers.get(name), units[name] == COUNT) for name in columns]
+        message = " ".join(row.stop.message.split())
+        write([*row.values.values(), row.stop.reason, message, row.folder.name, *cells])
+    replaced(sweep.path / NAME, text.getvalue().encode())
+
+
+def _cell(number: float | int | None, count: bool) -> str:
+    if number is None:
+        return "0" if count else "nan"
+    return str(number) if isinstance(number, int) else format(number, ".17g")
+
+
+def _numbers(summary: Mapping[str, object], prefix: str = "") -> dict[str, float | int | None]:
+    """The numbers of a summary, of its certificate and its contacts, in one level."""
+    found: dict[str, float | int | None] = {}
+    for name, value in summary.items():
+        if isinstance(value, Mapping) and name != "units":
+            found |= _numbers(value, "contact." if name == "contacts" else f"{prefix}{name}.")
+        elif value is None or (isinstance(value, int | float) and not isinstance(value, bool)):
+            found[prefix + name] = value
+    return found
+
+
+def ordered(attempts: Sequence[Attempt], rows: Mapping[str, Row]) -> tuple[Row, ...]:
+    """The rows in the order of the attempts; of those without one, what their folders tell."""
+    return tuple(rows.get(a.trial.name) or row_of(a) for a in attempts)
