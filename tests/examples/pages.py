@@ -1,7 +1,8 @@
 """The commands and the Python of a page, in their order.
 
 A block ``sh`` holds commands, one on a line; a comment ``# exit 2`` says how one ends if not with 0, and one with the
-word *minutes* that it takes too long for a test. A block ``python`` is run in the names of those before it.
+word *minutes* that it takes too long for a test. A block ``python`` is run in the names of those before it,
+and a block after ``<!-- file: NAME -->`` is saved under that name.
 """
 
 import re
@@ -10,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-BLOCK = re.compile(r"^```(sh|console|python)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^(?:<!-- file: (\S+) -->\n)?```(sh|console|python|toml)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 EXIT = re.compile(r"#\s*exit (\d+)\s*$")
 LONG = re.compile(r"#.*\bminutes\b")
 
@@ -31,12 +32,22 @@ class Python:
     text: str
 
 
-def steps(page: Path) -> Iterator[Command | Python]:
+@dataclass(frozen=True)
+class File:
+    """A block that is saved under a name."""
+
+    name: str
+    text: str
+
+
+def steps(page: Path) -> Iterator[Command | Python | File]:
     """What a reader of the page would do."""
-    for kind, text in BLOCK.findall(page.read_text(encoding="utf-8")):
-        if kind == "python":
+    for name, kind, text in BLOCK.findall(page.read_text(encoding="utf-8")):
+        if name:
+            yield File(name, text)
+        elif kind == "python":
             yield Python(text)
-        else:
+        elif kind != "toml":
             yield from (_command(line) for line in text.splitlines() if line.strip())
 
 

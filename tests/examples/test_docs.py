@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from pages import Command, Python, steps
+from pages import Command, File, Python, steps
 from softway.cli import main
 from softway.cli.commands import app
 
@@ -35,6 +35,8 @@ def test_what_the_page_says_runs(page, place, monkeypatch, capsys):
     for step in steps(page):
         if isinstance(step, Python) and page.stem != "README":  # that of the README: tests/house/test_readme.py
             exec(compile(step.text, page.name, "exec"), names)
+        elif isinstance(step, File):
+            Path(step.name).write_text(step.text)
         elif isinstance(step, Command) and step not in done:
             obey(step, capsys)
             done.add(step)
