@@ -15,7 +15,9 @@ ROOT = Path(__file__).parents[2]
 ELSEWHERE = {"own_law.md"}
 """Pages that a test of their own runs: tests/unit/test_own_law.py."""
 PAGES = [ROOT / "README.md", *sorted(ROOT.glob("docs/tutorials/*.md")), *sorted(ROOT.glob("docs/how-to/*.md"))]
-SERVES, SHELL = "view", {".", "cd", "python3"}
+NAMED_ONLY = {"view", "sweep"}
+"""Verbs that serve until Ctrl-C or start processes of their own: tests of theirs run them."""
+SHELL = {".", "cd", "python3"}
 
 
 @pytest.fixture(scope="module")
@@ -43,11 +45,11 @@ def test_what_the_page_says_runs(page, place, monkeypatch, capsys):
 
 
 def obey(command: Command, capsys) -> None:
-    """Run a command, or look for what it names if it takes long, serves, or installs."""
+    """Run a command, or look for what it names if it takes long, stays, or installs."""
     first, *others = command.words
     if first == "softway":
         assert others[0] in app, command
-        if not command.long and others[0] != SERVES:
+        if not command.long and others[0] not in NAMED_ONLY:
             assert main(others) == command.exit, (command, capsys.readouterr().err)
     elif first == "cp":
         shutil.copy(*others)
