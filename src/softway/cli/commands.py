@@ -21,6 +21,7 @@ from softway.cli.materials import materials
 from softway.cli.plot import plot
 from softway.cli.progress import laps_of, progress_of
 from softway.cli.resume import resume
+from softway.cli.schema import schema
 from softway.cli.sweep import sweep
 from softway.cli.tables import ranking, scales, summary
 from softway.cli.verify import verify
@@ -58,6 +59,7 @@ app.command(verify)
 app.command(plot)
 app.command(view)
 app.command(resume)
+app.command(schema)
 app.command(sweep)
 Set = Annotated[tuple[str, ...], Parameter(name="--set", negative=())]
 Quiet = Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())]

@@ -1,0 +1,55 @@
+"""What the docstring of a class says about it and about each of its fields."""
+
+import inspect
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class Described:
+    """A docstring in the style of NumPy, taken apart.
+
+    Parameters
+    ----------
+    summary
+        What stands before the first heading.
+    fields
+        What is said of each parameter, by name.
+    sections
+        Text of the other sections by heading.
+    """
+
+    summary: str
+    fields: Mapping[str, str]
+    sections: Mapping[str, str]
+
+
+def described(thing: Any) -> Described:
+    """The docstring of a class or a function.
+
+    Examples
+    --------
+    >>> from softway.bodies.section import Bar
+    >>> list(described(Bar).fields)
+    ['area']
+    """
+    lines = (inspect.getdoc(thing) or "").splitlines()
+    heads = [k - 1 for k, line in enumerate(lines) if k and line and set(line) == {"-"}]
+    ends = [*heads[1:], len(lines)]
+    texts = {lines[h].strip(): lines[h + 2 : end] for h, end in zip(heads, ends[: len(heads)], strict=True)}
+    summary = "\n".join(lines[: heads[0] if heads else len(lines)]).strip()
+    given = _fields(texts.pop("Parameters", []))
+    return Described(summary, given, {head: "\n".join(text).strip() for head, text in texts.items()})
+
+
+def _fields(lines: list[str]) -> dict[str, str]:
+    """Names with what stands indented below them."""
+    found: dict[str, str] = {}
+    names: list[str] = []
+    for line in lines:
+        if line and not line[0].isspace():
+            names = [name.strip() for name in line.partition(":")[0].split(",")]
+        else:
+            found |= {name: f"{found.get(name, '')} {line.strip()}".strip() for name in names}
+    return found
