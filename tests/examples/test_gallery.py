@@ -1,0 +1,41 @@
+"""The gallery shows every scenario and example, by what their files say now, in small pictures."""
+
+import importlib.util
+import sys
+from pathlib import Path
+
+import pytest
+
+GALLERY = Path(__file__).parents[2] / "docs" / "gallery.py"
+LARGEST = 80_000
+
+
+@pytest.fixture(scope="module")
+def gallery():
+    spec = importlib.util.spec_from_file_location("gallery", GALLERY)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["gallery"] = module
+    spec.loader.exec_module(module)
+    yield module
+    del sys.modules["gallery"]
+
+
+def test_the_page_is_the_one_of_the_files(gallery):
+    assert gallery.PAGE.read_text(encoding="utf-8") == gallery.page(), "python docs/gallery.py writes it"
+
+
+def test_each_has_a_small_picture_and_a_sentence(gallery):
+    found = list(gallery.entries())
+    assert len(found) > 15
+    for entry in found:
+        assert 2_000 < entry.picture.stat().st_size < LARGEST, entry.picture
+        assert 20 < len(entry.sentence) < 250, entry.file
+
+
+def test_no_picture_is_left_over(gallery):
+    assert {p.stem for p in gallery.PICTURES.iterdir()} == {entry.file.stem for entry in gallery.entries()}
+
+
+def test_a_picture_becomes_small(gallery, tmp_path):
+    gallery.shrink(GALLERY.parent / "pictures" / "bracket.png", tmp_path / "small" / "bracket.png")
+    assert (tmp_path / "small" / "bracket.png").stat().st_size < LARGEST
