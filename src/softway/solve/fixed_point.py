@@ -19,11 +19,10 @@ from softway.solve.normal import untouched
 from softway.solve.operators import Factored, MatrixFree, Multigrid
 from softway.solve.prepared import prepared
 from softway.solve.settings import check_accuracy
+from softway.solve.soundness import looked_at
 from softway.solve.system import SlabSystem
 from softway.typing import Array, BoolArray
 
-NEARLY = 1e-7
-"""Relative change of velocity below which kept faces are compared with the surface."""
 POOR = 0.8
 """Contraction per iteration beyond which Newton's method takes over."""
 WINDOW = 10
@@ -111,7 +110,7 @@ class FixedPoint:
             if count == 0:
                 plain = step.rows.along(untouched(step.free, frozen, step.rows.spread(impulse)))
             change = float(np.abs(step.q - q).max(initial=0.0))
-            sound, completed = _looked_at(system, step.q, change)
+            sound, completed = looked_at(system, step.q, change)
             yield Iterate(
                 q=step.q,
                 change=change,
@@ -151,14 +150,3 @@ class _Mixing:
         scale = np.concatenate([np.ones(len(x[0])), np.full(len(x[1]), unit)])
         found = self.accelerator.mix(scale * np.concatenate(x), scale * np.concatenate(value))
         return found[: len(x[0])], found[len(x[0]) :] / max(unit, 1e-300)
-
-
-def _looked_at(system: SlabSystem, q: Array, change: float) -> tuple[bool, SlabSystem]:
-    """Whether an iterate leaves no overlap, and the equations to go on with: overlapped faces are added."""
-    if system.pairs is system.searched:
-        return True, system
-    if change > NEARLY * np.abs(q).max(initial=0.0):
-        return False, system
-    u1 = system.path.end(q)
-    sound = system.sound(u1)
-    return sound, system if sound else system.completed(u1)

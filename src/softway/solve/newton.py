@@ -15,6 +15,7 @@ from softway.solve.normal import untouched
 from softway.solve.operators.factored import Factored
 from softway.solve.prepared import analyst
 from softway.solve.settings import check_accuracy
+from softway.solve.soundness import looked_at
 from softway.solve.system import SlabSystem
 from softway.solve.values import Evaluation
 from softway.typing import Array, BoolArray
@@ -95,16 +96,20 @@ class Newton:
             found = corrected(system, frozen, q, end, impulse, active)
             step, active = found.q - q, found.active
             q, end = self._searched(system, q, step, found.impulse, frozen)
+            change = float(np.abs(step).max(initial=0.0))
+            sound, completed = looked_at(system, q, change)
             yield Iterate(
                 q=q,
-                change=float(np.abs(step).max(initial=0.0)),
+                change=change,
                 impulse=found.impulse,
                 active=active,
                 free=found.rows.along(untouched(found.free, frozen, found.rows.spread(impulse))),
                 carry=carry,
                 system=system,
-                sound=True,
+                sound=sound,
             )
+            if completed is not system:
+                system, end = completed, completed.evaluate(q, found.impulse)
             impulse = found.impulse
 
     def _renewed(self, system: SlabSystem, carry: Carry, end: Evaluation) -> Carry:
