@@ -16,6 +16,7 @@ from rich.console import Console
 from rich.logging import RichHandler
 from rich.markup import escape
 
+from softway.cli.explain import told
 from softway.cli.law import check_law
 from softway.cli.materials import materials
 from softway.cli.plot import plot
@@ -60,6 +61,7 @@ app.command(plot)
 app.command(view)
 app.command(resume)
 app.command(schema)
+app.register_install_completion_command(help="Let this shell complete verbs and options.")
 app.command(sweep)
 Set = Annotated[tuple[str, ...], Parameter(name="--set", negative=())]
 Quiet = Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())]
@@ -174,6 +176,18 @@ def show(folder: Path, /) -> None:
         Run folder.
     """
     summary(Run(folder), Console())
+
+
+@app.command
+def explain(name: str, /) -> None:
+    """Tell what a kind, a key or a command is: meaning, units, defaults, example.
+
+    Parameters
+    ----------
+    name
+        Such as Coulomb, density or run.
+    """
+    told(name, {verb: app[verb].default_command for verb in app if not verb.startswith("-")}, Console())
 
 
 @app.command

@@ -1,0 +1,77 @@
+"""The verb explain: what a kind, a key or a command is."""
+
+import difflib
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import MISSING
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table as Grid
+
+from softway.errors import InputError
+from softway.scenario.described import described
+from softway.scenario.glossary import classes, keys
+from softway.scenario.kinds import Hint, hints, inputs, required
+
+
+def told(name: str, commands: Mapping[str, Callable[..., Any] | None], console: Console) -> None:
+    """Tell what is known by a name, of a class, of a key, of a command.
+
+    Raises
+    ------
+    InputError
+        Nothing is; the closest names are the remedy.
+    """
+    kinds = [cls for cls in classes() if cls.__name__ == name]
+    owners = keys().get(name, ())
+    if not kinds and not owners and name not in commands:
+        known = sorted({cls.__name__ for cls in classes()} | keys().keys() | commands.keys())
+        lower = {word.lower(): word for word in known}
+        close = [lower[word] for word in difflib.get_close_matches(name.lower(), lower, n=3, cutoff=0.5)]
+        raise InputError("NAME", f"no kind, key or command {name!r}", ", ".join(close) or "Solid, Contact, time, run")
+    if name in commands:
+        _head(f"softway {name}", "command", console)
+        console.print(escape(inspect.getdoc(commands[name]) or ""), highlight=False)
+    for cls in kinds:
+        _kind(cls, console)
+    if owners:
+        _head(name, "key", console)
+        console.print(_grid([(cls, name) for cls in owners], of=True))
+
+
+def _kind(cls: type, console: Console) -> None:
+    """A class: what it is, its keys, its example."""
+    said = described(cls)
+    _head(cls.__name__, "kind", console)
+    console.print(escape(said.summary), highlight=False)
+    if inputs(cls):
+        console.print(_grid([(cls, key) for key in inputs(cls)], of=False))
+    if said.sections.get("Examples"):
+        console.print(escape(f"in Python\n{said.sections['Examples']}"), highlight=False)
+    console.print()
+
+
+def _head(name: str, what: str, console: Console) -> None:
+    console.print(f"[bold]{escape(name)}[/]  {what}", highlight=False)
+
+
+def _grid(entries: list[tuple[type, str]], of: bool) -> Grid:
+    """Keys with unit, default and meaning; ``of`` names the class in the first column."""
+    grid = Grid(box=None, pad_edge=False, header_style="bold")
+    for head in ("of" if of else "key", "unit", "default", "meaning"):
+        grid.add_column(head, overflow="fold")
+    for cls, key in entries:
+        unit = Hint.of(hints(cls)[key], None).unit or ""
+        first = cls.__name__ if of else key
+        grid.add_row(*map(escape, (first, unit, _default(cls, key), described(cls).fields.get(key, ""))))
+    return grid
+
+
+def _default(cls: type, key: str) -> str:
+    """The default of a key, or that it is needed."""
+    field = inputs(cls)[key]
+    if required(field):
+        return "needed"
+    return str(field.default if field.default_factory is MISSING else field.default_factory())
