@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from softway.errors import InputError
 from softway.verify.case import Case
 
-QUICK = 12.0
+QUICK = 11.0
 """Seconds that a case of the quick suite may take."""
 
 
