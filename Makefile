@@ -5,11 +5,12 @@ DEMO := .venv-demo
 TEST := .venv-test
 DOCS := .venv-docs
 
-.PHONY: help demo test test-view coverage check bench bench-check kills manual fuzz drops endurance docs clean
+.PHONY: help demo test test-slow test-view coverage check bench bench-check kills manual fuzz drops endurance docs clean
 
 help:
 	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
 	@echo "make test   unit tests, verification cases, doctests"
+	@echo "make test-slow  those that take long: many impacts, fine meshes, kills, sweeps, every command of the pages"
 	@echo "make test-view the page of softway view in a Chromium without a screen, which has to be there"
 	@echo "make coverage  the same, with the lines and branches that did not run"
 	@echo "make check  ruff, mypy, import-linter, house rules"
@@ -43,7 +44,10 @@ demo: $(DEMO)/ready
 	$(DEMO)/bin/python examples/demo.py
 
 test: $(TEST)/ready
-	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope
+	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope -m "not slow"
+
+test-slow: $(TEST)/ready
+	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope -m slow --durations=15
 
 test-view: $(TEST)/ready
 	$(TEST)/bin/python -m pip install --quiet --constraint constraints.txt --editable '.[dev,browser]'

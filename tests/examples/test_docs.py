@@ -11,6 +11,8 @@ from pages import Command, File, Python, steps
 from softway.cli import main
 from softway.cli.commands import app
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 ELSEWHERE = {"own_law.md"}
 """Pages that a test of their own runs: tests/unit/test_own_law.py."""

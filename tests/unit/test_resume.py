@@ -23,6 +23,8 @@ from softway.record.checkpoint import listed
 from softway.record.lock import held
 from softway.scenario.codec import loads
 
+pytestmark = pytest.mark.slow
+
 BLOCK = (Path(__file__).parents[1] / "robustness" / "skid.toml").read_text(encoding="utf-8")
 BAR = """
 [bodies.bar]

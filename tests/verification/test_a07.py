@@ -15,6 +15,8 @@ import softway as sw
 from softway.verify.cases import a07
 from softway.verify.scenes.colliding import Bar, Collision, collided, pair
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module", params=a07.SCENES)
 def collision(request: pytest.FixtureRequest) -> tuple[Collision, float]:

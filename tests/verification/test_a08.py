@@ -9,6 +9,8 @@ import results
 from softway.verify.cases.a08 import FORCE, VELOCITY, VIBRATION, thrown
 from softway.verify.scenes.colliding import Collision
 
+pytestmark = pytest.mark.slow
+
 SPACES = [("a", 1), ("a", 2), ("a", 3), ("b", 1), ("b", 2), ("c", 1)]
 
 

@@ -8,6 +8,8 @@ from softway.verify.cases.a09 import BAR, ENERGY, dropped
 from softway.verify.exact import bar as waves
 from softway.verify.scenes import bars
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def march() -> bars.Record:

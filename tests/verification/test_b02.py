@@ -10,6 +10,8 @@ import results
 from softway.verify.cases.b02 import DURATION, PRESSURE, crashed, uneven
 from softway.verify.scenes.colliding import Collision
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module", params=[2, 3], ids=["plane strain", "3D"])
 def collision(request: pytest.FixtureRequest) -> Collision:

@@ -11,6 +11,8 @@ import softway as sw
 from softway.verify.cases import b09
 from softway.verify.cases.b09 import GAP, SPEED, THICKNESS, Shot, away, pair, shot
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module", params=["1D", "2D"])
 def aligned(request: pytest.FixtureRequest) -> Shot:

@@ -10,6 +10,8 @@ import softway as sw
 from bouncing import CLEARANCE, SPEED, ball, between_planes, bounced, cube, step_of
 from orders import order
 
+pytestmark = pytest.mark.slow
+
 BODIES = {"cube": cube(4), "ball": ball(4)}
 TIMES = (0.5, 1.0, 2.0)
 """Slabs in units of the time in which a wave crosses the shortest edge."""

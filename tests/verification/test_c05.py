@@ -6,6 +6,8 @@ import pytest
 import results
 from softway.verify.cases.c05 import gone
 
+pytestmark = pytest.mark.slow
+
 
 def test_a_ring_slips():
     course = gone("ring", 0.6, 0.15, 0.1, 2e-3)

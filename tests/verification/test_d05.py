@@ -9,6 +9,8 @@ import results
 from softway.verify.cases.d05 import quantities, swing
 from softway.verify.scenes.spinning import Spin
 
+pytestmark = pytest.mark.slow
+
 REFERENCE = results.case("D05")["reference"]
 
 

@@ -11,6 +11,8 @@ import softway as sw
 from softway.verify.cases.d06 import quantities, spun
 from softway.verify.scenes.spinning import bar
 
+pytestmark = pytest.mark.slow
+
 DATA = results.case("D06")["definition"]
 STATIC = results.case("D06")["reference"]["u_tip_static"]
 

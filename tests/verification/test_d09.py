@@ -9,6 +9,8 @@ import results
 from softway.verify.cases.d09 import bar, quantities
 from softway.verify.scenes import taylor
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def crushed() -> taylor.Crushed:

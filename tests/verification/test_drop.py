@@ -7,6 +7,8 @@ import pytest
 
 import softway as sw
 
+pytestmark = pytest.mark.slow
+
 SCENARIO = Path(__file__).parents[2] / "scenarios" / "bracket_drop.toml"
 COARSE = ("time.step=4 us", "output.fields_every=20 us")
 SPEED, GRAVITY, GAP, STEP = np.sqrt(2 * 9.81), 9.81, 20e-6, 4e-6

@@ -16,6 +16,8 @@ from softway.kernels.patterns import sum_of
 from softway.typing import Array, IntArray
 from softway.verify.scenes.bars import Record, recorded, thrown
 
+pytestmark = pytest.mark.slow
+
 CELLS, WIDTH, GAP, UNTIL, STEP = 50, 0.1, 0.3, 2.8, 0.014
 TURNS = (sw.Rotation(angle=0.7, axis=(0.2, -0.5, 1.0)), sw.Rotation(angle=-1.1, axis=(1.0, 0.3, 0.1)))
 FRAMES = {"along x": np.eye(3), "oblique": TURNS[1].matrix() @ TURNS[0].matrix()}

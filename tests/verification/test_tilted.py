@@ -18,6 +18,8 @@ from orders import order
 from softway.model import Model
 from softway.typing import Array
 
+pytestmark = pytest.mark.slow
+
 ELASTIC = sw.LinearElastic(E=1.0, nu=0.3)
 SPEED = 0.1 * np.sqrt(0.7 / (1.3 * 0.4))
 HEIGHT = 0.01

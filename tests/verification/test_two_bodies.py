@@ -16,6 +16,8 @@ from softway.march.ledger import opening
 from softway.march.step import Step
 from softway.space.sources import MeshSource
 
+pytestmark = pytest.mark.slow
+
 RUBBER = sw.NeoHookean(E=1.0, nu=0.3)
 Method = sw.DualMortar | sw.NodeToSurface
 METHODS = {

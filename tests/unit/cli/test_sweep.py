@@ -16,6 +16,8 @@ from softway.record.run import Run
 from softway.scenario.templates import templates
 from softway.study.plan import parsed, trials
 
+pytestmark = pytest.mark.slow
+
 CELLS = "bodies.bar.mesh.cells"
 SHORT = ("--over", f"{CELLS}=4,5", "--over", "bodies.bar.velocity=1 m/s,50 cm/s", "--set", "time.end=0.4 s")
 

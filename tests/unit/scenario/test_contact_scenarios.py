@@ -10,6 +10,8 @@ import softway as sw
 from softway.scenario.codec import load, loads, resolved
 from softway.scenario.quantity import Units
 
+pytestmark = pytest.mark.slow
+
 UNITS = Units.standard()
 FOLDER = Path(__file__).parents[3] / "scenarios"
 COARSE = {
