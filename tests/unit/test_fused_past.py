@@ -25,6 +25,8 @@ from softway.space.shapes import box, rectangle
 from softway.testing.elements import irregular_patch
 from softway.typing import Array
 
+pytestmark = pytest.mark.slow
+
 METAL = {"E": 2.0, "nu": 0.3, "yield_stress": 0.02}
 VOCE = Voce(saturation=0.05, exponent=16.0, modulus=0.1)
 LAWS = {

@@ -10,6 +10,8 @@ import softway as sw
 from orders import order
 from softway.verify.scenes import bars
 
+pytestmark = pytest.mark.slow
+
 SEQUENCES = results.case("A05")["reference"]["cases"]
 EXTRAPOLATED = sw.Paper(approach="extrapolated")
 RULES = {"impulse": sw.Impulse(), "literal": EXTRAPOLATED}

@@ -9,6 +9,8 @@ from softway.verify.cases.a06 import HAT, STOPPED, departure, stopped
 from softway.verify.exact import bar as waves
 from softway.verify.scenes import bars
 
+pytestmark = pytest.mark.slow
+
 FREE = waves.Bar(velocity=HAT, far="fixed")
 
 

@@ -9,6 +9,8 @@ from softway.verify.cases.a11 import BAR, pulled
 from softway.verify.exact import bar as waves
 from softway.verify.scenes import bars
 
+pytestmark = pytest.mark.slow
+
 
 def test_case() -> None:
     assert results.missed("A11") == set()

@@ -6,6 +6,8 @@ import pytest
 import results
 from softway.verify.cases.c02 import swung
 
+pytestmark = pytest.mark.slow
+
 
 def test_the_case():
     assert results.missed("C02") == set()

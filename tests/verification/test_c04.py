@@ -6,6 +6,8 @@ import pytest
 import results
 from softway.verify.cases.c04 import STEP, slowed
 
+pytestmark = pytest.mark.slow
+
 REFERENCE = results.case("C04")["reference"]
 
 

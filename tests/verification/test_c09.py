@@ -6,6 +6,8 @@ import pytest
 import results
 from softway.verify.cases.c09 import let_go
 
+pytestmark = pytest.mark.slow
+
 
 def test_the_case():
     assert results.missed("C09") == set()

@@ -1,9 +1,12 @@
 """E02: upsetting of a cylinder with the friction of Norton and Hoff: force curve and barrelling."""
 
 import numpy as np
+import pytest
 
 import results
 from softway.verify.cases.e02 import upset
+
+pytestmark = pytest.mark.slow
 
 
 def test_the_case() -> None:

@@ -5,6 +5,8 @@ import pytest
 import results
 from softway.verify.cases.e03 import ALPHAS, ring
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize("alpha", ALPHAS)
 def test_the_radii(alpha: float) -> None:

@@ -1,9 +1,12 @@
 """E04: a slice of Newton's fluid in plane strain under a platen with linear friction."""
 
 import numpy as np
+import pytest
 
 import results
 from softway.verify.cases.e04 import pressed
+
+pytestmark = pytest.mark.slow
 
 
 def test_the_case() -> None:

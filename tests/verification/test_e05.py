@@ -7,6 +7,8 @@ import results
 from softway.verify.cases.e05 import FIRST, M, thicknesses, thin_at
 from softway.verify.exact.flow import neck
 
+pytestmark = pytest.mark.slow
+
 
 def test_the_case() -> None:
     assert results.missed("E05") == set()

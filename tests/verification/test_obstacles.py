@@ -7,6 +7,8 @@ import pytest
 
 import softway as sw
 
+pytestmark = pytest.mark.slow
+
 BLOCK = sw.Box(size=(1.0, 1.0, 1.0), cells=(4, 4, 4), origin=(-0.3, -0.4, 0.05))
 RUBBER = sw.NeoHookean(E=1.0, nu=0.3)
 UPRIGHT = sw.Placement()

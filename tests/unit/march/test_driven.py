@@ -10,6 +10,8 @@ from softway.contact.timing import Energy, Impulse, Paper, Timing
 from softway.march.control import StepControl
 from softway.time.weight import Momentum
 
+pytestmark = pytest.mark.slow
+
 RULES = [Energy(), Impulse(), Paper()]
 rules = pytest.mark.parametrize("rule", RULES, ids=lambda r: type(r).__name__)
 RAMP = Driven(on="right", velocity=(0.0, 0.2, 0.0), times=(0.0, 0.5, 1.0))

@@ -5,6 +5,8 @@ import pytest
 
 import softway as sw
 
+pytestmark = pytest.mark.slow
+
 GRAVITY = 9.81
 DRY = sw.Coulomb(mu=0.3)
 STILL = sw.Still()

@@ -11,6 +11,8 @@ from softway.solve.newton import Newton
 from softway.space.curved import Sphere
 from softway.space.obstacles import HalfSpace
 
+pytestmark = pytest.mark.slow
+
 RULES = [Energy(), Impulse(), Paper(), Paper(approach="extrapolated")]
 rules = pytest.mark.parametrize("rule", RULES, ids=str)
 LABEL = "body.right-wall"
