@@ -1,7 +1,7 @@
 """C06: a ball that is thrown along a rough floor without spin slides until it rolls.
 
-It hops from facet to facet: the velocities stand while it flies.  It rolls from where its slip has come down to one
-hundredth of the speed.
+It hops from facet to facet: the velocities stand while it flies, and change in jumps.  The time until it rolls is where
+the line through the slip, from nine tenths of the first one down to one tenth, comes to zero.
 """
 
 from functools import cache
@@ -14,8 +14,6 @@ from softway.verify.case import Outcome
 from softway.verify.scenes.rolling import Course, rolled
 
 RADIUS, SPEED, MU = 0.1, 5.0, 0.3
-ROLLS = 0.01
-"""Slip over the speed at the start at which it rolls."""
 
 
 @cache
@@ -35,9 +33,11 @@ def thrown(until: float = 0.56, step: float = 2e-3) -> Course:
 
 def rolls(course: Course) -> tuple[float, float]:
     """The time from which the ball rolls [s], and its mean velocity from then on [m/s]."""
-    slip = np.abs(course.velocity - RADIUS * course.spin)
-    late = np.flatnonzero(slip > ROLLS * SPEED)[-1] + 1
-    return float(course.time[late]), float(course.velocity[late:].mean())
+    slip = (course.velocity - RADIUS * course.spin) / SPEED
+    sliding = (slip < 0.9) & (slip > 0.1)
+    slope, first = np.polyfit(course.time[sliding], slip[sliding], 1)
+    instant = float(-first / slope)
+    return instant, float(course.velocity[course.time > instant].mean())
 
 
 def compute() -> Outcome:
