@@ -1,8 +1,15 @@
-"""How many processes work beside each other."""
+"""Processes that work beside each other: how many, and how far they are."""
 
 import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from softway.errors import InputError
+
+Show = Callable[[int, str], None]
 
 
 def processes(asked: int | None) -> int:
@@ -16,3 +23,20 @@ def processes(asked: int | None) -> int:
     if asked is not None and asked < 1:
         raise InputError("--jobs", f"{asked}", "1 or more")
     return asked or os.cpu_count() or 1
+
+
+@contextmanager
+def counted(total: int, things: str, first: str, console: Console) -> Iterator[Show | None]:
+    """What to call with the number of ``things`` done and a word on the rest; ``None`` where nobody watches."""
+    if console.quiet or not console.is_terminal:
+        yield None
+        return
+    columns = (
+        BarColumn(bar_width=24),
+        TextColumn(f"{{task.completed}} of {{task.total}} {things}"),
+        TextColumn("{task.description}, after"),
+        TimeElapsedColumn(),
+    )
+    with Progress(*columns, console=console, transient=True) as display:
+        task = display.add_task(first, total=total)
+        yield lambda done, told: display.update(task, completed=done, description=told)

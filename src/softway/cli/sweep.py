@@ -9,10 +9,9 @@ from typing import Annotated
 from cyclopts import Parameter
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table as Grid
 
-from softway.cli.jobs import processes
+from softway.cli.jobs import counted, processes
 from softway.study.plan import parsed, trials
 from softway.study.rows import NAME, Row, Sweep
 from softway.study.sweep import Watch
@@ -132,23 +131,16 @@ def _cell(name: str, value: float | int | None) -> str:
 @contextmanager
 def _progress(runs: int, console: Console) -> Iterator[Watch | None]:
     """What to call with each run that ends; ``None`` where nobody watches."""
-    if console.quiet or not console.is_terminal:
-        yield None
-        return
-    columns = (
-        BarColumn(bar_width=24),
-        TextColumn("{task.completed} of {task.total} runs"),
-        TextColumn("{task.description}, after"),
-        TimeElapsedColumn(),
-    )
     begun, ended = perf_counter(), 0
-    with Progress(*columns, console=console, transient=True) as display:
-        task = display.add_task("ETA -", total=runs)
+    with counted(runs, "runs", "ETA -", console) as show:
+        if show is None:
+            yield None
+            return
 
         def watch(row: Row, left: int) -> None:
             nonlocal ended
             ended += 1
             ahead = (perf_counter() - begun) * left / ended
-            display.update(task, completed=runs - left, description=f"{row.stop.reason}, ETA {ahead:.0f} s")
+            show(runs - left, f"{row.stop.reason}, ETA {ahead:.0f} s")
 
         yield watch

@@ -9,10 +9,9 @@ from typing import Annotated
 from cyclopts import Parameter
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table as Grid
 
-from softway.cli.jobs import processes
+from softway.cli.jobs import counted, processes
 from softway.verify.case import Beside, Case
 from softway.verify.catalogue import QUICK, chosen
 from softway.verify.page import page
@@ -114,25 +113,19 @@ def _beside(beside: Beside, console: Console) -> None:
 @contextmanager
 def _progress(cases: Sequence[Case], jobs: int, console: Console) -> Iterator[Watch | None]:
     """What to call with each result; ``None`` where nobody watches."""
-    if console.quiet or not console.is_terminal:
-        yield None
-        return
-    columns = (
-        BarColumn(bar_width=24),
-        TextColumn("{task.completed} of {task.total} cases"),
-        TextColumn("{task.description}, after"),
-        TimeElapsedColumn(),
-    )
     left = {case.id: case.seconds for case in cases}
     whole, begun = sum(left.values()), perf_counter()
-    with Progress(*columns, console=console, transient=True) as display:
-        task = display.add_task(f"ETA {whole / jobs:.0f} s", total=len(cases))
+    with counted(len(cases), "cases", f"ETA {whole / jobs:.0f} s", console) as show:
+        if show is None:
+            yield None
+            return
 
         def watch(result: Result) -> None:
             left.pop(result.case.id)
             rest, gone = sum(left.values()), perf_counter() - begun
             ahead = gone * rest / max(whole - rest, 1e-9)
-            told = f"{result.case.id} {'passed' if result.passed else 'FAILED'}, ETA {ahead:.0f} s"
-            display.update(task, advance=1, description=told)
+            show(
+                len(cases) - len(left), f"{result.case.id} {'passed' if result.passed else 'FAILED'}, ETA {ahead:.0f} s"
+            )
 
         yield watch
