@@ -183,10 +183,7 @@ class Model:
 
         The part that the mean rate makes counts ``again`` between nodes with inertia: it acts from the slab's start.
         """
-        values = [
-            p.stiffness(u[p.rows], secant).data + again * p.rate_stiffness(u[p.rows], self.massive[p.rows])
-            for p in self.parts
-        ]
+        values = [p.stiffness(u[p.rows], secant, again, self.massive[p.rows]) for p in self.parts]
         return self.total.of(np.concatenate(values), factor)
 
     def tangent_product(self, u: Array, w: Array) -> Array:

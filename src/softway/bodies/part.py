@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse import csc_array
 
 from softway.bodies.cells import Dilating
 from softway.bodies.fields import sample
@@ -39,22 +38,18 @@ class Part:
         """Force (n, d) of its bulk viscosity [N], zero without."""
         return np.zeros_like(middle) if self.shock is None else self.shock.force(self.internal, middle, change, span)
 
-    def stiffness(self, u: Array, secant: bool) -> csc_array:
-        """Tangent stiffness (n d, n d) [N/m] at its displacement u, or the secant one where its law has such."""
-        if secant and isinstance(self.internal, RateForce):
-            return self.internal.secant(u)
-        return self.internal.tangent(u)
-
-    def rate_stiffness(self, u: Array, chosen: BoolArray) -> Array | float:
-        """Values, on the pattern of :meth:`stiffness`, of the part that the mean rate of the slab makes, [N/m].
-
-        Between the ``chosen`` nodes (n,) of its own; zero elsewhere and without such a part.
+    def stiffness(self, u: Array, secant: bool, again: float, chosen: BoolArray) -> Array:
+        """Values of the tangent stiffness at its displacement u on its pattern, or of the secant one where its law has
+        such [N/m]; between the ``chosen`` nodes (n,) what the mean rate of the slab makes counts ``again``.
         """
-        made = self.internal.viscous_tangent(u) if isinstance(self.internal, RateForce) else None
+        if not isinstance(self.internal, RateForce):
+            return np.asarray(self.internal.tangent(u).data)
+        values = np.asarray((self.internal.secant(u) if secant else self.internal.tangent(u)).data)
+        made = self.internal.viscous_tangent(u) if again > 0.0 else None
         if made is None:
-            return 0.0
+            return values
         keep = np.repeat(chosen, self.mesh.dim)
-        return np.asarray(made.data * keep[made.indices] * np.repeat(keep, np.diff(made.indptr)))
+        return np.asarray(values + again * made.data * keep[made.indices] * np.repeat(keep, np.diff(made.indptr)))
 
     def during(self, memory: Memory | None, span: float) -> "Part":
         """The solid in a slab of length ``span`` [s] that it meets with a memory."""
