@@ -179,9 +179,9 @@ def show_drop() -> None:
     scenario = sw.load(ROOT / "scenarios" / "bracket_drop.toml")
     end, mark = scenario.time.end, [0.25]
 
-    def progress(step: sw.Step) -> None:
-        if step.after.time >= mark[0] * end:
-            CONSOLE.print(f"  bracket: {step.after.time * 1e6:.0f} of {end * 1e6:.0f} us")
+    def progress(now: sw.Progress) -> None:
+        if now.fraction >= mark[0]:
+            CONSOLE.print(f"  bracket: {now.time * 1e6:.0f} of {end * 1e6:.0f} us")
             mark[0] += 0.25
 
     begun = time.perf_counter()

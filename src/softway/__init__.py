@@ -1,5 +1,7 @@
 """softway: dynamic contact of solids, with the velocity as unknown and contact as a constraint on it."""
 
+import logging
+
 from softway.bodies.amplitude import Ramp
 from softway.bodies.fields import Affine, FieldSum, OnTag, Profile, Uniform
 from softway.bodies.force import AverageField, DiscreteGradient, EnergyMomentum, Weighted
@@ -13,7 +15,7 @@ from softway.bodies.shock import BulkViscosity
 from softway.bodies.solid import Driven, Fixed, Solid, Tool
 from softway.contact.contact import Contact, DualMortar, NodeToSurface
 from softway.contact.timing import Energy, Impulse, Paper
-from softway.errors import InputError, NumericsError, SoftwayError
+from softway.errors import Cancelled, InputError, NumericsError, SoftwayError, StorageError
 from softway.execute import resume, run
 from softway.laws.bulk import (
     J2,
@@ -47,6 +49,7 @@ from softway.march.standing import Standing
 from softway.march.step import Certificate, Event, Ledger, Step
 from softway.model import build
 from softway.record.checkpoint import Checkpoints
+from softway.record.progress import Progress
 from softway.record.run import Run
 from softway.scenario.codec import load, resolved
 from softway.scenario.scenario import Output, Probe, Scenario, Time
@@ -65,6 +68,8 @@ from softway.space.sources import Ball, Box, Cylinder, Disc, Interval, MeshFile,
 from softway.study import Sweep, sweep
 from softway.time.weight import Collocation, EndPeaks, Momentum
 
+logging.getLogger(__name__).addHandler(logging.NullHandler())
+
 __all__ = [
     "J2",
     "Affine",
@@ -76,6 +81,7 @@ __all__ = [
     "Block",
     "Box",
     "BulkViscosity",
+    "Cancelled",
     "Cavity",
     "Certificate",
     "Checkpoints",
@@ -144,6 +150,7 @@ __all__ = [
     "PowerHardening",
     "Probe",
     "Profile",
+    "Progress",
     "Ramp",
     "RateIndependent",
     "Rectangle",
@@ -166,6 +173,7 @@ __all__ = [
     "Step",
     "StepControl",
     "Still",
+    "StorageError",
     "Stribeck",
     "Surface",
     "Sweep",

@@ -1,6 +1,5 @@
 """Tasks worked off in processes of their own: what one of them does, or dies of, does not reach another."""
 
-import logging
 import signal
 import time as clock
 from collections.abc import Callable, Generator, Iterator, Sequence
@@ -11,12 +10,15 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
 from typing import Any, TypeVar
 
+from softway.errors import Cancel, Cancelled
 from softway.kernels.threads import threads, use
 
 Task = TypeVar("Task")
 Reply = TypeVar("Reply")
 GRACE = 20.0
 """Seconds that a process has to put its records in order when it is told to end."""
+LOOK = 0.1
+"""Seconds after which the caller is asked again whether it wants the rest."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +55,7 @@ class Worker:
 
 
 def answers(
-    tasks: Sequence[Task], work: Callable[[Task], Reply], jobs: int
+    tasks: Sequence[Task], work: Callable[[Task], Reply], jobs: int, cancel: Cancel | None = None
 ) -> Generator[tuple[Task, Reply | Complaint, float], None, None]:
     """Work off the tasks, the first first, and yield each with its answer and the seconds it took, as they come.
 
@@ -67,6 +69,13 @@ def answers(
         A function of a module; whatever it raises is the complaint of that task.
     jobs
         Processes beside each other; the kernels of each use its share of the threads.
+    cancel
+        Asked a few times a second whether the caller wants no more.
+
+    Raises
+    ------
+    Cancelled
+        If it says so, after all processes have ended.
 
     Examples
     --------
@@ -75,7 +84,7 @@ def answers(
     """
     share = max(1, threads() // max(1, jobs))
     with _crew(min(jobs, len(tasks)), work, share) as crew:
-        yield from _answers(list(tasks), crew, work, share)
+        yield from _answers(list(tasks), crew, work, share, cancel)
 
 
 @contextmanager
@@ -93,7 +102,7 @@ def _crew(number: int, work: Callable[[Any], Any], share: int) -> Iterator[list[
 
 
 def _answers(
-    waiting: list[Any], crew: list[Worker], work: Callable[[Any], Any], share: int
+    waiting: list[Any], crew: list[Worker], work: Callable[[Any], Any], share: int, cancel: Cancel | None
 ) -> Iterator[tuple[Any, Any, float]]:
     """Hand out the tasks, one at a time to each worker, and yield what comes back; one who died is replaced."""
     busy: dict[Connection, tuple[int, Any, float]] = {}
@@ -103,7 +112,9 @@ def _answers(
             place, task = idle.pop(), waiting.pop(0)
             crew[place].line.send(task)
             busy[crew[place].line] = place, task, clock.perf_counter()
-        for line in [line for line in wait(list(busy)) if isinstance(line, Connection)]:
+        if cancel is not None and cancel():
+            raise Cancelled(f"with {len(waiting) + len(busy)} left")
+        for line in [line for line in wait(list(busy), LOOK if cancel else None) if isinstance(line, Connection)]:
             place, task, since = busy.pop(line)
             try:
                 answer = line.recv()
@@ -129,7 +140,6 @@ def _serve(line: Connection, work: Callable[[Any], Any], share: int) -> None:
     """Answer every task that comes, until the line closes or the process is told to end."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interruption is for the one who hired, who ends the processes
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    logging.getLogger("softway").setLevel(logging.ERROR)  # warnings of several marches at once tell nobody anything
     try:
         with use(share):
             while True:

@@ -1,6 +1,6 @@
 """What can go wrong, said so that a person can act: where, what, and what to try."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 
@@ -57,6 +57,38 @@ class StorageError(SoftwayError):
     def __init__(self, place: str, problem: str, remedy: str) -> None:
         self.place, self.problem, self.remedy = place, problem, remedy
         super().__init__(f"{place}: {problem}\n  try: {remedy}")
+
+
+class Cancelled(SoftwayError):
+    """The caller called the computation off; what was accepted before stays valid, and a run can be resumed.
+
+    Parameters
+    ----------
+    where
+        How far it had come.
+    """
+
+    def __init__(self, where: str = "") -> None:
+        self.where = where
+        super().__init__(f"cancelled {where}".rstrip())
+
+
+Cancel = Callable[[], bool]
+"""Whether the caller wants no more, as ``threading.Event().is_set``: asked often, and to be answered in no time."""
+
+
+def heed(cancel: Cancel | None, when: float) -> None:
+    """Raise :class:`Cancelled` if the caller wants no more at a time [s] of the march.
+
+    Examples
+    --------
+    >>> heed(lambda: False, 0.25)
+    >>> heed(lambda: True, 0.25)
+    Traceback (most recent call last):
+    softway.errors.Cancelled: cancelled in the slab at t = 0.25 s
+    """
+    if cancel is not None and cancel():
+        raise Cancelled(f"in the slab at t = {when:.6g} s")
 
 
 class NoConvergence(Exception):

@@ -9,7 +9,7 @@ from pathlib import Path
 from softway.bodies.part import Part
 from softway.bodies.past import remembered_scalars
 from softway.contact.tractions import Spread, spread
-from softway.errors import InputError
+from softway.errors import Cancel, InputError
 from softway.march.begin import begin
 from softway.march.ledger import opening as audit
 from softway.march.march import march, proposed
@@ -19,10 +19,11 @@ from softway.march.step import Step
 from softway.model import Model
 from softway.record import provenance
 from softway.record.checkpoint import last
-from softway.record.conduct import Progress, conduct, proceed
+from softway.record.conduct import conduct, proceed
 from softway.record.lock import held
 from softway.record.place import Place
 from softway.record.probes import readings
+from softway.record.progress import Watch
 from softway.record.provenance import DONE
 from softway.record.recorder import Opening
 from softway.record.run import SCENARIO, Run
@@ -33,7 +34,7 @@ from softway.scenario.scenario import Scenario
 from softway.scene import State
 from softway.typing import Array
 
-LOG = logging.getLogger("softway")
+LOG = logging.getLogger(__name__)
 FRAMES = 100
 """Number of stored fields when the scenario leaves it open."""
 
@@ -42,7 +43,8 @@ def run(
     scenario: Scenario | Checked,
     out: str | Path | None = None,
     *,
-    progress: Progress | None = None,
+    progress: Watch | None = None,
+    cancel: Cancel | None = None,
     overwrite: bool = False,
 ) -> Run:
     """March a scenario to its end and record it.
@@ -54,7 +56,9 @@ def run(
     out
         Folder of the records; without one they live in a temporary folder as long as the returned object.
     progress
-        Called with each accepted step.
+        Called with a :class:`Progress` after each accepted slab.
+    cancel
+        Asked at every iteration whether the caller wants no more, as ``threading.Event().is_set``.
     overwrite
         Whether ``out`` may replace an earlier run.
 
@@ -62,14 +66,15 @@ def run(
     ------
     InputError
         Something in the scenario is wrong; no folder is left.
-    NumericsError, KeyboardInterrupt, StorageError
-        The folder ``out`` holds what was computed until then.
+    NumericsError, Cancelled, KeyboardInterrupt, StorageError, and what ``progress`` raises
+        The folder ``out`` holds what was computed until then, and :func:`resume` goes on; there is none yet when the
+        first equilibrium is called off.
     """
     place = Place(out=None if out is None else Path(out), overwrite=overwrite)
     place.check()
     checked = scenario if isinstance(scenario, Checked) else check(scenario)
-    given, opening = checked.scenario, _opening(checked)
-    steps = _steps(checked, opening.initial)
+    given, opening = checked.scenario, _opening(checked, cancel)
+    steps = _steps(checked, opening.initial, cancel)
     plan = given.output.checkpoints
     return conduct(steps, opening, place, title=given.title, texts=_texts(given), plan=plan, progress=progress)
 
@@ -78,10 +83,11 @@ def resume(
     folder: str | Path,
     *,
     scenario: Scenario | Checked | None = None,
-    progress: Progress | None = None,
+    progress: Watch | None = None,
+    cancel: Cancel | None = None,
     allow_python: bool = False,
 ) -> Run:
-    """Go on with a run that was killed, interrupted or failed, from its last checkpoint.
+    """Go on with a run that was killed, interrupted, cancelled or failed, from its last checkpoint.
 
     What comes out has the same bits as that of a run that was never stopped, on the same machine with the same number
     of threads.  A run that is done is left as it is.
@@ -92,8 +98,8 @@ def resume(
         Of the run.
     scenario
         The scenario, where parts of it were built in Python; by default that in the folder.
-    progress
-        Called with each accepted step.
+    progress, cancel
+        As of :func:`run`.
     allow_python
         Whether ``module:name`` in the scenario may also name an installed module.
 
@@ -102,7 +108,7 @@ def resume(
     InputError
         ``folder`` holds no run, one that is still going on, another scenario than it began with, or records that lack
         something.
-    NumericsError, KeyboardInterrupt, StorageError
+    NumericsError, Cancelled, KeyboardInterrupt, StorageError, and what ``progress`` raises
         As of :func:`run`.
     """
     stopped = Run(Path(folder))
@@ -113,8 +119,8 @@ def resume(
         given = stored(stopped.path, allow_python) if scenario is None else scenario
         checked = given if isinstance(given, Checked) else check(given)
         provenance.require_same(stopped.path, stopped.provenance, _texts(checked.scenario))
-        opening, found = _opening(checked), last(stopped.path)
-        steps = _steps(checked, opening.initial if found is None else found.standing)
+        opening, found = _opening(checked, cancel), last(stopped.path)
+        steps = _steps(checked, opening.initial if found is None else found.standing, cancel)
         return proceed(steps, opening, stopped, found, plan=checked.scenario.output.checkpoints, progress=progress)
 
 
@@ -138,10 +144,10 @@ def stored(folder: Path, allow_python: bool = False) -> Scenario:
     return load(file, allow_python=allow_python)
 
 
-def _opening(checked: Checked) -> Opening:
+def _opening(checked: Checked, cancel: Cancel | None) -> Opening:
     """The start of the run of a scenario."""
     given, model = checked.scenario, checked.model
-    start = begin(model, proposed(model, checked.step, given.time.weight, given.time.end, given.solver))
+    start = begin(model, proposed(model, checked.step, given.time.weight, given.time.end, given.solver), cancel)
     initial, met = parted(model, start), model.encounters
     return Opening(
         scene=model.scene,
@@ -158,7 +164,7 @@ def _opening(checked: Checked) -> Opening:
     )
 
 
-def _steps(checked: Checked, state: State | Standing) -> Iterator[Step]:
+def _steps(checked: Checked, state: State | Standing, cancel: Cancel | None) -> Iterator[Step]:
     """The march of a scenario."""
     time = checked.scenario.time
     return march(
@@ -169,6 +175,7 @@ def _steps(checked: Checked, state: State | Standing) -> Iterator[Step]:
         method=checked.scenario.solver,
         state=state,
         control=time.control,
+        cancel=cancel,
     )
 
 

@@ -68,6 +68,9 @@ PLAIN_BASES = {
     "Type",  # of Numba
 }
 
+# What a library does so that its log goes nowhere until the program around it says where.
+SILENCE = "logging.getLogger(__name__).addHandler(logging.NullHandler())"
+
 Finder = Callable[[Source], Iterable[str]]
 
 
@@ -164,7 +167,7 @@ def _only_exports(node: ast.stmt) -> bool:
             return True
         case ast.Assign(targets=[ast.Name(id="__all__" | "__version__")]):
             return True
-    return False
+    return ast.unparse(node) == SILENCE
 
 
 def unlisted_exports(source: Source) -> Iterable[str]:

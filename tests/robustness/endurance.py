@@ -9,7 +9,7 @@ import tempfile
 from pathlib import Path
 
 from softway.execute import run
-from softway.march.step import Step
+from softway.record.progress import Progress
 from softway.scenario.codec import loads
 
 BAR = """
@@ -52,10 +52,10 @@ def endured(slabs: int) -> dict[str, float]:
     errors: list[float] = [0.0]
     count = 0
 
-    def watch(step: Step) -> None:
+    def watch(progress: Progress) -> None:
         nonlocal count
         count += 1
-        errors[0] = max(errors[0], abs(step.ledger.energy_error))
+        errors[0] = max(errors[0], abs(progress.step.ledger.energy_error))
         if count in marks:
             taken.append(resident())
 

@@ -14,7 +14,7 @@ import numpy as np
 from drops import Drop, drop
 from softway.errors import InputError, NumericsError
 from softway.execute import run
-from softway.march.step import Step
+from softway.record.progress import Progress
 from softway.record.run import Run
 from softway.scenario.check import Checked, check
 from softway.scenario.codec import loads
@@ -37,8 +37,9 @@ class Watch:
         self.slabs = self.rejections = 0
         self.first = 0.0
 
-    def __call__(self, step: Step) -> None:
+    def __call__(self, progress: Progress) -> None:
         """Look at an accepted slab."""
+        step = progress.step
         found, ledger = step.certificate, step.ledger
         self.slabs, self.rejections = self.slabs + 1, self.rejections + len(step.report.rejections)
         self.first = max(self.first, ledger.energy_kinetic + ledger.energy_strain + abs(ledger.dissipation))

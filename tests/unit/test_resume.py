@@ -80,8 +80,8 @@ def stopped(folder: Path, after: int, error: BaseException, text: str = BAR) -> 
 def stopper(after: int, error: BaseException):
     seen = []
 
-    def watch(step: sw.Step) -> None:
-        seen.append(step)
+    def watch(progress: sw.Progress) -> None:
+        seen.append(progress)
         if len(seen) == after:
             raise error
 

@@ -8,7 +8,7 @@ from softway.bodies import past
 from softway.contact.fig4 import Split
 from softway.contact.located import LocatedMean, located_mean
 from softway.contact.timing import Energy, Paper
-from softway.errors import InputError, Unbalanced
+from softway.errors import Cancel, InputError, Unbalanced
 from softway.march.carrying import solve_carrying
 from softway.march.explicit import Central, central, solve_explicit
 from softway.march.massless import solve_massless
@@ -21,6 +21,7 @@ from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
 from softway.solve.reaction import Reaction, reaction
 from softway.solve.values import Start
+from softway.solve.watched import Watched
 from softway.time.slab import Slab
 from softway.time.weight import EndPeaks, TimeWeight
 
@@ -29,7 +30,7 @@ Method = FixedPoint | Newton | Explicit
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Rule:
-    """What the contact rule of a model needs all through the march."""
+    """What the contact rule of a model needs all through the march, and whom it asks whether to go on."""
 
     model: Model
     method: Method
@@ -37,6 +38,12 @@ class Rule:
     located: LocatedMean | None
     split: Split | None = None
     central: Central | None = None
+    cancel: Cancel | None = None
+
+    def watched(self, slab: Slab) -> FixedPoint | Newton | Watched:
+        """The method for a slab, which asks between its iterates."""
+        assert not isinstance(self.method, Explicit)
+        return self.method if self.cancel is None else Watched(method=self.method, cancel=self.cancel, when=slab.start)
 
 
 def rule(model: Model, method: Method, weight: TimeWeight) -> Rule:
@@ -101,10 +108,12 @@ def advance(
         case Explicit() as method:
             assert rule.central is not None
             out, carry = solve_explicit(model, now, slab, carry, method, rule.central, approach)
-        case method if rule.inertia is None:
-            out, carry = solve_massless(model, now, slab, carry, method, rule.located, approach, fallback, held)
-        case method:
-            out, carry = solve_carrying(model, now, slab, carry, method, rule.inertia, approach, rule.split)
+        case _ if rule.inertia is None:
+            watched, located = rule.watched(slab), rule.located
+            out, carry = solve_massless(model, now, slab, carry, watched, located, approach, fallback, held)
+        case _:
+            watched = rule.watched(slab)
+            out, carry = solve_carrying(model, now, slab, carry, watched, rule.inertia, approach, rule.split)
     end = out.solution.end
     if end.clipped:
         raise Unbalanced("the scalar that closes the energy balance leaves [-1/2, 1/2]")

@@ -10,7 +10,7 @@ from softway.bodies.dead_load import dead_load
 from softway.bodies.rigid_motions import free_motions
 from softway.bodies.section import Axisymmetric
 from softway.contact.timing import Energy
-from softway.errors import InputError
+from softway.errors import Cancel, InputError
 from softway.march.overlap import deepest, shrunk
 from softway.march.situation import Situation
 from softway.model import Model
@@ -19,7 +19,7 @@ from softway.solve.equilibrium import Grip, Rest, equilibrium, fitted
 from softway.solve.values import Start
 from softway.typing import Array
 
-log = logging.getLogger("softway")
+log = logging.getLogger(__name__)
 
 SOON = 1e-6
 """Time in which a driven tool shows its velocity at the start [s]."""
@@ -29,7 +29,7 @@ OVERLAP = 1e-12
 """Depth inside an obstacle, relative to the coordinates, that counts as touching: rounding."""
 
 
-def begin(model: Model, span: float = 1.0) -> Situation:
+def begin(model: Model, span: float = 1.0, cancel: Cancel | None = None) -> Situation:
     """The situation at t = 0; matter with a history has come to its initial displacement in one slab of length
     ``span`` [s].
 
@@ -37,9 +37,11 @@ def begin(model: Model, span: float = 1.0) -> Situation:
     ------
     InputError
         If a body overlaps an obstacle (named with the depth), or a static start leaves rigid motions free.
+    Cancelled
+        If ``cancel`` says so at an iteration of an equilibrium.
     """
     model = model.during((), span)
-    rest = _resting(model)
+    rest = _resting(model, cancel)
     u, pressure = rest.displacement, rest.pressure
     energy, force = model.energy_and_force(u)
     memory = past.settled(model.parts, u)
@@ -61,7 +63,7 @@ def begin(model: Model, span: float = 1.0) -> Situation:
     )
 
 
-def _resting(model: Model) -> Rest:
+def _resting(model: Model, cancel: Cancel | None) -> Rest:
     """Where the march starts, in equilibrium as far as is asked for, and with massless nodes relaxed."""
     u, count = model.displacement, len(model.encounters.contact)
     rest = Rest(displacement=u, pressure=np.zeros(count))
@@ -74,13 +76,13 @@ def _resting(model: Model) -> Rest:
     fits = any(c.start == "fit" for c in model.scene.contacts)
     if fits or (isinstance(start, StaticStart) and unheld(model)):
         apart = shrunk(model, u, OVERLAP * _reach(model, u))
-        rest = fitted(model, u, model.free, loads, apart, grip=None if fits else grip)
+        rest = fitted(model, u, model.free, loads, apart, grip=None if fits else grip, cancel=cancel)
     elif isinstance(start, StaticStart):
-        rest = equilibrium(model, u, model.free, loads, grip=grip)
+        rest = equilibrium(model, u, model.free, loads, grip=grip, cancel=cancel)
     if isinstance(model.timing, Energy) and not model.massive.all():
         before = float(model.energy_and_force(rest.displacement)[0].sum())
         light = model.free & ~model.massive[:, None]
-        rest = equilibrium(model, rest.displacement, light, model.load, grip=grip)
+        rest = equilibrium(model, rest.displacement, light, model.load, grip=grip, cancel=cancel)
         after = float(model.energy_and_force(rest.displacement)[0].sum())
         log.info("relaxing the contact nodes at the start releases %.3g J of %.3g J", before - after, before)
     if grip is None or rest.traction is not None:

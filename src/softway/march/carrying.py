@@ -28,6 +28,7 @@ from softway.solve.newton import Newton
 from softway.solve.normal import Rows
 from softway.solve.reaction import Reaction
 from softway.solve.system import SlabSystem
+from softway.solve.watched import Watched
 from softway.time.slab import Slab
 from softway.typing import Array
 
@@ -42,7 +43,7 @@ def solve_carrying(
     now: Situation,
     slab: Slab,
     carry: Carry,
-    method: FixedPoint | Newton,
+    method: FixedPoint | Newton | Watched,
     inertia: Reaction,
     approach: float,
     split: Split | None = None,

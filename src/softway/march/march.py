@@ -2,12 +2,13 @@
 
 import logging
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 
 from softway.bodies.section import wave_speed
-from softway.errors import InputError
+from softway.errors import Cancel, InputError
 from softway.march.advance import Method, Rule, rule
 from softway.march.begin import begin
 from softway.march.control import StepControl, crushing, may_grow
@@ -25,7 +26,7 @@ from softway.solve.stability import require_stable, stable_step
 from softway.time.weight import EndPeaks, TimeWeight
 from softway.units import Second
 
-log = logging.getLogger("softway")
+log = logging.getLogger(__name__)
 STRAINED = 0.2
 """Fraction of the length asked for below which a great scalar asks for no shorter slab."""
 
@@ -39,6 +40,7 @@ def march(
     method: Method = FixedPoint(),
     state: State | Standing | None = None,
     control: StepControl = StepControl(),
+    cancel: Cancel | None = None,
 ) -> Iterator[Step]:
     """Accepted slabs from the start, or from ``state``, to the time ``until``.
 
@@ -61,6 +63,8 @@ def march(
         of the scene.
     control
         Limits of a slab; one that breaks them is tried again shorter.
+    cancel
+        Asked at every iteration, from the first equilibrium on, whether the caller wants no more.
 
     Raises
     ------
@@ -68,6 +72,8 @@ def march(
         Before the first step: a step beyond the stability limit, a start inside an obstacle.
     NumericsError
         When a slab fails at every length that was tried; steps handed out before stay valid.
+    Cancelled
+        When ``cancel`` says so; steps handed out before stay valid.
 
     Examples
     --------
@@ -82,15 +88,15 @@ def march(
     """
     model = scene if isinstance(scene, Model) else build(scene)
     settings = Settings(until=until, step=step, weight=weight, method=method, control=control)
-    stand = _begun(model, settings, state)
-    prepared = rule(model, method, weight)
+    stand = _begun(model, settings, state, cancel)
+    prepared = replace(rule(model, method, weight), cancel=cancel)
     if not stand.slabs:
         stepping = method if isinstance(method, Explicit) else weight
         require_stable(model, stand.situation.start.displacement, stepping, stand.pace.span)
     return _steps(prepared, stand)
 
 
-def _begun(model: Model, settings: Settings, state: State | Standing | None) -> Standing:
+def _begun(model: Model, settings: Settings, state: State | Standing | None, cancel: Cancel | None) -> Standing:
     """Where the march stands at its start."""
     if isinstance(state, Standing) and state.settings == settings:
         return state.fitting(model)
@@ -98,7 +104,7 @@ def _begun(model: Model, settings: Settings, state: State | Standing | None) -> 
     span = proposed(model, settings.step, settings.weight, settings.until - past, settings.method)
     if isinstance(state, Standing):
         return state.fitting(model).asked(settings, span)
-    now = begin(model, span) if state is None else joined(model, state)
+    now = begin(model, span, cancel) if state is None else joined(model, state)
     return Standing(
         settings=settings,
         situation=now,
@@ -170,6 +176,7 @@ def _steps(rules: Rule, stand: Standing) -> Iterator[Step]:
             slabs=stand.slabs + 1,
         )
         step = _step(model, before, found, stand)
+        log.debug("slab %d to t = %.6g s: %d iterations", stand.slabs, found.after.time, found.out.iterations)
         yield step
         before, carry = step.after, found.carry
 

@@ -23,6 +23,7 @@ from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
 from softway.solve.normal import Rows, delassus
 from softway.solve.system import SlabSystem
+from softway.solve.watched import Watched
 from softway.time.slab import Slab
 from softway.time.weight import EndPeaks, moments
 from softway.typing import BoolArray
@@ -33,7 +34,7 @@ def solve_massless(
     now: Situation,
     slab: Slab,
     carry: Carry,
-    method: FixedPoint | Newton,
+    method: FixedPoint | Newton | Watched,
     located: LocatedMean | None,
     approach: float,
     fallback: bool,

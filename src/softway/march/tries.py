@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from softway.errors import Halts, NoConvergence, NumericsError, TooFast, Unbalanced
+from softway.errors import Halts, NoConvergence, NumericsError, TooFast, Unbalanced, heed
 from softway.march.advance import Rule, advance
 from softway.march.breakaway import breakaway
 from softway.march.certificate import certified, violation
@@ -20,7 +20,7 @@ from softway.solve.carry import Carry
 from softway.time.slab import Slab
 from softway.time.weight import EndPeaks
 
-log = logging.getLogger("softway")
+log = logging.getLogger(__name__)
 PATIENCE = 1
 """Halvings after which an energy balance that the scalar cannot close is closed along the motion, for as long as it
 takes."""
@@ -58,6 +58,7 @@ def accepted(rules: Rule, stand: Standing, length: float, carry: Carry) -> Accep
     unbalanced = PATIENCE if stand.pace.closed else 0
     fresh = carry.origin is None
     while length > settings.control.least * stand.pace.span:
+        heed(rules.cancel, now.time)
         end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
         slab = Slab(start=now.time, end=end, weight=SETTLING if stand.pace.halted else settings.weight)
         try:

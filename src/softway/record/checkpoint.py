@@ -21,7 +21,7 @@ from softway.record.pack import packed, unpacked
 from softway.record.whole import replaced
 from softway.units import Second
 
-LOG = logging.getLogger("softway")
+LOG = logging.getLogger(__name__)
 FOLDER = "checkpoints"
 FORMAT = "softway checkpoint 1"
 RARE = 100.0

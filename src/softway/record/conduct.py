@@ -1,23 +1,25 @@
 """Conduct: take the steps of a march one by one, record each, and leave a readable folder however it ends."""
 
+import logging
 import shutil
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
 from pathlib import Path
 from types import MappingProxyType
 
-from softway.errors import NumericsError, StorageError
+from softway.errors import Cancelled, NumericsError, StorageError
 from softway.march.step import Step
 from softway.record import checkpoint, events, fields, history, provenance, summary
 from softway.record.checkpoint import Checkpoint, Checkpoints
 from softway.record.keeper import Keeper
 from softway.record.lock import held
 from softway.record.place import Place
-from softway.record.provenance import DONE, INTERRUPTED, Stop
+from softway.record.progress import Meter, Watch
+from softway.record.provenance import CANCELLED, DONE, INTERRUPTED, Stop
 from softway.record.recorder import Opener, Opening, Recorder
 from softway.record.run import Run
 
-Progress = Callable[[Step], None]
+LOG = logging.getLogger(__name__)
 STANDARD: Mapping[str, Opener] = MappingProxyType(
     {history.FILE: history.open_history, events.FILE: events.open_events, fields.FILE: fields.open_fields}
 )
@@ -33,7 +35,7 @@ def conduct(
     title: str = "",
     texts: Mapping[str, str] | None = None,
     plan: Checkpoints = NO_CHECKPOINTS,
-    progress: Progress | None = None,
+    progress: Watch | None = None,
 ) -> Run:
     """Record every step of ``steps``; the folder appears when the first slab is accepted or fails.
 
@@ -50,13 +52,13 @@ def conduct(
     plan
         Checkpoints to write; a folder without a name has none.
     progress
-        Called with each step after it has been recorded.
+        Told of each step after it has been recorded.
 
     Raises
     ------
     InputError
         Found before the first slab; no folder is left.
-    NumericsError, KeyboardInterrupt, StorageError
+    NumericsError, Cancelled, KeyboardInterrupt, StorageError, and what ``progress`` raises
         After the records have been closed; a named folder stays, with the reason in ``provenance.json``.
     """
     first, early = _first(steps)
@@ -79,7 +81,8 @@ def conduct(
             shutil.rmtree(folder.path, ignore_errors=True)
             raise
         keeper = Keeper(folder.path, kept, recorders, 0.0)
-        return _carried_on(_chain(first, early, steps), run, keeper, run.provenance, progress)
+        meter = None if progress is None else Meter(progress, opening.until, opening.initial.time)
+        return _carried_on(_chain(first, early, steps), run, keeper, run.provenance, meter)
 
 
 def proceed(
@@ -89,7 +92,7 @@ def proceed(
     found: Checkpoint | None,
     *,
     plan: Checkpoints,
-    progress: Progress | None = None,
+    progress: Watch | None = None,
 ) -> Run:
     """Go on with the records of a run that stopped, cut back to the checkpoint, or from the start where there is none.
 
@@ -112,7 +115,7 @@ def proceed(
     ------
     InputError
         If a record is shorter than it was at the checkpoint.
-    NumericsError, KeyboardInterrupt, StorageError
+    NumericsError, Cancelled, KeyboardInterrupt, StorageError, and what ``progress`` raises
         As for :func:`conduct`.
     """
     with _stored(run.path):
@@ -121,11 +124,12 @@ def proceed(
         record = provenance.resume(run.path, run.provenance, slabs, time)
         (run.path / summary.FILE).unlink(missing_ok=True)
     keeper = Keeper(run.path, plan, recorders, 0.0 if found is None else found.wall)
-    return _carried_on(steps, run, keeper, record, progress)
+    meter = None if progress is None else Meter(progress, opening.until, time, slabs)
+    return _carried_on(steps, run, keeper, record, meter)
 
 
 def _carried_on(
-    steps: Iterator[Step], run: Run, keeper: Keeper, record: Mapping[str, object], progress: Progress | None
+    steps: Iterator[Step], run: Run, keeper: Keeper, record: Mapping[str, object], meter: Meter | None
 ) -> Run:
     """Record the steps and finish."""
     stop = Stop("failed", "unexpected error")
@@ -133,14 +137,20 @@ def _carried_on(
         for step in steps:
             with _stored(run.path):
                 _take(keeper, step)
-            if progress is not None:
-                progress(step)
+            if meter is not None:
+                meter.took(step)
         stop = DONE
     except KeyboardInterrupt:
         stop = INTERRUPTED
         raise
+    except Cancelled:
+        stop = CANCELLED
+        raise
     except (NumericsError, StorageError) as error:
         stop = Stop("failed", str(error))
+        raise
+    except Exception as error:  # of whoever watches, or a fault of ours: it comes out as it is
+        stop = Stop("failed", f"{type(error).__name__}: {error}")
         raise
     finally:
         _finish(run, keeper, record, stop)
@@ -162,7 +172,7 @@ def _first(steps: Iterator[Step]) -> tuple[Step | None, BaseException | None]:
     """The first step, or what prevented it; wrong input is raised at once."""
     try:
         return next(steps, None), None
-    except (KeyboardInterrupt, NumericsError) as error:
+    except (KeyboardInterrupt, Cancelled, NumericsError) as error:
         return None, error
 
 
@@ -210,3 +220,4 @@ def _finish(run: Run, keeper: Keeper, record: Mapping[str, object], stop: Stop) 
         provenance.end(run.path, record, stop)
         if stop is DONE:
             checkpoint.forget(run.path)
+    LOG.info("run '%s' %s after %d slabs, %.3g s on the clock", run.path, stop.reason, numbers["slabs"], keeper.wall)

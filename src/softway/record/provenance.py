@@ -16,7 +16,7 @@ from typing import Any
 from softway.errors import InputError
 from softway.record.whole import replaced
 
-LOG = logging.getLogger("softway")
+LOG = logging.getLogger(__name__)
 FILE = "provenance.json"
 PACKAGES = ("softway", "numpy", "scipy", "h5py", "fenics-basix", "meshio", "pint")
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -29,7 +29,7 @@ class Stop:
     Parameters
     ----------
     reason
-        ``running``, ``done``, ``interrupted`` or ``failed``.
+        ``running``, ``done``, ``interrupted``, ``cancelled`` or ``failed``.
     message
         What failed, or nothing.
     """
@@ -38,7 +38,7 @@ class Stop:
     message: str = ""
 
 
-RUNNING, DONE, INTERRUPTED = Stop("running"), Stop("done"), Stop("interrupted")
+RUNNING, DONE, INTERRUPTED, CANCELLED = Stop("running"), Stop("done"), Stop("interrupted"), Stop("cancelled")
 
 
 def begin(folder: Path, title: str, texts: Mapping[str, str]) -> Mapping[str, Any]:

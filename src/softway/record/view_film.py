@@ -23,7 +23,7 @@ from softway.typing import Array
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-log = logging.getLogger("softway")
+log = logging.getLogger(__name__)
 FAST = 20
 """Pictures in a second."""
 LONGEST = 300

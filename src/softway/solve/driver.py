@@ -1,6 +1,7 @@
 """The only loop with a tolerance in it: run a method until its iterates stand still."""
 
-from collections.abc import Callable, Iterator
+import logging
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,8 @@ from softway.solve.carry import Carry
 from softway.solve.system import SlabSystem
 from softway.solve.values import Evaluation
 from softway.typing import Array, BoolArray
+
+log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -51,9 +54,6 @@ class Solution:
     contraction: float
 
 
-Method = Callable[[SlabSystem, Array, Carry, Array, BoolArray], Iterator[Iterate]]
-
-
 ROUNDING = 1e-12
 """Share of the velocity made by forces that balance each other which is rounding."""
 
@@ -92,6 +92,7 @@ def drive(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float, lim
             raise NoConvergence("the iteration left the admissible configurations (inverted cell or overflow)")
         predicted = it.free if predicted is None else predicted
         first = it.change if count == 1 else first
+        log.debug("iterate %d: change %.3g m/s", count, it.change)
         scale = max(np.abs(it.q).max(initial=0.0), np.abs(system.start.velocity).max(initial=0.0), 1e-300)
         best, since = (it.change, 0) if it.change < 0.5 * best else (best, since + 1)
         settled = it.change <= tolerance * scale or (since >= 6 and it.change <= 1e3 * tolerance * scale)

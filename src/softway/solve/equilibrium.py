@@ -7,7 +7,7 @@ import scipy.sparse as sp
 
 from softway.contact.candidates import Candidates
 from softway.contact.encounters import Pairs
-from softway.errors import NoConvergence, NumericsError
+from softway.errors import Cancel, NoConvergence, NumericsError, heed
 from softway.model import Model
 from softway.solve.friction import rubbed
 from softway.solve.frozen import basis, freeze
@@ -77,6 +77,7 @@ def equilibrium(
     time: float = 0.0,
     limit: int = 60,
     grip: Grip | None = None,
+    cancel: Cancel | None = None,
 ) -> Rest:
     """Displacement and contact forces with ``f(u) = load + G^T lambda`` on the unknown components.
 
@@ -92,15 +93,19 @@ def equilibrium(
         (n, d) [N].
     grip
         Friction; without it there is none.
+    cancel
+        Asked at every step.
 
     Raises
     ------
     NumericsError
         If it does not settle.
+    Cancelled
+        If ``cancel`` says so.
     """
     if not unknown.any():
         return Rest(displacement=u, pressure=np.zeros(len(model.encounters.contact)))
-    return _settled(model, u, unknown, load, model.encounters.rest(u, time), None, limit, grip)
+    return _settled(model, u, unknown, load, model.encounters.rest(u, time), None, limit, grip, cancel)
 
 
 def fitted(
@@ -111,6 +116,7 @@ def fitted(
     apart: Array,
     limit: int = 200,
     grip: Grip | None = None,
+    cancel: Cancel | None = None,
 ) -> Rest:
     """Displacement and contact forces of bodies that overlap at the start, pressed apart: a press fit.
 
@@ -123,6 +129,8 @@ def fitted(
     ------
     NumericsError
         If it does not settle.
+    Cancelled
+        If ``cancel`` says so.
     """
     d = model.shape[1]
     keep = np.flatnonzero(unknown.ravel())
@@ -130,7 +138,7 @@ def fitted(
     weight = np.repeat(np.maximum(_nodal_volume(model), 0.0), d)
     lift = SHARE * float(stiffness.diagonal().mean() / weight.mean()) * weight
     pairs = model.encounters.meet(apart, u, 0.0, 0.0)
-    return _settled(model, u, unknown, load, pairs, sp.csc_array(sp.diags_array(lift[keep])), limit, grip)
+    return _settled(model, u, unknown, load, pairs, sp.csc_array(sp.diags_array(lift[keep])), limit, grip, cancel)
 
 
 def _nodal_volume(model: Model) -> Array:
@@ -156,6 +164,7 @@ def _settled(
     lift: sp.csc_array | None,
     limit: int,
     grip: Grip | None,
+    cancel: Cancel | None,
 ) -> Rest:
     """Newton's method with the contact rows as inequalities; ``lift`` (k, k) is added to the stiffness."""
     keep = np.flatnonzero(unknown.ravel())
@@ -165,6 +174,7 @@ def _settled(
     rounding = 4.0 * float(np.finfo(float).eps * np.abs(model.points).max())
     u = u.copy()
     for count in range(limit):
+        heed(cancel, 0.0)
         pairs = pairs.held(u) if count == STEADY and pairs.known is None else pairs
         rows = pairs.at(u)
         try:

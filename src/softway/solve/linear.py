@@ -13,7 +13,7 @@ from scipy.sparse.linalg import splu
 from softway.errors import InputError, NoConvergence
 from softway.typing import Array
 
-LOG = logging.getLogger("softway")
+LOG = logging.getLogger(__name__)
 
 Precision = Literal["double", "single"]
 """Of the numbers of a factor; right-hand sides and solutions are double."""

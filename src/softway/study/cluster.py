@@ -4,8 +4,8 @@ from collections.abc import Callable, Generator, Sequence
 from math import nan
 from typing import Any, TypeVar
 
-from softway.crew import Complaint
-from softway.errors import InputError
+from softway.crew import LOOK, Complaint
+from softway.errors import Cancel, Cancelled, InputError
 
 Task = TypeVar("Task")
 Reply = TypeVar("Reply")
@@ -33,14 +33,33 @@ def connected(address: str) -> Any:
 
 
 def answers_from(
-    client: Any, tasks: Sequence[Task], work: Callable[[Task], Reply]
+    client: Any, tasks: Sequence[Task], work: Callable[[Task], Reply], cancel: Cancel | None = None
 ) -> Generator[tuple[Task, Reply | Complaint, float], None, None]:
-    """As :func:`softway.crew.answers`, from workers that see the same files; closes the client at the end."""
-    from distributed import as_completed
+    """As :func:`softway.crew.answers`, from workers that see the same files; closes the client at the end.
 
+    Raises
+    ------
+    Cancelled
+        If ``cancel`` says so; what workers have begun they end.
+    """
     with client:
         futures = {client.submit(work, task, pure=False, retries=0): task for task in tasks}
-        for future in as_completed(list(futures), loop=client.loop):
-            error = future.exception()
-            answer = future.result() if error is None else Complaint(f"{type(error).__name__}: {error}")
-            yield futures[future], answer, nan
+        left = set(futures)
+        while left:
+            for future in _ended(left, cancel):
+                left.remove(future)
+                error = future.exception()
+                answer = future.result() if error is None else Complaint(f"{type(error).__name__}: {error}")
+                yield futures[future], answer, nan
+
+
+def _ended(left: set[Any], cancel: Cancel | None) -> set[Any]:
+    """Those of some futures that have ended, one at least."""
+    from distributed import wait
+
+    while cancel is None or not cancel():
+        try:
+            return set(wait(left, None if cancel is None else LOOK, "FIRST_COMPLETED").done)
+        except TimeoutError:
+            continue
+    raise Cancelled(f"with {len(left)} left")

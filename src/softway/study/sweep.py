@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from softway.crew import Complaint, answers
-from softway.errors import InputError
+from softway.errors import Cancel, InputError
 from softway.record import provenance
 from softway.record.provenance import DONE
 from softway.study.attempt import Attempt, carried_out
@@ -28,6 +28,7 @@ def sweep(
     again: bool = False,
     allow_python: bool = False,
     watch: Watch | None = None,
+    cancel: Cancel | None = None,
 ) -> Sweep:
     """Compute a scenario with every combination of some values, each in a process of its own, and write one table.
 
@@ -54,12 +55,14 @@ def sweep(
         Whether ``module:name`` in the scenario may also name an installed module.
     watch
         Called with each run that ends, and the number of those left.
+    cancel
+        Asked a few times a second whether the caller wants no more; workers of Dask end what they have begun.
 
     Raises
     ------
     InputError
         Something is wrong with one of the combinations; nothing has been computed.
-    KeyboardInterrupt
+    Cancelled, KeyboardInterrupt
         The same call goes on from there.
     """
     source, place = Path(file), _place(file, out)
@@ -76,7 +79,7 @@ def sweep(
     for attempt in attempts:
         attempt.require()
     todo = [a for a in attempts if _left(a, again)]
-    coming = _answers(todo, jobs, scheduler)
+    coming = _answers(todo, jobs, scheduler, cancel)
     try:
         place.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -109,14 +112,14 @@ def _collected(
 
 
 def _answers(
-    todo: Sequence[Attempt], jobs: int, scheduler: str | None
+    todo: Sequence[Attempt], jobs: int, scheduler: str | None, cancel: Cancel | None
 ) -> Generator[tuple[Attempt, Any, float], None, None]:
     """Who computes."""
     if jobs < 1:
         raise InputError("--jobs", f"{jobs}", "1 or more")
     if scheduler is None:
-        return answers(todo, carried_out, jobs)
-    return answers_from(connected(scheduler), todo, carried_out)
+        return answers(todo, carried_out, jobs, cancel)
+    return answers_from(connected(scheduler), todo, carried_out, cancel)
 
 
 def _left(attempt: Attempt, again: bool) -> bool:

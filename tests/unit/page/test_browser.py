@@ -136,8 +136,8 @@ def test_a_run_that_goes_on_is_followed(tmp_path, browser, fall):
     """The page is opened while the run rests after half its slabs; the others appear by themselves."""
     go_on, half = threading.Event(), threading.Event()
 
-    def rest(step):
-        if step.after.time > 2.0 and not half.is_set():
+    def rest(progress):
+        if progress.time > 2.0 and not half.is_set():
             half.set()
             go_on.wait(60)
 

@@ -68,7 +68,7 @@ def test_a_run_cut_short_keeps_what_was_computed(bar, tmp_path, after, error, re
 
 
 def test_an_interrupt_while_recording_leaves_a_readable_folder(bar, tmp_path):
-    def pressed(step):
+    def pressed(progress):
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
@@ -79,9 +79,9 @@ def test_an_interrupt_while_recording_leaves_a_readable_folder(bar, tmp_path):
 def test_a_running_folder_is_readable(bar, tmp_path):
     lengths = []
 
-    def look(step):
+    def look(progress):
         run = Run(tmp_path / "run")
-        assert run.stop.reason == "running" and run.summary["time_end"] == step.after.time
+        assert run.stop.reason == "running" and run.summary["time_end"] == progress.time
         lengths.append((run.history.rows, len(run.fields), run.events.rows))
 
     conduct(bar.steps(), bar.opening(), Place(out=tmp_path / "run"), progress=look)

@@ -52,7 +52,7 @@ def test_a_missing_backend_is_named_once(
     absent(monkeypatch, *missing)
     assert best(precision) == expected
     (record,) = caplog.records
-    assert (record.name, record.levelno) == ("softway", logging.WARNING)
+    assert (record.name, record.levelno) == ("softway.solve.linear", logging.WARNING)
     for word in ("pardiso does not work here", "superlu is used", "pip install 'softway[pardiso]'"):
         assert word in record.getMessage()
 

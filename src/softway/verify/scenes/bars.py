@@ -3,9 +3,7 @@
 In every scene the body is ``bar``, the obstacle ``stop`` and the contact ``stop``.  The tip is the node that may touch.
 """
 
-import logging
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -157,18 +155,6 @@ def recorded(steps: Iterable[Step]) -> Record:
     )
 
 
-@contextmanager
-def quiet() -> Iterator[None]:
-    """Without the warning about a centre of mass that a bar of two elements cannot keep."""
-    logger = logging.getLogger("softway")
-    level = logger.level
-    logger.setLevel(logging.ERROR)
-    try:
-        yield
-    finally:
-        logger.setLevel(level)
-
-
 def run(
     bar: sw.Solid,
     stop: sw.HalfSpace | None,
@@ -187,8 +173,7 @@ def run(
         bodies["stop"] = sw.Tool(shape=stop)
         contacts = (sw.Contact(between=(f"bar.{tip}", "stop"), name="stop", timing=rule),)
     scene = sw.Scene(bodies=bodies, contacts=contacts, loads=loads)
-    with quiet():
-        return recorded(sw.march(scene, until=until, step="auto" if step is None else step, weight=weight))
+    return recorded(sw.march(scene, until=until, step="auto" if step is None else step, weight=weight))
 
 
 def thrown(
