@@ -21,7 +21,7 @@ help:
 	@echo "make fuzz   ten thousand damaged scenarios, mesh files and command lines, into docs/verification/robustness.md"
 	@echo "make drops  five hundred random drops, into the same page"
 	@echo "make endurance  a hundred thousand slabs with all records, and their memory, into the same page"
-	@echo "make docs   the documentation as HTML in docs/_build/html"
+	@echo "make docs   pages, reference and examples as HTML in docs/_build/html, none of which needs the network"
 
 # $(call environment,folder,extras): the file "ready" comes last, so that an interrupted installation is repeated
 define environment
@@ -90,7 +90,7 @@ endurance: $(TEST)/ready
 	$(TEST)/bin/python tests/robustness/page.py
 
 docs: $(DOCS)/ready
-	$(DOCS)/bin/python -m sphinx --fail-on-warning --keep-going -q -b html docs docs/_build/html
+	$(DOCS)/bin/sphinx-build --fail-on-warning --keep-going -q -b html docs docs/_build/html
 
 clean:
-	rm -rf $(DEMO) $(TEST) $(DOCS) docs/_build demo
+	rm -rf $(DEMO) $(TEST) $(DOCS) docs/_build docs/examples demo

@@ -1,15 +1,60 @@
-"""Sphinx configuration of the documentation."""
+"""Sphinx configuration of the documentation: pages, reference and gallery, none of which needs the network."""
 
+import sys
 from importlib.metadata import version as installed
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent / "extensions"))
 
 project = "softway"
 author = "the softway developers"
 copyright = author
 release = version = installed("softway")
-extensions = ["myst_parser", "sphinx.ext.mathjax"]
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.mathjax",
+    "sphinx-mathjax-offline",
+    "sphinx_gallery.gen_gallery",
+    "cyclopts.ext.sphinx",
+    "fields",
+    "keys",
+    "offline",
+]
+source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
+exclude_patterns = ["_build", "extensions"]
+nitpicky = True
+nitpick_ignore_regex = [  # names of types that are no part of the reference
+    ("py:class", r"(numpy|np|sp|collections|pyvista|pathlib|typing)\..*|Path|Callable|Iterator|Mapping|Sequence|Any"),
+    ("py:class", r"(Int|Bool)?Array|Second|Precision|Progress|Watch|TimeWeight|Method|LawName|Law|Part|Units|Entrant"),
+]
+
 myst_enable_extensions = ["dollarmath", "amsmath", "deflist"]
 myst_heading_anchors = 3
-source_suffix = {".md": "markdown"}
-exclude_patterns = ["_build"]
-html_theme = "alabaster"
+
+autodoc_member_order = "bysource"
+maximum_signature_line_length = 88
+toc_object_entries_show_parents = "hide"
+
+sphinx_gallery_conf = {
+    "examples_dirs": "../examples/gallery",
+    "gallery_dirs": "examples",
+    "filename_pattern": r"\.py",
+    "show_signature": False,
+    "show_memory": False,
+    "write_computation_times": False,
+    "remove_config_comments": True,
+    "abort_on_example_error": True,
+    "only_warn_on_example_error": False,
+    "download_all_examples": False,
+    "reference_url": {"softway": None},
+    "doc_module": ("softway",),
+    "capture_repr": (),
+}
+
+html_theme = "furo"
 html_title = f"softway {release}"
+html_show_sourcelink = False
+html_copy_source = False
+html_static_path = ["static"]
+html_css_files = ["softway.css"]

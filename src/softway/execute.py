@@ -52,7 +52,7 @@ def run(
     Parameters
     ----------
     scenario
-        What to compute; as :class:`Checked` if it has been checked before.
+        What to compute; as :class:`~softway.scenario.check.Checked` if it has been checked before.
     out
         Folder of the records; without one they live in a temporary folder as long as the returned object.
     progress

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 GALLERY = Path(__file__).parents[2] / "docs" / "gallery.py"
+EXAMPLES = sorted((GALLERY.parents[1] / "examples" / "gallery").glob("*.py"))
 LARGEST = 80_000
 
 
@@ -39,3 +40,13 @@ def test_no_picture_is_left_over(gallery):
 def test_a_picture_becomes_small(gallery, tmp_path):
     gallery.shrink(GALLERY.parent / "pictures" / "bracket.png", tmp_path / "small" / "bracket.png")
     assert (tmp_path / "small" / "bracket.png").stat().st_size < LARGEST
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_an_example_is_told_in_blocks_draws_and_asserts(example):
+    text = example.read_text(encoding="utf-8")
+    title, rule = text.splitlines()[1:3]
+    assert set(rule) == {"="} and len(rule) == len(title)
+    assert text.count("\n# %%\n") >= 2
+    assert "\nassert " in text or "\n    assert " in text
+    assert max(map(len, text.splitlines())) <= 100  # what a page shows without scrolling

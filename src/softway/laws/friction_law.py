@@ -11,7 +11,7 @@ from softway.typing import Array
 class FrictionLaw(Protocol):
     """An isotropic resistance to slip, set-valued at rest as a rigid-viscoplastic law of the bulk.
 
-    The tangential traction t on a surface that slips with the velocity v on its opponent is
+    The tangential traction t on a surface that slips with the velocity v on its opponent is ::
 
         t = -resistance(|v|, p) v/|v|  where v != 0,    |t| <= limit(p)  where v = 0,
 

@@ -122,7 +122,7 @@ def parsed(text: str, name: str) -> dict[str, Any]:
 
 
 def resolved(scenario: Scenario) -> str:
-    """The TOML text of a scenario with every default written out; :func:`loads` gives the same scenario back.
+    """The TOML text of a scenario with every default written out; ``loads`` beside it gives the same back.
 
     Raises
     ------

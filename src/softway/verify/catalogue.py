@@ -82,7 +82,7 @@ def chosen(ids: Iterable[str] = (), *, quick: bool = False) -> tuple[Case, ...]:
     ids
         ``A02`` is that case, ``B`` all whose id begins with B.
     quick
-        Only those that take at most :data:`QUICK` seconds.
+        Only those that take at most ``QUICK`` seconds.
 
     Raises
     ------

@@ -40,7 +40,7 @@ class LineContact:
 
     @property
     def half_width(self) -> float:
-        """b of the strip |x| < b."""
+        """b of the strip ``|x| < b``."""
         return sqrt(4.0 * self.load * self.radius / (pi * self.modulus))
 
     @property

@@ -1,0 +1,23 @@
+"""Every example of the gallery runs: its assertions hold, it prints figures and draws pictures."""
+
+import runpy
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import pytest
+
+pytestmark = pytest.mark.slow
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples" / "gallery").glob("*.py"))
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_an_example_runs(example, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    try:
+        runpy.run_path(str(example), run_name="__main__")
+        assert plt.get_fignums()
+        assert any(character.isdigit() for character in capsys.readouterr().out)
+    finally:
+        plt.close("all")
+    assert not list(tmp_path.iterdir())
