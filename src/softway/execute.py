@@ -66,9 +66,9 @@ def run(
     ------
     InputError
         Something in the scenario is wrong; no folder is left.
-    NumericsError, Cancelled, KeyboardInterrupt, StorageError, and what ``progress`` raises
+    NumericsError, Cancelled, KeyboardInterrupt, StorageError
         The folder ``out`` holds what was computed until then, and :func:`resume` goes on; there is none yet when the
-        first equilibrium is called off.
+        first equilibrium is called off.  What ``progress`` raises comes out likewise.
     """
     place = Place(out=None if out is None else Path(out), overwrite=overwrite)
     place.check()
@@ -108,7 +108,7 @@ def resume(
     InputError
         ``folder`` holds no run, one that is still going on, another scenario than it began with, or records that lack
         something.
-    NumericsError, Cancelled, KeyboardInterrupt, StorageError, and what ``progress`` raises
+    NumericsError, Cancelled, KeyboardInterrupt, StorageError
         As of :func:`run`.
     """
     stopped = Run(Path(folder))
