@@ -21,7 +21,7 @@ _PART = _EXACT | {"forceinline": True, "no_cfunc_wrapper": True, "no_cpython_wra
 _POINT = types.void(types.CPointer(types.float64), types.CPointer(types.float64))
 _SHARED = ("compiled.py", "functions.py", "fused_past.py", "lanes.py", "past.py", "stages.py", "vectors.py")
 _SOURCES = b"".join(Path(__file__).with_name(name).read_bytes() for name in _SHARED)
-_DIGEST = sha256(_SOURCES).hexdigest()[:12]
+_ENDING = f"_{sha256(_SOURCES).hexdigest()[:12]}"
 
 
 def stage(function: Callable[..., None]) -> Stage:
@@ -41,7 +41,7 @@ def inlined(function: Callable[..., Any]) -> Callable[..., Any]:
 
 def _kept(compiler: Callable[..., Any], function: Callable[..., Any], options: dict[str, Any]) -> Any:
     """The compiled function, kept on disk where there is a folder to write to."""
-    function.__qualname__ = f"{function.__qualname__}_{_DIGEST}"
+    function.__qualname__ = function.__qualname__.removesuffix(_ENDING) + _ENDING  # by two threads at once, too
     try:
         return compiler(cache=True, **options)(function)
     except RuntimeError:

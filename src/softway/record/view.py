@@ -11,7 +11,7 @@ from softway.record.run import Run
 from softway.record.view_body import bodies
 from softway.record.view_history import history
 from softway.record.view_paths import paths
-from softway.record.view_style import STYLE, library
+from softway.record.view_style import styled
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -46,15 +46,14 @@ def is_bars(run: Run) -> bool:
 def drawn(run: Run, look: Look = STANDARD) -> bytes:
     """The picture of the bodies as PNG."""
     out = io.BytesIO()
-    with library().rc_context(STYLE):
+    with styled():
         (paths if is_bars(run) else bodies)(run, look).savefig(out, format="png", dpi=look.dpi, facecolor="white")
     return out.getvalue()
 
 
 def save(draw: "Callable[[Run, Look], Figure]", run: Run, file: Path, look: Look = STANDARD) -> Path:
     """Draw one picture into a file; its ending names the format."""
-    matplotlib = library()
-    with matplotlib.rc_context(STYLE):
+    with styled():
         figure = draw(run, look)
         try:
             file.parent.mkdir(parents=True, exist_ok=True)

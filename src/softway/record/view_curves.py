@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from softway.record.view_style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, STYLE, canvas, library
+from softway.record.view_style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, canvas, styled
 from softway.typing import Array
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def drawing(panels: Sequence[Panel]) -> str:
     """
     columns = min(2, len(panels))
     rows = -(-len(panels) // columns)
-    with library().rc_context(STYLE | {"svg.hashsalt": "softway"}):
+    with styled(**{"svg.hashsalt": "softway"}):
         figure = canvas(4.6 * columns, 3.0 * rows)
         axes = figure.subplots(rows, columns, squeeze=False).ravel()
         for panel, axis in zip(panels, axes, strict=False):

@@ -9,7 +9,7 @@ from softway.record.run import Run
 from softway.record.summary import contacts_of
 from softway.record.view_history import balance, energies, forces, gaps
 from softway.record.view_spacetime import spacetime
-from softway.record.view_style import STYLE, canvas, library, scaled
+from softway.record.view_style import canvas, scaled, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -51,7 +51,7 @@ def world(run: Run) -> Drawing | None:
     """The mesh of space-time of bodies on a line or in the plane."""
     if run.fields.cells.dimension > 2 or run.history.rows < 2:
         return None
-    with library().rc_context(STYLE):
+    with styled():
         figure = spacetime(run)
         svg = _svg(figure)
     times, box = run.history["time"], figure.axes[0].get_position()
@@ -59,7 +59,7 @@ def world(run: Run) -> Drawing | None:
 
 
 def _panel(draw: "Callable[[Axes], None]", unit: str, span: tuple[float, float]) -> Drawing:
-    with library().rc_context({**STYLE, "font.size": 9}):
+    with styled(**{"font.size": 9}):
         figure = canvas(*SIZE)
         axis = figure.subplots()
         draw(axis)

@@ -17,7 +17,7 @@ from softway.record.view_body import caption, stage_of
 from softway.record.view_field import colour_of
 from softway.record.view_paths import diagrams
 from softway.record.view_scene import ruler
-from softway.record.view_style import BLACK, STYLE, canvas, library
+from softway.record.view_style import BLACK, canvas, styled
 from softway.typing import Array
 
 if TYPE_CHECKING:
@@ -66,10 +66,9 @@ def film(run: Run, file: Path, look: Look = STANDARD, watch: Callable[[int, int]
     numbers = _numbers(run, look)
     if len(numbers) < 2:
         raise InputError("--film", "fewer than two frames", "a run with more of them: output.fields_every")
-    matplotlib = library()
-    import matplotlib.animation as animation
+    with styled(**{"animation.ffmpeg_path": _ffmpeg() or "ffmpeg"}):
+        import matplotlib.animation as animation
 
-    with matplotlib.rc_context({**STYLE, "animation.ffmpeg_path": _ffmpeg() or "ffmpeg"}):
         file, writer = _writer(animation, file)
         look = replace(look, size=look.size or SIZE, dpi=look.dpi if look != STANDARD else DPI)
         bars = set(run.fields.cells.blocks()) <= {"bar2", "bar3"}

@@ -7,14 +7,11 @@ import numpy as np
 from softway.record.surface import Skin
 from softway.record.view_place import Placing
 from softway.record.view_scene import Camera, edges, strokes
-from softway.record.view_style import library
+from softway.record.view_style import library, lit
 from softway.typing import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-LAMP = np.array([-0.35, 0.75, 0.6])
-"""Direction to the lamp in the axes of the picture: right, up, towards the eye."""
 
 
 def paint(axis: "Axes", skin: Skin, place: Placing, view: Camera, colours: Array) -> None:
@@ -43,7 +40,7 @@ def _lit(triangles: Array, rgb: Array) -> tuple[Array, Array]:
     normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
     front = normal[:, 2] > 0.0
-    light = 0.86 + 0.18 * (normal[front] @ (LAMP / np.linalg.norm(LAMP)))
+    light = 0.86 + 0.18 * lit(normal[front])
     return triangles[front], np.clip(rgb[front] * light[:, None], 0.0, 1.0)
 
 

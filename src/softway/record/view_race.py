@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from softway.errors import InputError
-from softway.record.view_style import BLACK, CYCLE, STYLE, canvas, library, scaled
+from softway.record.view_style import BLACK, CYCLE, canvas, scaled, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,7 +32,7 @@ def picture(found: Mapping[str, Any], file: Path) -> Path:
     InputError
         If it cannot be written.
     """
-    with library().rc_context(STYLE):
+    with styled():
         figure = drawn(found)
         try:
             figure.savefig(file, dpi=160, facecolor="white")

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from softway.bodies.motion import Placed
-from softway.record.view_style import library
+from softway.record.view_style import library, lit
 from softway.space.curved import Cavity
 from softway.space.faceted import Facets, Surface
 from softway.typing import Array, BoolArray
@@ -22,7 +22,6 @@ PIXELS = 560
 STEPS = 160
 MARGIN = 0.3
 """How far obstacles in the plane are drawn around the bodies, as a share of the diagonal."""
-LAMP = np.array([-0.35, 0.75, 0.6]) / np.linalg.norm([-0.35, 0.75, 0.6])
 
 
 def draw(axis: "Axes", tool: Placed, points: Array, axes: Array) -> None:
@@ -127,4 +126,4 @@ def _traced(tool: Placed, plane: Array, axes: Array, start: float, depth: float)
 
 def _lit(normal: Array) -> Array:
     """Brightness (k,) of surfaces with the normals (k, 3) in the axes of the picture."""
-    return np.asarray(np.clip(GREY * np.clip(0.82 + 0.18 * (normal @ LAMP), 0.0, 1.08), 0.0, 1.0))
+    return np.asarray(np.clip(GREY * np.clip(0.82 + 0.18 * lit(normal), 0.0, 1.08), 0.0, 1.0))

@@ -1,7 +1,10 @@
 """What all pictures share: the library, a canvas, colours, and units with prefixes."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from math import floor, log10
-from typing import TYPE_CHECKING
+from threading import RLock
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -30,6 +33,8 @@ STYLE = {
     "axes.edgecolor": "#666666",
     "lines.linewidth": 1.6,
 }
+LAMP = (-0.35, 0.75, 0.6)
+"""Direction to the lamp in the axes of a picture: right, up, towards the eye."""
 PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
 
@@ -43,6 +48,16 @@ def library():  # type: ignore[no-untyped-def]  # the module object
     return matplotlib
 
 
+_ONE_AT_A_TIME = RLock()  # Matplotlib has one style, and is not made for threads
+
+
+@contextmanager
+def styled(**more: Any) -> Iterator[None]:
+    """Our style, ``more`` on top of it, while a picture is drawn; other threads wait with theirs."""
+    with _ONE_AT_A_TIME, library().rc_context(STYLE | more):
+        yield
+
+
 def canvas(width: float, height: float) -> "Figure":
     """An empty figure [inches] without any window."""
     made: Figure = library().figure.Figure(figsize=(width, height), layout="constrained")
@@ -53,6 +68,11 @@ def stops(name: str, count: int = 24) -> tuple[str, ...]:
     """Colours of a map from its low end to its high end, as #rrggbb."""
     chosen = library().colormaps[name](np.linspace(0.0, 1.0, count))
     return tuple(library().colors.to_hex(colour) for colour in chosen)
+
+
+def lit(normal: Array) -> Array:
+    """Cosines (e,) of the angles between normals (e, 3) and the direction to the lamp."""
+    return np.asarray(normal @ (np.array(LAMP) / np.linalg.norm(LAMP)))
 
 
 def scaled(values: Array | float, unit: str) -> tuple[float, str]:

@@ -12,12 +12,14 @@ from contextlib import contextmanager
 from dataclasses import dataclass, is_dataclass
 from importlib.machinery import PathFinder
 from pathlib import Path
+from threading import RLock
 from typing import Any
 
 from softway.errors import InputError
 from softway.laws.fitting import asked, lacking
 
 _OURS = "softway."
+_ONE_AT_A_TIME = RLock()  # Python looks for modules in one list of folders
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,7 +76,7 @@ class Modules:
             raise InputError(where, f"{text!r} names nothing in a module", "module:name, such as my_law:MyLaw")
         own = None if self.folder is None else _beside(self.folder, parts[0])
         if self.folder is not None and own is not None:
-            with _first(own, parts[0], self.folder, where):
+            with _ONE_AT_A_TIME, _first(own, parts[0], self.folder, where):
                 return _taken(text, where)
         if not self.allowed:
             problem = f"{text!r} would run Python that does not lie beside the scenario"
