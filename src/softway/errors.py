@@ -91,6 +91,27 @@ def heed(cancel: Cancel | None, when: float) -> None:
         raise Cancelled(f"in the slab at t = {when:.6g} s")
 
 
+def real(value: object, where: str) -> None:
+    """Refuse what is no real number, before anything is computed with it.
+
+    Examples
+    --------
+    >>> real("1 Pa", "E")
+    Traceback (most recent call last):
+    softway.errors.InputError: E: '1 Pa' is not a number
+      try: a number in SI units; texts with a unit belong into a scenario file
+    """
+    try:
+        float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        known = False
+    else:
+        known = not isinstance(value, str | bytes)
+    if not known:
+        remedy = "a number in SI units; texts with a unit belong into a scenario file"
+        raise InputError(where, f"{value!r:.60} is not a number", remedy)
+
+
 class NoConvergence(Exception):
     """A slab could not be solved; the march drops it and tries a shorter one. The message says what happened."""
 

@@ -110,3 +110,42 @@ def test_a_path_that_does_not_exist(scenario, capsys):
 def test_a_file_that_does_not_exist(tmp_path, capsys):
     assert main(["run", str(tmp_path / "none.toml")]) == 2
     assert "none.toml" in "".join(capsys.readouterr())
+
+
+WRITTEN = {
+    "a mark of bytes first": (lambda text: "\ufeff" + text, None),
+    "no quotes": (lambda text: text.replace('"Solid"', "Solid"), "kind = Solid"),
+    "unit outside of quotes": (lambda text: text.replace('"7850 kg/m^3"', "7850 kg/m^3"), "density = 7850 kg/m^3"),
+    "decimal comma": (lambda text: text.replace('"7850 kg/m^3"', '"7850,5 kg/m^3"'), "a point in place of the comma"),
+    "a table twice": (lambda text: text + '[time]\nend = "1 us"\n', "[time]"),
+}
+
+
+@pytest.mark.parametrize("case", WRITTEN)
+def test_what_is_written_is_shown_where_it_is_wrong(case, scenario, capsys):
+    change, told = WRITTEN[case]
+    scenario.write_text(change(BLOCK), encoding="utf-8")
+    assert main(["check", str(scenario), "--quiet"]) == (2 if told else 0)
+    assert told is None or told in " ".join(capsys.readouterr().err.split())
+
+
+def test_a_name_without_its_ending_is_answered_with_the_file(scenario, capsys):
+    assert main(["run", str(scenario.with_suffix(""))]) == 2
+    assert "try: block.toml, which is there" in " ".join(capsys.readouterr().err.split())
+
+
+def test_a_folder_below_a_file_is_refused_before_anything_runs(scenario, capsys):
+    assert main(["run", str(scenario), "--out", str(scenario / "run")]) == 2
+    assert "block.toml' is a file" in " ".join(capsys.readouterr().err.split())
+
+
+def test_an_unknown_option_is_answered_with_the_help_of_its_verb(capsys):
+    assert main(["run", "x.toml", "--ot", "y"]) == 2
+    assert "softway run --help" in " ".join(capsys.readouterr().err.split())
+
+
+@pytest.mark.parametrize(("mesh", "told"), [("hello", "damaged"), (INVERTED.replace("2 1 0 0", "2 nan 0 0"), "node 1")])
+def test_a_mesh_that_is_none_says_why(mesh, told, scenario, capsys):
+    (scenario.parent / "bad.msh").write_text(mesh)
+    assert main(["check", str(scenario), "--set", "bodies.block.mesh={kind='MeshFile', path='bad.msh'}"]) == 2
+    assert told in " ".join(capsys.readouterr().err.split())

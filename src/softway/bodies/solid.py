@@ -158,6 +158,10 @@ class Tool:
     motion: Motion = Still()
 
     def __post_init__(self) -> None:
+        if not hasattr(self.shape, "dim"):
+            raise InputError(
+                "shape", f"{self.shape!r:.60} is no obstacle", "HalfSpace(point=..., normal=...), Sphere, ..."
+            )
         if self.motion.dim not in (None, self.shape.dim):
             problem = f"{type(self.motion).__name__} in {self.motion.dim}D of a shape in {self.shape.dim}D"
             raise InputError("motion", problem, f"{self.shape.dim} components")

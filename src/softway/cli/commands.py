@@ -17,6 +17,7 @@ from rich.logging import RichHandler
 from rich.markup import escape
 
 from softway.cli.explain import told
+from softway.cli.folders import free
 from softway.cli.law import check_law
 from softway.cli.materials import materials
 from softway.cli.plot import plot
@@ -152,7 +153,7 @@ def run(
         Let module:name in the scenario run code of installed modules, not only of those beside the file.
     """
     checked = examine(load(file, set_, allow_python=allow_python))
-    folder, console = out or _free(Path("runs") / file.stem), Console(quiet=quiet)
+    folder, console = out or free(Path("runs") / file.stem), Console(quiet=quiet)
     scales(checked, console)
     try:
         with progress_of(checked, console) as progress:
@@ -229,7 +230,7 @@ def race(
     """
     scenario = load(file, set_, allow_python=allow_python)
     checked = examine(scenario)
-    folder, console = out or _free(Path("races") / file.stem), Console(quiet=quiet)
+    folder, console = out or free(Path("races") / file.stem), Console(quiet=quiet)
     if (folder / RACE).exists() and not overwrite:
         raise InputError("--out", f"'{folder}' already holds a race", "another folder, or --overwrite")
     if slabs is not None and slabs < 1:
@@ -237,7 +238,7 @@ def race(
     time, precision = scenario.time, scenario.solver.tolerance if tolerance is None else tolerance
     end = min(time.end, (slabs or checked.slabs) * checked.step)
     names = methods or tuple(entrants(precision))
-    scales(checked, console)
+    scales(checked, console, slabs)
     with laps_of(names, end, console) as watch:
         results = contest(
             checked.model,
@@ -278,18 +279,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _failed(console: Console, error: Exception, code: int) -> int:
-    console.print(f"[bold red]error[/] {escape(str(error))}", soft_wrap=True, highlight=False)
+    told = str(error)
+    if isinstance(error, CycloptsError):
+        told += f"\n  try: {' '.join(('softway', *(error.command_chain or ()), '--help'))}"
+    console.print(f"[bold red]error[/] {escape(told)}", soft_wrap=True, highlight=False)
     return code
-
-
-def _free(folder: Path) -> Path:
-    """The folder, or the first of folder-2, folder-3, ... that does not exist."""
-    number = 1
-    free = folder
-    while free.exists():
-        number += 1
-        free = folder.with_name(f"{folder.name}-{number}")
-    return free
 
 
 def _headline(text: str) -> str:

@@ -63,15 +63,16 @@ COLUMNS = 6
 """Greatest number of bodies or contacts beside each other."""
 
 
-def scales(checked: Any, console: Console) -> None:
-    """Echo what follows from a scenario: sizes, speeds, times, and the slabs."""
+def scales(checked: Any, console: Console, most: int | None = None) -> None:
+    """Echo what follows from a scenario: sizes, speeds, times, and the slabs, of which ``most`` are taken at most."""
     title = checked.scenario.title
     if title:
         console.print(title, style="bold", markup=False)
     _columns({f"body {n}": _numbers(b) for n, b in checked.bodies.items()}, console)
     _columns({f"contact {n}": _numbers(c) for n, c in checked.contacts.items()}, console)
     end = checked.scenario.time.end
-    console.print(f"{checked.slabs} slabs of {checked.step:.6g} s until {end:.6g} s\n", markup=False)
+    some = f"{most} of " if most is not None and most < checked.slabs else ""
+    console.print(f"{some}{checked.slabs} slabs of {checked.step:.6g} s until {end:.6g} s\n", markup=False)
 
 
 def summary(run: Run, console: Console) -> None:

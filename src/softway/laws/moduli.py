@@ -5,7 +5,7 @@ from math import isfinite, sqrt
 
 import numpy as np
 
-from softway.errors import InputError
+from softway.errors import InputError, real
 from softway.typing import Array
 
 STIFF = 1e6
@@ -23,6 +23,8 @@ def checked(E: float, nu: float) -> None:
     softway.errors.InputError: nu: 0.6 is not between -1 and 0.5
       try: a value such as 0.3, or 0.49 for rubber
     """
+    for name, value in (("E", E), ("nu", nu)):
+        real(value, name)
     if not (isfinite(E) and E > 0.0):
         raise InputError("E", f"{E:g} Pa is not positive", "a positive Young's modulus")
     if not -1.0 < nu <= 0.5:

@@ -98,7 +98,15 @@ class Frame:
 
     def __getitem__(self, name: str) -> Array:
         """A field by its name."""
-        return self.more[name] if name in self.more else np.asarray(getattr(self, name))
+        if name in self.more:
+            return self.more[name]
+        if name not in ALWAYS:
+            raise KeyError(f"no field {name!r}; there are: {', '.join((*ALWAYS, *self.more))}")
+        return np.asarray(getattr(self, name))
+
+
+ALWAYS = ("displacement", "velocity", "contact_force", "stress", "von_mises", "points")
+"""Fields of every frame."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,5 +1,6 @@
 """Where the records of a run go."""
 
+import os
 import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -28,7 +29,10 @@ class Place:
 
     def check(self) -> None:
         """Refuse a folder that holds something else, before anything is computed."""
-        if self.out is None or not self.out.exists():
+        if self.out is None:
+            return
+        if not self.out.exists():
+            self._reachable(self.out)
             return
         if not self.out.is_dir():
             raise InputError("out", f"'{self.out}' is a file", "the name of a folder")
@@ -36,6 +40,15 @@ class Place:
         if any(self.out.iterdir()) and not (ours and self.overwrite):
             known = "already holds a run" if ours else "is not empty"
             raise InputError("out", f"'{self.out}' {known}", "another folder" + (", or --overwrite" if ours else ""))
+
+    @staticmethod
+    def _reachable(out: Path) -> None:
+        """Refuse a folder that cannot be made."""
+        above = next(parent for parent in out.absolute().parents if parent.exists())
+        if not above.is_dir():
+            raise InputError("out", f"'{above}' is a file", "the name of a folder that is one, or not there yet")
+        if not os.access(above, os.W_OK | os.X_OK):
+            raise InputError("out", f"'{above}' must not be written", "a folder of your own: --out FOLDER")
 
     def make(self, fill: Callable[[Path], None]) -> Scratch:
         """Make the folder with what ``fill`` puts into it: it is there with all of that or not at all."""

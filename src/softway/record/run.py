@@ -60,12 +60,12 @@ class Run:
     @property
     def history(self) -> Table:
         """A row per accepted slab; the first is the initial situation."""
-        return table.read(self.path / history.FILE)
+        return table.read(self.path / history.FILE, history.COLUMNS)
 
     @property
     def events(self) -> Table:
         """A row per touch or release of a node."""
-        return table.read(self.path / events.FILE)
+        return table.read(self.path / events.FILE, events.COLUMNS)
 
     @property
     def fields(self) -> Fields:
@@ -75,14 +75,14 @@ class Run:
     @property
     def provenance(self) -> Mapping[str, Any]:
         """Versions, platform, start, stop and its reason."""
-        return dict(json.loads((self.path / provenance.FILE).read_text(encoding="utf-8")))
+        return _notes(self.path / provenance.FILE, "the run folder as it was written")
 
     @property
     def summary(self) -> Mapping[str, Any]:
         """The run in a few numbers; computed on the spot while the run has not ended."""
         written = self.path / summary.FILE
         if written.is_file():
-            return dict(json.loads(written.read_text(encoding="utf-8")))
+            return _notes(written, "to delete it: its numbers follow from history.csv")
         return summary.summarise(self.history, self.events)
 
     @property
@@ -102,3 +102,11 @@ class Run:
         """Why the run stopped, or that it is running."""
         found = self.provenance
         return Stop(found["stop_reason"], found["message"])
+
+
+def _notes(file: Path, remedy: str) -> dict[str, Any]:
+    """What a JSON file of the folder holds."""
+    try:
+        return dict(json.loads(file.read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError) as error:
+        raise InputError(str(file), f"cannot be read: {error}", remedy) from None

@@ -37,6 +37,8 @@ class Table(Mapping[str, NDArray[Any]]):
     units: Mapping[str, str] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
+        if name not in self.columns:
+            raise KeyError(f"no column {name!r}; there are: {', '.join(self.columns)}")
         return self.columns[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -120,9 +122,25 @@ def lines(path: Path, mark: int | None = None) -> Lines:
     return Lines(file)
 
 
-def read(path: Path) -> Table:
-    """The table in a file, which may still grow: a last line without its end is left out."""
-    return parse(path.read_text(encoding="utf-8"))
+def read(path: Path, needed: Sequence[tuple[str, str]] = ()) -> Table:
+    """The table in a file, which may still grow: a last line without its end is left out.
+
+    Raises
+    ------
+    InputError
+        The file is missing, holds no table, or none with the ``needed`` columns.
+    """
+    remedy = "the run folder as it was written"
+    try:
+        found = parse(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise InputError(str(path), "is missing", remedy) from None
+    except (OSError, ValueError) as error:
+        raise InputError(str(path), f"cannot be read: {error}", remedy) from None
+    for name, _ in needed:
+        if name not in found:
+            raise InputError(str(path), f"has no column '{name}'", remedy)
+    return found
 
 
 def parse(text: str) -> Table:

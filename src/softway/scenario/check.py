@@ -28,6 +28,7 @@ from softway.scenario.scales import (
     contact_duration,
 )
 from softway.scenario.scenario import Scenario, built
+from softway.scenario.sorts import require
 from softway.scene import StaticStart
 from softway.solve.explicit import Explicit
 from softway.solve.stability import require_stable
@@ -69,6 +70,7 @@ def check(scenario: Scenario) -> Checked:
     InputError
         With the path in the scenario, the value, and a remedy.
     """
+    _require_scenario(scenario)
     for name, body in scenario.bodies.items():
         if isinstance(body, Solid):
             check_density(body.density, f"bodies.{name}.density")
@@ -106,6 +108,13 @@ def check(scenario: Scenario) -> Checked:
     if slabs > MOST:
         raise InputError("time.end", f"{slabs:.3g} slabs of {step:.3g} s", "an earlier end, or longer slabs")
     return Checked(scenario=scenario, model=model, bodies=bodies, contacts=contacts, step=step, slabs=slabs)
+
+
+def _require_scenario(scenario: object) -> None:
+    """Refuse what is no scenario, and one with parts that are not of the sorts that belong there."""
+    if not isinstance(scenario, Scenario):
+        raise InputError("scenario", f"{scenario!r:.60} is none", "a Scenario, such as softway.load(FILE)")
+    require(scenario, Scenario, "")
 
 
 def _contact(model: Model, number: int, bodies: Mapping[str, BodyScales]) -> ContactScales:

@@ -1,5 +1,7 @@
 """Scenario files: read, with units, kinds and errors that name the place; and written back complete."""
 
+import difflib
+import re
 import tomllib
 from collections.abc import Iterable
 from pathlib import Path
@@ -47,10 +49,10 @@ def load(
     try:
         if file.exists() and not file.is_file():
             raise InputError(str(file), "cannot be read: a folder or a device", "a TOML file in UTF-8")
-        with file.open(encoding="utf-8") as opened:
+        with file.open(encoding="utf-8-sig") as opened:
             text = opened.read(LONGEST + 1)
     except FileNotFoundError:
-        raise InputError(str(file), "no such scenario file", "softway new FILE makes one") from None
+        raise InputError(str(file), "no such scenario file", _others(file)) from None
     except (OSError, ValueError) as error:
         raise InputError(str(file), f"cannot be read: {error}", "a TOML file in UTF-8") from None
     if len(text) > LONGEST:
@@ -112,6 +114,7 @@ def parsed(text: str, name: str) -> dict[str, Any]:
         data = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         problem = "tables or lists nested without end" if isinstance(error, RecursionError) else str(error)
+        problem += _line(problem, text)
         raise InputError(name, f"is not TOML: {problem}", "keys as name = value, texts in quotes") from None
     level: list[Any] = [data]
     for _ in range(NESTED):
@@ -119,6 +122,21 @@ def parsed(text: str, name: str) -> dict[str, Any]:
         if not level:
             return data
     raise InputError(name, f"tables or lists nested deeper than {NESTED}", "the tables of a scenario")
+
+
+def _line(problem: str, text: str) -> str:
+    """The line that an error of syntax names, to be put behind it."""
+    found = re.search(r"at line (\d+)", problem)
+    lines = text.splitlines()
+    number = int(found[1]) if found else 0
+    return f": {lines[number - 1].strip():.80}" if 0 < number <= len(lines) else ""
+
+
+def _others(file: Path) -> str:
+    """What may have been meant by the name of a file that is not there."""
+    there = [p.name for p in file.parent.glob("*.toml")] if file.parent.is_dir() else []
+    close = difflib.get_close_matches(file.name, there, n=3, cutoff=0.5)
+    return f"{' or '.join(close)}, which is there" if close else "softway new bar, which writes bar.toml to start from"
 
 
 def resolved(scenario: Scenario) -> str:

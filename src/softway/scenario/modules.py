@@ -153,6 +153,9 @@ def _taken(text: str, where: str) -> Any:
     try:
         source = importlib.import_module(module)
     except ModuleNotFoundError as error:
+        if error.name != module:
+            problem = f"{text!r} asks for what is not there: no module {error.name!r}"
+            raise InputError(where, problem, f"to install what {module} imports") from error
         problem = f"{text!r}: there is no module {error.name!r}"
         raise InputError(where, problem, f"{module}.py beside the scenario, or install it") from error
     except Exception as error:  # code of the user: whatever it raises is what is wrong

@@ -77,7 +77,8 @@ class Units:
         try:
             source, target = self.registry.Unit(given), self.registry.Unit(unit)
         except Exception as error:  # the parser of pint raises a dozen unrelated types
-            raise InputError(where, f"{value!r}: unknown unit {given!r}", example(unit)) from error
+            comma = "a point in place of the comma: " if given.startswith(",") else ""
+            raise InputError(where, f"{value!r}: unknown unit {given!r}", comma + example(unit)) from error
         if source.dimensionality != target.dimensionality or _angle(self.registry, source) != _angle(
             self.registry, target
         ):

@@ -10,7 +10,7 @@ from softway.bodies.loads import Load
 from softway.bodies.placement import Placement
 from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact
-from softway.errors import InputError
+from softway.errors import InputError, real
 from softway.march.control import StepControl
 from softway.markup import table as html_table
 from softway.record.checkpoint import Checkpoints
@@ -50,6 +50,9 @@ class Time:
     control: StepControl = StepControl()
 
     def __post_init__(self) -> None:
+        real(self.end, "end")
+        if self.step != "auto":
+            real(self.step, "step")
         if not (isfinite(self.end) and self.end > 0.0):
             raise InputError("end", f"{self.end:g} s is not positive", 'a time after the start, such as "2 ms"')
         if self.step != "auto" and not (isfinite(self.step) and self.step > 0.0):
@@ -111,6 +114,8 @@ class Output:
     checkpoints: Checkpoints = Checkpoints()
 
     def __post_init__(self) -> None:
+        if self.fields_every != "auto":
+            real(self.fields_every, "fields_every")
         if self.fields_every != "auto" and not self.fields_every > 0.0:
             raise InputError("fields_every", f"{self.fields_every:g} s is not positive", 'a time, or "auto"')
 

@@ -1,6 +1,6 @@
 """What the settings of iterations have in common."""
 
-from softway.errors import InputError
+from softway.errors import InputError, real
 
 
 def check_accuracy(tolerance: float, limit: int) -> None:
@@ -10,6 +10,7 @@ def check_accuracy(tolerance: float, limit: int) -> None:
     --------
     >>> check_accuracy(1e-11, 60)
     """
+    real(tolerance, "tolerance")
     if not 0.0 < tolerance < 1e-2:
         raise InputError("tolerance", f"{tolerance:g}", "a number between 1e-14 and 1e-2")
     if limit < 1:
@@ -23,6 +24,7 @@ def check_products(tolerance: float, limit: int) -> None:
     --------
     >>> check_products(1e-2, 500)
     """
+    real(tolerance, "tolerance")
     if not 0.0 < tolerance < 1.0:
         raise InputError("tolerance", f"{tolerance:g}", "a number between 0 and 1")
     if limit < 1:

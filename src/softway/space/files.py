@@ -121,7 +121,9 @@ def _read(path: Path, readers: Mapping[str, str]) -> tuple[meshio.Mesh, list[str
     known = ", ".join(readers)
     if not path.is_file():
         raise InputError(
-            "path", f"no such file: {path}", f"the path of a {' or '.join(readers)} file, relative to the scenario"
+            "path",
+            f"{'a folder' if path.is_dir() else 'no such file'}: {path}",
+            f"the path of a {' or '.join(readers)} file, relative to the scenario",
         )
     if path.suffix.lower() not in readers:
         raise InputError("path", f"{path.name} has the ending {path.suffix!r}", f"one of: {known}")
@@ -138,8 +140,9 @@ def _read(path: Path, readers: Mapping[str, str]) -> tuple[meshio.Mesh, list[str
         with hushed[0], hushed[1], np.errstate(over="ignore"):
             return meshio.read(io.StringIO(text) if text else path, file_format=reader), sets
     except (Exception, SystemExit) as error:  # meshio raises many kinds on a damaged file, and exits on some
+        told = "it is damaged, or of another format" if isinstance(error, SystemExit) else str(error)
         raise InputError(
-            "path", f"{path.name} cannot be read: {error or type(error).__name__}", "save the mesh again"
+            "path", f"{path.name} cannot be read: {told or type(error).__name__}", "save the mesh again"
         ) from error
 
 

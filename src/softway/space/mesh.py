@@ -168,10 +168,11 @@ def _single(facets: IntArray, corners: int) -> IntArray:
 
 def _check_shapes(points: Array, blocks: Mapping[str, IntArray], tags: Mapping[str, IntArray]) -> None:
     """Sizes, names and numbers."""
-    if points.ndim != 2 or points.shape[1] not in (1, 2, 3) or not np.isfinite(points).all():
-        raise InputError(
-            "points", f"array of shape {points.shape} or not finite", "finite coordinates (n, d), d = 1, 2 or 3"
-        )
+    if points.ndim == 2 and not np.isfinite(points).all():
+        node = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
+        raise InputError("points", f"node {node} lies at {points[node].tolist()}", "finite coordinates")
+    if points.ndim != 2 or points.shape[1] not in (1, 2, 3):
+        raise InputError("points", f"array of shape {points.shape}", "finite coordinates (n, d), d = 1, 2 or 3")
     if not blocks:
         raise InputError("blocks", "no cells", f"at least one block of: {', '.join(FACETS)}")
     for name, cells in blocks.items():

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softway.errors import InputError
+from softway.errors import InputError, real
 from softway.typing import Array
 from softway.units import Metre, Pure
 
@@ -35,6 +35,9 @@ class HalfSpace:
     normal: tuple[Pure, ...] | Pure
 
     def __post_init__(self) -> None:
+        for name in ("point", "normal"):
+            for number in np.ravel(np.asarray(getattr(self, name), dtype=object)):
+                real(number, name)
         point, normal = (
             np.atleast_1d(np.array(self.point, dtype=float)),
             np.atleast_1d(np.array(self.normal, dtype=float)),

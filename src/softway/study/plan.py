@@ -62,6 +62,8 @@ def trials(over: Mapping[str, Sequence[object]]) -> tuple[Trial, ...]:
         raise InputError("--over", "nothing to sweep over", "--over path=v1,v2, such as --over time.step=1e-3,2e-3")
     columns = []
     for path, values in over.items():
+        if isinstance(values, str) or not isinstance(values, Iterable):
+            raise InputError(path, f"{values!r} is no list of values", f"several: {{'{path}': [v1, v2]}}")
         texts = [_text(value) for value in values]
         steps(path)
         if not texts or not all(texts):

@@ -65,6 +65,8 @@ def sweep(
     Cancelled, KeyboardInterrupt
         The same call goes on from there.
     """
+    if not isinstance(file, str | Path):
+        raise InputError("file", f"{file!r:.60} is no path", "a scenario file: its text is what each run changes")
     source, place = Path(file), _place(file, out)
     attempts = [
         Attempt(

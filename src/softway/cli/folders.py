@@ -1,0 +1,13 @@
+"""Names of folders that are free."""
+
+from pathlib import Path
+
+
+def free(folder: Path) -> Path:
+    """The folder, or the first of folder-2, folder-3, ... that does not exist."""
+    number = 1
+    found = folder
+    while found.exists():
+        number += 1
+        found = folder.with_name(f"{folder.name}-{number}")
+    return found
