@@ -15,10 +15,12 @@ from softway.bodies.placement import Placement
 from softway.bodies.solid import Driven, Fixed, Solid, Tool
 from softway.contact.candidates import Candidates, on_nodes
 from softway.contact.contact import Contact, NodeToSurface
+from softway.contact.shear import Shear, tangents
 from softway.contact.stencils import along
 from softway.laws.bulk import NeoHookean
 from softway.model import Model, build
 from softway.scene import Scene
+from softway.solve import balance
 from softway.solve.balance import BOUND, Closure, Ends, closed, groups, moment
 from softway.space.obstacles import HalfSpace
 from softway.space.shapes import box, rectangle
@@ -143,6 +145,72 @@ def test_driven_supports_do_work_on_nodes_without_inertia(seed: int) -> None:
     found = closed(model, e, fallback=True)
     label = groups(model, (e.force0 > 0.0) | (e.force1 > 0.0))
     np.testing.assert_allclose(np.bincount(label, weights=gained(model, e, found)), 0.0, atol=1e-15)
+
+
+def rubbed(model: Model, seed: int) -> Ends:
+    """A slab with friction: at both ends the nodes without inertia are in equilibrium with all that acts on them."""
+    e, rng = ends(model, seed), np.random.default_rng(seed)
+    for k, (rows, push, force) in enumerate(((e.rows0, e.force0, e.f0), (e.rows1, e.force1, e.f1))):
+        entries = rows.gradient.toarray().reshape(len(rows.node), -1, model.shape[1])
+        weights = sp.csr_array(np.einsum("mnd,md->mn", entries, rows.normal))
+        tool = (model.opponents[rows.contact, 1] < 0)[:, None]
+        shear = Shear(
+            weights=weights, tangents=tangents(rows.normal), moved=0.05 * tool * rng.normal(size=rows.normal.shape)
+        )
+        drag = shear.vectors(0.01 * rng.normal(size=shear.tangents.shape[:2])) * (push > 0.0)[:, None]
+        whole = model.load + rows.spread(push, model.shape) + shear.spread(drag)
+        still = np.where(model.massive[:, None], force, whole)
+        e = replace(e, **{f"rows{k}": replace(rows, shear=shear), f"shear{k}": drag, f"f{k}": still})
+    return replace(e, mean=0.5 * (e.f0 + e.f1))
+
+
+@forces
+@dims
+@given(seed=seeds)
+def test_with_friction_every_group_keeps_its_energy(dim: int, force: SlabForce, seed: int) -> None:
+    """Kinetic and stored energy change by the work of loads and tools, along their surfaces too, less the friction."""
+    model = row_of_blocks(dim, force)
+    e = rubbed(model, seed)
+    found = closed(model, e, fallback=True)
+    a = found.scalar[model.part_of[e.rows0.node]][:, None]
+    rubs = np.zeros(len(model.parts))
+    for share, rows, drag in ((0.5 - a, e.rows0, e.shear0), (0.5 + a, e.rows1, e.shear1)):
+        assert rows.shear is not None and drag is not None
+        tool, slip = rows.shear.moved, rows.shear.slip(e.u1 - e.u0)
+        power = np.einsum("md,md->m", share * drag, rows.shear.vectors(rows.shear.flat(tool)) + slip)
+        rubs += np.bincount(model.part_of[rows.node], weights=power, minlength=len(rubs))
+    label = groups(model, (e.force0 > 0.0) | (e.force1 > 0.0))
+    made = gained(model, e, found) - rubs
+    np.testing.assert_allclose(np.bincount(label, weights=made), 0.0, atol=1e-15)
+
+
+@dims
+@pytest.mark.parametrize("seed", range(20))
+def test_a_convex_energy_and_gaps_without_curvature_bound_the_scalar(
+    dim: int, seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The tool closes some rows and opens others; stored energies lie between their tangents at both ends."""
+    monkeypatch.setattr(balance, "BOUND", np.inf)
+    model, rng = row_of_blocks(dim, Weighted()), np.random.default_rng(seed)
+    e = ends(model, seed, touching=(2, 3))
+    rows, du, m = e.rows0, e.u1 - e.u0, len(e.rows0.node)
+    gap0, gap1 = (np.where(rng.random(m) < 0.5, 0.0, 0.1 * rng.random(m)) for _ in range(2))
+    rows = replace(rows, drive=np.where(rows.near, gap0 - gap1 + rows.along(du), 0.0))
+    tool = rows.near & (model.opponents[rows.contact, 1] < 0)
+    push0, push1 = (np.where(tool & (gap == 0.0), rng.random(m), 0.0) for gap in (gap0, gap1))
+    light = ~model.massive[:, None]
+    f0, f1 = (
+        np.where(light, model.load + rows.spread(p, model.shape), rng.normal(size=model.shape)) for p in (push0, push1)
+    )
+    concave = np.maximum(-model.totals((f1 - f0) * du * light), 0.0)
+    stiffness = (concave * (1.0 + rng.random()) + 1e-3) / model.totals(du**2 * ~light)
+    f1 = np.where(light, f1, f0 + model.nodal(stiffness) * du)
+    low, high = (model.totals(f * du) for f in (f0, f1))
+    stored = e.V0 + low + rng.random(len(low)) * (high - low)
+    e = replace(e, rows0=rows, rows1=rows, force0=push0, force1=push1, f0=f0, f1=f1, mean=0.5 * (f0 + f1), V1=stored)
+    found = closed(model, e, fallback=False)
+    assert (np.abs(found.scalar) <= 0.5 + 1e-12).all()
+    assert np.abs(found.scalar).max() > 0.05
 
 
 @dims
