@@ -1,5 +1,6 @@
 """The command line: exit codes, messages, folders."""
 
+import logging
 import os
 import re
 import signal
@@ -223,3 +224,15 @@ def test_ctrl_c_in_a_real_process(file):
     assert run.returncode == 130 and "Traceback" not in errors
     found = Run(file.parent / "made")
     assert found.stop.reason == "interrupted" and found.history.rows > 2 and len(found.fields) >= 1
+
+
+def test_verbose_tells_what_is_chosen_and_leaves_the_log_as_it_was(file, capsys):
+    tree = logging.getLogger("softway")
+    before = list(tree.handlers)
+    assert cli.main(["run", str(file), "--out", "plain", "--quiet"]) == 0
+    assert capsys.readouterr().err == ""
+    assert cli.main(["run", str(file), "--out", "told", "-q", "-v"]) == 0
+    told = capsys.readouterr().err
+    assert "operator Factored" in told and "done after 80 slabs" in told
+    assert cli.main(["resume", "told", "--verbose"]) == 0
+    assert tree.handlers == before and tree.level == logging.NOTSET

@@ -4,7 +4,6 @@ Exit codes: 0 done, 1 a law failed its examination or a case missed its referenc
 storage failed, 130 interrupted.
 """
 
-import logging
 import sys
 from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError, version
@@ -13,12 +12,12 @@ from typing import Annotated
 
 from cyclopts import App, CycloptsError, Parameter
 from rich.console import Console
-from rich.logging import RichHandler
 from rich.markup import escape
 
 from softway.cli.explain import told
 from softway.cli.folders import free
 from softway.cli.law import check_law
+from softway.cli.log import Verbose, heard, listen
 from softway.cli.materials import materials
 from softway.cli.plot import plot
 from softway.cli.progress import laps_of, progress_of
@@ -132,6 +131,7 @@ def run(
     out: Path | None = None,
     set_: Set = (),
     quiet: Quiet = False,
+    verbose: Verbose = False,
     overwrite: Annotated[bool, Parameter(negative=())] = False,
     allow_python: AllowPython = False,
 ) -> None:
@@ -147,11 +147,14 @@ def run(
         Change before reading: path=value, any number of times.
     quiet
         Print errors only.
+    verbose
+        Tell what is chosen and which slabs are rejected.
     overwrite
         Replace an earlier run of the same name.
     allow_python
         Let module:name in the scenario run code of installed modules, not only of those beside the file.
     """
+    listen(verbose)
     checked = examine(load(file, set_, allow_python=allow_python))
     folder, console = out or free(Path("runs") / file.stem), Console(quiet=quiet)
     scales(checked, console)
@@ -259,15 +262,14 @@ def race(
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit code."""
     errors = Console(stderr=True)
-    handler = RichHandler(console=errors, show_time=False, show_path=False)
-    logging.basicConfig(level=logging.WARNING, format="%(message)s", handlers=[handler])
     try:
-        code = app(
-            sys.argv[1:] if arguments is None else arguments,
-            exit_on_error=False,
-            print_error=False,
-            result_action="return_value",
-        )
+        with heard(errors):
+            code = app(
+                sys.argv[1:] if arguments is None else arguments,
+                exit_on_error=False,
+                print_error=False,
+                result_action="return_value",
+            )
     except (CycloptsError, InputError) as error:
         return _failed(errors, error, WRONG_INPUT)
     except (NumericsError, StorageError) as error:

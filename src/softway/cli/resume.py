@@ -6,6 +6,7 @@ from typing import Annotated
 from cyclopts import Parameter
 from rich.console import Console
 
+from softway.cli.log import Verbose, listen
 from softway.cli.progress import progress_of
 from softway.cli.tables import summary
 from softway.execute import resume as go_on
@@ -21,6 +22,7 @@ def resume(
     /,
     *,
     quiet: Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())] = False,
+    verbose: Verbose = False,
     allow_python: Annotated[bool, Parameter(negative=())] = False,
 ) -> None:
     """Go on with a run that was killed, interrupted or failed; it ends with the same digits as one that never stopped.
@@ -31,9 +33,12 @@ def resume(
         Run folder.
     quiet
         Print errors only.
+    verbose
+        Tell what is chosen and which slabs are rejected.
     allow_python
         Let module:name in the scenario run code of installed modules, not only of those beside the file.
     """
+    listen(verbose)
     stopped, console = Run(folder), Console(quiet=quiet)
     if stopped.stop == DONE:
         console.print(f"done already: nothing is left to compute in {folder}", markup=False, soft_wrap=True)

@@ -84,7 +84,8 @@ def _resting(model: Model, cancel: Cancel | None) -> Rest:
         light = model.free & ~model.massive[:, None]
         rest = equilibrium(model, rest.displacement, light, model.load, grip=grip, cancel=cancel)
         after = float(model.energy_and_force(rest.displacement)[0].sum())
-        log.info("relaxing the contact nodes at the start releases %.3g J of %.3g J", before - after, before)
+        if before != after:
+            log.info("relaxing the contact nodes at the start releases %.3g J of %.3g J", before - after, before)
     if grip is None or rest.traction is not None:
         return rest
     return replace(rest, traction=np.zeros((count, model.shape[1])), sliding=np.zeros(count, bool))

@@ -32,7 +32,7 @@ def scratch() -> Scratch:
     return made
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, init=False)
 class Run:
     """A run folder; every property reads the files as they are at that moment.
 
@@ -50,10 +50,11 @@ class Run:
     """
 
     path: Path
-    keep: object = None
+    keep: object
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "path", Path(self.path))
+    def __init__(self, path: str | Path, keep: object = None) -> None:
+        object.__setattr__(self, "path", Path(path))
+        object.__setattr__(self, "keep", keep)
         if not (self.path / provenance.FILE).is_file():
             raise InputError("", f"no run folder: '{self.path}'", "a folder that 'softway run --out' has written")
 
