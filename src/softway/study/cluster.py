@@ -1,6 +1,7 @@
 """Tasks worked off by Dask: the one door to it."""
 
-from collections.abc import Callable, Generator, Sequence
+import time as clock
+from collections.abc import Callable, Generator, Iterator, Sequence
 from math import nan
 from typing import Any, TypeVar
 
@@ -42,24 +43,23 @@ def answers_from(
     Cancelled
         If ``cancel`` says so; what workers have begun they end.
     """
+    from distributed import as_completed
+
     with client:
         futures = {client.submit(work, task, pure=False, retries=0): task for task in tasks}
-        left = set(futures)
-        while left:
-            for future in _ended(left, cancel):
-                left.remove(future)
-                error = future.exception()
-                answer = future.result() if error is None else Complaint(f"{type(error).__name__}: {error}")
-                yield futures[future], answer, nan
+        for future in _ended(as_completed(list(futures), loop=client.loop), cancel):
+            error = future.exception()
+            answer = future.result() if error is None else Complaint(f"{type(error).__name__}: {error}")
+            yield futures[future], answer, nan
 
 
-def _ended(left: set[Any], cancel: Cancel | None) -> set[Any]:
-    """Those of some futures that have ended, one at least."""
-    from distributed import wait
-
-    while cancel is None or not cancel():
-        try:
-            return set(wait(left, None if cancel is None else LOOK, "FIRST_COMPLETED").done)
-        except TimeoutError:
-            continue
-    raise Cancelled(f"with {len(left)} left")
+def _ended(coming: Any, cancel: Cancel | None) -> Iterator[Any]:
+    """The futures of an ``as_completed``, while the caller wants them."""
+    while not coming.is_empty():
+        while cancel is not None:
+            if cancel():
+                raise Cancelled(f"with {coming.count()} left")
+            if coming.has_ready():
+                break
+            clock.sleep(LOOK)
+        yield next(coming)
