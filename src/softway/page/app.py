@@ -123,7 +123,7 @@ def page(run: Run, live: bool = False) -> Page:
         {
             "trame__title": run.provenance.get("title", "") or "softway",
             "heading": run.provenance.get("title", "") or run.path.name,
-            "fields": list(names(run.fields.kinds.items())),
+            "fields": [{"value": name, "title": colour_of(run, name).word} for name in names(run.fields.kinds.items())],
             "frame": last if live else 0,
             "last": last,
             "enlarged": True,

@@ -3,21 +3,46 @@
 from typing import Any
 
 from trame.ui.vuetify3 import VAppLayout
-from trame.widgets import html, vtk
+from trame.widgets import client, html, vtk
 from trame.widgets import vuetify3 as v3
 
 PLACE = "(100 * (c.low + (c.high - c.low) * (now - c.begin) / (c.end - c.begin || 1)))"
 """Where the present instant lies in a drawing ``c`` [%]."""
+RULES = """
+.page { display: flex; flex-direction: column; height: 100dvh; outline: none }
+.page .head { display: flex; align-items: center; gap: 6px 16px; padding: 10px 16px 6px; border-bottom: 1px solid #ddd }
+.page .middle { display: flex; flex: 1; min-height: 0 }
+.page .window { flex: 1; min-width: 0; min-height: 0; position: relative }
+.page .beside { width: 430px; border-left: 1px solid #ddd; display: flex; flex-direction: column; min-height: 0 }
+.page .scale { position: absolute; left: 16px; bottom: 10px; width: min(300px, 100% - 32px); background: #fffc }
+@media (min-width: 1800px) { .page .beside { width: 600px } }
+@media (max-width: 800px) {
+  .page .head { flex-wrap: wrap }
+  .page .middle { flex-direction: column }
+  .page .window { flex: 1 1 45% }
+  .page .beside { width: auto; flex: 1 1 55%; border-left: none; border-top: 1px solid #ddd }
+}
+"""
+"""Narrow windows have the curves below the bodies."""
+_APART = "['slider', 'tab', 'combobox', 'option'].includes($event.target.getAttribute('role'))"
+KEYS = (
+    f"{_APART} || $event.target.tagName === 'INPUT' ? 0"
+    " : $event.key === 'ArrowRight' ? (frame = Math.min(frame + 1, last))"
+    " : $event.key === 'ArrowLeft' ? (frame = Math.max(frame - 1, 0))"
+    " : $event.key === ' ' && $event.target.tagName !== 'BUTTON' ? (playing = !playing) : 0"
+)
+"""What keys do wherever no part of the page takes them for itself: one frame on or back, play."""
 
 
 def lay_out(page: Any) -> None:
     """Write the page into its server."""
     with VAppLayout(page.server) as layout:
         layout.root.style = "height:100vh; overflow:hidden; background:white"
-        with html.Div(style="display:flex; flex-direction:column; height:100vh"):
+        client.Style(RULES)
+        with html.Div(classes="page", tabindex=0, autofocus=True, keydown=KEYS):
             _head(page)
-            with html.Div(style="display:flex; flex:1; min-height:0"):
-                with html.Div(style="flex:1; min-width:0; position:relative", id="window"):
+            with html.Div(classes="middle"):
+                with html.Div(classes="window", id="window"):
                     view = vtk.VtkLocalView(page.solids.plotter.render_window, style="width:100%; height:100%")
                     page.server.controller.redraw = view.update
                     page.server.controller.look = view.push_camera
@@ -28,7 +53,7 @@ def lay_out(page: Any) -> None:
 
 def _head(page: Any) -> None:
     """Title, state of the run, field, enlargement."""
-    with html.Div(style="display:flex; align-items:center; gap:16px; padding:6px 16px; border-bottom:1px solid #ddd"):
+    with html.Div(classes="head"):
         html.Div("{{ heading }}", style="font-weight:600; font-size:17px", id="heading")
         v3.VChip("{{ status }}", size="small", color=("status === 'done' ? 'green' : 'orange'",), id="status")
         v3.VSpacer()
@@ -55,10 +80,7 @@ def _head(page: Any) -> None:
 
 def _scale() -> None:
     """The colours with their values, over the window."""
-    with html.Div(
-        style="position:absolute; left:16px; bottom:10px; width:300px; background:#fffc; padding:4px 8px",
-        id="scale",
-    ):
+    with html.Div(classes="scale", style="padding:4px 8px", id="scale"):
         html.Div("{{ label }}", style="font-size:13px")
         html.Div(style=("`height:12px; background:${gradient}`",))
         with html.Div(style="display:flex; justify-content:space-between; font-size:12px"):
@@ -85,7 +107,7 @@ def _time(page: Any) -> None:
 
 def _beside(page: Any) -> None:
     """Curves, mesh of space-time, events."""
-    with html.Div(style="width:430px; border-left:1px solid #ddd; display:flex; flex-direction:column; min-height:0"):
+    with html.Div(classes="beside"):
         with v3.VTabs(v_model=("panel",), density="compact", grow=True, style="flex:none"):
             v3.VTab("curves", value="curves")
             v3.VTab("space-time", value="world", v_if=("world",))
@@ -119,7 +141,14 @@ def _drawing(page: Any, share: str) -> None:
 
 def _events(page: Any) -> None:
     """The list of touches and releases; a click goes there."""
-    titles = {"when": "time", "kind": "", "node": "node", "contact": "contact", "before": "v before", "after": "after"}
+    titles = {
+        "when": "time",
+        "kind": "event",
+        "node": "node",
+        "contact": "contact",
+        "before": "v before [m/s]",
+        "after": "after",
+    }
     with v3.VTable(density="compact", hover=True):
         with html.Thead(), html.Tr():
             for title in titles.values():

@@ -17,7 +17,7 @@ from softway.record.view_body import caption, stage_of
 from softway.record.view_field import colour_of
 from softway.record.view_paths import diagrams
 from softway.record.view_scene import ruler
-from softway.record.view_style import BLACK, canvas, styled
+from softway.record.view_style import BLACK, canvas, library, styled
 from softway.typing import Array
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ def film(run: Run, file: Path, look: Look = STANDARD, watch: Callable[[int, int]
     """
     file = Path(file)
     if file.suffix.lower() not in (".mp4", ".gif"):
-        raise InputError("--film", f"'{file.name}'", "a file such as film.mp4 or film.gif")
+        raise InputError("--film", f"'{file.name}' is no kind of film", "a file such as film.mp4 or film.gif")
     numbers = _numbers(run, look)
     if len(numbers) < 2:
         raise InputError("--film", "fewer than two frames", "a run with more of them: output.fields_every")
@@ -158,15 +158,24 @@ def _window(box: Array, size: Array) -> tuple[Array, Array]:
 
 
 def _bars(run: Run, look: Look, numbers: list[int]) -> "tuple[Figure, Draw]":
-    """The diagrams of a bar, with the present instant."""
+    """The diagrams of a bar as they are, drawn once, and on them the present instant."""
     made, times = diagrams(run, look), run.fields.times
-    upright = [axis.axvline(0.0, color=BLACK, lw=1.0) for axis in made.left]
-    level = made.right.axhline(0.0, color=BLACK, lw=1.0)
+    made.figure.set_dpi(look.dpi)
+    still = library().backends.backend_agg.FigureCanvasAgg(made.figure)
+    still.draw()
+    figure = canvas(*(look.inches or (8.0, 4.5)))
+    figure.set_dpi(look.dpi)
+    figure.figimage(np.asarray(still.buffer_rgba()))
+    boxes = [axis.get_position() for axis in (*made.left, made.right)]
+    lines = [library().lines.Line2D([b.x0, b.x1], [b.y0, b.y1], color=BLACK, lw=1.0) for b in boxes]
+    for line in lines:
+        figure.add_artist(line)
 
     def draw(number: int) -> None:
-        now = [made.second * float(times[number])] * 2
-        for line in upright:
-            line.set_xdata(now)
-        level.set_ydata(now)
+        now = made.second * float(times[number])
+        place = made.figure.transFigure.inverted()
+        for line, axis in zip(lines, made.left, strict=False):
+            line.set_xdata([place.transform(axis.transData.transform((now, 0.0)))[0]] * 2)
+        lines[-1].set_ydata([place.transform(made.right.transData.transform((0.0, now)))[1]] * 2)
 
-    return made.figure, draw
+    return figure, draw

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,8 +19,14 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-WORDS = {"m": "position, displacement", "m/s": "velocity", "N": "reaction"}
+WORDS = {"m": "position or displacement", "m/s": "velocity", "N": "reaction"}
 """What probes with a unit record."""
+
+
+WORKS = (("dissipation", ORANGE, "dissipated", "-"), ("work_external", GREEN, "external work", (0, (4, 4))))
+"""Columns with their colours, labels and strokes: what is dissipated often covers the work that comes from outside."""
+NOISE = 1e-9
+"""Gaps that are rounding, and no distance [m]."""
 
 
 def history(run: Run, look: Look = STANDARD) -> "Figure":
@@ -59,14 +65,17 @@ def energies(axis: "Axes", time: Array, table: Table) -> None:
     """Energies and works that matter."""
     kinetic, strain = table["energy_kinetic"], table["energy_strain"]
     total = kinetic + strain
-    factor, unit = scaled(total, "J")
-    curves = [("kinetic", kinetic, BLUE, "-"), ("strain", strain, RED, "-")]
-    for name, color, label in (("work_external", GREEN, "external work"), ("dissipation", ORANGE, "dissipated")):
+    curves: list[tuple[str, Array, str, Any]] = [
+        ("kinetic", kinetic, BLUE, "-"),
+        ("strain", strain, RED, "-"),
+        ("kinetic + strain", total, BLACK, "--"),
+    ]
+    for name, color, label, style in WORKS:
         if np.abs(table[name]).max() > 1e-3 * np.abs(total).max():
-            curves.append((label, table[name], color, "-"))
-    curves.append(("kinetic + strain", total, BLACK, "--"))
+            curves.append((label, table[name], color, style))
+    factor, unit = scaled(np.concatenate([values for _, values, _, _ in curves]), "J")
     for label, values, color, style in curves:
-        axis.plot(time, factor * values, style, color=color, label=label)
+        axis.plot(time, factor * values, linestyle=style, color=color, label=label)
     axis.set(title="Energy", ylabel=f"energy [{unit}]")
     axis.legend(loc="best")
 
@@ -88,16 +97,23 @@ def forces(axis: "Axes", time: Array, table: Table, contacts: tuple[str, ...]) -
         axis.step(time, force, where="pre", color=color, label=contact, lw=1.3)
         axis.fill_between(time, force, step="pre", color=color, alpha=0.15, lw=0)
     axis.set(title="Normal contact force", ylabel=f"force [{unit}]")
+    axis.set_ylim(bottom=0.0, top=None if any(table[f"contact.{c}.force_n"].any() for c in contacts) else 1.0)
     axis.legend(loc="best")
 
 
 def gaps(axis: "Axes", time: Array, table: Table, contacts: tuple[str, ...]) -> None:
     """Least gap of each contact."""
-    factor, unit = scaled(np.concatenate([table[f"contact.{c}.min_gap"] for c in contacts]), "m")
+    every = np.concatenate([table[f"contact.{c}.min_gap"] for c in contacts])
+    known = every[np.isfinite(every)]
+    factor, unit = scaled(np.append(known, NOISE), "m")
+    if np.abs(known).max(initial=0.0) < NOISE:
+        axis.set_ylim(-factor * NOISE, factor * NOISE)
     axis.axhline(0.0, color=BLACK, lw=0.8)
     for contact, color in zip(contacts, _cycle(len(contacts)), strict=True):
         axis.plot(time, factor * table[f"contact.{contact}.min_gap"], color=color, label=contact)
     axis.set(title="Least gap", ylabel=f"gap [{unit}]")
+    if len(contacts) > 1:
+        axis.legend(loc="best")
 
 
 def _probes(axis: "Axes", time: Array, table: Table, names: list[str]) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from softway.errors import InputError
-from softway.record.view_style import BLACK, CYCLE, canvas, scaled, styled
+from softway.record.view_style import BLACK, CYCLE, canvas, library, scaled, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -93,6 +93,7 @@ def _iterations(axis: "Axes", methods: Mapping[str, Any], colours: Mapping[str, 
         axis.plot(time, [lap["iterations"] for lap in laps], color=colours[name], label=name, lw=1.2)
     axis.set(title="Iterations of each slab", xlabel=f"time [{unit}]", ylabel="iterations")
     axis.set_ylim(bottom=0)
+    axis.yaxis.set_major_locator(library().ticker.MaxNLocator(integer=True))
 
 
 def _energies(axis: "Axes", methods: Mapping[str, Any], colours: Mapping[str, str]) -> None:

@@ -41,8 +41,9 @@ PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G",
 def library():  # type: ignore[no-untyped-def]  # the module object
     """Matplotlib, or what to do when it is missing."""
     try:
-        import matplotlib
+        import matplotlib.backends.backend_agg
         import matplotlib.figure
+        import matplotlib.lines
     except ImportError:
         raise InputError("plot", "Matplotlib is not installed", "pip install matplotlib") from None
     return matplotlib

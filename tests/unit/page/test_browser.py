@@ -135,6 +135,25 @@ def test_the_page_shows_the_run_and_moves(square, browser):
         assert any(place.scheme == "ws" for place in asked)
 
 
+def test_keys_work_from_the_start_and_a_phone_shows_bodies_and_curves(square, browser):
+    with served(str(square.path)) as address, opened(browser, address) as (page, _):
+        shows(page, "clock", "0 s")
+        page.locator("#window").click()
+        page.locator(".page").focus()
+        page.keyboard.press("ArrowRight")
+        shows(page, "clock", "400 ms")
+        page.keyboard.press("ArrowLeft")
+        shows(page, "clock", "0 s")
+        page.keyboard.press(" ")
+        sync_api.expect(page.locator("#clock")).not_to_have_text("0 s")
+        page.keyboard.press(" ")
+        page.set_viewport_size({"width": 390, "height": 844})
+        window, beside = (page.locator(name).bounding_box() for name in ("#window", ".beside"))
+        assert window["width"] == beside["width"] == 390.0
+        assert window["height"] > 200.0 and beside["y"] == window["y"] + window["height"]
+        page.set_viewport_size({"width": 1000, "height": 700})
+
+
 def test_only_this_machine_with_the_token_is_answered(square, browser):
     """Another address of the loopback is refused, as it would not be if all were listened to."""
     with served(str(square.path)) as address:

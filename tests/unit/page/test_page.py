@@ -41,7 +41,7 @@ def test_a_frame_moves_the_skin(square, made):
 
 
 def test_every_field_can_be_chosen(square, made):
-    for name in made.server.state.fields:
+    for name in (field["value"] for field in made.server.state.fields):
         made.server.state.colour = name
         made.colours(name)
         assert made.server.state.colour == name and len(made.server.state.marks) == 5
