@@ -50,6 +50,8 @@ sphinx_gallery_conf = {
     "reference_url": {"softway": None},
     "doc_module": ("softway",),
     "capture_repr": (),
+    "reset_modules": ("matplotlib", "pictures.plain"),
+    "within_subsection_order": "pictures.Order",
 }
 
 html_theme = "furo"

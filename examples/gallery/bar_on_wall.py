@@ -51,8 +51,8 @@ for name, steps in runs.items():
     right.plot(t, np.array(energy) / exact.energy, lw=1.5, label=name)
 left.set(xlabel="time", ylabel="displacement of the tip", title="The tip")
 right.set(xlabel="time", ylabel="energy / energy at the start", title="Energy")
-left.legend(frameon=False)
-right.legend(frameon=False)
+left.legend()
+right.legend(loc="center right")
 
 # %%
 # The instants and the energy beside the exact ones. An example whose claim were wrong would fail

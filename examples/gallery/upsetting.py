@@ -1,0 +1,76 @@
+"""
+A hot billet is upset
+=====================
+
+A cylinder of hot metal is pressed to half of its height. Without friction it stays a cylinder, and
+the force of the platen is known in closed form; with friction it becomes a barrel and the force
+grows. Forming is slow: inertia is off, and a slab is as long as the motion of the platen allows.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import PolyCollection
+
+import softway as sw
+from softway.verify.exact.flow import upsetting
+
+HEIGHT, RADIUS, STROKE, M = 0.75, 1.0, 0.5, 0.3
+
+
+def pressed(friction):
+    """Mesh and slabs of the upper half, of Norton and Hoff's material with K = 1."""
+    mesh = sw.Rectangle(size=(RADIUS, HEIGHT), cells=(8, 6)).build()
+    billet = sw.Solid(
+        mesh=mesh,
+        material=sw.NortonHoff(K=1.0, m=M),
+        density=1.0,
+        section=sw.Axisymmetric(),
+        dilatation="mean",
+        supports=(sw.Fixed(on="bottom", components="y"), sw.Fixed(on="left", components="x")),
+    )
+    platen = sw.Tool(
+        shape=sw.HalfSpace(point=(0.0, HEIGHT), normal=(0.0, -1.0)),
+        motion=sw.Translation(velocity=(0.0, -1.0)),
+    )
+    contacts = (
+        sw.Contact(between=("billet.top", "platen"), name="platen", friction=friction),
+        sw.Contact(between=("billet.right", "platen"), name="side", friction=friction),
+    )
+    scene = sw.Scene(bodies={"billet": billet, "platen": platen}, contacts=contacts, inertia=sw.Off())
+    return mesh, list(sw.march(scene, until=STROKE * HEIGHT, step=STROKE * HEIGHT / 20))
+
+
+runs = {
+    "no friction": pressed(sw.Frictionless()),
+    "much friction": pressed(sw.NortonHoffFriction(alpha=0.5, p=M)),
+}
+
+# %%
+# The mean force of each slab belongs to the middle of it.
+
+fig, (left, right) = plt.subplots(1, 2, figsize=(10.0, 3.9), layout="constrained")
+fine = np.linspace(0.0, STROKE, 100)
+left.plot(100 * fine, upsetting(fine, M, HEIGHT), color="0.8", lw=5, label="exact, no friction")
+for name, (mesh, steps) in runs.items():
+    stroke = np.array([0.5 * (s.slab.start + s.slab.end) for s in steps]) / HEIGHT
+    force = np.array([sum(c.force_n for c in s.ledger.contacts.values()) for s in steps])
+    left.plot(100 * stroke, force, label=name)
+    if name == "no friction":
+        worst = np.abs(force / upsetting(stroke, M, HEIGHT) - 1.0)[1:].max()
+        print(f"force without friction differs from the closed form by at most {100 * worst:.3f} %")
+        assert worst < 2e-3
+left.set(xlabel="reduction [%]", ylabel="force", title="Force of the platen")
+left.legend()
+
+# %%
+# Half sections after the stroke, with the start in grey: friction on the left, none on the right.
+
+for side, (mesh, steps) in zip((1.0, -1.0), runs.values()):
+    last = steps[-1].after
+    points = mesh.points + last.displacement["billet"]
+    for mirror in (1.0, -1.0):
+        cells = points[mesh.blocks["quad4"]] * (side, mirror)
+        right.add_collection(PolyCollection(cells, facecolors="#f2d6b3", edgecolors="0.4", lw=0.5))
+right.plot([-1, 1, 1, -1, -1], [-HEIGHT, -HEIGHT, HEIGHT, HEIGHT, -HEIGHT], color="0.6", ls="--")
+right.set(xlim=(-1.7, 1.7), ylim=(-0.85, 0.85), aspect="equal", title="A barrel, and a cylinder")
+right.grid(visible=False)
