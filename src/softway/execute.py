@@ -182,7 +182,7 @@ def _steps(checked: Checked, state: State | Standing, cancel: Cancel | None) -> 
 def _texts(scenario: Scenario) -> dict[str, str]:
     """The resolved scenario and what it needs beside it, by the names of the files."""
     text = _text(scenario)
-    return {SCENARIO: text, **own_sources(tomllib.loads(text))}
+    return {SCENARIO: text, **own_sources(tomllib.loads(text), scenario)}
 
 
 def _stress(model: Model, name: str, state: State) -> Array:

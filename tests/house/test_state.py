@@ -44,7 +44,7 @@ KEPT = (ContextVar, type(Lock()), type(RLock()), Event, deque, bytearray)
 HOLDERS = {
     "softway.kernels.threads._CHOSEN": "see above",
     "softway.record.view_style._ONE_AT_A_TIME": "a lock",
-    "softway.scenario.modules._ONE_AT_A_TIME": "a lock",
+    "softway.scenario.modules.READING": "a lock",
 }
 
 

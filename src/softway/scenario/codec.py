@@ -11,7 +11,7 @@ import tomli_w
 
 from softway.errors import InputError
 from softway.scenario.library import furnished
-from softway.scenario.modules import Modules
+from softway.scenario.modules import READING, Modules
 from softway.scenario.override import overridden
 from softway.scenario.quantity import Units
 from softway.scenario.reader import Reader
@@ -98,7 +98,8 @@ def loads(
     """
     data = parsed(text, name)
     reader = Reader(units or Units.standard(), folder or modules.folder or Path(), modules)
-    scenario: Scenario = reader.read(furnished(overridden(data, changes)), Scenario, "")
+    with READING:
+        scenario: Scenario = reader.read(furnished(overridden(data, changes)), Scenario, "")
     return scenario
 
 

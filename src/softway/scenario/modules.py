@@ -9,17 +9,19 @@ import sys
 import sysconfig
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from importlib.machinery import PathFinder
 from pathlib import Path
 from threading import RLock
+from types import FunctionType
 from typing import Any
 
 from softway.errors import InputError
 from softway.laws.fitting import asked, lacking
 
 _OURS = "softway."
-_ONE_AT_A_TIME = RLock()  # Python looks for modules in one list of folders
+READING = RLock()
+"""Held while a scenario is read: Python looks for modules in one list of folders, and knows one of each name."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,7 +78,7 @@ class Modules:
             raise InputError(where, f"{text!r} names nothing in a module", "module:name, such as my_law:MyLaw")
         own = None if self.folder is None else _beside(self.folder, parts[0])
         if self.folder is not None and own is not None:
-            with _ONE_AT_A_TIME, _first(own, parts[0], self.folder, where):
+            with READING, _first(own, parts[0], self.folder, where):
                 return _taken(text, where)
         if not self.allowed:
             problem = f"{text!r} would run Python that does not lie beside the scenario"
@@ -85,27 +87,52 @@ class Modules:
         return _taken(text, where)
 
 
-def own_sources(data: Any) -> dict[str, str]:
+def own_sources(data: Any, made: object = None) -> dict[str, str]:
     """Texts of the files behind every ``module:name`` in the data of a scenario, by the name of the file.
 
     Installed modules and packages are left out, for they are more than one file, and so is a script that runs.
+
+    Parameters
+    ----------
+    data
+        The scenario as tables and lists.
+    made
+        The scenario as it was read: its objects know their file, also where another scenario has brought a module of
+        the same name since.
 
     Examples
     --------
     >>> own_sources({"kind": "math:pi", "law": [{"kind": "NeoHookean"}]})
     {}
     """
-    if isinstance(data, list | tuple):
-        return {name: text for item in data for name, text in own_sources(item).items()}
+    files = {name: getattr(sys.modules.get(name), "__file__", None) for name in _named(data)} | dict(_origins(made))
+    known = {name: Path(files[name]) for name in _named(data) if files[name]}
+    return {f"{n}.py": f.read_text(encoding="utf-8") for n, f in known.items() if n != "__main__" and not _installed(f)}
+
+
+def _named(data: Any) -> Iterator[str]:
+    """The modules of every ``module:name`` in the data."""
     if isinstance(data, str):
         module, sign, name = data.partition(":")
-        file = getattr(sys.modules.get(module), "__file__", None) if sign and name.isidentifier() else None
-        if file is None or module == "__main__" or _installed(Path(file)):
-            return {}
-        return {f"{module}.py": Path(file).read_text(encoding="utf-8")}
-    if isinstance(data, Mapping):
-        return {name: text for item in data.values() for name, text in own_sources(item).items()}
-    return {}
+        if sign and name.isidentifier():
+            yield module
+    elif isinstance(data, list | tuple | Mapping):
+        for item in data.values() if isinstance(data, Mapping) else data:
+            yield from _named(item)
+
+
+def _origins(made: object) -> Iterator[tuple[str, str]]:
+    """Name and file of the module of every function in an object, and of the methods of every class."""
+    if isinstance(made, FunctionType):
+        yield made.__module__, made.__globals__.get("__file__", "")
+    elif isinstance(made, list | tuple | Mapping):
+        for item in made.values() if isinstance(made, Mapping) else made:
+            yield from _origins(item)
+    elif is_dataclass(made):
+        methods = (f for f in vars(type(made)).values() if isinstance(f, FunctionType))
+        yield from (found for method in methods for found in _origins(method))
+        for part in fields(made):
+            yield from _origins(getattr(made, part.name, None))
 
 
 def _installed(file: Path) -> bool:

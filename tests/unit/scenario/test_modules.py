@@ -1,10 +1,12 @@
 """Laws of the user's own in a scenario: where they may come from, what is said of mistakes, and their text."""
 
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
+import softway as sw
 from softway.errors import InputError
 from softway.laws.law import StoredEnergy
 from softway.scenario.codec import load, resolved
@@ -114,6 +116,38 @@ def test_two_folders_with_modules_of_one_name(place, tmp_path):
     assert bar(place, "bodies.bar.material={kind='my_law:Soft', stiffness=2}").stiffness == 2.0
     assert bar(other, "bodies.bar.material={kind='my_law:Soft', spring=2}").spring == 2.0
     assert bar(place, "bodies.bar.material={kind='my_law:Soft', stiffness=2}").stiffness == 2.0
+
+
+def test_a_run_records_the_module_that_it_was_read_with(place):
+    """Also where another scenario has brought one of the same name since, with a law or a function."""
+    other = place / "other"
+    other.mkdir()
+    wall = ["bodies.wall.shape={kind='SignedDistance', function='my_law:near', dim=1}"]
+    texts = [OWN + f"def near(x):\n    return {reach} - x[:, 0]\n" for reach in (1.3, 1.4)]
+    for folder, text in zip((place, other), texts, strict=True):
+        (folder / "bar.toml").write_text((place / "bar.toml").read_text())
+        (folder / "my_law.py").write_text(text)
+    law, function = "bodies.bar.material={kind='LinearElastic', E=1}", "time.end=0.1"
+    for changes in ([*wall, law], [function], [*wall, function]):
+        scenarios = [load(folder / "bar.toml", changes, UNITS) for folder in (place, other)]
+        runs = [sw.run(scenario) for scenario in scenarios]
+        assert [(run.path / "my_law.py").read_text() for run in runs] == texts
+
+
+def test_scenarios_with_modules_of_one_name_are_read_in_threads(place):
+    folders = [place / str(k) for k in range(4)]
+    for k, folder in enumerate(folders):
+        folder.mkdir()
+        (folder / "my_shape.py").write_text(f"import time\ntime.sleep(0.02)\ndef near(x):\n    return {k} - x[:, 0]\n")
+        (folder / "bar.toml").write_text(templates()["bar"])
+
+    def gap(k: int) -> float:
+        change = "bodies.wall.shape={kind='SignedDistance', function='my_shape:near', dim=1}"
+        shape = load(folders[k % 4] / "bar.toml", [change], UNITS).bodies["wall"].shape
+        return float(shape.gap(np.zeros((1, 1)))[0])
+
+    with ThreadPoolExecutor(4) as pool:
+        assert list(pool.map(gap, range(24))) == [float(k % 4) for k in range(24)]
 
 
 def test_a_copy_of_a_module_is_that_module(place):
