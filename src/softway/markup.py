@@ -1,6 +1,6 @@
 """Small tables for notebooks."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 
 CELL = "text-align:left; padding:1px 12px 1px 0; vertical-align:top"
@@ -20,6 +20,19 @@ def table(title: str, rows: Mapping[str, object]) -> str:
         for name, value in rows.items()
     )
     return f"<div><strong>{escape(title)}</strong><table>{lines}</table></div>"
+
+
+def grid(title: str, heads: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """A table in HTML with a line of heads.
+
+    Examples
+    --------
+    >>> grid("two", ["x", "y"], [(1, 2.5)]).count("<td")
+    2
+    """
+    head = "".join(f'<th style="{CELL}; opacity:.65">{escape(name)}</th>' for name in heads)
+    lines = "".join(f"<tr>{''.join(f'<td style={CELL!r}>{_text(value)}</td>' for value in row)}</tr>" for row in rows)
+    return f"<div><strong>{escape(title)}</strong><table><tr>{head}</tr>{lines}</table></div>"
 
 
 def _text(value: object) -> str:

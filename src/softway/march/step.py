@@ -1,7 +1,9 @@
 """One accepted slab: the situation before and after, its audit, and what happened inside."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+
+import numpy as np
 
 from softway.march.standing import Standing
 from softway.markup import table
@@ -71,6 +73,14 @@ class Ledger:
     spin: Array
     contacts: Mapping[str, ContactLedger]
 
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        joules = ("energy_kinetic", "energy_strain", "work_external", "dissipation", "energy_error")
+        rows = {name.replace("_", " "): f"{getattr(self, name):.4g} J" for name in joules}
+        rows["momentum"] = f"{np.array2string(self.momentum, precision=4)} kg m/s"
+        rows |= {f"contact {name}": _contact(found) for name, found in self.contacts.items()}
+        return table("Ledger", rows)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Certificate:
@@ -87,6 +97,12 @@ class Certificate:
     power_residual: float
     momentum_error: float
     energy_error: float
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        units = ("m", "N", "J", "J", "kg m/s", "J")
+        numbers = zip(fields(self), units, strict=True)
+        return table("Certificate", {f.name.replace("_", " "): f"{getattr(self, f.name):.3g} {u}" for f, u in numbers})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -6,7 +6,7 @@ from softway.errors import InputError
 from softway.markup import table
 from softway.record.look import Look
 from softway.record.run import Run
-from softway.record.view import drawn
+from softway.record.view import picture
 
 SMALL = Look(dpi=75)
 
@@ -31,7 +31,7 @@ def shown(run: Run) -> str:
 def _picture(run: Run) -> str:
     """The picture of the bodies inside the page; nothing where it cannot be drawn."""
     try:
-        data = drawn(run, SMALL) if run.history.rows > 1 and len(run.fields) else b""
+        data = picture(run, look=SMALL)._repr_png_() if run.history.rows > 1 and len(run.fields) else b""
     except InputError:
         return ""
     return f'<img src="data:image/png;base64,{base64.b64encode(data).decode()}">' if data else ""

@@ -4,16 +4,19 @@ import json
 import shutil
 import tempfile
 import weakref
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from softway.errors import InputError
 from softway.record import events, fields, history, provenance, summary, table
 from softway.record.frames import Fields
 from softway.record.provenance import Stop
 from softway.record.table import Table
+
+if TYPE_CHECKING:
+    from softway.record.view import Picture
 
 SCENARIO = "scenario.toml"
 
@@ -50,7 +53,7 @@ class Run:
     """
 
     path: Path
-    keep: object
+    keep: object = field(repr=False)
 
     def __init__(self, path: str | Path, keep: object = None) -> None:
         object.__setattr__(self, "path", Path(path))
@@ -91,6 +94,30 @@ class Run:
         """Text of the resolved scenario."""
         written = self.path / SCENARIO
         return written.read_text(encoding="utf-8") if written.is_file() else ""
+
+    def plot(
+        self, what: Literal["bodies", "history"] = "bodies", *, colour: str | None = None, times: Sequence[float] = ()
+    ) -> "Picture":
+        """A picture for notebooks and files.
+
+        Parameters
+        ----------
+        what
+            The bodies (of bars: their paths), or the history as curves.
+        colour
+            Field that colours the bodies, as of ``softway plot --field``.
+        times
+            Instants of the bodies [s].
+
+        Raises
+        ------
+        InputError
+            There is no such picture, field or instant.
+        """
+        from softway.record.look import Look
+        from softway.record.view import picture
+
+        return picture(self, what, Look(field=colour, times=tuple(times)))
 
     def _repr_html_(self) -> str:
         """A table and a picture for notebooks; nothing is drawn before there is a frame."""

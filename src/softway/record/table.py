@@ -13,11 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from softway.errors import InputError
+from softway.markup import grid
 
 TEXT = "-"
 """Unit written in the header of a column of words."""
 COUNT = "1"
 """Unit written in the header of a column of whole numbers."""
+WIDE, LONG = 12, 20
+"""Columns and rows that a notebook shows as they are."""
 RATIO = "ratio"
 """Unit written in the header of a column of ratios."""
 
@@ -50,10 +53,26 @@ class Table(Mapping[str, NDArray[Any]]):
     def __repr__(self) -> str:
         return f"Table({self.rows} rows: {', '.join(self.columns)})"
 
+    def _repr_html_(self) -> str:
+        """A table for notebooks: the first rows, or of many columns where each begins, ends and how far it goes."""
+        if len(self) <= WIDE:
+            lines = zip(*(self[name][:LONG].tolist() for name in self), strict=True)
+            more = f", the first {LONG}" if self.rows > LONG else ""
+            return grid(f"{self.rows} rows{more}", header([(n, self.units.get(n, "")) for n in self]), lines)
+        ends = ((n, self.units.get(n, ""), *_ends(self[n])) for n in self)
+        return grid(f"{self.rows} rows", ("column", "unit", "first", "last", "least", "greatest"), ends)
+
     @property
     def rows(self) -> int:
         """Number of rows."""
         return len(next(iter(self.columns.values()), ()))
+
+
+def _ends(column: NDArray[Any]) -> tuple[object, ...]:
+    """First, last, least and greatest of a column."""
+    if not len(column) or column.dtype.kind not in "if":
+        return (*column[:1].tolist(), *column[-1:].tolist(), "", "")
+    return tuple(x.item() for x in (column[0], column[-1], np.nanmin(column), np.nanmax(column)))
 
 
 def header(columns: Sequence[tuple[str, str]]) -> list[str]:

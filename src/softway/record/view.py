@@ -1,7 +1,7 @@
 """Pictures of a run: its history, the paths of a bar, the deformed body with its stress."""
 
 import io
-from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -35,7 +35,7 @@ def pictures(run: Run, out: Path | None = None, look: Look = STANDARD) -> tuple[
         raise InputError("--field, --at", "the picture of bars shows every time and no field", "to leave them out")
     first = out or run.path / "bodies.png"
     second = first.with_name(f"{first.stem}_history{first.suffix}") if out else run.path / "history.png"
-    return save(paths if bars else bodies, run, first, look), save(history, run, second, look)
+    return picture(run, "bodies", look).save(first), picture(run, "history", look).save(second)
 
 
 def is_bars(run: Run) -> bool:
@@ -43,21 +43,49 @@ def is_bars(run: Run) -> bool:
     return set(run.fields.cells.blocks()) <= {"bar2", "bar3"}
 
 
-def drawn(run: Run, look: Look = STANDARD) -> bytes:
-    """The picture of the bodies as PNG."""
-    out = io.BytesIO()
-    with styled():
-        (paths if is_bars(run) else bodies)(run, look).savefig(out, format="png", dpi=look.dpi, facecolor="white")
-    return out.getvalue()
+@dataclass(frozen=True, slots=True, eq=False)
+class Picture:
+    """A picture that a notebook shows, and ``save`` writes; ``figure`` is Matplotlib's, to be changed before."""
+
+    figure: "Figure"
+    dpi: int
+
+    def _repr_png_(self) -> bytes:
+        """The picture for notebooks."""
+        out = io.BytesIO()
+        with styled():
+            self.figure.savefig(out, format="png", dpi=self.dpi, facecolor="white")
+        return out.getvalue()
+
+    def save(self, file: str | Path) -> Path:
+        """Write it; the ending of the file names the format.
+
+        Raises
+        ------
+        InputError
+            If it cannot be written.
+        """
+        path = Path(file)
+        with styled():
+            try:
+                path.parent.mkdir(parents=True, exist_ok=True)
+                self.figure.savefig(path, dpi=self.dpi, facecolor="white")
+            except (OSError, ValueError) as error:
+                raise InputError("out", f"cannot write '{path}': {error}", "a file such as picture.png") from None
+        return path
 
 
-def save(draw: "Callable[[Run, Look], Figure]", run: Run, file: Path, look: Look = STANDARD) -> Path:
-    """Draw one picture into a file; its ending names the format."""
+def picture(run: Run, what: str = "bodies", look: Look = STANDARD) -> Picture:
+    """The bodies of a run (of bars: their paths), or its history.
+
+    Raises
+    ------
+    InputError
+        There is no such picture, or nothing to draw.
+    """
+    if what not in ("bodies", "history"):
+        raise InputError("what", f"no picture {what!r}", "bodies or history")
+    if run.history.rows == 0 or not len(run.fields):
+        raise InputError(str(run.path), "nothing has been recorded yet", "a run that has begun")
     with styled():
-        figure = draw(run, look)
-        try:
-            file.parent.mkdir(parents=True, exist_ok=True)
-            figure.savefig(file, dpi=look.dpi, facecolor="white")
-        except (OSError, ValueError) as error:
-            raise InputError("out", f"cannot write '{file}': {error}", "a file such as picture.png") from None
-    return file
+        return Picture((history if what == "history" else paths if is_bars(run) else bodies)(run, look), look.dpi)

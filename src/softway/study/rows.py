@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import nan
 from pathlib import Path
 
+from softway.markup import grid
 from softway.record.provenance import DONE, FILE, RUNNING, Stop
 from softway.record.run import Run
 from softway.record.summary import UNITS
@@ -59,6 +60,15 @@ class Sweep:
 
     path: Path
     rows: tuple[Row, ...]
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks; ``table`` has all numbers."""
+        numbers = ("slabs", "energy_error_relative", "wall_time")
+        paths = list(self.rows[0].values) if self.rows else []
+        lines = (
+            (*row.values.values(), row.stop.reason, *(row.numbers.get(n, "") for n in numbers)) for row in self.rows
+        )
+        return grid(f"Sweep in {self.path}", (*paths, "stop", "slabs", "energy error", "wall time [s]"), lines)
 
     @property
     def failed(self) -> tuple[Row, ...]:

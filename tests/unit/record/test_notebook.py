@@ -4,9 +4,13 @@ import base64
 import re
 from html import unescape
 
+import pytest
+
 import softway as sw
 from softway.record.conduct import Place, conduct
+from softway.record.provenance import Stop
 from softway.scenario.codec import load
+from softway.study.rows import Row, Sweep
 
 
 def text(html):
@@ -40,3 +44,27 @@ def test_a_scenario_is_a_table(pytestconfig):
         shown = unescape(text(scenario._repr_html_()))
         assert scenario.title in shown and all(name in shown for name in scenario.bodies)
     assert isinstance(scenario, sw.Scenario)
+
+
+def test_tables_audits_and_pictures_show_themselves(square, tmp_path):
+    """In two lines of a notebook: a picture, a table with units, what a slab leaves over."""
+    run = conduct(square.steps(), square.opening(), Place())
+    assert "energy_kinetic" in run.history._repr_html_() and "greatest" in run.history._repr_html_()
+    assert "normal_velocity_before [m/s]" in text(run.events._repr_html_())
+    step = next(s for s in square.steps() if s.events)
+    assert (
+        "kg m/s" in text(step.certificate._repr_html_()) and "contact part.surface-floor" in step.ledger._repr_html_()
+    )
+    assert run.plot()._repr_png_().startswith(b"\x89PNG")
+    assert run.plot("history").save(tmp_path / "deep" / "history.svg").stat().st_size > 10_000
+    assert "keep" not in repr(run)
+    with pytest.raises(sw.InputError, match="no picture 'curves'"):
+        run.plot("curves")
+    with pytest.raises(sw.InputError, match="no field 'presure'"):
+        run.plot(colour="presure")
+
+
+def test_a_sweep_shows_its_runs(tmp_path):
+    row = Row(values={"time.end": "1 s"}, folder=tmp_path, stop=Stop("done"), numbers={"slabs": 3})
+    shown = text(Sweep(path=tmp_path, rows=(row,))._repr_html_())
+    assert "time.end" in shown and "1 s" in shown and "done" in shown

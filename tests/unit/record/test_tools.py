@@ -13,7 +13,7 @@ from softway.bodies.solid import Tool
 from softway.record.conduct import conduct
 from softway.record.place import Place
 from softway.record.tools import described, recovered
-from softway.record.view import save
+from softway.record.view import picture
 from softway.record.view_body import bodies
 from softway.record.view_paths import paths
 from softway.scene import Scene
@@ -109,14 +109,14 @@ def test_a_surface_survives_its_file(volume, tmp_path):
 def test_every_shape_is_drawn_moving(shape, volume, tmp_path):
     pytest.importorskip("matplotlib")
     run = With(volume, Tool(shape=shape, motion=MOTIONS[3])).run(tmp_path / "run")
-    assert save(bodies, run, tmp_path / "bodies.png").stat().st_size > 10_000
+    assert picture(run).save(tmp_path / "bodies.png").stat().st_size > 10_000
 
 
 @pytest.mark.parametrize("shape", PLANE, ids=lambda s: type(s).__name__)
 def test_every_shape_is_drawn_in_the_plane(shape, plane, tmp_path):
     pytest.importorskip("matplotlib")
     run = With(plane, Tool(shape=shape, motion=Turning(point=(0.5, 0.0), rate=0.2))).run(tmp_path / "run")
-    assert save(bodies, run, tmp_path / "bodies.png").stat().st_size > 10_000
+    assert picture(run).save(tmp_path / "bodies.png").stat().st_size > 10_000
 
 
 def test_facets_are_drawn_where_they_stand(volume, tmp_path):
