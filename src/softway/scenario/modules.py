@@ -105,9 +105,10 @@ def own_sources(data: Any, made: object = None) -> dict[str, str]:
     >>> own_sources({"kind": "math:pi", "law": [{"kind": "NeoHookean"}]})
     {}
     """
-    files = {name: getattr(sys.modules.get(name), "__file__", None) for name in _named(data)} | dict(_origins(made))
-    known = {name: Path(files[name]) for name in _named(data) if files[name]}
-    return {f"{n}.py": f.read_text(encoding="utf-8") for n, f in known.items() if n != "__main__" and not _installed(f)}
+    files = {name: getattr(sys.modules.get(name), "__file__", None) or "" for name in _named(data)}
+    origins = dict(_origins(made))
+    known = {name: Path(origins.get(name) or file) for name, file in files.items() if name != "__main__" and file}
+    return {f"{n}.py": f.read_text(encoding="utf-8") for n, f in known.items() if not _installed(f)}
 
 
 def _named(data: Any) -> Iterator[str]:
