@@ -16,7 +16,7 @@ PLACES = (ROOT / "src" / "softway", ROOT / "src", ROOT)
 OWN = {"own_law.md"}
 """Pages whose files the reader writes."""
 FENCE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
-MODULE = re.compile(r"`((?:[\w.]+/)*\w+\.py)(?:: (\w+(?:\.\w+)*))?`")
+MODULE = re.compile(r"`((?:[\w.]+/)*\w+\.py)(?:(?:: |`: `)(\w+(?:\.\w+)*))?`")
 DOTTED = re.compile(r"`(softway(?:\.\w+)+)`")
 CALL = re.compile(r"`([A-Z]\w+)\((\w+)=[^`]*\)`")
 LINK = re.compile(r"\]\(([^)#\s:]*)(?:#([^)\s]+))?\)")

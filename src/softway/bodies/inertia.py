@@ -26,7 +26,7 @@ class Full:
 class Off:
     """No inertia: every slab ends in equilibrium, and time is no more than the clock of driving and of viscosity.
 
-    Weight still acts.  Bodies must be held by supports, contact or friction.
+    Weight still acts.  Supports must hold every body against rigid motions.
 
     Examples
     --------

@@ -70,6 +70,8 @@ def _resting(model: Model, cancel: Cancel | None) -> Rest:
     require_apart(model, u)
     grip = None if model.rubbing is None else _passing(model, u)
     start, loads = model.scene.start, model.load
+    if not model.scene.inertia.factor > 0.0:
+        require_held(model)
     if isinstance(start, StaticStart):
         require_supported(model)
         loads = dead_load(model.parts, model.weight, start.loads, "start.loads").at(0.0) if start.loads else model.load
@@ -123,6 +125,16 @@ def require_supported(model: Model) -> None:
                 f"the supports leave free: {', '.join(motions)}; no static start",
                 'supports that hold it, such as { on = "left" }, a contact, or start = "AsGiven"',
             )
+
+
+def require_held(model: Model) -> None:
+    """Refuse bodies without inertia that supports do not hold: nothing says where they are until something touches."""
+    for name, motions in unheld(model).items():
+        raise InputError(
+            f"bodies.{name}.supports",
+            f"the supports leave free: {', '.join(motions)}; a body without inertia needs all of them held",
+            'supports such as { on = "left" }, or inertia = { kind = "Full" }',
+        )
 
 
 def require_apart(model: Model, u: Array) -> None:

@@ -32,7 +32,7 @@ class Time:
     end
         Last instant [s].
     step
-        Length of a slab [s]; ``auto``: a wave crosses the smallest edge in one slab.
+        Length of a slab [s]; ``auto``: a wave crosses the smallest edge in sqrt(2) slabs.
     weight
         Virtual time function.
     control

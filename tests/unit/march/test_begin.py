@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from softway.bodies.fields import Affine, Uniform
+from softway.bodies.inertia import Off
 from softway.bodies.loads import Gravity, Traction
 from softway.bodies.solid import Fixed
 from softway.contact.contact import Contact
@@ -31,6 +32,13 @@ def refused(call) -> InputError:
         call()
     assert error.value.remedy
     return error.value
+
+
+def test_a_body_without_inertia_that_only_contact_holds_is_refused(shop) -> None:
+    guided = shop.block(height=0.0, supports=(Fixed(on="left", components="x"),))
+    error = refused(lambda: march(scene(shop, guided, shop.floor["floor"], inertia=Off()), until=1.0, step=0.1))
+    assert error.where == "bodies.body.supports"
+    assert "translation along y" in error.problem
 
 
 def test_a_start_inside_an_obstacle_is_refused_with_the_depth(shop) -> None:
