@@ -19,7 +19,7 @@ extensions = [
     "cyclopts.ext.sphinx",
     "fields",
     "keys",
-    "offline",
+    "written",
 ]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 exclude_patterns = ["_build", "extensions"]

@@ -14,7 +14,7 @@ from dataclasses import MISSING, is_dataclass
 from importlib import import_module
 from itertools import groupby
 from pathlib import Path
-from typing import Any, Literal, Union, get_args, get_origin
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 import numpy as np
 from sphinx.ext.napoleon import Config, NumpyDocstring
@@ -171,17 +171,23 @@ def _of_source(function: Callable[..., Any]) -> tuple[str, str | None]:
     return f"({ast.unparse(tree.args)})", tree.returns and ast.unparse(linked.visit(tree.returns))
 
 
+def linked(thing: Any, name: str) -> str:
+    """A type of a signature: documented classes as ``~module.Name``, unions of them spelt out, others by their name."""
+    if isinstance(thing, types.UnionType):
+        return " | ".join(linked(member, getattr(member, "__name__", str(member))) for member in members(thing))
+    if get_origin(thing) is Annotated:
+        return linked(get_args(thing)[0], get_args(thing)[0].__name__)
+    return f"~{DOCUMENTED[thing]}" if isinstance(thing, type) and thing in DOCUMENTED else name
+
+
 class _Linked(ast.NodeTransformer):
-    """Names of classes of softway as ``~module.Name``, which Sphinx shows as Name; quoted ones likewise."""
+    """Annotations by :func:`linked`; Sphinx shows ``~module.Name`` as Name."""
 
     def __init__(self, names: Mapping[str, Any]) -> None:
         self.names = names
 
     def visit_Name(self, node: ast.Name) -> ast.AST:
-        thing = self.names.get(node.id)
-        if not (isinstance(thing, type) and thing in DOCUMENTED):
-            return node
-        return ast.parse(f"~{DOCUMENTED[thing]}", mode="eval").body
+        return ast.parse(linked(self.names.get(node.id), node.id), mode="eval").body
 
     def visit_Constant(self, node: ast.Constant) -> ast.AST:
         return self.visit(ast.parse(node.value, mode="eval").body) if isinstance(node.value, str) else node
