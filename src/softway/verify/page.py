@@ -19,7 +19,16 @@ th, td { padding: .2rem .7rem; text-align: right; border-bottom: 1px solid #e4e4
 th:first-child, td:first-child, .left { text-align: left; }
 tr.ours td { font-weight: 600; } .pass { color: #00704f; } .fail { color: #b43c00; font-weight: 600; }
 p.small, ul { font-size: .88rem; color: #555; } img { max-width: 100%; display: block; margin: .5rem 0; }
-nav a { margin-right: .6rem; white-space: nowrap; }
+nav a { margin-right: .6rem; white-space: nowrap; } .wide { overflow-x: auto; }
+td:not(:first-child) { white-space: nowrap; }
+@media (max-width: 40rem) {
+  body { margin: 1rem auto; } h1 { font-size: 1.35rem; } table { font-size: .8rem; }
+  th, td { padding: .2rem .3rem; } td:first-child { min-width: 8rem; } nav { line-height: 2; }
+}
+@media print {
+  body { max-width: none; margin: 0; font-size: 10pt; } h2, p { break-after: avoid; } tr, img { break-inside: avoid; }
+  nav { display: none; } .wide { overflow-x: visible; } img { max-height: 20cm; }
+}
 """
 HEADS = ("quantity", "reference", "softway", "error", "tolerance", "")
 
@@ -44,7 +53,8 @@ def page(results: Sequence[Result]) -> str:
         _picture((_overview(results),), "Error over tolerance of every quantity"),
         *(_section(result) for result in results),
     ]
-    head = f'<meta charset="utf-8"><title>Verification of softway</title><style>{STYLE}</style>'
+    meta = '<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'
+    head = f"{meta}<title>Verification of softway</title><style>{STYLE}</style>"
     return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head><body>\n' + "\n".join(body) + "\n</body></html>\n"
 
 
@@ -83,7 +93,7 @@ def _table(heads: Iterable[str], body: Sequence[Sequence[str]], ours: int = -1) 
     for k, cells in enumerate(body):
         mark = ' class="ours"' if k == ours else ""
         lines.append(f"<tr{mark}>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
-    return "<table>" + "\n".join(lines) + "</table>"
+    return '<div class="wide"><table>' + "\n".join(lines) + "</table></div>"
 
 
 def _beside(beside: Beside) -> str:

@@ -19,6 +19,8 @@ from PIL import Image
 
 import softway as sw
 from softway.record.view_body import instant
+from softway.verify import chosen, examined
+from softway.verify.page import page as report
 
 sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed: make test-view installs it")
 pytest.importorskip("trame")
@@ -152,6 +154,14 @@ def test_keys_work_from_the_start_and_a_phone_shows_bodies_and_curves(square, br
         assert window["width"] == beside["width"] == 390.0
         assert window["height"] > 200.0 and beside["y"] == window["y"] + window["height"]
         page.set_viewport_size({"width": 1000, "height": 700})
+
+
+def test_the_page_of_the_suite_fits_a_phone(browser):
+    page = browser.new_page()
+    page.set_viewport_size({"width": 360, "height": 700})
+    page.set_content(report([examined(chosen(["A01"])[0])]))
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    page.close()
 
 
 def test_only_this_machine_with_the_token_is_answered(square, browser):
