@@ -21,6 +21,7 @@ from softway.cli.log import Verbose, heard, listen
 from softway.cli.materials import materials
 from softway.cli.plot import plot
 from softway.cli.progress import laps_of, progress_of
+from softway.cli.reading import examined
 from softway.cli.resume import resume
 from softway.cli.schema import schema
 from softway.cli.sweep import sweep
@@ -34,8 +35,7 @@ from softway.race.report import FILE as RACE
 from softway.race.report import record
 from softway.race.report import save as save_race
 from softway.record.run import Run
-from softway.scenario.check import check as examine
-from softway.scenario.codec import load, resolved
+from softway.scenario.codec import resolved
 from softway.scenario.templates import templates
 
 DONE, WRONG_INPUT, FAILED, INTERRUPTED = 0, 2, 3, 130
@@ -118,9 +118,8 @@ def check(file: Path, /, *, set_: Set = (), quiet: Quiet = False, allow_python: 
     allow_python
         Let module:name in the scenario run code of installed modules, not only of those beside the file.
     """
-    checked = examine(load(file, set_, allow_python=allow_python))
-    if not quiet:
-        scales(checked, Console())
+    console = Console(quiet=quiet)
+    scales(examined(file, set_, console, allow_python=allow_python), console)
 
 
 @app.command
@@ -155,8 +154,8 @@ def run(
         Let module:name in the scenario run code of installed modules, not only of those beside the file.
     """
     listen(verbose)
-    checked = examine(load(file, set_, allow_python=allow_python))
     folder, console = out or free(Path("runs") / file.stem), Console(quiet=quiet)
+    checked = examined(file, set_, console, allow_python=allow_python)
     scales(checked, console)
     try:
         with progress_of(checked, console) as progress:
@@ -231,9 +230,9 @@ def race(
     allow_python
         Let module:name in the scenario run code of installed modules, not only of those beside the file.
     """
-    scenario = load(file, set_, allow_python=allow_python)
-    checked = examine(scenario)
     folder, console = out or free(Path("races") / file.stem), Console(quiet=quiet)
+    checked = examined(file, set_, console, allow_python=allow_python)
+    scenario = checked.scenario
     if (folder / RACE).exists() and not overwrite:
         raise InputError("--out", f"'{folder}' already holds a race", "another folder, or --overwrite")
     if slabs is not None and slabs < 1:

@@ -2,6 +2,7 @@
 
 import difflib
 import inspect
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING
 from typing import Any
@@ -33,7 +34,7 @@ def told(name: str, commands: Mapping[str, Callable[..., Any] | None], console: 
         raise InputError("NAME", f"no kind, key or command {name!r}", ", ".join(close) or "Solid, Contact, time, run")
     if name in commands:
         _head(f"softway {name}", "command", console)
-        console.print(escape(inspect.getdoc(commands[name]) or ""), highlight=False)
+        console.print(escape(plain(inspect.getdoc(commands[name]) or "")), highlight=False)
     for cls in kinds:
         _kind(cls, console)
     if owners:
@@ -45,7 +46,7 @@ def _kind(cls: type, console: Console) -> None:
     """A class: what it is, its keys, its example."""
     said = described(cls)
     _head(cls.__name__, "kind", console)
-    console.print(escape(said.summary), highlight=False)
+    console.print(escape(plain(said.summary)), highlight=False)
     if inputs(cls):
         console.print(_grid([(cls, key) for key in inputs(cls)], of=False))
     if said.sections.get("Examples"):
@@ -65,8 +66,20 @@ def _grid(entries: list[tuple[type, str]], of: bool) -> Grid:
     for cls, key in entries:
         unit = Hint.of(hints(cls)[key], None).unit or ""
         first = cls.__name__ if of else key
-        grid.add_row(*map(escape, (first, unit, _default(cls, key), described(cls).fields.get(key, ""))))
+        grid.add_row(*map(escape, (first, unit, _default(cls, key), plain(described(cls).fields.get(key, "")))))
     return grid
+
+
+def plain(text: str) -> str:
+    """A text of the documentation as a terminal shows it: without marks of names and of code.
+
+    Examples
+    --------
+    >>> plain("``|t| <= mu p``, see :class:`~softway.laws.Coulomb`")
+    '|t| <= mu p, see Coulomb'
+    """
+    names = re.sub(r":\w+:`~?(?:[\w.]*\.)?(\w+)`", r"\1", text)
+    return re.sub(r"``([^`]+)``", r"\1", names)
 
 
 def _default(cls: type, key: str) -> str:

@@ -2,10 +2,12 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from time import perf_counter
 
 from rich.console import Console
 from rich.markup import escape
 
+from softway.cli.progress import waiting
 from softway.record.look import Look, size_of
 from softway.record.run import Run
 from softway.record.view import pictures
@@ -52,11 +54,19 @@ def plot(
     run, console = Run(folder), Console()
     look = Look(field=field, times=instants, size=size_of(size), dpi=_dots(dpi, film))
     if film is None:
-        for file in pictures(run, out, look):
+        with waiting(console, "drawing"):
+            files = pictures(run, out, look)
+        for file in files:
             console.print(escape(str(file)), soft_wrap=True)
         return
-    with console.status("") as status:
-        file = make_film(run, film, look, lambda done, of: status.update(f"picture {done} of {of}"))
+    begun = perf_counter()
+    with console.status("first picture") as status:
+
+        def told(done: int, of: int) -> None:
+            ahead = (perf_counter() - begun) * (of - done) / done
+            status.update(f"picture {done} of {of}, ETA {ahead:.0f} s")
+
+        file = make_film(run, film, look, told)
     console.print(escape(str(file)), soft_wrap=True)
 
 

@@ -1,13 +1,21 @@
 """Progress of a run on a terminal: time left, error of the energy balance, closed contact nodes."""
 
-import time as clock
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import timedelta
+from threading import Timer
 
 from rich.console import Console
-from rich.progress import BarColumn, TaskID, TaskProgressColumn, TextColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    SpinnerColumn,
+    TaskID,
+    TaskProgressColumn,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
 from rich.progress import Progress as Display
 
 from softway.record.progress import Progress
@@ -15,13 +23,43 @@ from softway.scenario.check import Checked
 
 PATIENCE = 1.0
 """Seconds after which a run is long enough to be watched."""
+FIRST = "first slab: kernels are compiled once"
+"""What a run may do before its first slab is done."""
 COLUMNS = (
+    TextColumn("{task.description}"),
     BarColumn(bar_width=16),
     TaskProgressColumn(),
     TextColumn("ETA {task.fields[left]}"),
     TextColumn("energy error {task.fields[error]}"),
     TextColumn("contacts {task.fields[closed]}"),
 )
+
+
+@contextmanager
+def delayed(display: Display) -> Iterator[None]:
+    """Show a display once the work takes longer than patience lasts, until it ends."""
+    timer = Timer(PATIENCE, display.start)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+        timer.join()
+        display.stop()
+
+
+@contextmanager
+def waiting(console: Console, what: str) -> Iterator[None]:
+    """Say what is being done, and for how long, where that takes longer than patience lasts and somebody watches."""
+    if console.quiet or not console.is_terminal:
+        yield
+        return
+    columns = SpinnerColumn(), TextColumn("{task.description}, after"), TimeElapsedColumn()
+    display = Display(*columns, console=console, transient=True)
+    display.add_task(what, total=None)
+    with delayed(display):
+        yield
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -40,6 +78,7 @@ class Watch:
         ledger = progress.step.ledger
         self.display.update(
             self.task,
+            description="",
             completed=progress.time,
             left=_clock(progress.left),
             error=f"{ledger.energy_error:.1e} J",
@@ -54,11 +93,9 @@ def progress_of(checked: Checked, console: Console) -> Iterator[Watch | None]:
         yield None
         return
     display = Display(*COLUMNS, console=console, transient=True)
-    task = display.add_task("", total=checked.scenario.time.end, left="-", error="-", closed=0)
-    try:
+    task = display.add_task(FIRST, total=checked.scenario.time.end, left="-", error="-", closed=0)
+    with delayed(display):
         yield Watch(display=display, task=task)
-    finally:
-        display.stop()
 
 
 def _clock(seconds: float) -> str:
@@ -78,15 +115,12 @@ class Laps:
 
     display: Display
     tasks: Mapping[str, TaskID]
-    begun: float
 
     def __call__(self, name: str, time: float) -> None:
         """Show one slab of a method."""
         task = self.tasks[name]
         if not self.display.tasks[task].started:
             self.display.start_task(task)
-        if clock.perf_counter() - self.begun > PATIENCE and not self.display.live.is_started:
-            self.display.start()
         self.display.update(task, completed=time)
 
 
@@ -96,10 +130,8 @@ def laps_of(names: Sequence[str], end: float, console: Console) -> Iterator[Laps
     if console.quiet or not console.is_terminal:
         yield None
         return
-    columns = (TextColumn("{task.description}"), *COLUMNS[:2], TextColumn("ETA"), TimeRemainingColumn())
+    columns = (*COLUMNS[:3], TextColumn("ETA"), TimeRemainingColumn())
     display = Display(*columns, console=console, transient=True)
     tasks = {name: display.add_task(name, total=end, start=False) for name in names}
-    try:
-        yield Laps(display=display, tasks=tasks, begun=clock.perf_counter())
-    finally:
-        display.stop()
+    with delayed(display):
+        yield Laps(display=display, tasks=tasks)

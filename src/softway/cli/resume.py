@@ -7,7 +7,7 @@ from cyclopts import Parameter
 from rich.console import Console
 
 from softway.cli.log import Verbose, listen
-from softway.cli.progress import progress_of
+from softway.cli.progress import progress_of, waiting
 from softway.cli.tables import summary
 from softway.execute import resume as go_on
 from softway.execute import stored
@@ -43,7 +43,8 @@ def resume(
     if stopped.stop == DONE:
         console.print(f"done already: nothing is left to compute in {folder}", markup=False, soft_wrap=True)
         return
-    checked, known = check(stored(folder, allow_python)), listed(folder)
+    with waiting(console, "reading the scenario, building its meshes"):
+        checked, known = check(stored(folder, allow_python)), listed(folder)
     console.print(f"goes on from {known[0] if known else 'the start'}", markup=False, soft_wrap=True)
     with progress_of(checked, console) as progress:
         done = go_on(folder, scenario=checked, progress=progress)

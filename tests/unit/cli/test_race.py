@@ -3,6 +3,7 @@
 import json
 from io import StringIO
 from pathlib import Path
+from time import sleep
 
 import pytest
 from rich.console import Console
@@ -86,6 +87,15 @@ def test_wrong_input_exits_2_and_leaves_no_folder(file, capsys, arguments, where
     assert not Path("races").exists()
 
 
+def started(display):
+    """Wait until a display is there: another thread shows it."""
+    for _ in range(3000):
+        if display.live.is_started:
+            return
+        sleep(0.01)
+    pytest.fail("nothing is shown")
+
+
 def test_progress_on_a_terminal(monkeypatch):
     monkeypatch.setattr(progress, "PATIENCE", -1.0)
     screen = StringIO()
@@ -93,7 +103,7 @@ def test_progress_on_a_terminal(monkeypatch):
         watch("plain", 1.0)
         watch("plain", 2.0)
         watch("newton", 1.0)
-        assert watch.display.live.is_started
+        started(watch.display)
     assert "plain" in screen.getvalue() and "ETA" in screen.getvalue()
     with progress.laps_of(("plain",), 2.0, Console(file=screen)) as nobody:
         assert nobody is None
