@@ -17,10 +17,11 @@ DOCS = Path(__file__).resolve().parent
 ROOT = DOCS.parent
 PAGE, PICTURES = DOCS / "gallery.md", DOCS / "pictures" / "gallery"
 WIDTH, COLOURS = 560, 256
-HEAD = """# Gallery
+HEAD = """# Scenarios and programs
 
-Every scenario and every example of the checkout, with the command that computes it. `softway plot`
-draws a run, `softway view` shows it in the browser. `python docs/gallery.py` writes this page.
+Every scenario and every program of the checkout, with the command that computes it. `softway plot` draws
+a run, `softway view` shows it in the browser. Shorter ones with figures are the {doc}`examples <examples/index>`.
+`python docs/gallery.py` writes this page.
 """
 
 

@@ -12,14 +12,24 @@ EXAMPLES = sorted((GALLERY.parents[1] / "examples" / "gallery").glob("*.py"))
 LARGEST = 80_000
 
 
-@pytest.fixture(scope="module")
-def gallery():
-    spec = importlib.util.spec_from_file_location("gallery", GALLERY)
+def loaded(file):
+    """A module of the documentation, as long as it is used."""
+    spec = importlib.util.spec_from_file_location(file.stem, file)
     module = importlib.util.module_from_spec(spec)
-    sys.modules["gallery"] = module
+    sys.modules[file.stem] = module
     spec.loader.exec_module(module)
     yield module
-    del sys.modules["gallery"]
+    del sys.modules[file.stem]
+
+
+@pytest.fixture(scope="module")
+def gallery():
+    yield from loaded(GALLERY)
+
+
+@pytest.fixture(scope="module")
+def pictures():
+    yield from loaded(GALLERY.parent / "extensions" / "pictures.py")
 
 
 def test_the_page_is_the_one_of_the_files(gallery):
@@ -53,3 +63,10 @@ def test_an_example_is_told_in_blocks_draws_and_asserts(example):
     for block in text.split("\n# %%\n"):  # the figures of a block are taken at its end
         assert "plt.subplots" in block or not re.search(r"\.(plot|loglog|add_collection|set)\(", block)
     assert max(map(len, text.splitlines())) <= 104  # what a page shows without scrolling
+
+
+def test_every_example_has_its_place(pictures):
+    assert sorted(pictures.ORDER) == [example.stem for example in EXAMPLES]
+    assert sorted(range(len(EXAMPLES)), key=lambda k: pictures.Order("")(f"{pictures.ORDER[k]}.py")) == [
+        *range(len(EXAMPLES))
+    ]
