@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 
 from softway.bodies.solid import Solid
 from softway.errors import InputError
-from softway.march.begin import require_apart, require_supported
+from softway.march.begin import SOON, require_apart, require_held, require_supported
 from softway.march.march import proposed
 from softway.model import Model, build
 from softway.record.probes import readings
@@ -98,6 +98,8 @@ def check(scenario: Scenario) -> Checked:
     contacts = {c.label: _contact(model, k, bodies) for k, c in enumerate(scene.contacts)}
     if isinstance(scenario.start, StaticStart):
         require_supported(model)
+    if not scenario.inertia.factor > 0.0:
+        require_held(model)
     time = scenario.time
     if time.step != "auto" and time.step > time.end:
         raise InputError("time.step", f"{time.step:g} s is longer than the end, {time.end:g} s", "a shorter step")
@@ -119,9 +121,11 @@ def _require_scenario(scenario: object) -> None:
 
 def _contact(model: Model, number: int, bodies: Mapping[str, BodyScales]) -> ContactScales:
     """Scales of a contact."""
-    rows = model.rows(model.displacement)
+    u = model.displacement
+    rows = model.rows(u)
     here = rows.of(number) & rows.near
-    normals, gaps, speeds = rows.normal[here], rows.gap(model.displacement)[here], -rows.along(model.velocity)[here]
+    driven = model.encounters.meet(u, u, 0.0, SOON).at(u).drive / SOON
+    normals, gaps, speeds = rows.normal[here], rows.gap(u)[here], (driven - rows.along(model.velocity))[here]
     if not here.any():
         normals, gaps, speeds = _nearest(model, number)
     parts = [model.parts[k] for k in model.opponents[number] if k >= 0]

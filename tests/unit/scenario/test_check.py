@@ -62,6 +62,18 @@ def test_scales_of_the_first_example():
     assert (checked.step, checked.slabs) == (0.01, 400)
 
 
+def test_the_approach_is_relative_to_a_tool_that_moves():
+    away, towards = (check(changed(f'bodies.wall.motion={{kind="Translation", velocity={v}}}')) for v in (0.25, -0.25))
+    assert away.contacts["wall"].approach == pytest.approx(0.75)
+    assert towards.contacts["wall"].approach == pytest.approx(1.25)
+
+
+def test_a_body_without_inertia_wants_supports():
+    with pytest.raises(InputError, match="without inertia") as found:
+        check(changed('inertia={kind="Off"}'))
+    assert found.value.where == "bodies.bar.supports"
+
+
 @pytest.mark.parametrize("mass", ["Consistent", "Lumped"])
 def test_the_stable_step_of_equal_bars_is_near_the_exact_one(mass):
     """The infinite mesh has the estimated frequency; a mesh of ten elements with free ends reaches it."""
