@@ -70,10 +70,8 @@ def _resting(model: Model, cancel: Cancel | None) -> Rest:
     require_apart(model, u)
     grip = None if model.rubbing is None else _passing(model, u)
     start, loads = model.scene.start, model.load
-    if not model.scene.inertia.factor > 0.0:
-        require_held(model)
+    require_supported(model)
     if isinstance(start, StaticStart):
-        require_supported(model)
         loads = dead_load(model.parts, model.weight, start.loads, "start.loads").at(0.0) if start.loads else model.load
     fits = any(c.start == "fit" for c in model.scene.contacts)
     if fits or (isinstance(start, StaticStart) and unheld(model)):
@@ -116,25 +114,22 @@ def unheld(model: Model) -> dict[str, tuple[str, ...]]:
 
 
 def require_supported(model: Model) -> None:
-    """Refuse a static start of a body that neither its supports nor a contact can hold."""
+    """Refuse bodies that are free where they must not be: of supports without inertia, of supports and contacts in a
+    static start.
+    """
+    inert = not model.scene.inertia.factor > 0.0
+    if not inert and not isinstance(model.scene.start, StaticStart):
+        return
     met = {c.body for c in model.scene.contacts} | {c.opponent for c in model.scene.contacts}
+    what = "body without inertia" if inert else "static start"
+    otherwise = 'inertia = { kind = "Full" }' if inert else 'a contact, or start = "AsGiven"'
     for name, motions in unheld(model).items():
-        if name not in met:
+        if inert or name not in met:
             raise InputError(
                 f"bodies.{name}.supports",
-                f"the supports leave free: {', '.join(motions)}; no static start",
-                'supports that hold it, such as { on = "left" }, a contact, or start = "AsGiven"',
+                f"the supports leave free: {', '.join(motions)}; no {what}",
+                f'supports that hold it, such as {{ on = "left" }}, {otherwise}',
             )
-
-
-def require_held(model: Model) -> None:
-    """Refuse bodies without inertia that supports do not hold: nothing says where they are until something touches."""
-    for name, motions in unheld(model).items():
-        raise InputError(
-            f"bodies.{name}.supports",
-            f"the supports leave free: {', '.join(motions)}; a body without inertia needs all of them held",
-            'supports such as { on = "left" }, or inertia = { kind = "Full" }',
-        )
 
 
 def require_apart(model: Model, u: Array) -> None:

@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 
 from softway.bodies.solid import Solid
 from softway.errors import InputError
-from softway.march.begin import SOON, require_apart, require_held, require_supported
+from softway.march.begin import SOON, require_apart, require_supported
 from softway.march.march import proposed
 from softway.model import Model, build
 from softway.record.probes import readings
@@ -96,10 +96,7 @@ def check(scenario: Scenario) -> Checked:
     model = build(scene)
     require_apart(model, model.displacement)
     contacts = {c.label: _contact(model, k, bodies) for k, c in enumerate(scene.contacts)}
-    if isinstance(scenario.start, StaticStart):
-        require_supported(model)
-    if not scenario.inertia.factor > 0.0:
-        require_held(model)
+    require_supported(model)
     time = scenario.time
     if time.step != "auto" and time.step > time.end:
         raise InputError("time.step", f"{time.step:g} s is longer than the end, {time.end:g} s", "a shorter step")

@@ -69,7 +69,7 @@ def test_the_approach_is_relative_to_a_tool_that_moves():
 
 
 def test_a_body_without_inertia_wants_supports():
-    with pytest.raises(InputError, match="without inertia") as found:
+    with pytest.raises(InputError, match="no body without inertia") as found:
         check(changed('inertia={kind="Off"}'))
     assert found.value.where == "bodies.bar.supports"
 
