@@ -76,6 +76,18 @@ CASES = {
     "unknown body": ("contacts[0].between=['blok.bottom', 'floor']", "contacts[0].between", "blok", "'block'"),
     "no end": ("time.end=0", "time.end", "0 s", "2 ms"),
     "unknown kind": ("bodies.block.material.kind=NeoHook", "bodies.block.material.kind", "NeoHook", "NeoHookean"),
+    "load inside a body": (
+        "bodies.block.loads=[{kind='Gravity', acceleration=[0, 0, -9.81]}]",
+        "bodies.block.loads",
+        "unknown key",
+        "at the top of the file",
+    ),
+    "unknown key without a kind": (
+        "bodies.block.supports=[{on='bottom', axes='x'}]",
+        "bodies.block.supports[0].axes",
+        "unknown key",
+        "components",
+    ),
     "probe of nothing": (
         "output.probes=[{name='p', of='block', tag='lid', component='z'}]",
         "output.probes[0].tag",

@@ -25,7 +25,7 @@ def part_mass(part: Part, solid: Solid, candidates: IntArray, spread: int) -> sp
         if len(candidates):
             if not solid.supports:
                 _require_inertia(part, candidates)
-            return redistributed(part.mesh, solid.density, section, solid.mass, candidates, spread)
+            return redistributed(part.mesh, solid.density, section, solid.mass, candidates, spread, part.name)
         return nodal_mass(part.mesh, solid.density, section, solid.mass)
 
 

@@ -25,9 +25,18 @@ CELLS = 5
 LOST = ("only the mass is kept, the centre of mass moves", "the moments of inertia change")
 """What a matrix that keeps moments up to an order, 0 or 1, does not keep."""
 
+SPREAD = "body '%s': few cells take the inertia of its contact nodes: %s; a finer mesh keeps it"
+"""What is said then."""
+
 
 def redistributed(
-    mesh: Mesh, density: float, section: Section, rule: MassRule, candidates: IntArray, cells: int = CELLS
+    mesh: Mesh,
+    density: float,
+    section: Section,
+    rule: MassRule,
+    candidates: IntArray,
+    cells: int = CELLS,
+    name: str = "",
 ) -> sparse.csr_array:
     """Mass matrix (n, n) [kg] whose rows and columns of the candidates are exactly zero.
 
@@ -44,6 +53,8 @@ def redistributed(
         Numbers of the nodes that shall have no inertia.
     cells
         Greatest number of cells; half the depth of the body at most.
+    name
+        Of the body, for the log.
 
     Raises
     ------
@@ -83,7 +94,7 @@ def redistributed(
             kept = np.abs(found @ factor - target).max() <= 1e-9 * target[0]
             if (least >= LEAST_FACTOR or not order) and kept:
                 if order < highest:
-                    _LOG.log(logging.INFO if order else logging.WARNING, "redistributed mass: %s", LOST[order])
+                    _LOG.log(logging.INFO if order else logging.WARNING, SPREAD, name, LOST[order])
                 return _sum(factor, filled)
     raise InputError("", "the nodes that are no candidates of contact have no mass", "a finer mesh, or a smaller tag")
 

@@ -22,6 +22,9 @@ from softway.scenario.modules import Modules
 from softway.scenario.quantity import Units, example
 from softway.space.sources import MeshFile
 
+TOP = ("contacts", "loads", "time", "start", "inertia", "solver", "output")
+"""Keys of the scenario itself, that somebody may look for inside a body."""
+
 
 @dataclass(frozen=True, slots=True)
 class Reader:
@@ -135,6 +138,7 @@ class Reader:
         protocols = open_protocols(options)
         if name is None and not protocols:
             likely = [c for c in known.values() if len(known) == 1 or _takes(c, value)]
+            likely = likely or [c for c in known.values() if _enough(c, value)]
             if len(likely) == 1:
                 return self._object(value, likely[0], where, unit)
         if name is None:
@@ -186,8 +190,12 @@ def join(where: str, key: str) -> str:
 
 def _takes(cls: type, value: Mapping[str, Any]) -> bool:
     """Whether a table has the keys of a class: all that it needs, and no other."""
-    known = inputs(cls)
-    return value.keys() <= known.keys() and all(k in value for k, f in known.items() if required(f))
+    return value.keys() <= inputs(cls).keys() and _enough(cls, value)
+
+
+def _enough(cls: type, value: Mapping[str, Any]) -> bool:
+    """Whether a table has the keys that a class needs."""
+    return all(k in value for k, f in inputs(cls).items() if required(f))
 
 
 def _check_keys(value: Mapping[str, Any], cls: type, where: str, unit: str | None) -> None:
@@ -195,7 +203,9 @@ def _check_keys(value: Mapping[str, Any], cls: type, where: str, unit: str | Non
     known = inputs(cls)
     for key, given in value.items():
         if key not in known and key != "kind":
-            raise InputError(join(where, key), f"unknown key (value {given!r}); {cls.__name__}", nearest(key, known))
+            top = f"'{key}' at the top of the file, beside bodies; " if where and key in TOP else ""
+            problem = f"unknown key (value {given!r}); {cls.__name__}"
+            raise InputError(join(where, key), problem, top + nearest(key, known))
     kind = str(value.get("kind", cls.__name__))
     if "kind" not in known and kind.rpartition(":")[2] != cls.__name__:
         raise InputError(join(where, "kind"), f"{kind!r} is unknown", nearest(kind, [cls.__name__]))
