@@ -12,6 +12,7 @@ import softway as sw
 from records import differences
 from softway.kernels.threads import use
 from softway.record.view import pictures
+from softway.scenario.check import check
 from softway.scenario.codec import loads
 
 pytestmark = pytest.mark.slow
@@ -192,3 +193,19 @@ def test_marches_take_turns_in_one_thread():
 
 def bits(step: sw.Step) -> list[bytes]:
     return [u.tobytes() for u in (*step.after.displacement.values(), *step.after.velocity.values())]
+
+
+@pytest.mark.parametrize("name", ["plastic", "ball", "fit"])
+def test_one_model_is_marched_by_several_threads_at_once(name, hasty):
+    """A built model is only read: marches of it in three threads, and two that take turns, have the same bits."""
+    checked = check(loads(SCENARIOS[name]))
+
+    def steps(_: int = 0):
+        time, solver = checked.scenario.time, checked.scenario.solver
+        return sw.march(checked.model, until=time.end, step=checked.step, weight=time.weight, method=solver)
+
+    alone = [bits(step) for step in steps()]
+    with ThreadPoolExecutor(3) as pool:
+        assert list(pool.map(lambda k: [bits(step) for step in steps(k)], range(3))) == [alone] * 3
+    turns = [(bits(one), bits(other)) for one, other in zip(steps(), steps(), strict=True)]
+    assert turns == [(step, step) for step in alone]
