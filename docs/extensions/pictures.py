@@ -1,5 +1,6 @@
 """How the pictures of the examples look, and the order in which the examples stand."""
 
+import logging
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,8 @@ ORDER = (
 
 
 def plain(_settings: Any, _file: str) -> None:
-    """Colours and lines as in the pictures of ``softway plot``."""
+    """Colours and lines as in the pictures of ``softway plot``; and no log, which a package of the theme prints."""
+    logging.getLogger("softway").setLevel(logging.WARNING)
     plt.rcParams.update(STYLE)
     plt.rcParams["axes.prop_cycle"] = plt.cycler(color=CYCLE)
 
