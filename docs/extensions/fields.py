@@ -128,11 +128,7 @@ def _listed(cls: type, said: dict[str, str]) -> Iterator[str]:
 
 
 def brief(hint: Any) -> str:
-    """A type in a few words, with links to what the reference has.
-
-    >>> brief(tuple[float, ...] | None)
-    'tuple[float, ...] | None'
-    """
+    """A type in a few words, with links to what the reference has."""
     kind = Hint.of(hint, None).type
     origin, inner = get_origin(kind), get_args(kind)
     if isinstance(kind, type) and kind in DOCUMENTED:

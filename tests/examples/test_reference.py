@@ -8,6 +8,9 @@ from pathlib import Path
 import pytest
 
 import softway as sw
+from softway.scenario.described import described
+from softway.scenario.glossary import classes
+from softway.scenario.kinds import inputs
 
 PAGES = sorted((Path(__file__).parents[2] / "docs" / "reference").glob("*.md"))
 NAMED = re.compile(r"^\.\. auto(class|function|exception):: (\S+)\n((?:   :.*\n)*)", re.MULTILINE)
@@ -39,3 +42,8 @@ def test_what_a_page_names_is_there(page, kind, name, options):
 def test_the_index_lists_every_page():
     index = (PAGES[0].parent / "index.md").read_text(encoding="utf-8")
     assert set(re.findall(r"^(\w+)$", index, re.MULTILINE)) == {page.stem for page in PAGES} - {"index"}
+
+
+@pytest.mark.parametrize("cls", classes(), ids=lambda cls: f"{cls.__module__}.{cls.__name__}")
+def test_every_key_of_a_scenario_is_told(cls):
+    assert inputs(cls).keys() - described(cls).fields.keys() == set()

@@ -19,7 +19,12 @@ PerMetre = Annotated[float, "*/m"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Uniform:
-    """The same vector everywhere; a number in one dimension, and 0 in any.
+    """The same vector everywhere.
+
+    Parameters
+    ----------
+    value
+        The vector; a number in one dimension, and 0 in any.
 
     Examples
     --------
@@ -87,6 +92,13 @@ class Profile:
 class OnTag:
     """A vector at the nodes of a tag, zero elsewhere.
 
+    Parameters
+    ----------
+    tag
+        The nodes.
+    value
+        The vector; a number in one dimension.
+
     Examples
     --------
     >>> from softway.space.shapes import interval
@@ -101,6 +113,11 @@ class OnTag:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FieldSum:
     """Several fields added.
+
+    Parameters
+    ----------
+    terms
+        The fields.
 
     Examples
     --------

@@ -25,7 +25,12 @@ from softway.units import KilogramPerCubicMetre, MetrePerSecond, Second
 class Fixed:
     """Support: the named displacement components of the nodes of a tag stay zero.
 
-    ``components`` is a string made of ``x``, ``y``, ``z`` or the word ``all``.
+    Parameters
+    ----------
+    on
+        The tag.
+    components
+        Made of ``x``, ``y``, ``z``; or the word ``all``.
     """
 
     on: str

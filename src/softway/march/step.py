@@ -45,8 +45,16 @@ class Event:
 class ContactLedger:
     """Audit of one contact over one slab.
 
-    ``force_n``, ``force_t``: resultant force over the slab (impulse / h) [N]; ``min_gap``: least gap at the slab's
-    end [m]; ``power_residual``: sum of F_n v_n dt, eq. (3.9) [J]; ``count``: closed nodes at the end.
+    Parameters
+    ----------
+    force_n, force_t
+        Resultant normal and tangential force over the slab (impulse / h) [N].
+    min_gap
+        Least gap at the end [m].
+    power_residual
+        Sum of F_n v_n dt, eq. (3.9) [J].
+    count
+        Closed nodes at the end.
     """
 
     force_n: float
@@ -58,10 +66,22 @@ class ContactLedger:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ledger:
-    """Energies at the slab's end, works accumulated from the start [J]; momentum (3,) [kg m/s]; angular momentum about
-    the origin ``spin`` (3,) [kg m^2/s].
+    """Energies and momenta at the end of a slab, works from the start of the march on.
 
-    ``energy_error = kinetic + strain - initial - work_external + dissipation``.
+    Parameters
+    ----------
+    energy_kinetic, energy_strain
+        At the end [J].
+    work_external, dissipation
+        From the start on: of loads, supports and moving tools; by friction and matter [J].
+    energy_error
+        ``kinetic + strain - initial - work_external + dissipation`` [J].
+    momentum
+        (3,) [kg m/s].
+    spin
+        (3,) angular momentum about the origin [kg m^2/s].
+    contacts
+        Contact label -> its audit over the slab.
     """
 
     energy_kinetic: float
@@ -86,9 +106,18 @@ class Ledger:
 class Certificate:
     """What a slab leaves over of the contact conditions and the balances.
 
-    ``min_gap``: least gap at the slab's end [m]; ``min_force``: least normal force there [N]; ``complementarity``: sum
-    of force times gap there [J]; ``power_residual``: sum of F_n v_n dt over the slab, eq. (3.9) [J]; ``momentum_error``
-    [kg m/s] and ``energy_error`` [J]: what the balances of this slab miss.
+    Parameters
+    ----------
+    min_gap
+        Least gap at the end [m].
+    min_force
+        Least normal force there [N].
+    complementarity
+        Sum of force times gap there [J].
+    power_residual
+        Sum of F_n v_n dt over the slab, eq. (3.9) [J].
+    momentum_error, energy_error
+        What the balances of this slab miss [kg m/s], [J].
     """
 
     min_gap: float
@@ -109,10 +138,22 @@ class Certificate:
 class Report:
     """How the solution was found.
 
-    ``iterations`` of this slab and the mean factor ``contraction`` by which their changes fell; ``pairs`` of nodes,
-    facets or edges that the search found; ``factorisations`` since the start of the march; ``passes`` over the contact
-    events; ``rejections``: reasons of the tries that were dropped; ``scalars``: the scalar of the Energy rule for each
-    body.
+    Parameters
+    ----------
+    iterations
+        Of this slab.
+    pairs
+        Of nodes, facets or edges that the search found.
+    factorisations
+        Since the start of the march.
+    passes
+        Over the contact events.
+    contraction
+        Mean factor by which the changes of the iterations fell.
+    rejections
+        Reasons of the tries that were dropped.
+    scalars
+        The scalar of the Energy rule for each body.
     """
 
     iterations: int
@@ -128,8 +169,24 @@ class Report:
 class Step:
     """An accepted slab.
 
-    ``reactions``: body -> (n, d) mean force of the supports on the nodes [N]; ``standing``: where the march stands
-    after it, from which another march goes on with the same bits.
+    Parameters
+    ----------
+    before, after
+        The situation at both ends.
+    slab
+        Its interval of time.
+    ledger
+        Energies, works and momenta.
+    certificate
+        What it leaves over of the contact conditions and the balances.
+    events
+        Touches and releases inside, in their order.
+    reactions
+        Body -> (n, d) mean force of the supports on the nodes [N].
+    report
+        How the solution was found.
+    standing
+        Where the march stands after it, from which another march goes on with the same bits.
     """
 
     before: State

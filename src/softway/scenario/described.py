@@ -1,9 +1,14 @@
 """What the docstring of a class says about it and about each of its fields."""
 
 import inspect
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any
+
+REFERRED = re.compile(r"see :func:`([\w.]+)\.(\w+)`")
+"""The function whose parameters a class has as its fields."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,7 +20,7 @@ class Described:
     summary
         What stands before the first heading.
     fields
-        What is said of each parameter, by name.
+        What is said of each parameter, by name; also by the function that the summary refers to.
     sections
         Text of the other sections by heading.
     """
@@ -33,14 +38,23 @@ def described(thing: Any) -> Described:
     >>> from softway.bodies.section import Bar
     >>> list(described(Bar).fields)
     ['area']
+    >>> from softway.space.sources import Disc
+    >>> described(Disc).fields["centre"]
+    '[m]; zero by default.'
     """
     lines = (inspect.getdoc(thing) or "").splitlines()
     heads = [k - 1 for k, line in enumerate(lines) if k and line and set(line) == {"-"}]
     ends = [*heads[1:], len(lines)]
     texts = {lines[h].strip(): lines[h + 2 : end] for h, end in zip(heads, ends[: len(heads)], strict=True)}
     summary = "\n".join(lines[: heads[0] if heads else len(lines)]).strip()
-    given = _fields(texts.pop("Parameters", []))
+    given = {**_referred(summary), **_fields(texts.pop("Parameters", []))}
     return Described(summary, given, {head: "\n".join(text).strip() for head, text in texts.items()})
+
+
+def _referred(summary: str) -> Mapping[str, str]:
+    """Parameters of the function that a summary refers to."""
+    found = REFERRED.search(summary)
+    return described(getattr(import_module(found[1]), found[2])).fields if found else {}
 
 
 def _fields(lines: list[str]) -> dict[str, str]:

@@ -182,7 +182,7 @@ def cylinder(
     radius, height
         [m].
     cells
-        Numbers of cells across the diameter (as for :func:`disc`) and along the axis.
+        Numbers of cells across the diameter (as for :func:`~softway.space.shapes.disc`) and along the axis.
     origin
         Centre of the bottom [m]; zero by default.
     cell

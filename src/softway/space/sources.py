@@ -147,6 +147,13 @@ class Ball:
 class Grid:
     """A rectangle or a box with cells between given coordinates, see :func:`softway.space.graded.grid`.
 
+    Parameters
+    ----------
+    x, y
+        Increasing places of the nodes along the axis [m].
+    z
+        Likewise; none in the plane.
+
     Examples
     --------
     >>> Grid(x=(0.0, 0.1, 1.0), y=(0.0, 0.5)).build().n_cells
