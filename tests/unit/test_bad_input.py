@@ -161,3 +161,13 @@ def test_a_mesh_that_is_none_says_why(mesh, told, scenario, capsys):
     (scenario.parent / "bad.msh").write_text(mesh)
     assert main(["check", str(scenario), "--set", "bodies.block.mesh={kind='MeshFile', path='bad.msh'}"]) == 2
     assert told in " ".join(capsys.readouterr().err.split())
+
+
+def test_what_is_too_large_for_the_machine_is_refused(scenario, capsys, monkeypatch):
+    def exhausted(_):
+        raise MemoryError("Unable to allocate 1.43 GiB")
+
+    monkeypatch.setattr("softway.cli.reading.check", exhausted)
+    assert main(["run", str(scenario), "--out", str(scenario.parent / "run")]) == 2
+    told = " ".join(capsys.readouterr().err.split())
+    assert "1.43 GiB" in told and "try: fewer cells" in told and not (scenario.parent / "run").exists()

@@ -273,6 +273,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _failed(errors, error, WRONG_INPUT)
     except (NumericsError, StorageError) as error:
         return _failed(errors, error, FAILED)
+    except MemoryError as error:
+        return _failed(errors, MemoryError(f"no memory is left: {error}\n  try: fewer cells"), FAILED)
     except KeyboardInterrupt:
         errors.print("interrupted")
         return INTERRUPTED

@@ -6,6 +6,7 @@ from pathlib import Path
 from rich.console import Console
 
 from softway.cli.progress import waiting
+from softway.errors import InputError
 from softway.scenario.check import Checked, check
 from softway.scenario.codec import load
 
@@ -19,4 +20,9 @@ def examined(file: Path, changes: Iterable[str], console: Console, *, allow_pyth
         With the path in the scenario, the value, and a remedy.
     """
     with waiting(console, "reading the scenario, building its meshes"):
-        return check(load(file, changes, allow_python=allow_python))
+        scenario = load(file, changes, allow_python=allow_python)
+        try:
+            return check(scenario)
+        except MemoryError as error:
+            problem = f"too large for the memory of this machine: {error or 'nothing is left'}"
+            raise InputError("bodies", problem, "fewer cells: bodies.NAME.mesh.cells") from None

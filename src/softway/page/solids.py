@@ -93,7 +93,7 @@ def dress(made: Solids, stage: Stage) -> None:
     """Put mesh lines and obstacles into the window, once there are data."""
     made.paint(stage)
     add = made.plotter.add_mesh
-    add(made.lines, color="#1a1a1a", line_width=1, opacity=0.45, name="lines", reset_camera=False, lighting=False)
+    add(made.lines, color="#808080", line_width=1, opacity=0.6, name="lines", reset_camera=False, lighting=False)
     add(made.tools, color="#d2d2d2", name="tools", reset_camera=False, lighting=False)
     made.plotter.renderer.actors["bodies"].mapper.SetResolveCoincidentTopologyToPolygonOffset()
 
