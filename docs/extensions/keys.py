@@ -18,7 +18,8 @@ class ScenarioKeys(SphinxDirective):
     """The table, made of the docstrings when the page is."""
 
     def run(self) -> list[nodes.Node]:
-        """Its nodes."""
+        """Its nodes; the page is made anew each time, since its source does not say when a docstring changes."""
+        self.env.note_reread()
         lines = [_row(HEAD), _row(("---",) * len(HEAD))]
         for key, owners in sorted(keys().items(), key=lambda item: item[0].lower()):
             lines += [_row((f"`{key}`", *_cells(cls, key))) for cls in owners]
