@@ -82,7 +82,7 @@ fuzz: $(TEST)/ready
 	$(TEST)/bin/python tests/robustness/page.py
 
 drops: $(TEST)/ready
-	$(TEST)/bin/python -W ignore tests/robustness/run_drops.py 500 --out docs/verification/robustness/drops.jsonl
+	$(TEST)/bin/python -W ignore tests/robustness/run_drops.py 500 --jobs $(JOBS) --out docs/verification/robustness/drops.jsonl
 	$(TEST)/bin/python tests/robustness/page.py
 
 endurance: $(TEST)/ready

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from drops import Drop, drop
+from softway.crew import Complaint, answers
 from softway.errors import InputError, NumericsError
 from softway.execute import run
 from softway.record.progress import Progress
@@ -89,22 +90,38 @@ def _stop(*_: object) -> None:
     raise TooLong
 
 
+def fall(number: int) -> dict[str, Any]:
+    """The drop of a number, judged."""
+    return judged(drop(number), Units.standard())
+
+
+def _dead(number: int, how: Complaint) -> dict[str, Any]:
+    """What is told of a drop whose process died."""
+    told = {"number": number, "end": "defect", "why": how.text, "slabs": 0, "rejections": 0, "seconds": float(SECONDS)}
+    return {**told, **Watch().worst, **drop(number).traits}
+
+
 def main() -> None:
-    """March so many drops and write what became of them as JSON, one line each."""
+    """March so many drops and write what became of them as JSON, one line each; ``--go-on`` keeps the lines there."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("count", type=int, nargs="?", default=500)
-    parser.add_argument("--out", type=Path)
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--go-on", action="store_true")
     given = parser.parse_args()
-    units, lines = Units.standard(), []
-    for number in range(given.count):
-        found = judged(drop(number), units)
-        lines.append(json.dumps(found))
-        if found["end"] != "done":
-            print(number, found["end"], found["why"], flush=True)
-    print(dict(collections.Counter(json.loads(line)["end"] for line in lines)))
-    if given.out:
-        given.out.parent.mkdir(parents=True, exist_ok=True)
-        given.out.write_text("\n".join(lines) + "\n")
+    kept = given.out.read_text().splitlines() if given.go_on and given.out.is_file() else []
+    found = {line["number"]: line for line in map(json.loads, kept)}
+    given.out.parent.mkdir(parents=True, exist_ok=True)
+    with given.out.open("w") as lines:
+        lines.writelines(f"{line}\n" for line in kept)
+        for number, told, _ in answers([n for n in range(given.count) if n not in found], fall, given.jobs):
+            found[number] = _dead(number, told) if isinstance(told, Complaint) else told
+            lines.write(json.dumps(found[number]) + "\n")
+            lines.flush()
+            if found[number]["end"] != "done":
+                print(number, found[number]["end"], found[number]["why"], flush=True)
+    given.out.write_text("".join(json.dumps(found[n]) + "\n" for n in sorted(found)))
+    print(dict(collections.Counter(line["end"] for line in found.values())))
 
 
 if __name__ == "__main__":

@@ -54,6 +54,8 @@ class Solution:
     contraction: float
 
 
+LONGEST = 3
+"""Limits of iterations after which a slab ends, however often faces were added."""
 ROUNDING = 1e-12
 """Share of the velocity made by forces that balance each other which is rounding."""
 
@@ -81,9 +83,10 @@ def drive(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float, lim
     Raises
     ------
     NoConvergence
-        After ``limit`` iterations, or at the first value that is not finite.
+        After ``limit`` iterations on the same faces, or at the first value that is not finite.
     """
     best, since = np.inf, 0
+    faces, begun = system.pairs, 0
     predicted: Array | None = None
     it: Iterate | None = None
     scale, first = 1.0, 0.0
@@ -93,6 +96,8 @@ def drive(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float, lim
         predicted = it.free if predicted is None else predicted
         first = it.change if count == 1 else first
         log.debug("iterate %d: change %.3g m/s", count, it.change)
+        if it.system.pairs is not faces:
+            faces, begun, best = it.system.pairs, count - 1, np.inf
         scale = max(np.abs(it.q).max(initial=0.0), np.abs(system.start.velocity).max(initial=0.0), 1e-300)
         best, since = (it.change, 0) if it.change < 0.5 * best else (best, since + 1)
         settled = it.change <= tolerance * scale or (since >= 6 and it.change <= 1e3 * tolerance * scale)
@@ -102,10 +107,10 @@ def drive(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float, lim
             end = it.system.evaluate(it.q, it.impulse)
             fell = contraction(first, it.change, count)
             return Solution(last=it, end=end, predicted=predicted, iterations=count, contraction=fell)
-        if count >= limit:
+        if count - begun >= limit or count >= LONGEST * limit:
             break
     change = it.change / scale if it is not None else np.inf
-    raise NoConvergence(f"{limit} iterations leave a relative change of {change:.1e} (tolerance {tolerance:.0e})")
+    raise NoConvergence(f"{count} iterations leave a relative change of {change:.1e} (tolerance {tolerance:.0e})")
 
 
 def contraction(first: float, last: float, count: int) -> float:

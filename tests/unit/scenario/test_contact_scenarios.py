@@ -55,6 +55,15 @@ def test_free_bodies_keep_momentum_and_angular_momentum(name, runs):
     assert np.abs(spins - spins[:, :1]).max() < 1e-9 * scale * length
 
 
+def test_a_node_between_two_faces_of_a_crushed_edge():
+    """It goes to and fro, is held on one of them, overlaps the other, which is added: all in the same slab."""
+    given = load(FOLDER / "oblique_blocks.toml", ("time.step=60 us", "time.end=1.14 ms"), units=UNITS)
+    run = sw.run(given)
+    assert run.history["iterations"].max() > 40 and run.history["h"][1:] == pytest.approx(60e-6, rel=1e-9)
+    assert run.summary["energy_error_relative"] < 1e-12
+    assert run.summary["certificate"]["min_gap"] > -1e-15
+
+
 def test_the_large_ring_gains_what_the_small_one_loses(runs):
     """Masses of regular polygons: n/2 sin(2 pi / n) instead of pi in the area of a circle."""
     history = runs["ring_in_ring"].history
