@@ -81,16 +81,30 @@ class FixedPoint:
             yield from newton.iterate(system, q, carry, impulse, active)
             return
         carry = prepared(system, q, carry, self.operator)
-        window, poor = (WINDOW, POOR) if system.model.massive.any() else (FLOWING, PACE)
-        changes: list[float] = []
         it: Iterate | None = None
-        for it in self._iterates(system, q, carry, impulse, active):
+        for it in self._onward(system, q, carry, impulse, active):
             yield it
-            changes = [*changes[-window:], it.change]
-            if self.handover and len(changes) > window and it.change > poor**window * changes[0]:
-                break
-        if it is not None and np.isfinite(it.change):
+        if self.handover and it is not None and np.isfinite(it.change):
             yield from newton.onward(it.system, it.q, it.carry, it.impulse, it.active)
+
+    def _onward(
+        self, system: SlabSystem, q: Array, carry: Carry, impulse: Array, active: BoolArray
+    ) -> Iterator[Iterate]:
+        """Iterates as long as they contract well; where they do not, nodes are first kept on their faces."""
+        window, poor = (WINDOW, POOR) if system.model.massive.any() else (FLOWING, PACE)
+        while True:
+            changes: list[float] = []
+            for it in self._iterates(system, q, carry, impulse, active):
+                yield it
+                changes = [*changes[-window:], it.change]
+                if self.handover and len(changes) > window and it.change > poor**window * changes[0]:
+                    break
+            if not np.isfinite(it.change):
+                return
+            system = it.system.held(it.system.path.end(it.q))
+            if system is it.system:
+                return
+            q, carry, impulse, active = it.q, it.carry, it.impulse, it.active
 
     def _iterates(
         self, system: SlabSystem, q: Array, carry: Carry, impulse: Array, active: BoolArray

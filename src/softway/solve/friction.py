@@ -135,6 +135,8 @@ def _solved(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
                 break
             x, look = _searched(problem, x, step, look)
         x = swept(problem, np.nan_to_num(x), SWEEPS)
+    if not np.isfinite(look.worst):
+        raise NoConvergence(f"friction of {problem.count} contact rows has no forces that are numbers")
     raise NoConvergence(f"friction of {problem.count} contact rows leaves {look.worst:.1e} of {size:.1e}")
 
 

@@ -168,7 +168,11 @@ class SlabSystem:
 
         A node that goes to and fro between two faces would keep the iteration from settling.
         """
-        if self.searched is None or count != STEADY:
+        return self.held(u1) if count == STEADY else self
+
+    def held(self, u1: Array) -> "SlabSystem":
+        """The equations with nodes kept on the faces where they are at the end position ``u1`` (n, d)."""
+        if self.searched is None or self.pairs is not self.searched:
             return self
         return replace(self, pairs=self.searched.held(u1))
 

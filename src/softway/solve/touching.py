@@ -45,9 +45,17 @@ class Touching:
 
 
 def touching(compliance: Array, free: Array, law: Slipping) -> Touching:
-    """The contact problem of rows with their compliance."""
+    """The contact problem of rows with their compliance.
+
+    Raises
+    ------
+    NoConvergence
+        If rows give way against every force, as they do where crushed matter has no stable tangent.
+    """
     count, k = law.shift.shape
     diagonal = np.diag(compliance)
+    if count and not diagonal[:count].max() > 0.0:
+        raise NoConvergence(f"{count} contact rows give way against their forces (a tangent of crushed cells)")
     give = diagonal[count:].reshape(count, k).mean(axis=1)
     least = 1e-12 * max(float(diagonal.max(initial=0.0)), 1e-300)
     return Touching(
