@@ -17,9 +17,6 @@ KNOWN = """## What is known to stop or to take long
 
 - A block of few cells on a roller with friction near 1 (NeoHookean, v/c = 0.26): places without inertia have no
   neighbouring equilibrium with such friction; the march ends with the overlap that no slab avoids.
-- Two blocks in space that stand flush on each other, the whole surfaces in contact, with friction: the rows of
-  mortar, corners and edges at one place share the friction in more than one way, and slabs are halved without end.
-  Without friction, or with the faces named (`above.bottom`, `below.top`), they march.
 - Matter crushed beyond what its cells can follow: StVenantKirchhoff and J2 at v/c > 0.2.
 - Impulse and Paper between the corners of two bodies may need minutes for a slab.
 - The one damaged mesh that is counted as a defect above had an edge of length zero; it is refused since.

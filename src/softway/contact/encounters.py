@@ -90,6 +90,11 @@ class Encounters:
         """Whether the rows never change."""
         return self.known is not None
 
+    @property
+    def paired(self) -> bool:
+        """Whether deformable surfaces meet, whose rows are searched for in every slab."""
+        return not all(isinstance(m, NodesOnTool) for m in self.methods)
+
     def of(self, contact: int) -> slice:
         """Rows of one contact."""
         found = np.flatnonzero(self.contact == contact)

@@ -125,6 +125,7 @@ def advance(
         pressure=out.pressure,
         traction=None if out.rub is None else out.rub.traction,
         sliding=None if out.rub is None else out.rub.sliding,
+        rows=out.carrying,
     )
     return after, out, carry
 

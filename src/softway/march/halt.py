@@ -30,7 +30,7 @@ def halt(model: Model, now: Situation, out: Outcome, span: float) -> None:
     Halts
         With the share of the slab after which the first contact does.
     """
-    first = out.system.path.rows
+    first = out.system.first
     if first.shear is None or now.traction is None or now.sliding is None:
         return
     weight = -now.traction * (now.sliding & now.closed)[:, None]
@@ -55,7 +55,7 @@ def _stopped(model: Model, out: Outcome, weight: Array, span: float, ends: tuple
     ``P^2/2e``; they hold the strain energy ``h^2 E/8``: friction stops the body where the first is greater, and its
     elasticity where the second is.
     """
-    frozen, rows = out.solution.last.carry.frozen, out.system.path.rows
+    frozen, rows = out.solution.last.carry.frozen, out.system.first
     assert frozen is not None and rows.shear is not None
     every = frozen.coefficients(rows, model.free)
     forces = np.concatenate([np.zeros(len(rows.node)), rows.shear.flat(weight).ravel()])

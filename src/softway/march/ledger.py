@@ -96,7 +96,7 @@ def audited(model: Model, last: Account, before: Situation, out: Outcome, after:
 
 def _contacts(model: Model, before: Situation, out: Outcome, after: Situation) -> dict[str, ContactLedger]:
     """Force, least gap and power of each contact; the power is that of the phases in which a row is closed."""
-    rows, first = out.rows, out.system.path.rows
+    rows, first = out.rows, out.system.first
     gap0, gap1 = first.gap(before.start.displacement), rows.gap(after.start.displacement)
     drift = np.where(after.closed & rows.near, gap1, 0.0) - np.where(before.closed & first.near, gap0, 0.0)
     power = np.abs(out.force * drift)

@@ -90,6 +90,7 @@ def equations(
         pairs=None if fixed else pairs,
         searched=None if fixed else pairs,
         given=given,
+        carrying=now.carrying(rows),
         pressure=now.pressure,
         traction=now.traction,
     )
@@ -103,7 +104,7 @@ def outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, soluti
     velocity = np.where(model.massive[:, None], q, 0.5 * q)
     pressure = solution.last.impulse[: len(rows.node)] / (h * moments(slab.weight)[1])
     closed = pressure > 0.0
-    first, a = system.path.rows, end.scalar[model.part_of[rows.node]]
+    first, a = system.first, end.scalar[model.part_of[rows.node]]
     rubbed = rub(now, slab, solution, (first, rows), a)
     tools = 0.0 if rubbed is None else rubbed.work
     if system.located is not None:
@@ -135,6 +136,7 @@ def outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, soluti
         passes=1,
         iterations=solution.iterations,
         rub=rubbed,
+        carrying=rows if model.encounters.paired else None,
     )
 
 
@@ -142,8 +144,8 @@ def _events(
     model: Model, now: Situation, slab: Slab, system: SlabSystem, solution: Solution, rubbed: Rub | None
 ) -> tuple[Event, ...]:
     """Touches and releases, places that stick and slip, in order."""
-    first = system.path.rows
-    rows = solution.end.near or first
+    first = system.first
+    rows = solution.end.near or system.path.rows
     closed = solution.last.impulse[: len(rows.node)] > 0.0
     if system.located is not None:
         events = _branched(model, now, slab, rows, system.located, solution)

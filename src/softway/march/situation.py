@@ -1,12 +1,13 @@
 """The state as arrays over the whole model, and back."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from softway.bodies import past
+from softway.contact.candidates import Candidates
 from softway.errors import InputError
 from softway.model import Model
 from softway.scene import State
@@ -22,7 +23,8 @@ class Situation:
 
     ``start`` holds displacement, velocity, internal force and stored energy; ``acceleration`` (n, d) the slope of
     the velocity in the slab before; ``closed`` and ``pressure`` (m,) the contact rows, ``traction`` (m, d) their
-    tangential forces and ``sliding`` (m,) which slip, both None where there is no friction.
+    tangential forces and ``sliding`` (m,) which slip, both None where there is no friction; ``rows`` those that the
+    forces were found with, None where a search for them finds the same.
     """
 
     time: float
@@ -32,6 +34,19 @@ class Situation:
     pressure: Array
     traction: Array | None = None
     sliding: BoolArray | None = None
+    rows: Candidates | None = None
+
+    def carrying(self, rows: Candidates) -> Candidates:
+        """The rows that carry the forces at the start of a slab, where the search for the slab finds ``rows``.
+
+        Surfaces that meet in more than one way may be found otherwise than in the slab before, by rounding; the
+        forces stay where they were.  Tools move as in the new slab.
+        """
+        if self.rows is None:
+            return rows
+        old, new = self.rows.shear, rows.shear
+        shear = old if old is None or new is None else replace(old, moved=new.moved)
+        return replace(self.rows, drive=rows.drive, shear=shear)
 
 
 def joined(model: Model, state: State) -> Situation:

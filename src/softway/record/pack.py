@@ -10,9 +10,12 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from softway.bodies.memory import Memory
+from softway.contact.candidates import Candidates
+from softway.contact.shear import Shear
 from softway.march.control import StepControl
 from softway.march.situation import Situation
 from softway.march.standing import Account, Pace, Settings, Standing
@@ -31,6 +34,7 @@ KINDS: Mapping[str, type] = MappingProxyType(
         kind.__name__: kind
         for kind in (
             *(Standing, Settings, Situation, Start, Memory, Account, Pace, Carry, Origin, Choice, StepControl),
+            *(Candidates, Shear),
             *(FixedPoint, Newton, Explicit, Factored, MatrixFree, Multigrid, Collocation, EndPeaks, Momentum),
         )
     }
@@ -73,6 +77,9 @@ def _plain(value: Any, arrays: Arrays, known: dict[int, str]) -> Any:
         return {"array": name, "axes": order}
     if isinstance(value, np.bool_ | np.integer | np.floating):
         return value.item()
+    if isinstance(value, sp.csr_array):
+        parts = (value.data, value.indices, value.indptr)
+        return {"rows": [_plain(part, arrays, known) for part in parts], "shape": list(value.shape)}
     if isinstance(value, tuple):
         return [_plain(v, arrays, known) for v in value]
     if isinstance(value, Mapping):
@@ -92,6 +99,8 @@ def _made(plain: Any, arrays: Mapping[str, NDArray[Any]]) -> Any:
         found = arrays[plain["array"]].transpose(np.argsort(plain["axes"]))
         found.flags.writeable = False
         return found
+    if "rows" in plain:
+        return sp.csr_array(_made(plain["rows"], arrays), shape=tuple(plain["shape"]))
     if "table" in plain:
         return {k: _made(v, arrays) for k, v in plain["table"].items()}
     return KINDS[plain["kind"]](**{k: _made(v, arrays) for k, v in plain["with"].items()})

@@ -22,15 +22,17 @@ from softway.solve.touching import Look, Touching, linearised, looked, swept, to
 from softway.typing import Array, BoolArray, IntArray
 
 NEWTON = 25
-"""Steps of Newton's method before sweeps over the rows help it out."""
+"""Steps of Newton's method, after which the multipliers are drawn to those before."""
 HALVINGS = 6
 """Halvings of a step that would miss the conditions by more than before."""
 FALLS = 0.1
 """Share to which a step must bring the violation, or the next one has a linearisation of its own."""
 SWEEPS = 10
-"""Sweeps in a row."""
-ROUNDS = 6
-"""Times that sweeps may help out."""
+"""Sweeps over the rows that help Newton's method out there."""
+ROUNDS = 30
+"""Problems that draw the multipliers to those of the one before."""
+FIRST, NEARER, LEAST = 0.1, 0.1, 1e-7
+"""How much they are drawn at first, as a share of what the rows give way, how much less each time, and the least."""
 SETTLED = 1e-14
 """Residual, relative to what the forces move, that is rounding."""
 
@@ -100,7 +102,7 @@ def settled(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
     Raises
     ------
     NoConvergence
-        If Newton's method and sweeps over the rows find no forces.
+        If no forces are found.
     """
     law = problem.law
     if not problem.count or not law.drops(np.maximum(x[: problem.count], 0.0)):
@@ -116,28 +118,53 @@ def settled(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
 
 
 def _solved(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
-    """The multipliers and the rows that slip under a law that does not drop."""
+    """The multipliers and the rows that slip under a law that does not drop.
+
+    Where Newton's method does not settle by itself, a sequence of problems is solved whose multipliers are drawn to
+    those of the one before, ever less (Rockafellar 1976, Monotone operators and the proximal point algorithm, SIAM J.
+    Control Optim. 14, 877): what they converge to solves the problem itself.
+    """
     if not problem.count:
         return x, np.zeros(0, bool)
+    x, settles = _newton(problem, x)
+    share, best, since, look = FIRST, np.inf, 0, looked(problem, x)
     for _ in range(ROUNDS):
-        best, since, factor, before, known = np.inf, 0, None, np.inf, b""
-        look = looked(problem, x)
-        for _ in range(NEWTON):
-            size = _size(problem, x, look)
-            best, since = (look.worst, 0) if look.worst < 0.5 * best else (best, since + 1)
-            if look.worst <= SETTLED * size or (since >= 3 and look.worst <= 1e3 * SETTLED * size):
-                return _clean(problem, x, look), look.slips & look.touch
-            status = look.touch.tobytes() + look.slips.tobytes()
-            if factor is None or look.worst > FALLS * before or status != known:
-                known, factor = status, lu_factor(linearised(problem, look), overwrite_a=True, check_finite=False)
-            step, before = lu_solve(factor, look.missed, check_finite=False), look.worst
-            if not np.isfinite(step).all():
-                break
-            x, look = _searched(problem, x, step, look)
-        x = swept(problem, np.nan_to_num(x), SWEEPS)
+        if settles:
+            return _clean(problem, x, look), look.slips & look.touch
+        near = problem.drawn(np.nan_to_num(x), share)
+        x, reached = _newton(near, np.nan_to_num(x))
+        x = x if reached else _newton(near, swept(near, np.nan_to_num(x), SWEEPS))[0]
+        look, share = looked(problem, x), max(NEARER * share, LEAST)
+        best, since = (look.worst, 0) if look.worst < 0.5 * best else (best, since + 1)
+        settles = _settles(problem, x, look, since)
     if not np.isfinite(look.worst):
         raise NoConvergence(f"friction of {problem.count} contact rows has no forces that are numbers")
+    size = _size(problem, x, look)
     raise NoConvergence(f"friction of {problem.count} contact rows leaves {look.worst:.1e} of {size:.1e}")
+
+
+def _newton(problem: Touching, x: Array) -> tuple[Array, bool]:
+    """Multipliers (c (1 + k),) by Newton's method from x, and whether they settled; x where they are not numbers."""
+    best, since, factor, before, known = np.inf, 0, None, np.inf, b""
+    look = looked(problem, x)
+    for _ in range(NEWTON):
+        best, since = (look.worst, 0) if look.worst < 0.5 * best else (best, since + 1)
+        if _settles(problem, x, look, since):
+            return x, True
+        status = look.touch.tobytes() + look.slips.tobytes()
+        if factor is None or look.worst > FALLS * before or status != known:
+            known, factor = status, lu_factor(linearised(problem, look), overwrite_a=True, check_finite=False)
+        step, before = lu_solve(factor, look.missed, check_finite=False), look.worst
+        if not np.isfinite(step).all():
+            break
+        x, look = _searched(problem, x, step, look)
+    return x, False
+
+
+def _settles(problem: Touching, x: Array, look: Look, since: int) -> bool:
+    """Whether multipliers meet the conditions to rounding, or nearly and no better for some steps."""
+    least = SETTLED * _size(problem, x, look)
+    return bool(look.worst <= least or (since >= 3 and look.worst <= 1e3 * least))
 
 
 def _searched(problem: Touching, x: Array, step: Array, look: Look) -> tuple[Array, Look]:

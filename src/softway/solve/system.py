@@ -62,8 +62,10 @@ class SlabSystem:
         The same with the faces chosen afresh at every iterate.
     given
         (n, d) values of q on supported components.
+    carrying
+        The rows that carry the forces at t0; by default those of the path.
     pressure, traction
-        (m,) normal forces of the contact rows at t0, and (m, d) tangential ones where there is friction [N].
+        (m,) their normal forces, and (m, d) tangential ones where there is friction [N].
     fallback
         Whether an energy balance that the scalar cannot close is closed along the motion.
     """
@@ -81,6 +83,7 @@ class SlabSystem:
     pairs: Pairs | None = None
     searched: Pairs | None = None
     given: Array | float = 0.0
+    carrying: Candidates | None = None
     pressure: Array | None = None
     traction: Array | None = None
     fallback: bool = False
@@ -123,8 +126,8 @@ class SlabSystem:
     def _ends(
         self, u1: Array, force: Array, energy: Array, mean: Array, near: Candidates | None, impulse: Array
     ) -> Ends:
-        start, rows, m = self.start, self.path.rows, len(self.path.rows.node)
-        last = rows if near is None else near
+        start, m = self.start, len(self.path.rows.node)
+        last = self.path.rows if near is None else near
         carried = impulse / (self.path.span * moments(self.weight)[1])
         return Ends(
             u0=start.displacement,
@@ -135,7 +138,7 @@ class SlabSystem:
             V1=energy,
             mean=mean,
             v0=start.velocity,
-            rows0=rows,
+            rows0=self.first,
             rows1=last,
             force0=np.zeros(m) if self.pressure is None else self.pressure,
             force1=carried[:m],
@@ -197,6 +200,11 @@ class SlabSystem:
     def filled(self) -> Array:
         """Values (n, d) of q on supported components, zero on the others."""
         return np.where(self.model.free, 0.0, self.given)
+
+    @property
+    def first(self) -> Candidates:
+        """The rows that carry the forces at t0."""
+        return self.path.rows if self.carrying is None else self.carrying
 
     @property
     def share(self) -> float:

@@ -1,6 +1,6 @@
-"""The contact problem of the rows that touch: its conditions, their linearisation, and sweeps over the rows."""
+"""The contact problem of the rows that touch: its conditions, their linearisation, sweeps over it, problems near it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -42,6 +42,20 @@ class Touching:
     def split(self, x: Array) -> tuple[Array, Array]:
         """Normal (c,) and tangential (c, k) parts."""
         return x[: self.count], x[self.count :].reshape(self.law.shift.shape)
+
+    def drawn(self, x: Array, share: float) -> "Touching":
+        """The problem whose multipliers are drawn to x (c (1 + k),): rows give way by a share more of what they do.
+
+        Rows that depend on each other have one solution there, and x solves it if it solves this one.
+        """
+        more = share * np.concatenate([self.reach, np.repeat(self.give, self.law.shift.shape[1])])
+        return replace(
+            self,
+            compliance=self.compliance + np.diag(more),
+            free=self.free - more * x,
+            reach=(1.0 + share) * self.reach,
+            give=(1.0 + share) * self.give,
+        )
 
 
 def touching(compliance: Array, free: Array, law: Slipping) -> Touching:

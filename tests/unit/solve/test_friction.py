@@ -6,9 +6,9 @@ import pytest
 from softway.contact.rubbing import Rubbing
 from softway.laws.friction import Coulomb, NortonHoff, StaticKinetic, Stribeck, Tresca
 from softway.laws.friction_law import FrictionLaw
-from softway.solve.friction import settled
+from softway.solve.friction import _newton, settled
 from softway.solve.return_map import STEEPEST, Slipping, returned
-from softway.solve.touching import linearised, looked, swept, touching
+from softway.solve.touching import Touching, linearised, looked, swept, touching
 
 
 def slipping(law: FrictionLaw, count: int, k: int = 1, *, sliding: bool = False, ahead: float = 0.0) -> Slipping:
@@ -114,6 +114,40 @@ def test_the_linearised_conditions_agree_with_differences():
 def test_sweeps_over_the_rows_come_to_the_same_forces():
     it = problem(5, 8, 2, Coulomb(mu=0.3))
     assert swept(it, np.zeros(24), 400) == pytest.approx(settled(it, np.zeros(24))[0], abs=1e-9)
+
+
+def dependent(seed: int, places: int, rows: int) -> Touching:
+    """Rows of which only some are independent, as where corners, edges and faces meet at one place."""
+    rng = np.random.default_rng(seed)
+    shares = rng.dirichlet(np.ones(places), rows)
+    root = rng.normal(size=(3 * places, 3 * places))
+    compliance = root @ root.T / (3 * places) + 0.05 * np.eye(3 * places)
+    way = np.zeros((3 * rows, 3 * places))
+    for k in range(3):
+        to, of = (np.arange(n) if k == 0 else n + 2 * np.arange(n) + k - 1 for n in (rows, places))
+        way[np.ix_(to, of)] = shares
+    free = way @ np.concatenate([rng.normal(size=places) - 1.0, rng.normal(size=2 * places)])
+    return touching(way @ compliance @ way.T, free, slipping(Coulomb(mu=0.4), rows, 2))
+
+
+def test_rows_that_depend_on_each_other_find_forces():
+    """Newton's method alone does not settle in all of them."""
+    alone = 0
+    for seed in range(40):
+        it = dependent(seed, 4, 10)
+        alone += _newton(it, np.zeros(30))[1]
+        x, slips = settled(it, np.zeros(30))
+        p, s = it.split(x)
+        gap, slip = it.split(it.free + it.compliance @ x)
+        size = np.linalg.norm(s, axis=1)
+        assert (p >= 0.0).all() and gap.min() > -1e-12
+        assert np.abs(p * gap).max() < 1e-11
+        assert (size <= 0.4 * p + 1e-11).all()
+        assert np.abs(slip[(p > 0.0) & ~slips]).max(initial=0.0) < 1e-12
+        assert np.sum(s[slips] * slip[slips], axis=1) == pytest.approx(
+            -size[slips] * np.linalg.norm(slip[slips], axis=1), abs=1e-11
+        )
+    assert alone < 40
 
 
 def test_the_same_row_twice_shares_the_force():
