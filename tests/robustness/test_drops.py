@@ -104,3 +104,30 @@ def test_what_is_not_a_number_breaks_the_certificate():
         bad = replace(good, **{name: float("nan")})
         told = violation(None, None, None, None, None, bad)  # type: ignore[arg-type]
         assert told == "a gap, a force or a balance is not a number"
+
+
+@pytest.mark.parametrize("rule", [sw.Paper(), sw.Impulse()], ids=lambda rule: type(rule).__name__)
+def test_a_block_slides_off_the_edge_of_a_table(rule):
+    """Its nodes touch faces that are out of their reach in the next slab: they let go."""
+    stiff = sw.LinearElastic(E=1e5, nu=0.3)
+    table = sw.Solid(
+        mesh=sw.Rectangle(size=(1.0, 0.4), cells=(3, 1)),
+        material=stiff,
+        density=1000.0,
+        supports=(sw.Fixed(on="bottom"),),
+    )
+    block = sw.Solid(
+        mesh=sw.Rectangle(size=(0.2, 0.2), cells=(1, 1), origin=(0.7, 0.4)),
+        material=stiff,
+        density=1000.0,
+        velocity=sw.Uniform(value=(8.0, -1.0)),
+    )
+    scene = sw.Scene(
+        bodies={"block": block, "table": table},
+        contacts=(sw.Contact(between=("block.bottom", "table.top"), timing=rule, name="fall"),),
+        loads=(sw.Gravity(acceleration=(0.0, -100.0)),),
+    )
+    steps = list(march(scene, until=0.08, step=2e-3))
+    assert any(step.after.closed["fall"].any() for step in steps)
+    assert not steps[-1].after.closed["fall"].any()
+    assert steps[-1].after.displacement["block"][:2, 1].max() < -0.25

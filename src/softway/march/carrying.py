@@ -55,7 +55,7 @@ def solve_carrying(
     coasting = now.start.displacement + 0.5 * slab.span * (now.start.velocity + guess)
     pairs = model.encounters.meet(now.start.displacement, coasting, slab.start, slab.end)
     require_slow(model, pairs, coasting, approach)
-    known, faces = undisturbed(now, pairs.at(coasting)), pairs
+    known, faces = undisturbed(model, now, pairs, pairs.at(coasting)), pairs
     passes = iterations = 0
     while passes < PASSES:
         found = jumps(model, known.rows, known.way, now.closed, inertia, slab.span)

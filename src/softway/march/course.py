@@ -22,6 +22,10 @@ from softway.solve.system import SlabSystem
 from softway.typing import Array, BoolArray
 
 
+APART = 1e-9
+"""Gap at the start of a slab, relative to the coordinates, beyond which a row does not touch."""
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Course:
     """What is known of a slab.
@@ -43,9 +47,14 @@ class Course:
         return 0.5 * np.maximum(self.reaction, 0.0) * length
 
 
-def undisturbed(now: Situation, rows: Candidates) -> Course:
-    """The course without events."""
-    return Course(rows=rows, way=passage(now.closed), reaction=now.pressure, held=np.zeros(len(now.closed), bool))
+def undisturbed(model: Model, now: Situation, pairs: Pairs, rows: Candidates) -> Course:
+    """The course without events; closed rows that do not touch at the start, where a node slid off a face, let go."""
+    first, u0 = pairs.start(now.start.displacement), now.start.displacement
+    reach = float(np.abs(model.points + u0).max())
+    gone = now.closed & ~(rows.near & first.near & (first.gap(u0) <= APART * reach))
+    way = passage(now.closed & ~gone)
+    way = replace(way, release=np.where(gone, 0.0, way.release))
+    return Course(rows=rows, way=way, reaction=now.pressure, held=np.zeros(len(now.closed), bool))
 
 
 def revised(

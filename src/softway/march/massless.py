@@ -98,15 +98,13 @@ def equations(
 
 def outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solution: Solution, pairs: int) -> Outcome:
     """What a solution says of forces, works and events of the slab."""
-    h = slab.span
-    q, end = solution.last.q, solution.end
+    h, q, end = slab.span, solution.last.q, solution.end
     rows = end.near or system.path.rows
     velocity = np.where(model.massive[:, None], q, 0.5 * q)
     pressure = solution.last.impulse[: len(rows.node)] / (h * moments(slab.weight)[1])
     closed = pressure > 0.0
     first, a = system.first, end.scalar[model.part_of[rows.node]]
-    rubbed = rub(now, slab, solution, (first, rows), a)
-    tools = 0.0 if rubbed is None else rubbed.work
+    rubbed, tools = rub(now, slab, solution, (first, rows), a), 0.0
     if system.located is not None:
         light = ~model.massive[:, None]
         force = rows.shares((end.mean_force - model.load) * light, closed | now.closed, model.free)
@@ -116,7 +114,8 @@ def outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, soluti
         force = old + new
         push = first.spread(old, model.shape) + rows.spread(new, model.shape)
         tools += float(old @ first.drive + new @ rows.drive)
-    push = push if rubbed is None else push + rubbed.push
+    if rubbed is not None:
+        push, tools = push + rubbed.push, tools + rubbed.work
     support = supports(model, now, end, velocity, push, h)
     return Outcome(
         system=system,

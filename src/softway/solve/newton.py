@@ -22,8 +22,6 @@ from softway.typing import Array, BoolArray
 
 HALVINGS = 6
 """Halvings of a Newton step, after which it is taken as it is."""
-GAIN = 0.25
-"""What a step has to gain: the share by which the next correction is shorter, of the share that is taken."""
 STRETCH = 3.0
 """Factor by which a step grows while the next correction would go on in its direction."""
 STRETCHES = 40
@@ -140,7 +138,7 @@ class Newton:
                 return new, end
             if np.isfinite(end.residual).all():
                 left = _left(system, new, end, impulse, frozen)
-                if np.linalg.norm(left) <= (1.0 - GAIN * share) * length:
+                if np.linalg.norm(left) <= max(1.0 - 0.5 * share, 1e-2) * length:
                     return new, end
                 if share == 1.0 and _alike(left, step[system.model.free]):
                     return self._stretched(system, q, step, impulse, frozen)
