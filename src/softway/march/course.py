@@ -21,7 +21,6 @@ from softway.solve.reaction import Reaction
 from softway.solve.system import SlabSystem
 from softway.typing import Array, BoolArray
 
-
 APART = 1e-9
 """Gap at the start of a slab, relative to the coordinates, beyond which a row does not touch."""
 
