@@ -68,6 +68,28 @@ class Origin:
         return Stiffness(model=model.during(self.memory, self.span), share=self.share, again=self.again)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Taken:
+    """Iterations of some slabs in a row: how many slabs, all iterations, the fewest of a slab, those of the last two.
+
+    Examples
+    --------
+    >>> Taken().with_slab(7).with_slab(5).with_slab(6)
+    Taken(slabs=3, total=18, least=5, last=(5, 6))
+    """
+
+    slabs: int = 0
+    total: int = 0
+    least: int = 0
+    last: tuple[int, ...] = ()
+
+    def with_slab(self, iterations: int) -> "Taken":
+        """The same with one more slab."""
+        least = min(self.least, iterations) if self.slabs else iterations
+        last = (*self.last[-1:], iterations)
+        return Taken(slabs=self.slabs + 1, total=self.total + iterations, least=least, last=last)
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Carry:
     """All of it disposable: without it the next slab makes its own, which differs in the last digits.
@@ -94,7 +116,7 @@ class Carry:
     factorisations
         Factors made so far.
     taken
-        Iterations of each slab since the last factor.
+        Iterations of the slabs since the last factor.
     price
         What a factor costs, in iterations.
     """
@@ -109,7 +131,7 @@ class Carry:
     turning: Turning | None = None
     stale: bool = False
     factorisations: int = 0
-    taken: tuple[int, ...] = ()
+    taken: Taken = Taken()
     price: float = 0.0
 
     def after(self, iterations: int) -> "Carry":
@@ -118,10 +140,10 @@ class Carry:
         A slab is dear when the last two slabs took more than the slabs since the factor took on average, the price of
         the factor included: to go on with the factor then costs more than to renew it as often as was done.
         """
-        taken = (*self.taken, iterations)
-        recent = 0.5 * sum(taken[-2:])
-        mean = (sum(taken) + self.price) / len(taken)
-        dear = len(taken) > 1 and recent > max(mean, WORN * max(min(taken), USUAL))
+        taken = self.taken.with_slab(iterations)
+        recent = 0.5 * sum(taken.last)
+        mean = (taken.total + self.price) / taken.slabs
+        dear = taken.slabs > 1 and recent > max(mean, WORN * max(taken.least, USUAL))
         return replace(self, taken=taken, stale=self.stale or dear)
 
     def bare(self) -> "Carry":

@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from softway.solve.carry import Carry, Origin
+from softway.solve.carry import Carry, Origin, Taken
 from softway.solve.correction import corrected
 from softway.solve.driver import Iterate, lost
 from softway.solve.frozen import Frozen
@@ -122,7 +122,7 @@ class Newton:
             origin=Origin.of(system, end.displacement, self.operator, analyst(carry, made, self.operator)),
             span=system.reach,
             factorisations=carry.factorisations + 1,
-            taken=(),
+            taken=Taken(),
             price=made.price,
         )
 

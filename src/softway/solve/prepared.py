@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import Literal
 
 from softway.bodies.past import remembering
-from softway.solve.carry import Carry, Origin
+from softway.solve.carry import Carry, Origin, Taken
 from softway.solve.frozen import Frozen
 from softway.solve.operators import Choice, Made, Operator, choose
 from softway.solve.system import SlabSystem
@@ -55,7 +55,7 @@ def renewed(system: SlabSystem, q: Array, carry: Carry, operator: Operator | Lit
         span=system.reach,
         stale=False,
         factorisations=carry.factorisations + 1,
-        taken=(),
+        taken=Taken(),
         price=made.price,
     )
 
