@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
 
 import softway as sw
 from softway.record.pack import packed, unpacked
@@ -18,6 +19,10 @@ def alike(one: Any, other: Any) -> bool:
     """Whether two values have the same bits throughout."""
     if isinstance(one, np.ndarray):
         return one.dtype == other.dtype and one.shape == other.shape and one.tobytes() == other.tobytes()
+    if isinstance(one, sp.csr_array):
+        return one.shape == other.shape and alike(
+            (one.data, one.indices, one.indptr), (other.data, other.indices, other.indptr)
+        )
     if is_dataclass(one):
         return type(one) is type(other) and all(
             alike(getattr(one, f.name), getattr(other, f.name)) for f in fields(one)
