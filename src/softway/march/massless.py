@@ -162,7 +162,8 @@ def _touches(
     """Touches at the root of the gap along the free motion, exact in free flight.
 
     A row that faced nothing at the start, or that its free motion there does not close, is followed back from where
-    its nodes come to without contact, or else from the end.
+    its nodes come to without contact, or else from the end.  What only its neighbours bring to touch does so at the
+    end, with the mean speed of its way.
     """
     h, rows, end = slab.span, system.path.rows, solution.end
     last = end.near or rows
@@ -177,6 +178,7 @@ def _touches(
             rate = seen.along(now.start.velocity) - seen.drive / h
             closes = unseen & (first > 0.0) & (first + h * rate < 0.0)
             gap, speed = np.where(closes, first, gap), np.where(closes, rate, speed)
+    speed = np.where(gap + h * speed < 0.0, speed, -gap / h)
     tau = fading(gap, np.minimum(gap + h * speed, -1e-300))
     return [
         contact_event(model, now, slab, last, end.displacement, int(r), "touch", float(tau[r]), (float(speed[r]), 0.0))

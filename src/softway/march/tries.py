@@ -76,9 +76,9 @@ def accepted(rules: Rule, stand: Standing, length: float, carry: Carry) -> Accep
             length = 0.5 * length if fresh else length
             fresh, carry = True, replace(carry, stale=True)
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
-    last = reasons[-1] if reasons else f"h = {length:.3g} s: a body comes to rest again and again"
+    tries = f"the last of {len(reasons)} tries with {reasons[-1]}" if reasons else "a body comes to rest again and again"
     remedy = "a smaller step, a finer mesh where the cells are crushed, or Newton"
-    raise NumericsError(f"no slab holds, the last of {len(reasons)} tries with {last}", now.time, remedy)
+    raise NumericsError(f"no slab holds, {tries}", now.time, remedy)
 
 
 def _tried(rules: Rule, stand: Standing, slab: Slab, carry: Carry, closed: bool) -> Accepted:

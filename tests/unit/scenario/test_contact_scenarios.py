@@ -45,6 +45,13 @@ def test_contact_holds_and_the_energy_balance_is_closed(name, runs):
     assert found["certificate"]["min_force"] >= 0.0
 
 
+@pytest.mark.parametrize("name", COARSE)
+def test_what_touches_comes_from_outside(name, runs):
+    events = runs[name].events
+    touches = np.array([kind == "touch" for kind in events["kind"]])
+    assert (events["normal_velocity_before"][touches] <= 1e-12).all()
+
+
 @pytest.mark.parametrize("name", ["ring_in_ring", "oblique_blocks"])
 def test_free_bodies_keep_momentum_and_angular_momentum(name, runs):
     history, length = runs[name].history, np.abs(runs[name].fields.cells.reference).max()
