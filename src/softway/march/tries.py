@@ -76,7 +76,7 @@ def accepted(rules: Rule, stand: Standing, length: float, carry: Carry) -> Accep
             length = 0.5 * length if fresh else length
             fresh, carry = True, replace(carry, stale=True)
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
-    tries = f"the last of {len(reasons)} tries with {reasons[-1]}" if reasons else "a body comes to rest again and again"
+    tries = f"the last of {len(reasons)} tries with {reasons[-1]}" if reasons else "bodies come to rest without end"
     remedy = "a smaller step, a finer mesh where the cells are crushed, or Newton"
     raise NumericsError(f"no slab holds, {tries}", now.time, remedy)
 
