@@ -101,7 +101,7 @@ def _settled(
     assert frozen is not None
     for count in range(1, method.limit + 1):
         end = _looked(system, central, q)
-        system = system.steadied(end.displacement, count)
+        system = system.steadied(end.displacement, active, count)
         if not np.isfinite(end.residual).all():
             break
         step = corrected(system, frozen, q, end, impulse, active)

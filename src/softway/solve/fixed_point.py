@@ -101,7 +101,7 @@ class FixedPoint:
                     break
             if not np.isfinite(it.change):
                 return
-            system = it.system.held(it.system.path.end(it.q))
+            system = it.system.held(it.system.path.end(it.q), it.active)
             if system is it.system:
                 return
             q, carry, impulse, active = it.q, it.carry, it.impulse, it.active
@@ -116,7 +116,7 @@ class FixedPoint:
         last, stuck = np.inf, 0
         for count in itertools.count():
             end = system.evaluate(q, impulse)
-            system = system.steadied(end.displacement, count)
+            system = system.steadied(end.displacement, active, count)
             if not np.isfinite(end.residual[keep]).all():
                 yield lost(q, active, carry, system)
                 return

@@ -85,7 +85,7 @@ class Newton:
         self, system: SlabSystem, q: Array, end: Evaluation, carry: Carry, impulse: Array, active: BoolArray
     ) -> Iterator[Iterate]:
         for count in itertools.count():
-            system = system.steadied(end.displacement, count)
+            system = system.steadied(end.displacement, active, count)
             if not np.isfinite(end.residual).all():
                 yield lost(q, active, carry, system)
                 return

@@ -59,6 +59,10 @@ class Slipping:
             sliding=self.sliding[which],
         )
 
+    def going(self, which: BoolArray) -> "Slipping":
+        """The same where some rows (m,) slip already."""
+        return replace(self, sliding=self.sliding | which)
+
     def limit(self, pressed: Array) -> Array:
         """Multiplier (m,) that holds rows under normal multipliers (m,)."""
         if self.held:

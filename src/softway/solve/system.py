@@ -28,7 +28,7 @@ from softway.solve.return_map import during
 from softway.solve.stiffness import Stiffness
 from softway.solve.values import Evaluation, Start
 from softway.time.weight import EndPeaks, Momentum, TimeWeight, moments, peaks
-from softway.typing import Array
+from softway.typing import Array, BoolArray
 
 STEADY = 15
 """Iterations after which nodes are kept on their faces."""
@@ -166,18 +166,22 @@ class SlabSystem:
         )
         return frozen.coefficients(near, self.model.free), rows
 
-    def steadied(self, u1: Array, count: int) -> "SlabSystem":
+    def steadied(self, u1: Array, active: BoolArray, count: int) -> "SlabSystem":
         """The equations after ``count`` iterations: from ``STEADY`` on nodes are kept on the faces where they are.
 
         A node that goes to and fro between two faces would keep the iteration from settling.
         """
-        return self.held(u1) if count == STEADY else self
+        return self.held(u1, active) if count == STEADY else self
 
-    def held(self, u1: Array) -> "SlabSystem":
-        """The equations with nodes kept on the faces where they are at the end position ``u1`` (n, d)."""
+    def held(self, u1: Array, active: BoolArray) -> "SlabSystem":
+        """The equations with nodes kept on the faces where they are at the end position ``u1`` (n, d), and with those
+        going that slip: ``active`` are the rows that touch, and below them, with friction, those that slip.
+        """
         if self.searched is None or self.pairs is not self.searched:
             return self
-        return replace(self, pairs=self.searched.held(u1))
+        slipping = self.rows.slipping
+        going = None if slipping is None else slipping.going(active[len(self.rows.equal) :])
+        return replace(self, pairs=self.searched.held(u1), rows=replace(self.rows, slipping=going))
 
     def sound(self, u1: Array) -> bool:
         """Whether kept faces leave no overlap at the end position ``u1`` (n, d)."""
