@@ -31,7 +31,7 @@ UNITS = {
 }
 WORDS = {
     "stable_step": "stable step (Momentum)",
-    "duration": "expected duration of contact",
+    "duration": "expected duration",
     "approach": "approach speed",
     "transit": "wave transit time",
     "edge": "smallest edge",
