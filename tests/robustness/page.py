@@ -17,8 +17,12 @@ KNOWN = """## What is known to stop or to take long
 
 - A block of few cells on a roller with friction near 1 (NeoHookean, v/c = 0.26): places without inertia have no
   neighbouring equilibrium with such friction; the march ends with the overlap that no slab avoids.
-- Matter crushed beyond what its cells can follow: StVenantKirchhoff and J2 at v/c > 0.2.
-- Impulse and Paper between the corners of two bodies may need minutes for a slab.
+- Matter crushed beyond what its cells can follow, at v/c > 0.15: StVenantKirchhoff, J2 without hardening, the softer
+  hypoelastic laws. Cells invert, or the nodes of a surface jump to another equilibrium.
+- Impulse and Paper between the corners of two bodies: a node sees one wall of a corner in one slab and the other in
+  the next.
+- Newton's method chosen by hand, with friction or crushed cells; the fixed point, which hands over to it, does more.
+- Balls of Kelvin matter damped beyond what their slabs resolve: right, but 25 iterations a slab and no factor kept.
 - The one damaged mesh that is counted as a defect above had an edge of length zero; it is refused since.
 """
 
