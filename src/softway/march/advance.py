@@ -125,7 +125,7 @@ def advance(
         pressure=out.pressure,
         traction=None if out.rub is None else out.rub.traction,
         sliding=None if out.rub is None else out.rub.sliding,
-        rows=out.carrying,
+        rows=out.rows if rule.inertia is None and model.encounters.paired else None,
     )
     return after, out, carry
 

@@ -135,7 +135,6 @@ def outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, soluti
         passes=1,
         iterations=solution.iterations,
         rub=rubbed,
-        carrying=rows if model.encounters.paired else None,
     )
 
 

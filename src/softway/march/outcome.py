@@ -49,8 +49,6 @@ class Outcome:
         Over all passes.
     rub
         Friction over the slab; None where there is none.
-    carrying
-        The rows at the end where another search may find others; None where it does not.
     """
 
     system: SlabSystem
@@ -70,7 +68,6 @@ class Outcome:
     passes: int
     iterations: int
     rub: Rub | None = None
-    carrying: Candidates | None = None
 
 
 def supports(model: Model, now: Situation, end: Evaluation, velocity: Array, push: Array, span: float) -> Array:
