@@ -247,7 +247,7 @@ def build(scene: Scene) -> Model:
         weight=weights,
         displacement=displacement,
         velocity=np.concatenate([v for _, v, _ in fields]) * free,
-        encounters=met.encounters,
+        encounters=met.encounters.cleared(displacement, [c.start == "apart" for c in scene.contacts]),
         opponents=met.opponents,
         touchable=met.nodes,
         edge=np.concatenate([p.mesh.edges() for p in parts]),

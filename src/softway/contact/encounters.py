@@ -1,5 +1,7 @@
 """All contacts of a model: who may touch whom, searched afresh for every slab."""
 
+import logging
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -15,6 +17,11 @@ from softway.contact.nodes_on_tool import NodesOnTool, ToolMeeting
 from softway.contact.shear import Shear, tangents
 from softway.contact.stencils import Stencils
 from softway.typing import Array, IntArray
+
+log = logging.getLogger(__name__)
+
+OVERLAP = 1e-12
+"""Depth at the start, relative to the coordinates, that is rounding."""
 
 
 class Meeting(Protocol):
@@ -68,6 +75,9 @@ class Encounters:
         The rows, where one linear form serves everywhere and at all times: resting half-spaces without friction.
     rough
         Whether a contact has friction; rows then have their :class:`~softway.contact.shear.Shear`.
+    clearance
+        (m,) gaps from which rows are counted [m]: below zero where what stands for curved facets overlaps at the start
+        though the surfaces do not; None where nothing does.
     """
 
     methods: tuple[NodesOnTool | Surfaces, ...]
@@ -79,6 +89,7 @@ class Encounters:
     watched: tuple[int, ...] = ()
     known: Candidates | None = None
     rough: bool = False
+    clearance: Array | None = None
 
     @property
     def node(self) -> IntArray:
@@ -118,6 +129,19 @@ class Encounters:
         still = np.zeros_like(self.points)
         return replace(self, known=self.rest(still, 0.0).at(still))
 
+    def cleared(self, u: Array, apart: Sequence[bool]) -> "Encounters":
+        """The same, with rows of the contacts that start ``apart`` (c,) counted from their gaps at the displacement
+        ``u`` (n, d), where these are negative.
+        """
+        if not self.paired:
+            return self
+        gap = self.rest(u, 0.0).at(u).gap(u)
+        deep = np.array(apart, bool)[self.contact] & (gap < -OVERLAP * float(np.abs(self.points + u).max()))
+        if not deep.any():
+            return self
+        log.info("%d contact rows overlap at the start, by %.3g m at most: counted from there", deep.sum(), -gap.min())
+        return replace(self, clearance=np.where(deep, gap, 0.0))
+
     def rest(self, u: Array, time: float) -> "Pairs":
         """The pairs of a body that does not move."""
         return self.meet(u, u, time, time)
@@ -149,7 +173,8 @@ class Pairs:
         """The rows at the end of the slab, exact in value and derivative at the displacement ``u`` (n, d)."""
         if self.known is not None:
             return self.known
-        return self._rows(self.meetings, u, self.node, self.encounters.contact)
+        rows, clearance = self._rows(self.meetings, u, self.node, self.encounters.contact), self.encounters.clearance
+        return rows if clearance is None else replace(rows, offset=rows.offset - clearance)
 
     def held(self, u: Array, before: "Pairs | None" = None) -> "Pairs":
         """The same with faces and edges kept as at the displacement ``u`` (n, d), and those kept ``before``."""

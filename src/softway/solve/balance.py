@@ -190,15 +190,15 @@ def _held(model: Model, force: Array, rows: Candidates, push: Array) -> Array:
 
 
 def _along_motion(model: Model, ends: Ends, moving: Array, members: BoolArray) -> Array:
-    """Forces (n, d) of unit work along the motion of each body of a group relative to its centre of mass.
+    """Forces (n, d) of unit work along the motion of each body of a group relative to the mean of what is free of it.
 
     They have no resultant; on bodies without supports no moment either.
     """
-    weight = np.asarray(model.mass.sum(axis=1)).reshape(-1, 1)
+    weight = np.asarray(model.mass.sum(axis=1)).reshape(-1, 1) * model.free
     out = np.zeros_like(moving)
-    for part in (p for p, here in zip(model.parts, members, strict=True) if here):
-        rows = part.rows
-        out[rows] = moving[rows] - (weight[rows] * moving[rows]).sum(axis=0) / weight[rows].sum()
+    for rows in (p.rows for p, here in zip(model.parts, members, strict=True) if here):
+        mean = (weight[rows] * moving[rows]).sum(axis=0) / np.maximum(weight[rows].sum(axis=0), 1e-300)
+        out[rows] = moving[rows] - mean
     out = model.mass @ (out * model.free)
     if _unheld(model, members):
         spin = _spin(model, ends, members)

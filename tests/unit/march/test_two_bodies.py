@@ -14,6 +14,7 @@ from softway.errors import InputError
 from softway.march.march import march
 from softway.model import build
 from softway.scene import Scene
+from softway.space.shapes import disc
 
 RULES = [Energy(), Impulse()]
 rules = pytest.mark.parametrize("rule", RULES, ids=lambda r: type(r).__name__)
@@ -132,6 +133,22 @@ def test_bodies_that_overlap_at_the_start_are_named(shop) -> None:
     assert "0.1 m inside" in error.value.problem
     assert "'a'" in error.value.problem
     assert "'b'" in error.value.problem
+
+
+@pytest.mark.parametrize("cells", [4, 6])
+def test_curved_surfaces_that_are_apart_start_without_force(shop, cells: int) -> None:
+    """What stands for the facets overlaps by 30 and 10 times the distance of the nodes; they meet as these do."""
+    low, v, height = shop.block(velocity=Uniform(), height=0.0), 0.01, 1e-4
+    place = Placement(rotations=(Rotation(angle=0.2),), translation=(0.5, 0.0), bottom=1.0 + height)
+    ball = shop.block((0.0, -v), mesh=disc(0.5, cells, cell="tri6"), place=place)
+    steps = met(low, ball, ("top", "surface"), until=0.04, step=0.004)
+    begun = steps[0].before
+    assert all(np.abs(u).max() == 0.0 for u in begun.displacement.values())
+    assert begun.pressure["c"].max() == 0.0
+    energy = 0.5 * np.pi * 0.25 * v**2
+    assert max(abs(s.ledger.energy_error) for s in steps) <= 1e-12 * energy
+    assert max(s.ledger.energy_kinetic + s.ledger.energy_strain for s in steps) <= energy
+    assert sum(c.force_n for s in steps for c in s.ledger.contacts.values()) > 0.0
 
 
 def test_without_contact_they_pass_through_each_other(shop) -> None:

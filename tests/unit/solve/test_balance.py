@@ -272,6 +272,18 @@ def test_a_body_that_is_not_deformed_needs_no_scalar() -> None:
     np.testing.assert_allclose(found.mean, 0.0, atol=1e-17)
 
 
+@given(seed=seeds)
+def test_closing_along_the_motion_gives_bodies_with_supports_no_resultant(seed: int) -> None:
+    """A supported body would else get a push that neither contact nor a support gives."""
+    model = row_of_blocks(2, Weighted(), driven=True)
+    e = ends(model, seed)
+    found = closed(model, replace(e, V1=e.V1 + [0.3, 0.0, 0.0, 0.0]), fallback=True)
+    more = found.mean - e.mean - model.nodal(found.scalar) * (e.f1 - e.f0)
+    assert np.abs(more).max() > 0.01
+    left = [more[p.rows].sum(axis=0) for p in model.parts]
+    np.testing.assert_allclose(left, 0.0, atol=1e-13 * float(np.abs(more).max()))
+
+
 def test_moments() -> None:
     rng = np.random.default_rng(0)
     x, f = rng.normal(size=(2, 7, 3))
