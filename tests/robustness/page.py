@@ -77,7 +77,7 @@ ten laws) on random obstacles (half space, ball, block, roller, torus, STL, anot
 with and without friction and gravity, by the three contact rules and two solvers; `tests/robustness/drops.py` makes
 the scenario of each number. Every accepted slab is looked at: depth over the size of the displacements, tension over
 force, and error of the energy balance over energy. The rules Impulse and Paper give no promise on energy. *Slow* is
-more than a minute of processor time.
+more than five minutes of processor time.
 
 """
     rows = []

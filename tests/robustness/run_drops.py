@@ -22,7 +22,7 @@ from softway.scenario.codec import loads
 from softway.scenario.quantity import Units
 
 ROOT = Path(__file__).parents[2]
-SECONDS = 60
+SECONDS = 300
 """Processor time of one drop [s]."""
 
 
