@@ -5,12 +5,13 @@ DEMO := .venv-demo
 TEST := .venv-test
 DOCS := .venv-docs
 
-.PHONY: help demo test test-slow test-view coverage check bench bench-check kills manual fuzz drops endurance docs clean
+.PHONY: help demo test test-slow test-pages test-view coverage check bench bench-check kills manual fuzz drops endurance docs clean
 
 help:
 	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
 	@echo "make test   unit tests, verification cases, doctests"
 	@echo "make test-slow  those that take long: many impacts, fine meshes, kills, sweeps, every command of the pages"
+	@echo "make test-pages  what the pages say takes minutes, every scenario, and a fresh clone to its first picture"
 	@echo "make test-view the page of softway view in a Chromium without a screen, which has to be there"
 	@echo "make coverage  the same, with the lines and branches that did not run"
 	@echo "make check  ruff, mypy, import-linter, house rules"
@@ -44,17 +45,20 @@ demo: $(DEMO)/ready
 	$(DEMO)/bin/python examples/demo.py
 
 test: $(TEST)/ready
-	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope -m "not slow"
+	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope -m "not slow and not minutes"
 
 test-slow: $(TEST)/ready
 	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope -m slow --durations=15
+
+test-pages: $(TEST)/ready
+	$(TEST)/bin/python -m pytest -n $(JOBS) -m minutes --durations=0
 
 test-view: $(TEST)/ready
 	$(TEST)/bin/python -m pip install --quiet --constraint constraints.txt --editable '.[dev,browser]'
 	$(TEST)/bin/python -m pytest -q tests/unit/page
 
 coverage: $(TEST)/ready
-	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope --cov --cov-report=term-missing:skip-covered
+	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope -m "not minutes" --cov --cov-report=term-missing:skip-covered
 
 check: $(TEST)/ready
 	$(TEST)/bin/ruff check .
