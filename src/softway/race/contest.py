@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from softway.errors import InputError, NumericsError
+from softway.errors import Cancel, InputError, NumericsError, heed
 from softway.march.begin import begin
 from softway.march.control import StepControl
 from softway.march.ledger import opening
@@ -57,6 +57,7 @@ def contest(
     weight: TimeWeight = EndPeaks(),
     control: StepControl = StepControl(),
     watch: Watch | None = None,
+    cancel: Cancel | None = None,
 ) -> tuple[Result, ...]:
     """The same scene by several methods, from the same state in slabs of the same length.
 
@@ -81,6 +82,15 @@ def contest(
         As in a march; a penalty Newton always takes the trapezoidal rule.
     watch
         Called with the name of the method and the time, slab by slab.
+    cancel
+        Asked whether the caller wants no more: at every iteration, by the penalty method at every slab.
+
+    Raises
+    ------
+    InputError
+        If a name is not known, or ``slabs`` is not positive.
+    Cancelled
+        If ``cancel`` says so.
 
     Examples
     --------
@@ -96,12 +106,14 @@ def contest(
     """
     chosen = _chosen(methods, tolerance)
     model = scene if isinstance(scene, Model) else build(scene)
-    state = parted(model, begin(model))
+    state = parted(model, begin(model, cancel=cancel))
     span = proposed(model, step, weight, until - state.time)
     end = until if slabs is None else min(until, state.time + _positive(slabs) * span)
     limits = replace(control, least=max(control.least, LEAST))
-    course = _Course(model=model, state=state, until=end, span=span, weight=weight, control=limits)
-    for _ in march(model, until=state.time + span, step=span, weight=weight, state=state, control=limits):
+    course = _Course(model=model, state=state, until=end, span=span, weight=weight, control=limits, cancel=cancel)
+    for _ in march(
+        model, until=state.time + span, step=span, weight=weight, state=state, control=limits, cancel=cancel
+    ):
         break  # kernels are loaded
     return tuple(_raced(name, method, course, watch) for name, method in chosen.items())
 
@@ -132,6 +144,7 @@ class _Course:
     span: float
     weight: TimeWeight
     control: StepControl
+    cancel: Cancel | None
 
 
 Reached = tuple[Lap, Mapping[str, Array]]
@@ -149,6 +162,7 @@ def _started(course: _Course, method: Entrant) -> tuple[float, Iterator[Reached]
         method=method,
         state=course.state,
         control=course.control,
+        cancel=course.cancel,
     )
     first = opening(course.model, joined(course.model, course.state))
     return first.energy_kinetic + first.energy_strain, (
@@ -206,6 +220,7 @@ def _raced(name: str, method: Entrant, course: _Course, watch: Watch | None) -> 
             laps.append(replace(lap, wall=now[0] - last[0], cpu=now[1] - last[1]))
             if watch is not None:
                 watch(name, lap.time)
+            heed(course.cancel, lap.time)
             last = clock.perf_counter(), clock.process_time()
     except NumericsError as error:
         reason = str(error)

@@ -34,6 +34,17 @@ def results(scene):
     return found
 
 
+@pytest.mark.parametrize("method", ["accelerated", "newton", "penalty"])
+def test_a_contest_is_called_off(scene, method):
+    reached: list[float] = []
+    with pytest.raises(sw.Cancelled):
+        contest(
+            scene, until=3.0, step=0.1, methods=(method,), watch=lambda _, t: reached.append(t),
+            cancel=lambda: len(reached) == 2,
+        )  # fmt: skip
+    assert reached == pytest.approx([0.1, 0.2])
+
+
 def test_every_method_comes_to_the_same_end(results):
     assert [r.name for r in results] == list(entrants())
     *ours, penalty = results
