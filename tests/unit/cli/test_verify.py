@@ -44,6 +44,13 @@ def test_wrong_words(words: list[str], told: str, here: Path, capsys: pytest.Cap
     assert not list(here.iterdir())
 
 
+def test_a_miss_with_a_known_cause_is_told_and_no_failure(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Hertz's half-space in place of a ball."""
+    assert main(["verify", "B04", "--quiet", "--json", "table.json"]) == 0
+    assert "B04" in capsys.readouterr().out
+    assert not all(line["pass"] for line in json.loads(Path("table.json").read_text()))
+
+
 def test_a_case_that_fails(here: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     from softway.verify import Case
 
