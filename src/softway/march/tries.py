@@ -17,6 +17,7 @@ from softway.march.standing import Standing
 from softway.march.step import Certificate, Ledger
 from softway.solve.balance import BOUND
 from softway.solve.carry import Carry
+from softway.solve.newton import Newton
 from softway.time.slab import Slab
 from softway.time.weight import EndPeaks
 
@@ -77,8 +78,9 @@ def accepted(rules: Rule, stand: Standing, length: float, carry: Carry) -> Accep
             fresh, carry = True, replace(carry, stale=True)
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
     tries = f"the last of {len(reasons)} tries with {reasons[-1]}" if reasons else "bodies come to rest without end"
-    remedy = "a smaller step, a finer mesh where the cells are crushed, or Newton"
-    raise NumericsError(f"no slab holds, {tries}", now.time, remedy)
+    remedy = ["a smaller step", "a finer mesh where the cells are crushed"]
+    remedy += ["the fixed point, which goes farther than Newton alone"] if isinstance(rules.method, Newton) else []
+    raise NumericsError(f"no slab holds, {tries}", now.time, ", or ".join(remedy))
 
 
 def _tried(rules: Rule, stand: Standing, slab: Slab, carry: Carry, closed: bool) -> Accepted:

@@ -16,6 +16,7 @@ from softway.march.begin import begin
 from softway.march.march import evenly, march
 from softway.model import build
 from softway.scene import Scene, StaticStart
+from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
 from softway.space.shapes import interval
 from softway.time.weight import Collocation, EndPeaks, Momentum
@@ -254,3 +255,12 @@ def test_a_state_of_another_scene_is_refused(shop) -> None:
     floor = shop.plane((0.0, 0.0), (0.0, 1.0))
     state = next(march(scene(shop, shop.block(), floor), until=1.0, step=0.1)).after
     refused(lambda: march(scene(shop, shop.block(), floor, "surface"), until=1.0, step=0.1, state=state))
+
+
+@pytest.mark.parametrize("method", [Newton(limit=1), FixedPoint(limit=1)], ids=["Newton", "FixedPoint"])
+def test_a_stop_names_what_may_help(shop, method: Newton | FixedPoint) -> None:
+    """One iteration is too few; who has chosen Newton alone is told of the fixed point."""
+    with pytest.raises(NumericsError) as stopped:
+        shop.move(shop.block((0.1, -0.2)), shop.floor, until=1.0, step=0.1, method=method)
+    assert "a smaller step" in stopped.value.remedy
+    assert ("fixed point" in stopped.value.remedy) == isinstance(method, Newton)
