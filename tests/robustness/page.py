@@ -21,9 +21,9 @@ KNOWN = """## What is known to stop or to take long
   hypoelastic laws. Cells invert, or the nodes of a surface jump to another equilibrium.
 - Impulse and Paper between the corners of two bodies: a node sees one wall of a corner in one slab and the other in
   the next.
-- Newton's method chosen by hand, with friction or crushed cells; the fixed point, which hands over to it, does more.
+- Newton's method chosen by hand, with friction or crushed cells: the fixed point, which hands over to it where that
+  helps, does 113, 141, 204, 249, 323, 365 and 478, in 2 to 28 s.
 - Balls of Kelvin matter damped beyond what their slabs resolve: right, but 25 iterations a slab and no factor kept.
-- The one damaged mesh that is counted as a defect above had an edge of length zero; it is refused since.
 """
 
 

@@ -36,6 +36,8 @@ from softway.typing import Array
 
 MOST = 1_000_000_000
 """Slabs that nobody waits for."""
+SAME = 1e-9
+"""Difference of gaps, in lengths of the body, below which places are equally near."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -126,11 +128,13 @@ def _contact(model: Model, number: int, bodies: Mapping[str, BodyScales]) -> Con
     if not here.any():
         normals, gaps, speeds = _nearest(model, number)
     parts = [model.parts[k] for k in model.opponents[number] if k >= 0]
-    durations = [contact_duration(p.mesh.points, normals, bodies[p.name].wave_speed) for p in parts]
+    least = np.flatnonzero(gaps <= gaps.min() + SAME * max(bodies[p.name].length for p in parts))
+    first = least[np.argmax(speeds[least])]
+    durations = [contact_duration(p.mesh.points, normals[first], bodies[p.name].wave_speed) for p in parts]
     return ContactScales(
         nodes=len(np.unique(rows.node[rows.of(number)])),
         gap=float(gaps.min()),
-        approach=float(speeds.max()) + 0.0,
+        approach=float(speeds[first]) + 0.0,
         duration=min(durations),
     )
 

@@ -57,7 +57,7 @@ class ContactScales:
     gap
         Least gap at the start; of solids far from each other the distance of their nearest nodes [m].
     approach
-        Greatest speed of these nodes towards the opponent at the start [m/s].
+        Speed with which this gap closes at the start; of places with the same gap the greatest [m/s].
     duration
         Expected time of contact ``2 L / c``, L along the normal [s].
     """
@@ -96,7 +96,6 @@ def body_scales(solid: Solid, mesh: Mesh, free: int) -> BodyScales:
     )
 
 
-def contact_duration(points: Array, normals: Array, speed: float) -> float:
-    """Expected time of contact ``2 L / c`` [s]; L is the extent of the points (n, d) along the mean normal."""
-    normal = normals.mean(axis=0)
+def contact_duration(points: Array, normal: Array, speed: float) -> float:
+    """Expected time of contact ``2 L / c`` [s]; L is the extent of the points (n, d) along the normal (d,)."""
     return 2.0 * float(np.ptp(points @ normal)) / speed

@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 import softway.scenario.scenario as model
+from softway.bodies.fields import Uniform
 from softway.bodies.loads import Gravity, Traction
 from softway.bodies.mass import Lumped
+from softway.bodies.placement import Placement
 from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact
 from softway.contact.timing import Impulse
@@ -20,7 +22,7 @@ from softway.scenario.quantity import Units
 from softway.scenario.templates import templates
 from softway.solve.stability import stable_step
 from softway.space.obstacles import HalfSpace
-from softway.space.sources import Interval, Rectangle
+from softway.space.sources import Disc, Interval, Rectangle
 from softway.time.weight import Momentum
 
 UNITS = Units.standard()
@@ -66,6 +68,19 @@ def test_the_approach_is_relative_to_a_tool_that_moves():
     away, towards = (check(changed(f'bodies.wall.motion={{kind="Translation", velocity={v}}}')) for v in (0.25, -0.25))
     assert away.contacts["wall"].approach == pytest.approx(0.75)
     assert towards.contacts["wall"].approach == pytest.approx(1.25)
+
+
+def test_the_scales_of_a_contact_are_those_of_the_nearest_place():
+    """A wheel above a plate: its flanks, which face the plate askew, do not count.  Gaps are along the normals of its
+    sixteen facets.
+    """
+    wheel = square(mesh=Disc(radius=0.5, cells=8), velocity=Uniform(value=(0.3, -0.1)), place=Placement(bottom=0.01))
+    plate = square(mesh=Rectangle(size=(4.0, 1.0), cells=(4, 1), origin=(-2.0, -1.0)))
+    bodies = {"wheel": wheel, "plate": plate}
+    found = check(scenario(bodies=bodies, contacts=(Contact(between=("wheel", "plate.top"), name="c"),)))
+    speed, lean = found.bodies["wheel"].wave_speed, 1.0 / np.cos(np.pi / 16.0)
+    told = found.contacts["c"]
+    assert (told.gap, told.approach, told.duration) == pytest.approx((0.01 * lean, 0.1 * lean, 2.0 / speed), rel=1e-9)
 
 
 def test_a_body_without_inertia_wants_supports():
