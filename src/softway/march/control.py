@@ -13,6 +13,8 @@ from softway.model import Model
 from softway.solve.explicit import Explicit
 from softway.typing import Array, IntArray
 
+CRAWL = 1e-2
+"""Fraction of the length asked for below which a march that goes on by rejections crawls."""
 SMALL_STRAIN = 1.0
 """Approach in edges that bodies of small strain may have at least: their cells cannot be crushed."""
 
@@ -36,6 +38,9 @@ class StepControl:
         Error of the displacement in a slab, in edges of the mesh, up to which a shortened slab grows again.
     least
         Shortest slab, as a fraction of the length asked for; below it the march ends with the reason.
+    patience
+        Rejections among slabs shorter than ``CRAWL`` of the length asked for, less such slabs without any, after which
+        the march ends with the reason: it would go on for hours, by halving slab after slab.
 
     References
     ----------
@@ -52,9 +57,10 @@ class StepControl:
     scalar: float = 0.2
     growth: float = 0.01
     least: float = 1e-7
+    patience: int = 300
 
     def __post_init__(self) -> None:
-        for name in ("approach", "scalar", "growth", "least"):
+        for name in ("approach", "scalar", "growth", "least", "patience"):
             if not 0.0 < getattr(self, name) < np.inf:
                 raise InputError(name, f"{getattr(self, name):g} is not positive", "a positive number")
 

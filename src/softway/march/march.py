@@ -16,7 +16,7 @@ from softway.march.ledger import booked, opened, opening
 from softway.march.situation import Situation, joined, parted
 from softway.march.standing import Pace, Settings, Standing
 from softway.march.step import Report, Step
-from softway.march.tries import SETTLING, Accepted, accepted
+from softway.march.tries import SETTLING, Accepted, accepted, endured
 from softway.model import Model, build
 from softway.scene import Scene, State
 from softway.solve.balance import SLIGHT
@@ -171,7 +171,13 @@ def _steps(rules: Rule, stand: Standing) -> Iterator[Step]:
             settings=settings,
             situation=found.after,
             account=booked(stand.account, found.ledger),
-            pace=Pace(span=span, length=following, closed=found.closed, halted=found.halted),
+            pace=Pace(
+                span=span,
+                length=following,
+                closed=found.closed,
+                halted=found.halted,
+                endured=endured(stand.pace, found),
+            ),
             carry=found.carry.bare(),
             slabs=stand.slabs + 1,
         )

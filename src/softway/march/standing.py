@@ -40,13 +40,15 @@ class Account:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pace:
     """Length asked for ``span`` and length proposed for the next slab [s]; whether its energy balance is ``closed``
-    along the motion from the first try, and whether it follows a slab that ``halted`` where a body came to rest.
+    along the motion from the first try, and whether it follows a slab that ``halted`` where a body came to rest; how
+    many rejections of late were ``endured`` in slabs far shorter than asked for.
     """
 
     span: float
     length: float
     closed: bool = False
     halted: bool = False
+    endured: int = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

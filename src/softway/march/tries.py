@@ -5,15 +5,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from softway.contact.mortar import Mortar
 from softway.errors import Halts, NoConvergence, NumericsError, TooFast, Unbalanced, heed
 from softway.march.advance import Rule, advance
 from softway.march.breakaway import breakaway
 from softway.march.certificate import certified, violation
+from softway.march.control import CRAWL
 from softway.march.halt import halt
 from softway.march.ledger import audited
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation
-from softway.march.standing import Standing
+from softway.march.standing import Pace, Standing
 from softway.march.step import Certificate, Ledger
 from softway.solve.balance import BOUND
 from softway.solve.carry import Carry
@@ -54,11 +56,12 @@ def accepted(rules: Rule, stand: Standing, length: float, carry: Carry) -> Accep
     standing, with its operator if that is at hand.
     """
     now, until, settings = stand.situation, stand.settings.until, stand.settings
+    least, crawls = settings.control.least * stand.pace.span, stand.pace.endured > settings.control.patience
     reasons: list[str] = []
     halted = False
     unbalanced = PATIENCE if stand.pace.closed else 0
     fresh = carry.origin is None
-    while length > settings.control.least * stand.pace.span:
+    while length > least and not (crawls and reasons):
         heed(rules.cancel, now.time)
         end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
         slab = Slab(start=now.time, end=end, weight=SETTLING if stand.pace.halted else settings.weight)
@@ -77,10 +80,47 @@ def accepted(rules: Rule, stand: Standing, length: float, carry: Carry) -> Accep
             length = 0.5 * length if fresh else length
             fresh, carry = True, replace(carry, stale=True)
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
-    tries = f"the last of {len(reasons)} tries with {reasons[-1]}" if reasons else "bodies come to rest without end"
-    remedy = ["a smaller step", "a finer mesh where the cells are crushed"]
-    remedy += ["the fixed point, which goes farther than Newton alone"] if isinstance(rules.method, Newton) else []
-    raise NumericsError(f"no slab holds, {tries}", now.time, ", or ".join(remedy))
+    raise NumericsError(_reason(stand, reasons, crawls), now.time, _remedy(rules))
+
+
+def endured(before: Pace, found: Accepted) -> int:
+    """Rejections of late in slabs far shorter than asked for, of which a slab without any makes up for one.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> slabs = [(0.5, 3), (0.009, 2), (0.009, 2), (0.009, 0), (0.02, 1)]
+    >>> pace, told = Pace(span=1.0, length=1.0), []
+    >>> for span, count in slabs:
+    ...     found = SimpleNamespace(slab=SimpleNamespace(span=span), rejections=("why",) * count)
+    ...     pace = replace(pace, endured=endured(pace, found))
+    ...     told.append(pace.endured)
+    >>> told
+    [0, 2, 4, 3, 0]
+    """
+    if found.slab.span > CRAWL * before.span:
+        return 0
+    return max(0, before.endured + (len(found.rejections) or -1))
+
+
+def _reason(stand: Standing, reasons: list[str], crawls: bool) -> str:
+    """Why a march ends."""
+    if not reasons:
+        return "no slab holds, bodies come to rest without end"
+    if crawls:
+        count = stand.pace.endured + len(reasons)
+        return f"{count} rejections among slabs shorter than {CRAWL:g} of the step, the last with {reasons[-1]}"
+    return f"no slab holds, the last of {len(reasons)} tries with {reasons[-1]}"
+
+
+def _remedy(rules: Rule) -> str:
+    """What may help where no slab holds."""
+    found = ["a smaller step", "a finer mesh where the cells are crushed"]
+    if isinstance(rules.method, Newton):
+        found.append("the fixed point, which goes farther than Newton alone")
+    if any(isinstance(method, Mortar) for method in rules.model.encounters.methods):
+        found.append("the method NodeToSurface where coarse facets lean on each other")
+    return ", or ".join(found)
 
 
 def _tried(rules: Rule, stand: Standing, slab: Slab, carry: Carry, closed: bool) -> Accepted:

@@ -1,6 +1,7 @@
 """How a march starts, and what is refused before it does."""
 
 from contextlib import suppress
+from itertools import islice
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from softway.contact.contact import Contact
 from softway.contact.timing import Energy, Impulse, Paper
 from softway.errors import InputError, NumericsError
 from softway.march.begin import begin
+from softway.march.control import StepControl
 from softway.march.march import evenly, march
 from softway.model import build
 from softway.scene import Scene, StaticStart
@@ -264,3 +266,16 @@ def test_a_stop_names_what_may_help(shop, method: Newton | FixedPoint) -> None:
         shop.move(shop.block((0.1, -0.2)), shop.floor, until=1.0, step=0.1, method=method)
     assert "a smaller step" in stopped.value.remedy
     assert ("fixed point" in stopped.value.remedy) == isinstance(method, Newton)
+
+
+def test_a_march_that_crawls_ends_with_the_reason(shop) -> None:
+    """Three iterations are enough for slabs shorter than a hundredth of the step, and every other one is halved."""
+    falling = scene(shop, shop.block((0.1, -0.2)), shop.plane((0.0, 0.0), (0.0, 1.0)))
+    few = FixedPoint(limit=3, handover=False)
+    with pytest.raises(
+        NumericsError, match="rejections among slabs shorter than 0.01 of the step, the last with"
+    ) as why:
+        list(march(falling, until=1.0, step=0.5, method=few, control=StepControl(patience=30)))
+    assert "a smaller step" in why.value.remedy
+    steps = list(islice(march(falling, until=1.0, step=0.5, method=few), 100))
+    assert len(steps) == 100 and steps[-1].standing.pace.endured > 30

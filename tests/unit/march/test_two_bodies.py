@@ -10,7 +10,7 @@ from softway.bodies.placement import Placement, Rotation
 from softway.bodies.solid import Solid
 from softway.contact.contact import Contact, DualMortar, NodeToSurface
 from softway.contact.timing import Energy, Impulse, Timing
-from softway.errors import InputError
+from softway.errors import InputError, NumericsError
 from softway.march.march import march
 from softway.model import build
 from softway.scene import Scene
@@ -149,6 +149,15 @@ def test_curved_surfaces_that_are_apart_start_without_force(shop, cells: int) ->
     assert max(abs(s.ledger.energy_error) for s in steps) <= 1e-12 * energy
     assert max(s.ledger.energy_kinetic + s.ledger.energy_strain for s in steps) <= energy
     assert sum(c.force_n for s in steps for c in s.ledger.contacts.values()) > 0.0
+
+
+@pytest.mark.parametrize("method", [DualMortar(), NodeToSurface()], ids=lambda m: type(m).__name__)
+def test_a_stop_of_a_mortar_contact_names_the_other_method(shop, method: object) -> None:
+    low, top = shop.block(velocity=Uniform(), height=0.0), shop.block((0.1, -0.2), height=1.01)
+    scene = Scene(bodies={"a": low, "b": top}, contacts=(Contact(between=("a.top", "b.bottom"), method=method),))
+    with pytest.raises(NumericsError) as stopped:
+        list(march(scene, until=1.0, step=0.1, method=sw.FixedPoint(limit=1)))
+    assert ("NodeToSurface" in stopped.value.remedy) == isinstance(method, DualMortar)
 
 
 def test_without_contact_they_pass_through_each_other(shop) -> None:
