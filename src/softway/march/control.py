@@ -39,8 +39,8 @@ class StepControl:
     least
         Shortest slab, as a fraction of the length asked for; below it the march ends with the reason.
     patience
-        Rejections among slabs shorter than ``CRAWL`` of the length asked for, less such slabs without any, after which
-        the march ends with the reason: it would go on for hours, by halving slab after slab.
+        Rejections among slabs shorter than ``CRAWL`` of the length asked for, less a quarter of such slabs without any,
+        after which the march ends with the reason: it would go on for hours, by halving slab after slab.
 
     References
     ----------

@@ -48,7 +48,7 @@ class Pace:
     length: float
     closed: bool = False
     halted: bool = False
-    endured: int = 0
+    endured: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

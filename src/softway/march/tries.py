@@ -83,8 +83,8 @@ def accepted(rules: Rule, stand: Standing, length: float, carry: Carry) -> Accep
     raise NumericsError(_reason(stand, reasons, crawls), now.time, _remedy(rules))
 
 
-def endured(before: Pace, found: Accepted) -> int:
-    """Rejections of late in slabs far shorter than asked for, of which a slab without any makes up for one.
+def endured(before: Pace, found: Accepted) -> float:
+    """Rejections of late in slabs far shorter than asked for; four such slabs without any make up for one.
 
     Examples
     --------
@@ -96,11 +96,11 @@ def endured(before: Pace, found: Accepted) -> int:
     ...     pace = replace(pace, endured=endured(pace, found))
     ...     told.append(pace.endured)
     >>> told
-    [0, 2, 4, 3, 0]
+    [0.0, 2.0, 4.0, 3.75, 0.0]
     """
     if found.slab.span > CRAWL * before.span:
-        return 0
-    return max(0, before.endured + (len(found.rejections) or -1))
+        return 0.0
+    return max(0.0, before.endured + (len(found.rejections) or -0.25))
 
 
 def _reason(stand: Standing, reasons: list[str], crawls: bool) -> str:
@@ -109,7 +109,7 @@ def _reason(stand: Standing, reasons: list[str], crawls: bool) -> str:
         return "no slab holds, bodies come to rest without end"
     if crawls:
         count = stand.pace.endured + len(reasons)
-        return f"{count} rejections among slabs shorter than {CRAWL:g} of the step, the last with {reasons[-1]}"
+        return f"{count:.0f} rejections among slabs shorter than {CRAWL:g} of the step, the last with {reasons[-1]}"
     return f"no slab holds, the last of {len(reasons)} tries with {reasons[-1]}"
 
 
