@@ -130,13 +130,15 @@ class Encounters:
         return replace(self, known=self.rest(still, 0.0).at(still))
 
     def cleared(self, u: Array, apart: Sequence[bool]) -> "Encounters":
-        """The same, with rows of the contacts that start ``apart`` (c,) counted from their gaps at the displacement
-        ``u`` (n, d), where these are negative.
+        """The same, with mean gaps that are negative at the displacement ``u`` (n, d) counted from there, in contacts
+        that start ``apart`` (c,) and of which no node overlaps a face.
         """
-        if not self.paired:
+        if not self.watchers:
             return self
-        gap = self.rest(u, 0.0).at(u).gap(u)
-        deep = np.array(apart, bool)[self.contact] & (gap < -OVERLAP * float(np.abs(self.points + u).max()))
+        pairs, least = self.rest(u, 0.0), -OVERLAP * float(np.abs(self.points + u).max())
+        gap, watched = pairs.at(u).gap(u), pairs.watch(u)
+        clear = np.setdiff1d(self.watched, watched.contact[watched.gap(u) < least])
+        deep = np.array(apart, bool)[self.contact] & np.isin(self.contact, clear) & (gap < least)
         if not deep.any():
             return self
         log.info("%d contact rows overlap at the start, by %.3g m at most: counted from there", deep.sum(), -gap.min())
