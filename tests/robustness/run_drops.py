@@ -66,7 +66,8 @@ def judged(given: Drop, units: Units) -> dict[str, Any]:
             why = _unrecorded(run(checked, Path(place) / "run", progress=watch))
             end = "defect" if why else "done"
     except NumericsError as error:
-        end, why = "stops", error.what.rpartition(" s: ")[2]
+        crawls = "crawls: " if "rejections among" in error.what else ""
+        end, why = "stops", crawls + error.what.rpartition(" s: ")[2]
     except InputError as error:
         end, why = "refused", str(error).splitlines()[0]
     except TooLong:
