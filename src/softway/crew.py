@@ -1,6 +1,7 @@
 """Tasks worked off in processes of their own: what one of them does, or dies of, does not reach another."""
 
 import signal
+import sys
 import time as clock
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
@@ -17,6 +18,8 @@ Task = TypeVar("Task")
 Reply = TypeVar("Reply")
 GRACE = 20.0
 """Seconds that a process has to put its records in order when it is told to end."""
+MOMENT = 0.01
+"""Seconds after which an interruption that was lost comes again."""
 LOOK = 0.1
 """Seconds after which the caller is asked again whether it wants the rest."""
 
@@ -140,12 +143,22 @@ def _serve(line: Connection, work: Callable[[Any], Any], share: int) -> None:
     """Answer every task that comes, until the line closes or the process is told to end."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interruption is for the one who hired, who ends the processes
     signal.signal(signal.SIGTERM, signal.default_int_handler)
+    sys.unraisablehook = _again
     try:
         with use(share):
             while True:
                 line.send(_answer(line.recv(), work))
     except (EOFError, ConnectionError, KeyboardInterrupt):
-        return
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # it ends by itself
+
+
+def _again(lost: "sys.UnraisableHookArgs") -> None:
+    """An interruption that fell into a finaliser, which cannot pass it on, comes again a moment later."""
+    if lost.exc_type is KeyboardInterrupt and hasattr(signal, "setitimer"):
+        signal.signal(signal.SIGALRM, signal.default_int_handler)
+        signal.setitimer(signal.ITIMER_REAL, MOMENT)
+    else:
+        sys.__unraisablehook__(lost)
 
 
 def _answer(task: Any, work: Callable[[Any], Any]) -> Any:

@@ -31,6 +31,8 @@ ALLOWED = {
     "softway: logging.getLogger(__name__).addHandler": "silence, until the program around it says where the log goes",
     "softway.kernels.threads: _CHOSEN.set": "a context variable, of one thread, put back where it was set",
     "softway.crew: signal.signal": "in a process of its own, which nobody else has",
+    "softway.crew: signal.setitimer": "the same",
+    "softway.crew: sys.unraisablehook": "the same",
     "softway.record.view_style: library().rc_context": "put back, under a lock",
     "softway.scenario.modules: sys.path.insert": "put back, under a lock",
     "softway.scenario.modules: sys.path.remove": "the same",
