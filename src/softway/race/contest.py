@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from softway.errors import Cancel, InputError, NumericsError, heed
+from softway.errors import Cancel, InputError, NumericsError
 from softway.march.begin import begin
 from softway.march.control import StepControl
 from softway.march.ledger import opening
@@ -184,7 +184,9 @@ def _started(course: _Course, method: Entrant) -> tuple[float, Iterator[Reached]
 
 
 def _penalty(course: _Course, method: Penalty) -> tuple[float, Iterator[Reached]]:
-    rules, first, steps = penalised(course.model.scene, course.state, course.until, course.span, method, course.control)
+    rules, first, steps = penalised(
+        course.model.scene, course.state, course.until, course.span, method, course.control, course.cancel
+    )
     return first.energy, (
         (
             Lap(
@@ -220,7 +222,6 @@ def _raced(name: str, method: Entrant, course: _Course, watch: Watch | None) -> 
             laps.append(replace(lap, wall=now[0] - last[0], cpu=now[1] - last[1]))
             if watch is not None:
                 watch(name, lap.time)
-            heed(course.cancel, lap.time)
             last = clock.perf_counter(), clock.process_time()
     except NumericsError as error:
         reason = str(error)

@@ -7,7 +7,7 @@ import numpy as np
 
 from softway.contact.contact import DualMortar
 from softway.contact.timing import Impulse
-from softway.errors import NoConvergence, NumericsError
+from softway.errors import Cancel, NoConvergence, NumericsError, heed
 from softway.march.control import StepControl
 from softway.march.situation import joined
 from softway.model import build
@@ -17,7 +17,13 @@ from softway.scene import Scene, State
 
 
 def penalised(
-    scene: Scene, state: State, until: float, span: float, method: Penalty, control: StepControl
+    scene: Scene,
+    state: State,
+    until: float,
+    span: float,
+    method: Penalty,
+    control: StepControl,
+    cancel: Cancel | None = None,
 ) -> tuple[Penalised, Pressed, Iterator[Pressed]]:
     """What is marched, its start, and its slabs up to the time ``until``.
 
@@ -29,11 +35,15 @@ def penalised(
         Where to begin.
     span
         Length of a slab [s].
+    cancel
+        Asked before every slab whether the caller wants no more.
 
     Raises
     ------
     NumericsError
         While it goes on, when a slab fails at every length that was tried.
+    Cancelled
+        While it goes on, if ``cancel`` says so.
     """
     contacts = tuple(
         replace(c, timing=Impulse(), method=None if isinstance(c.method, DualMortar) else c.method)
@@ -60,13 +70,14 @@ def penalised(
         work=0.0,
         gap=gap,
     )
-    return rules, first, _slabs(rules, first, until, span)
+    return rules, first, _slabs(rules, first, until, span, cancel)
 
 
-def _slabs(rules: Penalised, now: Pressed, until: float, span: float) -> Iterator[Pressed]:
+def _slabs(rules: Penalised, now: Pressed, until: float, span: float, cancel: Cancel | None) -> Iterator[Pressed]:
     """Slabs; one that fails is tried again at half the length, which then doubles again slab by slab."""
     shop, length, rejected, reason = workshop(rules.model), span, 0, ""
     while now.time < until - 1e-9 * span:
+        heed(cancel, now.time)
         if length <= rules.control.least * span:
             raise NumericsError(f"no slab holds, the last of {rejected} tries with {reason}", now.time)
         last = until - now.time - length < 1e-9 * span
