@@ -17,7 +17,7 @@ KNOWN = """## What is known to stop or to take long
 
 - A block of few cells on a roller with friction near 1 (NeoHookean, v/c = 0.26): places without inertia have no
   neighbouring equilibrium with such friction; the march ends with the overlap that no slab avoids.
-- Matter crushed beyond what its cells can follow, at v/c > 0.15: StVenantKirchhoff, J2 without hardening, the softer
+- Matter crushed beyond what its cells can follow, at v/c > 0.13: StVenantKirchhoff, J2 without hardening, the softer
   hypoelastic laws. Cells invert, or the nodes of a surface jump to another equilibrium.
 - A cylinder of two quadratic cells that lands on its rim and slides (436): the mean gaps of facets that lean that much
   have no good derivative ([mortar](../theory/mortar.md)); with `NodeToSurface` it is done in 2 s.
