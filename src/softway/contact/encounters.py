@@ -136,12 +136,16 @@ class Encounters:
         if not self.watchers:
             return self
         pairs, least = self.rest(u, 0.0), -OVERLAP * float(np.abs(self.points + u).max())
-        gap, watched = pairs.at(u).gap(u), pairs.watch(u)
-        clear = np.setdiff1d(self.watched, watched.contact[watched.gap(u) < least])
-        deep = np.array(apart, bool)[self.contact] & np.isin(self.contact, clear) & (gap < least)
+        gap = pairs.at(u).gap(u)
+        deep = np.array(apart, bool)[self.contact] & (gap < least)
+        if deep.any():
+            watched = pairs.watch(u)
+            deep &= np.isin(self.contact, np.setdiff1d(self.watched, watched.contact[watched.gap(u) < least]))
         if not deep.any():
             return self
-        log.info("%d contact rows overlap at the start, by %.3g m at most: counted from there", deep.sum(), -gap.min())
+        log.info(
+            "%d contact rows overlap at the start, by %.3g m at most: counted from there", deep.sum(), -gap[deep].min()
+        )
         return replace(self, clearance=np.where(deep, gap, 0.0))
 
     def rest(self, u: Array, time: float) -> "Pairs":

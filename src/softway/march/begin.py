@@ -9,6 +9,7 @@ from softway.bodies import past
 from softway.bodies.dead_load import dead_load
 from softway.bodies.rigid_motions import free_motions
 from softway.bodies.section import Axisymmetric
+from softway.contact.encounters import OVERLAP
 from softway.contact.timing import Energy
 from softway.errors import Cancel, InputError
 from softway.march.overlap import deepest, shrunk
@@ -25,8 +26,6 @@ SOON = 1e-6
 """Time in which a driven tool shows its velocity at the start [s]."""
 TOGETHER = 1e-7
 """Share of the greatest speed below which surfaces move along together at the start: rounding."""
-OVERLAP = 1e-12
-"""Depth inside an obstacle, relative to the coordinates, that counts as touching: rounding."""
 
 
 def begin(model: Model, span: float = 1.0, cancel: Cancel | None = None) -> Situation:

@@ -176,7 +176,7 @@ def _steps(rules: Rule, stand: Standing) -> Iterator[Step]:
                 length=following,
                 closed=found.closed,
                 halted=found.halted,
-                endured=endured(stand.pace, found),
+                endured=endured(stand.pace, found.slab.span, len(found.rejections)),
             ),
             carry=found.carry.bare(),
             slabs=stand.slabs + 1,

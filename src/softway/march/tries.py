@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from softway.contact.mortar import Mortar
 from softway.errors import Halts, NoConvergence, NumericsError, TooFast, Unbalanced, heed
 from softway.march.advance import Rule, advance
 from softway.march.breakaway import breakaway
@@ -83,24 +82,19 @@ def accepted(rules: Rule, stand: Standing, length: float, carry: Carry) -> Accep
     raise NumericsError(_reason(stand, reasons, crawls), now.time, _remedy(rules))
 
 
-def endured(before: Pace, found: Accepted) -> float:
+def endured(before: Pace, span: float, rejections: int) -> float:
     """Rejections of late in slabs far shorter than asked for; four such slabs without any make up for one.
 
     Examples
     --------
-    >>> from types import SimpleNamespace
-    >>> slabs = [(0.5, 3), (0.009, 2), (0.009, 2), (0.009, 0), (0.02, 1)]
     >>> pace, told = Pace(span=1.0, length=1.0), []
-    >>> for span, count in slabs:
-    ...     found = SimpleNamespace(slab=SimpleNamespace(span=span), rejections=("why",) * count)
-    ...     pace = replace(pace, endured=endured(pace, found))
+    >>> for span, rejections in [(0.5, 3), (0.009, 2), (0.009, 2), (0.009, 0), (0.02, 1)]:
+    ...     pace = replace(pace, endured=endured(pace, span, rejections))
     ...     told.append(pace.endured)
     >>> told
     [0.0, 2.0, 4.0, 3.75, 0.0]
     """
-    if found.slab.span > CRAWL * before.span:
-        return 0.0
-    return max(0.0, before.endured + (len(found.rejections) or -0.25))
+    return max(0.0, before.endured + (rejections or -0.25)) if span <= CRAWL * before.span else 0.0
 
 
 def _reason(stand: Standing, reasons: list[str], crawls: bool) -> str:
@@ -118,7 +112,7 @@ def _remedy(rules: Rule) -> str:
     found = ["a smaller step", "a finer mesh where the cells are crushed"]
     if isinstance(rules.method, Newton):
         found.append("the fixed point, which goes farther than Newton alone")
-    if any(isinstance(method, Mortar) for method in rules.model.encounters.methods):
+    if rules.model.encounters.watchers:  # mean gaps
         found.append("the method NodeToSurface where coarse facets lean on each other")
     return ", or ".join(found)
 
