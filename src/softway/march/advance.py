@@ -1,5 +1,6 @@
 """One slab: from a situation to the next, by the contact rule of the model."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -93,8 +94,8 @@ def advance(
     approach: float = np.inf,
     fallback: bool = False,
     held: bool = False,
-) -> tuple[Situation, Outcome, Carry]:
-    """The situation at the end of the slab; nothing of the old one is changed.
+) -> Iterator[tuple[Situation, Outcome, Carry]]:
+    """Situations at the end of the slab, each from a closer solution than the one before; the old one stays.
 
     With ``held`` friction holds what rests at any force.
 
@@ -107,19 +108,31 @@ def advance(
     match rule.method:
         case Explicit() as method:
             assert rule.central is not None
-            out, carry = solve_explicit(model, now, slab, carry, method, rule.central, approach)
+            found = iter([solve_explicit(model, now, slab, carry, method, rule.central, approach)])
         case _ if rule.inertia is None:
             watched, located = rule.watched(slab), rule.located
-            out, carry = solve_massless(model, now, slab, carry, watched, located, approach, fallback, held)
+            found = solve_massless(model, now, slab, carry, watched, located, approach, fallback, held)
         case _:
             watched = rule.watched(slab)
-            out, carry = solve_carrying(model, now, slab, carry, watched, rule.inertia, approach, rule.split)
-    end = out.solution.end
-    if end.clipped:
+            found = solve_carrying(model, now, slab, carry, watched, rule.inertia, approach, rule.split)
+    for out, after in found:
+        yield _situation(rule, slab, out), out, after
+
+
+def _situation(rule: Rule, slab: Slab, out: Outcome) -> Situation:
+    """The situation at the end of a solved slab.
+
+    Raises
+    ------
+    Unbalanced
+        If the energy balance cannot be closed.
+    """
+    model = rule.model
+    if out.solution.end.clipped:
         raise Unbalanced("the scalar that closes the energy balance leaves [-1/2, 1/2]")
-    after = Situation(
+    return Situation(
         time=slab.end,
-        start=_arrived(model, out),
+        start=_arrived(out),
         acceleration=out.acceleration,
         closed=out.closed,
         pressure=out.pressure,
@@ -127,12 +140,11 @@ def advance(
         sliding=None if out.rub is None else out.rub.sliding,
         rows=out.rows if rule.inertia is None and model.encounters.paired else None,
     )
-    return after, out, carry
 
 
-def _arrived(model: Model, out: Outcome) -> Start:
+def _arrived(out: Outcome) -> Start:
     """What the slab after starts from."""
-    end = out.solution.end
+    model, end = out.system.model, out.solution.end
     memory = past.settled(model.parts, end.displacement)
     return Start(
         displacement=end.displacement,

@@ -4,6 +4,7 @@ The slab is solved with the rows that were closed, and again on the same operato
 the solution asks for, until it asks for none.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -22,7 +23,7 @@ from softway.march.situation import Situation
 from softway.march.step import Event
 from softway.model import Model
 from softway.solve.carry import Carry
-from softway.solve.driver import Solution, drive
+from softway.solve.driver import Solution, solutions
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
 from softway.solve.normal import Rows
@@ -47,8 +48,8 @@ def solve_carrying(
     inertia: Reaction,
     approach: float,
     split: Split | None = None,
-) -> tuple[Outcome, Carry]:
-    """Solve the slab, adding touches and releases until it asks for no more."""
+) -> Iterator[tuple[Outcome, Carry]]:
+    """Solutions of the slab, each closer than the one before, with touches and releases added until none is missing."""
     ahead = now.start.velocity + slab.span * now.acceleration
     given = model.prescribed(slab.end)
     guess = np.where(model.free, ahead, given)
@@ -56,21 +57,24 @@ def solve_carrying(
     pairs = model.encounters.meet(now.start.displacement, coasting, slab.start, slab.end)
     require_slow(model, pairs, coasting, approach)
     known, faces = undisturbed(model, now, pairs, pairs.at(coasting)), pairs
-    passes = iterations = 0
-    while passes < PASSES:
+    iterations = 0
+    for passes in range(1, PASSES + 1):
         found = jumps(model, known.rows, known.way, now.closed, inertia, slab.span)
         system = replace(_system(model, now, slab, known, found, given), split=split)
         iterates = method.iterate(system, guess, carry, np.zeros(len(known.way.closed)), known.way.closed)
-        solution = drive(system, iterates, method.tolerance, method.limit)
-        passes, iterations, carry = passes + 1, iterations + solution.iterations, solution.last.carry
-        faces = pairs.held(solution.end.displacement) if passes == STEADY and pairs.known is None else faces
-        revision = turned(model, faces, known, solution) or revised(model, now, system, known, solution, inertia)
-        if revision is None and (faces is pairs or _apart(model, pairs, solution.end.displacement)):
-            return _outcome(
-                now, slab, system, known, solution, found, inertia, pairs.found, (passes, iterations)
-            ), carry
-        if revision is None:
-            break
+        for solution in solutions(system, iterates, method.tolerance, method.limit):
+            u1, carry = solution.end.displacement, solution.last.carry
+            faces = pairs.held(u1) if passes == STEADY and pairs.known is None else faces
+            revision = turned(model, faces, known, solution) or revised(model, now, system, known, solution, inertia)
+            if revision is not None:
+                break
+            if faces is not pairs and not _apart(model, pairs, u1):
+                raise NoConvergence("the nodes that were kept on their faces overlap others")
+            work = passes, iterations + solution.iterations
+            yield _outcome(now, slab, system, known, solution, found, inertia, pairs.found, work), carry
+        else:
+            return
+        iterations += solution.iterations
         known, guess = revision, solution.last.q
     raise NoConvergence(f"the contact events of the slab do not settle in {PASSES} passes")
 

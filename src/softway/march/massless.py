@@ -1,5 +1,6 @@
 """One slab of the Energy rule: contact nodes without inertia, in constrained equilibrium at the slab's end."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +19,7 @@ from softway.march.step import Event
 from softway.march.transitions import transitions
 from softway.model import Model
 from softway.solve.carry import Carry
-from softway.solve.driver import Solution, drive
+from softway.solve.driver import Solution, solutions
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
 from softway.solve.normal import Rows, delassus
@@ -39,8 +40,8 @@ def solve_massless(
     approach: float,
     fallback: bool,
     held: bool = False,
-) -> tuple[Outcome, Carry]:
-    """Solve the slab; the contact rows are inequalities on the gap at its end."""
+) -> Iterator[tuple[Outcome, Carry]]:
+    """Solutions of the slab, each closer than the one before; contact rows are inequalities on the gap at its end."""
     h, start = slab.span, now.start
     rate = start.velocity + h * now.acceleration
     coasting = start.displacement + h * np.where(model.massive[:, None], 0.5 * (start.velocity + rate), rate)
@@ -50,8 +51,8 @@ def solve_massless(
     guess = np.where(model.free, np.where(model.massive[:, None], rate, 2.0 * rate), system.given)
     impulse, active = first_impulses(now, slab, system.path.rows)
     iterates = method.iterate(system, guess, carry, impulse, active)
-    solution = drive(system, iterates, method.tolerance, method.limit)
-    return outcome(model, now, slab, system, solution, pairs.found), solution.last.carry
+    for solution in solutions(system, iterates, method.tolerance, method.limit):
+        yield outcome(model, now, slab, system, solution, pairs.found), solution.last.carry
 
 
 def equations(

@@ -2,6 +2,7 @@
 
 import logging
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -118,30 +119,37 @@ def _remedy(rules: Rule) -> str:
 
 
 def _tried(rules: Rule, stand: Standing, slab: Slab, carry: Carry, closed: bool) -> Accepted:
-    """One slab with its audit.
+    """One slab with its audit: the first solution that holds its certificate.
 
     Raises
     ------
     NoConvergence, Halts
-        If it violates its certificate, or a body comes to rest inside.
+        If none does, or a body comes to rest inside.
     """
-    now, approach = stand.situation, stand.settings.control.approach
-    after, out, new = advance(rules, now, slab, carry, approach, closed)
-    if slab.weight != SETTLING:
-        halt(rules.model, now, out, slab.span)
-        breakaway(rules.model, now, out, lambda: advance(rules, now, slab, new, approach, closed, held=True)[1])
-    ledger = audited(rules.model, stand.account, now, out, after)
-    certificate = certified(rules.model, now, out, after, stand.account, ledger)
-    broken = violation(rules.model, now, out, after, ledger, certificate)
-    if broken is not None:
-        raise NoConvergence(f"certificate: {broken}")
-    return Accepted(
-        after=after,
-        out=out,
-        carry=new.after(out.iterations // out.passes),
-        slab=slab,
-        ledger=ledger,
-        certificate=certificate,
-        rejections=(),
-        closed=closed and bool((np.abs(out.solution.end.scalar) >= BOUND).any()),
-    )
+    model, now, approach = rules.model, stand.situation, stand.settings.control.approach
+    broken: str | None = "there is no solution"
+    for after, out, new in advance(rules, now, slab, carry, approach, closed):
+        if slab.weight != SETTLING:
+            halt(model, now, out, slab.span)
+            breakaway(model, now, out, partial(_held, rules, now, slab, new, approach, closed))
+        ledger = audited(model, stand.account, now, out, after)
+        certificate = certified(model, now, out, after, stand.account, ledger)
+        broken = violation(model, now, out, after, ledger, certificate)
+        if broken is None:
+            return Accepted(
+                after=after,
+                out=out,
+                carry=new.after(out.iterations // out.passes),
+                slab=slab,
+                ledger=ledger,
+                certificate=certificate,
+                rejections=(),
+                closed=closed and bool((np.abs(out.solution.end.scalar) >= BOUND).any()),
+            )
+        log.debug("after %d iterations %s: more of them", out.iterations, broken)
+    raise NoConvergence(f"certificate: {broken}")
+
+
+def _held(rules: Rule, now: Situation, slab: Slab, carry: Carry, approach: float, closed: bool) -> Outcome:
+    """The slab with all that rests held at any friction."""
+    return next(advance(rules, now, slab, carry, approach, closed, held=True))[1]

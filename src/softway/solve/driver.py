@@ -1,4 +1,4 @@
-"""The only loop with a tolerance in it: run a method until its iterates stand still."""
+"""The only loop with a tolerance in it: run a method until its iterates stand still, and on if that is not enough."""
 
 import logging
 from collections.abc import Iterator
@@ -56,6 +56,14 @@ class Solution:
 
 LONGEST = 3
 """Limits of iterations after which a slab ends, however often faces were added."""
+FINEST = 1e-13
+"""Change, as a share of the greatest velocity, below which no closer solution is worth looking for."""
+PATIENCE = 12
+"""Iterations in which the change does not halve once after which no closer solution is to be had."""
+STANDSTILL = ((6, 1e-9), (12, 1e-8))
+"""Iterations without progress after which a change is accepted, and as what share of the greatest velocity: mixed
+iterates stand still for as many as they look back on, and fall again.
+"""
 ROUNDING = 1e-12
 """Share of the velocity made by forces that balance each other which is rounding."""
 
@@ -73,25 +81,32 @@ def _resolved(system: SlabSystem) -> float:
     return 8.0 * float(np.finfo(float).eps) * reach / system.path.span
 
 
-def drive(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float, limit: int) -> Solution:
-    """Consume iterates until the change of velocity is below ``tolerance`` times the greatest velocity.
+def solutions(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float, limit: int) -> Iterator[Solution]:
+    """Solutions of a slab, from the first iterate on that changes by less than ``tolerance`` of the greatest velocity.
+
+    Whom the first does not satisfy may ask for more: each changes by less than half of the one before, and they end
+    where the change no longer decreases or is below ``FINEST`` of the greatest velocity.
 
     An iteration whose change no longer decreases has reached the rounding level of the problem: it is accepted within
-    1000 times the tolerance, within ``ROUNDING`` of the velocity that the forces alone would give in one slab (a body
-    at rest under load), or where it moves nothing but the last digits of positions (bodies at rest that just touch).
+    some share of the greatest velocity (``STANDSTILL``), within ``ROUNDING`` of the velocity that the forces alone
+    would give in one slab (a body at rest under load), or where it moves nothing but the last digits of positions
+    (bodies at rest that just touch).
 
     Raises
     ------
     NoConvergence
-        After ``limit`` iterations on the same faces, or at the first value that is not finite.
+        If there is none: after ``limit`` iterations on the same faces, or at the first value that is not finite.
     """
     best, since = np.inf, 0
     faces, begun = system.pairs, 0
     predicted: Array | None = None
     it: Iterate | None = None
     scale, first = 1.0, 0.0
+    handed = np.inf
     for count, it in enumerate(iterates, 1):
         if not np.isfinite(it.change):
+            if handed < np.inf:
+                return
             raise NoConvergence("the iteration left the admissible configurations (inverted cell or overflow)")
         predicted = it.free if predicted is None else predicted
         first = it.change if count == 1 else first
@@ -100,15 +115,23 @@ def drive(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float, lim
             faces, begun, best = it.system.pairs, count - 1, np.inf
         scale = max(np.abs(it.q).max(initial=0.0), np.abs(system.start.velocity).max(initial=0.0), 1e-300)
         best, since = (it.change, 0) if it.change < 0.5 * best else (best, since + 1)
-        settled = it.change <= tolerance * scale or (since >= 6 and it.change <= 1e3 * tolerance * scale)
+        near = it.change <= tolerance * scale
+        settled = near or any(since >= n and it.change <= share * scale for n, share in STANDSTILL)
         settled = settled or (since >= 4 and it.change <= ROUNDING * _pushed(system, it))
         settled = settled or (since >= 4 and it.change <= _resolved(system))
-        if settled and it.sound:
+        if settled and it.sound and it.change < 0.5 * handed:
             end = it.system.evaluate(it.q, it.impulse)
             fell = contraction(first, it.change, count)
-            return Solution(last=it, end=end, predicted=predicted, iterations=count, contraction=fell)
+            yield Solution(last=it, end=end, predicted=predicted, iterations=count, contraction=fell)
+            if not near or it.change <= FINEST * scale:
+                return
+            handed = it.change
+        if handed < np.inf and since >= PATIENCE:
+            return
         if count - begun >= limit or count >= LONGEST * limit:
             break
+    if handed < np.inf:
+        return
     change = it.change / scale if it is not None else np.inf
     raise NoConvergence(f"{count} iterations leave a relative change of {change:.1e} (tolerance {tolerance:.0e})")
 

@@ -2,7 +2,7 @@
 
 import itertools
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -21,6 +21,7 @@ from softway.solve.prepared import prepared
 from softway.solve.settings import check_accuracy
 from softway.solve.soundness import looked_at
 from softway.solve.system import SlabSystem
+from softway.solve.values import Evaluation
 from softway.typing import Array, BoolArray
 
 POOR = 0.8
@@ -75,7 +76,11 @@ class FixedPoint:
     def iterate(
         self, system: SlabSystem, q: Array, carry: Carry, impulse: Array, active: BoolArray
     ) -> Iterator[Iterate]:
-        """Iterates from q (n, d), with first impulses (m,) and active rows (m,) of the contact."""
+        """Iterates from q (n, d), with first impulses (m,) and active rows (m,) of the contact.
+
+        The first step is without scalar, as that of Newton's method is: the guess is no solution, and the work that is
+        missing there says nothing.  So it solves a linear law on fixed rows (docs/theory/solver.md).
+        """
         newton = Newton(tolerance=self.tolerance, limit=self.limit)
         if self.handover and carry.origin is None and _starts_flowing(system):
             yield from newton.iterate(system, q, carry, impulse, active)
@@ -92,9 +97,10 @@ class FixedPoint:
     ) -> Iterator[Iterate]:
         """Iterates as long as they contract well; where they do not, nodes are first kept on their faces."""
         window, poor = (WINDOW, POOR) if system.model.massive.any() else (FLOWING, PACE)
+        end = replace(system, balanced=False).evaluate(q, impulse)
         while True:
             changes: list[float] = []
-            for it in self._iterates(system, q, carry, impulse, active):
+            for it in self._iterates(system, q, end, carry, impulse, active):
                 yield it
                 changes = [*changes[-window:], it.change]
                 if self.handover and len(changes) > window and it.change > poor**window * changes[0]:
@@ -105,9 +111,10 @@ class FixedPoint:
             if system is it.system:
                 return
             q, carry, impulse, active = it.q, it.carry, it.impulse, it.active
+            end = system.evaluate(q, impulse)
 
     def _iterates(
-        self, system: SlabSystem, q: Array, carry: Carry, impulse: Array, active: BoolArray
+        self, system: SlabSystem, q: Array, end: Evaluation, carry: Carry, impulse: Array, active: BoolArray
     ) -> Iterator[Iterate]:
         frozen = carry.frozen
         assert frozen is not None
@@ -115,7 +122,6 @@ class FixedPoint:
         mixing = _Mixing(Anderson(self.depth), frozen)
         last, stuck = np.inf, 0
         for count in itertools.count():
-            end = system.evaluate(q, impulse)
             system = system.steadied(end.displacement, active, count)
             if not np.isfinite(end.residual[keep]).all():
                 yield lost(q, active, carry, system)
@@ -142,6 +148,7 @@ class FixedPoint:
                 stuck = 0
             last, active, before, q = change, step.active, q[keep], q.copy()
             q[keep], impulse = mixing.mixed((before, impulse), (step.q[keep], step.impulse))
+            end = system.evaluate(q, impulse)
 
 
 def _starts_flowing(system: SlabSystem) -> bool:

@@ -14,7 +14,7 @@ from softway.errors import InputError, NoConvergence
 from softway.laws.bulk import LinearElastic
 from softway.model import Model
 from softway.solve.carry import Carry
-from softway.solve.driver import Iterate, Solution, drive, lost
+from softway.solve.driver import Iterate, Solution, lost, solutions
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
 from softway.solve.normal import Rows
@@ -60,7 +60,8 @@ def slab(model: Model, span: float = 0.2) -> SlabSystem:
 def solve(system: SlabSystem, method: FixedPoint | Newton, start: np.ndarray | None = None) -> Solution:
     q = system.start.velocity if start is None else start
     impulse = np.zeros(len(system.rows.target))
-    return drive(system, method.iterate(system, q, Carry(), impulse, impulse != 0.0), method.tolerance, method.limit)
+    iterates = method.iterate(system, q, Carry(), impulse, impulse != 0.0)
+    return next(solutions(system, iterates, method.tolerance, method.limit))
 
 
 @operators
@@ -179,11 +180,11 @@ def test_an_iteration_at_the_rounding_level_is_accepted(block: Callable[..., Mod
                 sound=k >= sound_from,
             )  # fmt: skip
 
-    assert drive(system, stuck(5e-9), 1e-11, 60).iterations <= 10
-    assert drive(system, stuck(0.0), 1e-11, 60).iterations == 1
-    assert drive(system, stuck(0.0, sound_from=7), 1e-11, 60).iterations == 8, "surfaces overlap before"
+    assert next(solutions(system, stuck(5e-9), 1e-11, 60)).iterations <= 10
+    assert next(solutions(system, stuck(0.0), 1e-11, 60)).iterations == 1
+    assert next(solutions(system, stuck(0.0, sound_from=7), 1e-11, 60)).iterations == 8, "surfaces overlap before"
     with pytest.raises(NoConvergence):
-        drive(system, stuck(5e-8), 1e-11, 60)
+        next(solutions(system, stuck(5e-8), 1e-11, 60))
 
 
 def test_a_lost_iterate_has_an_infinite_change(block: Callable[..., Model]) -> None:
