@@ -24,6 +24,9 @@ from softway.scene import Scene
 from softway.space.mesh import Mesh
 from softway.typing import Array, BoolArray, IntArray
 
+UNSTRAINED = 1e-14
+"""Strain below which a body counts as undeformed."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Model:
@@ -61,7 +64,7 @@ class Model:
     driven
         Driven supports with the components (n, d) that they move.
     floor
-        (parts,) stored energy below which a body counts as undeformed: a strain of 1e-14 throughout [J].
+        (parts,) stored energy below which a body counts as undeformed: a strain of ``UNSTRAINED`` throughout [J].
     total
         Sums of mass and tangent stiffness on the free components.
     timing
@@ -294,4 +297,4 @@ def _timing(scene: Scene) -> Timing:
 
 def _floor(part: Part) -> float:
     speed = wave_speed(part.internal.material, part.density, part.internal.section)
-    return float(1e-28 * part.density * speed**2 * part.internal.sampling.volume.sum())
+    return float(UNSTRAINED**2 * part.density * speed**2 * part.internal.sampling.volume.sum())

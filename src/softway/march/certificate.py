@@ -8,7 +8,7 @@ from softway.march.outcome import Outcome
 from softway.march.situation import Situation
 from softway.march.standing import Account
 from softway.march.step import Certificate, Ledger
-from softway.model import Model
+from softway.model import UNSTRAINED, Model
 from softway.time.weight import EndPeaks
 from softway.typing import Array
 
@@ -29,6 +29,8 @@ AT_REST = 1e10
 """Energies in units of the rounding of the stored energy below which bodies are at rest: strains of 1e-9."""
 BEQUEST = 0.5
 """Share of the error that the momentum balance may have which the slab may leave to the next one."""
+PLACES = 16.0 * float(np.finfo(float).eps)
+"""Rounding of places, relative to the coordinates, after the sums that make forces of them."""
 INTERNAL = 1e-4
 """Share of the impulses of internal forces, which cancel but for rounding, that counts as taking part."""
 
@@ -64,9 +66,11 @@ def violation(
         return f"a node ends {-found.min_gap:.3g} m inside its opponent"
     if found.min_force < -TENSION * float(np.abs(after.pressure).max(initial=0.0)):
         return f"contact pulls with {-found.min_force:.3g} N"
+    blurred = _blurred(model, after)
     level = float(np.abs(before.start.energy).sum() + np.abs(after.start.energy).sum()) + ledger.energy_kinetic
     level += float(model.kinetic(before.start.velocity).sum()) + abs(ledger.work_external)
     allowed = LOSS * level + AT_REST * float(model.floor.sum())
+    allowed += float(np.sum(blurred * np.abs(after.start.displacement - before.start.displacement).max(axis=1)))
     closes = model.massive.any() and (out.system.balanced or out.system.located is not None)
     ruled = isinstance(model.timing, Energy) and out.system.weight == EndPeaks()
     if ruled and closes and abs(found.energy_error) > allowed:
@@ -76,6 +80,7 @@ def violation(
     leftover, scale = _momentum(model, before, out, after)
     accuracy = MOMENTUM if model.massive.any() else FORCES
     most = accuracy * scale + float(np.sqrt(2.0 * model.mass.sum() * model.floor.sum()))
+    most += (after.time - before.time) * float(blurred.sum())
     if not isinstance(model.timing, Paper) and found.momentum_error > most:
         return f"the momentum balance is left with {np.abs(leftover).max():.3g} of {scale:.3g} kg m/s"
     unrest = float(np.abs(_unrest(out, after)).max())
@@ -95,6 +100,17 @@ def _unrest(out: Outcome, after: Situation) -> Array:
         force = force - out.rows.shear.spread(after.traction)
     here = model.free & ~model.massive[:, None]
     return np.asarray(out.system.path.span * np.where(here, force, 0.0).sum(axis=0))
+
+
+def _blurred(model: Model, after: Situation) -> Array:
+    """Forces (n,) [N] on nodes without inertia that are rounding, as places are: they miss their equilibrium by these.
+
+    Bodies that slide to rest lose their energy with the square of the speed, what these forces do with the speed alone.
+    """
+    share = model.floor / UNSTRAINED**2 / [p.mesh.n_nodes for p in model.parts]
+    spring = share[model.part_of] / model.edge**2
+    reach = float(np.abs(model.points + after.start.displacement).max())
+    return PLACES * reach * np.where(model.massive, 0.0, spring)
 
 
 def _momentum(model: Model, before: Situation, out: Outcome, after: Situation) -> tuple[Array, float]:

@@ -22,7 +22,7 @@ from softway.solve.carry import Carry
 from softway.solve.driver import Solution, solutions
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
-from softway.solve.normal import Rows, delassus
+from softway.solve.normal import Rows, delassus, rounded
 from softway.solve.system import SlabSystem
 from softway.solve.watched import Watched
 from softway.time.slab import Slab
@@ -85,6 +85,7 @@ def equations(
             equal=way.closed,
             unilateral=rows.reachable(model.free),
             slipping=slipping(model, now, slab, rows, held),
+            rounding=2.0 / h * rounded(model.points + start.displacement),
         ),
         balanced=located is None and (slab.weight == EndPeaks() or now.sliding is not None),
         located=located,

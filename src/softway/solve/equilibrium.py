@@ -12,7 +12,7 @@ from softway.model import Model
 from softway.solve.friction import rubbed
 from softway.solve.frozen import basis, freeze
 from softway.solve.linear import SuperLU
-from softway.solve.normal import Rows, constrain
+from softway.solve.normal import Rows, constrain, rounded
 from softway.solve.return_map import Slipping
 from softway.typing import Array, BoolArray
 
@@ -171,7 +171,7 @@ def _settled(
     last: tuple[Array, BoolArray] | None = None
     once = model.linear and model.encounters.fixed and lift is None
     best, since = np.inf, 0
-    rounding = 4.0 * float(np.finfo(float).eps * np.abs(model.points).max())
+    rounding = rounded(model.points)
     u = u.copy()
     for count in range(limit):
         heed(cancel, 0.0)
@@ -221,12 +221,23 @@ def _step(
     reachable = rows.reachable(unknown)
     target = np.where(reachable, -rows.gap(u), 0.0)
     frozen = freeze(stiffness, directions, SuperLU())
-    free = -frozen.solve((model.force(u) - load)[unknown])
-    none = np.zeros(len(target), bool)
-    conditions = Rows(target=target, equal=none, unilateral=reachable, slipping=slipping)
     coefficients = frozen.coefficients(rows, unknown)
-    if slipping is None:
-        return constrain(free, frozen, coefficients, conditions, none if last is None else last[1])
-    size = len(target) + slipping.shift.size
-    force, active = last if last is not None else (np.zeros(size), np.zeros(2 * len(target), bool))
-    return rubbed(free + frozen.answer(coefficients.spread(force)), frozen, coefficients, conditions, active, force)
+    m = len(target)
+    if last is None:
+        last = (np.zeros(m), np.zeros(m, bool)) if slipping is None else _open(m, slipping)
+    force, active = last
+    free = -frozen.solve((model.force(u) - load)[unknown] - frozen.push(coefficients.spread(force)))
+    conditions = Rows(
+        target=target,
+        equal=np.zeros(m, bool),
+        unilateral=reachable,
+        slipping=slipping,
+        rounding=rounded(model.points),
+    )
+    solve = constrain if slipping is None else rubbed
+    return solve(free, frozen, coefficients, conditions, active, force)
+
+
+def _open(m: int, slipping: Slipping) -> tuple[Array, BoolArray]:
+    """No forces of m rows with friction, none of which touches."""
+    return np.zeros(m + slipping.shift.size), np.zeros(2 * m, bool)

@@ -6,7 +6,8 @@ Given the free solution ``y`` of A y = b, find normal and tangential multipliers
     G z >= c,  p >= 0,  p (G z - c) = 0,    s = -resistance(T z - shift, p) along the slip, or no slip within a limit.
 
 The tangential condition is the return map of a trial ``s - r (T z - shift)``.  Nothing is regularised: rows that stick
-do not move, rows that slip have the force of the law (docs/theory/friction.md).
+do not move, rows that slip have the force of the law (docs/theory/friction.md).  The unknowns are the changes of the
+multipliers that an iterate carries (:class:`~softway.solve.touching.Touching`).
 """
 
 from dataclasses import replace
@@ -56,18 +57,22 @@ def rubbed(
     before = coefficients.spread(carried)
     offset = np.concatenate([rows.target, law.shift.ravel()])
     open_ = np.concatenate([rows.unilateral, np.repeat(rows.unilateral, k)])
+    loaded = np.where(open_, coefficients.along(frozen.sense(free)) - offset, 0.0)
     slack = np.where(open_, coefficients.along(untouched(free, frozen, before)) - offset, 0.0)
-    floor = 1e-14 * max(np.abs(slack[:m]).max(initial=0.0), np.abs(rows.target).max(initial=0.0), 1e-300)
+    floor = rows.missable(slack[:m])
     near = rows.unilateral & guess[:m]
-    x = np.where(open_, carried, 0.0)
+    x = np.zeros(len(carried))
     for _ in range(30 + m):
         index = np.flatnonzero(near)
         every = stacked(index, m, k)
-        part = coefficients.part(every)
-        problem = touching(delassus(frozen, part), slack[every], law.part(index))
+        part, rest = coefficients.part(every), carried.copy()
+        rest[every] = 0.0
+        lifted = coefficients.spread(rest)
+        now = loaded - np.where(open_, coefficients.along(frozen.give(lifted)), 0.0)
+        problem = touching(delassus(frozen, part), now[every], law.part(index), carried[every])
         x[every], slips = settled(problem, x[every])
         push = part.spread(x[every])
-        gap = slack[:m] + coefficients.along(frozen.give(push))[:m]
+        gap = now[:m] + coefficients.along(frozen.give(push))[:m]
         fresh = rows.unilateral & ~near & (gap < -floor)
         if not fresh.any():
             break
@@ -75,11 +80,11 @@ def rubbed(
     else:
         raise NoConvergence(f"the {m} contact rows have no solution")
     multiplier = np.zeros(len(carried))
-    multiplier[every] = x[every]
+    multiplier[every] = carried[every] + x[every]
     sliding = np.zeros(m, bool)
     sliding[index] = slips
     active = np.concatenate([multiplier[:m] > 0.0, sliding])
-    return free + frozen.answer(push - before), multiplier, active
+    return free + frozen.answer(push - lifted), multiplier, active
 
 
 def stacked(index: IntArray, m: int, k: int) -> IntArray:
@@ -94,7 +99,7 @@ def stacked(index: IntArray, m: int, k: int) -> IntArray:
 
 
 def settled(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
-    """Multipliers (c (1 + k),) from a guess x, and which rows slip (c,).
+    """Changes of the multipliers (c (1 + k),) from a guess x, and which rows slip (c,).
 
     Where friction drops with the slip, rows that rest are held at any force, then those let go whose force is beyond
     the limit, and so on: a row that let go is not held again.
@@ -105,12 +110,12 @@ def settled(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
         If no forces are found.
     """
     law = problem.law
-    if not problem.count or not law.drops(np.maximum(x[: problem.count], 0.0)):
+    if not problem.count or not law.drops(np.maximum(problem.whole(x)[0], 0.0)):
         return _solved(problem, x)
     going = law.sliding
     while True:
         x, slips = _solved(replace(problem, law=replace(law, sliding=going, held=True)), x)
-        p, s = problem.split(x)
+        p, s = problem.whole(x)
         more = ~going & (np.linalg.norm(s, axis=1) > law.limit(p))
         if law.held or not more.any():
             return x, slips
@@ -118,7 +123,7 @@ def settled(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
 
 
 def _solved(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
-    """The multipliers and the rows that slip under a law that does not drop.
+    """The changes of the multipliers and the rows that slip under a law that does not drop.
 
     Where Newton's method does not settle by itself, a sequence of problems is solved whose multipliers are drawn to
     those of the one before, ever less (Rockafellar 1976, Monotone operators and the proximal point algorithm, SIAM J.
@@ -144,7 +149,7 @@ def _solved(problem: Touching, x: Array) -> tuple[Array, BoolArray]:
 
 
 def _newton(problem: Touching, x: Array) -> tuple[Array, bool]:
-    """Multipliers (c (1 + k),) by Newton's method from x, and whether they settled; x where they are not numbers."""
+    """Changes (c (1 + k),) by Newton's method from x, and whether they settled; x where they are not numbers."""
     best, since, factor, before, known = np.inf, 0, None, np.inf, b""
     look = looked(problem, x)
     for _ in range(NEWTON):
@@ -168,7 +173,7 @@ def _settles(problem: Touching, x: Array, look: Look, since: int) -> bool:
 
 
 def _searched(problem: Touching, x: Array, step: Array, look: Look) -> tuple[Array, Look]:
-    """The multipliers after a step, halved while they miss more than before, or whole if that is no help; the look."""
+    """The changes after a step, halved while they miss more than before, or whole if that is no help; the look."""
     now, share = float(np.linalg.norm(look.missed)), 1.0
     whole = x - step, looked(problem, x - step)
     new, found = whole
@@ -182,7 +187,7 @@ def _searched(problem: Touching, x: Array, step: Array, look: Look) -> tuple[Arr
 
 
 def _size(problem: Touching, x: Array, look: Look) -> float:
-    """What the forces move, and what the rows that hold would move without them."""
+    """What the changes move, and what the rows that hold would move without them."""
     gap, slip = problem.split(problem.free)
     held = np.abs(slip[~look.slips]).max(initial=0.0)
     moved = np.abs(problem.compliance @ x).max(initial=0.0)
@@ -190,6 +195,6 @@ def _size(problem: Touching, x: Array, look: Look) -> float:
 
 
 def _clean(problem: Touching, x: Array, look: Look) -> Array:
-    """The multipliers with those of rows that do not touch set to zero."""
-    p, s = problem.split(x)
-    return np.concatenate([np.where(look.touch, p, 0.0), np.where(look.touch[:, None], s, 0.0).ravel()])
+    """The changes, with which rows that do not touch have no multipliers."""
+    touch = np.concatenate([look.touch, np.repeat(look.touch, problem.law.shift.shape[1])])
+    return np.where(touch, x, -problem.carried)

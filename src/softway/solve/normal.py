@@ -27,12 +27,36 @@ BATCH = 16
 class Rows:
     """Conditions of one slab on the contact rows: ``target`` (m,), which are ``equal`` or ``unilateral`` (m,), and on
     their ``slipping`` where there is friction.
+
+    A row without multiplier that misses its target by no more than ``rounding`` keeps it: that is what the last digits
+    of positions make of a gap.  Without it rows that depend on each other (flush blocks) would go in and out by turns.
     """
 
     target: Array
     equal: BoolArray
     unilateral: BoolArray
     slipping: Slipping | None = None
+    rounding: float = 0.0
+
+    def missable(self, slack: Array) -> float:
+        """What rows may miss their targets by, for values (m,) that differ from the targets by ``slack``."""
+        target = np.where(self.equal | self.unilateral, self.target, 0.0)
+        return max(1e-14 * max(_greatest(slack), _greatest(target), 1e-300), self.rounding)
+
+
+def _greatest(values: Array) -> float:
+    return float(np.abs(values).max(initial=0.0))
+
+
+def rounded(x: Array) -> float:
+    """Rounding of differences of positions x (n, d): a few units in the last place of the greatest.
+
+    Examples
+    --------
+    >>> rounded(np.array([[0.5, -1.0]])) == 2.0**-50
+    True
+    """
+    return 4.0 * float(np.finfo(float).eps) * _greatest(x)
 
 
 def constrain(
@@ -46,32 +70,37 @@ def constrain(
     """Solution (f,), multipliers (m,) and active rows (m,) of the contact problem for the free solution.
 
     The contact rows are ``G = C B^T`` with their ``coefficients`` C along the contact directions B.  Multipliers
-    ``carried`` (m,) are in ``free`` already; what comes out are the whole ones.
+    ``carried`` (m,) are in ``free`` already; what comes out are the whole ones.  Their changes are what is solved for:
+    where they are settled, the digits that cancel between the free solution and what the whole multipliers move (a
+    body that only contact holds) are not lost.
 
     Primal-dual sweeps from the ``guess``; after 30 of them single exchanges of least index (Murty), which end for
     every symmetric positive definite compliance.
     """
     count = rows.equal | rows.unilateral
     active = rows.equal | (guess & rows.unilateral)
-    before = coefficients.spread(np.zeros(len(count)) if carried is None else carried)
-    slack = np.where(count, coefficients.along(untouched(free, frozen, before)) - rows.target, 0.0)
-    floor = 1e-14 * max(np.abs(slack).max(initial=0.0), np.abs(rows.target[count]).max(initial=0.0), 1e-300)
+    carried = np.zeros(len(count)) if carried is None else carried
+    loaded = np.where(count, coefficients.along(frozen.sense(free)) - rows.target, 0.0)
+    slack = loaded - np.where(count, coefficients.along(frozen.give(coefficients.spread(carried))), 0.0)
+    floor = rows.missable(slack)
     for sweep in range(30 + 4 * len(active)):
         index = np.flatnonzero(active)
         _expect(frozen, coefficients, index, np.where(rows.unilateral, slack, np.inf))
-        force, push = balance(frozen, coefficients.part(index), -slack[index])
-        gap = slack + coefficients.along(push.sensed)
+        lifted = coefficients.spread(np.where(active, 0.0, carried))
+        now = loaded - np.where(count, coefficients.along(frozen.give(lifted)), 0.0)
+        change, push = balance(frozen, coefficients.part(index), -now[index])
+        gap = now + coefficients.along(push.sensed)
         multiplier = np.zeros(len(active))
-        multiplier[index] = force
+        multiplier[index] = carried[index] + change
         wrong = rows.unilateral & ((active & (multiplier < 0.0)) | (~active & (gap < -floor)))
         if not wrong.any():
             break
-        change = np.flatnonzero(wrong)[:1] if sweep >= 30 else np.flatnonzero(wrong)
+        other = np.flatnonzero(wrong)[:1] if sweep >= 30 else np.flatnonzero(wrong)
         active = active.copy()
-        active[change] = ~active[change]
+        active[other] = ~active[other]
     else:
         raise NoConvergence(f"the {len(active)} contact rows have no solution")
-    return free + frozen.answer(push.directions - before), multiplier, active
+    return free + frozen.answer(push.directions - lifted), multiplier, active
 
 
 def _expect(frozen: Frozen, coefficients: Along, index: IntArray, slack: Array) -> None:

@@ -163,6 +163,7 @@ class SlabSystem:
             equal=self.rows.equal,
             unilateral=open_,
             slipping=during(self.rows.slipping, near.shear, fixed, self.path.span),
+            rounding=self.rows.rounding,
         )
         return frozen.coefficients(near, self.model.free), rows
 

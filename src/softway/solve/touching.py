@@ -10,22 +10,29 @@ from softway.typing import Array, BoolArray
 
 LIFT = 1e-12
 """Share of the compliance by which rows that depend on each other are told apart."""
+EPS = 4.0 * float(np.finfo(float).eps)
+"""Share of a multiplier that is rounding."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Touching:
     """The contact problem of some rows (c,), with k tangential directions each.
 
+    Its unknowns are changes x (c (1 + k),) of multipliers that are carried already: what cancels between gaps without
+    contact and what the whole multipliers move, as it does for a body that only contact holds, costs no digits.
+
     Parameters
     ----------
     compliance
         (c (1 + k), c (1 + k)): normals first, then the tangential directions row by row.
     free
-        (c (1 + k),) gaps and slips without contact force.
+        (c (1 + k),) gaps and slips under the carried multipliers.
     law
         The conditions on the slip.
     reach
         (c,) compliance of each normal; ``give`` (c,) that of each row along its surface.
+    carried
+        (c (1 + k),) multipliers.
     """
 
     compliance: Array
@@ -33,6 +40,7 @@ class Touching:
     law: Slipping
     reach: Array
     give: Array
+    carried: Array
 
     @property
     def count(self) -> int:
@@ -43,8 +51,12 @@ class Touching:
         """Normal (c,) and tangential (c, k) parts."""
         return x[: self.count], x[self.count :].reshape(self.law.shift.shape)
 
+    def whole(self, x: Array) -> tuple[Array, Array]:
+        """Normal (c,) and tangential (c, k) multipliers after the changes x."""
+        return self.split(self.carried + x)
+
     def drawn(self, x: Array, share: float) -> "Touching":
-        """The problem whose multipliers are drawn to x (c (1 + k),): rows give way by a share more of what they do.
+        """The problem whose multipliers are drawn to those after x: rows give way by a share more of what they do.
 
         Rows that depend on each other have one solution there, and x solves it if it solves this one.
         """
@@ -58,8 +70,8 @@ class Touching:
         )
 
 
-def touching(compliance: Array, free: Array, law: Slipping) -> Touching:
-    """The contact problem of rows with their compliance.
+def touching(compliance: Array, free: Array, law: Slipping, carried: Array | None = None) -> Touching:
+    """The contact problem of rows with their compliance, and with gaps and slips under the ``carried`` multipliers.
 
     Raises
     ------
@@ -78,16 +90,19 @@ def touching(compliance: Array, free: Array, law: Slipping) -> Touching:
         law=law,
         reach=np.maximum(diagonal[:count], least),
         give=np.maximum(give, least),
+        carried=np.zeros(len(free)) if carried is None else carried,
     )
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Look:
-    """The conditions at some multipliers: what they miss (c (1 + k),), in units of y; rows that touch and slip (c,);
-    directions (c, k) of the trials; slopes (c, k, k) of the forces to the trials and (c,) to the normal multipliers.
+    """The conditions at some multipliers: what they miss (c (1 + k),), in units of y, and what of it is rounding of the
+    multipliers; rows that touch and slip (c,); directions (c, k) of the trials; slopes (c, k, k) of the forces to the
+    trials and (c,) to the normal multipliers.
     """
 
     missed: Array
+    rounding: Array
     touch: BoolArray
     slips: BoolArray
     way: Array
@@ -96,13 +111,13 @@ class Look:
 
     @property
     def worst(self) -> float:
-        """Greatest violation."""
-        return float(np.abs(self.missed).max(initial=0.0))
+        """Greatest violation beyond rounding."""
+        return float(np.maximum(np.abs(self.missed) - self.rounding, 0.0).max(initial=0.0))
 
 
 def looked(problem: Touching, x: Array) -> Look:
-    """The conditions at multipliers x (c (1 + k),)."""
-    p, s = problem.split(x)
+    """The conditions after the changes x (c (1 + k),)."""
+    p, s = problem.whole(x)
     gap, slip = problem.split(problem.free + problem.compliance @ x)
     k = s.shape[1]
     touch = p - gap / problem.reach > 0.0
@@ -116,8 +131,10 @@ def looked(problem: Touching, x: Array) -> Look:
     missed_s = np.where(touch[:, None], missed_s, s * problem.give[:, None])
     turn = np.where(size > 0.0, found.force / np.maximum(size, 1e-300), 0.0)[:, None, None]
     along = way[:, :, None] * way[:, None, :]
+    rounding_s = np.where(touch & ~slips, 0.0, EPS * np.linalg.norm(s, axis=1) * problem.give)
     return Look(
         missed=np.concatenate([missed_p, missed_s.ravel()]),
+        rounding=np.concatenate([np.where(touch, 0.0, EPS * np.abs(p) * problem.reach), np.repeat(rounding_s, k)]),
         touch=touch,
         slips=slips,
         way=way,
@@ -144,23 +161,24 @@ def linearised(problem: Touching, look: Look) -> Array:
 
 
 def swept(problem: Touching, x: Array, count: int) -> Array:
-    """Multipliers after some sweeps: each row in turn meets its conditions while the others wait (Gauss-Seidel)."""
+    """Changes of the multipliers after some sweeps: each row in turn meets its conditions (Gauss-Seidel)."""
     c, W = problem.count, problem.compliance
-    x = x.copy()
+    x, carried = x.copy(), problem.carried
     k = (len(x) - c) // c
     parts = [problem.law.part(np.array([i])) for i in range(c)]
     for _ in range(count):
         for i in range(c):
             at = c + k * i + np.arange(k)
             gap = problem.free[i] + W[i] @ x
-            x[i] = max(x[i] - gap / problem.reach[i], 0.0)
+            x[i] = max(x[i] - gap / problem.reach[i], -carried[i])
             slip = problem.free[at] + W[at] @ x
             soft = max(float(np.linalg.eigvalsh(W[np.ix_(at, at)]).max(initial=0.0)), 1e-12 * problem.give[i])
             if not soft > 0.0:
                 raise NoConvergence(f"a contact row has the compliance {soft:g} along the surface")
             stiff = 1.0 / soft
-            trial = x[at] - stiff * slip
+            trial = carried[at] + x[at] - stiff * slip
             size = np.linalg.norm(trial)
-            force = returned(parts[i], np.array([size]), x[i : i + 1], np.array([stiff])).force[0]
-            x[at] = force * trial / max(size, 1e-300)
+            pressed = np.maximum(carried[i : i + 1] + x[i : i + 1], 0.0)
+            force = returned(parts[i], np.array([size]), pressed, np.array([stiff])).force[0]
+            x[at] = force * trial / max(size, 1e-300) - carried[at]
     return x

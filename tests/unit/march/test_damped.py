@@ -18,12 +18,15 @@ def block(viscosity: float, velocity: sw.Affine | sw.Uniform) -> sw.Solid:
 @pytest.mark.parametrize("method", [sw.FixedPoint(), sw.Newton()], ids=["fixed point", "newton"])
 @pytest.mark.parametrize(("viscosity", "most"), [(1e3, 9), (1e4, 9), (1e5, 14)])
 def test_strong_damping_costs_few_iterations(viscosity, most, method):
-    """The operator knows that damping acts twice as much as a stiffness: waves of the block are over-damped."""
+    """The operator knows that damping acts twice as much as a stiffness: waves of the block are over-damped.
+
+    The energy balance is left with what the iteration leaves of the velocity: viscous forces multiply it.
+    """
     scene = sw.Scene(bodies={"b": block(viscosity, sw.Affine(gradient=((0.5, 0.2), (0.1, -0.3)), value=(0.0, 0.0)))})
     steps = list(sw.march(scene, until=0.025, step=5e-3, method=method))
     assert max(s.report.iterations for s in steps) <= most
     assert not any(s.report.rejections for s in steps)
-    assert max(abs(s.ledger.energy_error) for s in steps) < 1e-12 * steps[0].ledger.energy_kinetic
+    assert max(abs(s.ledger.energy_error) for s in steps) < method.tolerance * steps[0].ledger.energy_kinetic
 
 
 def test_a_damped_block_slides_to_rest():
