@@ -54,7 +54,7 @@ class Affine:
     A bar stretched by one percent:
 
     >>> from softway.space.shapes import interval
-    >>> sample(Affine(gradient=0.01), interval(1.0, cells=1)).tolist()
+    >>> sample(Affine(gradient=0.01), interval(1.0, cells=1)).round(12).tolist()
     [[0.0], [0.01]]
     """
 

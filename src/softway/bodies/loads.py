@@ -29,7 +29,7 @@ class Gravity:
 
     Examples
     --------
-    >>> Gravity(acceleration=(0.0, 0.0, -9.81)).vector(3).tolist()
+    >>> Gravity(acceleration=(0.0, 0.0, -9.81)).vector(3).round(12).tolist()
     [0.0, 0.0, -9.81]
     """
 
@@ -89,7 +89,8 @@ def traction_force(mesh: Mesh, section: Section, tag: str, value: Sequence[float
     >>> from softway.bodies.section import PlaneStrain
     >>> from softway.space.shapes import rectangle
     >>> mesh = rectangle((2.0, 1.0), (2, 1))
-    >>> traction_force(mesh, PlaneStrain(thickness=0.5), "top", (0.0, -1.0))[mesh.nodes("top")].tolist()
+    >>> force = traction_force(mesh, PlaneStrain(thickness=0.5), "top", (0.0, -1.0))
+    >>> (force[mesh.nodes("top")].round(12) + 0.0).tolist()
     [[0.0, -0.25], [0.0, -0.5], [0.0, -0.25]]
     """
     if not mesh.facets_on(tag):

@@ -205,7 +205,7 @@ class Placed:
     --------
     >>> from softway.space.curved import Sphere
     >>> ball = Placed(shape=Sphere(centre=(0.0, 0.0), radius=1.0), pose=Translation(velocity=(2.0, 0.0)).at(1.0))
-    >>> float(ball.gap(np.array([5.0, 4.0]))), ball.normal_at(np.array([5.0, 4.0])).tolist()
+    >>> float(ball.gap(np.array([5.0, 4.0])).round(12)), ball.normal_at(np.array([5.0, 4.0])).round(12).tolist()
     (4.0, [0.6, 0.8])
     """
 

@@ -51,8 +51,8 @@ def crossings(x: Array, one: Edges, two: Edges) -> Crossings:
     >>> lower = Edges(ends=np.array([[0, 1]]), wings=np.array([[2, 3]]))
     >>> upper = Edges(ends=np.array([[4, 5]]), wings=np.array([[6, 7]]))
     >>> found = crossings(x, lower, upper)
-    >>> found.gap.tolist(), (found.normal + 0.0).tolist(), found.s.tolist(), found.t.tolist(), found.valid.tolist()
-    ([0.1], [[0.0, 0.0, 1.0]], [0.5], [0.5], [True])
+    >>> [(v.round(12) + 0.0).tolist() for v in (found.gap, found.normal, found.s, found.t)], found.valid.tolist()
+    ([[0.1], [[0.0, 0.0, 1.0]], [0.5], [0.5]], [True])
     """
     a0, a1, b0, b1 = x[one.ends[:, 0]], x[one.ends[:, 1]], x[two.ends[:, 0]], x[two.ends[:, 1]]
     u, v, w = a1 - a0, b1 - b0, a0 - b0

@@ -52,8 +52,8 @@ class NodesOnFaces:
     >>> x = np.array([[0.0, 0.0], [2.0, 0.0], [1.0, -0.1]])
     >>> contact = NodesOnFaces(slaves=np.array([2]), side=Side(facets={"bar2": np.array([[0, 1]])}), slots=1)
     >>> rows = contact.meet(x, x, reach=0.5).at(x)
-    >>> rows.gap.tolist(), rows.normal.tolist(), rows.weights.toarray().tolist()
-    ([0.1], [[0.0, -1.0]], [[-0.5, -0.5, 1.0]])
+    >>> [v.round(12).tolist() for v in (rows.gap, rows.normal, rows.weights.toarray())]
+    [[0.1], [[0.0, -1.0]], [[-0.5, -0.5, 1.0]]]
     """
 
     slaves: IntArray

@@ -29,7 +29,7 @@ class Small:
 
     Examples
     --------
-    >>> Small().strain(np.array([[0.1, 0.2], [0.0, 0.0]]), np.eye(2)).tolist()
+    >>> Small().strain(np.array([[0.1, 0.2], [0.0, 0.0]]), np.eye(2)).round(12).tolist()
     [[0.1, 0.1], [0.1, 0.0]]
     """
 

@@ -63,7 +63,7 @@ class Roller:
     Examples
     --------
     >>> roll = Roller(point=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 2.0), radius=1.0)
-    >>> float(roll.gap(np.array([3.0, 4.0, 7.0]))), roll.normal_at(np.array([3.0, 4.0, 7.0]))
+    >>> float(roll.gap(np.array([3.0, 4.0, 7.0])).round(12)), roll.normal_at(np.array([3.0, 4.0, 7.0]))
     (4.0, array([0.6, 0.8, 0. ]))
     """
 

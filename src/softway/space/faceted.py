@@ -44,7 +44,7 @@ class Facets:
     Examples
     --------
     >>> corner = Facets(points=np.array([[0.0, 1.0], [0.0, 0.0], [1.0, 0.0]]), cells=np.array([[2, 1], [1, 0]]))
-    >>> corner.closed, corner.gap(np.array([[0.2, 0.1], [-3.0, -4.0]])).tolist()
+    >>> corner.closed, corner.gap(np.array([[0.2, 0.1], [-3.0, -4.0]])).round(12).tolist()
     (False, [0.1, -5.0])
     """
 

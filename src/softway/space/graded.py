@@ -40,7 +40,7 @@ def grid(*coordinates: Sequence[float], cell: str | None = None) -> Mesh:
     Examples
     --------
     >>> mesh = grid((0.0, 0.1, 1.0), (0.0, 0.5))
-    >>> mesh.points[mesh.nodes("top")].tolist()
+    >>> mesh.points[mesh.nodes("top")].round(12).tolist()
     [[0.0, 0.5], [0.1, 0.5], [1.0, 0.5]]
     """
     dim = len(coordinates)

@@ -2,7 +2,6 @@
 
 import gc
 import json
-import time
 
 import numpy as np
 import pytest
@@ -41,8 +40,9 @@ def test_a_whole_run(fake, tmp_path):
         "events.csv", "fields.vtkhdf", "history.csv", "provenance.json", "scenario.toml", "summary.json",
     ]  # fmt: skip
     summary, contact = run.summary, run.summary["contacts"]["part.surface-floor"]
-    assert summary["slabs"] == fake.slabs and summary["energy_error_worst"] == 1e-12 and summary["wall_time"] > 0.0
-    assert contact["first_touch"] == 0.4 and contact["last_release"] == 0.6 and contact["touches"] == 1
+    assert summary["slabs"] == fake.slabs and summary["wall_time"] > 0.0
+    assert summary["energy_error_worst"] == 1e-12  # as given
+    assert contact["first_touch"] == 0.4 and contact["last_release"] == 0.6 and contact["touches"] == 1  # as given
     force = run.history["contact.part.surface-floor.force_n"]
     assert contact["peak_force"] == force.max() and contact["impulse"] == pytest.approx(0.05 * force.sum(), rel=1e-12)
     assert contact["penetration_worst"] == -run.history["contact.part.surface-floor.min_gap"].min() > 0.0
@@ -131,9 +131,3 @@ def test_a_scene_without_contacts_and_nothing_yet():
     assert summarise(Table({}), Table({})) == {"slabs": 0, "contacts": {}}
     found = summarise(parse(head + ",".join("0" * len(columns)) + "\n"), Table({}))
     assert found["energy_error_relative"] is None and found["contacts"] == {} and json.dumps(found)
-
-
-def test_recording_is_fast(bar, tmp_path):
-    begun = time.perf_counter()
-    conduct(bar.steps(), bar.opening(), Place(out=tmp_path / "run"))
-    assert time.perf_counter() - begun < 5.0

@@ -33,7 +33,7 @@ class Stribeck:
     Examples
     --------
     >>> law = Stribeck(mu_s=0.4, mu_k=0.2, v_s=0.01)
-    >>> law.resistance(np.array([0.0, 1.0]), np.array([1.0, 1.0]))[0].tolist()
+    >>> law.resistance(np.array([0.0, 1.0]), np.array([1.0, 1.0]))[0].round(12).tolist()
     [0.4, 0.2]
     """
 

@@ -20,7 +20,7 @@ class Thrown:
     Examples
     --------
     >>> bar = Thrown(gap=0.3)
-    >>> bar.touch, bar.release, bar.force, float(bar.tip(3.3)), float(bar.rear(1.3))
+    >>> tuple(round(float(v), 12) for v in (bar.touch, bar.release, bar.force, bar.tip(3.3), bar.rear(1.3)))
     (0.3, 2.3, 1.0, -0.7, 1.3)
     """
 
