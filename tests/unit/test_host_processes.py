@@ -1,5 +1,6 @@
 """A host program calls off what goes on in processes, and begins it in a thread."""
 
+import multiprocessing
 import threading
 import time
 
@@ -71,4 +72,4 @@ def test_nobody_is_left_behind():
     before = time.perf_counter()
     with pytest.raises(sw.Cancelled, match="2 left"):
         list(answers([30.0, 30.0], time.sleep, 2, cancel=lambda: time.perf_counter() - before > 0.5))
-    assert time.perf_counter() - before < 20.0
+    assert not multiprocessing.active_children()
