@@ -5,13 +5,14 @@ DEMO := .venv-demo
 TEST := .venv-test
 DOCS := .venv-docs
 
-.PHONY: help demo test test-slow test-pages test-view coverage check bench bench-check kills manual fuzz drops endurance docs clean
+.PHONY: help demo test test-slow test-pages test-processors test-view coverage check bench bench-check kills manual fuzz drops endurance docs clean
 
 help:
 	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
 	@echo "make test   unit tests, verification cases, doctests"
 	@echo "make test-slow  those that take long: many impacts, fine meshes, kills, sweeps, every command of the pages"
 	@echo "make test-pages  what the pages say takes minutes, every scenario, and a fresh clone to its first picture"
+	@echo "make test-processors  make test with the instructions of several processors, into docs/verification/processors.md; SETS=nehalem for one"
 	@echo "make test-view the page of softway view in a Chromium without a screen, which has to be there"
 	@echo "make coverage  the same, with the lines and branches that did not run"
 	@echo "make check  ruff, mypy, import-linter, house rules"
@@ -52,6 +53,9 @@ test-slow: $(TEST)/ready
 
 test-pages: $(TEST)/ready
 	$(TEST)/bin/python -m pytest -n $(JOBS) -m minutes --durations=0
+
+test-processors: $(TEST)/ready
+	$(TEST)/bin/python tests/robustness/processors.py $(SETS) --jobs $(JOBS) --out docs/verification/robustness/processors.json
 
 test-view: $(TEST)/ready
 	$(TEST)/bin/python -m pip install --quiet --constraint constraints.txt --editable '.[dev,browser]'
