@@ -45,7 +45,7 @@ class Instructions:
 
         Examples
         --------
-        >>> SETS["nehalem"].environment({"HOME": "/home/me"})["OPENBLAS_CORETYPE"]
+        >>> SETS["nehalem"].environment({"LANG": "C"})["OPENBLAS_CORETYPE"]
         'Nehalem'
         """
         out = {name: value for name, value in given.items() if name != "NUMBA_CPU_NAME"}
