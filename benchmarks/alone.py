@@ -9,10 +9,11 @@ from hashlib import sha256
 from typing import Any
 
 import numpy as np
-from problems import END, ENERGY, STEP, ball, beam, drop, glued, noted, now
+from problems import ball, beam, glued, noted, now
 
 import softway as sw
 from softway.solve.explicit import Explicit
+from softway.verify.scenes.cube import END, ENERGY, STEP, drop
 
 FIXED, NEWTON = sw.FixedPoint(tolerance=1e-8), sw.Newton(tolerance=1e-8)
 METHODS = {"fixed": FIXED, "Newton": NEWTON}
