@@ -6,21 +6,21 @@ from pathlib import Path
 
 import akantu as aka
 import numpy as np
-from cube import DENSITY, NU, PENALTY, SPEED, Clock, E, chosen, lattice, slab, tetrahedra
+from cube import DENSITY, NU, SPEED, Clock, E, chosen, lattice, slab, tetrahedra
 
-MATERIALS = f"""
+MATERIALS = """
 material elastic [
   name = cube
-  rho = {DENSITY}
+  rho = {density}
   E = {E}
-  nu = {NU}
+  nu = {nu}
   finite_deformation = 1
 ]
 material elastic [
   name = block
-  rho = {DENSITY}
+  rho = {density}
   E = {E}
-  nu = {NU}
+  nu = {nu}
 ]
 contact_detector [
   type = explicit
@@ -33,8 +33,8 @@ contact_detector [
 contact_resolution penalty_linear [
   name = touch
   mu = 0.0
-  epsilon_n = {PENALTY}
-  epsilon_t = {PENALTY}
+  epsilon_n = {penalty}
+  epsilon_t = {penalty}
   is_master_deformable = false
 ]
 """
@@ -71,7 +71,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         count = written(ask.cells, ask.gap, Path("cube.msh"))
-        Path("cube.dat").write_text(MATERIALS)
+        Path("cube.dat").write_text(MATERIALS.format(density=DENSITY, E=E, nu=NU, penalty=ask.penalty))
         aka.parseInput("cube.dat")
         mesh = aka.Mesh(3)
         mesh.read("cube.msh")
@@ -88,10 +88,16 @@ def main():
     both.setTimeStep(step)
     velocity, shift = solid.getVelocity(), solid.getDisplacement()
     velocity[:count, 2] = -SPEED
-    height = lattice(ask.cells)[0][:, 2]
-    for _ in range(round(ask.end / step)):
+    points, cubes = lattice(ask.cells)
+    height, cells = points[:, 2], tetrahedra(cubes)
+    weights = np.bincount(cells.ravel(), minlength=count) * DENSITY / (4 * len(cells))
+    before = -SPEED
+    for k in range(round(ask.end / step)):
         clock.step(both.solveStep)
-        clock.touching.append((height + shift[:count, 2]).min() < -ask.gap - 1e-9)
+        momentum = weights @ velocity[:count, 2]
+        touching = (height + shift[:count, 2]).min() < -ask.gap - 1e-9
+        clock.note((k + 1) * step, touching, momentum, (momentum - before) / step)
+        before = momentum
     clock.told("Akantu", getattr(aka, "__version__", "5"), 3 * count, velocity[:count, 2].mean(), None)
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from time import perf_counter
 
 import numpy as np
-from cube import DENSITY, NU, PENALTY, SPEED, Clock, E, chosen, lattice, slab
+from cube import DENSITY, NU, SPEED, Clock, E, chosen, lattice, slab
 
 
 def deck(ask):
@@ -29,11 +29,12 @@ def deck(ask):
     rows += ["*INITIAL CONDITIONS, TYPE=VELOCITY", f"MOVING, 3, {-SPEED}", "*BOUNDARY", "STILL, 1, 3"]
     rows += ["*SURFACE, NAME=LOWER", *(f"{k}, S1" for k in range(1, ask.cells**2 + 1))]
     rows += ["*SURFACE, NAME=PLANE", f"{block}, S2", "*SURFACE INTERACTION, NAME=TOUCH"]
-    rows += ["*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{PENALTY}, {0.001 * E}"]
+    rows += ["*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{ask.penalty}, {0.001 * E}"]
     rows += ["*CONTACT PAIR, INTERACTION=TOUCH, TYPE=NODE TO SURFACE", "LOWER, PLANE"]
     steps = round(ask.end / ask.step)
     rows += [f"*STEP, NLGEOM, INC={10 * steps}", "*DYNAMIC, DIRECT, ALPHA=-0.05", f"{ask.step}, {steps * ask.step}"]
-    rows += [f"*NODE FILE, NSET=MOVING, FREQUENCY={steps}", "U, V", "*END STEP", ""]
+    rows += [f"*NODE FILE, NSET=MOVING, FREQUENCY={steps}", "U, V"]
+    rows += ["*NODE PRINT, NSET=STILL, TOTALS=ONLY, FREQUENCY=1", "RF", "*END STEP", ""]
     return "\n".join(rows)
 
 
@@ -64,6 +65,12 @@ def last_velocity(file):
     return np.mean(values)
 
 
+def forces(file):
+    """Times, and the force of the plane on the cube along z: what holds the block."""
+    blocks = re.findall(r"total force.*?time\s+(\S+)\s+(\S+)\s+(\S+)\s+(\S+)", file.read_text(), re.DOTALL)
+    return np.array([(float(time), float(z)) for time, _, _, z in blocks]).reshape(-1, 2).T
+
+
 def main():
     """Run, and print a line of JSON."""
     ask = chosen(__doc__)
@@ -83,8 +90,12 @@ def main():
     clock.seconds.append(perf_counter() - start)
     clock.touching.append(touching)
     velocity = last_velocity(folder / "cube.frd")
+    time, force = forces(folder / "cube.dat")
+    clock.time, clock.force = time.tolist(), force.tolist()
+    mean = 0.5 * (force + np.concatenate([[0.0], force[:-1]]))
+    clock.momentum = (np.cumsum(mean * np.diff(time, prepend=0.0)) - SPEED).tolist()
     shutil.rmtree(folder)
-    if not np.isfinite(velocity):
+    if not np.isfinite(velocity) or clock.time[-1] < 0.999 * ask.step * round(ask.end / ask.step):
         raise SystemExit(f"CalculiX gave up in step {len(clock.seconds)}")
     found = re.search(r"[\d.]+", version)
     clock.told("CalculiX", found[0] if found else "unknown", 3 * (ask.cells + 1) ** 3, velocity, None)

@@ -3,33 +3,36 @@
 import netgen.meshing as netgen
 import ngsolve as ng
 import numpy as np
-from cube import DENSITY, FACES, LAMBDA, MU, PENALTY, SPEED, Clock, chosen, lattice, slab
+from cube import DENSITY, FACES, LAMBDA, MU, SPEED, Clock, chosen, lattice, slab
 from netgen.csg import Pnt
 
 
-def meshed(n, gap):
-    """The cube with the boundaries ``lower`` and ``free``, and the block with ``plane`` and ``rest``."""
+def meshed(n, gap=None):
+    """The cube with the boundaries ``lower`` and ``free``; with a ``gap`` the block with ``plane`` and ``rest`` too."""
     points, cubes = lattice(n)
     block = np.arange(8) + len(points)
     mesh = netgen.Mesh(dim=3)
-    numbers = [mesh.Add(netgen.MeshPoint(Pnt(*map(float, p)))) for p in np.vstack([points, slab(gap)])]
-    parts = {"lower": 1, "free": 1, "plane": 2, "rest": 2}
+    everything = points if gap is None else np.vstack([points, slab(gap)])
+    numbers = [mesh.Add(netgen.MeshPoint(Pnt(*map(float, p)))) for p in everything]
+    parts = {"lower": 1, "free": 1} | ({} if gap is None else {"plane": 2, "rest": 2})
     faces = {}
     for k, (name, part) in enumerate(parts.items()):
         faces[name] = mesh.Add(netgen.FaceDescriptor(bc=k + 1, domin=part, domout=0, surfnr=k + 1))
         mesh.SetBCName(k, name)
     mesh.SetMaterial(1, "cube")
-    mesh.SetMaterial(2, "block")
     for c in cubes:
         mesh.Add(netgen.Element3D(1, [numbers[i] for i in c]))
-    mesh.Add(netgen.Element3D(2, [numbers[i] for i in block]))
+    if gap is not None:
+        mesh.SetMaterial(2, "block")
+        mesh.Add(netgen.Element3D(2, [numbers[i] for i in block]))
     for side, corners in enumerate(FACES):
         quads = cubes[:, corners]
         middle = points[quads].mean(axis=1)
         outside = np.abs(middle - 0.5).max(axis=1) > 0.5 - 1e-9
         for quad in quads[outside]:
             mesh.Add(netgen.Element2D(faces["lower" if side == 0 else "free"], [numbers[i] for i in quad]))
-        mesh.Add(netgen.Element2D(faces["plane" if side == 1 else "rest"], [numbers[i] for i in block[corners]]))
+        if gap is not None:
+            mesh.Add(netgen.Element2D(faces["plane" if side == 1 else "rest"], [numbers[i] for i in block[corners]]))
     return ng.Mesh(mesh), len(points)
 
 
@@ -59,7 +62,7 @@ def main():
     contact = ng.ContactBoundary(mesh.Boundaries("lower"), mesh.Boundaries("plane"))
     place = ng.CF((ng.x, ng.y, ng.z))
     depth = (place + u - place.Other() - u.Other()) * ng.CF((0, 0, -1))
-    contact.AddEnergy(ng.IfPos(depth, PENALTY / 2 * depth * depth, 0))
+    contact.AddEnergy(ng.IfPos(depth, ask.penalty / 2 * depth * depth, 0))
     rest, change, old = (shift.vec.CreateVector() for _ in range(3))
     mask = np.array([free[i] for i in range(space.ndof)])
 
@@ -78,9 +81,16 @@ def main():
             acceleration.vec.data = 4 / h**2 * (shift.vec - predicted.vec)
             velocity.vec.data += h / 2 * (old + acceleration.vec)
 
-    for _ in range(round(ask.end / h)):
+    ones = ng.GridFunction(space)
+    ones.vec.FV().NumPy()[vertical] = DENSITY
+    weights = ng.LinearForm(ng.InnerProduct(ones, space.TestFunction()) * ng.dx("cube")).Assemble().vec
+    before = -SPEED
+    for k in range(round(ask.end / h)):
         clock.step(step)
-        clock.touching.append((lattice(ask.cells)[0][:, 2] + shift.vec.FV().NumPy()[vertical]).min() < -ask.gap - 1e-9)
+        momentum = ng.InnerProduct(weights, velocity.vec)
+        touching = (lattice(ask.cells)[0][:, 2] + shift.vec.FV().NumPy()[vertical]).min() < -ask.gap - 1e-9
+        clock.note((k + 1) * h, touching, momentum, (momentum - before) / h)
+        before = momentum
     energy = ng.Integrate((strain(shift) + kinetic(velocity)) * ng.dx("cube"), mesh) / (DENSITY / 2 * SPEED**2)
     clock.told("NGSolve", ng.__version__, 3 * count, velocity.vec.FV().NumPy()[vertical].mean(), energy)
 
