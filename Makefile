@@ -5,7 +5,7 @@ DEMO := .venv-demo
 TEST := .venv-test
 DOCS := .venv-docs
 
-.PHONY: help demo test test-slow test-pages test-processors test-view coverage check bench bench-check kills manual fuzz drops endurance docs clean
+.PHONY: help demo test test-slow test-pages test-processors test-view coverage check bench bench-page bench-check bench-smoke kills manual fuzz drops endurance docs clean
 
 help:
 	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
@@ -18,6 +18,8 @@ help:
 	@echo "make check  ruff, mypy, import-linter, house rules"
 	@echo "make bench  all measurements: docs/benchmarks.md and benchmarks/results/latest.json; BENCH=--quick for a few"
 	@echo "make bench-check  a few measurements against the stored ones: fails where a ratio got worse by a fifth"
+	@echo "make bench-page   the page without the figures of code that has changed since, in a second"
+	@echo "make bench-smoke  every figure with the smallest meshes, in a minute or two: whether all of them still run"
 	@echo "make kills  runs killed at 50 random instants, resumed and compared bit by bit: KILLS='--kills 500 --seed 2' for more"
 	@echo "make manual  all verification cases: docs/verification/manual.md, and docs/_build/verification.html with curves"
 	@echo "make fuzz   ten thousand damaged scenarios, mesh files and command lines, into docs/verification/robustness.md"
@@ -76,6 +78,12 @@ bench: $(TEST)/ready
 
 bench-check: $(TEST)/ready
 	$(TEST)/bin/python benchmarks/run.py --quick --check
+
+bench-page: $(TEST)/ready
+	$(TEST)/bin/python benchmarks/run.py --page
+
+bench-smoke: $(TEST)/ready
+	$(TEST)/bin/python benchmarks/run.py --smoke
 
 kills: $(TEST)/ready
 	$(TEST)/bin/python tests/robustness/kills.py $(KILLS)

@@ -12,21 +12,38 @@ import numpy as np
 from problems import ball, beam, glued, noted, now
 
 import softway as sw
+from softway.bodies.redistribution import redistributed
+from softway.bodies.section import Volume
 from softway.solve.explicit import Explicit
+from softway.space.shapes import box
 from softway.verify.scenes.cube import END, ENERGY, STEP, drop
 
 FIXED, NEWTON = sw.FixedPoint(tolerance=1e-8), sw.Newton(tolerance=1e-8)
 METHODS = {"fixed": FIXED, "Newton": NEWTON}
 
 
-def cube(cells: int, most: int | None = None, keep: str = "") -> dict[str, Any]:
-    """The peers' problem."""
+def cube(
+    cells: int, most: int | None = None, keep: str = "", divide: int = 1, tolerance: float = 1e-8, end: float = END
+) -> dict[str, Any]:
+    """The peers' problem; ``divide`` shortens its slabs."""
     start = now()
-    facts, last = noted(sw.march(drop(cells), until=END, step=STEP, method=FIXED), start, ENERGY, most)
+    march = sw.march(drop(cells), until=end, step=STEP / divide, method=sw.FixedPoint(tolerance=tolerance))
+    facts, last = noted(march, start, ENERGY, most)
     place = last.after.displacement["cube"]
     if keep:
         np.save(keep, place)
     return facts | {"bits": sha256(place.tobytes()).hexdigest()}
+
+
+def inertia(cells: int, keep: str) -> int:
+    """The mass matrix of the peers' problem, whose contact nodes have none, in a file; the number of its entries."""
+    mesh = box((1.0, 1.0, 1.0), cells=(cells,) * 3, cell="hex8")
+    matrix = redistributed(mesh, 1.0, Volume(), sw.Consistent(), np.flatnonzero(mesh.points[:, 2] < 1e-9)).tocoo()
+    at = np.rint(mesh.points * cells).astype(int)
+    number = at[:, 0] + (cells + 1) * (at[:, 1] + (cells + 1) * at[:, 2])
+    rows, columns = (number[part] for part in matrix.coords)
+    np.savez(keep, rows=rows, columns=columns, values=matrix.data)
+    return int(matrix.nnz)
 
 
 def explicit(cells: int) -> dict[str, Any]:
@@ -64,11 +81,11 @@ def kernels(cell: str, cells: int, repeats: int) -> list[dict[str, Any]]:
     return [asdict(rate) for rate in measured(cell, cells, repeats)]
 
 
-def history(cell: str, cells: int, dilatation: str) -> list[dict[str, Any]]:
+def history(cell: str, cells: int, dilatation: str, repeats: int) -> list[dict[str, Any]]:
     """Rates of the internal force of laws with a history."""
     from bench_history import measured
 
-    return [asdict(rate) for rate in measured(cell, cells, dilatation)]
+    return [asdict(rate) for rate in measured(cell, cells, dilatation, repeats)]
 
 
 def factor(cells: int, cases: list[list[Any]]) -> list[dict[str, Any]]:
@@ -95,7 +112,7 @@ def slabs(largest: int) -> list[dict[str, Any]]:
 
 
 PROBLEMS: dict[str, Callable[..., Any]] = {
-    f.__name__: f for f in (cube, explicit, impact, bent, block, kernels, history, factor, contact, slabs)
+    f.__name__: f for f in (cube, inertia, explicit, impact, bent, block, kernels, history, factor, contact, slabs)
 }
 
 

@@ -17,7 +17,11 @@ PATIENCE = 900.0
 
 
 class Absent(Exception):
-    """A program that is not installed, or that failed."""
+    """A peer that is not installed, or that failed."""
+
+
+class Failed(Exception):
+    """A program of our own that failed."""
 
 
 def environment(threads: int, **more: str) -> dict[str, str]:
@@ -42,5 +46,8 @@ def alone(problem: str, threads: int = 1, variables: dict[str, str] | None = Non
     """A problem of ``alone.py``: its ``result``, ``peak`` memory [MB] and the ``elapsed`` time of the process [s]."""
     start = perf_counter()
     command = [sys.executable, str(HERE / "alone.py"), problem, json.dumps(options)]
-    found = line(command, environment(threads, **(variables or {})))
+    try:
+        found = line(command, environment(threads, **(variables or {})))
+    except Absent as why:
+        raise Failed(f"{problem} {options}: {why}") from why
     return found | {"elapsed": perf_counter() - start}

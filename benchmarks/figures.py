@@ -3,8 +3,11 @@
 import json
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from math import isfinite
 from pathlib import Path
+
+from fingerprint import Origin
 
 KEYS = ("name", "value", "unit", "baseline", "ratio", "target", "pass")
 SLACK = 0.2
@@ -54,6 +57,11 @@ class Figure:
         return (self.target or "").startswith((">=", "higher"))
 
     @property
+    def finite(self) -> bool:
+        """Whether all of its numbers are."""
+        return all(isfinite(n) for n in (self.value, self.baseline, self.ratio) if isinstance(n, float | int))
+
+    @property
     def comparable(self) -> bool:
         """Whether the ratio tells something about the code alone."""
         return self.ratio is not None and self.target is not None and STORED not in self.unit
@@ -64,22 +72,27 @@ def speedup(name: str, value: float, baseline: float, unit: str, target: str = "
     return Figure(name=name, value=value, unit=unit, baseline=baseline, ratio=baseline / value, target=target)
 
 
-def written(path: Path, figures: Iterable[Figure]) -> None:
-    """Write the list of figures."""
+def written(path: Path, figures: Iterable[Figure], origins: Mapping[str, Origin]) -> None:
+    """Write the list of figures, under where those of each group come from."""
     rows = []
     for f in figures:
         rows.append(dict(zip(KEYS, (f.name, f.value, f.unit, f.baseline, f.ratio, f.target, f.passed), strict=True)))
     path.parent.mkdir(parents=True, exist_ok=True)
-    text = ",\n".join(json.dumps({k: _short(v) for k, v in row.items()}) for row in rows)
-    path.write_text(f"[\n{text}\n]\n", encoding="utf-8")
+    lines = ",\n".join(json.dumps({k: _short(v) for k, v in row.items()}) for row in rows)
+    groups = ",\n".join(
+        f"{json.dumps(group)}: {json.dumps({k: _short(v) for k, v in asdict(origin).items()})}"
+        for group, origin in origins.items()
+    )
+    path.write_text(f'{{"origins": {{\n{groups}\n}},\n"figures": [\n{lines}\n]}}\n', encoding="utf-8")
 
 
-def read(path: Path) -> dict[str, Figure]:
-    """The figures of a file by their names; none where there is no file."""
+def read(path: Path) -> tuple[dict[str, Figure], dict[str, Origin]]:
+    """The figures of a file by their names, and their origins by groups; none where there is no file."""
     if not path.is_file():
-        return {}
-    rows = json.loads(path.read_text(encoding="utf-8"))
-    return {row["name"]: Figure(**{k: v for k, v in row.items() if k != "pass"}) for row in rows}
+        return {}, {}
+    found = json.loads(path.read_text(encoding="utf-8"))
+    figures = {row["name"]: Figure(**{k: v for k, v in row.items() if k != "pass"}) for row in found["figures"]}
+    return figures, {group: Origin(**facts) for group, facts in found["origins"].items()}
 
 
 def regressions(new: Mapping[str, Figure], stored: Mapping[str, Figure], slack: float = SLACK) -> dict[str, str]:

@@ -60,6 +60,7 @@ def noted(
     was done before.  ``energy`` is the unit of the greatest departure from the balance.
     """
     times, touching, iterations, drift, spans, rejected = [start], [], [], [], [], 0
+    instants, momentum = [], []
     step = None
     for step in steps:
         times.append(now())
@@ -67,6 +68,8 @@ def noted(
         iterations.append(step.report.iterations)
         drift.append(abs(step.ledger.energy_error) / energy)
         spans.append(step.slab.span)
+        instants.append(step.after.time)
+        momentum.append(float(step.ledger.momentum[-1]))
         rejected += len(step.report.rejections)
         if len(spans) == most:
             break
@@ -84,6 +87,8 @@ def noted(
         "factors": step.report.factorisations,
         "span": min(spans),
         "unknowns": sum(v.size for v in step.after.velocity.values()),
-        "velocity": float(step.ledger.momentum[-1]),
+        "velocity": momentum[-1],
+        "time": instants,
+        "momentum": momentum,
     }
     return facts, step

@@ -1,29 +1,39 @@
-"""The figures as a page of Markdown."""
+"""The figures as a page of Markdown; those of changed code are left out."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from itertools import groupby
+from pathlib import Path
 
 from figures import Figure
+from fingerprint import Origin
 
-HEAD = """# Measured
-
-`make bench` measures this page and `benchmarks/results/latest.json`; `make bench-check` takes the short measurements
-again and names every ratio that got worse by more than a fifth. A ratio compares two things measured in one run; with
-`>=` more is better. Where a target is given, it is for the ratio, or for the value if there is no ratio.
-
-"""
+HEAD = (Path(__file__).parent / "compared.md").read_text(encoding="utf-8")
+"""What is compared, and what is not."""
 
 
-def page(figures: Iterable[Figure], notes: dict[str, str]) -> str:
-    """The page: a table for each group, under the note on what is measured."""
-    text = HEAD
+def page(
+    figures: Iterable[Figure], notes: Mapping[str, str], origins: Mapping[str, Origin], changed: Mapping[str, str]
+) -> str:
+    """The page: for each group a table under the note on what is measured, and where its figures come from.
+
+    A group in ``changed`` has the reason in place of its figures.
+    """
+    text = HEAD + "\n"
     for group, members in groupby(figures, key=lambda f: f.name.split("/")[0]):
         text += f"## {group.capitalize()}\n\n"
         text += f"{notes[group]}\n\n" if group in notes else ""
-        rows = list(members)
-        text += machine(rows) if group == "machine" else table(rows)
-        text += "\n"
+        text += f"{told(origins[group])}\n\n" if group in origins else ""
+        if group in changed:
+            text += f"**Not shown: {changed[group]}. `make bench` measures them anew.**\n\n"
+        else:
+            rows = list(members)
+            text += (machine(rows) if group == "machine" else table(rows)) + "\n"
     return text.rstrip("\n") + "\n"
+
+
+def told(origin: Origin) -> str:
+    """Where the figures of a group come from, as a sentence."""
+    return f"Measured on {origin.date} at commit `{origin.commit}`, in {origin.seconds:.0f} s."
 
 
 def machine(figures: Iterable[Figure]) -> str:

@@ -18,7 +18,7 @@ class Asked:
     Parameters
     ----------
     depth
-        ``quick``, ``default`` or ``full``.
+        ``quick``, ``default``, ``full`` or ``smoke``, which computes all of ``full`` with the smallest meshes.
     peers
         Interpreter of each peer that is installed.
     peers_threads
@@ -32,6 +32,20 @@ class Asked:
     peers_threads: tuple[int, ...] = (1, 2)
     stored: Mapping[str, Figure] = field(default_factory=dict)
 
+    @property
+    def smoke(self) -> bool:
+        """Whether the figures only have to be computed."""
+        return self.depth == "smoke"
+
     def pick(self, quick: T, default: T, full: T | None = None) -> T:
         """The one for the depth."""
-        return {"quick": quick, "default": default, "full": default if full is None else full}[self.depth]
+        most = default if full is None else full
+        return {"quick": quick, "default": default, "full": most, "smoke": most}[self.depth]
+
+    def size(self, wanted: int, least: int) -> int:
+        """A number of cells, slabs or repeats, or the least that will do."""
+        return least if self.smoke else wanted
+
+    def cells(self, size: str) -> int:
+        """Cells along the edge of the cube of so many unknowns."""
+        return self.size(CELLS[size], 2 + list(CELLS).index(size))

@@ -17,12 +17,13 @@ RUN = 100
 def newton(asked: Asked) -> Iterator[Figure]:
     """The same slabs by the fixed point and by Newton's method, to the same tolerance of 1e-8."""
     sizes = {"3k": (12, 40, 3.0), "30k": (26, 6, 5.0), "100k": (38, 2, 12.0)}
-    for size in asked.pick(("3k",), tuple(sizes)):
+    for size in asked.pick(("3k",), ("3k", "30k"), tuple(sizes)):
         cells, slabs, target = sizes[size]
-        yield from _raced(f"newton/ball, {size}", "impact", cells, slabs, target)
+        yield from _raced(f"newton/ball, {size}", "impact", asked.size(cells, 6), asked.size(slabs, 3), target)
     if asked.depth != "quick":
-        yield from _raced("newton/clamped beam, 30k", "bent", 9, 12, 4.0)
-        facts = alone("bent", cells=9, method="fixed", most=62)["result"]
+        cells = asked.size(9, 2)
+        yield from _raced("newton/clamped beam, 30k", "bent", cells, asked.size(12, 3), 4.0)
+        facts = alone("bent", cells=cells, method="fixed", most=asked.size(62, 6))["result"]
         name = "newton/clamped beam, 30k"
         yield Figure(name=f"{name}, rejected slabs of 62", value=float(facts["rejected"]), target="<= 0")
         yield Figure(name=f"{name}, slab of 62", value=1e3 * mean(facts["seconds"]), unit="ms")
@@ -50,7 +51,7 @@ def spread(facts: dict[str, Any], by: str = "seconds") -> float:
 def incompressible(asked: Asked) -> Iterator[Figure]:
     """Blocks of nearly incompressible rubber: every slab is found at the length asked for."""
     for nu in (0.49, 0.499):
-        facts = alone("block", nu=nu)["result"]
+        facts = alone("block", nu=nu, cells=asked.size(9, 3))["result"]
         name = f"incompressible/nu = {nu:g}"
         shortest = facts["span"] / 0.3
         yield Figure(name=f"{name}, shortest slab", value=shortest, unit="of the length asked for", target=">= 0.99")
@@ -63,7 +64,10 @@ def incompressible(asked: Asked) -> Iterator[Figure]:
 def start(asked: Asked) -> Iterator[Figure]:
     """The first slab of the 3k cube from a fresh process, imports included, with kernels to compile and without."""
     with tempfile.TemporaryDirectory() as folder:
-        cold = alone("cube", cells=9, most=1, variables={"NUMBA_CACHE_DIR": folder})["elapsed"]
-        warm = [alone("cube", cells=9, most=1, variables={"NUMBA_CACHE_DIR": folder})["elapsed"] for _ in range(3)]
+        cold = alone("cube", cells=asked.cells("3k"), most=1, variables={"NUMBA_CACHE_DIR": folder})["elapsed"]
+        warm = [
+            alone("cube", cells=asked.cells("3k"), most=1, variables={"NUMBA_CACHE_DIR": folder})["elapsed"]
+            for _ in range(asked.size(3, 1))
+        ]
     yield Figure(name="start/no kernel compiled", value=cold, unit="s", target="<= 20")
     yield Figure(name="start/kernels on disk", value=min(warm), unit="s", target="<= 5")

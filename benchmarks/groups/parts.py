@@ -15,7 +15,9 @@ POINTS = {"tet4": 1, "hex8": 1, "tet10": 4, "hex27": 40}
 def kernels(asked: Asked) -> Iterator[Figure]:
     """The fused internal force against NumPy and against a plain loop in C++."""
     for cell in asked.pick(("tet4", "hex8"), tuple(POINTS)):
-        rows = alone("kernels", threads=2, cell=cell, cells=CELLS // POINTS[cell], repeats=15)["result"]
+        rows = alone(
+            "kernels", threads=2, cell=cell, cells=asked.size(CELLS // POINTS[cell], 64), repeats=asked.size(15, 2)
+        )["result"]
         rates = {(r["work"], r["by"], r["threads"]): r["rate"] for r in rows}
         for (work, by, threads), rate in rates.items():
             if by == "fused":
@@ -42,7 +44,14 @@ def history(asked: Asked) -> Iterator[Figure]:
     for cell, dilatation in asked.pick(
         (("hex8", "point"),), (("hex8", "point"), ("hex8", "mean"), ("tet4", "point"), ("quad4", "point"))
     ):
-        rows = alone("history", threads=2, cell=cell, cells=CELLS, dilatation=dilatation)["result"]
+        rows = alone(
+            "history",
+            threads=2,
+            cell=cell,
+            cells=asked.size(CELLS, 400),
+            dilatation=dilatation,
+            repeats=asked.size(15, 2),
+        )["result"]
         base = {r["threads"]: r["rate"] for r in rows if r["law"] == "neo-Hookean"}
         for r in rows:
             if r["law"] != "neo-Hookean":
@@ -60,10 +69,10 @@ def factors(asked: Asked) -> Iterator[Figure]:
     """Factors and solves of PARDISO, and the share that a solve has of the bandwidth of reading."""
     cases = [["pardiso", "double", 1], ["pardiso", "single", 1]]
     cases += asked.pick([], [["pardiso", "double", 2], ["pardiso", "single", 2]])
-    for size, cells in asked.pick({"3k": 9, "30k": 20}, {"3k": 9, "30k": 20, "100k": 31}).items():
+    for size in asked.pick(("3k", "30k"), ("3k", "30k", "100k")):
         more = [["superlu", "double", 1]] if size == "3k" else []
         rows = {(r["backend"], r["precision"], r["threads"]): r
-                for r in alone("factor", threads=2, cells=cells, cases=cases + more)["result"]}  # fmt: skip
+                for r in alone("factor", threads=2, cells=asked.cells(size), cases=cases + more)["result"]}  # fmt: skip
         for (backend, precision, threads), row in rows.items():
             if backend == "superlu":
                 continue
@@ -85,7 +94,7 @@ def factors(asked: Asked) -> Iterator[Figure]:
 def contact(asked: Asked) -> Iterator[Figure]:
     """Slabs in contact against slabs of the flight afterwards."""
     for cells in asked.pick((6, 12), (6, 12, 20)):
-        row = alone("contact", cells=cells)["result"]
+        row = alone("contact", cells=asked.size(cells, 4))["result"]
         of = f"contact/{cells}^3 cells"
         yield Figure(
             name=f"{of}, slab in contact", value=row["contact"], unit="ms, flight", baseline=row["flight"],
@@ -96,6 +105,6 @@ def contact(asked: Asked) -> Iterator[Figure]:
 
 def slabs(asked: Asked) -> Iterator[Figure]:
     """Time of a slab of the three rules."""
-    for row in alone("slabs", largest=asked.pick(8, 12))["result"]:
+    for row in alone("slabs", largest=asked.size(asked.pick(8, 12), 4))["result"]:
         of = f"slab/{row['case']}, {row['rule']}"
         yield Figure(name=of, value=row["median"], unit=f"ms, {row['iterations']:.1f} iterations")

@@ -2,16 +2,19 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from statistics import median
+from statistics import mean, median
 
 from apart import HERE, Absent, environment, line
 from figures import STORED, Figure, speedup
 
 from groups.asked import Asked
 
-IMPLICIT = ("NGSolve", "GetFEM", "CalculiX")
+IMPLICIT = ("NGSolve", "GetFEM", "CalculiX", "NGSolve expert", "GetFEM expert")
+"""Peers as their tutorials write them, and as experts set them."""
 SAMPLE, NEAR = 5, 0.005
 """Steps of a sample, and the distance of the plane in it: two steps of flight, then contact."""
+LONG = 12
+"""Steps of the sample of an expert, whose factor serves several of them."""
 STEP = 5e-4
 
 
@@ -26,18 +29,19 @@ class Time:
     stored: bool = False
 
 
-def found(asked: Asked, peer: str, threads: int, **options: float) -> dict:
+def found(asked: Asked, peer: str, threads: int, **options: float | str) -> dict:
     """What the script of a peer tells."""
-    if peer not in asked.peers:
-        raise Absent(f"no interpreter for {peer}")
-    words = [word for k, v in options.items() for word in (f"--{k}", f"{v:.12g}")]
-    script = str(HERE / "peers" / f"{peer.lower()}_cube.py")
-    return line([asked.peers[peer], script, "--threads", str(threads), *words], environment(threads))
+    code, _, form = peer.partition(" ")
+    if code not in asked.peers:
+        raise Absent(f"no interpreter for {code}")
+    words = [w for k, v in options.items() for w in (f"--{k}", v if isinstance(v, str) else f"{v:.12g}")]
+    script = str(HERE / "peers" / f"{code.lower()}_{form or 'cube'}.py")
+    return line([asked.peers[code], script, "--threads", str(threads), *words], environment(threads))
 
 
-def tried(asked: Asked, peer: str, **options: float) -> Iterator[tuple[int, dict]]:
+def tried(asked: Asked, peer: str, counts: tuple[int, ...], **options: float | str) -> Iterator[tuple[int, dict]]:
     """What a peer tells with each number of threads; nothing where it is missing."""
-    for threads in asked.peers_threads:
+    for threads in counts:
         try:
             yield threads, found(asked, peer, threads, **options)
         except Absent as why:
@@ -47,23 +51,42 @@ def tried(asked: Asked, peer: str, **options: float) -> Iterator[tuple[int, dict
 
 def whole(asked: Asked, peer: str, name: str, cells: int) -> list[Time]:
     """Runs to the end."""
-    times = [_time(peer, told, told["wall"], threads, "s") for threads, told in tried(asked, peer, cells=cells)]
+    times = [
+        _time(peer, told, told["wall"], threads, "s")
+        for threads, told in tried(asked, peer, _counts(asked, peer), cells=cells)
+    ]
     return times or _stored(asked, peer, name)
 
 
-def sampled(asked: Asked, peer: str, name: str, cells: int, slabs: tuple[int, int]) -> list[Time]:
+def sampled(
+    asked: Asked,
+    peer: str,
+    name: str,
+    cells: int,
+    slabs: tuple[int, int],
+    counts: tuple[int, ...] = (),
+    **options: float | str,
+) -> list[Time]:
     """Runs of so many ``slabs`` of flight and of contact, from a few steps that begin just before the touch.
 
     The flight before the touch, rigid, stands for all flight: peers take fewer iterations in it than afterwards.
     """
-    times = []
-    for threads, told in tried(asked, peer, cells=cells, gap=NEAR, end=SAMPLE * STEP):
+    times, count = [], LONG if "expert" in peer else SAMPLE
+    end = count * float(options.get("step", STEP))
+    typical = mean if "expert" in peer else median
+    gap = NEAR * float(options.get("step", STEP)) / STEP
+    for threads, told in tried(asked, peer, counts or _counts(asked, peer), cells=cells, gap=gap, end=end, **options):
         pairs = list(zip(told["seconds"], told["touching"], strict=True))
         kinds = ([s for s, t in pairs if t is kind] for kind in (False, True))
         setup = told["wall"] - sum(told["seconds"])
-        seconds = setup + sum(n * median(kind) for n, kind in zip(slabs, kinds, strict=True))
-        times.append(_time(peer, told, seconds, threads, f"s, extrapolated from {SAMPLE} steps"))
+        seconds = setup + sum(n * typical(kind) for n, kind in zip(slabs, kinds, strict=True))
+        times.append(_time(peer, told, seconds, threads, f"s, extrapolated from {count} steps"))
     return times or _stored(asked, peer, name)
+
+
+def _counts(asked: Asked, peer: str) -> tuple[int, ...]:
+    """Numbers of threads that are tried: SuperLU, which the expert of GetFEM takes, has one."""
+    return (1,) if peer == "GetFEM expert" else asked.peers_threads
 
 
 def figures(times: list[Time], name: str) -> Iterator[Figure]:

@@ -8,13 +8,17 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 
+import run
+from apart import Failed, alone
 from figures import KEYS, STORED, Figure, read, regressions, speedup, unmatched, written
+from fingerprint import Origin, fingerprint, origin, prints
+from force import apart, means
 from groups.asked import Asked
 from groups.methods import spread
 from groups.peers import Time, against, sampled, whole
 from groups.peers import figures as shown
 from machine import described
-from run import GROUPS, NOTES, group_of, peers_of
+from run import GROUPS, NOTES, changed, group_of, peers_of, rendered
 from table import page
 
 FAST = speedup("drop/3k", 2.0, 20.0, "s", ">= 10")
@@ -22,6 +26,7 @@ SLOPE = Figure(name="scaling/cost", value=1.2, ratio=1.2, target="<= 1.35")
 PLAIN = Figure(name="slab/bar", value=3.5, unit="ms")
 CPU = Figure(name="machine/processor", value="a processor")
 ALL = (CPU, FAST, SLOPE, PLAIN)
+ORIGIN = Origin(date="2026-01-31", commit="abc", code="c", bench="b", seconds=12.0)
 
 
 def named(*figures: Figure) -> dict[str, Figure]:
@@ -34,15 +39,15 @@ def with_ratio(figure: Figure, ratio: float, unit: str = "") -> Figure:
 
 def test_a_file_is_read_as_it_was_written(tmp_path: Path) -> None:
     path = tmp_path / "new" / "latest.json"
-    written(path, ALL)
-    assert read(path) == named(*ALL)
-    rows = json.loads(path.read_text())
+    written(path, ALL, {"drop": ORIGIN})
+    assert read(path) == (named(*ALL), {"drop": ORIGIN})
+    rows = json.loads(path.read_text())["figures"]
     assert all(tuple(row) == KEYS for row in rows)
     assert [row["pass"] for row in rows] == [None, True, True, None]
 
 
 def test_without_a_file_nothing_is_stored(tmp_path: Path) -> None:
-    assert read(tmp_path / "latest.json") == {}
+    assert read(tmp_path / "latest.json") == ({}, {})
 
 
 @pytest.mark.parametrize(
@@ -95,7 +100,7 @@ def test_names_that_only_one_file_has_are_told() -> None:
 
 
 def test_the_page_has_a_row_for_each_figure_and_a_list_of_the_machine() -> None:
-    text = page(ALL, {"drop": "A cube is thrown."})
+    text = page(ALL, {"drop": "A cube is thrown."}, {}, {})
     assert "* processor: a processor\n" in text
     assert "A cube is thrown.\n\n| what |" in text
     assert "| 3k | 2 | s | 20 | 10 | >= 10 | yes |\n" in text
@@ -104,7 +109,91 @@ def test_the_page_has_a_row_for_each_figure_and_a_list_of_the_machine() -> None:
 
 
 def test_a_missed_target_stands_out() -> None:
-    assert "| **no** |" in page([with_ratio(FAST, 5.0)], {})
+    assert "| **no** |" in page([with_ratio(FAST, 5.0)], {}, {}, {})
+
+
+def test_a_group_has_its_date_and_commit_and_no_table_when_its_code_has_changed() -> None:
+    text = page([FAST], {}, {"drop": ORIGIN}, {})
+    assert "Measured on 2026-01-31 at commit `abc`, in 12 s." in text
+    text = page([FAST], {}, {"drop": ORIGIN}, {"drop": "the measured code has changed since"})
+    assert "Measured on 2026-01-31" in text
+    assert "Not shown: the measured code has changed since" in text
+    assert "| 3k |" not in text
+
+
+def test_words_and_layout_do_not_change_a_fingerprint(tmp_path: Path) -> None:
+    file = tmp_path / "a.py"
+    file.write_text('"""One."""\n\n\ndef f(x):\n    """Two."""\n    return g(x, "a")\n')
+    first = fingerprint(["a.py"], tmp_path)
+    file.write_text('def f(x):  # three\n    return g(\n        x,\n        \'a\',\n    )\n"""Four."""\n')
+    assert fingerprint(["a.py"], tmp_path) == first
+    assert fingerprint(["."], tmp_path) == first
+    file.write_text("def f(x):\n    return g(x, 'b')\n")
+    assert fingerprint(["a.py"], tmp_path) != first
+
+
+def test_figures_of_other_code_are_told_and_not_shown() -> None:
+    now = origin("drop", 1.0)
+    code, bench = prints("drop")
+    assert changed({"drop": now}, ["drop", "scaling"]) == {}
+    old = Origin(date="", commit="", code="other", bench=bench)
+    assert "measured code" in changed({"drop": old}, ["drop"])["drop"]
+    assert changed({"drop": old}, ["drop"], bench_only=True) == {}
+    other = Origin(date="", commit="", code=code, bench="other")
+    assert "what measures" in changed({"drop": other}, ["scaling"], bench_only=True)["scaling"]
+    assert list(changed({}, ["drop"])) == ["drop"]
+    assert "| 3k |" in rendered(named(CPU, FAST), {"drop": now})
+    assert "| 3k |" not in rendered(named(CPU, FAST), {"drop": old})
+
+
+def test_a_comparison_with_what_another_benchmark_measured_is_refused(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(run, "GROUPS", {"drop": lambda asked: iter([FAST])})
+    asked = Asked(stored=named(FAST))
+    assert run.checked(asked, ["drop"], {}) == 1
+    assert "drop: not compared" in capsys.readouterr().out
+    assert run.checked(asked, ["drop"], {"drop": origin("drop", 1.0)}) == 0
+
+
+def test_a_failure_of_our_own_and_a_number_that_is_none_fail_a_group(monkeypatch: pytest.MonkeyPatch) -> None:
+    def failing(asked: Asked) -> object:
+        yield FAST
+        raise Failed("cube: no memory")
+
+    groups = {
+        "drop": failing,
+        "slab": lambda asked: iter([Figure(name="slab/bar", value=float("nan"))]),
+        "large": lambda asked: iter(()),
+        "start": lambda asked: iter([PLAIN]),
+    }
+    monkeypatch.setattr(run, "GROUPS", groups)
+    figures, failed = run.collected(Asked(), groups)
+    assert figures == named(PLAIN)
+    assert failed == {"drop": "cube: no memory", "slab": "slab/bar is not finite", "large": "no figures"}
+    with pytest.raises(Failed, match="inertia"):
+        alone("inertia", cells=-1, keep="nowhere")
+
+
+def test_a_force_is_told_by_the_momentum_it_gives() -> None:
+    steady = {"time": [1e-3, 2e-3, 3e-3], "momentum": [-5.0, -4.0, -4.0]}
+    assert means(steady["time"], steady["momentum"], 5e-4, 3e-3) == pytest.approx([0.0, 0.0, 1e3, 1e3, 0.0, 0.0])
+    late = {"time": [1.5e-3, 2e-3, 3e-3], "momentum": [-5.0, -4.0, -4.0]}
+    assert apart(steady, steady) == 0.0
+    assert apart(late, steady) == pytest.approx(100.0)
+    assert apart(late, steady, 1e-3) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_what_a_peer_prints_becomes_figures(tmp_path: Path) -> None:
+    told = {"version": "1", "wall": 2.5, "cpu": 2.5, "seconds": [0.1, 0.3] * 6, "touching": [False, True] * 6}
+    script = tmp_path / "peer"
+    script.write_text(f"#!/bin/sh\necho '{json.dumps(told)}'\n")
+    script.chmod(0o755)
+    asked = Asked(peers={"NGSolve": str(script)})
+    assert [t.seconds for t in whole(asked, "NGSolve expert", "drop/3k", 9)] == [2.5, 2.5]
+    (time, _) = sampled(asked, "NGSolve expert", "drop/30k", 20, (10, 20))
+    assert time.seconds == pytest.approx(0.1 + 10 * 0.1 + 20 * 0.3)
+    assert "12 steps" in time.unit
 
 
 def test_every_group_says_what_it_measures() -> None:
