@@ -149,6 +149,8 @@ class Model:
 
     def slab_load(self, scalar: Array) -> Array:
         """Loads (n, d) over the slab where the ends of nodes without inertia count by the scalars (parts,) [N]."""
+        if self.loads.steady:
+            return self.load
         a = self.nodal(np.asarray(scalar))
         return (0.5 - a) * self.load_before + (0.5 + a) * self.load
 

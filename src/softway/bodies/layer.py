@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy.sparse as sp
 
 from softway.bodies.internal import InternalForce
 from softway.bodies.part import Part, force_of
@@ -24,6 +25,8 @@ class Piece:
         (k,) their nodes in the model, and in the body.
     points
         Numbers of their points in the body.
+    cells
+        (e, a) their nodes, as places among the (k,), kind by kind.
     internal
         Their internal force.
     chosen
@@ -34,6 +37,7 @@ class Piece:
     nodes: IntArray
     own: IntArray
     points: IntArray
+    cells: tuple[IntArray, ...]
     internal: InternalForce | RateForce
     chosen: BoolArray
 
@@ -53,6 +57,23 @@ class Layer:
         out = np.zeros_like(u)
         for piece in self.pieces:
             out[piece.nodes[piece.chosen]] = piece.internal.force(u[piece.nodes])[piece.chosen]
+        return out
+
+    def tangent(self, u: Array, moving: BoolArray) -> sp.csc_array:
+        """Derivative (f, f) of the force to the ``moving`` components (n, d), which are of chosen nodes [N/m]."""
+        blocks = []
+        for piece in self.pieces:
+            keep = np.flatnonzero(moving[piece.nodes])
+            blocks.append(piece.internal.tangent(u[piece.nodes])[:, keep][keep])
+        return sp.csc_array(sp.block_diag(blocks, format="csc")) if blocks else sp.csc_array((0, 0))
+
+    def around(self, nodes: BoolArray) -> BoolArray:
+        """The ``nodes`` (n,) and those that share a cell of the layer with one of them."""
+        out = nodes.copy()
+        for piece in self.pieces:
+            own = nodes[piece.nodes]
+            for cells in piece.cells:
+                out[piece.nodes[cells[own[cells].any(axis=1)]]] = True
         return out
 
 
@@ -78,6 +99,7 @@ def _piece(number: int, part: Part, own: BoolArray) -> Piece | None:
         nodes=nodes + part.rows.start,
         own=nodes,
         points=_points(old, list(kept.values())),
+        cells=tuple(mesh.blocks.values()),
         internal=force_of(mesh, old.material, old.section, part.dilatation),
         chosen=own[nodes],
     )

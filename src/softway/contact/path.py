@@ -99,7 +99,8 @@ class Path:
     def at(self, tau: float, q: Array) -> Array:
         """Displacement (n, d) at ``tau``; the contact rows are those at the slab's end."""
         h, v = self.span, self.velocity
-        rate = np.where(self.massive[:, None], tau * v + 0.5 * tau**2 * (q - v), 0.5 * tau * q)
+        rate = tau * v + 0.5 * tau**2 * (q - v) if tau != 1.0 else 0.5 * (v + q)
+        rate[~self.massive] = 0.5 * tau * q[~self.massive]
         for instant, jump in self.jumps:
             rate = rate + (max(tau - instant, 0.0) - 0.5 * tau**2) * jump
         smooth = self.start + h * rate

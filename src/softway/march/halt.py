@@ -57,11 +57,12 @@ def _stopped(model: Model, out: Outcome, weight: Array, span: float, ends: tuple
     """
     frozen, rows = out.solution.last.carry.frozen, out.system.first
     assert frozen is not None and rows.shear is not None
-    every = frozen.coefficients(rows, model.free)
+    moving = out.solution.last.system.model.free
+    every = frozen.coefficients(rows, moving)
     forces = np.concatenate([np.zeros(len(rows.node)), rows.shear.flat(weight).ravel()])
     answer = frozen.answer(every.spread(forces))
     field = np.zeros(model.shape)
-    field[model.free] = answer
+    field[moving] = answer
     moved = model.mass @ field
     inertia = float(np.sum(field * moved))
     elastic = max(float(forces @ every.along(frozen.sense(answer))) - inertia, 0.0)

@@ -90,8 +90,8 @@ def march(
     settings = Settings(until=until, step=step, weight=weight, method=method, control=control)
     stand = _begun(model, settings, state, cancel)
     prepared = replace(rule(model, method, weight), cancel=cancel)
-    if not stand.slabs:
-        stepping = method if isinstance(method, Explicit) else weight
+    stepping = method if isinstance(method, Explicit) else weight
+    if not stand.slabs and not (isinstance(stepping, Explicit) and step == "auto"):  # then a share of the limit
         require_stable(model, stand.situation.start.displacement, stepping, stand.pace.span)
     return _steps(prepared, stand)
 

@@ -196,7 +196,7 @@ def _releases(
     frozen = solution.last.carry.frozen
     if not len(left) or frozen is None:
         return []
-    give = delassus(frozen, frozen.coefficients(rows, model.free).part(left))
+    give = delassus(frozen, frozen.coefficients(rows, solution.last.system.model.free).part(left))
     tension = shared(give, rows.gap(end)[left]) * 2.0 / h / (h * moments(slab.weight)[1])
     tau = fading(now.pressure[left], -np.maximum(tension, 1e-300))
     after = 0.5 * rows.along(solution.last.q) - rows.drive / h

@@ -78,7 +78,7 @@ def accepted(rules: Rule, stand: Standing, length: float, carry: Carry) -> Accep
         except NoConvergence as failure:
             reasons.append(f"h = {slab.span:.3g} s: {failure}")
             length = 0.5 * length if fresh else length
-            fresh, carry = True, replace(carry, stale=True)
+            fresh, carry = True, carry.failed()
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
     raise NumericsError(_reason(stand, reasons, crawls), now.time, _remedy(rules))
 

@@ -19,7 +19,7 @@ from softway.contact.shear import Shear
 from softway.march.control import StepControl
 from softway.march.situation import Situation
 from softway.march.standing import Account, Pace, Settings, Standing
-from softway.solve.carry import Carry, Origin, Taken
+from softway.solve.carry import Carry, Near, Origin, Skin, Taken
 from softway.solve.explicit import Explicit
 from softway.solve.fixed_point import FixedPoint
 from softway.solve.newton import Newton
@@ -34,7 +34,7 @@ KINDS: Mapping[str, type] = MappingProxyType(
         kind.__name__: kind
         for kind in (
             *(Standing, Settings, Situation, Start, Memory, Account, Pace, Carry, Origin, Choice, StepControl),
-            *(Candidates, Shear, Taken),
+            *(Candidates, Shear, Taken, Skin, Near),
             *(FixedPoint, Newton, Explicit, Factored, MatrixFree, Multigrid, Collocation, EndPeaks, Momentum),
         )
     }

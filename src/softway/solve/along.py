@@ -10,7 +10,7 @@ from softway.typing import Array, IntArray
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Own:
-    """Rows that are directions themselves: row i is the direction ``index[i]`` of ``count``."""
+    """Rows that are directions themselves: row i is the direction ``index[i]`` of ``count``, or none where that is -1."""
 
     index: IntArray
     count: int
@@ -18,16 +18,17 @@ class Own:
     @property
     def used(self) -> IntArray:
         """The directions that rows are made of (k,)."""
-        return self.index
+        return self.index[self.index >= 0]
 
     def along(self, values: Array) -> Array:
         """Values (m,) of the rows from those of the directions (b,)."""
-        return values[self.index]
+        return np.where(self.index >= 0, values[self.index], 0.0) if len(values) else np.zeros(len(self.index))
 
     def spread(self, amounts: Array) -> Array:
         """Pushes (b,) along the directions from those of the rows (m,)."""
         out = np.zeros(self.count)
-        out[self.index] = amounts
+        own = self.index >= 0
+        out[self.index[own]] = amounts[own]
         return out
 
     def part(self, which: IntArray) -> "Own":
@@ -36,7 +37,12 @@ class Own:
 
     def folded(self, compliance: Array) -> Array:
         """Compliance (m, m) of the rows from that of the used directions (k, k)."""
-        return compliance
+        own = self.index >= 0
+        if own.all():
+            return compliance
+        out = np.zeros((len(own), len(own)))
+        out[np.ix_(own, own)] = compliance
+        return out
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,10 +6,11 @@ makes it again with the same bits.
 
 from dataclasses import dataclass, replace
 
+from softway.bodies.layer import Layer
 from softway.bodies.past import Memories
 from softway.model import Model
 from softway.solve.frozen import Frozen
-from softway.solve.linear import Analysis
+from softway.solve.linear import Analysis, Factor
 from softway.solve.operators import Choice, Operator
 from softway.solve.stiffness import Stiffness
 from softway.solve.system import SlabSystem
@@ -91,6 +92,36 @@ class Taken:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Skin:
+    """The stiffness of all nodes without inertia, of central differences.
+
+    Parameters
+    ----------
+    origin
+        Where it was made.
+    worn
+        Whether it is to be made anew.
+    before
+        Greatest unbalanced force that it last met, away from touches [N]; zero where it met none.
+    factor
+        Its factor.
+    """
+
+    origin: Origin
+    worn: bool = False
+    before: float = 0.0
+    factor: Factor | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Near:
+    """The nodes (k,) without inertia near a touch, of central differences, and the cells around them."""
+
+    nodes: IntArray
+    layer: Layer | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Carry:
     """All of it disposable: without it the next slab makes its own, which differs in the last digits.
 
@@ -119,6 +150,8 @@ class Carry:
         Iterations of the slabs since the last factor.
     price
         What a factor costs, in iterations.
+    skin, near
+        Of central differences, whose ``frozen`` operator is that of the nodes near a touch.
     """
 
     frozen: Frozen | None = None
@@ -133,6 +166,12 @@ class Carry:
     factorisations: int = 0
     taken: Taken = Taken()
     price: float = 0.0
+    skin: Skin | None = None
+    near: Near | None = None
+
+    def failed(self) -> "Carry":
+        """The carry after a slab that found no solution: everything is made anew."""
+        return replace(self, stale=True, skin=None, near=None)
 
     def after(self, iterations: int) -> "Carry":
         """The carry after a slab of so many iterations; a factor is ordered where it pays.
@@ -148,10 +187,15 @@ class Carry:
 
     def bare(self) -> "Carry":
         """What is light of it: all but the operator, which can be made again as it is now."""
-        if self.frozen is None:
-            return self
-        return replace(
+        light = replace(
             self,
+            skin=None if self.skin is None else replace(self.skin, factor=None),
+            near=None if self.near is None else replace(self.near, layer=None),
+        )
+        if self.frozen is None:
+            return light
+        return replace(
+            light,
             frozen=None,
             analysis=None,
             turning=None,

@@ -37,7 +37,7 @@ class Explicit:
     """
 
     safety: float = 0.8
-    tolerance: float = 1e-7
+    tolerance: float = 1e-5
     limit: int = 40
 
     def __post_init__(self) -> None:

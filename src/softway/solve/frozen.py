@@ -27,12 +27,16 @@ class Basis:
         (f, b): the contact rows themselves where they never change, else the components of the contact nodes.
     component
         (b,) free component of each direction; None where the directions are the rows.
+    place
+        (m,) the direction of each row where directions are rows, -1 for a row that has none; None where each has its
+        own.
     transposed
         (b, f) the directions as rows.
     """
 
     directions: sp.csc_array
     component: IntArray | None
+    place: IntArray | None = None
     transposed: sp.csr_array = field(init=False)
 
     def __post_init__(self) -> None:
@@ -44,6 +48,10 @@ class Basis:
 
     def coefficients(self, rows: Candidates, free: BoolArray) -> sp.csr_array:
         """Rows C (m, b) with ``G = C directions^T``."""
+        if self.component is None and self.place is not None:
+            own = np.flatnonzero(self.place >= 0)
+            shape = (len(rows.node), self.directions.shape[1])
+            return sp.csr_array((np.ones(len(own)), (own, self.place[own])), shape=shape)
         if self.component is None:
             return sp.csr_array(sp.eye_array(len(rows.node), format="csr"))
         return sp.csr_array(rows.matrix(free)[:, self.component])
@@ -75,6 +83,8 @@ class Frozen:
         settle with the iterates.
     kind
         Type of the kept answers: no more digits than the factor has.
+    scale
+        What the answers are multiplied by: the operator is ``R A R^T / scale``.
     """
 
     factor: Factor
@@ -82,6 +92,7 @@ class Frozen:
     turning: sp.csr_array | None = None
     local: Factor | None = None
     kind: type[np.floating[Any]] = np.float64
+    scale: float = 1.0
     table: Columns = field(default_factory=Columns)
     answers: Columns = field(default_factory=Columns)
     held: dict[bytes, Shared] = field(default_factory=dict)
@@ -96,11 +107,18 @@ class Frozen:
         """The same factor for nodes turned by R (f, f) since it was made."""
         return replace(self, turning=turning)
 
+    def scaled(self, scale: float) -> "Frozen":
+        """The same factor for an operator that is ``1 / scale`` of it."""
+        return self if scale == self.scale else replace(self, scale=scale, held={})
+
+    def _times(self, answer: Array) -> Array:
+        return answer if self.scale == 1.0 else np.asarray(self.scale * answer)
+
     def solve(self, b: Array) -> Array:
         """``R A^-1 R^T b`` (f,)."""
         if self.turning is None:
-            return self.factor.solve(b)
-        return np.asarray(self.turning @ self.factor.solve(self.turning.T @ b))
+            return self._times(self.factor.solve(b))
+        return self._times(np.asarray(self.turning @ self.factor.solve(self.turning.T @ b)))
 
     @property
     def exact(self) -> bool:
@@ -119,6 +137,8 @@ class Frozen:
     def coefficients(self, rows: Candidates, free: BoolArray) -> Along:
         """The rows along the turned directions: ``G = C B^T R^T``."""
         own = self.basis.component
+        if own is None and self.basis.place is not None:
+            return Own(self.basis.place, self.basis.directions.shape[1])
         if own is None:
             return Own(np.arange(len(rows.node)), len(rows.node))
         plain = self.basis.coefficients(rows, free)
@@ -129,7 +149,7 @@ class Frozen:
         if not len(which):
             return np.zeros((self.basis.directions.shape[1], 0))
         self.fill(which)
-        return self.table.columns(which)
+        return self._times(self.table.columns(which))
 
     def give(self, push: Array) -> Array:
         """``B^T A^-1 B push`` (b,) of pushes (b,) along the directions."""
@@ -137,7 +157,7 @@ class Frozen:
         if not len(which):
             return np.zeros(self.basis.directions.shape[1])
         self.fill(which)
-        return self.table.product(which, push[which])
+        return self._times(self.table.product(which, push[which]))
 
     def answer(self, push: Array) -> Array:
         """``R A^-1 B push`` (f,) of pushes (b,) along the directions."""
@@ -147,12 +167,12 @@ class Frozen:
         if self.basis.component is not None or self.local is not None:
             return self._answered(push)
         self.fill(index)
-        return self.answers.product(index, push[index])
+        return self._times(self.answers.product(index, push[index]))
 
     def _answered(self, push: Array) -> Array:
         """Answer (f,) to pushes (b,) by a solution."""
         found = (self.local or self.factor).solve(np.asarray(self.basis.directions @ push))
-        return found if self.turning is None else np.asarray(self.turning @ found)
+        return self._times(found if self.turning is None else np.asarray(self.turning @ found))
 
     def fill(self, which: IntArray) -> None:
         """Make the columns of some directions that are not there yet, in one batch."""
@@ -173,8 +193,15 @@ class Frozen:
                 self.answers.add(some, new.T.astype(self.kind))
 
 
-def basis(rows: Candidates, free: BoolArray, fixed: bool, nodes: IntArray) -> Basis:
-    """The contact directions: the rows (m,) if they are ``fixed``, else the free components of ``nodes`` (k,)."""
+def basis(rows: Candidates, free: BoolArray, fixed: bool, nodes: IntArray, few: bool = False) -> Basis:
+    """The contact directions: the rows (m,) if they are ``fixed``, else the free components of ``nodes`` (k,).
+
+    Where ``few`` of the rows can be moved by free components, the others have no direction.
+    """
+    if fixed and few:
+        moved = rows.reachable(free)
+        place = np.where(moved, np.cumsum(moved) - 1, -1)
+        return Basis(directions=sp.csc_array(rows.matrix(free)[moved].T), component=None, place=place)
     if fixed:
         return Basis(directions=sp.csc_array(rows.matrix(free).T), component=None)
     flat = np.zeros(free.shape, bool)

@@ -3,12 +3,13 @@
 import numpy as np
 import scipy.sparse as sp
 from scipy.linalg import eigh
-from scipy.sparse.linalg import LinearOperator, eigsh, splu
+from scipy.sparse.linalg import LinearOperator, eigsh
 
 from softway.errors import InputError
 from softway.model import Model
 from softway.solve.explicit import Explicit
 from softway.solve.inertia import inertia
+from softway.solve.operators.factored import suited
 from softway.time.weight import TimeWeight, limit
 from softway.typing import Array
 
@@ -27,7 +28,7 @@ def greatest_frequency(model: Model, u: Array) -> float:
     mass = sp.csc_array(sp.kron(model.mass, sp.eye_array(d), format="csc")[heavy][:, heavy])
     stiffness = model.tangent(u)
     inner, cross = stiffness[heavy][:, heavy], stiffness[heavy][:, light]
-    soft = splu(sp.csc_matrix(stiffness[light][:, light])) if len(light) else None
+    soft = suited(len(light)).factor(sp.csc_array(stiffness[light][:, light])) if len(light) else None
     if len(heavy) <= DENSE:
         k = inner.toarray() - (cross @ soft.solve(cross.T.toarray()) if soft is not None else 0.0)
         return float(np.sqrt(max(eigh(k, mass.toarray(), eigvals_only=True)[-1], 0.0)))

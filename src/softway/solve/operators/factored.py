@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 
 from softway.solve.backends.choice import best, named
-from softway.solve.linear import Analysis, LinearSolver, Precision, SuperLU, number_type
+from softway.solve.linear import Analysis, Factor, LinearSolver, Precision, SuperLU, number_type
 from softway.solve.operators.operator import Made
 from softway.solve.stiffness import Stiffness
 from softway.typing import Array
@@ -61,16 +61,26 @@ class Factored:
             analysis = self._solver(matrix.shape[0], precision).analyse(matrix)
         factor = analysis.factor(matrix)
         kind = number_type(precision)
-        price = ASSEMBLY + factor.bytes / (np.dtype(kind).itemsize * ROWS * matrix.shape[0])
+        price = cost(factor, matrix.shape[0], precision)
         return Made(factor=factor, local=None, analysis=analysis, price=price, kind=kind)
 
     def _solver(self, size: int, precision: Precision) -> LinearSolver:
         if self.backend != "auto":
             return named(self.backend, precision, self.threads)
-        threads = 1 if self.threads is None and size < ALONE else self.threads
-        return SuperLU(precision) if size < FEW else best(precision, threads)
+        return suited(size, precision, self.threads)
 
     def _precision(self, slab: Stiffness) -> Precision:
         if self.precision != "auto":
             return self.precision
         return "double" if slab.model.linear or slab.model.free.sum() < MANY else "single"
+
+
+def suited(size: int, precision: Precision = "double", threads: int | None = None) -> LinearSolver:
+    """The fastest direct solver for ``size`` unknowns."""
+    threads = 1 if threads is None and size < ALONE else threads
+    return SuperLU(precision) if size < FEW else best(precision, threads)
+
+
+def cost(factor: Factor, size: int, precision: Precision = "double") -> float:
+    """What a factor of ``size`` unknowns costs, in iterations."""
+    return ASSEMBLY + factor.bytes / (np.dtype(number_type(precision)).itemsize * ROWS * max(size, 1))
