@@ -59,6 +59,16 @@ class Layer:
             out[piece.nodes[piece.chosen]] = piece.internal.force(u[piece.nodes])[piece.chosen]
         return out
 
+    def alone(self) -> tuple[IntArray, "Layer"]:
+        """The nodes (k,) of its cells, and the same layer of fields (k, d) on them alone."""
+        ends = np.cumsum([0] + [len(piece.nodes) for piece in self.pieces])
+        pieces = [
+            replace(piece, nodes=np.arange(first, last))
+            for piece, first, last in zip(self.pieces, ends[:-1], ends[1:], strict=True)
+        ]
+        nodes = np.concatenate([np.zeros(0, int), *(piece.nodes for piece in self.pieces)])
+        return nodes, Layer(pieces=tuple(pieces))
+
     def tangent(self, u: Array, moving: BoolArray) -> sp.csc_array:
         """Derivative (f, f) of the force to the ``moving`` components (n, d), which are of chosen nodes [N/m]."""
         blocks = []

@@ -36,26 +36,31 @@ INTERNAL = 1e-4
 
 
 def certified(
-    model: Model, before: Situation, out: Outcome, after: Situation, last: Account, ledger: Ledger
+    model: Model, out: Outcome, after: Situation, last: Account, ledger: Ledger, momentum: tuple[Array, float]
 ) -> Certificate:
-    """What a solved slab leaves over."""
+    """What a solved slab leaves over; ``momentum`` is its :func:`balance`."""
     searched = out.system.searched
     rows = out.rows if searched is None else searched.at(after.start.displacement)
     gap = np.where(rows.near, rows.gap(after.start.displacement), np.inf)
     closed = after.closed & rows.near
-    leftover, _ = _momentum(model, before, out, after)
     return Certificate(
         min_gap=float(gap.min(initial=np.inf)),
         min_force=float(after.pressure.min(initial=0.0)),
         complementarity=float(np.abs(after.pressure[closed] * gap[closed]).sum()),
         power_residual=float(sum(c.power_residual for c in ledger.contacts.values())),
-        momentum_error=float(np.abs(leftover).max()),
+        momentum_error=float(np.abs(momentum[0]).max()),
         energy_error=ledger.energy_error - last.energy_error,
     )
 
 
 def violation(
-    model: Model, before: Situation, out: Outcome, after: Situation, ledger: Ledger, found: Certificate
+    model: Model,
+    before: Situation,
+    out: Outcome,
+    after: Situation,
+    ledger: Ledger,
+    momentum: tuple[Array, float],
+    found: Certificate,
 ) -> str | None:
     """The first condition that a certificate violates, in words; None if it holds."""
     kept = (found.min_gap, found.min_force, found.power_residual, found.momentum_error, found.energy_error)
@@ -77,7 +82,7 @@ def violation(
         return f"the energy balance is left with {found.energy_error:.3g} J of {level:.3g} J"
     if ruled and found.energy_error > UNSTABLE * level + allowed:
         return f"the energy grows by {found.energy_error:.3g} J of {level:.3g} J: beyond the stability limit"
-    leftover, scale = _momentum(model, before, out, after)
+    leftover, scale = momentum
     accuracy = MOMENTUM if model.massive.any() else FORCES
     most = accuracy * scale + float(np.sqrt(2.0 * model.mass.sum() * model.floor.sum()))
     most += (after.time - before.time) * float(blurred.sum())
@@ -113,7 +118,7 @@ def _blurred(model: Model, after: Situation) -> Array:
     return PLACES * reach * np.where(model.massive, 0.0, spring)
 
 
-def _momentum(model: Model, before: Situation, out: Outcome, after: Situation) -> tuple[Array, float]:
+def balance(model: Model, before: Situation, out: Outcome, after: Situation) -> tuple[Array, float]:
     """What the change of momentum (d,) has beyond loads, contact and supports, and the momenta that take part."""
     span = after.time - before.time
     keep = np.ones(model.shape[1])

@@ -18,14 +18,16 @@ from softway.march.control import require_slow
 from softway.march.massless import equations, outcome
 from softway.march.outcome import Outcome
 from softway.march.rub import first_impulses
+from softway.march.settling import settled, watched
 from softway.march.situation import Situation
-from softway.march.still import Still, handed, pushed, settled, watched
+from softway.march.still import Still, handed, pushed
 from softway.model import Model
 from softway.solve.carry import Carry
 from softway.solve.driver import Iterate, Solution
 from softway.solve.explicit import Explicit
 from softway.solve.inertia import Inertia, inertia
 from softway.solve.system import SlabSystem
+from softway.solve.values import Evaluation
 from softway.time.slab import Slab
 from softway.time.weight import moments
 from softway.typing import Array
@@ -76,27 +78,43 @@ def solve_explicit(
     system = replace(equations(model, now, slab, pairs, None), balanced=False)
     q = np.where(model.free, np.where(heavy, moving, 2.0 * start.velocity), system.given)
     it, count = settled(system, central.still, q, first_impulses(now, slab, system.path.rows), carry, method)
-    end = replace(system, pairs=it.system.pairs).evaluate(it.q, it.impulse)
-    closing, left = handed(model, central.still.light, end.force, model.load + _contact(system, it, end.near))
-    end = replace(
-        end,
-        mean_force=0.5 * (opening + closing) + (model.load - push),
-        lost=model.totals((model.load - push) * (end.displacement - start.displacement)),
-    )
+    end = _evaluated(system, it)
+    closing, left = handed(model, central.still, end.force, model.load + _contact(system, it, end.near))
+    end = replace(end, mean_force=0.5 * (opening + closing))
+    if shock is not None:
+        lost = model.totals(shock * (end.displacement - start.displacement))
+        end = replace(end, mean_force=end.mean_force + shock, lost=lost)
     solution = Solution(last=it, end=end, predicted=it.free, iterations=count, contraction=0.0)
     out = outcome(model, now, slab, system, solution, pairs.found)
     last = central.inertia.acceleration(push - closing)
     velocity = np.where(heavy & model.free, start.velocity + 0.5 * h * (slope + last), out.velocity)
     out = replace(out, velocity=velocity, acceleration=(velocity - start.velocity) / h)
-    return out, watched(it.carry, left, end.force)
+    return out, watched(it.carry, central.still, left, end.force)
+
+
+def _evaluated(system: SlabSystem, it: Iterate) -> Evaluation:
+    """The whole body at the end of the slab."""
+    u1, pairs, none = system.path.end(it.q), it.system.pairs, np.zeros(len(system.model.parts))
+    energy, force = system.model.energy_and_force(u1)
+    return Evaluation(
+        residual=np.zeros_like(force),
+        displacement=u1,
+        force=force,
+        energy=energy,
+        mean_force=force,
+        scalar=none,
+        share=none,
+        clipped=False,
+        near=None if pairs is None else pairs.at(u1),
+    )
 
 
 def _opening(model: Model, now: Situation, central: Central) -> Array:
-    """The internal force (n, d) at the start, with what nodes without inertia are left with at those they follow [N]."""
+    """The internal force (n, d) at the start, with what nodes without inertia lack at those that they follow [N]."""
     start = now.start
     rows = now.rows or model.rows(start.displacement, now.time)
     outer = model.load_before + pushed(rows, now.pressure, now.traction, model.shape)
-    return handed(model, central.still.light, start.force, outer)[0]
+    return handed(model, central.still, start.force, outer)[0]
 
 
 def _contact(system: SlabSystem, it: Iterate, rows: Candidates | None) -> Array:

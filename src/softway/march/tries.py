@@ -9,7 +9,7 @@ import numpy as np
 from softway.errors import Halts, NoConvergence, NumericsError, TooFast, Unbalanced, heed
 from softway.march.advance import Rule, advance
 from softway.march.breakaway import breakaway
-from softway.march.certificate import certified, violation
+from softway.march.certificate import balance, certified, violation
 from softway.march.control import CRAWL
 from softway.march.halt import halt
 from softway.march.ledger import audited
@@ -133,8 +133,9 @@ def _tried(rules: Rule, stand: Standing, slab: Slab, carry: Carry, closed: bool)
             halt(model, now, out, slab.span)
             breakaway(model, now, out, partial(_held, rules, now, slab, new, approach, closed))
         ledger = audited(model, stand.account, now, out, after)
-        certificate = certified(model, now, out, after, stand.account, ledger)
-        broken = violation(model, now, out, after, ledger, certificate)
+        momentum = balance(model, now, out, after)
+        certificate = certified(model, out, after, stand.account, ledger, momentum)
+        broken = violation(model, now, out, after, ledger, momentum, certificate)
         if broken is None:
             return Accepted(
                 after=after,

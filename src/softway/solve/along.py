@@ -10,7 +10,7 @@ from softway.typing import Array, IntArray
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Own:
-    """Rows that are directions themselves: row i is the direction ``index[i]`` of ``count``, or none where that is -1."""
+    """Rows that are directions themselves: row i is the direction ``index[i]`` of ``count``, none where that is -1."""
 
     index: IntArray
     count: int

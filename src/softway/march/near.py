@@ -1,0 +1,202 @@
+"""The nodes without inertia near a touch: which they are, and their equilibrium under the contact conditions."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from softway.bodies.layer import layer
+from softway.contact.candidates import Candidates
+from softway.errors import NoConvergence
+from softway.march.still import Still
+from softway.solve.carry import Carry, Near, Origin, Taken
+from softway.solve.correction import corrected
+from softway.solve.driver import Iterate
+from softway.solve.explicit import Explicit
+from softway.solve.frozen import Frozen, basis
+from softway.solve.system import SlabSystem
+from softway.solve.values import Evaluation
+from softway.typing import Array, BoolArray, IntArray
+
+CLOSE, FAR = 0.5, 4.0
+"""Gaps, in edges, within which a node has to be among those near a touch, and within which it is made one of them."""
+MOST = 0.5
+"""Share of the nodes without inertia beyond which all of them count as near a touch."""
+USUAL = 3
+"""Iterations of the nodes near a touch that a new factor hardly makes fewer."""
+
+
+def touched(system: SlabSystem, still: Still, u1: Array, active: BoolArray) -> tuple[BoolArray, BoolArray] | None:
+    """Nodes (n,) that have to be among those near a touch, and those that may be; None where nothing is near."""
+    rows = system.path.rows if system.pairs is None else system.pairs.at(u1)
+    if not len(rows.node):
+        return None
+    gap = np.where(rows.near, rows.gap(u1), np.inf) / system.model.edge[rows.node]
+    closed = active[: len(gap)]
+    wanted = _of(rows, closed | (gap < CLOSE), still)
+    return (wanted, _of(rows, closed | (gap < FAR), still)) if wanted.any() else None
+
+
+def _of(rows: Candidates, which: BoolArray, still: Still) -> BoolArray:
+    """Nodes (n,) with light components that some rows (m,) feel."""
+    n, d = still.light.shape
+    out = np.zeros(n, bool)
+    out[rows.gradient[np.flatnonzero(which)].indices // d] = True
+    return out & still.nodes
+
+
+def chosen(system: SlabSystem, still: Still, found: tuple[BoolArray, BoolArray], carry: Carry) -> Carry:
+    """The carry with nodes near a touch that hold all that have to be among them."""
+    wanted, taken = found
+    near, n = carry.near, len(wanted)
+    if near is None or (wanted & ~among(near.nodes, n)[:, 0]).any():
+        every = still.nodes
+        taken = still.layer.around(taken) & every
+        near = Near(nodes=np.flatnonzero(every if taken.sum() > MOST * every.sum() else taken))
+        carry = replace(carry, frozen=None, origin=None, batches=())
+    if near.layer is None:
+        whole = len(near.nodes) == still.nodes.sum()
+        own = among(near.nodes, n)[:, 0]
+        near = replace(near, layer=still.layer if whole else layer(system.model.parts, own))
+    return replace(carry, near=near)
+
+
+def balanced(
+    system: SlabSystem,
+    still: Still,
+    guess: tuple[Array, Array],
+    first: tuple[Array, BoolArray],
+    chosen: tuple[Near, Carry],
+    free: Array,
+    method: Explicit,
+) -> tuple[Iterate, int]:
+    """The last iterate of the nodes near a touch on their way to equilibrium, and how many there were.
+
+    ``guess`` are q and the displacement at the end (n, d), ``free`` (m,) the normal motion without contact.
+
+    Raises
+    ------
+    NoConvergence
+        If there is no equilibrium in reach.
+    """
+    (whole, u1), (impulse, active) = guess, first
+    system, still = _inner(system, still, whole, chosen[0])
+    carry = _prepared(system, still, chosen[1])
+    frozen, scale = carry.frozen, float(np.abs(whole).max(initial=1e-300))
+    assert frozen is not None
+    local = _Local.of(system, still, u1)
+    q = whole[local.nodes]
+    for count in range(1, method.limit + 1):
+        end = local.looked(q)
+        local = replace(local, system=local.system.steadied(end.displacement, active, count))
+        if not np.isfinite(end.residual).all():
+            break
+        step = corrected(local.system, frozen, q, end, impulse, active)
+        change = float(np.abs(step.q - q).max(initial=0.0))
+        q, impulse, active = step.q, step.impulse, step.active
+        if change <= method.tolerance * scale:
+            whole = whole.copy()
+            whole[local.nodes] = q
+            system = replace(system, pairs=local.system.pairs)
+            carry = replace(carry, stale=_dear(carry, count))
+            return iterate(system, whole, change, (impulse, active), carry, free), count
+    raise NoConvergence(f"{method.limit} iterations do not bring the contact nodes to rest")
+
+
+def _inner(system: SlabSystem, still: Still, q: Array, near: Near) -> tuple[SlabSystem, Still]:
+    """The equations of the nodes near a touch: all others have arrived at q (n, d), like driven supports."""
+    moving = still.light & among(near.nodes, len(q))
+    rows = replace(system.rows, unilateral=system.path.rows.reachable(moving))
+    assert near.layer is not None
+    around = Still(light=moving, layer=near.layer).during(system.model)
+    return replace(system, model=replace(system.model, free=moving), given=q, rows=rows), around
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Local:
+    """The equations of the nodes near a touch: of the ``nodes`` of their cells alone where the rows never change."""
+
+    nodes: IntArray | slice
+    system: SlabSystem
+    still: Still
+    start: Array
+    load: Array
+    arrived: Array
+
+    @classmethod
+    def of(cls, system: SlabSystem, still: Still, u1: Array) -> "_Local":
+        """The equations where the other nodes have arrived at the displacement ``u1`` (n, d)."""
+        nodes: IntArray | slice = slice(None)
+        if system.pairs is None:
+            nodes, inner = still.layer.alone()
+            still = Still(light=still.light[nodes], layer=inner)
+            model = replace(system.model, free=still.light)
+            system = replace(system, model=model, given=np.asarray(system.given)[nodes])
+        start, load = system.path.start[nodes], system.model.load[nodes]
+        return cls(nodes=nodes, system=system, still=still, start=start, load=load, arrived=u1[nodes])
+
+    def looked(self, q: Array) -> Evaluation:
+        """What moves the nodes at q (k, d)."""
+        still, h = self.still, self.system.path.span
+        u1 = self.arrived.copy()
+        u1.ravel()[still.where] = still.of(self.start) + 0.5 * h * still.of(q)
+        force = still.layer.force(u1)
+        residual = np.zeros_like(force)
+        residual.ravel()[still.where] = 0.5 * h * (still.of(force) - still.of(self.load))
+        none = np.zeros(len(self.system.model.parts))
+        return Evaluation(
+            residual=residual,
+            displacement=u1,
+            force=force,
+            energy=none,
+            mean_force=force,
+            scalar=none,
+            share=none,
+            clipped=False,
+            near=None if self.system.pairs is None else self.system.pairs.at(u1),
+        )
+
+
+def _prepared(system: SlabSystem, still: Still, carry: Carry) -> Carry:
+    """The carry with the stiffness of the nodes near a touch factored, whatever the length of the slab."""
+    if carry.origin is None or carry.stale:
+        carry = replace(
+            carry,
+            frozen=None,
+            origin=Origin.of(system, system.start.displacement),
+            batches=(),
+            stale=False,
+            factorisations=carry.factorisations + 1,
+            taken=Taken(),
+        )
+    if carry.frozen is None:
+        assert carry.origin is not None
+        factor, price = still.factored(system.model, carry.origin)
+        model = system.model
+        directions = basis(system.path.rows, model.free, model.encounters.fixed, model.touchable, few=True)
+        frozen = Frozen(factor, directions).filled(carry.batches)
+        carry = replace(carry, frozen=frozen, price=price)
+    assert carry.frozen is not None
+    return replace(carry, frozen=carry.frozen.scaled(1.0 / system.share), span=system.path.span)
+
+
+def _dear(carry: Carry, count: int) -> bool:
+    """Whether a slab of so many iterations costs more than those since the factor did on average, with its price."""
+    taken = carry.taken
+    return count > USUAL and taken.slabs > 1 and count > (taken.total + carry.price) / taken.slabs
+
+
+def iterate(
+    system: SlabSystem, q: Array, change: float, contact: tuple[Array, BoolArray], carry: Carry, free: Array
+) -> Iterate:
+    """The iterate at q (n, d) with its impulses and active rows."""
+    impulse, active = contact
+    return Iterate(
+        q=q, change=change, impulse=impulse, active=active, free=free, carry=carry, system=system, sound=True
+    )
+
+
+def among(nodes: IntArray, count: int) -> BoolArray:
+    """Which of ``count`` nodes are among some, (count, 1)."""
+    out = np.zeros((count, 1), bool)
+    out[nodes] = True
+    return out
