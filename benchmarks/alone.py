@@ -53,6 +53,19 @@ def explicit(cells: int) -> dict[str, Any]:
     return noted(march, start, ENERGY)[0]
 
 
+def compact(cells: int, until: float = 1e-3, most: int | None = None) -> dict[str, Any]:
+    """A ball all of whose surface may touch, and central differences without contact in the same process."""
+    from problems import bare
+    from problems import compact as thrown
+
+    plain = bare(thrown(cells, touching=False), until, 100)
+    model = sw.build(thrown(cells))
+    energy = float(model.kinetic(model.velocity).sum())
+    start = now()
+    facts, _ = noted(sw.march(model, until=until, method=Explicit()), start, energy, most)
+    return facts | {"bare": plain}
+
+
 def impact(cells: int, method: str, most: int) -> dict[str, Any]:
     """The ball against the plane."""
     start = now()
@@ -112,7 +125,8 @@ def slabs(largest: int) -> list[dict[str, Any]]:
 
 
 PROBLEMS: dict[str, Callable[..., Any]] = {
-    f.__name__: f for f in (cube, inertia, explicit, impact, bent, block, kernels, history, factor, contact, slabs)
+    f.__name__: f
+    for f in (cube, inertia, explicit, compact, impact, bent, block, kernels, history, factor, contact, slabs)
 }
 
 

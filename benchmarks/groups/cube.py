@@ -105,6 +105,7 @@ def explicit(asked: Asked) -> Iterator[Figure]:
         yield peers.against(rival, f"{name}/ours, 1 thread", facts["wall"], "s", ">= 4")
         yield peers.against(rival, f"{name}/ours, processor", facts["cpu"], "s, 1 thread", ">= 4", "cpu")
         yield Figure(name=f"{name}/energy", value=facts["drift"], unit="of the energy at the start", target="<= 0.01")
+    yield from compact(asked)
     if asked.depth == "quick":
         return
     name, step = "explicit/30k tetrahedra", 1e3 * median(facts["seconds"][1:])
@@ -116,6 +117,17 @@ def explicit(asked: Asked) -> Iterator[Figure]:
         return
     base = 1e3 * median(told["seconds"])
     yield Figure(name=f"{name}/slab", value=step, unit="ms; MuJoCo", baseline=base, ratio=step / base, target="<= 1.5")
+
+
+def compact(asked: Asked) -> Iterator[Figure]:
+    """A ball of quadratic tetrahedra all of whose surface may touch a floor, against bare central differences."""
+    for cells in asked.pick((8,), (8, 18)):
+        facts, name = alone("compact", cells=cells)["result"], f"explicit/ball, {cells} cells"
+        plain, slab = facts["bare"], float(np.mean(facts["used"][1:]))
+        for what, ours, base in (("slab", 1e3 * slab, 1e3 * plain["slab"]), ("run", facts["cpu"], plain["run"])):
+            unit = f"{'ms' if what == 'slab' else 's'}, processor; the bare scheme"
+            yield Figure(name=f"{name}/{what}", value=ours, unit=unit, baseline=base, ratio=ours / base, target="<= 4")
+        yield Figure(name=f"{name}/energy", value=facts["drift"], unit="of the energy at the start", target="<= 1e-3")
 
 
 def large(asked: Asked) -> Iterator[Figure]:

@@ -89,7 +89,7 @@ def solve_explicit(
     last = central.inertia.acceleration(push - closing)
     velocity = np.where(heavy & model.free, start.velocity + 0.5 * h * (slope + last), out.velocity)
     out = replace(out, velocity=velocity, acceleration=(velocity - start.velocity) / h)
-    return out, watched(it.carry, central.still, left, end.force)
+    return out, watched(it.carry, central.still, left)
 
 
 def _evaluated(system: SlabSystem, it: Iterate) -> Evaluation:

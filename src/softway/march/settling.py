@@ -18,10 +18,12 @@ from softway.solve.explicit import Explicit
 from softway.solve.system import SlabSystem
 from softway.typing import Array, BoolArray
 
+SLIGHT = 1e-5
+"""Unbalanced force away from touches, relative to the greatest internal force, that may be left to the next slab."""
 WORN = 0.25
-"""Share of the unbalanced forces that a correction may leave before its stiffness is made anew."""
-SLIGHT = 1e-3
-"""Unbalanced force, relative to the greatest internal force, that never asks for a new stiffness."""
+"""Share of the unbalanced forces left by a correction beyond which, if one was not enough, the stiffness is renewed."""
+CORRECTIONS = 10
+"""Corrections of a slab at most."""
 
 
 def settled(
@@ -42,38 +44,60 @@ def settled(
         carry = chosen(system, still, found, carry)
     near = None if found is None else carry.near
     if near is None or len(near.nodes) < still.nodes.sum():
-        q, u1, carry = _followed(system, still, (q, u1), near, carry)
+        q, u1, carry = _followed(system, still, (q, u1), near, carry, method)
     if near is None:
         return iterate(system, q, 0.0, first, carry, free), 1
     return balanced(system, still, (q, u1), first, (near, carry), free, method)
 
 
-def watched(carry: Carry, still: Still, missing: Array, force: Array) -> Carry:
-    """The carry that knows whether the stiffness of all is worn, by what a slab leaves ``missing`` (f,) [N]."""
-    if carry.skin is None or carry.skin.before == 0.0:
+def watched(carry: Carry, still: Still, missing: Array) -> Carry:
+    """The carry with the share of the unbalanced forces that a single correction left, by those ``missing`` (f,) [N]."""
+    skin = carry.skin
+    if skin is None or skin.before == 0.0:
         return carry
-    most = _greatest(missing, still, carry.near)
-    worn = most > WORN * carry.skin.before and most > SLIGHT * max(float(force.max()), -float(force.min()))
-    return replace(carry, skin=replace(carry.skin, worn=worn, before=0.0))
+    return replace(carry, skin=replace(skin, share=_greatest(missing, still, carry.near) / skin.before, before=0.0))
 
 
 def _followed(
-    system: SlabSystem, still: Still, guess: tuple[Array, Array], near: Near | None, carry: Carry
+    system: SlabSystem,
+    still: Still,
+    guess: tuple[Array, Array],
+    near: Near | None,
+    carry: Carry,
+    method: Explicit,
 ) -> tuple[Array, Array, Carry]:
-    """q and u1 (n, d) with all nodes without inertia moved by one correction under the contact forces at the start."""
-    (q, u1), skin, model = guess, carry.skin, system.model
+    """q and u1 (n, d) with all nodes without inertia corrected under the contact forces at the start.
+
+    One correction is enough where it is expected to leave little, by what the last ones left.
+    """
+    (q, u1), skin, model, h = guess, carry.skin, system.model, system.path.span
     if skin is None or skin.worn:
         skin = Skin(origin=Origin.of(system, u1))
         carry = replace(carry, factorisations=carry.factorisations + 1)
     factor = skin.factor or still.factored(model, skin.origin)[0]
-    missing = still.of(still.layer.force(u1)) - still.of(model.load)
+    outer = still.of(model.load)
     if system.pressure is not None and system.pressure.any():
-        missing -= still.of(pushed(system.first, system.pressure, system.traction, model.shape))
-    if not np.isfinite(missing).all():
-        raise NoConvergence("the nodes without inertia cannot follow: a cell is inverted")
-    back = -factor.solve(missing)
-    skin = replace(skin, factor=factor, before=_greatest(missing, still, near))
-    return still.moved(q, 2.0 / system.path.span * back), still.moved(u1, back), replace(carry, skin=skin)
+        outer = outer + still.of(pushed(system.first, system.pressure, system.traction, model.shape))
+    allowed, least = SLIGHT * _size(system.start.force), 0.5 * h * method.tolerance * _size(q)
+    share, before = skin.share, 0.0
+    for count in range(CORRECTIONS):
+        missing = still.of(still.layer.force(u1)) - outer
+        if not np.isfinite(missing).all():
+            raise NoConvergence("the nodes without inertia cannot follow: a cell is inverted")
+        most = _greatest(missing, still, near)
+        share = most / before if count and before > 0.0 else share
+        back = -factor.solve(missing)
+        q, u1, before = still.moved(q, 2.0 / h * back), still.moved(u1, back), most
+        if share * most <= allowed or _size(back) <= least:
+            break
+    once = count == 0
+    skin = replace(skin, factor=factor, share=share, before=before if once else 0.0, worn=not once and share > WORN)
+    return q, u1, replace(carry, skin=skin)
+
+
+def _size(values: Array) -> float:
+    """Greatest value, whatever its sign."""
+    return max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))
 
 
 def _greatest(missing: Array, still: Still, near: Near | None) -> float:
@@ -81,4 +105,4 @@ def _greatest(missing: Array, still: Still, near: Near | None) -> float:
     if near is not None:
         n, d = still.light.shape
         missing = missing[~among(near.nodes, n).ravel()[still.where // d]]
-    return float(np.abs(missing).max(initial=0.0))
+    return _size(missing)

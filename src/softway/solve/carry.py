@@ -99,17 +99,20 @@ class Skin:
     ----------
     origin
         Where it was made.
+    share
+        Share of the unbalanced forces that its last correction left.
+    before
+        Greatest unbalanced force that a single correction met, away from touches [N]; zero between slabs.
     worn
         Whether it is to be made anew.
-    before
-        Greatest unbalanced force that it last met, away from touches [N]; zero where it met none.
     factor
         Its factor.
     """
 
     origin: Origin
-    worn: bool = False
+    share: float = 1.0
     before: float = 0.0
+    worn: bool = False
     factor: Factor | None = None
 
 
