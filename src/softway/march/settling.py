@@ -51,7 +51,7 @@ def settled(
 
 
 def watched(carry: Carry, still: Still, missing: Array) -> Carry:
-    """The carry with the share of the unbalanced forces that a single correction left, by those ``missing`` (f,) [N]."""
+    """The carry with the share of the unbalanced forces that one correction left, by those ``missing`` (f,) [N]."""
     skin = carry.skin
     if skin is None or skin.before == 0.0:
         return carry

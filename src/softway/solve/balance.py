@@ -297,5 +297,4 @@ def moment(x: Array, force: Array) -> Array:
         return np.zeros(0)
     if d == 2:
         return np.array([np.sum(x[:, 0] * force[:, 1] - x[:, 1] * force[:, 0])])
-    products = x.T @ force
-    return np.array([products[i, j] - products[j, i] for i, j in ((1, 2), (2, 0), (0, 1))])
+    return np.array([x[:, i] @ force[:, j] - x[:, j] @ force[:, i] for i, j in ((1, 2), (2, 0), (0, 1))])
