@@ -11,7 +11,6 @@ from softway.bodies.memory import Memory
 from softway.bodies.part import Part, driven_components, initial, part_of
 from softway.bodies.part_mass import part_following, part_mass
 from softway.bodies.past import Memories, during, remembered_stress, remembering
-from softway.bodies.section import wave_speed
 from softway.bodies.solid import Driven, Solid
 from softway.contact.candidates import Candidates
 from softway.contact.encounters import Encounters
@@ -23,9 +22,6 @@ from softway.kernels.patterns import Sum, sum_of
 from softway.scene import Scene
 from softway.space.mesh import Mesh
 from softway.typing import Array, BoolArray, IntArray
-
-UNSTRAINED = 1e-14
-"""Strain below which a body counts as undeformed."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -64,7 +60,7 @@ class Model:
     driven
         Driven supports with the components (n, d) that they move.
     floor
-        (parts,) stored energy below which a body counts as undeformed: a strain of ``UNSTRAINED`` throughout [J].
+        (parts,) stored energy below which a body counts as undeformed: a strain of 1e-14 throughout [J].
     total
         Sums of mass and tangent stiffness on the free components.
     timing
@@ -257,7 +253,7 @@ def build(scene: Scene) -> Model:
         touchable=met.nodes,
         edge=np.concatenate([p.mesh.edges() for p in parts]),
         driven=driven_components(parts, solids, free.shape),
-        floor=np.array([_floor(p) for p in parts]),
+        floor=np.array([p.floor() for p in parts]),
         total=sum_of(inertia, _tangent(parts, np.zeros_like(displacement)), free.ravel()),
         timing=timing,
         rubbing=met.rubbing,
@@ -295,8 +291,3 @@ def _timing(scene: Scene) -> Timing:
         problem = f"Off with the rule {type(timing).__name__}, whose contact nodes carry inertia"
         raise InputError("inertia", problem, "the timing Energy")
     return timing
-
-
-def _floor(part: Part) -> float:
-    speed = wave_speed(part.internal.material, part.density, part.internal.section)
-    return float(UNSTRAINED**2 * part.density * speed**2 * part.internal.sampling.volume.sum())

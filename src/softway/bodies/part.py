@@ -11,7 +11,7 @@ from softway.bodies.force import SlabForce
 from softway.bodies.internal import InternalForce, internal_force
 from softway.bodies.memory import Memory
 from softway.bodies.rate_force import RateForce, rate_force
-from softway.bodies.section import Section, default_section
+from softway.bodies.section import Section, default_section, wave_speed
 from softway.bodies.shock import Shock, shock_of
 from softway.bodies.solid import Driven, Solid, Support
 from softway.errors import InputError, within
@@ -19,6 +19,9 @@ from softway.laws.law import Material, RateLaw
 from softway.space.cells import CELLS
 from softway.space.mesh import Mesh
 from softway.typing import Array, BoolArray
+
+UNSTRAINED = 1e-14
+"""Strain below which a body counts as undeformed."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -50,6 +53,11 @@ class Part:
             return values
         keep = np.repeat(chosen, self.mesh.dim)
         return np.asarray(values + again * made.data * keep[made.indices] * np.repeat(keep, np.diff(made.indptr)))
+
+    def floor(self) -> float:
+        """Stored energy below which it counts as undeformed [J]."""
+        speed = wave_speed(self.internal.material, self.density, self.internal.section)
+        return float(UNSTRAINED**2 * self.density * speed**2 * self.internal.sampling.volume.sum())
 
     def during(self, memory: Memory | None, span: float) -> "Part":
         """The solid in a slab of length ``span`` [s] that it meets with a memory."""

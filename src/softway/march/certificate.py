@@ -2,13 +2,14 @@
 
 import numpy as np
 
+from softway.bodies.part import UNSTRAINED
 from softway.bodies.section import Axisymmetric
 from softway.contact.timing import Energy, Paper
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation
 from softway.march.standing import Account
 from softway.march.step import Certificate, Ledger
-from softway.model import UNSTRAINED, Model
+from softway.model import Model
 from softway.time.weight import EndPeaks
 from softway.typing import Array
 
@@ -88,16 +89,18 @@ def violation(
     most += (after.time - before.time) * float(blurred.sum())
     if not isinstance(model.timing, Paper) and found.momentum_error > most:
         return f"the momentum balance is left with {np.abs(leftover).max():.3g} of {scale:.3g} kg m/s"
+    if not (ruled and closes):
+        return None
     unrest = float(np.abs(_unrest(out, after)).max())
-    if ruled and closes and unrest > BEQUEST * most:
-        return f"nodes without inertia leave {unrest:.3g} of {scale:.3g} kg m/s to the next slab"
+    if unrest > BEQUEST * most:
+        return f"forces on nodes without inertia leave {unrest:.3g} of {scale:.3g} kg m/s to the next slab"
     return None
 
 
 def _unrest(out: Outcome, after: Situation) -> Array:
-    """Momentum (d,) that forces on nodes without inertia, which nothing balances at the end, give in such a slab.
+    """Momentum (d,) of forces on nodes without inertia that nothing balances at the end, over such a slab.
 
-    They are those of the start of the next slab, whose iterations cannot take them away.
+    They are there at the start of the next slab, whose iterations cannot take them away.
     """
     model = out.system.model
     force = after.start.force - model.load - out.rows.spread(after.pressure, model.shape)
