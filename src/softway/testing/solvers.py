@@ -4,7 +4,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.errors import NoConvergence
-from softway.solve.linear import Factor, LinearSolver
+from softway.solve.linear import Factor, LinearSolver, number_type
 from softway.testing.verdict import close, require
 from softway.typing import Array
 
@@ -142,10 +142,22 @@ def _indefinite(solver: LinearSolver) -> None:
 def _refused(solver: LinearSolver) -> None:
     broken = _lattice()
     broken.data[7] = np.nan
-    singular = (np.zeros((1, 1)), np.diag([1.0, 0.0]), np.ones((2, 2)))
-    for matrix in (*(sp.csc_array(m) for m in singular), broken):
+    empty = (np.zeros((1, 1)), np.diag([1.0, 0.0]))
+    for matrix in (*(sp.csc_array(m) for m in empty), broken):
         try:
             solver.factor(matrix)
         except NoConvergence:
             continue
         require(False, solver, f"a matrix of {matrix.shape[0]} unknowns without an inverse is factored")
+    _blown(solver)
+
+
+def _blown(solver: LinearSolver) -> None:
+    """A pivot that is the difference of equal numbers may be rounding: then what has no solution gets a huge one."""
+    try:
+        x = solver.factor(sp.csc_array(np.ones((2, 2)))).solve(np.array([1.0, -1.0]))
+    except NoConvergence:
+        return
+    huge = 1e-2 / float(np.finfo(number_type(solver.precision)).eps)
+    shown = not np.isfinite(x).all() or float(np.abs(x).max()) > huge
+    require(shown, solver, "a matrix of 2 unknowns without an inverse is factored, and does not show")
