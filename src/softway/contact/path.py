@@ -98,13 +98,14 @@ class Path:
 
     def at(self, tau: float, q: Array) -> Array:
         """Displacement (n, d) at ``tau``; the contact rows are those at the slab's end."""
-        h, v = self.span, self.velocity
+        h, v, light = self.span, self.velocity, np.flatnonzero(~self.massive)
         rate = tau * v + 0.5 * tau**2 * (q - v) if tau != 1.0 else 0.5 * (v + q)
-        rate[~self.massive] = 0.5 * tau * q[~self.massive]
+        rate[light] = 0.5 * tau * q[light]
         for instant, jump in self.jumps:
-            rate = rate + (max(tau - instant, 0.0) - 0.5 * tau**2) * jump
-        smooth = self.start + h * rate
-        return self._kinked(smooth, self._normal_motion(tau, q)) if self.way.kinked.any() else smooth
+            rate += (max(tau - instant, 0.0) - 0.5 * tau**2) * jump
+        rate *= h
+        rate += self.start
+        return self._kinked(rate, self._normal_motion(tau, q)) if self.way.kinked.any() else rate
 
     def mean(self, q: Array) -> Array:
         """Average displacement (n, d) over the slab, exact for every kink."""

@@ -27,7 +27,7 @@ from softway.solve.system import SlabSystem
 from softway.solve.watched import Watched
 from softway.time.slab import Slab
 from softway.time.weight import EndPeaks, moments
-from softway.typing import BoolArray
+from softway.typing import Array, BoolArray
 
 
 def solve_massless(
@@ -72,8 +72,9 @@ def equations(
         way=way,
     )
     fixed = model.encounters.fixed
-    first, last = model.prescribed(slab.start), model.prescribed(slab.end)
-    given = np.where(model.massive[:, None], last, first + last)
+    given = model.prescribed(slab.end)
+    if model.driven:
+        given = np.where(model.massive[:, None], given, model.prescribed(slab.start) + given)
     target = -2.0 * rows.gap(path.end(given)) / h if fixed else np.zeros(len(rows.node))
     return SlabSystem(
         model=model,
@@ -98,11 +99,19 @@ def equations(
     )
 
 
-def outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, solution: Solution, pairs: int) -> Outcome:
-    """What a solution says of forces, works and events of the slab."""
+def outcome(
+    model: Model,
+    now: Situation,
+    slab: Slab,
+    system: SlabSystem,
+    solution: Solution,
+    pairs: int,
+    velocity: Array | None = None,
+) -> Outcome:
+    """What a solution says of forces, works and events of the slab; q tells the velocity where none is given."""
     h, q, end = slab.span, solution.last.q, solution.end
     rows = end.near or system.path.rows
-    velocity = np.where(model.massive[:, None], q, 0.5 * q)
+    velocity = np.where(model.massive[:, None], q, 0.5 * q) if velocity is None else velocity
     pressure = solution.last.impulse[: len(rows.node)] / (h * moments(slab.weight)[1])
     closed = pressure > 0.0
     first, a = system.first, end.scalar[model.part_of[rows.node]]
@@ -114,7 +123,8 @@ def outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, soluti
     else:
         old, new = (0.5 - a) * now.pressure, (0.5 + a) * pressure
         force = old + new
-        push = first.spread(old, model.shape) + rows.spread(new, model.shape)
+        push = rows.spread(new if first is not rows else force, model.shape)
+        push = push if first is rows else push + first.spread(old, model.shape)
         tools += float(old @ first.drive + new @ rows.drive)
     if rubbed is not None:
         push, tools = push + rubbed.push, tools + rubbed.work
@@ -124,13 +134,13 @@ def outcome(model: Model, now: Situation, slab: Slab, system: SlabSystem, soluti
         solution=solution,
         rows=rows,
         velocity=velocity,
-        acceleration=(velocity - now.start.velocity) / h * model.massive.any(),  # without inertia, speed may jump
+        acceleration=(velocity - now.start.velocity) * (model.massive.any() / h),  # without inertia, speed may jump
         closed=closed,
         pressure=pressure,
         force=force,
         push=push,
         support=support,
-        work=tools + float(np.sum(support * (end.displacement - now.start.displacement))),
+        work=tools + (float(np.sum(support * (end.displacement - now.start.displacement))) if model.driven else 0.0),
         dissipation=0.0 if rubbed is None else rubbed.dissipation,
         events=_events(model, now, slab, system, solution, rubbed),
         pairs=pairs,

@@ -78,13 +78,13 @@ def balanced(
     NoConvergence
         If there is no equilibrium in reach.
     """
-    (whole, u1), (impulse, active) = guess, first
-    system, still = _inner(system, still, whole, chosen[0])
-    carry = _prepared(system, still, chosen[1])
-    frozen, scale = carry.frozen, float(np.abs(whole).max(initial=1e-300))
+    (whole, u1), near = guess, chosen[0]
+    carry = _prepared(system, still, whole, chosen)
+    frozen, scale = carry.frozen, max(float(whole.max(initial=1e-300)), -float(whole.min(initial=0.0)))
     assert frozen is not None
-    local = _Local.of(system, still, u1)
-    q = whole[local.nodes]
+    local = _Local.of(system, still, guess, near, frozen)
+    live = local.live
+    q, impulse, active = whole[local.nodes], first[0][live], first[1][live]
     for count in range(1, method.limit + 1):
         end = local.looked(q)
         local = replace(local, system=local.system.steadied(end.displacement, active, count))
@@ -96,9 +96,10 @@ def balanced(
         if change <= method.tolerance * scale:
             whole = whole.copy()
             whole[local.nodes] = q
-            system = replace(system, pairs=local.system.pairs)
+            system = local.system if local.system.live is None else system
             carry = replace(carry, stale=_dear(carry, count))
-            return iterate(system, whole, change, (impulse, active), carry, free), count
+            contact = local.all_rows(impulse, active, first)
+            return iterate(system, whole, change, contact, carry, free), count
     raise NoConvergence(f"{method.limit} iterations do not bring the contact nodes to rest")
 
 
@@ -116,6 +117,7 @@ class _Local:
     """The equations of the nodes near a touch: of the ``nodes`` of their cells alone where the rows never change."""
 
     nodes: IntArray | slice
+    live: IntArray | slice
     system: SlabSystem
     still: Still
     start: Array
@@ -123,16 +125,30 @@ class _Local:
     arrived: Array
 
     @classmethod
-    def of(cls, system: SlabSystem, still: Still, u1: Array) -> "_Local":
-        """The equations where the other nodes have arrived at the displacement ``u1`` (n, d)."""
+    def of(cls, system: SlabSystem, still: Still, guess: tuple[Array, Array], near: Near, frozen: Frozen) -> "_Local":
+        """The equations where the other nodes have arrived at q and the displacement of the guess (n, d)."""
+        (q, u1), place = guess, frozen.basis.place
         nodes: IntArray | slice = slice(None)
-        if system.pairs is None:
-            nodes, inner = still.layer.alone()
-            still = Still(light=still.light[nodes], layer=inner)
-            model = replace(system.model, free=still.light)
-            system = replace(system, model=model, given=np.asarray(system.given)[nodes])
+        live: IntArray | slice = slice(None)
+        if system.pairs is None and place is not None:
+            assert near.layer is not None
+            nodes, inner = near.layer.alone()
+            light = still.light[nodes] & among(near.nodes, len(q))[nodes]
+            still = Still(light=light, layer=inner).during(system.model)
+            live = np.flatnonzero(place >= 0)
+            rows = replace(system.rows.part(live), unilateral=np.ones(len(live), bool))
+            model = replace(system.model, free=light)
+            system = replace(system, model=model, given=q[nodes], rows=rows, live=live)
+        else:
+            system, still = _inner(system, still, q, near)
         start, load = system.path.start[nodes], system.model.load[nodes]
-        return cls(nodes=nodes, system=system, still=still, start=start, load=load, arrived=u1[nodes])
+        return cls(nodes=nodes, live=live, system=system, still=still, start=start, load=load, arrived=u1[nodes])
+
+    def all_rows(self, impulse: Array, active: BoolArray, first: tuple[Array, BoolArray]) -> tuple[Array, BoolArray]:
+        """Impulses and active rows of all rows: those without conditions carry nothing."""
+        pressed, touching = np.zeros_like(first[0]), np.zeros_like(first[1])
+        pressed[self.live], touching[self.live] = impulse, active
+        return pressed, touching
 
     def looked(self, q: Array) -> Evaluation:
         """What moves the nodes at q (k, d)."""
@@ -156,8 +172,9 @@ class _Local:
         )
 
 
-def _prepared(system: SlabSystem, still: Still, carry: Carry) -> Carry:
+def _prepared(system: SlabSystem, still: Still, q: Array, chosen: tuple[Near, Carry]) -> Carry:
     """The carry with the stiffness of the nodes near a touch factored, whatever the length of the slab."""
+    near, carry = chosen
     if carry.origin is None or carry.stale:
         carry = replace(
             carry,
@@ -170,6 +187,7 @@ def _prepared(system: SlabSystem, still: Still, carry: Carry) -> Carry:
         )
     if carry.frozen is None:
         assert carry.origin is not None
+        system, still = _inner(system, still, q, near)
         factor, price = still.factored(system.model, carry.origin)
         model = system.model
         directions = basis(system.path.rows, model.free, model.encounters.fixed, model.touchable, few=True)

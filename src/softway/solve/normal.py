@@ -38,6 +38,11 @@ class Rows:
     slipping: Slipping | None = None
     rounding: float = 0.0
 
+    def part(self, which: IntArray) -> "Rows":
+        """The conditions on some of the rows, where there is no friction."""
+        equal, unilateral = self.equal[which], self.unilateral[which]
+        return Rows(target=self.target[which], equal=equal, unilateral=unilateral, rounding=self.rounding)
+
     def missable(self, slack: Array) -> float:
         """What rows may miss their targets by, for values (m,) that differ from the targets by ``slack``."""
         target = np.where(self.equal | self.unilateral, self.target, 0.0)

@@ -28,7 +28,7 @@ from softway.solve.return_map import during
 from softway.solve.stiffness import Stiffness
 from softway.solve.values import Evaluation, Start
 from softway.time.weight import EndPeaks, Momentum, TimeWeight, moments, peaks
-from softway.typing import Array, BoolArray
+from softway.typing import Array, BoolArray, IntArray
 
 STEADY = 15
 """Iterations after which nodes are kept on their faces."""
@@ -66,6 +66,8 @@ class SlabSystem:
         The rows that carry the forces at t0; by default those of the path.
     pressure, traction
         (m,) their normal forces, and (m, d) tangential ones where there is friction [N].
+    live
+        Those of rows that never change which have conditions, (k,); None where all have.
     fallback
         Whether an energy balance that the scalar cannot close is closed along the motion.
     """
@@ -86,6 +88,7 @@ class SlabSystem:
     carrying: Candidates | None = None
     pressure: Array | None = None
     traction: Array | None = None
+    live: IntArray | None = None
     fallback: bool = False
 
     def evaluate(self, q: Array, impulse: Array) -> Evaluation:
@@ -153,7 +156,8 @@ class SlabSystem:
         """
         near = end.near
         if near is None:
-            return frozen.coefficients(self.path.rows, self.model.free), self.rows
+            found = frozen.coefficients(self.path.rows, self.model.free)
+            return (found if self.live is None else found.part(self.live)), self.rows
         fixed = np.where(self.model.free, 0.0, q)
         with np.errstate(invalid="ignore"):
             target = near.along(q - fixed) - 2.0 * near.gap(end.displacement) / self.path.span
