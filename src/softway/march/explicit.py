@@ -20,7 +20,7 @@ from softway.march.outcome import Outcome
 from softway.march.rub import first_impulses
 from softway.march.settling import settled, watched
 from softway.march.situation import Situation
-from softway.march.still import Still, handed, pushed
+from softway.march.still import Followed, Still, handed, pushed
 from softway.model import Model
 from softway.solve.carry import Carry
 from softway.solve.driver import Iterate, Solution
@@ -30,7 +30,7 @@ from softway.solve.system import SlabSystem
 from softway.solve.values import Evaluation
 from softway.time.slab import Slab
 from softway.time.weight import moments
-from softway.typing import Array
+from softway.typing import Array, BoolArray
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -39,6 +39,20 @@ class Central:
 
     inertia: Inertia
     still: Still
+    followed: Followed
+    held: BoolArray | None
+
+    def driven(self, q: Array, given: Array | float) -> Array:
+        """Values (n, d) of q with those of nodes without inertia doubled and the ``given`` ones on supports."""
+        out = q.copy()
+        out[self.followed.light] *= 2.0
+        return out if self.held is None else np.where(self.held, given, out)
+
+    def reached(self, q: Array, moving: Array) -> Array:
+        """The velocity (n, d) at the end from q, and from that of the nodes with inertia."""
+        light, out = self.followed.light, moving.copy() if self.held is None else np.where(self.held, q, moving)
+        out[light] = 0.5 * q[light]
+        return out
 
 
 def central(model: Model) -> Central:
@@ -53,7 +67,12 @@ def central(model: Model) -> Central:
         raise InputError("solver", "Explicit with contact nodes that carry inertia", "the timing Energy")
     light = ~model.massive
     still = Still(light=model.free & light[:, None], layer=layer(model.parts, light))
-    return Central(inertia=inertia(model), still=still)
+    return Central(
+        inertia=inertia(model),
+        still=still,
+        followed=Followed.of(model),
+        held=None if model.free.all() else ~model.free,
+    )
 
 
 def solve_explicit(
@@ -66,29 +85,36 @@ def solve_explicit(
     NoConvergence
         If the contact nodes find no equilibrium.
     """
-    h, start, heavy = slab.span, now.start, model.massive[:, None]
+    h, start = slab.span, now.start
     shock = model.shock_force(start.displacement, h * start.velocity, h)
     push = model.load if shock is None else model.load - shock
     opening = _opening(model, now, central)
     slope = central.inertia.acceleration(push - opening)
-    moving = start.velocity + h * slope
-    coasting = start.displacement + h * np.where(heavy, 0.5 * (start.velocity + moving), start.velocity)
+    moving = h * slope
+    coasting = 0.5 * moving
+    moving += start.velocity
+    coasting += start.velocity
+    coasting *= h
+    coasting += start.displacement
     pairs = model.encounters.meet(start.displacement, coasting, slab.start, slab.end)
     require_slow(model, pairs, coasting, approach)
     system = replace(equations(model, now, slab, pairs, None), balanced=False)
-    q = np.where(model.free, np.where(heavy, moving, 2.0 * start.velocity), system.given)
+    q = central.driven(moving, system.given)
     it, count = settled(system, central.still, q, first_impulses(now, slab, system.path.rows), carry, method)
     end = _evaluated(system, it)
-    closing, left = handed(model, central.still, end.force, model.load + _contact(system, it, end.near))
-    end = replace(end, mean_force=0.5 * (opening + closing))
+    closing, left = handed(central.followed, central.still, end.force, _outer(system, central.still, it, end.near))
+    opening += closing
+    opening *= 0.5
+    end = replace(end, mean_force=opening)
     if shock is not None:
         lost = model.totals(shock * (end.displacement - start.displacement))
         end = replace(end, mean_force=end.mean_force + shock, lost=lost)
     solution = Solution(last=it, end=end, predicted=it.free, iterations=count, contraction=0.0)
-    out = outcome(model, now, slab, system, solution, pairs.found)
-    last = central.inertia.acceleration(push - closing)
-    velocity = np.where(heavy & model.free, start.velocity + 0.5 * h * (slope + last), out.velocity)
-    out = replace(out, velocity=velocity, acceleration=(velocity - start.velocity) / h)
+    slope += central.inertia.acceleration(push - closing)
+    slope *= 0.5 * h
+    slope += start.velocity
+    velocity = central.reached(it.q, slope)
+    out = outcome(model, now, slab, system, solution, pairs.found, velocity)
     return out, watched(it.carry, central.still, left)
 
 
@@ -113,13 +139,13 @@ def _opening(model: Model, now: Situation, central: Central) -> Array:
     """The internal force (n, d) at the start, with what nodes without inertia lack at those that they follow [N]."""
     start = now.start
     rows = now.rows or model.rows(start.displacement, now.time)
-    outer = model.load_before + pushed(rows, now.pressure, now.traction, model.shape)
-    return handed(model, central.still, start.force, outer)[0]
+    outer = pushed(central.still, model.load_before, rows, now.pressure, now.traction)
+    return handed(central.followed, central.still, start.force, outer)[0]
 
 
-def _contact(system: SlabSystem, it: Iterate, rows: Candidates | None) -> Array:
-    """Nodal forces (n, d) of contact at the end of the slab [N]."""
+def _outer(system: SlabSystem, still: Still, it: Iterate, rows: Candidates | None) -> Array:
+    """Forces (f,) of loads and contact at the end of the slab on components without inertia [N]."""
     rows = rows or system.path.rows
     m, carried = len(rows.node), it.impulse / (system.path.span * moments(system.weight)[1])
     traction = None if rows.shear is None else rows.shear.vectors(carried[m:].reshape(m, -1))
-    return pushed(rows, carried[:m], traction, system.model.shape)
+    return pushed(still, system.model.load, rows, carried[:m], traction)

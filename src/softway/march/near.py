@@ -78,7 +78,7 @@ def balanced(
     NoConvergence
         If there is no equilibrium in reach.
     """
-    (whole, u1), near = guess, chosen[0]
+    whole, near = guess[0], chosen[0]
     carry = _prepared(system, still, whole, chosen)
     frozen, scale = carry.frozen, max(float(whole.max(initial=1e-300)), -float(whole.min(initial=0.0)))
     assert frozen is not None

@@ -75,9 +75,7 @@ def _followed(
         skin = Skin(origin=Origin.of(system, u1))
         carry = replace(carry, factorisations=carry.factorisations + 1)
     factor = skin.factor or still.factored(model, skin.origin)[0]
-    outer = still.of(model.load)
-    if system.pressure is not None and system.pressure.any():
-        outer = outer + still.of(pushed(system.first, system.pressure, system.traction, model.shape))
+    outer = pushed(still, model.load, system.first, system.pressure, system.traction)
     allowed, least = SLIGHT * _size(system.start.force), 0.5 * h * method.tolerance * _size(q)
     share, before = skin.share, 0.0
     for count in range(CORRECTIONS):

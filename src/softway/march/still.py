@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+import scipy.sparse as sp
 
 from softway.bodies.layer import Layer
 from softway.bodies.past import during, remembering
@@ -52,16 +53,37 @@ class Still:
         return factor, cost(factor, matrix.shape[0])
 
 
-def pushed(rows: Candidates, pressure: Array | None, traction: Array | None, shape: tuple[int, int]) -> Array:
-    """Nodal forces (n, d) of contact forces (m,) and (m, d) on rows [N]."""
-    out = np.zeros(shape) if pressure is None else rows.spread(pressure, shape)
-    return out if traction is None or rows.shear is None else out + rows.shear.spread(traction)
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Followed:
+    """The ``nodes`` (k,) that nodes without inertia follow, and their ``weights`` (k, m) of the ``light`` ones (m,)."""
+
+    nodes: IntArray
+    light: IntArray
+    weights: sp.csr_array
+
+    @classmethod
+    def of(cls, model: Model) -> "Followed":
+        """Those of a model."""
+        light = np.flatnonzero(~model.massive)
+        weights = sp.csr_array(model.follow[light].T)
+        nodes = np.flatnonzero(np.diff(weights.indptr))
+        return cls(nodes=nodes, light=light, weights=sp.csr_array(weights[nodes]))
 
 
-def handed(model: Model, still: Still, force: Array, outer: Array) -> tuple[Array, Array]:
+def pushed(still: Still, load: Array, rows: Candidates, pressure: Array | None, traction: Array | None = None) -> Array:
+    """Forces (f,) of loads (n, d) and of contact, (m,) and (m, d) on rows, on components without inertia [N]."""
+    out = still.of(load)
+    if pressure is not None and pressure.any():
+        out += still.of(rows.spread(pressure, load.shape))
+    return out if traction is None or rows.shear is None else out + still.of(rows.shear.spread(traction))
+
+
+def handed(followed: Followed, still: Still, force: Array, outer: Array) -> tuple[Array, Array]:
     """The internal force (n, d) with what keeps components without inertia from equilibrium with the ``outer`` forces
-    (n, d) handed to the nodes that they follow, and that, (f,) [N].
+    (f,) handed to the nodes that they follow, and that, (f,) [N].
     """
-    missing, left = still.of(force) - still.of(outer), np.zeros_like(force)
-    left.ravel()[still.where] = missing
-    return np.asarray(still.moved(force, -missing) + model.follow.T @ left), missing
+    missing, left = still.of(force) - outer, np.zeros((len(followed.light), force.shape[1]))
+    left[still.light[followed.light]] = missing
+    out = still.moved(force, -missing)
+    out[followed.nodes] += followed.weights @ left
+    return out, missing
