@@ -74,7 +74,7 @@ def _followed(
     if skin is None or skin.worn:
         skin = Skin(origin=Origin.of(system, u1))
         carry = replace(carry, factorisations=carry.factorisations + 1)
-    factor = skin.factor or still.factored(model, skin.origin)[0]
+    factor = skin.factor or still.factored(model, skin.origin, crude=True)[0]
     outer = pushed(still, model.load, system.first, system.pressure, system.traction)
     allowed, least = SLIGHT * _size(system.start.force), 0.5 * h * method.tolerance * _size(q)
     share, before = skin.share, 0.0

@@ -11,7 +11,7 @@ from softway.contact.candidates import Candidates
 from softway.model import Model
 from softway.solve.carry import Origin
 from softway.solve.linear import Factor
-from softway.solve.operators.factored import cost, suited
+from softway.solve.operators.factored import MANY, cost, suited
 from softway.typing import Array, BoolArray, IntArray
 
 
@@ -45,11 +45,15 @@ class Still:
         """The same in the slab in which the bodies of the model stand."""
         return replace(self, layer=self.layer.during(model.parts)) if remembering(model.parts) else self
 
-    def factored(self, model: Model, origin: Origin) -> tuple[Factor, float]:
-        """The factor of their stiffness as it was somewhere, and its price in iterations."""
+    def factored(self, model: Model, origin: Origin, crude: bool = False) -> tuple[Factor, float]:
+        """The factor of their stiffness as it was somewhere, and its price in iterations.
+
+        A ``crude`` one, for corrections whose remainder is known, is of single precision where that is cheaper.
+        """
         then = self.layer.during(during(model.parts, origin.memory, origin.span))
         matrix = then.tangent(origin.at, self.light)
-        factor = suited(matrix.shape[0]).factor(matrix)
+        single = crude and not model.linear and matrix.shape[0] >= MANY
+        factor = suited(matrix.shape[0], "single" if single else "double").factor(matrix)
         return factor, cost(factor, matrix.shape[0])
 
 
