@@ -10,6 +10,7 @@ from softway.march.situation import Situation
 from softway.march.standing import Account
 from softway.march.step import Certificate, Ledger
 from softway.model import Model
+from softway.solve.balance import resultant
 from softway.time.weight import EndPeaks
 from softway.typing import Array
 
@@ -37,9 +38,9 @@ INTERNAL = 1e-4
 
 
 def certified(
-    model: Model, out: Outcome, after: Situation, last: Account, ledger: Ledger, momentum: tuple[Array, float]
+    model: Model, out: Outcome, after: Situation, last: Account, ledger: Ledger, leftover: Array
 ) -> Certificate:
-    """What a solved slab leaves over; ``momentum`` is its :func:`balance`."""
+    """What a solved slab leaves over; ``leftover`` (d,) is that of its :func:`balance`."""
     searched = out.system.searched
     rows = out.rows if searched is None else searched.at(after.start.displacement)
     gap = np.where(rows.near, rows.gap(after.start.displacement), np.inf)
@@ -49,7 +50,7 @@ def certified(
         min_force=float(after.pressure.min(initial=0.0)),
         complementarity=float(np.abs(after.pressure[closed] * gap[closed]).sum()),
         power_residual=float(sum(c.power_residual for c in ledger.contacts.values())),
-        momentum_error=float(np.abs(momentum[0]).max()),
+        momentum_error=float(np.abs(leftover).max()),
         energy_error=ledger.energy_error - last.energy_error,
     )
 
@@ -60,38 +61,65 @@ def violation(
     out: Outcome,
     after: Situation,
     ledger: Ledger,
-    momentum: tuple[Array, float],
     found: Certificate,
 ) -> str | None:
     """The first condition that a certificate violates, in words; None if it holds."""
     kept = (found.min_gap, found.min_force, found.power_residual, found.momentum_error, found.energy_error)
     if np.isnan(kept).any() or not np.isfinite(kept[1:]).all():
         return "a gap, a force or a balance is not a number"
-    reach = float(np.abs(model.points + after.start.displacement).max())
-    if found.min_gap < -DEPTH * reach:
+    if found.min_gap < 0.0 and found.min_gap < -DEPTH * _reach(model, after):
         return f"a node ends {-found.min_gap:.3g} m inside its opponent"
     if found.min_force < -TENSION * float(np.abs(after.pressure).max(initial=0.0)):
         return f"contact pulls with {-found.min_force:.3g} N"
-    blurred = _blurred(model, after)
+    return _energetic(model, before, out, after, ledger, found) or _pushing(model, before, out, after, ledger, found)
+
+
+def _closes(out: Outcome) -> bool:
+    """Whether the slab closes its energy balance."""
+    return bool(out.system.model.massive.any()) and (out.system.balanced or out.system.located is not None)
+
+
+def _ruled(model: Model, out: Outcome) -> bool:
+    """Whether the energy balance says whether a slab holds."""
+    return isinstance(model.timing, Energy) and out.system.weight == EndPeaks()
+
+
+def _energetic(
+    model: Model, before: Situation, out: Outcome, after: Situation, ledger: Ledger, found: Certificate
+) -> str | None:
+    """What is wrong with the energy; what takes part is summed up only where a part of it does not suffice already."""
+    closes, error = _closes(out), found.energy_error
+    error = abs(error) if closes else error
     level = float(np.abs(before.start.energy).sum() + np.abs(after.start.energy).sum()) + ledger.energy_kinetic
-    level += float(model.kinetic(before.start.velocity).sum()) + abs(ledger.work_external)
-    allowed = LOSS * level + AT_REST * float(model.floor.sum())
-    allowed += float(np.sum(blurred * np.abs(after.start.displacement - before.start.displacement).max(axis=1)))
-    closes = model.massive.any() and (out.system.balanced or out.system.located is not None)
-    ruled = isinstance(model.timing, Energy) and out.system.weight == EndPeaks()
-    if ruled and closes and abs(found.energy_error) > allowed:
-        return f"the energy balance is left with {found.energy_error:.3g} J of {level:.3g} J"
-    if ruled and found.energy_error > UNSTABLE * level + allowed:
-        return f"the energy grows by {found.energy_error:.3g} J of {level:.3g} J: beyond the stability limit"
-    leftover, scale = momentum
-    accuracy = MOMENTUM if model.massive.any() else FORCES
-    most = accuracy * scale + float(np.sqrt(2.0 * model.mass.sum() * model.floor.sum()))
-    most += (after.time - before.time) * float(blurred.sum())
-    if not isinstance(model.timing, Paper) and found.momentum_error > most:
-        return f"the momentum balance is left with {np.abs(leftover).max():.3g} of {scale:.3g} kg m/s"
-    if not (ruled and closes):
+    level += abs(ledger.work_external)
+    growth, rest = (0.0 if closes else UNSTABLE), AT_REST * float(model.floor.sum())
+    if not _ruled(model, out) or error <= (growth + LOSS) * level + rest:
         return None
-    unrest = float(np.abs(_unrest(out, after)).max())
+    level += float(model.kinetic(before.start.velocity).sum())
+    moved = np.abs(after.start.displacement - before.start.displacement).max(axis=1)
+    if error <= (growth + LOSS) * level + rest + float(np.sum(_blurred(model, after) * moved)):
+        return None
+    if closes:
+        return f"the energy balance is left with {found.energy_error:.3g} J of {level:.3g} J"
+    return f"the energy grows by {error:.3g} J of {level:.3g} J: beyond the stability limit"
+
+
+def _pushing(
+    model: Model, before: Situation, out: Outcome, after: Situation, ledger: Ledger, found: Certificate
+) -> str | None:
+    """What is wrong with the momentum; what takes part is at least the whole momentum."""
+    if isinstance(model.timing, Paper):
+        return None
+    accuracy = MOMENTUM if model.massive.any() else FORCES
+    settles = _ruled(model, out) and _closes(out)
+    if not settles and found.momentum_error <= accuracy * float(np.abs(ledger.momentum).sum()):
+        return None
+    scale = _participating(model, before, out, after)
+    most = accuracy * scale + float(np.sqrt(2.0 * model.mass.sum() * model.floor.sum()))
+    most += (after.time - before.time) * float(_blurred(model, after).sum())
+    if found.momentum_error > most:
+        return f"the momentum balance is left with {found.momentum_error:.3g} of {scale:.3g} kg m/s"
+    unrest = float(np.abs(_unrest(out, after)).max()) if settles else 0.0
     if unrest > BEQUEST * most:
         return f"forces on nodes without inertia leave {unrest:.3g} of {scale:.3g} kg m/s to the next slab"
     return None
@@ -117,18 +145,32 @@ def _blurred(model: Model, after: Situation) -> Array:
     """
     share = model.floor / UNSTRAINED**2 / [p.mesh.n_nodes for p in model.parts]
     spring = share[model.part_of] / model.edge**2
-    reach = float(np.abs(model.points + after.start.displacement).max())
-    return PLACES * reach * np.where(model.massive, 0.0, spring)
+    return PLACES * _reach(model, after) * np.where(model.massive, 0.0, spring)
 
 
-def balance(model: Model, before: Situation, out: Outcome, after: Situation) -> tuple[Array, float]:
-    """What the change of momentum (d,) has beyond loads, contact and supports, and the momenta that take part."""
-    span = after.time - before.time
+def _reach(model: Model, after: Situation) -> float:
+    """The greatest coordinate [m]."""
+    return float(np.abs(model.points + after.start.displacement).max())
+
+
+def balance(model: Model, before: Situation, out: Outcome, after: Situation) -> Array:
+    """What the change of momentum (d,) has beyond loads, contact and supports [kg m/s]."""
     keep = np.ones(model.shape[1])
     keep[0] = not any(isinstance(p.internal.section, Axisymmetric) for p in model.parts)
     change = model.mass @ (after.start.velocity - before.start.velocity)
-    load = out.system.model.slab_load(out.solution.end.scalar)
-    given = span * (load + out.push + out.support)
+    return (resultant(change) - resultant(_given(before, out, after))) * keep
+
+
+def _given(before: Situation, out: Outcome, after: Situation) -> Array:
+    """Impulses (n, d) of loads, contact and supports [kg m/s]."""
+    given = out.system.model.slab_load(out.solution.end.scalar) + out.push
+    given += out.support
+    given *= after.time - before.time
+    return given
+
+
+def _participating(model: Model, before: Situation, out: Outcome, after: Situation) -> float:
+    """The momenta that take part in the balance [kg m/s]."""
     own = np.abs(model.mass @ before.start.velocity).sum() + np.abs(model.mass @ after.start.velocity).sum()
-    inner = INTERNAL * span * (np.abs(before.start.force).sum() + np.abs(after.start.force).sum())
-    return (change - given).sum(axis=0) * keep, float(own + np.abs(given).sum() + inner)
+    inner = INTERNAL * (after.time - before.time) * (np.abs(before.start.force).sum() + np.abs(after.start.force).sum())
+    return float(own + np.abs(_given(before, out, after)).sum() + inner)

@@ -11,13 +11,13 @@ from softway.march.situation import Situation
 from softway.march.standing import Account
 from softway.march.step import ContactLedger, Ledger
 from softway.model import Model
-from softway.solve.balance import moment
+from softway.solve.balance import moment, resultant
 from softway.typing import Array, BoolArray
 
 
 def opening(model: Model, now: Situation) -> Ledger:
     """The ledger at the start: energies and momentum, no work yet."""
-    rows = model.rows(now.start.displacement, now.time)
+    rows, momenta = model.rows(now.start.displacement, now.time), model.mass @ now.start.velocity
     gap = rows.gap(now.start.displacement)
     contacts = {
         name: ContactLedger(
@@ -30,29 +30,35 @@ def opening(model: Model, now: Situation) -> Ledger:
         for k, name in enumerate(rows.labels)
     }
     return Ledger(
-        energy_kinetic=float(model.kinetic(now.start.velocity).sum()),
+        energy_kinetic=_kinetic(now.start.velocity, momenta),
         energy_strain=float(now.start.energy.sum()),
         work_external=0.0,
         dissipation=0.0,
         energy_error=0.0,
-        momentum=momentum(model, now.start.velocity),
-        spin=spin(model, now.start.displacement, now.start.velocity),
+        momentum=momentum(momenta),
+        spin=spin(model, now.start.displacement, momenta),
         contacts=contacts,
     )
 
 
-def momentum(model: Model, v: Array) -> Array:
-    """Linear momentum (3,) [kg m/s]."""
+def _kinetic(v: Array, momenta: Array) -> float:
+    return 0.5 * float(np.vdot(v, momenta))
+
+
+def momentum(momenta: Array) -> Array:
+    """Linear momentum (3,) of nodal momenta (n, d) [kg m/s]."""
     out = np.zeros(3)
-    out[: v.shape[1]] = (model.mass @ v).sum(axis=0)
+    out[: momenta.shape[1]] = resultant(momenta)
     return out
 
 
-def spin(model: Model, u: Array, v: Array) -> Array:
-    """Angular momentum (3,) about the origin [kg m^2/s]; zero in 1D and around an axis of revolution."""
+def spin(model: Model, u: Array, momenta: Array) -> Array:
+    """Angular momentum (3,) of nodal momenta (n, d) about the origin [kg m^2/s]; zero in 1D and around an axis of
+    revolution.
+    """
     out = np.zeros(3)
     round_ = any(isinstance(p.internal.section, Axisymmetric) for p in model.parts)
-    found = moment(model.points + u, model.mass @ v)
+    found = moment(model.points + u, momenta)
     if len(found) and not round_:
         out[3 - len(found) :] = found
     return out
@@ -77,10 +83,11 @@ def audited(model: Model, last: Account, before: Situation, out: Outcome, after:
     """The ledger after a slab, continuing the account."""
     moved = after.start.displacement - before.start.displacement
     load = out.system.model.slab_load(out.solution.end.scalar)
-    work = last.work_external + float(np.sum(load * moved)) + out.work
+    work = last.work_external + float(np.vdot(load, moved)) + out.work
     lost = last.dissipation + out.dissipation + float(np.sum(out.solution.end.lost))
     lost += past.dissipated(model.parts, after.start.memory) - past.dissipated(model.parts, before.start.memory)
-    kinetic = float(model.kinetic(after.start.velocity).sum())
+    momenta = model.mass @ after.start.velocity
+    kinetic = _kinetic(after.start.velocity, momenta)
     strain = float(after.start.energy.sum())
     return Ledger(
         energy_kinetic=kinetic,
@@ -88,8 +95,8 @@ def audited(model: Model, last: Account, before: Situation, out: Outcome, after:
         work_external=work,
         dissipation=lost,
         energy_error=kinetic + strain - last.energy_start - work + lost,
-        momentum=momentum(model, after.start.velocity),
-        spin=spin(model, after.start.displacement, after.start.velocity),
+        momentum=momentum(momenta),
+        spin=spin(model, after.start.displacement, momenta),
         contacts=_contacts(model, before, out, after),
     )
 

@@ -133,9 +133,8 @@ def _tried(rules: Rule, stand: Standing, slab: Slab, carry: Carry, closed: bool)
             halt(model, now, out, slab.span)
             breakaway(model, now, out, partial(_held, rules, now, slab, new, approach, closed))
         ledger = audited(model, stand.account, now, out, after)
-        momentum = balance(model, now, out, after)
-        certificate = certified(model, out, after, stand.account, ledger, momentum)
-        broken = violation(model, now, out, after, ledger, momentum, certificate)
+        certificate = certified(model, out, after, stand.account, ledger, balance(model, now, out, after))
+        broken = violation(model, now, out, after, ledger, certificate)
         if broken is None:
             return Accepted(
                 after=after,

@@ -297,4 +297,16 @@ def moment(x: Array, force: Array) -> Array:
         return np.zeros(0)
     if d == 2:
         return np.array([np.sum(x[:, 0] * force[:, 1] - x[:, 1] * force[:, 0])])
-    return np.array([x[:, i] @ force[:, j] - x[:, j] @ force[:, i] for i, j in ((1, 2), (2, 0), (0, 1))])
+    both = x.T @ force
+    return np.array([both[i, j] - both[j, i] for i, j in ((1, 2), (2, 0), (0, 1))])
+
+
+def resultant(field: Array) -> Array:
+    """Sum (d,) of a nodal field (n, d).
+
+    Examples
+    --------
+    >>> resultant(np.array([[1.0, 0.0], [2.0, 3.0]]))
+    array([3., 3.])
+    """
+    return np.ones(len(field)) @ field

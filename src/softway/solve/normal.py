@@ -50,7 +50,7 @@ class Rows:
 
 
 def _greatest(values: Array) -> float:
-    return float(np.abs(values).max(initial=0.0))
+    return max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))
 
 
 def rounded(x: Array) -> float:
