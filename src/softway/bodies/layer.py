@@ -56,7 +56,8 @@ class Layer:
         """Internal force (n, d) on the chosen nodes, zero on all others [N]."""
         out = np.zeros_like(u)
         for piece in self.pieces:
-            out[piece.nodes[piece.chosen]] = piece.internal.force(u[piece.nodes])[piece.chosen]
+            here = np.flatnonzero(piece.chosen)
+            out[piece.nodes[here]] = piece.internal.force(u.take(piece.nodes, axis=0)).take(here, axis=0)
         return out
 
     def alone(self) -> tuple[IntArray, "Layer"]:

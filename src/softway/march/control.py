@@ -86,10 +86,11 @@ def require_slow(model: Model, pairs: Pairs, coasting: Array, limit: float) -> N
 def may_grow(model: Model, control: StepControl, length: float, before: Situation, after: Situation) -> bool:
     """Whether the motion is smooth enough for a slab of twice the length."""
     moving = model.massive
-    jump = np.abs(after.acceleration - before.acceleration)
-    error, allowed = 8.0 * length**2 / 12.0 * jump, control.growth * model.edge
-    if error.max(initial=0.0) <= allowed.min():
+    jump = after.acceleration - before.acceleration
+    share, allowed = 8.0 * length**2 / 12.0, control.growth * model.edge
+    if share * max(float(jump.max(initial=0.0)), -float(jump.min(initial=0.0))) <= allowed.min():
         return True
+    error = share * np.abs(jump)
     return bool((error[moving] <= allowed[moving, None]).all())
 
 

@@ -21,6 +21,8 @@ CLOSE, FAR = 0.5, 4.0
 """Gaps, in edges, within which a node has to be among those near a touch, and within which it is made one of them."""
 MOST = 0.5
 """Share of the nodes without inertia beyond which all of them count as near a touch."""
+SWIFT = 0.25
+"""Share of the change before below which a change tells how far the iteration is from its end."""
 USUAL = 3
 """Iterations of the nodes near a touch that a new factor hardly makes fewer."""
 
@@ -85,15 +87,17 @@ def balanced(
     local = _Local.of(system, still, guess, near, frozen)
     live = local.live
     q, impulse, active = whole[local.nodes], first[0][live], first[1][live]
+    change = 0.0
     for count in range(1, method.limit + 1):
         end = local.looked(q)
         local = replace(local, system=local.system.steadied(end.displacement, active, count))
         if not np.isfinite(end.residual).all():
             break
         step = corrected(local.system, frozen, q, end, impulse, active)
-        change = float(np.abs(step.q - q).max(initial=0.0))
+        before, change = change, float(np.abs(step.q - q).max(initial=0.0))
+        same = bool((step.active == active).all())
         q, impulse, active = step.q, step.impulse, step.active
-        if change <= method.tolerance * scale:
+        if change <= method.tolerance * scale or (same and _left(before, change) <= method.tolerance * scale):
             whole = whole.copy()
             whole[local.nodes] = q
             system = local.system if local.system.live is None else system
@@ -195,6 +199,15 @@ def _prepared(system: SlabSystem, still: Still, q: Array, chosen: tuple[Near, Ca
         carry = replace(carry, frozen=frozen, price=price)
     assert carry.frozen is not None
     return replace(carry, frozen=carry.frozen.scaled(1.0 / system.share), span=system.path.span)
+
+
+def _left(before: float, change: float) -> float:
+    """How far an iteration is from its end, by its last two changes; infinite where they do not tell.
+
+    >>> _left(1.0, 0.125), _left(0.0, 1.0)
+    (0.017857142857142856, inf)
+    """
+    return change**2 / (before - change) if change < SWIFT * before else float("inf")
 
 
 def _dear(carry: Carry, count: int) -> bool:

@@ -33,7 +33,7 @@ class Still:
 
     def of(self, values: Array) -> Array:
         """The components (f,) of a field (n, d)."""
-        return values.ravel()[self.where]
+        return values.ravel().take(self.where)
 
     def moved(self, values: Array, change: Array) -> Array:
         """A field (n, d) whose components are changed by so much (f,)."""
