@@ -102,7 +102,7 @@ def test_what_is_not_a_number_breaks_the_certificate():
     good = next(march(boxes(), until=0.1, step=0.1)).certificate
     for name in ("min_gap", "min_force", "power_residual", "momentum_error", "energy_error"):
         bad = replace(good, **{name: float("nan")})
-        told = violation(None, None, None, None, None, None, bad)  # type: ignore[arg-type]
+        told = violation(None, None, None, None, None, bad)  # type: ignore[arg-type]
         assert told == "a gap, a force or a balance is not a number"
 
 

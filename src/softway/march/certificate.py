@@ -5,12 +5,12 @@ import numpy as np
 from softway.bodies.part import UNSTRAINED
 from softway.bodies.section import Axisymmetric
 from softway.contact.timing import Energy, Paper
+from softway.march.ledger import resultant
 from softway.march.outcome import Outcome
 from softway.march.situation import Situation
 from softway.march.standing import Account
 from softway.march.step import Certificate, Ledger
 from softway.model import Model
-from softway.solve.balance import resultant
 from softway.time.weight import EndPeaks
 from softway.typing import Array
 

@@ -11,7 +11,7 @@ from softway.march.situation import Situation
 from softway.march.standing import Account
 from softway.march.step import ContactLedger, Ledger
 from softway.model import Model
-from softway.solve.balance import moment, resultant
+from softway.solve.balance import moment
 from softway.typing import Array, BoolArray
 
 
@@ -43,6 +43,17 @@ def opening(model: Model, now: Situation) -> Ledger:
 
 def _kinetic(v: Array, momenta: Array) -> float:
     return 0.5 * float(np.vdot(v, momenta))
+
+
+def resultant(field: Array) -> Array:
+    """Sum (d,) of a nodal field (n, d).
+
+    Examples
+    --------
+    >>> resultant(np.array([[1.0, 0.0], [2.0, 3.0]]))
+    array([3., 3.])
+    """
+    return np.ones(len(field)) @ field
 
 
 def momentum(momenta: Array) -> Array:

@@ -72,9 +72,8 @@ def equations(
         way=way,
     )
     fixed = model.encounters.fixed
-    given = model.prescribed(slab.end)
-    if model.driven:
-        given = np.where(model.massive[:, None], given, model.prescribed(slab.start) + given)
+    last = model.prescribed(slab.end)
+    given = last if not model.driven else np.where(model.massive[:, None], last, model.prescribed(slab.start) + last)
     target = -2.0 * rows.gap(path.end(given)) / h if fixed else np.zeros(len(rows.node))
     return SlabSystem(
         model=model,
@@ -100,18 +99,12 @@ def equations(
 
 
 def outcome(
-    model: Model,
-    now: Situation,
-    slab: Slab,
-    system: SlabSystem,
-    solution: Solution,
-    pairs: int,
-    velocity: Array | None = None,
+    model: Model, now: Situation, slab: Slab, system: SlabSystem, solution: Solution, pairs: int, v: Array | None = None
 ) -> Outcome:
-    """What a solution says of forces, works and events of the slab; q tells the velocity where none is given."""
+    """What a solution says of forces, works and events of the slab; q tells the velocity v where none is given."""
     h, q, end = slab.span, solution.last.q, solution.end
     rows = end.near or system.path.rows
-    velocity = np.where(model.massive[:, None], q, 0.5 * q) if velocity is None else velocity
+    velocity = np.where(model.massive[:, None], q, 0.5 * q) if v is None else v
     pressure = solution.last.impulse[: len(rows.node)] / (h * moments(slab.weight)[1])
     closed = pressure > 0.0
     first, a = system.first, end.scalar[model.part_of[rows.node]]
@@ -123,9 +116,7 @@ def outcome(
     else:
         old, new = (0.5 - a) * now.pressure, (0.5 + a) * pressure
         force = old + new
-        push = rows.spread(new if first is not rows else force, model.shape)
-        push = push if first is rows else push + first.spread(old, model.shape)
-        tools += float(old @ first.drive + new @ rows.drive)
+        push, tools = _spread((first, rows), old, new, model.shape), float(old @ first.drive + new @ rows.drive)
     if rubbed is not None:
         push, tools = push + rubbed.push, tools + rubbed.work
     support = supports(model, now, end, velocity, push, h)
@@ -148,6 +139,14 @@ def outcome(
         iterations=solution.iterations,
         rub=rubbed,
     )
+
+
+def _spread(rows: tuple[Candidates, Candidates], old: Array, new: Array, shape: tuple[int, int]) -> Array:
+    """Nodal forces (n, d) of the rows at both ends."""
+    first, last = rows
+    if first is last:
+        return last.spread(old + new, shape)
+    return first.spread(old, shape) + last.spread(new, shape)
 
 
 def _events(
@@ -179,16 +178,17 @@ def _touches(
     h, rows, end = slab.span, system.path.rows, solution.end
     last = end.near or rows
     fresh = closed & ~now.closed
+    if not fresh.any():
+        return []
     gap = np.where(rows.near, rows.gap(now.start.displacement), 0.0)
     speed = 0.5 * solution.predicted[: len(last.node)] - last.drive / h
-    if fresh.any():
-        unseen = ~rows.near | (gap + h * speed >= 0.0)
-        coasting = now.start.displacement + h * now.start.velocity
-        for seen in (last, rows if system.pairs is None else system.pairs.at(coasting)):
-            first = np.where(seen.near, seen.gap(now.start.displacement), 0.0) + seen.drive
-            rate = seen.along(now.start.velocity) - seen.drive / h
-            closes = unseen & (first > 0.0) & (first + h * rate < 0.0)
-            gap, speed = np.where(closes, first, gap), np.where(closes, rate, speed)
+    unseen = ~rows.near | (gap + h * speed >= 0.0)
+    coasting = now.start.displacement + h * now.start.velocity
+    for seen in (last, rows if system.pairs is None else system.pairs.at(coasting)):
+        first = np.where(seen.near, seen.gap(now.start.displacement), 0.0) + seen.drive
+        rate = seen.along(now.start.velocity) - seen.drive / h
+        closes = unseen & (first > 0.0) & (first + h * rate < 0.0)
+        gap, speed = np.where(closes, first, gap), np.where(closes, rate, speed)
     speed = np.where(gap + h * speed < 0.0, speed, -gap / h)
     tau = fading(gap, np.minimum(gap + h * speed, -1e-300))
     return [

@@ -95,7 +95,7 @@ def balanced(
             break
         step = corrected(local.system, frozen, q, end, impulse, active)
         before, change = change, float(np.abs(step.q - q).max(initial=0.0))
-        same = bool((step.active == active).all())
+        same = local.system.live is not None and bool((step.active == active).all())
         q, impulse, active = step.q, step.impulse, step.active
         if change <= method.tolerance * scale or (same and _left(before, change) <= method.tolerance * scale):
             whole = whole.copy()

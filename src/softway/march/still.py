@@ -88,6 +88,7 @@ def handed(followed: Followed, still: Still, force: Array, outer: Array) -> tupl
     """
     missing, left = still.of(force) - outer, np.zeros((len(followed.light), force.shape[1]))
     left[still.light[followed.light]] = missing
-    out = still.moved(force, -missing)
+    out = force.copy()
+    out.ravel()[still.where] = outer
     out[followed.nodes] += followed.weights @ left
     return out, missing

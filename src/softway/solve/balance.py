@@ -292,21 +292,6 @@ def moment(x: Array, force: Array) -> Array:
     >>> moment(np.array([[1.0, 0.0]]), np.array([[0.0, 2.0]]))
     array([2.])
     """
-    d = x.shape[1]
-    if d == 1:
-        return np.zeros(0)
-    if d == 2:
-        return np.array([np.sum(x[:, 0] * force[:, 1] - x[:, 1] * force[:, 0])])
     both = x.T @ force
-    return np.array([both[i, j] - both[j, i] for i, j in ((1, 2), (2, 0), (0, 1))])
-
-
-def resultant(field: Array) -> Array:
-    """Sum (d,) of a nodal field (n, d).
-
-    Examples
-    --------
-    >>> resultant(np.array([[1.0, 0.0], [2.0, 3.0]]))
-    array([3., 3.])
-    """
-    return np.ones(len(field)) @ field
+    pairs = ((), ((0, 1),), ((1, 2), (2, 0), (0, 1)))[x.shape[1] - 1]
+    return np.array([both[i, j] - both[j, i] for i, j in pairs])

@@ -64,10 +64,9 @@ class SlabSystem:
         (n, d) values of q on supported components.
     carrying
         The rows that carry the forces at t0; by default those of the path.
-    pressure, traction
-        (m,) their normal forces, and (m, d) tangential ones where there is friction [N].
-    live
-        Those of rows that never change which have conditions, (k,); None where all have.
+    pressure, traction, live
+        (m,) their normal forces, and (m, d) tangential ones where there is friction [N]; the rows (k,) that have
+        conditions where they never change, None where all have.
     fallback
         Whether an energy balance that the scalar cannot close is closed along the motion.
     """
@@ -109,8 +108,7 @@ class SlabSystem:
         if self.balanced:
             ends = self._ends(u1, force, energy + lost, mean, near, impulse)
             closure = closed(model, ends, self.fallback) if self.weight == EndPeaks() else late(model, ends)
-        inertia = model.mass @ (q - start.velocity - self.unbalanced)
-        residual = inertia + h * (closure.mean - model.load) - self.impulses
+        residual = model.mass @ (q - start.velocity - self.unbalanced) + h * (closure.mean - model.load) - self.impulses
         still = ~model.massive
         residual[still] = h * moments(self.weight)[1] * (force - model.load)[still]
         return Evaluation(
