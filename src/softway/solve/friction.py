@@ -187,10 +187,13 @@ def _searched(problem: Touching, x: Array, step: Array, look: Look) -> tuple[Arr
 
 
 def _size(problem: Touching, x: Array, look: Look) -> float:
-    """What the changes move, and what the rows that hold would move without them."""
+    """What the changes move, each by itself, and what the rows that hold would move without them.
+
+    Changes of neighbours may move next to nothing together: what each moves is what is rounded.
+    """
     gap, slip = problem.split(problem.free)
     held = np.abs(slip[~look.slips]).max(initial=0.0)
-    moved = np.abs(problem.compliance @ x).max(initial=0.0)
+    moved = (np.abs(problem.compliance) @ np.abs(x)).max(initial=0.0)
     return float(max(np.abs(gap).max(initial=0.0), held, moved, 1e-300))
 
 
