@@ -69,7 +69,7 @@ def rubbed(
         rest[every] = 0.0
         lifted = coefficients.spread(rest)
         now = loaded - np.where(open_, coefficients.along(frozen.give(lifted)), 0.0)
-        problem = touching(delassus(frozen, part), now[every], law.part(index), carried[every])
+        problem = touching(delassus(frozen, part), now[every], law.part(index), carried[every], rows.rounding)
         x[every], slips = settled(problem, x[every])
         push = part.spread(x[every])
         gap = now[:m] + coefficients.along(frozen.give(push))[:m]
@@ -167,9 +167,9 @@ def _newton(problem: Touching, x: Array) -> tuple[Array, bool]:
 
 
 def _settles(problem: Touching, x: Array, look: Look, since: int) -> bool:
-    """Whether multipliers meet the conditions to rounding, or nearly and no better for some steps."""
+    """Whether multipliers meet the conditions to rounding, of positions too, or nearly and no better for some steps."""
     least = SETTLED * _size(problem, x, look)
-    return bool(look.worst <= least or (since >= 3 and look.worst <= 1e3 * least))
+    return bool(look.worst <= max(least, problem.rounding) or (since >= 3 and look.worst <= 1e3 * least))
 
 
 def _searched(problem: Touching, x: Array, step: Array, look: Look) -> tuple[Array, Look]:

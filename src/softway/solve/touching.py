@@ -33,6 +33,8 @@ class Touching:
         (c,) compliance of each normal; ``give`` (c,) that of each row along its surface.
     carried
         (c (1 + k),) multipliers.
+    rounding
+        What the last digits of positions make of gaps and slips.
     """
 
     compliance: Array
@@ -41,6 +43,7 @@ class Touching:
     reach: Array
     give: Array
     carried: Array
+    rounding: float = 0.0
 
     @property
     def count(self) -> int:
@@ -70,7 +73,9 @@ class Touching:
         )
 
 
-def touching(compliance: Array, free: Array, law: Slipping, carried: Array | None = None) -> Touching:
+def touching(
+    compliance: Array, free: Array, law: Slipping, carried: Array | None = None, rounding: float = 0.0
+) -> Touching:
     """The contact problem of rows with their compliance, and with gaps and slips under the ``carried`` multipliers.
 
     Raises
@@ -91,6 +96,7 @@ def touching(compliance: Array, free: Array, law: Slipping, carried: Array | Non
         reach=np.maximum(diagonal[:count], least),
         give=np.maximum(give, least),
         carried=np.zeros(len(free)) if carried is None else carried,
+        rounding=rounding,
     )
 
 
