@@ -194,7 +194,7 @@ def _prepared(system: SlabSystem, still: Still, q: Array, chosen: tuple[Near, Ca
         system, still = _inner(system, still, q, near)
         factor, price = still.factored(system.model, carry.origin)
         model = system.model
-        directions = basis(system.path.rows, model.free, model.encounters.fixed, model.touchable, few=True)
+        directions = basis(system.path.rows, model.free, model.encounters.fixed, model.touchable)
         frozen = Frozen(factor, directions).filled(carry.batches)
         carry = replace(carry, frozen=frozen, price=price)
     assert carry.frozen is not None

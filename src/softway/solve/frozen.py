@@ -24,12 +24,11 @@ class Basis:
     Parameters
     ----------
     directions
-        (f, b): the contact rows themselves where they never change, else the components of the contact nodes.
+        (f, b): the contact rows that can be moved where they never change, else the components of the contact nodes.
     component
         (b,) free component of each direction; None where the directions are the rows.
     place
-        (m,) the direction of each row where directions are rows, -1 for a row that has none; None where each has its
-        own.
+        (m,) the direction of each row where directions are rows, -1 for a row that no free component moves.
     transposed
         (b, f) the directions as rows.
     """
@@ -48,13 +47,12 @@ class Basis:
 
     def coefficients(self, rows: Candidates, free: BoolArray) -> sp.csr_array:
         """Rows C (m, b) with ``G = C directions^T``."""
-        if self.component is None and self.place is not None:
-            own = np.flatnonzero(self.place >= 0)
-            shape = (len(rows.node), self.directions.shape[1])
-            return sp.csr_array((np.ones(len(own)), (own, self.place[own])), shape=shape)
-        if self.component is None:
-            return sp.csr_array(sp.eye_array(len(rows.node), format="csr"))
-        return sp.csr_array(rows.matrix(free)[:, self.component])
+        if self.component is not None:
+            return sp.csr_array(rows.matrix(free)[:, self.component])
+        assert self.place is not None
+        own = np.flatnonzero(self.place >= 0)
+        shape = (len(rows.node), self.directions.shape[1])
+        return sp.csr_array((np.ones(len(own)), (own, self.place[own])), shape=shape)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -137,10 +135,9 @@ class Frozen:
     def coefficients(self, rows: Candidates, free: BoolArray) -> Along:
         """The rows along the turned directions: ``G = C B^T R^T``."""
         own = self.basis.component
-        if own is None and self.basis.place is not None:
-            return Own(self.basis.place, self.basis.directions.shape[1])
         if own is None:
-            return Own(np.arange(len(rows.node)), len(rows.node))
+            assert self.basis.place is not None
+            return Own(self.basis.place, self.basis.directions.shape[1])
         plain = self.basis.coefficients(rows, free)
         return Mixed(plain if self.turning is None else sp.csr_array(plain @ self.turning[own][:, own]))
 
@@ -193,17 +190,14 @@ class Frozen:
                 self.answers.add(some, new.T.astype(self.kind))
 
 
-def basis(rows: Candidates, free: BoolArray, fixed: bool, nodes: IntArray, few: bool = False) -> Basis:
-    """The contact directions: the rows (m,) if they are ``fixed``, else the free components of ``nodes`` (k,).
-
-    Where ``few`` of the rows can be moved by free components, the others have no direction.
+def basis(rows: Candidates, free: BoolArray, fixed: bool, nodes: IntArray) -> Basis:
+    """The contact directions: the rows (m,) that free components move if they are ``fixed``, else the free components
+    of ``nodes`` (k,).
     """
-    if fixed and few:
+    if fixed:
         moved = rows.reachable(free)
         place = np.where(moved, np.cumsum(moved) - 1, -1)
         return Basis(directions=sp.csc_array(rows.matrix(free)[moved].T), component=None, place=place)
-    if fixed:
-        return Basis(directions=sp.csc_array(rows.matrix(free).T), component=None)
     flat = np.zeros(free.shape, bool)
     flat[nodes] = True
     component = np.flatnonzero(flat[free])
