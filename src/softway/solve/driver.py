@@ -97,17 +97,15 @@ def solutions(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float,
     NoConvergence
         If there is none: after ``limit`` iterations on the same faces, or at the first value that is not finite.
     """
-    best, since = np.inf, 0
+    best, since, closest = np.inf, 0, np.inf
     faces, begun = system.pairs, 0
     predicted: Array | None = None
     it: Iterate | None = None
     scale, first = 1.0, 0.0
-    handed = np.inf
     for count, it in enumerate(iterates, 1):
         if not np.isfinite(it.change):
-            if handed < np.inf:
-                return
-            raise NoConvergence("the iteration left the admissible configurations (inverted cell or overflow)")
+            failure = "the iteration left the admissible configurations (inverted cell or overflow)"
+            break
         predicted = it.free if predicted is None else predicted
         first = it.change if count == 1 else first
         log.debug("iterate %d: change %.3g m/s", count, it.change)
@@ -115,25 +113,27 @@ def solutions(system: SlabSystem, iterates: Iterator[Iterate], tolerance: float,
             faces, begun, best = it.system.pairs, count - 1, np.inf
         scale = max(np.abs(it.q).max(initial=0.0), np.abs(system.start.velocity).max(initial=0.0), 1e-300)
         best, since = (it.change, 0) if it.change < 0.5 * best else (best, since + 1)
+        failure = f"{count} iterations leave a relative change of {it.change / scale:.1e} (tolerance {tolerance:.0e})"
         near = it.change <= tolerance * scale
-        settled = near or any(since >= n and it.change <= share * scale for n, share in STANDSTILL)
-        settled = settled or (since >= 4 and it.change <= ROUNDING * _pushed(system, it))
-        settled = settled or (since >= 4 and it.change <= _resolved(system))
-        if settled and it.sound and it.change < 0.5 * handed:
-            end = it.system.evaluate(it.q, it.impulse)
+        if it.sound and it.change < 0.5 * closest and (near or _stands(system, it, since, scale)):
+            closest, end = it.change, it.system.evaluate(it.q, it.impulse)
             fell = contraction(first, it.change, count)
             yield Solution(last=it, end=end, predicted=predicted, iterations=count, contraction=fell)
             if not near or it.change <= FINEST * scale:
                 return
-            handed = it.change
-        if handed < np.inf and since >= PATIENCE:
+        if closest < np.inf and since >= PATIENCE:
             return
         if count - begun >= limit or count >= LONGEST * limit:
             break
-    if handed < np.inf:
-        return
-    change = it.change / scale if it is not None else np.inf
-    raise NoConvergence(f"{count} iterations leave a relative change of {change:.1e} (tolerance {tolerance:.0e})")
+    if closest == np.inf:
+        raise NoConvergence(failure)
+
+
+def _stands(system: SlabSystem, it: Iterate, since: int, scale: float) -> bool:
+    """Whether an iterate stands still at the rounding level, after some iterations ``since`` the change last halved."""
+    if any(since >= n and it.change <= share * scale for n, share in STANDSTILL):
+        return True
+    return since >= 4 and (it.change <= ROUNDING * _pushed(system, it) or it.change <= _resolved(system))
 
 
 def contraction(first: float, last: float, count: int) -> float:
