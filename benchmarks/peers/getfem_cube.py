@@ -8,13 +8,19 @@ STRESS = "mu*(F-Inv(F)') + lambda*log(Det(F))*Inv(F)'"
 STRAIN = "mu/2*(Norm_sqr(F)-3) - mu*log(Det(F)) + lambda/2*sqr(log(Det(F)))"
 
 
-def prepared(n, gap, step, penalty):
-    """The model, its element and its integration."""
+def lattice(n):
+    """Element and integration on the cube of n cells along an edge, whose lower face is the region 1."""
     x = np.linspace(0.0, 1.0, n + 1)
     mesh = gf.Mesh("cartesian", x, x, x)
     element, rule = gf.MeshFem(mesh, 3), gf.MeshIm(mesh, gf.Integ("IM_GAUSS_PARALLELEPIPED(3,3)"))
     element.set_fem(gf.Fem("FEM_QK(3,1)"))
     mesh.set_region(1, mesh.outer_faces_with_direction([0.0, 0.0, -1.0], 0.1))
+    return element, rule
+
+
+def prepared(n, gap, step, penalty):
+    """The model, its element and its integration."""
+    element, rule = lattice(n)
     model = gf.Model("real")
     model.add_fem_variable("u", element)
     for name, value in {"lambda": LAMBDA, "mu": MU, "density": DENSITY, "penalty": penalty, "gap": gap}.items():

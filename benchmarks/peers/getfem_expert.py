@@ -6,7 +6,7 @@ With ``--mass`` the inertia is that of a given matrix, say one in which the node
 import getfem as gf
 import numpy as np
 from cube import DENSITY, ENERGY, LAMBDA, MU, RESIDUAL, SPEED, Clock, Newmark, chosen, in_pattern
-from getfem_cube import STRAIN, STRESS
+from getfem_cube import STRAIN, STRESS, lattice
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 
@@ -16,11 +16,7 @@ KEPT = 0.5
 
 def prepared(ask):
     """The model without inertia, its element, its integration and the mass matrix."""
-    x = np.linspace(0.0, 1.0, ask.cells + 1)
-    mesh = gf.Mesh("cartesian", x, x, x)
-    element, rule = gf.MeshFem(mesh, 3), gf.MeshIm(mesh, gf.Integ("IM_GAUSS_PARALLELEPIPED(3,3)"))
-    element.set_fem(gf.Fem("FEM_QK(3,1)"))
-    mesh.set_region(1, mesh.outer_faces_with_direction([0.0, 0.0, -1.0], 0.1))
+    element, rule = lattice(ask.cells)
     model = gf.Model("real")
     model.add_fem_variable("u", element)
     for name, value in {"lambda": LAMBDA, "mu": MU, "penalty": ask.penalty, "gap": ask.gap}.items():
