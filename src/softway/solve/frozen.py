@@ -107,7 +107,7 @@ class Frozen:
 
     def scaled(self, scale: float) -> "Frozen":
         """The same factor for an operator that is ``1 / scale`` of it."""
-        return self if scale == self.scale else replace(self, scale=scale, held={})
+        return self if scale == self.scale else replace(self, scale=scale)
 
     def _times(self, answer: Array) -> Array:
         return answer if self.scale == 1.0 else np.asarray(self.scale * answer)

@@ -136,18 +136,19 @@ def delassus(frozen: Frozen, active: Along) -> Array:
 
 
 def _held(frozen: Frozen, active: Along) -> Shared:
-    """The factored compliance of the active rows (k,); the same for all slabs where directions are rows."""
+    """The factored compliance of the active rows (k,), unscaled; the same for all slabs where directions are rows."""
+    plain = frozen.scaled(1.0)
     if isinstance(active, Mixed):
-        return factored(delassus(frozen, active))
+        return factored(delassus(plain, active))
     key = active.index.tobytes()
     if key not in frozen.held:
         frozen.held.clear()
-        frozen.held[key] = factored(delassus(frozen, active))
+        frozen.held[key] = factored(delassus(plain, active))
     return frozen.held[key]
 
 
 def balance(frozen: Frozen, active: Along, wanted: Array) -> tuple[Array, Push]:
     """Multipliers (k,) of the active rows that move them by ``wanted`` (k,), and the push that they make."""
-    force = _held(frozen, active).solve(wanted)
+    force = _held(frozen, active).solve(wanted / frozen.scale)
     directions = active.spread(force)
     return force, Push(directions=directions, sensed=frozen.give(directions))
