@@ -157,20 +157,18 @@ def balance(model: Model, before: Situation, out: Outcome, after: Situation) -> 
     """What the change of momentum (d,) has beyond loads, contact and supports [kg m/s]."""
     keep = np.ones(model.shape[1])
     keep[0] = not any(isinstance(p.internal.section, Axisymmetric) for p in model.parts)
-    change = model.mass @ (after.start.velocity - before.start.velocity)
-    return (resultant(change) - resultant(_given(before, out, after))) * keep
+    gained = (model.mass @ np.ones(len(model.massive))) @ (after.start.velocity - before.start.velocity)
+    pushed = sum(resultant(part) for part in _given(out))
+    return np.asarray((gained - (after.time - before.time) * pushed) * keep)
 
 
-def _given(before: Situation, out: Outcome, after: Situation) -> Array:
-    """Impulses (n, d) of loads, contact and supports [kg m/s]."""
-    given = out.system.model.slab_load(out.solution.end.scalar) + out.push
-    given += out.support
-    given *= after.time - before.time
-    return given
+def _given(out: Outcome) -> tuple[Array, Array, Array]:
+    """Mean forces (n, d) of loads, contact and supports [N]."""
+    return out.system.model.slab_load(out.solution.end.scalar), out.push, out.support
 
 
 def _participating(model: Model, before: Situation, out: Outcome, after: Situation) -> float:
     """The momenta that take part in the balance [kg m/s]."""
     own = np.abs(model.mass @ before.start.velocity).sum() + np.abs(model.mass @ after.start.velocity).sum()
     inner = INTERNAL * (after.time - before.time) * (np.abs(before.start.force).sum() + np.abs(after.start.force).sum())
-    return float(own + np.abs(_given(before, out, after)).sum() + inner)
+    return float(own + (after.time - before.time) * np.abs(sum(_given(out))).sum() + inner)
