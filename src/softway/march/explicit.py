@@ -30,7 +30,7 @@ from softway.solve.system import SlabSystem
 from softway.solve.values import Evaluation
 from softway.time.slab import Slab
 from softway.time.weight import moments
-from softway.typing import Array, BoolArray
+from softway.typing import Array, BoolArray, IntArray
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -40,18 +40,19 @@ class Central:
     inertia: Inertia
     still: Still
     followed: Followed
+    light: IntArray
     held: BoolArray | None
 
     def driven(self, q: Array, given: Array | float) -> Array:
         """Values (n, d) of q with those of nodes without inertia doubled and the ``given`` ones on supports."""
         out = q.copy()
-        out[self.followed.light] *= 2.0
+        out[self.light] *= 2.0
         return out if self.held is None else np.where(self.held, given, out)
 
     def reached(self, q: Array, moving: Array) -> Array:
         """The velocity (n, d) at the end from q, and from that of the nodes with inertia."""
-        light, out = self.followed.light, moving.copy() if self.held is None else np.where(self.held, q, moving)
-        out[light] = 0.5 * q[light]
+        out = moving.copy() if self.held is None else np.where(self.held, q, moving)
+        out[self.light] = 0.5 * q[self.light]
         return out
 
 
@@ -70,7 +71,8 @@ def central(model: Model) -> Central:
     return Central(
         inertia=inertia(model),
         still=still,
-        followed=Followed.of(model),
+        followed=Followed.of(model, still),
+        light=np.flatnonzero(light),
         held=None if model.free.all() else ~model.free,
     )
 

@@ -59,19 +59,20 @@ class Still:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Followed:
-    """The ``nodes`` (k,) that nodes without inertia follow, and their ``weights`` (k, m) of the ``light`` ones (m,)."""
+    """The components that those without inertia follow: their places ``where`` (k,) in a field (n, d) as it is stored,
+    and their ``weights`` (k, f).
+    """
 
-    nodes: IntArray
-    light: IntArray
+    where: IntArray
     weights: sp.csr_array
 
     @classmethod
-    def of(cls, model: Model) -> "Followed":
+    def of(cls, model: Model, still: Still) -> "Followed":
         """Those of a model."""
-        light = np.flatnonzero(~model.massive)
-        weights = sp.csr_array(model.follow[light].T)
-        nodes = np.flatnonzero(np.diff(weights.indptr))
-        return cls(nodes=nodes, light=light, weights=sp.csr_array(weights[nodes]))
+        each = sp.csr_array(sp.kron(model.follow, sp.eye_array(model.shape[1]), format="csr"))
+        weights = sp.csr_array(each[still.where].T)
+        where = np.flatnonzero(np.diff(weights.indptr))
+        return cls(where=where, weights=sp.csr_array(weights[where]))
 
 
 def pushed(still: Still, load: Array, rows: Candidates, pressure: Array | None, traction: Array | None = None) -> Array:
@@ -86,9 +87,8 @@ def handed(followed: Followed, still: Still, force: Array, outer: Array) -> tupl
     """The internal force (n, d) with what keeps components without inertia from equilibrium with the ``outer`` forces
     (f,) handed to the nodes that they follow, and that, (f,) [N].
     """
-    missing, left = still.of(force) - outer, np.zeros((len(followed.light), force.shape[1]))
-    left[still.light[followed.light]] = missing
-    out = force.copy()
-    out.ravel()[still.where] = outer
-    out[followed.nodes] += followed.weights @ left
+    missing, out = still.of(force) - outer, force.copy()
+    flat = out.ravel()
+    flat[still.where] = outer
+    flat[followed.where] += followed.weights @ missing
     return out, missing
