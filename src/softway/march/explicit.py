@@ -43,15 +43,20 @@ class Central:
     light: IntArray
     held: BoolArray | None
 
-    def driven(self, q: Array, given: Array | float) -> Array:
-        """Values (n, d) of q with those of nodes without inertia doubled and the ``given`` ones on supports."""
-        out = q.copy()
-        out[self.light] *= 2.0
-        return out if self.held is None else np.where(self.held, given, out)
+    def guessed(self, system: SlabSystem, moving: Array, coasting: Array) -> tuple[Array, Array]:
+        """q (n, d) and the displacement at the end, of the velocity and displacement there without contact.
+
+        The velocity becomes the q.
+        """
+        moving[self.light] += system.start.velocity[self.light]
+        if self.held is None:
+            return moving, coasting
+        q = np.where(self.held, system.given, moving)
+        return q, system.path.end(q)
 
     def reached(self, q: Array, moving: Array) -> Array:
-        """The velocity (n, d) at the end from q, and from that of the nodes with inertia."""
-        out = moving.copy() if self.held is None else np.where(self.held, q, moving)
+        """The velocity (n, d) at the end from q, and from that of the nodes with inertia, which becomes it."""
+        out = moving if self.held is None else np.where(self.held, q, moving)
         out[self.light] = 0.5 * q[self.light]
         return out
 
@@ -101,9 +106,9 @@ def solve_explicit(
     pairs = model.encounters.meet(start.displacement, coasting, slab.start, slab.end)
     require_slow(model, pairs, coasting, approach)
     system = replace(equations(model, now, slab, pairs, None), balanced=False)
-    q = central.driven(moving, system.given)
-    it, count = settled(system, central.still, q, first_impulses(now, slab, system.path.rows), carry, method)
-    end = _evaluated(system, it)
+    guess = central.guessed(system, moving, coasting)
+    it, u1, count = settled(system, central.still, guess, first_impulses(now, slab, system.path.rows), carry, method)
+    end = _evaluated(system, it, u1)
     closing, left = handed(central.followed, central.still, end.force, _outer(system, central.still, it, end.near))
     opening += closing
     opening *= 0.5
@@ -120,9 +125,9 @@ def solve_explicit(
     return out, watched(it.carry, central.still, left)
 
 
-def _evaluated(system: SlabSystem, it: Iterate) -> Evaluation:
-    """The whole body at the end of the slab."""
-    u1, pairs, none = system.path.end(it.q), it.system.pairs, np.zeros(len(system.model.parts))
+def _evaluated(system: SlabSystem, it: Iterate, u1: Array) -> Evaluation:
+    """The whole body at the end of the slab, at the displacement (n, d)."""
+    pairs, none = it.system.pairs, np.zeros(len(system.model.parts))
     energy, force = system.model.energy_and_force(u1)
     return Evaluation(
         residual=np.zeros_like(force),

@@ -70,8 +70,9 @@ def balanced(
     chosen: tuple[Near, Carry],
     free: Array,
     method: Explicit,
-) -> tuple[Iterate, int]:
-    """The last iterate of the nodes near a touch on their way to equilibrium, and how many there were.
+) -> tuple[Iterate, Array, int]:
+    """The last iterate of the nodes near a touch on their way to equilibrium, the displacement (n, d) at the end of the
+    slab, and how many iterates there were.
 
     ``guess`` are q and the displacement at the end (n, d), ``free`` (m,) the normal motion without contact.
 
@@ -80,7 +81,7 @@ def balanced(
     NoConvergence
         If there is no equilibrium in reach.
     """
-    whole, near = guess[0], chosen[0]
+    (whole, u1), near = guess, chosen[0]
     carry = _prepared(system, still, whole, chosen)
     frozen, scale = carry.frozen, max(float(whole.max(initial=1e-300)), -float(whole.min(initial=0.0)))
     assert frozen is not None
@@ -98,12 +99,12 @@ def balanced(
         same = local.system.live is not None and bool((step.active == active).all())
         q, impulse, active = step.q, step.impulse, step.active
         if change <= method.tolerance * scale or (same and _left(before, change) <= method.tolerance * scale):
-            whole = whole.copy()
-            whole[local.nodes] = q
+            whole, u1 = whole.copy(), u1.copy()
+            whole[local.nodes], u1[local.nodes] = q, local.placed(q)
             system = local.system if local.system.live is None else system
             carry = replace(carry, stale=_dear(carry, count))
             contact = local.all_rows(impulse, active, first)
-            return iterate(system, whole, change, contact, carry, free), count
+            return iterate(system, whole, change, contact, carry, free), u1, count
     raise NoConvergence(f"{method.limit} iterations do not bring the contact nodes to rest")
 
 
@@ -154,11 +155,15 @@ class _Local:
         pressed[self.live], touching[self.live] = impulse, active
         return pressed, touching
 
+    def placed(self, q: Array) -> Array:
+        """Displacement (k, d) at the end of the slab."""
+        still, out = self.still, self.arrived.copy()
+        out.ravel()[still.where] = still.of(self.start) + 0.5 * self.system.path.span * still.of(q)
+        return out
+
     def looked(self, q: Array) -> Evaluation:
         """What moves the nodes at q (k, d)."""
-        still, h = self.still, self.system.path.span
-        u1 = self.arrived.copy()
-        u1.ravel()[still.where] = still.of(self.start) + 0.5 * h * still.of(q)
+        still, h, u1 = self.still, self.system.path.span, self.placed(q)
         force = still.layer.force(u1)
         residual = np.zeros_like(force)
         residual.ravel()[still.where] = 0.5 * h * (still.of(force) - still.of(self.load))

@@ -27,18 +27,26 @@ CORRECTIONS = 10
 
 
 def settled(
-    system: SlabSystem, still: Still, q: Array, first: tuple[Array, BoolArray], carry: Carry, method: Explicit
-) -> tuple[Iterate, int]:
-    """The nodes without inertia at the end of the slab, and how many iterations those near a touch took.
+    system: SlabSystem,
+    still: Still,
+    guess: tuple[Array, Array],
+    first: tuple[Array, BoolArray],
+    carry: Carry,
+    method: Explicit,
+) -> tuple[Iterate, Array, int]:
+    """The nodes without inertia at the end of the slab, the displacement (n, d) there, and how many iterations those
+    near a touch took.
 
-    ``q`` (n, d) is a guess, ``first`` are impulses of the contact rows and which are active to begin with.
+    ``guess`` are q and the displacement at the end (n, d); ``first`` are impulses of the contact rows and which are
+    active to begin with.
 
     Raises
     ------
     NoConvergence
         If those near a touch find no equilibrium.
     """
-    still, free, u1 = still.during(system.model), system.path.rows.along(q), system.path.end(q)
+    (q, u1), still = guess, still.during(system.model)
+    free = system.path.rows.along(q)
     found = touched(system, still, u1, first[1])
     if found is not None:
         carry = chosen(system, still, found, carry)
@@ -46,7 +54,7 @@ def settled(
     if near is None or len(near.nodes) < still.nodes.sum():
         q, u1, carry = _followed(system, still, (q, u1), near, carry, method)
     if near is None:
-        return iterate(system, q, 0.0, first, carry, free), 1
+        return iterate(system, q, 0.0, first, carry, free), u1, 1
     return balanced(system, still, (q, u1), first, (near, carry), free, method)
 
 
@@ -77,7 +85,7 @@ def _followed(
     factor = skin.factor or still.factored(model, skin.origin, crude=True)[0]
     outer = pushed(still, model.load, system.first, system.pressure, system.traction)
     allowed, least = SLIGHT * _size(system.start.force), 0.5 * h * method.tolerance * _size(q)
-    share, before = skin.share, 0.0
+    share, before, whole = skin.share, 0.0, np.zeros(len(still.where))
     for count in range(CORRECTIONS):
         missing = still.of(still.layer.force(u1)) - outer
         if not np.isfinite(missing).all():
@@ -85,12 +93,12 @@ def _followed(
         most = _greatest(missing, still, near)
         share = most / before if count and before > 0.0 else share
         back = -factor.solve(missing)
-        q, u1, before = still.moved(q, 2.0 / h * back), still.moved(u1, back), most
+        u1, whole, before = still.moved(u1, back), whole + back, most
         if share * most <= allowed or _size(back) <= least:
             break
     once = count == 0
     skin = replace(skin, factor=factor, share=share, before=before if once else 0.0, worn=not once and share > WORN)
-    return q, u1, replace(carry, skin=skin)
+    return still.moved(q, 2.0 / h * whole), u1, replace(carry, skin=skin)
 
 
 def _size(values: Array) -> float:
