@@ -43,6 +43,16 @@ class Central:
     light: IntArray
     held: BoolArray | None
 
+    def sloped(self, force: Array, before: Array) -> Array:
+        """Slope (n, d) of the velocity by a force (n, d).
+
+        Nodes without inertia are expected to get faster by as much as in the slab before, whose slope was ``before``
+        (n, d); it counts twice, for theirs is the mean velocity of a slab.
+        """
+        out = self.inertia.acceleration(force)
+        out[self.light] = 2.0 * before[self.light]
+        return out
+
     def guessed(self, system: SlabSystem, moving: Array, coasting: Array) -> tuple[Array, Array]:
         """q (n, d) and the displacement at the end, of the velocity and displacement there without contact.
 
@@ -96,7 +106,7 @@ def solve_explicit(
     shock = model.shock_force(start.displacement, h * start.velocity, h)
     push = model.load if shock is None else model.load - shock
     opening = _opening(model, now, central)
-    slope = central.inertia.acceleration(push - opening)
+    slope = central.sloped(push - opening, now.acceleration)
     moving = h * slope
     coasting = 0.5 * moving
     moving += start.velocity
