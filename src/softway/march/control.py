@@ -11,6 +11,7 @@ from softway.kernels.shortest import shortest
 from softway.march.situation import Situation
 from softway.model import Model
 from softway.solve.explicit import Explicit
+from softway.solve.normal import greatest
 from softway.typing import Array, IntArray
 
 CRAWL = 1e-2
@@ -88,7 +89,7 @@ def may_grow(model: Model, control: StepControl, length: float, before: Situatio
     moving = model.massive
     jump = after.acceleration - before.acceleration
     share, allowed = 8.0 * length**2 / 12.0, control.growth * model.edge
-    if share * max(float(jump.max(initial=0.0)), -float(jump.min(initial=0.0))) <= allowed.min():
+    if share * greatest(jump) <= allowed.min():
         return True
     error = share * np.abs(jump)
     return bool((error[moving] <= allowed[moving, None]).all())

@@ -13,6 +13,7 @@ from softway.solve.correction import corrected
 from softway.solve.driver import Iterate
 from softway.solve.explicit import Explicit
 from softway.solve.frozen import Frozen, basis
+from softway.solve.normal import greatest
 from softway.solve.system import SlabSystem
 from softway.solve.values import Evaluation
 from softway.typing import Array, BoolArray, IntArray
@@ -83,7 +84,7 @@ def balanced(
     """
     (whole, u1), near = guess, chosen[0]
     carry = _prepared(system, still, whole, chosen)
-    frozen, scale = carry.frozen, max(float(whole.max(initial=1e-300)), -float(whole.min(initial=0.0)))
+    frozen, scale = carry.frozen, max(greatest(whole), 1e-300)
     assert frozen is not None
     local = _Local.of(system, still, guess, near, frozen)
     live = local.live

@@ -15,6 +15,7 @@ from softway.march.still import Still, pushed
 from softway.solve.carry import Carry, Near, Origin, Skin
 from softway.solve.driver import Iterate
 from softway.solve.explicit import Explicit
+from softway.solve.normal import greatest
 from softway.solve.system import SlabSystem
 from softway.typing import Array, BoolArray
 
@@ -63,7 +64,7 @@ def watched(carry: Carry, still: Still, missing: Array) -> Carry:
     skin = carry.skin
     if skin is None or skin.before == 0.0:
         return carry
-    return replace(carry, skin=replace(skin, share=_greatest(missing, still, carry.near) / skin.before, before=0.0))
+    return replace(carry, skin=replace(skin, share=_beyond(missing, still, carry.near) / skin.before, before=0.0))
 
 
 def _followed(
@@ -84,31 +85,26 @@ def _followed(
         carry = replace(carry, factorisations=carry.factorisations + 1)
     factor = skin.factor or still.factored(model, skin.origin, crude=True)[0]
     outer = pushed(still, model.load, system.first, system.pressure, system.traction)
-    allowed, least = SLIGHT * _size(system.start.force), 0.5 * h * method.tolerance * _size(q)
+    allowed, least = SLIGHT * greatest(system.start.force), 0.5 * h * method.tolerance * greatest(q)
     share, before, whole = skin.share, 0.0, np.zeros(len(still.where))
     for count in range(CORRECTIONS):
         missing = still.of(still.layer.force(u1)) - outer
         if not np.isfinite(missing).all():
             raise NoConvergence("the nodes without inertia cannot follow: a cell is inverted")
-        most = _greatest(missing, still, near)
+        most = _beyond(missing, still, near)
         share = most / before if count and before > 0.0 else share
         back = -factor.solve(missing)
         u1, whole, before = still.moved(u1, back), whole + back, most
-        if share * most <= allowed or _size(back) <= least:
+        if share * most <= allowed or greatest(back) <= least:
             break
     once = count == 0
     skin = replace(skin, factor=factor, share=share, before=before if once else 0.0, worn=not once and share > WORN)
     return still.moved(q, 2.0 / h * whole), u1, replace(carry, skin=skin)
 
 
-def _size(values: Array) -> float:
-    """Greatest value, whatever its sign."""
-    return max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))
-
-
-def _greatest(missing: Array, still: Still, near: Near | None) -> float:
+def _beyond(missing: Array, still: Still, near: Near | None) -> float:
     """Greatest of the forces (f,) on the components without inertia, beyond the nodes near a touch."""
     if near is not None:
         n, d = still.light.shape
         missing = missing[~among(near.nodes, n).ravel()[still.where // d]]
-    return _size(missing)
+    return greatest(missing)

@@ -46,10 +46,17 @@ class Rows:
     def missable(self, slack: Array) -> float:
         """What rows may miss their targets by, for values (m,) that differ from the targets by ``slack``."""
         target = np.where(self.equal | self.unilateral, self.target, 0.0)
-        return max(1e-14 * max(_greatest(slack), _greatest(target), 1e-300), self.rounding)
+        return max(1e-14 * max(greatest(slack), greatest(target), 1e-300), self.rounding)
 
 
-def _greatest(values: Array) -> float:
+def greatest(values: Array) -> float:
+    """Greatest magnitude of values of any shape, without a copy of them; zero if there are none.
+
+    Examples
+    --------
+    >>> greatest(np.array([[0.5, -2.0]])), greatest(np.zeros(0))
+    (2.0, 0.0)
+    """
     return max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))
 
 
@@ -61,7 +68,7 @@ def rounded(x: Array) -> float:
     >>> rounded(np.array([[0.5, -1.0]])) == 2.0**-50
     True
     """
-    return 4.0 * float(np.finfo(float).eps) * _greatest(x)
+    return 4.0 * float(np.finfo(float).eps) * greatest(x)
 
 
 def constrain(
