@@ -13,7 +13,7 @@ multipliers that an iterate carries (:class:`~softway.solve.touching.Touching`).
 from dataclasses import replace
 
 import numpy as np
-from scipy.linalg import lu_factor, lu_solve
+from scipy.linalg import lstsq, lu_factor, lu_solve
 
 from softway.errors import NoConvergence
 from softway.solve.along import Along
@@ -34,6 +34,11 @@ ROUNDS = 30
 """Problems that draw the multipliers to those of the one before."""
 FIRST, NEARER, LEAST = 0.1, 0.1, 1e-7
 """How much they are drawn at first, as a share of what the rows give way, how much less each time, and the least."""
+FINAL = 1e-8
+"""Residual, relative to what the forces move, from which on dependent rows are told from others."""
+DEPENDENT, SUSPECT = 1e-11, 1e-9
+"""Share of the greatest pivot below which rows depend on each other, and below which a factor without exchange of
+columns asks for those pivots."""
 SETTLED = 1e-14
 """Residual, relative to what the forces move, that is rounding."""
 
@@ -162,8 +167,21 @@ def _newton(problem: Touching, x: Array) -> tuple[Array, bool]:
         step, before = lu_solve(factor, look.missed, check_finite=False), look.worst
         if not np.isfinite(step).all():
             break
-        x, look = _searched(problem, x, step, look)
+        steps = [step, *_shortest(problem, x, look, factor)] if since else [step]
+        x, look = min((_searched(problem, x, one, look) for one in steps), key=lambda it: it[1].worst)
     return x, False
+
+
+def _shortest(problem: Touching, x: Array, look: Look, factor: tuple[Array, IntArray]) -> list[Array]:
+    """The shortest step (c (1 + k),) of Newton's method, if rows that depend on each other leave it open, near the end.
+
+    Rounding settles what they leave open, and may drive forces round between them that keep the last digits away.
+    """
+    pivot = np.abs(np.diagonal(factor[0]))
+    if look.worst > FINAL * _size(problem, x, look) or pivot.min() > SUSPECT * pivot.max():
+        return []
+    matrix = linearised(problem, look)
+    return [lstsq(matrix, look.missed, cond=DEPENDENT, lapack_driver="gelsy", check_finite=False)[0]]
 
 
 def _settles(problem: Touching, x: Array, look: Look, since: int) -> bool:

@@ -132,22 +132,22 @@ def dependent(seed: int, places: int, rows: int) -> Touching:
 
 def test_rows_that_depend_on_each_other_find_forces():
     """Newton's method alone does not settle in all of them."""
-    alone = 0
-    for seed in range(40):
+    alone, seeds = 0, (*range(40), 120, 159, 220)
+    for seed in seeds:
         it = dependent(seed, 4, 10)
         alone += _newton(it, np.zeros(30))[1]
         x, slips = settled(it, np.zeros(30))
         p, s = it.split(x)
         gap, slip = it.split(it.free + it.compliance @ x)
         size = np.linalg.norm(s, axis=1)
-        assert (p >= 0.0).all() and gap.min() > -1e-12
-        assert np.abs(p * gap).max() < 1e-11
-        assert (size <= 0.4 * p + 1e-11).all()
+        assert p.min() >= -1e-15 * p.max() and gap.min() > -1e-12, "a row that lets go has the last digits of a force"
+        assert np.abs(p * gap).max() < 1e-12
+        assert (size <= 0.4 * p + 1e-12).all()
         assert np.abs(slip[(p > 0.0) & ~slips]).max(initial=0.0) < 1e-12
         assert np.sum(s[slips] * slip[slips], axis=1) == pytest.approx(
-            -size[slips] * np.linalg.norm(slip[slips], axis=1), abs=1e-11
+            -size[slips] * np.linalg.norm(slip[slips], axis=1), abs=1e-12
         )
-    assert alone < 40
+    assert alone < len(seeds)
 
 
 def test_the_same_row_twice_shares_the_force():
