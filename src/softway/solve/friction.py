@@ -216,6 +216,9 @@ def _size(problem: Touching, x: Array, look: Look) -> float:
 
 
 def _clean(problem: Touching, x: Array, look: Look) -> Array:
-    """The changes, with which rows that do not touch have no multipliers."""
+    """The changes, with which rows that do not touch have no multipliers, and none pulls by its last digits."""
+    c = problem.count
     touch = np.concatenate([look.touch, np.repeat(look.touch, problem.law.shift.shape[1])])
-    return np.where(touch, x, -problem.carried)
+    out = np.where(touch, x, -problem.carried)
+    out[:c] = np.maximum(out[:c], -problem.carried[:c])
+    return out

@@ -140,7 +140,7 @@ def test_rows_that_depend_on_each_other_find_forces():
         p, s = it.split(x)
         gap, slip = it.split(it.free + it.compliance @ x)
         size = np.linalg.norm(s, axis=1)
-        assert p.min() >= -1e-15 * p.max() and gap.min() > -1e-12, "a row that lets go has the last digits of a force"
+        assert (p >= 0.0).all() and gap.min() > -1e-12
         assert np.abs(p * gap).max() < 1e-12
         assert (size <= 0.4 * p + 1e-12).all()
         assert np.abs(slip[(p > 0.0) & ~slips]).max(initial=0.0) < 1e-12
