@@ -8,7 +8,7 @@ STRESS = "mu*(F-Inv(F)') + lambda*log(Det(F))*Inv(F)'"
 STRAIN = "mu/2*(Norm_sqr(F)-3) - mu*log(Det(F)) + lambda/2*sqr(log(Det(F)))"
 
 
-def lattice(n):
+def discretised(n):
     """Element and integration on the cube of n cells along an edge, whose lower face is the region 1."""
     x = np.linspace(0.0, 1.0, n + 1)
     mesh = gf.Mesh("cartesian", x, x, x)
@@ -20,7 +20,7 @@ def lattice(n):
 
 def prepared(n, gap, step, penalty):
     """The model, its element and its integration."""
-    element, rule = lattice(n)
+    element, rule = discretised(n)
     model = gf.Model("real")
     model.add_fem_variable("u", element)
     for name, value in {"lambda": LAMBDA, "mu": MU, "density": DENSITY, "penalty": penalty, "gap": gap}.items():

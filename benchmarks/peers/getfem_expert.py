@@ -6,7 +6,7 @@ With ``--mass`` the inertia is that of a given matrix, say one in which the node
 import getfem as gf
 import numpy as np
 from cube import DENSITY, ENERGY, LAMBDA, MU, RESIDUAL, SPEED, Clock, Newmark, chosen, in_pattern
-from getfem_cube import STRAIN, STRESS, lattice
+from getfem_cube import STRAIN, STRESS, discretised
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 
@@ -16,7 +16,7 @@ KEPT = 0.5
 
 def prepared(ask):
     """The model without inertia, its element, its integration and the mass matrix."""
-    element, rule = lattice(ask.cells)
+    element, rule = discretised(ask.cells)
     model = gf.Model("real")
     model.add_fem_variable("u", element)
     for name, value in {"lambda": LAMBDA, "mu": MU, "penalty": ask.penalty, "gap": ask.gap}.items():
