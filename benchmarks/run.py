@@ -189,7 +189,7 @@ def measured_and_kept(
         figures = {n: f for n, f in figures.items() if group_of(n) != name} | found
         origins = origins | {name: origin(name, perf_counter() - start)}
         written(RESULTS, in_order(figures), origins)
-        PAGE.write_text(rendered(figures, origins), encoding="utf-8")
+        PAGE.write_text(rendered(*read(RESULTS)), encoding="utf-8")
     return failed
 
 
