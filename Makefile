@@ -61,7 +61,7 @@ test-processors: $(TEST)/ready
 
 test-view: $(TEST)/ready
 	$(TEST)/bin/python -m pip install --quiet --constraint constraints.txt --editable '.[dev,browser]'
-	$(TEST)/bin/python -m pytest -q tests/unit/page
+	$(TEST)/bin/python -m pytest -q tests/unit/apps/viewer
 
 coverage: $(TEST)/ready
 	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope -m "not minutes" --cov --cov-report=term-missing:skip-covered

@@ -12,11 +12,11 @@ import numpy as np
 from problems import ball, beam, glued, noted, now
 
 import softway as sw
-from softway.bodies.redistribution import redistributed
-from softway.bodies.section import Volume
-from softway.solve.explicit import Explicit
-from softway.space.shapes import box
-from softway.verify.scenes.cube import END, ENERGY, STEP, drop
+from softway.apps.verify.scenes.cube import END, ENERGY, STEP, drop
+from softway.bodies.elements.section import Volume
+from softway.bodies.inertia.mass_redistribution import redistribute_mass
+from softway.meshes.generators.shapes import box
+from softway.solve.methods.central_difference import Explicit
 
 FIXED, NEWTON = sw.FixedPoint(tolerance=1e-8), sw.Newton(tolerance=1e-8)
 METHODS = {"fixed": FIXED, "Newton": NEWTON}
@@ -38,7 +38,9 @@ def cube(
 def inertia(cells: int, keep: str) -> int:
     """The mass matrix of the peers' problem, whose contact nodes have none, in a file; the number of its entries."""
     mesh = box((1.0, 1.0, 1.0), cells=(cells,) * 3, cell="hex8")
-    matrix = redistributed(mesh, 1.0, Volume(), sw.Consistent(), np.flatnonzero(mesh.points[:, 2] < 1e-9)).tocoo()
+    matrix = redistribute_mass(
+        mesh, 1.0, Volume(), sw.bodies.Consistent(), np.flatnonzero(mesh.points[:, 2] < 1e-9)
+    ).tocoo()
     at = np.rint(mesh.points * cells).astype(int)
     number = at[:, 0] + (cells + 1) * (at[:, 1] + (cells + 1) * at[:, 2])
     rows, columns = (number[part] for part in matrix.coords)
@@ -49,7 +51,7 @@ def inertia(cells: int, keep: str) -> int:
 def explicit(cells: int) -> dict[str, Any]:
     """The same cube of tetrahedra, by central differences."""
     start = now()
-    march = sw.march(drop(cells, "tet4", sw.Lumped()), until=END, method=Explicit())
+    march = sw.march(drop(cells, "tet4", sw.bodies.Lumped()), until=END, method=Explicit())
     return noted(march, start, ENERGY)[0]
 
 
@@ -112,9 +114,9 @@ def factor(cells: int, cases: list[list[Any]]) -> list[dict[str, Any]]:
 
 def contact(cells: int) -> dict[str, Any]:
     """Contact slabs against slabs of flight."""
-    from bench_contact import Clock, Encounters, measured
+    from bench_contact import Clock, ContactSet, measured
 
-    return asdict(measured(cells, 0.1, Clock(Encounters, "meet")))
+    return asdict(measured(cells, 0.1, Clock(ContactSet, "meet")))
 
 
 def slabs(largest: int) -> list[dict[str, Any]]:

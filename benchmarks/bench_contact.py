@@ -16,7 +16,7 @@ from time import perf_counter
 import numpy as np
 
 import softway as sw
-from softway.contact.encounters import Encounters
+from softway.contact.contact_set import ContactSet
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,12 +56,12 @@ class Clock:
 def thrown(cells: int, speed: float) -> sw.Scene:
     """A neo-Hookean cube just above a floor, its lower face first."""
     cube = sw.Solid(
-        mesh=sw.Box(size=(1.0, 1.0, 1.0), cells=(cells, cells, cells)),
+        mesh=sw.meshes.Box(size=(1.0, 1.0, 1.0), cells=(cells, cells, cells)),
         material=sw.NeoHookean(E=1.0, nu=0.3),
         density=1.0,
-        velocity=sw.Uniform(value=(0.0, 0.0, -speed)),
+        velocity=sw.bodies.Uniform(value=(0.0, 0.0, -speed)),
     )
-    floor = sw.Tool(shape=sw.HalfSpace(point=(0.0, 0.0, -1e-4), normal=(0.0, 0.0, 1.0)))
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0, -1e-4), normal=(0.0, 0.0, 1.0)))
     return sw.Scene(bodies={"cube": cube, "floor": floor}, contacts=(sw.Contact(between=("cube.bottom", "floor")),))
 
 
@@ -108,7 +108,7 @@ def main() -> None:
     options.add_argument("--out", type=Path, help="JSON file for the numbers")
     chosen = options.parse_args()
     print(f"{platform.machine()}, {platform.system()}, Python {platform.python_version()}, NumPy {np.__version__}")
-    search, rows = Clock(Encounters, "meet"), []
+    search, rows = Clock(ContactSet, "meet"), []
     for cells in chosen.cells:
         cost = asdict(measured(cells, chosen.speed, search))
         rows.append(cost)

@@ -21,9 +21,9 @@ import numpy as np
 import scipy.sparse as sp
 from bench_contact import thrown
 
-from softway.model import build
-from softway.solve.backends import Mumps, named
-from softway.solve.linear import LinearSolver
+from softway.model.model import build
+from softway.solve.linear.backends import Mumps, solver_named
+from softway.solve.linear.interface import LinearSolver
 
 PATIENCE = 0.5
 """Time for which a short measurement is repeated [s]."""
@@ -99,7 +99,7 @@ def streaming(threads: int, size: int = 2**28) -> float:
 
 def measured(backend: str, precision: str, threads: int, matrix: sp.csc_array, stream: float) -> Cost:
     """The cost of one backend on one matrix (f, f); ``stream`` is the bandwidth to compare with [GB/s]."""
-    solver: LinearSolver = named(backend, precision, threads)
+    solver: LinearSolver = solver_named(backend, precision, threads)
     f = matrix.shape[0]
     b = np.random.default_rng(0).normal(size=(f, 64))
     analyse, analysis = timed(lambda: solver.analyse(matrix))

@@ -15,17 +15,17 @@ from time import perf_counter, thread_time
 
 import numpy as np
 
-from softway.bodies.cells import Dilating
-from softway.bodies.internal import internal_force
-from softway.bodies.rate_force import RateForce, rate_force
-from softway.bodies.section import PlaneStrain, Section, Volume
-from softway.kernels.threads import use
+from softway.arrays import Array
+from softway.bodies.elements.quadrature import Dilating
+from softway.bodies.elements.section import PlaneStrain, Section, Volume
+from softway.bodies.internal_force.elastic.elastic_force import elastic_force
+from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce, inelastic_force
+from softway.kernels.jit.threads import use
 from softway.laws.bulk import J2, Hypoelastic, NeoHookean
-from softway.laws.hardening import LinearHardening, Voce
 from softway.laws.law import RateLaw
-from softway.space.mesh import Mesh
-from softway.space.shapes import box, rectangle
-from softway.typing import Array
+from softway.laws.plasticity.hardening import LinearHardening, Voce
+from softway.meshes.generators.shapes import box, rectangle
+from softway.meshes.mesh import Mesh
 
 METAL = {"E": 1.0, "nu": 0.3}
 LINEAR, VOCE = LinearHardening(modulus=0.01), Voce(saturation=0.002, exponent=16.0, modulus=0.01)
@@ -55,11 +55,11 @@ def measured(cell: str, cells: int, dilatation: Dilating = "point", repeats: int
     """Rates for about so many cells of one kind."""
     mesh, section = shape(cell, cells)
     u = 0.01 * mesh.edge() * np.random.default_rng(0).standard_normal(mesh.points.shape)
-    elastic = internal_force(mesh, NeoHookean(**METAL), section)
+    elastic = elastic_force(mesh, NeoHookean(**METAL), section)
     calls = {("neo-Hookean", "force"): (lambda: elastic.energy_and_force(2.0 * u))}
     for name, law in LAWS.items():
-        body = rate_force(mesh, law, section, dilatation)
-        calls |= _calls(name, body.during(body.settled(u), 1.0), 2.0 * u)
+        body = inelastic_force(mesh, law, section, dilatation)
+        calls |= _calls(name, body.during(body.committed(u), 1.0), 2.0 * u)
     for threads in (1, 2):
         with use(threads):
             times = best(calls, repeats, thread_time if threads == 1 else perf_counter)
@@ -80,8 +80,8 @@ def shape(cell: str, cells: int) -> tuple[Mesh, Section]:
     return box((1.0, 1.0, 1.0), cells=(edge, edge, edge), cell=cell), Volume()
 
 
-def _calls(name: str, body: RateForce, u: Array) -> dict[tuple[str, str], Callable[[], object]]:
-    return {(name, "force"): lambda: body.energy_and_force(u), (name, "memory"): lambda: body.settled(u)}
+def _calls(name: str, body: InelasticForce, u: Array) -> dict[tuple[str, str], Callable[[], object]]:
+    return {(name, "force"): lambda: body.energy_and_force(u), (name, "memory"): lambda: body.committed(u)}
 
 
 def best(

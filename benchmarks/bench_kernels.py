@@ -20,14 +20,14 @@ from time import perf_counter
 
 import numpy as np
 
-from softway.bodies.internal import InternalForce, internal_force
-from softway.bodies.section import Volume
-from softway.kernels.threads import use
+from softway.arrays import Array
+from softway.bodies.elements.section import Volume
+from softway.bodies.internal_force.elastic.elastic_force import ElasticForce, elastic_force
+from softway.kernels.jit.threads import use
 from softway.laws.bulk import NeoHookean
-from softway.laws.moduli import lame
-from softway.space.mesh import Mesh
-from softway.space.shapes import box
-from softway.typing import Array
+from softway.laws.elasticity.elastic_constants import lame
+from softway.meshes.generators.shapes import box
+from softway.meshes.mesh import Mesh
 
 LAW = NeoHookean(E=1.0, nu=0.3)
 CUBES = {"tet4": 6, "tet10": 6, "hex8": 1, "hex27": 1}  # cells in a cube of the lattice
@@ -49,7 +49,7 @@ def measured(cell: str, cells: int, repeats: int = 15) -> Iterator[Rate]:
     """Rates for a cube of about so many cells of one kind."""
     edge = max(1, round((cells / CUBES[cell]) ** (1.0 / 3.0)))
     mesh = box((1.0, 1.0, 1.0), cells=(edge, edge, edge), cell=cell)
-    body = internal_force(mesh, LAW, Volume())
+    body = elastic_force(mesh, LAW, Volume())
     u = 0.02 * mesh.edge() * np.random.default_rng(0).standard_normal(mesh.points.shape)
     count = len(mesh.blocks[cell])
     library = compiled_loop()
@@ -100,7 +100,7 @@ def compiled_loop() -> ctypes.CDLL | None:
         return ctypes.CDLL(str(library))
 
 
-def loop(library: ctypes.CDLL, mesh: Mesh, body: InternalForce, u: Array, threads: int) -> Callable[[], Array]:
+def loop(library: ctypes.CDLL, mesh: Mesh, body: ElasticForce, u: Array, threads: int) -> Callable[[], Array]:
     """The internal force by the loop, compared once with that of the body."""
     nodes = np.ascontiguousarray(next(iter(mesh.blocks.values())), np.int32)
     gradients, law = np.ascontiguousarray(body.sampling.rows[0]), lame(LAW.E, LAW.nu)

@@ -32,28 +32,28 @@ class Cost:
     factorisations: int
 
 
-def bar(cells: int, timing: sw.Energy | sw.Impulse | sw.Paper) -> tuple[str, sw.Scene, float]:
+def bar(cells: int, timing: sw.contact.Energy | sw.contact.Impulse | sw.contact.Paper) -> tuple[str, sw.Scene, float]:
     """The bar of the first example, thrown at the wall, and a time in its contact."""
     solid = sw.Solid(
-        mesh=sw.Interval(length=1.0, cells=cells),
+        mesh=sw.meshes.Interval(length=1.0, cells=cells),
         material=sw.LinearElastic(E=1.0),
         density=1.0,
-        velocity=sw.Uniform(value=1.0),
+        velocity=sw.bodies.Uniform(value=1.0),
     )
-    wall = sw.Tool(shape=sw.HalfSpace(point=1.0 + 2.0 / cells, normal=-1.0))
+    wall = sw.Tool(shape=sw.obstacles.HalfSpace(point=1.0 + 2.0 / cells, normal=-1.0))
     contact = sw.Contact(between=("bar.right", "wall"), timing=timing)
     return f"bar, {cells} bar2", sw.Scene(bodies={"bar": solid, "wall": wall}, contacts=(contact,)), 40.0 / cells
 
 
-def block(cells: int, timing: sw.Energy | sw.Impulse | sw.Paper) -> tuple[str, sw.Scene, float]:
+def block(cells: int, timing: sw.contact.Energy | sw.contact.Impulse | sw.contact.Paper) -> tuple[str, sw.Scene, float]:
     """A neo-Hookean cube thrown at a floor, and a time in its contact."""
     solid = sw.Solid(
-        mesh=sw.Box(size=(1.0, 1.0, 1.0), cells=(cells, cells, cells), cell="hex8"),
+        mesh=sw.meshes.Box(size=(1.0, 1.0, 1.0), cells=(cells, cells, cells), cell="hex8"),
         material=sw.NeoHookean(E=1.0, nu=0.3),
         density=1.0,
-        velocity=sw.Uniform(value=(0.0, 0.0, -0.05)),
+        velocity=sw.bodies.Uniform(value=(0.0, 0.0, -0.05)),
     )
-    floor = sw.Tool(shape=sw.HalfSpace(point=(0.0, 0.0, -0.001), normal=(0.0, 0.0, 1.0)))
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0, -0.001), normal=(0.0, 0.0, 1.0)))
     contact = sw.Contact(between=("cube.bottom", "floor"), timing=timing)
     return f"cube, {cells}^3 hex8", sw.Scene(bodies={"cube": solid, "floor": floor}, contacts=(contact,)), 20.0 / cells
 
@@ -84,7 +84,7 @@ def measured(case: str, scene: sw.Scene, until: float) -> Cost:
 
 def costs(largest: int) -> Iterator[Cost]:
     """Every case, the smaller ones first."""
-    for timing in (sw.Energy(), sw.Impulse(), sw.Paper()):
+    for timing in (sw.contact.Energy(), sw.contact.Impulse(), sw.contact.Paper()):
         for cells in (20, 200):
             yield measured(*bar(cells, timing))
         for cells in (4, 8, 12):

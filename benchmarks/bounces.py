@@ -16,7 +16,7 @@ from time import perf_counter
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "verification"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "verification" / "tools"))
 
 from bouncing import ball, between_planes, bounced, cube, step_of
 

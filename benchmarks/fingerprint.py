@@ -16,17 +16,17 @@ ROOT = Path(__file__).resolve().parents[1]
 MARCH = tuple(
     f"src/softway/{part}"
     for part in (
-        "bodies", "contact", "crew.py", "kernels", "laws", "march", "model.py", "scene.py", "solve", "space", "time",
+        "bodies", "contact", "kernels", "laws", "march", "meshes", "model", "obstacles", "solve",
     )
 )  # fmt: skip
-CELLS = tuple(f"src/softway/{part}" for part in ("bodies", "kernels", "laws", "space"))
+CELLS = tuple(f"src/softway/{part}" for part in ("bodies", "kernels", "laws", "meshes"))
 CODE = {"kernels": CELLS, "history": CELLS}
 """What is measured, by group; the slab and all that it is made of where nothing is said."""
 THROWN = (
     "benchmarks/groups/cube.py",
     "benchmarks/groups/peers.py",
     "benchmarks/peers",
-    "src/softway/verify/scenes/cube.py",
+    "src/softway/apps/verify/scenes/cube.py",
 )
 PARTS, METHODS = "benchmarks/groups/parts.py", "benchmarks/groups/methods.py"
 BENCHES = {

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from softway.typing import Array
+from softway.arrays import Array
 
 WINDOW, WIDE = 5e-4, 2e-3
 """A step of the peers' problem, and four of them [s]: a wave of pressure goes through half a cell at 3k, and two."""

@@ -7,19 +7,19 @@ from typing import Any
 import numpy as np
 
 import softway as sw
-from softway.march.step import Step
-from softway.solve.stability import stable_step
+from softway.march.results.step import Step
+from softway.solve.stable_step import stable_step
 
 
 def ball(cells: int) -> sw.Scene:
     """A neo-Hookean ball of diameter 1 that meets a plane with a twentieth of the speed of waves."""
     body = sw.Solid(
-        mesh=sw.Ball(radius=0.5, cells=cells),
+        mesh=sw.meshes.Ball(radius=0.5, cells=cells),
         material=sw.NeoHookean(E=1.0, nu=0.3),
         density=1.0,
-        velocity=sw.Uniform(value=(0.0, 0.0, -0.06)),
+        velocity=sw.bodies.Uniform(value=(0.0, 0.0, -0.06)),
     )
-    floor = sw.Tool(shape=sw.HalfSpace(point=(0.0, 0.0, -0.5001), normal=(0.0, 0.0, 1.0)))
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0, -0.5001), normal=(0.0, 0.0, 1.0)))
     return sw.Scene(bodies={"ball": body, "floor": floor}, contacts=(sw.Contact(between=("ball.surface", "floor")),))
 
 
@@ -27,7 +27,7 @@ def beam(cells: int) -> sw.Scene:
     """A clamped beam, twenty times as long as thick, that a load bends by most of its length."""
     thick = 0.05
     body = sw.Solid(
-        mesh=sw.Box(size=(1.0, thick, thick), cells=(10 * cells, cells, cells)),
+        mesh=sw.meshes.Box(size=(1.0, thick, thick), cells=(10 * cells, cells, cells)),
         material=sw.NeoHookean(E=1.0, nu=0.3),
         density=1.0,
         supports=(sw.Fixed(on="left"),),
@@ -38,11 +38,11 @@ def beam(cells: int) -> sw.Scene:
 def glued(cells: int, nu: float) -> sw.Scene:
     """A nearly incompressible block, glued to the ground, whose top starts sideways."""
     body = sw.Solid(
-        mesh=sw.Box(size=(1.0, 1.0, 1.0), cells=(cells, cells, cells)),
+        mesh=sw.meshes.Box(size=(1.0, 1.0, 1.0), cells=(cells, cells, cells)),
         material=sw.NeoHookean(E=1.0, nu=nu),
         density=1.0,
         supports=(sw.Fixed(on="bottom"),),
-        velocity=sw.Profile(axis="z", at=(0.0, 1.0), values=((0.0, 0.0, 0.0), (0.15, 0.0, 0.0))),
+        velocity=sw.bodies.Profile(axis="z", at=(0.0, 1.0), values=((0.0, 0.0, 0.0), (0.15, 0.0, 0.0))),
     )
     return sw.Scene(bodies={"block": body})
 
@@ -53,13 +53,13 @@ def compact(cells: int, touching: bool = True) -> sw.Scene:
     18 cells make 50,653 nodes.  Without a floor all nodes keep their mass.
     """
     body = sw.Solid(
-        mesh=sw.Ball(radius=0.02, cells=cells, cell="tet10"),
+        mesh=sw.meshes.Ball(radius=0.02, cells=cells, cell="tet10"),
         material=sw.NeoHookean(E=1e8, nu=0.4),
         density=1150.0,
-        velocity=sw.Uniform(value=(0.0, 0.0, -20.0)),
-        mass=sw.Lumped(),
+        velocity=sw.bodies.Uniform(value=(0.0, 0.0, -20.0)),
+        mass=sw.bodies.Lumped(),
     )
-    floor = sw.Tool(shape=sw.HalfSpace(point=(0.0, 0.0, -0.0201), normal=(0.0, 0.0, 1.0)))
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0, -0.0201), normal=(0.0, 0.0, 1.0)))
     met = (sw.Contact(between=("ball.surface", "floor")),) if touching else ()
     return sw.Scene(bodies={"ball": body, "floor": floor}, contacts=met)
 

@@ -1,7 +1,7 @@
 """The gallery of scenarios and examples: ``python docs/gallery.py`` writes ``docs/gallery.md``.
 
-``python docs/gallery.py NAME PICTURE.png`` makes the small picture of one from a large one, such as that of ``softway
-plot``; it needs Pillow, which comes with matplotlib.  What is said of each is the first sentence of its file.
+``python docs/gallery.py NAME PICTURE.png`` shrinks a large picture, for example of ``softway plot``, to the picture of
+an entry; it needs Pillow, which comes with matplotlib.  The text of each entry is the first sentence of its file.
 """
 
 import re
@@ -19,15 +19,15 @@ PAGE, PICTURES = DOCS / "gallery.md", DOCS / "pictures" / "gallery"
 WIDTH, COLOURS = 560, 256
 HEAD = """# Scenarios and programs
 
-Every scenario and every program of the checkout, with the command that computes it. `softway plot` draws
-a run, `softway view` shows it in the browser. Shorter ones with figures are the {doc}`examples <examples/index>`.
+All scenarios and programs of the checkout, with the commands that run them. `softway plot` draws
+a run, `softway view` shows it in the browser. Shorter programs with results are the {doc}`examples <examples/index>`.
 `python docs/gallery.py` writes this page.
 """
 
 
 @dataclass(frozen=True)
 class Entry:
-    """One of the gallery: file, title, a sentence, commands."""
+    """Entry of the gallery: file, title, a sentence, commands."""
 
     file: Path
     title: str
@@ -36,12 +36,12 @@ class Entry:
 
     @property
     def picture(self) -> Path:
-        """Its small picture."""
+        """File of the small picture."""
         return PICTURES / f"{self.file.stem}.png"
 
 
 def entries() -> Iterator[Entry]:
-    """All scenarios, then all examples."""
+    """Yield all scenarios, then all examples."""
     for file in sorted(ROOT.glob("scenarios/*.toml")):
         text, name = file.read_text(encoding="utf-8"), file.stem
         comment = " ".join(line.lstrip("# ") for line in text.partition("title")[0].splitlines())
@@ -55,17 +55,17 @@ def entries() -> Iterator[Entry]:
 
 
 def _first(text: str) -> str:
-    """The first sentence."""
+    """First sentence of a text."""
     return text.strip().partition(". ")[0].rstrip(".") + "."
 
 
 def page() -> str:
-    """The page."""
+    """Text of the page."""
     return "\n".join([HEAD, *(section(entry) for entry in entries())])
 
 
 def section(entry: Entry) -> str:
-    """Picture, sentence and command of one."""
+    """Section of an entry: sentence, picture and commands."""
     picture, source = entry.picture.relative_to(DOCS), entry.file.relative_to(ROOT)
     return f"""## {entry.title}
 
@@ -80,7 +80,7 @@ def section(entry: Entry) -> str:
 
 
 def shrink(source: Path, target: Path) -> None:
-    """A picture of the width of the gallery, in few colours."""
+    """Save a picture with the width of the gallery and few colours."""
     picture = Image.open(source).convert("RGBA")
     white = Image.new("RGBA", picture.size, "white")
     whole = Image.alpha_composite(white, picture).convert("RGB")

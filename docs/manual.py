@@ -10,8 +10,8 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from softway.verify import Case, Result, compared, listed
-from softway.verify.report import causes, rows, verdict
+from softway.apps.verify import Case, Result, compared, listed
+from softway.apps.verify.report import causes, rows, verdict
 
 HEAD = """# Verification manual
 

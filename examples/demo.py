@@ -1,6 +1,6 @@
-"""Both examples of the paper and the drop of a steel part: tables of exact, ours and error, and pictures in demo/.
+"""Both examples of the paper and the drop of a steel part, with tables of errors and with pictures in demo/.
 
-Run it with ``make demo``, or ``python examples/demo.py [--quick]``; the quick form leaves out the part.
+Run it with ``make demo``, or ``python examples/demo.py [--quick]``; the quick form omits the part.
 """
 
 import sys
@@ -15,9 +15,9 @@ from scipy.linalg import eigh
 from scipy.optimize import brentq
 
 import softway as sw
-from softway.record.view import pictures
-from softway.verify.exact import semidiscrete
-from softway.verify.exact.thrown import Thrown
+from softway.apps.verify.exact import semidiscrete
+from softway.apps.verify.exact.thrown import Thrown
+from softway.record.view.pictures import pictures
 
 mpl.use("Agg")
 import matplotlib.pyplot as plt
@@ -29,40 +29,44 @@ CONSOLE = Console(width=100)
 GAP = 0.25
 STOP = 0.2
 RULES = {
-    "Paper": (sw.Paper(), sw.Consistent(), "literal"),
-    "Impulse": (sw.Impulse(), sw.Consistent(), "impulse"),
-    "Impulse, lumped": (sw.Impulse(), sw.Lumped(), "impulse"),
-    "Energy": (sw.Energy(), sw.Consistent(), None),
+    "Paper": (sw.contact.Paper(), sw.bodies.Consistent(), "literal"),
+    "Impulse": (sw.contact.Impulse(), sw.bodies.Consistent(), "impulse"),
+    "Impulse, lumped": (sw.contact.Impulse(), sw.bodies.Lumped(), "impulse"),
+    "Energy": (sw.contact.Energy(), sw.bodies.Consistent(), None),
 }
 
 
-def example_1(rule: sw.Paper | sw.Impulse | sw.Energy, mass: sw.Consistent | sw.Lumped, step: float) -> list[sw.Step]:
-    """A free bar of two elements, L = E = rho = v = 1, meets a rigid wall at the distance 0.25."""
+def example_1(
+    rule: sw.contact.Paper | sw.contact.Impulse | sw.contact.Energy,
+    mass: sw.bodies.Consistent | sw.bodies.Lumped,
+    step: float,
+) -> list[sw.Step]:
+    """Compute a free bar of two elements, L = E = rho = v = 1, that hits a rigid wall at the distance 0.25."""
     bar = sw.Solid(
-        mesh=sw.Interval(length=1.0, cells=2),
+        mesh=sw.meshes.Interval(length=1.0, cells=2),
         material=sw.LinearElastic(E=1.0),
         density=1.0,
-        velocity=sw.Uniform(value=1.0),
+        velocity=sw.bodies.Uniform(value=1.0),
         mass=mass,
     )
-    wall = sw.Tool(shape=sw.HalfSpace(point=1.0 + GAP, normal=-1.0))
+    wall = sw.Tool(shape=sw.obstacles.HalfSpace(point=1.0 + GAP, normal=-1.0))
     contact = sw.Contact(between=("bar.right", "wall"), timing=rule)
     return list(sw.march(sw.Scene(bodies={"bar": bar, "wall": wall}, contacts=(contact,)), until=3.0, step=step))
 
 
 def example_2(stop: float | None, step: float = 0.01) -> list[sw.Step]:
-    """The same bar fixed at its left end, with the velocity 1 at its tip, without and with a stop."""
+    """Compute the bar fixed at its left end, with the velocity 1 at its tip, without or with a stop."""
     bar = sw.Solid(
-        mesh=sw.Interval(length=1.0, cells=2),
+        mesh=sw.meshes.Interval(length=1.0, cells=2),
         material=sw.LinearElastic(E=1.0),
         density=1.0,
-        velocity=sw.OnTag(tag="right", value=1.0),
+        velocity=sw.bodies.OnTag(tag="right", value=1.0),
         supports=(sw.Fixed(on="left"),),
     )
     if stop is None:
         return list(sw.march(sw.Scene(bodies={"bar": bar}), until=10.0, step=step))
-    wall = sw.Tool(shape=sw.HalfSpace(point=1.0 + stop, normal=-1.0))
-    contact = sw.Contact(between=("bar.right", "wall"), timing=sw.Impulse())
+    wall = sw.Tool(shape=sw.obstacles.HalfSpace(point=1.0 + stop, normal=-1.0))
+    contact = sw.Contact(between=("bar.right", "wall"), timing=sw.contact.Impulse())
     return list(sw.march(sw.Scene(bodies={"bar": bar, "wall": wall}, contacts=(contact,)), until=10.0, step=step))
 
 
@@ -78,9 +82,10 @@ def curve(steps: list[sw.Step], node: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def massless_contact() -> float:
-    """Exact duration of contact of the two-element bar whose contact node has no inertia: it follows its neighbour.
+    """Exact contact duration of the two-element bar with a massless contact node.
 
-    With the tip held, M u'' + K u = 0 for the rear and the middle node; the wall lets go when the middle returns.
+    While the tip is held, M u'' + K u = 0 for the rear and the middle node. The bar is released when the middle
+    returns.
     """
     s = np.sqrt(1.8)
     mass = np.array([[2.0, s], [s, 7.2]]) / (9.2 + 2.0 * s)
@@ -90,7 +95,7 @@ def massless_contact() -> float:
 
 
 def table(title: str) -> Table:
-    """An empty table of exact, ours, error."""
+    """Empty table with columns for exact value, result and error."""
     made = Table(title=title, title_justify="left", title_style="bold")
     made.add_column("quantity")
     for name in ("exact", "ours", "error"):
@@ -99,12 +104,12 @@ def table(title: str) -> Table:
 
 
 def row(into: Table, name: str, exact: float, ours: float) -> None:
-    """A line of the table."""
+    """Add a row to the table."""
     into.add_row(name, f"{exact:.8f}", f"{ours:.8f}", f"{ours - exact:+.1e}")
 
 
 def show_example_1() -> None:
-    """Table and figure of the first example (the paper's Fig. 5)."""
+    """Print the table and save the figure of the first example (Fig. 5 of the paper)."""
     lines = table("Example 1: bar of two elements on a rigid wall (slab h = 0.005)")
     thrown = Thrown(gap=GAP)
     figure, axes = plt.subplots(1, 3, figsize=(13.0, 4.2), sharey=True, layout="constrained")
@@ -115,7 +120,7 @@ def show_example_1() -> None:
         row(lines, f"{name}: contact instant", GAP, instant(steps, "touch"))
         ledger = steps[-1].ledger
         if reference is not None:
-            mesh = semidiscrete.bar(2, lumped=isinstance(mass, sw.Lumped))
+            mesh = semidiscrete.bar(2, lumped=isinstance(mass, sw.bodies.Lumped))
             exact = semidiscrete.solve(mesh, np.zeros(3), np.ones(3), gap=GAP, until=3.0, rule=reference)
             loss = 1.0 - exact.energy(3.0) / exact.energy(0.0)
             row(lines, f"{name}: release", exact.times("release")[0], instant(steps, "release"))
@@ -142,7 +147,7 @@ def show_example_1() -> None:
 
 
 def show_example_2() -> None:
-    """Table and figure of the second example (the paper's Fig. 6)."""
+    """Print the table and save the figure of the second example (Fig. 6 of the paper)."""
     lines = table("Example 2: fixed bar with a moving tip (slab h = 0.01)")
     mesh = semidiscrete.bar(2, fixed=True)
     figure, axes = plt.subplots(2, 1, figsize=(9.0, 7.0), sharex=True, layout="constrained")
@@ -175,7 +180,7 @@ def show_example_2() -> None:
 
 
 def show_drop() -> None:
-    """The bracket, dropped from 1 m: energy ledger and two pictures."""
+    """Compute the bracket dropped from 1 m: energy table and two pictures."""
     scenario = sw.load(ROOT / "scenarios" / "bracket_drop.toml")
     end, mark = scenario.time.end, [0.25]
 
@@ -207,7 +212,7 @@ def show_drop() -> None:
 
 
 def main() -> None:
-    """Everything."""
+    """Run all examples."""
     OUT.mkdir(exist_ok=True)
     show_example_1()
     show_example_2()

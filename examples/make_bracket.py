@@ -1,7 +1,7 @@
 """The mounting bracket of the drop scenario, modelled and meshed with Gmsh.
 
-An L of steel sheet, 80 mm x 40 mm on the floor and 60 mm high, 10 mm thick: its inner edge is filleted, its outer
-corners are rounded, and each leg has a hole for a bolt. Needs the package ``gmsh``::
+The bracket is an L of steel sheet, 80 mm x 40 mm at its base, 60 mm high and 10 mm thick. Its inner edge is filleted,
+its outer corners are rounded, and each leg has a bolt hole. The program needs the package ``gmsh``::
 
     python examples/make_bracket.py scenarios/bracket.msh
 """
@@ -15,11 +15,11 @@ LENGTH, WIDTH, HEIGHT, THICKNESS = 80.0, 40.0, 60.0, 10.0  # mm
 FILLET, CORNER, HOLE = 8.0, 8.0, 6.0  # radii, mm
 BASE_HOLE = (55.0, 20.0)  # x, y of the hole through the flat leg
 WALL_HOLE = (20.0, 38.0)  # y, z of the hole through the upright leg
-SIZE, SIZE_ROUND = 6.5, 5.0  # edge lengths of the cells: anywhere, on the round faces
+SIZE, SIZE_ROUND = 6.5, 5.0  # edge lengths of the cells: general, on the round faces
 
 
 def model() -> None:
-    """The solid, in the current Gmsh model."""
+    """Build the solid in the current Gmsh model."""
     make = gmsh.model.occ
     flat = make.addBox(0.0, 0.0, 0.0, LENGTH, WIDTH, THICKNESS)
     upright = make.addBox(0.0, 0.0, 0.0, THICKNESS, WIDTH, HEIGHT)
@@ -37,12 +37,12 @@ def model() -> None:
 
 
 def near(value: float, wanted: float) -> bool:
-    """Equal to within what the modeller's own tolerances allow."""
+    """True if two lengths are equal within the tolerance of the modeller."""
     return abs(value - wanted) < 1e-3
 
 
 def rounded(radius: float, where: Callable[[float, float, float], bool]) -> None:
-    """Round the edges of the solid whose centre of mass fulfils ``where(x, y, z)``."""
+    """Round the edges of the solid whose centre of mass satisfies ``where(x, y, z)``."""
     make = gmsh.model.occ
     edges = [tag for dim, tag in gmsh.model.getEntities(1) if where(*make.getCenterOfMass(dim, tag))]
     make.fillet([tag for _, tag in gmsh.model.getEntities(3)], edges, [radius])
@@ -50,7 +50,7 @@ def rounded(radius: float, where: Callable[[float, float, float], bool]) -> None
 
 
 def groups() -> None:
-    """Names that become tags: the volume, its underside, the walls of the holes."""
+    """Define physical groups, which become tags (volume, underside, walls of the holes), and the mesh size."""
     faces = gmsh.model.getEntities(2)
     at = {tag: gmsh.model.occ.getCenterOfMass(2, tag) for _, tag in faces}
     round_ = [tag for _, tag in faces if gmsh.model.getType(2, tag) == "Cylinder"]
@@ -80,7 +80,7 @@ def groups() -> None:
 
 
 def mesh(path: str) -> None:
-    """Second-order tetrahedra, optimised, written as Gmsh 4.1 binary."""
+    """Mesh with optimised second-order tetrahedra and write a binary Gmsh 4.1 file."""
     options = {
         "Mesh.MeshSizeExtendFromBoundary": 0, "Mesh.MeshSizeFromPoints": 0, "Mesh.MeshSizeFromCurvature": 0,
         "Mesh.Algorithm": 6, "Mesh.Algorithm3D": 10, "Mesh.Optimize": 1, "Mesh.OptimizeNetgen": 1,
@@ -94,7 +94,7 @@ def mesh(path: str) -> None:
 
 
 def main() -> None:
-    """Model, mesh, write."""
+    """Build the model, mesh it and write the file."""
     gmsh.initialize(["make_bracket", "-v", "2"])
     try:
         gmsh.model.add("bracket")

@@ -1,8 +1,8 @@
-"""The ring test of metal forming: force curves of upsetting, and the calibration curves of the friction.
+"""The ring test of metal forming: force curves of upsetting, and calibration curves of the friction.
 
-Run it with ``python examples/ring_test.py``.  A ring of 6 : 3 : 2 is pressed between platens; how its hole changes
-tells the friction.  It prints the change of the inner radius at a reduction of 30 per cent and draws
-``demo/ring_test.png``, with the references of the verification cases E02 and E03 as points.
+Run it with ``python examples/ring_test.py``.  A ring with the proportions 6 : 3 : 2 is pressed between platens.
+The change of its hole is a measure of the friction.  The program prints the change of the inner radius at a reduction
+of 30 per cent and draws ``demo/ring_test.png``, with the references of the verification cases E02 and E03 as points.
 """
 
 import sys
@@ -11,10 +11,10 @@ from pathlib import Path
 import matplotlib as mpl
 import numpy as np
 
-from softway.verify.case import sheet
-from softway.verify.cases import e02
-from softway.verify.cases.e03 import ALPHAS, ring
-from softway.verify.scenes.forming import Press
+from softway.apps.verify.case import sheet
+from softway.apps.verify.cases.forming import e02_upsetting_with_friction
+from softway.apps.verify.cases.forming.e03_ring_test import ALPHAS, ring
+from softway.apps.verify.scenes.forming import Press
 
 mpl.use("Agg")
 import matplotlib.pyplot as plt
@@ -25,7 +25,7 @@ INK = ("#1b6ca8", "#3a923a", "#b3443c")
 
 
 def picture(rings: dict[float, Press], upset: Press, file: Path) -> None:
-    """Calibration curves and force curves side by side."""
+    """Draw calibration curves and force curves side by side."""
     fig, (left, right) = plt.subplots(1, 2, figsize=(9.6, 3.8), layout="constrained")
     table = sheet("E03")["reference"]["table"]
     for (alpha, press), ink in zip(rings.items(), INK, strict=True):
@@ -57,7 +57,7 @@ def main() -> int:
     for alpha, press in rings.items():
         change = press.radius("inner", "middle") - press.inner
         print(f"alpha = {alpha:4.2f}: inner radius {change:+.4f}, force {press.force_at(0.3):.2f}")
-    picture(rings, e02.upset(), OUT / "ring_test.png")
+    picture(rings, e02_upsetting_with_friction.upset(), OUT / "ring_test.png")
     print(f"picture: {OUT / 'ring_test.png'}")
     return 0
 

@@ -1,7 +1,7 @@
-"""Taylor's bar: a copper cylinder of 32.4 by 6.4 mm thrown at a rigid wall with 227 m/s, until it rests.
+"""Taylor's bar: a copper cylinder of 32.4 by 6.4 mm hits a rigid wall at 227 m/s and comes to rest.
 
-Run it with ``python examples/taylor_bar.py``; ``--cells 10`` refines it, ``--space`` takes the whole bar in three
-dimensions.  It prints what the bar has become and draws ``demo/taylor_bar.png``.
+Run it with ``python examples/taylor_bar.py``; ``--cells 10`` refines the mesh, ``--space`` computes the whole bar in
+three dimensions.  The program prints the final shape and draws ``demo/taylor_bar.png``.
 """
 
 import argparse
@@ -13,7 +13,7 @@ import matplotlib as mpl
 import numpy as np
 
 import softway as sw
-from softway.verify.scenes import taylor
+from softway.apps.verify.scenes import taylor
 
 mpl.use("Agg")
 import matplotlib.pyplot as plt
@@ -23,23 +23,25 @@ ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "demo"
 FRAMES = (0.0, 10e-6, 20e-6, 40e-6, 80e-6)
 STEP = 0.78e-6
-"""Slab [s] for five cells across the radius, eight times the automatic one."""
+"""Time step (slab) [s] for five cells across the radius, eight times the automatic one."""
 
 
 def in_space(across: int) -> sw.Scene:
-    """The whole bar, so many cells across its diameter, on the plane z = 0."""
-    mesh = sw.Cylinder(radius=taylor.RADIUS, height=taylor.LENGTH, cells=(across, round(2.5 * across)))
+    """Scene of the whole bar on the plane z = 0, with ``across`` cells across its diameter."""
+    mesh = sw.meshes.Cylinder(radius=taylor.RADIUS, height=taylor.LENGTH, cells=(across, round(2.5 * across)))
     scene = taylor.scene((5, 25))
     bar = scene.bodies["bar"]
     assert isinstance(bar, sw.Solid)
-    bar = replace(bar, mesh=mesh, section=None, supports=(), velocity=sw.Uniform(value=(0.0, 0.0, -taylor.SPEED)))
-    wall = sw.Tool(shape=sw.HalfSpace(point=(0.0, 0.0, 0.0), normal=(0.0, 0.0, 1.0)))
+    bar = replace(
+        bar, mesh=mesh, section=None, supports=(), velocity=sw.bodies.Uniform(value=(0.0, 0.0, -taylor.SPEED))
+    )
+    wall = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0, 0.0), normal=(0.0, 0.0, 1.0)))
     contacts = (sw.Contact(between=("bar.bottom", "wall")), sw.Contact(between=("bar.side", "wall")))
     return sw.Scene(bodies={"bar": bar, "wall": wall}, contacts=contacts)
 
 
 def marched(scene: sw.Scene, step: float) -> tuple[taylor.Crushed, dict[float, sw.Step]]:
-    """The end, and the slabs nearest to the instants of the picture."""
+    """Final shape of the bar, and the slabs nearest to the instants of the picture."""
     model, steps, shown, begun = sw.build(scene), [], {}, time.perf_counter()
     for found in sw.march(model, until=taylor.END, step=step, method=taylor.METHOD):
         steps.append(found)
@@ -53,7 +55,7 @@ def marched(scene: sw.Scene, step: float) -> tuple[taylor.Crushed, dict[float, s
 
 
 def picture(scene: sw.Scene, shown: dict[float, sw.Step], file: Path) -> None:
-    """Deformed sections with the plastic strain, side by side."""
+    """Draw deformed sections with the plastic strain, side by side."""
     mesh = scene.bodies["bar"].mesh.build()
     figure, axes = plt.subplots(1, len(FRAMES), figsize=(11.0, 5.0), sharey=True, layout="constrained")
     for axis, instant in zip(axes, FRAMES, strict=True):
@@ -73,10 +75,10 @@ def picture(scene: sw.Scene, shown: dict[float, sw.Step], file: Path) -> None:
 
 
 def main() -> None:
-    """Both forms."""
+    """Compute the axisymmetric or the three-dimensional bar."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--cells", type=int, default=5, help="across the radius, in space across the diameter")
-    parser.add_argument("--step", type=float, help="slab [s]")
+    parser.add_argument("--cells", type=int, default=5, help="across the radius, with --space across the diameter")
+    parser.add_argument("--step", type=float, help="time step [s]")
     parser.add_argument("--space", action="store_true")
     given = parser.parse_args()
     step = given.step or STEP * (2.0 if given.space else 1.0) * 5.0 / given.cells

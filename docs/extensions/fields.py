@@ -19,8 +19,8 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 import numpy as np
 from sphinx.ext.napoleon import Config, NumpyDocstring
 
-from softway.scenario.described import described
-from softway.scenario.kinds import Hint, hints, inputs, members, required
+from softway.scenario.hints.docstrings import described
+from softway.scenario.hints.type_hints import Hint, hints, inputs, members, required
 
 PAGES = Path(__file__).parents[1] / "reference"
 NAMES = re.compile(r"^\.\. auto(?:class|function|exception):: (\S+)$", re.MULTILINE)

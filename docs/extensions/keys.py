@@ -7,9 +7,9 @@ from docutils import nodes
 from fields import default_of
 from sphinx.util.docutils import SphinxDirective
 
-from softway.scenario.described import described
-from softway.scenario.glossary import keys
-from softway.scenario.kinds import Hint, hints
+from softway.scenario.class_index import keys
+from softway.scenario.hints.docstrings import described
+from softway.scenario.hints.type_hints import Hint, hints
 
 HEAD = ("key", "of", "default, unit", "meaning")
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import matplotlib.pyplot as plt
 
-from softway.record.view_style import CYCLE, STYLE
+from softway.record.view.style import CYCLE, STYLE
 
 ORDER = (
     "bar_on_wall", "cradle", "hundred_bounces", "time_functions", "finer_meshes", "fixed_point_and_newton",

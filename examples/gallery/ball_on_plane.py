@@ -2,9 +2,9 @@
 A steel ball meets a plane
 ==========================
 
-A ball of 10 mm radius meets a rigid plane at 1 m/s. Hertz takes the ball as a mass on the spring of
-a half-space under pressure: contact lasts 52 microseconds, long against the time of a wave through
-the ball, and the force reaches 2.3 kN.
+A ball of 10 mm radius hits a rigid plane at 1 m/s. In Hertz's theory the ball is a mass on the
+static contact spring of a half-space. The contact lasts 52 microseconds, which is long compared
+with the time of a wave through the ball, and the force reaches 2.3 kN.
 """
 
 from math import pi
@@ -14,8 +14,8 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 
 import softway as sw
-from softway.space.sources import GradedDisc
-from softway.verify.exact.contact import Impact, contact_modulus
+from softway.apps.verify.exact.contact import Impact, contact_modulus
+from softway.meshes.generators.recipes import GradedDisc
 
 RADIUS, DENSITY, YOUNGS, POISSON, SPEED = 0.01, 7850.0, 210e9, 0.3, 1.0
 hertz = Impact(
@@ -25,8 +25,8 @@ hertz = Impact(
 )
 
 # %%
-# The ball is a body of revolution: half a disc, with small cells where it touches. The radius of the
-# greatest contact is the root of R times the approach, 0.4 mm, and has five cells.
+# The ball is axisymmetric: the mesh is half a disc, with small cells at the contact. The largest
+# contact radius is the square root of R times the approach, 0.4 mm, and spans five cells.
 
 width = (RADIUS * hertz.approach) ** 0.5
 mesh = GradedDisc(radius=RADIUS, focus=1.4 * width, cells=7, part="right").build()
@@ -34,18 +34,18 @@ ball = sw.Solid(
     mesh=mesh,
     material=sw.LinearElastic(E=YOUNGS, nu=POISSON),
     density=DENSITY,
-    section=sw.Axisymmetric(),
-    velocity=sw.Uniform(value=(0.0, -SPEED)),
+    section=sw.bodies.Axisymmetric(),
+    velocity=sw.bodies.Uniform(value=(0.0, -SPEED)),
     supports=(sw.Fixed(on="axis", components="x"),),
 )
-plane = sw.Tool(shape=sw.HalfSpace(point=(0.0, -RADIUS), normal=(0.0, 1.0)))
+plane = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -RADIUS), normal=(0.0, 1.0)))
 touch = sw.Contact(between=("ball.focus", "plane"), name="plane")
 model = sw.build(sw.Scene(bodies={"ball": ball, "plane": plane}, contacts=(touch,)))
 steps = list(sw.march(model, until=1.1 * hertz.duration, step=hertz.duration / 30))
 
 # %%
-# The ball is a little stiffer than a half-space, and some energy stays behind in its vibrations:
-# both are a matter of a few percent at this speed.
+# The ball is slightly stiffer than a half-space, and some energy remains in its vibrations. Both
+# effects are a few percent at this speed.
 
 force = np.array([step.ledger.contacts["plane"].force_n for step in steps])
 instants = [event.time for step in steps for event in step.events]
@@ -60,7 +60,7 @@ for name, (ours, exact) in found.items():
     assert abs(ours / exact - 1.0) < 0.04
 
 # %%
-# Force over time, and the vertical stress around the contact when the force is greatest.
+# Force over time, and the vertical stress around the contact at the greatest force.
 
 fig, (left, right) = plt.subplots(1, 2, figsize=(9.6, 3.9), layout="constrained")
 middle = np.array([0.5 * (step.slab.start + step.slab.end) for step in steps])

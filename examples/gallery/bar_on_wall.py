@@ -2,44 +2,47 @@
 A bar thrown at a wall
 ======================
 
-An elastic bar flies at a rigid wall. A wave runs through it, comes back from the free end, and
-takes the bar off the wall after the time 2 L/c, stress free and with the speed it came with. How
-well do the three contact rules keep that?
+An elastic bar hits a rigid wall. A wave runs through it and returns from the free end. After the
+time 2 L/c it releases the bar from the wall, stress free and with its initial speed. How accurately
+do the three contact rules reproduce this?
 """
 
 import matplotlib.pyplot as plt
 import numpy as np
 
 import softway as sw
-from softway.verify.exact.thrown import Thrown
+from softway.apps.verify.exact.thrown import Thrown
 
 # %%
-# The exact solution is d'Alembert's. Length, modulus, density and speed are 1, and so are the speed
-# of waves and the force on the wall.
+# The exact solution is d'Alembert's. Length, modulus, density and speed are 1, so the wave speed
+# and the force on the wall are 1 too.
 
 exact = Thrown(gap=0.3)
 
 
 def thrown(rule, cells=40):
-    """The slabs of the march by a contact rule."""
+    """Slabs (time steps) of the march with a contact rule."""
     bar = sw.Solid(
-        mesh=sw.Interval(length=1.0, cells=cells),
+        mesh=sw.meshes.Interval(length=1.0, cells=cells),
         material=sw.LinearElastic(E=1.0),
         density=1.0,
-        velocity=sw.Uniform(value=1.0),
+        velocity=sw.bodies.Uniform(value=1.0),
     )
-    wall = sw.Tool(shape=sw.HalfSpace(point=1.0 + exact.gap, normal=-1.0))
+    wall = sw.Tool(shape=sw.obstacles.HalfSpace(point=1.0 + exact.gap, normal=-1.0))
     touch = sw.Contact(between=("bar.right", "wall"), timing=rule)
     scene = sw.Scene(bodies={"bar": bar, "wall": wall}, contacts=(touch,))
     return list(sw.march(scene, until=3.0))
 
 
-runs = {type(rule).__name__: thrown(rule) for rule in (sw.Energy(), sw.Impulse(), sw.Paper())}
+runs = {
+    type(rule).__name__: thrown(rule)
+    for rule in (sw.contact.Energy(), sw.contact.Impulse(), sw.contact.Paper())
+}
 
 # %%
-# All of them find the touch inside its slab. They differ in the energy: ``Energy``, the default,
-# keeps it to rounding; the other two lose what the node at the tip had, in proportion to the size
-# of the cells.
+# All rules find the contact instant inside its slab. They differ in the energy. ``Energy``, the
+# default, conserves it up to rounding. The other two lose the energy of the node at the tip, in
+# proportion to the cell size.
 
 fig, (left, right) = plt.subplots(1, 2, figsize=(9.6, 3.8), layout="constrained")
 time = np.linspace(0.0, 3.0, 301)
@@ -55,8 +58,8 @@ left.legend()
 right.legend(loc="center right")
 
 # %%
-# The instants and the energy beside the exact ones. An example whose claim were wrong would fail
-# here, and with it the tests and these pages.
+# Instants and energy, compared with the exact values. If a claim of an example were wrong, its
+# assertion would fail here, and with it the tests and the build of these pages.
 
 print(f"{'exact':8} touch {exact.touch:.6f}, release {exact.release:.4f}, energy kept {1:.12f}")
 for name, steps in runs.items():

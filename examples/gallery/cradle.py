@@ -2,9 +2,9 @@
 Three bars in a row
 ===================
 
-A bar flies at two others that rest. Bars of the same length, stiffness and weight hand over all
-their momentum: the first stops dead, the second carries it to the third. Nothing is left behind in
-waves, and every instant is known.
+A bar hits two others at rest. Bars of the same length, stiffness and density transfer all their
+momentum: the first stops, the second passes the momentum on to the third. No waves remain, and
+every instant is known.
 """
 
 import matplotlib.pyplot as plt
@@ -14,21 +14,21 @@ from matplotlib.collections import LineCollection
 import softway as sw
 
 # %%
-# Length, stiffness and density are 1, so that waves need the time 1 through a bar and contacts last
-# 2. The first gap is 0.2. The far end of b moves when the wave has come to it, at 1.2, with the
-# velocity 1 since it is free; the second gap, 0.5, is closed at 1.7, before a has let go.
+# Length, stiffness and density are 1, so waves cross a bar in the time 1 and contacts last 2. The
+# first gap is 0.2. The far end of b moves when the wave arrives at 1.2, with the velocity 1 since
+# it is free. The second gap, 0.5, closes at 1.7, before a is released.
 
 STARTS, CELLS = (0.0, 1.2, 2.7), 40
 EXACT = {"a-b": (0.2, 2.2), "b-c": (1.7, 3.7)}
 
 
 def bar(start, velocity):
-    """A bar and how it starts."""
+    """Bar with its initial position and velocity."""
     return sw.Solid(
-        mesh=sw.Interval(length=1.0, cells=CELLS, origin=start),
+        mesh=sw.meshes.Interval(length=1.0, cells=CELLS, origin=start),
         material=sw.LinearElastic(E=1.0),
         density=1.0,
-        velocity=sw.Uniform(value=velocity),
+        velocity=sw.bodies.Uniform(value=velocity),
     )
 
 
@@ -41,7 +41,7 @@ scene = sw.Scene(bodies=bodies, contacts=contacts)
 steps = list(sw.march(scene, until=5.0))
 
 # %%
-# Instants, and the velocities of the three at the end beside 0, 0 and 1.
+# Contact instants, and the final velocities of the three bars, exactly 0, 0 and 1.
 
 for name, exact in EXACT.items():
     found = [e.time for step in steps for e in step.events if e.contact == name]
@@ -55,8 +55,8 @@ print(f"momentum {ledger.momentum[0]:.12f} (1), energy error {ledger.energy_erro
 assert abs(ledger.momentum[0] - 1.0) < 1e-10 and abs(ledger.energy_error) < 1e-10
 
 # %%
-# Place against time of every fourth node; colour is the velocity. The front of a wave is where paths
-# bend, the contact where two bars run beside each other.
+# Position over time of every fourth node, coloured by velocity. Paths bend at wave fronts. Contacts
+# are where the paths of two bars run side by side.
 
 fig, axis = plt.subplots(figsize=(9.0, 5.6), layout="constrained")
 time = np.array([step.after.time for step in steps])
@@ -71,6 +71,6 @@ for name, start in zip("abc", STARTS):
         axis.add_collection(lines)
     axis.text(0.06, start + 0.5, name, va="center", bbox={"color": "white", "pad": 2.0})
 axis.set(
-    xlim=(0.0, 5.0), ylim=(-0.1, 5.1), xlabel="time", ylabel="place", title="Momentum is handed on"
+    xlim=(0.0, 5.0), ylim=(-0.1, 5.1), xlabel="time", ylabel="position", title="Transfer of momentum"
 )
 fig.colorbar(lines, ax=axis, label="velocity")

@@ -2,8 +2,8 @@
 Finer and finer meshes
 ======================
 
-How large is the error of the contact instants, and how fast does it fall with the mesh? A sweep
-computes a scenario over a list of values, each in a process of its own, and gives one table.
+How large is the error of the contact instants, and how does it decrease with the mesh size? A sweep
+computes a scenario for a list of values, each in its own process, and returns one table.
 """
 
 from pathlib import Path
@@ -15,7 +15,7 @@ import numpy as np
 import softway as sw
 
 # %%
-# The bar that flies at a wall, as a file. Its exact release is at 2.3 s, the impulse 2 N s.
+# The bar on a wall, as a scenario file. The exact release is at 2.3 s, the impulse is 2 N s.
 
 SCENARIO = """
 [bodies.bar]
@@ -39,11 +39,11 @@ end = 3
 CELLS = (10, 20, 40, 80)
 
 # %%
-# In a script of yours the call stands below ``if __name__ == "__main__":``, since processes begin by
-# importing it.
+# In a script, put the call below ``if __name__ == "__main__":``, because each process imports it.
 #
-# The touch is found inside its slab, exactly. The release comes late, since the wave that takes the
-# bar off is smeared over some cells: its error falls nearly with the first power of their size.
+# First contact is found exactly, inside its slab (time step). The release is late, because the wave
+# that releases the bar is smeared over some cells. Its error is nearly of first order in the cell
+# size.
 
 if __name__ == "__main__":
     with TemporaryDirectory() as folder:

@@ -2,8 +2,9 @@
 Fixed point and Newton's method
 ===============================
 
-The equations of a slab are solved by a fixed point on a factor that serves many slabs, or by
-Newton's method with a new matrix in each iteration. What do they cost, and do they find the same?
+The equations of a slab (time step) are solved by a fixed-point iteration with a factor that is
+reused for many slabs, or by Newton's method with a new matrix in each iteration. What do they cost,
+and do the results agree?
 """
 
 import time
@@ -14,17 +15,17 @@ import numpy as np
 import softway as sw
 
 # %%
-# A rubber block comes down on its corner, turned by fifteen degrees: large rotations, a contact that
-# grows from one node.
+# A rubber block falls on its corner, rotated by fifteen degrees. The contact, which starts at one
+# node, grows, and the rotations are large.
 
 block = sw.Solid(
-    mesh=sw.Rectangle(size=(0.04, 0.03), cells=(12, 9)),
+    mesh=sw.meshes.Rectangle(size=(0.04, 0.03), cells=(12, 9)),
     material=sw.NeoHookean(E=2e6, nu=0.4),
     density=1100.0,
-    velocity=sw.Uniform(value=(0.0, -3.0)),
-    place=sw.Placement(rotations=(sw.Rotation(angle=np.deg2rad(15.0)),), bottom=1e-4),
+    velocity=sw.bodies.Uniform(value=(0.0, -3.0)),
+    place=sw.bodies.Placement(rotations=(sw.bodies.Rotation(angle=np.deg2rad(15.0)),), bottom=1e-4),
 )
-floor = sw.Tool(shape=sw.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
+floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
 contact = sw.Contact(between=("block.surface", "floor"), name="floor")
 model = sw.build(sw.Scene(bodies={"block": block, "floor": floor}, contacts=(contact,)))
 methods = {"fixed point": sw.FixedPoint(), "Newton": sw.Newton()}
@@ -35,8 +36,8 @@ for name, method in methods.items():
     clock[name] = time.perf_counter() - begun
 
 # %%
-# Both are iterated to the same tolerance of the balance, so that the motions agree to many digits.
-# The first counts more iterations; each is a solution with a factor that is there already.
+# Both methods iterate to the same tolerance of the balance, so the motions agree to many digits.
+# The fixed point needs more iterations, but each only solves with an existing factor.
 
 for name, steps in runs.items():
     iterations = sum(step.report.iterations for step in steps)
@@ -55,6 +56,6 @@ for name, steps in runs.items():
     t = 1e3 * np.array([step.after.time for step in steps])
     left.step(t, [step.report.iterations for step in steps], where="mid", label=name)
     right.plot(t, [step.ledger.contacts["floor"].force_n / 1e3 for step in steps], label=name)
-left.set(ylabel="iterations of a slab", title="What it takes")
-right.set(ylabel="force [kN/m]", xlabel="time [ms]", title="What comes out")
+left.set(ylabel="iterations of a slab", title="Cost")
+right.set(ylabel="force [kN/m]", xlabel="time [ms]", title="Result")
 left.legend()

@@ -2,8 +2,8 @@
 A hundred bounces
 =================
 
-An elastic bar flies to and fro between two walls. Schemes that lose a little at each touch, or gain
-a little, show it here.
+An elastic bar bounces between two walls. This test reveals schemes that lose or gain a little
+energy at each contact.
 """
 
 import matplotlib.pyplot as plt
@@ -12,25 +12,25 @@ import numpy as np
 import softway as sw
 
 # %%
-# Length, stiffness, density and speed are 1. A contact lasts 2 and the bar has 0.1 to fly, so that a
-# hundred bounces need the time 210. Four elements and slabs of 0.25 are coarse: waves stay
-# behind in the bar, and yet the energy must be kept.
+# Length, stiffness, density and speed are 1. A contact lasts 2 and the free flight 0.1, so a
+# hundred bounces take the time 210. Four elements and slabs (time steps) of 0.25 are coarse. Waves
+# remain in the bar, but the energy must still be conserved.
 
 BOUNCES, GAP = 100, 0.1
 
 
 def bounced(rule, bounces):
-    """Energy over that at the start after each slab, touches so far, and places of the middle."""
+    """Relative energy after each slab, contacts so far, and displacement of the middle."""
     bar = sw.Solid(
-        mesh=sw.Interval(length=1.0, cells=4),
+        mesh=sw.meshes.Interval(length=1.0, cells=4),
         material=sw.LinearElastic(E=1.0),
         density=1.0,
-        velocity=sw.Uniform(value=1.0),
+        velocity=sw.bodies.Uniform(value=1.0),
     )
     bodies = {
         "bar": bar,
-        "right": sw.Tool(shape=sw.HalfSpace(point=1.0 + 0.5 * GAP, normal=-1.0)),
-        "left": sw.Tool(shape=sw.HalfSpace(point=-0.5 * GAP, normal=1.0)),
+        "right": sw.Tool(shape=sw.obstacles.HalfSpace(point=1.0 + 0.5 * GAP, normal=-1.0)),
+        "left": sw.Tool(shape=sw.obstacles.HalfSpace(point=-0.5 * GAP, normal=1.0)),
     }
     contacts = tuple(
         sw.Contact(between=(f"bar.{side}", side), timing=rule) for side in ("left", "right")
@@ -44,14 +44,14 @@ def bounced(rule, bounces):
 
 
 runs = {
-    "Energy": bounced(sw.Energy(), BOUNCES),
-    "Impulse": bounced(sw.Impulse(), 10),
-    "Paper": bounced(sw.Paper(), 10),
+    "Energy": bounced(sw.contact.Energy(), BOUNCES),
+    "Impulse": bounced(sw.contact.Impulse(), 10),
+    "Paper": bounced(sw.contact.Paper(), 10),
 }
 
 # %%
-# The default keeps the energy to rounding. With the other rules the node that touches loses its
-# share at once, as a hammer without a handle would.
+# The default rule conserves the energy up to rounding. With the other rules the node in contact
+# loses its kinetic energy at once.
 
 time, energy, touches, middle = runs["Energy"]
 drift = np.abs(energy - 1.0).max()

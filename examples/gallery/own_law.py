@@ -2,9 +2,9 @@
 A law of your own
 =================
 
-Skin and tendons hardly resist a small stretch, and a larger one more and more: Fung's law. softway
-does not have it. A law is a frozen data class with five methods; it needs no registration and no
-base class, and what softway examines in its own laws it examines in yours.
+Skin and tendons are soft at small stretch and stiffen progressively at larger stretch. Fung's law
+describes this; softway does not include it. A law is a frozen data class with five methods. It
+needs no registration and no base class, and softway tests it like its own laws.
 """
 
 from dataclasses import dataclass
@@ -14,15 +14,15 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import softway as sw
-from softway.kernels import tensors
-from softway.laws.measure import Green
-from softway.laws.moduli import dilatational_speed, lame
+from softway.kernels.linalg import tensors
+from softway.laws.elasticity.elastic_constants import dilatational_speed, lame
+from softway.laws.strain_measures import Green
 from softway.testing import check_law, examine_law
 from softway.units import Pascal, Pure
 
 # %%
 # The energy is W = mu/b (exp(b E:E) - 1) + lambda/2 (tr E)^2 in Green's strain E; stress and moduli
-# are its derivatives. For b = 0 it would be the law of St. Venant and Kirchhoff.
+# are its derivatives. For b = 0 it is the law of St. Venant and Kirchhoff.
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,24 +67,25 @@ class Fung:
 law = Fung(E=1e5, nu=0.0, b=5.0)
 
 # %%
-# The examination compares stress and moduli with the derivatives of what stands above them, looks at
-# rotations, at tiny strains, at matter turned inside out, and at units. It raises if one fails.
+# The test compares stress with the derivative of the energy, and moduli with the derivative of the
+# stress. It checks rotations, very small strains, inverted material and units. It raises an error
+# if a check fails.
 
 check_law(law)
 for finding in examine_law(law)[:4]:
     print(f"{finding.name:45} error {finding.error:.1e}, allowed {finding.allowed:.1e}")
 
 # %%
-# Now a strip of it is stretched to one and a half times its length, without inertia. Poisson's ratio
-# is zero, so that the stress along it is known: F S(E) per area of the start, with the stretch F.
+# A strip is stretched to one and a half times its length, without inertia. Poisson's ratio is zero,
+# so the axial stress is known: F S(E) per initial area, with the stretch F.
 
 strip = sw.Solid(
-    mesh=sw.Rectangle(size=(1.0, 0.5), cells=(2, 1)),
+    mesh=sw.meshes.Rectangle(size=(1.0, 0.5), cells=(2, 1)),
     material=law,
     density=1000.0,
     supports=(sw.Fixed(on="left"), sw.Driven(on="right", components="x", velocity=1.0)),
 )
-scene = sw.Scene(bodies={"strip": strip}, inertia=sw.Off())
+scene = sw.Scene(bodies={"strip": strip}, inertia=sw.bodies.Off())
 steps = list(sw.march(scene, until=0.5, step=0.02, method=sw.Newton()))
 stretch = 1.0 + np.array([step.after.time for step in steps])
 work = np.array([step.ledger.energy_strain for step in steps]) / 0.5
@@ -95,7 +96,7 @@ print(f"energy of the strip differs from W by at most {worst:.1e}")
 assert worst < 1e-9
 
 # %%
-# The stress beside that of the same law without its exponential growth.
+# The stress, compared with that of the same law without its exponential growth.
 
 fig, axis = plt.subplots(figsize=(8.0, 4.0), layout="constrained")
 fine = np.linspace(1.0, 1.5, 200)
@@ -106,5 +107,5 @@ axis.plot(
 )
 pull = [step.reactions["strip"][:, 0].clip(0.0).sum() / 0.5 / 1e3 for step in steps]
 axis.plot(stretch - 0.01, pull, ".", ms=5, label="pull of the support, middle of slabs")
-axis.set(xlabel="stretch", ylabel="force per area of the start [kPa]", title="A strip of tissue")
+axis.set(xlabel="stretch", ylabel="force per initial area [kPa]", title="A strip of tissue")
 axis.legend()

@@ -2,16 +2,17 @@
 A press fit
 ===========
 
-A ring of 20 mm outer radius is pressed into another whose inner radius is 10 micrometres smaller.
-What pressure holds them together? Lame gives it, and the stresses in both, in closed form.
+A ring of 20 mm outer radius is pressed into another ring whose inner radius is 10 micrometres
+smaller. What is the pressure between them? Lame's solution gives it in closed form, with the
+stresses in both rings.
 """
 
 import matplotlib.pyplot as plt
 import numpy as np
 
 import softway as sw
-from softway.space.sources import Ring
-from softway.verify.exact.contact import PressFit
+from softway.apps.verify.exact.contact import PressFit
+from softway.meshes.generators.recipes import Ring
 
 INNER, MIDDLE, OUTER, FIT = 0.01, 0.02, 0.04, 1e-5
 lame = PressFit(
@@ -19,17 +20,17 @@ lame = PressFit(
 )
 
 # %%
-# A quarter of each ring, in plane stress. The meshes overlap by the interference: ``start = "fit"``
-# presses them apart into equilibrium before anything moves.
+# A quarter of each ring, in plane stress. The meshes overlap by the interference. ``start = "fit"``
+# computes their equilibrium before anything moves.
 
 
 def quarter(inner, outer):
-    """A quarter of a steel ring."""
+    """Quarter of a steel ring."""
     return sw.Solid(
         mesh=Ring(inner=inner, outer=outer, cells=(10, 32), angle=0.5 * np.pi),
         material=sw.LinearElastic(E=210e9, nu=0.3),
         density=7850.0,
-        section=sw.PlaneStress(),
+        section=sw.bodies.PlaneStress(),
         supports=(sw.Fixed(on="start", components="y"), sw.Fixed(on="end", components="x")),
     )
 
@@ -40,11 +41,11 @@ model = sw.build(sw.Scene(bodies=bodies, contacts=(contact,)))
 step = next(sw.march(model, until=1e-7, step=1e-7))
 
 # %%
-# The stresses in the middles of the cells, along the radius and around it.
+# Radial and hoop stress at the centres of the cells.
 
 
 def stresses(name):
-    """Radii, and radial and hoop stress there."""
+    """Radii of the cells, with radial and hoop stress."""
     mesh = model.meshes[name]
     middle = mesh.points[mesh.blocks["quad4"]].mean(axis=1)
     stress = model.stress(name, step.after.displacement[name])[:, :2, :2]
@@ -68,7 +69,7 @@ axis.set(xlabel="radius [mm]", ylabel="stress [MPa]", title="Dots are cells, gre
 axis.legend()
 
 # %%
-# The pressure between the rings, from the force of the contact on a quarter over its projected area.
+# The pressure between the rings: the contact force on a quarter divided by its area.
 
 push = step.after.pressure["fit"]
 outer = model.meshes["hub"].nodes("inner")

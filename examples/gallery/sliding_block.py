@@ -2,9 +2,9 @@
 A block slides to rest
 ======================
 
-A block slides over a floor with 2 m/s. Friction after Coulomb stops it after v / (mu g), having
-gone v^2 / (2 mu g), whatever it weighs. Both follow from the law alone: nothing is regularised, and
-a block at rest does not creep.
+A block slides over a floor at 2 m/s. Coulomb friction stops it after v / (mu g) and a distance of
+v^2 / (2 mu g), independent of its weight. Both follow from the law alone: nothing is regularised,
+and a block at rest does not creep.
 """
 
 import matplotlib.pyplot as plt
@@ -16,32 +16,33 @@ SPEED, GRAVITY = 2.0, 9.81
 
 
 def slid(mu):
-    """The slabs until the block has long been at rest."""
+    """Slabs (time steps) until the block has been at rest for some time."""
     block = sw.Solid(
-        mesh=sw.Rectangle(size=(0.2, 0.1), cells=(6, 3)),
+        mesh=sw.meshes.Rectangle(size=(0.2, 0.1), cells=(6, 3)),
         material=sw.LinearElastic(E=1e7, nu=0.3),
         density=1000.0,
-        velocity=sw.Uniform(value=(SPEED, 0.0)),
+        velocity=sw.bodies.Uniform(value=(SPEED, 0.0)),
     )
-    floor = sw.Tool(shape=sw.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
     contact = sw.Contact(between=("block.bottom", "floor"), name="floor", friction=sw.Coulomb(mu=mu))
     scene = sw.Scene(
         bodies={"block": block, "floor": floor},
         contacts=(contact,),
         loads=(sw.Gravity(acceleration=(0.0, -GRAVITY)),),
-        start=sw.StaticStart(loads=(sw.Gravity(acceleration=(mu * GRAVITY, -GRAVITY)),)),
+        start=sw.model.StaticStart(loads=(sw.Gravity(acceleration=(mu * GRAVITY, -GRAVITY)),)),
     )
     return list(sw.march(scene, until=1.25 * SPEED / (mu * GRAVITY), step=0.01))
 
 
 # %%
-# The march starts from the equilibrium of a block that is braked already, so that it does not
-# shiver: the static load holds the force of its inertia.
+# The march starts from the equilibrium of a decelerating block, so that it does not vibrate: the
+# static load includes the inertia force.
 
 runs = {mu: slid(mu) for mu in (0.2, 0.3, 0.5)}
 
 # %%
-# Way and time to rest, and what friction took: all of the kinetic energy.
+# Distance and time to rest, and the energy dissipated by friction, which is all of the kinetic
+# energy.
 
 for mu, steps in runs.items():
     way = float(steps[-1].after.displacement["block"][:, 0].mean())

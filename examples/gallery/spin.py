@@ -2,10 +2,10 @@
 A ball that begins to spin
 ==========================
 
-A disc is thrown at a floor obliquely, as a tennis ball is at the court. Where it slips all through
-the contact, friction is the coefficient times the force of the floor at every instant: the change
-of its speed follows from the normal impulse alone. Where it is thrown more steeply it sticks for a
-while, and an elastic disc, other than a rigid one, springs back along the floor.
+A disc is thrown obliquely at a floor, like a tennis ball at the court. If it slips throughout the
+contact, the friction force at every instant is the coefficient times the normal force. The change
+of its speed then follows from the normal impulse alone. If the impact is steeper, the disc sticks
+for a while. An elastic disc then rebounds along the floor, unlike a rigid one.
 """
 
 import matplotlib.pyplot as plt
@@ -13,21 +13,21 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 
 import softway as sw
-from softway.contact.collision import collide
+from softway.apps.verify.exact.rigid_impact import collide
 
 MU, DOWN = 0.2, 0.5
 
 
 def thrown(along):
-    """Model and slabs of the impact with a speed along the floor."""
+    """Model and slabs (time steps) of the impact with a speed along the floor."""
     disc = sw.Solid(
-        mesh=sw.Disc(radius=1.0, cells=8),
+        mesh=sw.meshes.Disc(radius=1.0, cells=8),
         material=sw.NeoHookean(E=50.0, nu=0.3),
         density=1.0,
-        velocity=sw.Uniform(value=(along, -DOWN)),
-        force=sw.EnergyMomentum(),
+        velocity=sw.bodies.Uniform(value=(along, -DOWN)),
+        force=sw.bodies.EnergyMomentum(),
     )
-    floor = sw.Tool(shape=sw.HalfSpace(point=(0.0, -1.01), normal=(0.0, 1.0)))
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -1.01), normal=(0.0, 1.0)))
     friction = sw.Coulomb(mu=MU)
     contact = sw.Contact(between=("disc.surface", "floor"), name="floor", friction=friction)
     model = sw.build(sw.Scene(bodies={"disc": disc, "floor": floor}, contacts=(contact,)))
@@ -37,8 +37,8 @@ def thrown(along):
 runs = {along: thrown(along) for along in (0.1, 0.25, 0.5, 1.0)}
 
 # %%
-# A rigid disc after Routh beside ours: the velocity of the place of contact changes by W times the
-# impulse, with W = diag(3, 1)/m. Its restitution is the one that we find.
+# Comparison with a rigid disc after Routh: the velocity of the contact point changes by W times the
+# impulse, with W = diag(3, 1)/m. Its restitution is taken from our result.
 
 
 def rigid(along, restitution):
@@ -59,8 +59,8 @@ for along, (model, steps) in runs.items():
     assert abs(last.energy_error) < 1e-12 and after > slips - 1e-9
 
 # %%
-# The disc that is thrown most flatly, with a spoke painted on it; and the speeds after against those
-# before. Below the line of slip the disc has stuck for a while.
+# The disc with the flattest impact, with a spoke painted on it, and the final speeds over the
+# initial ones. Results below the line of slip are discs that stuck for a while.
 
 fig, (left, right) = plt.subplots(1, 2, figsize=(10.6, 3.6), layout="constrained", width_ratios=(5, 3))
 model, steps = runs[1.0]

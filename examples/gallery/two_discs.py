@@ -2,9 +2,9 @@
 Two discs, two meshes
 =====================
 
-A soft disc flies against a stiffer one, off the middle. Their meshes do not match where they touch;
-the mortar method passes on pressure in the mean over each facet. Whatever one disc loses of momentum
-and of angular momentum the other must gain, and no energy may be lost.
+A soft disc hits a stiffer one off-centre. Their meshes do not match at the contact. The mortar
+method transmits pressure in the mean over each facet. Momentum and angular momentum that one disc
+loses, the other must gain, and no energy may be lost.
 """
 
 import matplotlib.pyplot as plt
@@ -14,18 +14,18 @@ from matplotlib.collections import PolyCollection
 import softway as sw
 
 # %%
-# ``EnergyMomentum`` is the mean of the internal force that keeps the angular momentum of large
-# rotations to rounding.
+# ``EnergyMomentum`` is the time average of the internal force that conserves the angular momentum
+# of large rotations up to rounding.
 
 
 def disc(cells, stiffness, centre, velocity):
-    """A disc of rubber."""
+    """Disc of rubber."""
     return sw.Solid(
-        mesh=sw.Disc(radius=1.0, cells=cells, centre=centre),
+        mesh=sw.meshes.Disc(radius=1.0, cells=cells, centre=centre),
         material=sw.NeoHookean(E=stiffness, nu=0.3),
         density=1.0,
-        velocity=sw.Uniform(value=velocity),
-        force=sw.EnergyMomentum(),
+        velocity=sw.bodies.Uniform(value=velocity),
+        force=sw.bodies.EnergyMomentum(),
     )
 
 
@@ -36,7 +36,7 @@ model = sw.build(sw.Scene(bodies={"soft": soft, "stiff": stiff}, contacts=(conta
 steps = list(sw.march(model, until=2.4, step=0.05))
 
 # %%
-# What is kept, as greatest change over the whole impact.
+# Greatest change of the conserved quantities over the whole impact.
 
 first, mass = steps[0].ledger, float(model.mass.sum())
 changes = {
@@ -49,14 +49,15 @@ for name, change in changes.items():
     assert change < 1e-10 * mass
 
 # %%
-# Each disc for itself is thrown off its course, and begins to turn.
+# Each disc alone is deflected from its course, and begins to rotate.
 
 for name in ("soft", "stiff"):
     velocity = model.split(model.mass @ model.join(steps[-1].after.velocity))[name].sum(axis=0)
     print(f"{name:6} leaves with momentum ({velocity[0]:.3f}, {velocity[1]:.3f})")
 
 # %%
-# Before, at the greatest force, and after; colour is the greater of the two pressures in the plane.
+# Before contact, at the greatest force, and after; the colour is the greater principal pressure in
+# the plane.
 
 force = [step.ledger.contacts["discs"].force_n for step in steps]
 shown = [steps[0], steps[int(np.argmax(force))], steps[-1]]

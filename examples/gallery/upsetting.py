@@ -3,8 +3,9 @@ A hot billet is upset
 =====================
 
 A cylinder of hot metal is pressed to half of its height. Without friction it stays a cylinder, and
-the force of the platen is known in closed form; with friction it becomes a barrel and the force
-grows. Forming is slow: inertia is off, and a slab is as long as the motion of the platen allows.
+the force of the platen is known in closed form. With friction it becomes a barrel and the force is
+larger. Forming is slow: inertia is off, and the length of a slab (time step) is limited only by the
+motion of the platen.
 """
 
 import matplotlib.pyplot as plt
@@ -12,45 +13,47 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 
 import softway as sw
-from softway.verify.exact.flow import upsetting
+from softway.apps.verify.exact.flow import upsetting
 
 HEIGHT, RADIUS, STROKE, M = 0.75, 1.0, 0.5, 0.3
 
 
 def pressed(friction):
-    """Mesh and slabs of the upper half, of Norton and Hoff's material with K = 1."""
-    mesh = sw.Rectangle(size=(RADIUS, HEIGHT), cells=(8, 6)).build()
+    """Mesh and slabs of the upper half, with Norton and Hoff's material, K = 1."""
+    mesh = sw.meshes.Rectangle(size=(RADIUS, HEIGHT), cells=(8, 6)).build()
     billet = sw.Solid(
         mesh=mesh,
-        material=sw.NortonHoff(K=1.0, m=M),
+        material=sw.laws.NortonHoff(K=1.0, m=M),
         density=1.0,
-        section=sw.Axisymmetric(),
+        section=sw.bodies.Axisymmetric(),
         dilatation="mean",
         supports=(sw.Fixed(on="bottom", components="y"), sw.Fixed(on="left", components="x")),
     )
     platen = sw.Tool(
-        shape=sw.HalfSpace(point=(0.0, HEIGHT), normal=(0.0, -1.0)),
-        motion=sw.Translation(velocity=(0.0, -1.0)),
+        shape=sw.obstacles.HalfSpace(point=(0.0, HEIGHT), normal=(0.0, -1.0)),
+        motion=sw.bodies.Translation(velocity=(0.0, -1.0)),
     )
     contacts = (
         sw.Contact(between=("billet.top", "platen"), name="platen", friction=friction),
         sw.Contact(between=("billet.right", "platen"), name="side", friction=friction),
     )
-    scene = sw.Scene(bodies={"billet": billet, "platen": platen}, contacts=contacts, inertia=sw.Off())
+    scene = sw.Scene(
+        bodies={"billet": billet, "platen": platen}, contacts=contacts, inertia=sw.bodies.Off()
+    )
     return mesh, list(sw.march(scene, until=STROKE * HEIGHT, step=STROKE * HEIGHT / 20))
 
 
 runs = {
-    "no friction": pressed(sw.Frictionless()),
-    "much friction": pressed(sw.NortonHoffFriction(alpha=0.5, p=M)),
+    "no friction": pressed(sw.laws.Frictionless()),
+    "much friction": pressed(sw.laws.NortonHoffFriction(alpha=0.5, p=M)),
 }
 
 # %%
-# The mean force of each slab belongs to the middle of it.
+# The mean force of a slab belongs to the middle of the slab.
 
 
 def force(steps):
-    """Reductions in the middle of the slabs, and force of the platen."""
+    """Reductions in the middle of the slabs, and forces of the platen."""
     stroke = np.array([0.5 * (s.slab.start + s.slab.end) for s in steps]) / HEIGHT
     return stroke, np.array([sum(c.force_n for c in s.ledger.contacts.values()) for s in steps])
 
@@ -61,7 +64,8 @@ print(f"force without friction differs from the closed form by at most {100 * wo
 assert worst < 2e-3
 
 # %%
-# Half sections after the stroke, with the start in grey: friction on the left, none on the right.
+# Half sections at the end, with the initial shape in grey: with friction on the left, without on
+# the right.
 
 fig, (left, right) = plt.subplots(1, 2, figsize=(10.0, 3.9), layout="constrained")
 fine = np.linspace(0.0, STROKE, 100)

@@ -2,44 +2,45 @@
 A wavy tool
 ===========
 
-A tool may have any shape whose signed distance one can write down. Here a rigid wave is pressed into
-an elastic block, first its crests, then more and more of it. How much of the surface touches at a
-mean pressure, and how the pressure is distributed, was found by Westergaard in 1939.
+A tool can have any shape with a known signed distance function. Here a rigid wave is pressed into
+an elastic block, first with its crests, then with more and more of its surface. Westergaard (1939)
+gives the contact area at a mean pressure, and the distribution of the pressure.
 """
 
 import matplotlib.pyplot as plt
 import numpy as np
 
 import softway as sw
-from softway.space.graded import geometric
-from softway.space.sources import Grid
-from softway.verify.exact.contact import contact_modulus
+from softway.apps.verify.exact.contact import contact_modulus
+from softway.meshes.generators.graded import geometric
+from softway.meshes.generators.recipes import Grid
 
 LENGTH, HEIGHT, YOUNGS, POISSON = 1.0, 0.002, 1.0, 0.3
 FULL = np.pi * contact_modulus(YOUNGS, POISSON) * HEIGHT / LENGTH
 
 # %%
-# The wave y = 1 - h cos(2 pi x) hangs above the block, crest down in the middle. It is so flat that
-# the distance is the vertical one over the slope's length.
+# The wave y = 1 - h cos(2 pi x) is above the block, with a crest pointing down in the middle. It is
+# so flat that the distance is the vertical distance divided by the length of the slope vector.
 
 
 def distance(places):
-    """Positive below the wave."""
+    """Signed distance, positive below the wave."""
     x, y = 2.0 * np.pi * places[:, 0] / LENGTH, places[:, 1]
     slope = 2.0 * np.pi * HEIGHT / LENGTH * np.sin(x)
     return (LENGTH + HEIGHT * (1.0 - np.cos(x)) - y) / np.hypot(1.0, slope)
 
 
 # %%
-# One wave length of the block, which cannot spread: its neighbours do the same. The wave comes down
-# without inertia; a slab ends where the tool is then.
+# One wave length of the block, which cannot expand sideways because of its neighbours. The wave
+# moves down without inertia. The contact conditions hold for the position of the tool at the end of
+# each slab (time step).
 
 depth = geometric(0.0, LENGTH, 16, 1.0 / 8.0)
 block = sw.Solid(
     mesh=Grid(x=tuple(np.linspace(-0.5, 0.5, 81)), y=depth),
     material=sw.LinearElastic(E=YOUNGS, nu=POISSON),
     density=1.0,
-    section=sw.PlaneStrain(),
+    section=sw.bodies.PlaneStrain(),
     supports=(
         sw.Fixed(on="bottom", components="y"),
         sw.Fixed(on="left", components="x"),
@@ -47,11 +48,11 @@ block = sw.Solid(
     ),
 )
 wave = sw.Tool(
-    shape=sw.SignedDistance(function=distance, dim=2),
-    motion=sw.Translation(velocity=(0.0, -1.0)),
+    shape=sw.obstacles.SignedDistance(function=distance, dim=2),
+    motion=sw.bodies.Translation(velocity=(0.0, -1.0)),
 )
 touch = sw.Contact(between=("block.top", "wave"), name="wave")
-scene = sw.Scene(bodies={"block": block, "wave": wave}, contacts=(touch,), inertia=sw.Off())
+scene = sw.Scene(bodies={"block": block, "wave": wave}, contacts=(touch,), inertia=sw.bodies.Off())
 model = sw.build(scene)
 steps = list(sw.march(model, until=0.008, step=0.0005))
 
@@ -66,7 +67,7 @@ length[[0, -1]] *= 0.5
 
 
 def westergaard(place, mean):
-    """The pressure where a wave is pressed with a mean pressure."""
+    """Pressure under a wave at a given mean pressure."""
     share = mean / FULL
     root = np.sqrt(np.maximum(share - np.sin(np.pi * place / LENGTH) ** 2, 0.0))
     return 2.0 * mean / share * np.cos(np.pi * place / LENGTH) * root

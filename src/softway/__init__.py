@@ -1,199 +1,91 @@
-"""softway: dynamic contact of solids, with the velocity as unknown and contact as a constraint on it."""
+"""softway: dynamic contact of solids, with the velocity as unknown and contact as a constraint on it.
+
+Names that nearly every program needs are here.  The others are one dot deeper: ``softway.bodies``, ``contact``,
+``laws``, ``meshes``, ``model``, ``obstacles``, ``record``, ``solve`` and ``studies``.
+"""
 
 import logging
 
-from softway.bodies.amplitude import Ramp
-from softway.bodies.fields import Affine, FieldSum, OnTag, Profile, Uniform
-from softway.bodies.force import AverageField, DiscreteGradient, EnergyMomentum, Weighted
-from softway.bodies.inertia import Full, Off, Scaled
-from softway.bodies.loads import Gravity, Traction
-from softway.bodies.mass import Consistent, Lumped
-from softway.bodies.motion import Still, Table, Translation, Turning
-from softway.bodies.placement import Placement, Rotation
-from softway.bodies.section import Axisymmetric, Bar, PlaneStrain, PlaneStress, Volume
-from softway.bodies.shock import BulkViscosity
+from softway import bodies as bodies
+from softway import contact as contact
+from softway import laws as laws
+from softway import meshes as meshes
+from softway import model as model
+from softway import obstacles as obstacles
+from softway import record as record
+from softway import solve as solve
+from softway import studies as studies
+from softway.bodies.setup.loads import Gravity, Traction
 from softway.bodies.solid import Driven, Fixed, Solid, Tool
-from softway.contact.contact import Contact, DualMortar, NodeToSurface
-from softway.contact.timing import Energy, Impulse, Paper
+from softway.contact.contact import Contact
 from softway.errors import Cancelled, InputError, NumericsError, SoftwayError, StorageError
-from softway.execute import resume, run
-from softway.laws.bulk import (
-    J2,
-    Hencky,
-    Hypoelastic,
-    Kelvin,
-    LinearElastic,
-    LinearOrthotropic,
-    Maxwell,
-    MooneyRivlin,
-    NeoHookean,
-    NortonHoff,
-    StVenantKirchhoff,
-)
-from softway.laws.flow import JohnsonCook, NortonFlow, Perzyna, RateIndependent
-from softway.laws.friction import (
-    Coulomb,
-    Frictionless,
-    LimitedViscoplastic,
-    Lubricated,
-    StaticKinetic,
-    Stribeck,
-    Tresca,
-)
-from softway.laws.friction import NortonHoff as NortonHoffFriction
-from softway.laws.hardening import LinearHardening, PowerHardening, Voce
-from softway.laws.rates import GreenNaghdi, Jaumann, Logarithmic, Truesdell
-from softway.march.control import StepControl
+from softway.laws.bulk import J2, Hypoelastic, LinearElastic, NeoHookean
+from softway.laws.friction import Coulomb
 from softway.march.march import march
-from softway.march.standing import Standing
-from softway.march.step import Certificate, Event, Ledger, Step
-from softway.model import build
-from softway.record.checkpoint import Checkpoints
-from softway.record.progress import Progress
+from softway.march.march_state import MarchState
+from softway.march.results.step import Certificate, Event, Ledger, Step
+from softway.march.step_control import StepControl
+from softway.meshes.mesh import Mesh
+from softway.model.model import build
+from softway.model.scene import Scene, State
+from softway.public_names import missing as __getattr__  # noqa: F401
 from softway.record.run import Run
-from softway.scenario.codec import load, resolved
+from softway.record.write.progress import Progress
+from softway.scenario.checks.check import check
+from softway.scenario.files import dump, dumps, load, loads
+from softway.scenario.run import resume, run
 from softway.scenario.scenario import Output, Probe, Scenario, Time
-from softway.scene import AsGiven, Scene, State, StaticStart
-from softway.solve.explicit import Explicit
-from softway.solve.fixed_point import FixedPoint
-from softway.solve.newton import Newton
-from softway.solve.operators import Factored, MatrixFree, Multigrid
-from softway.space.curved import Block, Cavity, Roller, Sphere, Torus
-from softway.space.curved import Cylinder as RigidCylinder
-from softway.space.distance import SignedDistance
-from softway.space.faceted import Facets, Surface
-from softway.space.mesh import Mesh
-from softway.space.obstacles import HalfSpace
-from softway.space.sources import Ball, Box, Cylinder, Disc, Interval, MeshFile, Rectangle
-from softway.study import Sweep, sweep
-from softway.time.weight import Collocation, EndPeaks, Momentum
+from softway.solve.methods.central_difference import Explicit
+from softway.solve.methods.fixed_point import FixedPoint
+from softway.solve.methods.newton import Newton
+from softway.studies.sweep import sweep
 
 logging.getLogger(__name__).addHandler(logging.NullHandler())
 
+
 __all__ = [
     "J2",
-    "Affine",
-    "AsGiven",
-    "AverageField",
-    "Axisymmetric",
-    "Ball",
-    "Bar",
-    "Block",
-    "Box",
-    "BulkViscosity",
     "Cancelled",
-    "Cavity",
     "Certificate",
-    "Checkpoints",
-    "Collocation",
-    "Consistent",
     "Contact",
     "Coulomb",
-    "Cylinder",
-    "Disc",
-    "DiscreteGradient",
     "Driven",
-    "DualMortar",
-    "EndPeaks",
-    "Energy",
-    "EnergyMomentum",
     "Event",
     "Explicit",
-    "Facets",
-    "Factored",
-    "FieldSum",
     "Fixed",
     "FixedPoint",
-    "Frictionless",
-    "Full",
     "Gravity",
-    "GreenNaghdi",
-    "HalfSpace",
-    "Hencky",
     "Hypoelastic",
-    "Impulse",
     "InputError",
-    "Interval",
-    "Jaumann",
-    "JohnsonCook",
-    "Kelvin",
     "Ledger",
-    "LimitedViscoplastic",
     "LinearElastic",
-    "LinearHardening",
-    "LinearOrthotropic",
-    "Logarithmic",
-    "Lubricated",
-    "Lumped",
-    "MatrixFree",
-    "Maxwell",
+    "MarchState",
     "Mesh",
-    "MeshFile",
-    "Momentum",
-    "MooneyRivlin",
-    "Multigrid",
     "NeoHookean",
     "Newton",
-    "NodeToSurface",
-    "NortonFlow",
-    "NortonHoff",
-    "NortonHoffFriction",
     "NumericsError",
-    "Off",
-    "OnTag",
     "Output",
-    "Paper",
-    "Perzyna",
-    "Placement",
-    "PlaneStrain",
-    "PlaneStress",
-    "PowerHardening",
     "Probe",
-    "Profile",
     "Progress",
-    "Ramp",
-    "RateIndependent",
-    "Rectangle",
-    "RigidCylinder",
-    "Roller",
-    "Rotation",
     "Run",
-    "Scaled",
     "Scenario",
     "Scene",
-    "SignedDistance",
     "SoftwayError",
     "Solid",
-    "Sphere",
-    "StVenantKirchhoff",
-    "Standing",
     "State",
-    "StaticKinetic",
-    "StaticStart",
     "Step",
     "StepControl",
-    "Still",
     "StorageError",
-    "Stribeck",
-    "Surface",
-    "Sweep",
-    "Table",
     "Time",
     "Tool",
-    "Torus",
     "Traction",
-    "Translation",
-    "Tresca",
-    "Truesdell",
-    "Turning",
-    "Uniform",
-    "Voce",
-    "Volume",
-    "Weighted",
     "build",
+    "check",
+    "dump",
+    "dumps",
     "load",
+    "loads",
     "march",
-    "resolved",
     "resume",
     "run",
     "sweep",

@@ -1,6 +1,6 @@
 """``python -m softway`` is the command ``softway``."""
 
-from softway.cli import main
+from softway.apps.cli import main
 
 if __name__ == "__main__":
     raise SystemExit(main())

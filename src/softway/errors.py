@@ -1,4 +1,4 @@
-"""What can go wrong, said so that a person can act: where, what, and what to try."""
+"""Exceptions of softway. Each one names the place, the problem and a remedy."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -9,16 +9,16 @@ class SoftwayError(Exception):
 
 
 class InputError(SoftwayError):
-    """The description of the problem is wrong; nothing was computed.
+    """Error in the description of the problem; nothing was computed.
 
     Parameters
     ----------
     where
-        Path in the scenario, as ``bodies.bar.material.nu``.
+        Path in the scenario, such as ``bodies.bar.material.nu``.
     problem
-        What is wrong, with the value.
+        Description of the error, with the value.
     remedy
-        What to write instead.
+        Text or value to write instead.
     """
 
     def __init__(self, where: str, problem: str, remedy: str = "") -> None:
@@ -26,18 +26,18 @@ class InputError(SoftwayError):
         super().__init__(": ".join(p for p in (where, problem) if p) + (f"\n  try: {remedy}" if remedy else ""))
 
     def within(self, prefix: str) -> "InputError":
-        """The same error seen from one level further out: ``prefix`` is put before its path."""
+        """Return this error with ``prefix`` put before its path."""
         path = f"{prefix}.{self.where}" if self.where else prefix
         return InputError(path, self.problem, self.remedy)
 
 
 class NumericsError(SoftwayError):
-    """The computation failed; every step accepted before stays valid.
+    """Failure of the computation; all steps accepted before it stay valid.
 
     Parameters
     ----------
     what, when, remedy
-        What failed (with numbers), at which time, and what to try.
+        Description of the failure (with numbers), its time [s], and a remedy.
     """
 
     def __init__(self, what: str, when: float, remedy: str = "") -> None:
@@ -46,12 +46,12 @@ class NumericsError(SoftwayError):
 
 
 class StorageError(SoftwayError):
-    """The records of a run could not be written; those written before stay valid, and the run can be resumed.
+    """Failure to write the records of a run; records already written stay valid and the run can be resumed.
 
     Parameters
     ----------
     place, problem, remedy
-        Which folder, what the system says, and what to do.
+        Folder, message of the operating system, and a remedy.
     """
 
     def __init__(self, place: str, problem: str, remedy: str) -> None:
@@ -60,12 +60,12 @@ class StorageError(SoftwayError):
 
 
 class Cancelled(SoftwayError):
-    """The caller called the computation off; what was accepted before stays valid, and a run can be resumed.
+    """Cancellation of the computation by the caller; accepted steps stay valid and a run can be resumed.
 
     Parameters
     ----------
     where
-        How far it had come.
+        Point that the computation had reached.
     """
 
     def __init__(self, where: str = "") -> None:
@@ -74,11 +74,11 @@ class Cancelled(SoftwayError):
 
 
 Cancel = Callable[[], bool]
-"""Whether the caller wants no more, as ``threading.Event().is_set``: asked often, and to be answered in no time."""
+"""Function that returns True to cancel, such as ``threading.Event().is_set``. It is called often and must be fast."""
 
 
 def heed(cancel: Cancel | None, when: float) -> None:
-    """Raise :class:`Cancelled` if the caller wants no more at a time [s] of the march.
+    """Raise :class:`Cancelled` if the caller has cancelled; ``when`` is the current time [s] of the march.
 
     Examples
     --------
@@ -92,14 +92,14 @@ def heed(cancel: Cancel | None, when: float) -> None:
 
 
 def real(value: object, where: str) -> None:
-    """Refuse what is no real number, before anything is computed with it.
+    """Raise :class:`InputError` if a value is not a real number.
 
     Examples
     --------
     >>> real("1 Pa", "E")
     Traceback (most recent call last):
     softway.errors.InputError: E: '1 Pa' is not a number
-      try: a number in SI units; texts with a unit belong into a scenario file
+      try: a number in SI units; text with a unit is accepted only in a scenario file
     """
     try:
         float(value)  # type: ignore[arg-type]
@@ -108,20 +108,20 @@ def real(value: object, where: str) -> None:
     else:
         known = not isinstance(value, str | bytes)
     if not known:
-        remedy = "a number in SI units; texts with a unit belong into a scenario file"
+        remedy = "a number in SI units; text with a unit is accepted only in a scenario file"
         raise InputError(where, f"{value!r:.60} is not a number", remedy)
 
 
 class NoConvergence(Exception):
-    """A slab could not be solved; the march drops it and tries a shorter one. The message says what happened."""
+    """Failure to solve a slab; the march rejects it and tries a shorter one. The message gives the reason."""
 
 
 class Unbalanced(Exception):
-    """The energy balance of a slab needs a scalar beyond its bound; the march tries a shorter one."""
+    """Energy balance of a slab that needs a scalar beyond its bound; the march tries a shorter slab."""
 
 
 class Halts(Exception):
-    """A body comes to rest on another one inside a slab, after a ``share`` of it; the march ends the slab there."""
+    """End of the slip between two bodies after a ``share`` of the slab; the march ends the slab there."""
 
     def __init__(self, share: float) -> None:
         self.share = share
@@ -129,7 +129,7 @@ class Halts(Exception):
 
 
 class TooFast(Exception):
-    """A slab is too long for the approach of two surfaces; the march tries a shorter one. The message says where."""
+    """Slab that is too long for the approach of two surfaces; the march tries a shorter one. The message says where."""
 
 
 @contextmanager

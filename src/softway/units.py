@@ -1,4 +1,4 @@
-"""Physical quantities as annotated floats: the unit in the annotation is what a bare number means (SI)."""
+"""Physical quantities as annotated floats. The annotation names the SI unit of a number without unit."""
 
 from typing import Annotated
 

@@ -3,7 +3,7 @@
 import pytest
 
 from softway.laws import bulk, friction
-from softway.scenario.sample import law_named
+from softway.scenario.example_law import law_named
 from softway.testing import check_law
 
 BULK = list(bulk.__all__)

@@ -2,8 +2,8 @@
 
 import pytest
 
-from softway.solve.backends import Cholmod, Mumps, Pardiso
-from softway.solve.linear import LinearSolver, SuperLU
+from softway.solve.linear.backends import Cholmod, Mumps, Pardiso
+from softway.solve.linear.interface import LinearSolver, SuperLU
 from softway.testing import check_solver
 
 SOLVERS: list[tuple[str | None, LinearSolver]] = [

@@ -12,7 +12,7 @@ from pathlib import Path
 from cyclopts import CycloptsError
 
 from pages import Command, steps
-from softway.cli.commands import app
+from softway.apps.cli.commands import app
 
 ROOT = Path(__file__).parents[2]
 BEGINS = ("softway", "make", "python", "pytest", "pip", ".ci/run")

@@ -11,11 +11,11 @@ from pathlib import Path
 
 from forms import BEGINS, complaint
 from pages import Command, File, Python, steps
-from softway.cli import main
+from softway.apps.cli import main
 
 ROOT = Path(__file__).parents[2]
 ELSEWHERE = {"own_law.md"}
-"""Pages that a test of their own runs: tests/unit/test_own_law.py."""
+"""Pages that a test of their own runs: tests/examples/test_own_law.py."""
 GALLERY = ROOT / "docs" / "gallery.md"
 PAGES = [
     ROOT / "README.md",

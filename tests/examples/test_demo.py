@@ -11,7 +11,7 @@ DEMO = Path(__file__).parents[2] / "examples" / "demo.py"
 @pytest.fixture
 def demo(monkeypatch, tmp_path):
     """The module, writing to a temporary folder."""
-    monkeypatch.syspath_prepend(str(DEMO.parents[1] / "tests" / "verification"))
+    monkeypatch.syspath_prepend(str(DEMO.parents[1] / "tests" / "verification" / "tools"))
     spec = importlib.util.spec_from_file_location("demo", DEMO)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)

@@ -8,8 +8,8 @@ import pytest
 
 from pages import Command, steps
 from reader import ELSEWHERE, GALLERY, PAGES, ROOT, Reader
-from softway.cli import main
-from softway.cli.commands import app
+from softway.apps.cli import main
+from softway.apps.cli.commands import app
 
 pytestmark = pytest.mark.slow
 

@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 
 import softway as sw
-from softway.scenario.described import described
-from softway.scenario.glossary import classes
-from softway.scenario.kinds import inputs
+from softway.public_names import PACKAGES
+from softway.scenario.class_index import classes
+from softway.scenario.hints.docstrings import described
+from softway.scenario.hints.type_hints import inputs
 
 PAGES = sorted((Path(__file__).parents[2] / "docs" / "reference").glob("*.md"))
 NAMED = re.compile(r"^\.\. auto(class|function|exception):: (\S+)\n((?:   :.*\n)*)", re.MULTILINE)
@@ -25,7 +26,9 @@ def located(name: str) -> object:
 
 def test_every_public_name_is_on_one_page():
     found = Counter(located(name) for _, _, name, _ in ENTRIES)
-    assert {name: found[getattr(sw, name)] for name in sw.__all__ if found[getattr(sw, name)] != 1} == {}
+    packages = [sw, *(getattr(sw, name) for name in PACKAGES)]
+    public = {f"{p.__name__}.{name}": getattr(p, name) for p in packages for name in p.__all__}
+    assert {name: found[thing] for name, thing in public.items() if found[thing] != 1} == {}
     assert set(found.values()) == {1}
 
 

@@ -36,11 +36,11 @@ def main(file: Path) -> None:
     print(run.history["time"].max(), run.summary["slabs"], run.stop.reason, len(run.fields))
     scene = sw.Scene(bodies=scenario.bodies, contacts=scenario.contacts)
     for step in sw.march(sw.build(scene), until=1.0, step="auto", method=sw.Newton(), cancel=off.is_set):
-        print(step.after.time, step.standing.slabs)
-    table: sw.Sweep = sw.sweep(file, {"time.end": ["1 s", "2 s"]}, jobs=2, cancel=off.is_set)
+        print(step.after.time, step.march_state.slabs)
+    table: sw.studies.Sweep = sw.sweep(file, {"time.end": ["1 s", "2 s"]}, jobs=2, cancel=off.is_set)
     print([row.numbers["slabs"] for row in table.rows], table.failed)
     try:
-        print(sw.resolved(scenario))
+        print(sw.dumps(scenario))
     except sw.InputError as error:
         print(error.where, error.problem, error.remedy)
     except (sw.NumericsError, sw.StorageError, sw.Cancelled):

@@ -94,10 +94,16 @@ def _imports(name: str) -> bool:
         return False
 
 
+def public(name: str) -> object:
+    """The class of a public name, in the package or in one of those that it exports."""
+    packages = (sw, *(value for value in vars(sw).values() if getattr(value, "__all__", None)))
+    return next((vars(found)[name] for found in packages if name in vars(found)), None)
+
+
 def test_options_are_those_of_their_classes() -> None:
     wrong = []
     for page, (name, option) in named(CALL):
-        thing = getattr(sw, name, None)
+        thing = public(name)
         if thing is None or option not in getattr(thing, "__dataclass_fields__", {}):
             wrong.append(f"{page.relative_to(ROOT)}: {name}({option}=...)")
     assert not wrong, "\n".join(wrong)

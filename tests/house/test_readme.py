@@ -33,12 +33,12 @@ def test_the_scenario_is_right(blocks: dict[str, str], tmp_path: Path) -> None:
     path.write_text(blocks["toml"])
     scenario = sw.load(path)
     assert scenario.bodies.keys() == tomllib.loads(blocks["toml"])["bodies"].keys()
-    assert 'E = "210000000000.0 Pa"' in sw.resolved(scenario)
+    assert 'E = "210000000000.0 Pa"' in sw.dumps(scenario)
     assert sw.run(scenario).summary["contacts"]
 
 
 def test_the_table_of_exit_codes_is_the_one_of_the_command(blocks: dict[str, str], tmp_path: Path) -> None:
-    from softway.cli import main
+    from softway.apps.cli import main
 
     path = tmp_path / "bar.toml"
     path.write_text(blocks["toml"])

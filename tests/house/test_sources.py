@@ -32,24 +32,24 @@ HARD_FUNCTION_LINES = 60
 
 # Where each third-party library may be imported; NumPy and SciPy may be anywhere.
 DOORS = {
-    "basix": ("softway.space.element",),
-    "meshio": ("softway.space.files",),
-    "h5py": ("softway.record.fields",),
-    "matplotlib": ("softway.record.view*",),
-    "pyvista": ("softway.record.frames", "softway.page.solids"),
-    "imageio_ffmpeg": ("softway.record.view_film",),
-    "trame": ("softway.page.*",),
-    "pint": ("softway.scenario.quantity",),
-    "tomli_w": ("softway.scenario.codec",),
-    "cyclopts": ("softway.cli.*",),
-    "rich": ("softway.cli.*",),
-    "pypardiso": ("softway.solve.backends.pardiso",),
-    "sksparse": ("softway.solve.backends.cholmod",),
-    "distributed": ("softway.study.cluster",),
-    "mumps": ("softway.solve.backends.mumps",),
+    "basix": ("softway.meshes.element",),
+    "meshio": ("softway.meshes.files.mesh_files",),
+    "h5py": ("softway.record.write.fields",),
+    "matplotlib": ("softway.record.view.*",),
+    "pyvista": ("softway.record.read.frames", "softway.apps.viewer.solids"),
+    "imageio_ffmpeg": ("softway.record.view.film",),
+    "trame": ("softway.apps.viewer.*",),
+    "pint": ("softway.scenario.hints.units_text",),
+    "tomli_w": ("softway.scenario.files",),
+    "cyclopts": ("softway.apps.cli.*",),
+    "rich": ("softway.apps.cli.*",),
+    "pypardiso": ("softway.solve.linear.backends.pardiso",),
+    "sksparse": ("softway.solve.linear.backends.cholmod",),
+    "distributed": ("softway.studies.sweep.cluster",),
+    "mumps": ("softway.solve.linear.backends.mumps",),
     "gmsh": (),
     "numba": ("softway.kernels.*",),
-    "llvmlite": ("softway.kernels.vectors",),
+    "llvmlite": ("softway.kernels.jit.simd",),
     "numpy": ("*",),
     "scipy": ("*",),
 }
@@ -188,7 +188,7 @@ def unlisted_exports(source: Source) -> Iterable[str]:
 
 
 def prints(source: Source) -> Iterable[str]:
-    if fnmatch(source.name, "softway.cli*"):
+    if fnmatch(source.name, "softway.apps.cli*"):
         return
     for node in ast.walk(source.tree):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "print":
@@ -227,7 +227,7 @@ def test_every_dependency_is_imported(root: Path, sources: tuple[Source, ...]) -
 
 
 def test_the_package_was_found(sources: tuple[Source, ...]) -> None:
-    assert any(s.name == "softway.scene" for s in sources)
+    assert any(s.name == "softway.model.scene" for s in sources)
 
 
 BAD = """

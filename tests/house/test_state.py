@@ -29,24 +29,29 @@ PROCESS = {
 """Calls that change what all of a process shares."""
 ALLOWED = {
     "softway: logging.getLogger(__name__).addHandler": "silence, until the program around it says where the log goes",
-    "softway.kernels.threads: _CHOSEN.set": "a context variable, of one thread, put back where it was set",
-    "softway.crew: signal.signal": "in a process of its own, which nobody else has",
-    "softway.crew: signal.setitimer": "the same",
-    "softway.crew: sys.unraisablehook": "the same",
-    "softway.record.view_style: library().rc_context": "put back, under a lock",
-    "softway.scenario.modules: sys.path.insert": "put back, under a lock",
-    "softway.scenario.modules: sys.path.remove": "the same",
-    "softway.scenario.modules: del sys.modules": "under a lock: modules of one name beside two scenarios",
+    "softway.kernels.jit.threads: _CHOSEN.set": "a context variable, of one thread, put back where it was set",
+    "softway.studies.processes: signal.signal": "in a process of its own, which nobody else has",
+    "softway.studies.processes: signal.setitimer": "the same",
+    "softway.studies.processes: sys.unraisablehook": "the same",
+    "softway.record.view.style: library().rc_context": "put back, under a lock",
+    "softway.scenario.text.user_modules: sys.path.insert": "put back, under a lock",
+    "softway.scenario.text.user_modules: sys.path.remove": "the same",
+    "softway.scenario.text.user_modules: del sys.modules": "under a lock: modules of one name beside two scenarios",
 }
 """What is done nevertheless, and why it does no harm."""
-CACHES = ("softway.kernels.*", "softway.space.element", "softway.contact.facets", "softway.verify.*")
+CACHES = (
+    "softway.kernels.*",
+    "softway.meshes.element",
+    "softway.contact.surfaces.facet_geometry",
+    "softway.apps.verify.*",
+)
 """Modules that may keep what functions of a few short arguments found: kernels, tables of cells; in the processes of
 the suite its marches."""
 KEPT = (ContextVar, type(Lock()), type(RLock()), Event, deque, bytearray)
 HOLDERS = {
-    "softway.kernels.threads._CHOSEN": "see above",
-    "softway.record.view_style._ONE_AT_A_TIME": "a lock",
-    "softway.scenario.modules.READING": "a lock",
+    "softway.kernels.jit.threads._CHOSEN": "see above",
+    "softway.record.view.style._ONE_AT_A_TIME": "a lock",
+    "softway.scenario.text.user_modules.READING": "a lock",
 }
 
 
@@ -116,7 +121,7 @@ def complaints(source: Source) -> set[str]:
 
 
 def test_no_module_changes_what_others_see(sources: tuple[Source, ...]) -> None:
-    found = {c for source in sources if not source.name.startswith("softway.cli") for c in complaints(source)}
+    found = {c for source in sources if not source.name.startswith("softway.apps.cli") for c in complaints(source)}
     assert found - ALLOWED.keys() == set()
     assert ALLOWED.keys() - found == set(), "no longer needed"
 

@@ -9,23 +9,23 @@ import numpy as np
 import pytest
 
 import softway as sw
-from softway.verify.cases.a06 import HAT
-from softway.verify.exact import bar as waves
-from softway.verify.scenes import bars
+from softway.apps.verify.cases.waves.a06_struck_continuum_bar import HAT
+from softway.apps.verify.exact import bar as waves
+from softway.apps.verify.scenes import bars
 
-WALL = sw.HalfSpace(point=1.0 + bars.OUT_OF_REACH, normal=-1.0)
+WALL = sw.obstacles.HalfSpace(point=1.0 + bars.OUT_OF_REACH, normal=-1.0)
 meshes = pytest.mark.parametrize("cells", [10, 20])
 
 
 def free_motion(cells: int, bar: sw.Solid, until: float) -> bars.Record:
     """The march with h = edge / c."""
-    return bars.run(bar, WALL, sw.Impulse(), until=until, step=1.0 / cells, weight=sw.Momentum())
+    return bars.run(bar, WALL, sw.contact.Impulse(), until=until, step=1.0 / cells, weight=sw.model.Momentum())
 
 
 @meshes
 def test_the_hat_of_the_second_example_is_nodally_exact(cells: int) -> None:
     bar = sw.Solid(
-        mesh=sw.Interval(length=1.0, cells=cells),
+        mesh=sw.meshes.Interval(length=1.0, cells=cells),
         material=bars.ELASTIC,
         density=1.0,
         velocity=bars.HAT,
@@ -47,7 +47,7 @@ def test_a_vibration_is_nodally_exact(cells: int) -> None:
         (np.cos(2.0 * np.pi * x), (), 2.0 * np.pi),
     ):
         bar = sw.Solid(
-            mesh=sw.Interval(length=1.0, cells=cells),
+            mesh=sw.meshes.Interval(length=1.0, cells=cells),
             material=bars.ELASTIC,
             density=1.0,
             displacement=0.01 * wave[:, None],
@@ -64,10 +64,10 @@ def test_free_flight_with_a_travelling_wave_is_nodally_exact(cells: int) -> None
     length, fast = 1.0, ((0.0, 0.5, -1.0, -0.5), (0.5, 1.0, -0.5, -1.0))
     at = (0.0, 0.5, 1.0)
     bar = sw.Solid(
-        mesh=sw.Interval(length=length, cells=cells),
+        mesh=sw.meshes.Interval(length=length, cells=cells),
         material=bars.ELASTIC,
         density=1.0,
-        velocity=sw.Profile(at=at, values=(-1.0, -0.5, -1.0)),
+        velocity=sw.bodies.Profile(at=at, values=(-1.0, -0.5, -1.0)),
     )
     march = free_motion(cells, bar, until=3.0)
     exact = waves.solve(waves.Bar(velocity=fast), 3.5)
@@ -77,13 +77,13 @@ def test_free_flight_with_a_travelling_wave_is_nodally_exact(cells: int) -> None
 
 
 def test_a_longer_slab_is_refused() -> None:
-    bar = sw.Solid(mesh=sw.Interval(length=1.0, cells=10), material=bars.ELASTIC, density=1.0)
+    bar = sw.Solid(mesh=sw.meshes.Interval(length=1.0, cells=10), material=bars.ELASTIC, density=1.0)
     with pytest.raises(sw.InputError, match="beyond the stability limit 0.1 s of Momentum"):
-        bars.run(bar, WALL, sw.Impulse(), until=1.001, step=0.1001, weight=sw.Momentum())
+        bars.run(bar, WALL, sw.contact.Impulse(), until=1.001, step=0.1001, weight=sw.model.Momentum())
 
 
 def test_with_the_end_peaks_it_disperses() -> None:
     """The same mesh and slab with the default weight: exactness belongs to the constant one."""
-    march = bars.struck(40, sw.Impulse(), velocity=bars.HAT, step=1.0 / 40.0, until=8.0)
+    march = bars.struck(40, sw.contact.Impulse(), velocity=bars.HAT, step=1.0 / 40.0, until=8.0)
     exact = waves.solve(waves.Bar(velocity=HAT, far="fixed"), 8.5)
     assert 1e-3 <= np.abs(march.displacement[:, -1] - exact.tip(march.times)).max() <= 0.05

@@ -8,19 +8,19 @@ from scipy.optimize import brentq
 
 import softway as sw
 from orders import order
-from softway.verify.exact import semidiscrete as discrete
-from softway.verify.exact.thrown import Thrown
-from softway.verify.scenes import bars
+from softway.apps.verify.exact import semidiscrete as discrete
+from softway.apps.verify.exact.thrown import Thrown
+from softway.apps.verify.scenes import bars
 
 GAP, UNTIL = 0.25, 4.0
 STEP, COARSE = 0.01, 0.025
 EXACT = Thrown(gap=GAP)
 RULES = {
-    "paper": sw.Paper(),
-    "paper, extrapolated": sw.Paper(approach="extrapolated"),
-    "impulse": sw.Impulse(),
-    "energy": sw.Energy(),
-    "energy, located": sw.Energy(located=True),
+    "paper": sw.contact.Paper(),
+    "paper, extrapolated": sw.contact.Paper(approach="extrapolated"),
+    "impulse": sw.contact.Impulse(),
+    "energy": sw.contact.Energy(),
+    "energy, located": sw.contact.Energy(located=True),
 }
 LOST = {
     "paper": 1.0 / 3.0,
@@ -41,12 +41,12 @@ def marched(name: str, step: float = STEP) -> bars.Record:
 
 
 @cache
-def scaled(name: str, material: sw.NeoHookean | sw.StVenantKirchhoff, speed: float) -> bars.Record:
+def scaled(name: str, material: sw.NeoHookean | sw.laws.StVenantKirchhoff, speed: float) -> bars.Record:
     """The example in large deformation with the speed and the gap scaled."""
     return bars.thrown(2, RULES[name], gap=GAP * speed, until=UNTIL, step=COARSE, speed=speed, material=material)
 
 
-def difference(name: str, material: sw.NeoHookean | sw.StVenantKirchhoff, speed: float) -> float:
+def difference(name: str, material: sw.NeoHookean | sw.laws.StVenantKirchhoff, speed: float) -> float:
     """Greatest difference of the scaled positions, relative to the greatest displacement."""
     small = marched(name, COARSE).displacement
     return float(np.abs(scaled(name, material, speed).displacement / speed - small).max() / np.abs(small).max())
@@ -136,7 +136,7 @@ def test_the_positions_follow_the_exact_bar_as_far_as_two_elements_can(name: str
 @pytest.mark.parametrize("name", ["paper", "paper, extrapolated", "impulse", "energy"])
 def test_in_large_deformation_the_curves_are_the_same(name: str) -> None:
     """Neo-Hookean bar at v/c = 0.01: within 1 % of the largest displacement; St Venant-Kirchhoff lets go 1 % later."""
-    neo_hookean, st_venant = sw.NeoHookean(E=1.0, nu=0.0), sw.StVenantKirchhoff(E=1.0, nu=0.0)
+    neo_hookean, st_venant = sw.NeoHookean(E=1.0, nu=0.0), sw.laws.StVenantKirchhoff(E=1.0, nu=0.0)
     assert difference(name, neo_hookean, 0.01) <= 0.01
     march = scaled(name, neo_hookean, 0.01)
     assert march.kinds == ["touch", "release"]
@@ -149,7 +149,7 @@ def test_in_large_deformation_the_curves_are_the_same(name: str) -> None:
 @pytest.mark.parametrize("name", ["paper", "impulse", "energy"])
 def test_the_nonlinearity_of_st_venant_is_of_first_order(name: str) -> None:
     """Its stress is E (e + 3/2 e^2): at v/c = 0.01 the curves differ by 1.5 to 2.1 %, at 0.005 by half of it."""
-    law = sw.StVenantKirchhoff(E=1.0, nu=0.0)
+    law = sw.laws.StVenantKirchhoff(E=1.0, nu=0.0)
     coarse, fine = difference(name, law, 0.01), difference(name, law, 0.005)
     assert 0.01 < coarse <= 0.0215
     assert fine <= 0.0105

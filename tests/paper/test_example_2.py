@@ -6,16 +6,20 @@ import numpy as np
 import pytest
 
 import softway as sw
-from softway.verify.exact import semidiscrete as discrete
-from softway.verify.scenes import bars
+from softway.apps.verify.exact import semidiscrete as discrete
+from softway.apps.verify.scenes import bars
 
 UNTIL, STEP, COARSE, SPEED = 10.0, 0.02, 0.04, 0.01
-RULES = {"impulse": sw.Impulse(), "literal": sw.Paper(approach="extrapolated"), "kept": sw.Paper()}
+RULES = {
+    "impulse": sw.contact.Impulse(),
+    "literal": sw.contact.Paper(approach="extrapolated"),
+    "kept": sw.contact.Paper(),
+}
 
 
 @cache
 def marched(
-    rule: str, gap: float = bars.OUT_OF_REACH, weight: sw.EndPeaks | sw.Collocation = sw.EndPeaks()
+    rule: str, gap: float = bars.OUT_OF_REACH, weight: sw.model.EndPeaks | sw.model.Collocation = sw.model.EndPeaks()
 ) -> bars.Record:
     """The example in small strain."""
     return bars.struck(2, RULES[rule], gap=gap, until=UNTIL, step=STEP, weight=weight)
@@ -67,7 +71,7 @@ def coarse(rule: str, gap: float) -> bars.Record:
     return bars.struck(2, RULES[rule], gap=gap, until=UNTIL, step=COARSE)
 
 
-def difference(rule: str, gap: float, material: sw.NeoHookean | sw.StVenantKirchhoff) -> float:
+def difference(rule: str, gap: float, material: sw.NeoHookean | sw.laws.StVenantKirchhoff) -> float:
     """Greatest difference of the curves at v/c = 0.01, relative to the largest displacement."""
     small = coarse(rule, gap)
     large = bars.struck(
@@ -76,7 +80,7 @@ def difference(rule: str, gap: float, material: sw.NeoHookean | sw.StVenantKirch
         gap=gap * SPEED,
         until=UNTIL,
         step=COARSE,
-        velocity=sw.OnTag(tag="right", value=SPEED),
+        velocity=sw.bodies.OnTag(tag="right", value=SPEED),
         material=material,
     )
     assert large.kinds == small.kinds
@@ -101,7 +105,7 @@ def test_in_large_deformation_the_curves_are_the_same(rule: str, gap: float) -> 
 @pytest.mark.parametrize(("gap", "most"), [(0.2, 0.008), (bars.OUT_OF_REACH, 0.015)])
 def test_st_venant_kirchhoff_where_the_stop_keeps_the_strain_small(gap: float, most: float) -> None:
     """Within 1 % behind a stop at 0.2; the free bar is stretched to 0.8 %, and its phase drifts by 1.3 %."""
-    assert difference("impulse", gap, sw.StVenantKirchhoff(E=1.0, nu=0.0)) <= most
+    assert difference("impulse", gap, sw.laws.StVenantKirchhoff(E=1.0, nu=0.0)) <= most
 
 
 def test_the_energy_rule_with_the_hat_spread_over_the_mesh() -> None:
@@ -109,8 +113,8 @@ def test_the_energy_rule_with_the_hat_spread_over_the_mesh() -> None:
 
     The motion sits in the last elements, where the inertia is kept as near to its place as can be.
     """
-    march = bars.struck(20, sw.Energy(spread=1), gap=0.2, velocity=bars.HAT, until=5.0)
-    located = bars.struck(20, sw.Energy(located=True, spread=1), gap=0.2, velocity=bars.HAT, until=5.0)
+    march = bars.struck(20, sw.contact.Energy(spread=1), gap=0.2, velocity=bars.HAT, until=5.0)
+    located = bars.struck(20, sw.contact.Energy(located=True, spread=1), gap=0.2, velocity=bars.HAT, until=5.0)
     for m in (march, located):
         assert np.abs(m.error).max() <= 1e-12 * m.energy[0]
         assert m.gap.min() >= -1e-12

@@ -8,9 +8,9 @@ import json
 import tempfile
 from pathlib import Path
 
-from softway.execute import run
-from softway.record.progress import Progress
-from softway.scenario.codec import loads
+from softway.record.write.progress import Progress
+from softway.scenario.files import loads
+from softway.scenario.run import run
 
 BAR = """
 [bodies.bar]

@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 from records import differences
-from softway import cli
+from softway.apps import cli
 from softway.record.run import Run
 
 

@@ -20,7 +20,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from mutations import Damaged, damaged
+from inputs.mutations import Damaged, damaged
 
 MEMORY = 6 << 30
 """Bytes that a process may take."""
@@ -35,7 +35,7 @@ class TooLong(BaseException):
 
 def judged(given: Damaged, seconds: int = SECONDS) -> str:
     """What the command line does with an input: ``ok``, ``refused``, ``failed``, or a defect in words."""
-    from softway.cli import main
+    from softway.apps.cli import main
 
     with tempfile.TemporaryDirectory() as place:
         for name, data in given.files.items():
@@ -82,7 +82,7 @@ def _stop(*_: object) -> None:
 def _work(first: int, count: int, results: Any) -> None:
     """Judge some inputs, telling each before and after; in a process of its own."""
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    from softway.scenario.quantity import Units
+    from softway.scenario.hints.units_text import Units
 
     known = Units.standard()
     Units.standard = classmethod(lambda cls: known)  # type: ignore[method-assign]

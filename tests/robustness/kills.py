@@ -17,13 +17,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from records import differences
-from softway.record.checkpoint import listed
 from softway.record.run import Run
+from softway.record.storage.checkpoint import listed
 
 ROOT = Path(__file__).parents[2]
 SCENARIOS = {
     "scenarios/paper_bar.toml": ("output.checkpoints.every=0.2 s",),
-    "tests/robustness/skid.toml": (),
+    "tests/robustness/inputs/skid.toml": (),
     "scenarios/block_on_sphere.toml": ("output.checkpoints.every=0.5 s", "time.end=2 ms"),
 }
 """Scenarios with what is set."""

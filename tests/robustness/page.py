@@ -78,10 +78,10 @@ def drops(found: list[dict[str, Any]]) -> str:
 
 {len(found)} drops of random bodies (bars, rectangles, discs, rings, boxes, balls, cylinders, the bracket; all cells;
 ten laws) on random obstacles (half space, ball, block, roller, torus, STL, another body), at v/c up to 0.3, tilted,
-with and without friction and gravity, by the three contact rules and two solvers; `tests/robustness/drops.py` makes
-the scenario of each number. Every accepted slab is looked at: depth over the size of the displacements, tension over
-force, and error of the energy balance over energy. The rules Impulse and Paper give no promise on energy. *Slow* is
-more than five minutes of processor time.
+with and without friction and gravity, by the three contact rules and two solvers; `tests/robustness/inputs/drops.py`
+makes the scenario of each number. Every accepted slab is looked at: depth over the size of the displacements, tension
+over force, and error of the energy balance over energy. The rules Impulse and Paper give no promise on energy. *Slow*
+is more than five minutes of processor time.
 
 """
     rows = []

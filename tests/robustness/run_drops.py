@@ -11,15 +11,15 @@ from typing import Any
 
 import numpy as np
 
-from drops import Drop, drop
-from softway.crew import Complaint, answers
+from inputs.drops import Drop, drop
 from softway.errors import InputError, NumericsError
-from softway.execute import run
-from softway.record.progress import Progress
 from softway.record.run import Run
-from softway.scenario.check import Checked, check
-from softway.scenario.codec import loads
-from softway.scenario.quantity import Units
+from softway.record.write.progress import Progress
+from softway.scenario.checks.check import Checked, check
+from softway.scenario.files import loads
+from softway.scenario.hints.units_text import Units
+from softway.scenario.run import run
+from softway.studies.processes import Complaint, answers
 
 ROOT = Path(__file__).parents[2]
 SECONDS = 300

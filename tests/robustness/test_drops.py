@@ -7,29 +7,30 @@ import pytest
 import scipy.sparse as sp
 
 import softway as sw
-from softway.bodies.mass import Consistent
-from softway.bodies.redistribution import redistributed
-from softway.contact.candidates import Candidates
-from softway.march.certificate import violation
+from softway.bodies.inertia.mass_matrix import Consistent
+from softway.bodies.inertia.mass_redistribution import redistribute_mass
+from softway.contact.contact_rows import ContactRows
+from softway.contact.tangential_rows import TangentialRows
+from softway.march.audit.certificate import violation
 from softway.march.march import march
-from softway.model import build
-from softway.space.shapes import box
+from softway.meshes.generators.shapes import box
+from softway.model.model import build
 
 
 def boxes() -> sw.Scene:
     """A block flush on another one, pressed on it by its speed."""
     soft = sw.NeoHookean(E=1.0, nu=0.3)
     below = sw.Solid(
-        mesh=sw.Box(size=(1.0, 1.0, 1.0), cells=(2, 2, 2)),
+        mesh=sw.meshes.Box(size=(1.0, 1.0, 1.0), cells=(2, 2, 2)),
         material=soft,
         density=1.0,
         supports=(sw.Fixed(on="bottom"),),
     )
     above = sw.Solid(
-        mesh=sw.Box(size=(1.0, 1.0, 1.0), cells=(3, 3, 2), origin=(0.0, 0.0, 1.0)),
+        mesh=sw.meshes.Box(size=(1.0, 1.0, 1.0), cells=(3, 3, 2), origin=(0.0, 0.0, 1.0)),
         material=soft,
         density=1.0,
-        velocity=sw.Uniform(value=(0.0, 0.0, -0.05)),
+        velocity=sw.bodies.Uniform(value=(0.0, 0.0, -0.05)),
     )
     return sw.Scene(bodies={"below": below, "above": above}, contacts=(sw.Contact(between=("above", "below")),))
 
@@ -52,13 +53,13 @@ def test_flush_blocks_press_each_other_without_halving():
 
 def test_a_bar_in_free_fall_asks_newton_for_a_few_iterations():
     bar = sw.Solid(
-        mesh=sw.Interval(length=1.0, cells=8),
+        mesh=sw.meshes.Interval(length=1.0, cells=8),
         material=sw.NeoHookean(E=1e6),
         density=1.0,
-        mass=sw.Lumped(),
-        velocity=sw.Uniform(value=-1.0),
+        mass=sw.bodies.Lumped(),
+        velocity=sw.bodies.Uniform(value=-1.0),
     )
-    floor = sw.Tool(shape=sw.HalfSpace(point=-1.0, normal=1.0))
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=-1.0, normal=1.0))
     scene = sw.Scene(
         bodies={"bar": bar, "floor": floor},
         contacts=(sw.Contact(between=("bar", "floor")),),
@@ -72,8 +73,12 @@ def test_a_bar_in_free_fall_asks_newton_for_a_few_iterations():
 
 def test_quadratic_tetrahedra_may_touch_with_all_their_surface():
     mesh = box((1.0, 1.0, 1.0), (2, 2, 2), cell="tet10")
-    mass = redistributed(
-        mesh, 3.0, sw.Volume(), Consistent(), np.unique(np.concatenate(list(mesh.boundary().values()), axis=None))
+    mass = redistribute_mass(
+        mesh,
+        3.0,
+        sw.bodies.Volume(),
+        Consistent(),
+        np.unique(np.concatenate(list(mesh.boundary().values()), axis=None)),
     )
     assert np.isfinite(mass.data).all()
     assert mass.sum() == pytest.approx(3.0, rel=1e-9)
@@ -84,17 +89,18 @@ def test_rows_whose_slaves_slide_on_each_other_move_together():
     gradient = np.zeros((2, 8))
     gradient[0, [3, 1, 5]] = 1.0, -0.5, -0.5
     gradient[1, [1, 3, 7]] = -1.0, 0.25, 0.75
-    rows = Candidates(
+    rows = ContactRows(
         node=np.array([1, 0]),
         contact=np.zeros(2, int),
         normal=np.array([[0.0, 1.0], [0.0, -1.0]]),
         gradient=sp.csr_array(gradient),
         offset=np.zeros(2),
-        drive=np.zeros(2),
+        tool_motion=np.zeros(2),
         labels=("c",),
+        shear=TangentialRows.none(2, 4, 2),
     )
     field = rows.motion(np.array([0.3, -0.2]), np.ones(2, bool), np.ones((4, 2), bool))
-    np.testing.assert_allclose(rows.along(field), [0.3, -0.2], atol=1e-14)
+    np.testing.assert_allclose(rows.normal_component(field), [0.3, -0.2], atol=1e-14)
     assert not field[2:].any()
 
 
@@ -106,21 +112,21 @@ def test_what_is_not_a_number_breaks_the_certificate():
         assert told == "a gap, a force or a balance is not a number"
 
 
-@pytest.mark.parametrize("rule", [sw.Paper(), sw.Impulse()], ids=lambda rule: type(rule).__name__)
+@pytest.mark.parametrize("rule", [sw.contact.Paper(), sw.contact.Impulse()], ids=lambda rule: type(rule).__name__)
 def test_a_block_slides_off_the_edge_of_a_table(rule):
     """Its nodes touch faces that are out of their reach in the next slab: they let go."""
     stiff = sw.LinearElastic(E=1e5, nu=0.3)
     table = sw.Solid(
-        mesh=sw.Rectangle(size=(1.0, 0.4), cells=(3, 1)),
+        mesh=sw.meshes.Rectangle(size=(1.0, 0.4), cells=(3, 1)),
         material=stiff,
         density=1000.0,
         supports=(sw.Fixed(on="bottom"),),
     )
     block = sw.Solid(
-        mesh=sw.Rectangle(size=(0.2, 0.2), cells=(1, 1), origin=(0.7, 0.4)),
+        mesh=sw.meshes.Rectangle(size=(0.2, 0.2), cells=(1, 1), origin=(0.7, 0.4)),
         material=stiff,
         density=1000.0,
-        velocity=sw.Uniform(value=(8.0, -1.0)),
+        velocity=sw.bodies.Uniform(value=(8.0, -1.0)),
     )
     scene = sw.Scene(
         bodies={"block": block, "table": table},

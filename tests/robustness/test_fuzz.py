@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 
 from endurance import endured
 from fuzz import judged
-from mutations import damaged
+from inputs.mutations import damaged
 from page import drops, endurance, fuzz
 from softway.errors import InputError
-from softway.scenario.codec import loads
+from softway.scenario.files import loads
 
 
 def test_damaged_inputs_are_told_apart_from_right_ones():

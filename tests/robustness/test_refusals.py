@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from softway.cli import main
+from softway.apps.cli import main
 from softway.errors import InputError
-from softway.scenario.codec import NESTED, load, loads
-from softway.scenario.templates import templates
-from softway.space.files import read_facets, read_mesh
+from softway.meshes.files.mesh_files import read_facets, read_mesh
+from softway.scenario.files import NESTED, load, loads
+from softway.scenario.text.templates import templates
 
 BAR = templates()["bar"]
 
@@ -38,9 +38,13 @@ def told(folder: Path, capsys: pytest.CaptureFixture[str], *changes: str, text: 
         ("bodies.bar.material.kind=[1]", "bodies.bar.material.kind", "unknown"),
         ("bodies.bar.material={kind={a=1}}", "bodies.bar.material.kind", "unknown"),
         ("bodies.bar.material.kind=os:system", "bodies.bar.material.kind", "would run Python"),
-        ("bodies.bar.material.kind=../x:Law", "bodies.bar.material.kind", "names nothing"),
-        ("bodies.bar.material.kind=softway.scenario.modules:Modules", "bodies.bar.material.kind", "is no StoredEnergy"),
-        ("bodies.bar.material.kind=softway.cli.commands:main", "bodies.bar.material.kind", "no dataclass"),
+        ("bodies.bar.material.kind=../x:Law", "bodies.bar.material.kind", "is not of the form"),
+        (
+            "bodies.bar.material.kind=softway.scenario.text.user_modules:Modules",
+            "bodies.bar.material.kind",
+            "is no StoredEnergy",
+        ),
+        ("bodies.bar.material.kind=softway.apps.cli.commands:main", "bodies.bar.material.kind", "no dataclass"),
         ("bodies.wall.shape={kind='SignedDistance', dim=1, function='os:system'}", "function", "would run Python"),
         ("bodies.bar.mesh={kind='MeshFile', path='/dev/zero'}", "bodies.bar.mesh.path", "no such file"),
         ("bodies.wall.shape={kind='Surface', file='/dev/stdin'}", "bodies.wall.shape.file", "no such file"),
@@ -59,7 +63,7 @@ def test_texts_that_are_nested_or_long_without_end(tmp_path, capsys, text):
 
 
 def test_depths_that_a_scenario_may_have():
-    with pytest.raises(InputError, match=f"deeper than {NESTED}"):
+    with pytest.raises(InputError, match=f"more than {NESTED} levels"):
         loads("x" + ".x" * NESTED + " = 1")
     with pytest.raises(InputError, match="unknown key"):
         loads("x" + ".x" * (NESTED - 2) + " = 1")

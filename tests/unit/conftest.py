@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from softway.cli import main
+from softway.apps.cli import main
 
 
 @pytest.fixture

@@ -7,16 +7,23 @@ import numpy as np
 import pytest
 
 import check_case
-from softway import verify
-from softway.verify.cases import a08, b02, b03, b04, b05, b06
-from softway.verify.exact import bar as waves
-from softway.verify.exact import flow, shear
-from softway.verify.exact import semidiscrete as discrete
-from softway.verify.exact.oscillator import CONSTANT, frequency, limit, peak, radius
-from softway.verify.exact.thrown import Thrown
+from softway.apps import verify
+from softway.apps.verify.cases.contact import (
+    b02_plane_wave,
+    b03_cylinder_on_plane,
+    b04_hemisphere_on_plane,
+    b05_ball_impact,
+    b06_press_fit,
+)
+from softway.apps.verify.cases.waves import a08_unequal_bars
+from softway.apps.verify.exact import bar as waves
+from softway.apps.verify.exact import flow, shear
+from softway.apps.verify.exact import semidiscrete as discrete
+from softway.apps.verify.exact.oscillator import CONSTANT, frequency, limit, peak, radius
+from softway.apps.verify.exact.thrown import Thrown
 
 FOLDER = Path(verify.__file__).parent / "data"
-CASES = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted(FOLDER.glob("*.json"))}
+CASES = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted(FOLDER.rglob("*.json"))}
 HAT = ((0.0, 0.5, 1.0, 0.0), (0.5, 1.0, 0.0, 0.0))
 
 
@@ -140,21 +147,25 @@ def test_thrown_bars_in_units(name: str, bar: Thrown, touch: str, release: str, 
 
 
 def test_the_cases_of_hertz_and_lame_are_the_closed_forms() -> None:
-    half, peak, force = b03.HERTZ.half_width, b03.HERTZ.peak, b04.hertz().force
+    half, peak, force = (
+        b03_cylinder_on_plane.HERTZ.half_width,
+        b03_cylinder_on_plane.HERTZ.peak,
+        b04_hemisphere_on_plane.hertz().force,
+    )
     assert (value("B03", "b"), value("B03", "p0"), value("B04", "F")) == pytest.approx((half, peak, force), rel=1e-12)
-    assert value("B04", "p0") == pytest.approx(b04.hertz().peak, rel=1e-12)
-    impact = b05.exact(1.0)
+    assert value("B04", "p0") == pytest.approx(b04_hemisphere_on_plane.hertz().peak, rel=1e-12)
+    impact = b05_ball_impact.exact(1.0)
     found = [value("B05", name) for name in ("contact duration", "F_max", "delta_max")]
     assert found == pytest.approx([impact.duration, impact.force, impact.approach], rel=1e-9)
-    assert value("B06", "p") == pytest.approx(b06.EXACT.pressure, rel=1e-12)
+    assert value("B06", "p") == pytest.approx(b06_press_fit.EXACT.pressure, rel=1e-12)
 
 
 def test_the_cases_of_bars_that_collide_are_the_closed_forms() -> None:
-    assert value("B02", "duration") == pytest.approx(b02.DURATION, rel=1e-12)
-    assert value("B02", "mean interface pressure over contact") == pytest.approx(b02.PRESSURE, rel=1e-12)
+    assert value("B02", "duration") == pytest.approx(b02_plane_wave.DURATION, rel=1e-12)
+    assert value("B02", "mean interface pressure over contact") == pytest.approx(b02_plane_wave.PRESSURE, rel=1e-12)
     for case in "ac":
-        assert value("A08", f"{case}: v_after") == pytest.approx(a08.VELOCITY[case], rel=1e-12)
-    assert value("A08", "b: force") == pytest.approx(a08.FORCE["b"][0], rel=1e-12)
+        assert value("A08", f"{case}: v_after") == pytest.approx(a08_unequal_bars.VELOCITY[case], rel=1e-12)
+    assert value("A08", "b: force") == pytest.approx(a08_unequal_bars.FORCE["b"][0], rel=1e-12)
 
 
 def test_d01_and_d10_are_the_stresses_of_simple_shear() -> None:
@@ -198,7 +209,7 @@ def test_checker(results: dict, verdicts: list[bool | None]) -> None:
 
 def test_checker_on_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     results = tmp_path / "results.json"
-    case = str(FOLDER / "A12.json")
+    case = str(FOLDER / "waves" / "A12.json")
     for given, code in (({"t_contact": 5e-4}, 0), ({"t_contact": 5.1e-4}, 1), ({}, 1)):
         results.write_text(json.dumps(given))
         assert check_case.main([case, str(results)]) == code

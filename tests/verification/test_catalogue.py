@@ -3,7 +3,7 @@
 import pytest
 
 import results
-from softway.verify import listed
+from softway.apps.verify import listed
 
 ELSEWHERE = {
     *(f"A{k:02}" for k in range(1, 13)),

@@ -1,1 +1,71 @@
-"""Bodies: what owns velocity unknowns, and what it is made of."""
+"""Deformable solids and rigid tools: their description, discretisation and internal forces."""
+
+from softway.bodies.bulk_viscosity import BulkViscosity as BulkViscosity
+from softway.bodies.elements.section import Axisymmetric as Axisymmetric
+from softway.bodies.elements.section import Bar as Bar
+from softway.bodies.elements.section import PlaneStrain as PlaneStrain
+from softway.bodies.elements.section import PlaneStress as PlaneStress
+from softway.bodies.elements.section import Volume as Volume
+from softway.bodies.inertia.inertia_scaling import Full as Full
+from softway.bodies.inertia.inertia_scaling import Off as Off
+from softway.bodies.inertia.inertia_scaling import Scaled as Scaled
+from softway.bodies.inertia.mass_matrix import Consistent as Consistent
+from softway.bodies.inertia.mass_matrix import Lumped as Lumped
+from softway.bodies.internal_force.slab_average import AverageField as AverageField
+from softway.bodies.internal_force.slab_average import DiscreteGradient as DiscreteGradient
+from softway.bodies.internal_force.slab_average import EnergyMomentum as EnergyMomentum
+from softway.bodies.internal_force.slab_average import Weighted as Weighted
+from softway.bodies.prescribed_motion import Still as Still
+from softway.bodies.prescribed_motion import Table as Table
+from softway.bodies.prescribed_motion import Translation as Translation
+from softway.bodies.prescribed_motion import Turning as Turning
+from softway.bodies.setup.amplitude import Ramp as Ramp
+from softway.bodies.setup.initial_fields import Affine as Affine
+from softway.bodies.setup.initial_fields import FieldSum as FieldSum
+from softway.bodies.setup.initial_fields import OnTag as OnTag
+from softway.bodies.setup.initial_fields import Profile as Profile
+from softway.bodies.setup.initial_fields import Uniform as Uniform
+from softway.bodies.setup.loads import Gravity as Gravity
+from softway.bodies.setup.loads import Traction as Traction
+from softway.bodies.setup.placement import Placement as Placement
+from softway.bodies.setup.placement import Rotation as Rotation
+from softway.bodies.solid import Driven as Driven
+from softway.bodies.solid import Fixed as Fixed
+from softway.bodies.solid import Solid as Solid
+from softway.bodies.solid import Tool as Tool
+
+__all__ = [
+    "Affine",
+    "AverageField",
+    "Axisymmetric",
+    "Bar",
+    "BulkViscosity",
+    "Consistent",
+    "DiscreteGradient",
+    "Driven",
+    "EnergyMomentum",
+    "FieldSum",
+    "Fixed",
+    "Full",
+    "Gravity",
+    "Lumped",
+    "Off",
+    "OnTag",
+    "Placement",
+    "PlaneStrain",
+    "PlaneStress",
+    "Profile",
+    "Ramp",
+    "Rotation",
+    "Scaled",
+    "Solid",
+    "Still",
+    "Table",
+    "Tool",
+    "Traction",
+    "Translation",
+    "Turning",
+    "Uniform",
+    "Volume",
+    "Weighted",
+]

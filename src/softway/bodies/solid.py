@@ -1,36 +1,42 @@
-"""A deformable solid and a rigid tool, as plain descriptions."""
+"""Description of deformable solids and rigid tools."""
 
 from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
 
-from softway.bodies.cells import Dilating
-from softway.bodies.fields import Field, Uniform
-from softway.bodies.force import AverageField, DiscreteGradient, EnergyMomentum, SlabForce, Weighted
-from softway.bodies.mass import Consistent, MassRule
-from softway.bodies.motion import Motion, Placed, Still
-from softway.bodies.placement import Placement
-from softway.bodies.section import Axisymmetric, Section
-from softway.bodies.shock import BulkViscosity
+from softway.bodies.bulk_viscosity import BulkViscosity
+from softway.bodies.elements.quadrature import Dilating
+from softway.bodies.elements.section import Axisymmetric, Section
+from softway.bodies.inertia.mass_matrix import Consistent, MassRule
+from softway.bodies.internal_force.slab_average import (
+    AverageField,
+    DiscreteGradient,
+    EnergyMomentum,
+    SlabForce,
+    Weighted,
+)
+from softway.bodies.prescribed_motion import Motion, PlacedShape, Still
+from softway.bodies.setup.initial_fields import Field, Uniform
+from softway.bodies.setup.placement import Placement
 from softway.errors import InputError
 from softway.laws.law import Material, RateLaw
-from softway.space.curved import Shape
-from softway.space.mesh import Mesh
-from softway.space.sources import MeshSource
+from softway.meshes.generators.recipes import MeshSource
+from softway.meshes.mesh import Mesh
+from softway.obstacles.primitives import Shape
 from softway.units import KilogramPerCubicMetre, MetrePerSecond, Second
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fixed:
-    """Support: the named displacement components of the nodes of a tag stay zero.
+    """Support that keeps displacement components of the nodes of a tag at zero.
 
     Parameters
     ----------
     on
-        The tag.
+        Tag of the nodes.
     components
-        Made of ``x``, ``y``, ``z``; or the word ``all``.
+        Letters out of ``x``, ``y``, ``z``; or ``all``.
     """
 
     on: str
@@ -39,15 +45,15 @@ class Fixed:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Driven:
-    """Support that moves: the named components of the nodes of a tag have a given velocity.
+    """Support that moves displacement components of the nodes of a tag with a given velocity.
 
     Parameters
     ----------
     on, components
         As for :class:`Fixed`.
     velocity
-        Velocity of each of the components; with ``times`` its values there, linear in between and constant outside
-        [m/s].
+        Velocity of each of the components [m/s]; with ``times`` its values at these instants, linear in between and
+        constant outside.
     times
         Increasing instants [s].
 
@@ -82,34 +88,33 @@ Support = Fixed | Driven
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Solid:
-    """A deformable body: mesh, law, density, and how it starts.
+    """Deformable body: mesh, material, density, supports and initial fields.
 
     Parameters
     ----------
     mesh
-        A mesh, or the recipe of one.
+        Mesh, or recipe of a mesh.
     material
-        A law with a stored energy, or one with a history.
+        Material law: a stored energy, or a path-dependent law.
     density
         Mass per reference volume [kg/m^3], positive.
     section
-        How the cells fill space; by default bar of unit area, plane strain of unit thickness, or volume.
+        Section of the elements; by default bar of unit area, plane strain of unit thickness, or volume.
     mass
-        Consistent or lumped inertia; contact by :class:`~softway.contact.timing.Energy` redistributes it.
+        Consistent or lumped mass; contact by :class:`~softway.contact.impact_rule.Energy` redistributes it.
     velocity, displacement
         Initial fields.
     supports
-        Nodes that are held or driven.
+        Fixed and driven nodes.
     force
-        How the internal force is averaged over a slab.
+        Average of the internal force over a time step (slab).
     dilatation
-        ``point``: the change of volume at each point of a cell; so that matter that keeps its volume does not lock,
-        ``mean``: its mean over the cell, or ``corner``: its means around the corners (with quadratic cells Taylor and
-        Hood's element).
+        Volume change in an element: ``point`` at each point; for nearly incompressible material without locking,
+        ``mean`` over the element, or ``corner`` around the corner nodes (the Taylor-Hood element if quadratic).
     shock
         Bulk viscosity; none by default.
     place
-        How the mesh is turned and moved into the scene.
+        Rotation and translation of the mesh into the scene.
     """
 
     mesh: MeshSource | Mesh
@@ -127,33 +132,35 @@ class Solid:
 
     def __post_init__(self) -> None:
         if isinstance(self.force, EnergyMomentum) and isinstance(self.section, Axisymmetric):
-            problem = "EnergyMomentum of a body of revolution, which has no angular momentum in its section"
+            problem = "EnergyMomentum for a body of revolution, which has no angular momentum in its section"
             raise InputError("force", problem, "Weighted")
         if isinstance(self.force, AverageField | DiscreteGradient) and isinstance(self.material, RateLaw):
-            problem = f"{type(self.force).__name__} of {type(self.material).__name__}, which has no stored energy"
+            problem = f"{type(self.force).__name__} with {type(self.material).__name__}, which has no stored energy"
             raise InputError("force", problem, "Weighted or EnergyMomentum")
         if self.dilatation == "point" and getattr(self.material, "nu", 0.0) == 0.5:
-            problem = "nu = 0.5 in cells that take the change of volume point by point: they lock"
+            problem = "nu = 0.5 with the volume change at each point of an element: the elements lock"
             raise InputError("material.nu", problem, 'dilatation = "mean", or "corner" with quadratic cells')
         if isinstance(self.force, DiscreteGradient) and self.dilatation != "point":
-            raise InputError("force", "DiscreteGradient is taken point by point", 'dilatation = "point", or Weighted')
+            raise InputError(
+                "force", "DiscreteGradient needs the volume change at each point", 'dilatation = "point", or Weighted'
+            )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Tool:
-    """A rigid obstacle without unknowns.
+    """Rigid tool: an obstacle with a prescribed motion, without unknowns.
 
     Parameters
     ----------
     shape
-        Its shape, where it stands without motion.
+        Shape at its place without motion.
     motion
-        How it moves.
+        Prescribed motion.
 
     Examples
     --------
-    >>> from softway.bodies.motion import Translation
-    >>> from softway.space.obstacles import HalfSpace
+    >>> from softway.bodies.prescribed_motion import Translation
+    >>> from softway.obstacles.half_space import HalfSpace
     >>> ram = Tool(shape=HalfSpace(point=1.0, normal=-1.0), motion=Translation(velocity=-2.0))
     >>> ram.at(0.25).pose.shift.tolist()
     [-0.5]
@@ -165,12 +172,12 @@ class Tool:
     def __post_init__(self) -> None:
         if not hasattr(self.shape, "dim"):
             raise InputError(
-                "shape", f"{self.shape!r:.60} is no obstacle", "HalfSpace(point=..., normal=...), Sphere, ..."
+                "shape", f"{self.shape!r:.60} is not an obstacle", "HalfSpace(point=..., normal=...), Sphere, ..."
             )
         if self.motion.dim not in (None, self.shape.dim):
-            problem = f"{type(self.motion).__name__} in {self.motion.dim}D of a shape in {self.shape.dim}D"
+            problem = f"{type(self.motion).__name__} in {self.motion.dim}D for a shape in {self.shape.dim}D"
             raise InputError("motion", problem, f"{self.shape.dim} components")
 
-    def at(self, time: float) -> Placed:
-        """The shape where it stands at a time [s]."""
-        return Placed(shape=self.shape, pose=self.motion.at(time))
+    def at(self, time: float) -> PlacedShape:
+        """Shape at its place at a time [s]."""
+        return PlacedShape(shape=self.shape, pose=self.motion.at(time))

@@ -1,22 +1,22 @@
-"""The declaration of a contact: who may touch whom, how the surfaces meet, and by which rule."""
+"""Declaration of a contact: its two bodies, contact method, impact rule and friction law."""
 
 from dataclasses import dataclass
 from typing import Literal
 
-from softway.contact.timing import Energy, Timing
+from softway.contact.impact_rule import Energy, ImpactRule
 from softway.laws.friction import Frictionless
 from softway.laws.friction_law import FrictionLaw
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NodeToSurface:
-    """Nodes of one surface against the faces of the other.
+    """Nodes of one surface against the facets of the other.
 
     Parameters
     ----------
     nodes
-        ``finer``: the nodes of the finer surface against the faces of the coarser one; ``both``: the nodes of either
-        against the faces of the other.
+        ``finer``: the nodes of the finer surface against the facets of the coarser one; ``both``: the nodes of either
+        surface against the facets of the other.
 
     Examples
     --------
@@ -31,7 +31,7 @@ class NodeToSurface:
 class DualMortar:
     """Mean gaps over the finer surface, weighted by dual shape functions: passes the patch test.
 
-    Sharp corners and edges, which a mean gap does not see, have rows of their own.
+    A mean gap does not detect sharp corners and edges: they have contact rows of their own.
 
     Examples
     --------
@@ -49,17 +49,19 @@ class Contact:
     between
         ``("body.tag", "tool")`` or ``("body.tag", "other.tag")``; without a tag the whole surface.
     name
-        Used in the columns of the history; by default ``body.tag-tool``.
+        Name in the columns of the history; by default ``body.tag-tool``.
     timing
-        What a touch does to the slab: :class:`Energy`, :class:`Impulse` or :class:`Paper`.
+        Impact rule: :class:`~softway.contact.Energy`, :class:`~softway.contact.Impulse` or
+        :class:`~softway.contact.Paper`.
     method
-        How two solids meet; by default :class:`DualMortar`, between bars and under the rules that locate instants
-        (Paper, Impulse) :class:`NodeToSurface`.  Nodes meet tools.
+        Contact method between two solids; by default :class:`~softway.contact.DualMortar`, or
+        :class:`~softway.contact.NodeToSurface` between bars and
+        with the rules Paper and Impulse.  Contact with a tool is always between nodes and the tool.
     friction
-        Law of the tangential traction; by default there is none.
+        Friction law; by default there is no friction.
     start
-        ``apart``: bodies that overlap at the start are an error; ``fit``: they are pressed apart into static
-        equilibrium first (a press fit).
+        ``apart``: an overlap of the bodies at the start is an error; ``fit``: overlapping bodies are first pressed
+        apart into static equilibrium (press fit).
 
     Examples
     --------
@@ -69,7 +71,7 @@ class Contact:
 
     between: tuple[str, str]
     name: str = ""
-    timing: Timing = Energy()
+    timing: ImpactRule = Energy()
     method: DualMortar | NodeToSurface | None = None
     friction: FrictionLaw = Frictionless()
     start: Literal["apart", "fit"] = "apart"
@@ -86,7 +88,7 @@ class Contact:
 
     @property
     def tag(self) -> str:
-        """Tag of the candidate nodes; the whole surface when none is given."""
+        """Tag of the contact nodes; the whole surface by default."""
         return self.between[0].partition(".")[2] or "surface"
 
     @property
@@ -96,5 +98,5 @@ class Contact:
 
     @property
     def opponent_tag(self) -> str:
-        """Tag of the other solid's surface; the whole one when none is given."""
+        """Tag of the surface of the other solid; its whole surface by default."""
         return self.between[1].partition(".")[2] or "surface"

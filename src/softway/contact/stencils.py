@@ -1,4 +1,4 @@
-"""The rows of a contact as stencils: a gap, a direction, and the weights of the nodes that it depends on."""
+"""Stencils of contact rows: gap, normal, and weights of the nodes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,25 +6,26 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from softway.typing import Array
+from softway.arrays import Array
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Stencils:
     """Gaps at one configuration with their derivatives ``d gap_r = normal_r . sum_j weights[r, j] dx_j``.
 
-    Where a row feels its nodes in different directions, ``slopes`` hold the derivatives; normal and weights are means.
+    If a row depends on its nodes in different directions, ``slopes`` contains the derivatives; normal and weights are
+    means.
 
     Parameters
     ----------
     gap
-        (m,) [m], negative inside the opponent; infinite where nothing is in reach.
+        (m,) [m], negative inside the opponent; infinite where no opponent is in reach.
     normal
         (m, d) unit normals, out of the opponent into free space.
     weights
         (m, n) one on the slave node, minus the weights of the nodes of a deformable opponent.
     slopes
-        (m, n d) derivatives to the components ``j d + i`` of the positions; None: those of normal and weights.
+        (m, n d) derivatives with respect to the components ``j d + i`` of the positions; None: from normal and weights.
     """
 
     gap: Array
@@ -33,16 +34,16 @@ class Stencils:
     slopes: sp.csr_array | None = None
 
     def gradient(self) -> sp.csr_array:
-        """Derivatives (m, n d) of the gaps to the components ``j d + i`` of the positions."""
-        return along(self.weights, self.normal) if self.slopes is None else self.slopes
+        """Derivatives (m, n d) of the gaps with respect to the components ``j d + i`` of the positions."""
+        return normal_component(self.weights, self.normal) if self.slopes is None else self.slopes
 
 
-def along(weights: sp.csr_array, normal: Array) -> sp.csr_array:
-    """Rows (m, n d) with the weights (m, n) times their normals (m, d).
+def normal_component(weights: sp.csr_array, normal: Array) -> sp.csr_array:
+    """Rows (m, n d): weights (m, n) times the normals (m, d).
 
     Examples
     --------
-    >>> along(sp.csr_array(np.array([[1.0, -1.0]])), np.array([[0.0, 2.0]])).toarray().tolist()
+    >>> normal_component(sp.csr_array(np.array([[1.0, -1.0]])), np.array([[0.0, 2.0]])).toarray().tolist()
     [[0.0, 2.0, 0.0, -2.0]]
     """
     m, n = weights.shape
@@ -54,7 +55,7 @@ def along(weights: sp.csr_array, normal: Array) -> sp.csr_array:
 
 
 def interleaved(parts: Sequence[sp.csr_array]) -> sp.csr_array:
-    """Rows (m, n d) from those (m, n) of each of the d components.
+    """Interleave the d components (m, n) of rows to (m, n d).
 
     Examples
     --------

@@ -1,1 +1,1 @@
-"""Kernels: functions of arrays and sizes that know no physics."""
+"""Numerical kernels: functions of plain arrays."""

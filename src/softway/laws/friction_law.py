@@ -1,46 +1,47 @@
-"""What a law of friction must say about itself."""
+"""Protocol of friction laws, and checks of their parameters."""
 
 from typing import Protocol
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.errors import InputError
-from softway.typing import Array
 
 
 class FrictionLaw(Protocol):
-    """An isotropic resistance to slip, set-valued at rest as a rigid-viscoplastic law of the bulk.
+    """Isotropic friction law, set-valued at rest like a rigid-viscoplastic material law.
 
-    The tangential traction t on a surface that slips with the velocity v on its opponent is ::
+    The tangential traction t on a surface that slips with the velocity v over the other surface is ::
 
         t = -resistance(|v|, p) v/|v|  where v != 0,    |t| <= limit(p)  where v = 0,
 
-    with the normal pressure p >= 0.  Speeds and pressures come as arrays of one shape (...,).
+    with the normal pressure p >= 0.  Speeds and pressures are arrays of the same shape (...,).
     """
 
     @property
     def frictionless(self) -> bool:
-        """Whether there is no friction at all."""
+        """True if there is no friction at all."""
         ...
 
     def limit(self, pressure: Array) -> Array:
-        """Greatest traction (...,) held at rest [Pa]."""
+        """Greatest tangential traction (...,) at rest [Pa]."""
         ...
 
     def resistance(self, speed: Array, pressure: Array) -> tuple[Array, Array, Array]:
-        """Traction of slip (...,) [Pa], at the speed zero its limit from above, with its derivatives to the speed
-        [Pa s/m] and to the pressure.
+        """Traction in slip (...,) [Pa], with its derivatives with respect to the speed [Pa s/m] and the pressure.
+
+        At zero speed the traction is the limit for a speed that tends to zero from above.
         """
         ...
 
 
 def at_least_zero(**values: float) -> None:
-    """Refuse negative or infinite parameters.
+    """Raise an error for negative or infinite parameters.
 
     Raises
     ------
     InputError
-        Naming the parameter.
+        If a parameter is negative or not finite; the error names it.
 
     Examples
     --------
@@ -53,16 +54,16 @@ def at_least_zero(**values: float) -> None:
         if not value >= 0.0:
             raise InputError(name, f"{value:g} is negative", "zero or more")
         if not np.isfinite(value):
-            raise InputError(name, f"{value:g} is not finite", "a number")
+            raise InputError(name, f"{value:g} is not finite", "a finite number")
 
 
 def positive(**values: float) -> None:
-    """Refuse parameters that are not positive numbers.
+    """Raise an error for parameters that are not positive numbers.
 
     Raises
     ------
     InputError
-        Naming the parameter.
+        If a parameter is not positive and finite; the error names it.
     """
     for name, value in values.items():
         if not 0.0 < value < np.inf:

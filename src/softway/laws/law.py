@@ -1,4 +1,4 @@
-"""What a law must say about itself: one that stores energy, and one with a history."""
+"""Protocols of material laws: laws with a stored energy, and laws with a history."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -6,30 +6,30 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from softway.laws.measure import Measure
-from softway.laws.rates import Rate
-from softway.typing import Array
+from softway.arrays import Array
+from softway.laws.objective_rates import Rate
+from softway.laws.strain_measures import Measure
 
 
 @runtime_checkable
 class StoredEnergy(Protocol):
-    """A material that stores energy per reference volume, ``W(E)``.
+    """Material law with a stored energy per reference volume, ``W(E)``.
 
-    The law names the strain it is written in by ``measure``: :class:`~softway.laws.measure.Green` for large
-    deformations, :class:`~softway.laws.measure.Small` for the linear theory.  A law written in Green's strain is
-    frame-indifferent by construction, and a strain (unlike F) keeps all its digits when it is small.  Methods work on
-    trailing axes: E may have any shape (..., 3, 3), symmetric.  Where matter is inverted the energy is infinite and the
-    stress ``nan``, quietly: callers test for finiteness.
+    ``measure`` names the strain of the law: :class:`~softway.laws.strain_measures.Green` for large deformations,
+    :class:`~softway.laws.strain_measures.Small` for the linear theory.  A law in Green's strain is frame-indifferent by
+    construction, and a small strain (unlike F) has full accuracy.  Methods work on trailing axes: E may have any shape
+    (..., 3, 3), symmetric.  Where the material is inverted, the energy is infinite and the stress is ``nan``, without a
+    warning: callers test for finite values.
     """
 
     @property
     def measure(self) -> Measure:
-        """The strain E of this law."""
+        """Strain measure of the law."""
         ...
 
     @property
     def linear(self) -> bool:
-        """Whether the force on a body is linear in its displacement."""
+        """True if the force on a body is linear in its displacement."""
         ...
 
     def energy(self, E: Array) -> Array:
@@ -55,16 +55,18 @@ class StoredEnergy(Protocol):
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Increment:
-    """What happens to matter in one slab, in axes that are carried along with it; any leading axes.
+    """Strain increment of one slab (time step) and the state at its start, in axes carried along with the material.
+
+    The arrays may have any leading axes.
 
     Parameters
     ----------
     stress
         (..., 3, 3) Cauchy stress at the start [Pa].
     memory
-        What the law remembers from the start, by the names of :meth:`RateLaw.virgin`.
+        History variables at the start, by the names of :meth:`RateLaw.virgin`.
     strain
-        (..., 3, 3) increment of the strain: the rate of deformation times the length of the slab.
+        (..., 3, 3) strain increment: rate of deformation times length of the slab.
     span
         Length of the slab [s].
     """
@@ -77,18 +79,18 @@ class Increment:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Response:
-    """What matter answers to an :class:`Increment`.
+    """Response of a law to an :class:`Increment`.
 
     Parameters
     ----------
     stress
         (..., 3, 3) Cauchy stress at the end [Pa].
     memory
-        What the law remembers from then on.
+        History variables at the end.
     stored, dissipated
-        (...,) energies per present volume taken up in the slab [J/m^3]; what is dissipated is never negative.
+        (...,) energies per current volume stored and dissipated in the slab [J/m^3]; ``dissipated`` is never negative.
     viscous
-        (..., 3, 3) part of the stress that is made by the mean rate of the slab [Pa]; None where there is none.
+        (..., 3, 3) part of the stress due to the mean strain rate of the slab [Pa]; None if there is none.
     """
 
     stress: Array
@@ -100,37 +102,38 @@ class Response:
 
 @runtime_checkable
 class RateLaw(Protocol):
-    """A material with a history, written in axes that are carried along: the strain of a slab in, the stress out.
+    """Path-dependent material law (with a history), which computes the stress from the strain increment of a slab.
 
-    A law sees components in the axes of its ``rate``, never a rotation: stresses and every (..., 3, 3) array of its
-    memory are brought into these axes before it is asked, and carried on afterwards.  Methods work on trailing axes.
+    A law works with components in the axes of its ``rate`` and never sees a rotation.  Stresses and all (..., 3, 3)
+    history variables are transformed to these axes before a call, and carried on with the material afterwards.
+    Methods work on trailing axes.
     """
 
     @property
     def rate(self) -> Rate:
-        """The objective rate."""
+        """Objective rate of the stress."""
         ...
 
     def virgin(self, points: int) -> Mapping[str, Array]:
-        """What matter remembers before anything happened: arrays (points, ...) by name."""
+        """History variables of the undeformed material: arrays (points, ...) by name."""
         ...
 
     def respond(self, increment: Increment) -> Response:
-        """Stress at the end of the slab, memory, and energies."""
+        """Stress and history variables at the end of the slab, and energies."""
         ...
 
     def moduli(self, increment: Increment) -> Array:
-        """Derivative of the stress at the end to the strain of the slab, (..., 3, 3, 3, 3) [Pa], minor symmetry."""
+        """Derivative of the stress at the end by the strain increment, (..., 3, 3, 3, 3) [Pa], with minor symmetry."""
         ...
 
     def elastic_moduli(self) -> Array:
-        """Moduli (3, 3, 3, 3) that the fastest waves meet [Pa]."""
+        """Moduli (3, 3, 3, 3) that determine the fastest waves [Pa]."""
         ...
 
 
 @runtime_checkable
 class Viscous(Protocol):
-    """A :class:`RateLaw` whose stress is a viscosity, itself a function of the rate, times the rate."""
+    """:class:`RateLaw` with a stress that is a rate-dependent viscosity times the strain rate."""
 
     def secant(self, increment: Increment) -> Array:
         """Moduli (..., 3, 3, 3, 3) with the viscosity held fixed [Pa]."""
@@ -139,10 +142,10 @@ class Viscous(Protocol):
 
 @runtime_checkable
 class Damped(Protocol):
-    """A :class:`RateLaw` a part of whose stress is made by the mean rate of the slab: ``Response.viscous``."""
+    """:class:`RateLaw` with a viscous part of the stress, ``Response.viscous``, due to the mean strain rate."""
 
     def viscous_moduli(self, increment: Increment) -> Array:
-        """Derivative of that part to the strain of the slab, (..., 3, 3, 3, 3) [Pa]."""
+        """Derivative of the viscous part by the strain increment, (..., 3, 3, 3, 3) [Pa]."""
         ...
 
 
@@ -150,7 +153,7 @@ Material = StoredEnergy | RateLaw
 
 
 def initial_moduli(material: Material) -> Array:
-    """Moduli (3, 3, 3, 3) of the first small strain [Pa].
+    """Moduli (3, 3, 3, 3) of the undeformed material [Pa].
 
     Examples
     --------

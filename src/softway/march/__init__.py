@@ -1,1 +1,1 @@
-"""From a scene to accepted slabs."""
+"""March of a scene: accepted slabs (time steps), one after the other."""

@@ -1,34 +1,34 @@
-"""The march: propose a slab, advance, judge, and hand out the step."""
+"""March: propose a slab (time step), solve and audit it, and yield the step."""
 
 import logging
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 
-from softway.bodies.section import wave_speed
+from softway.bodies.elements.section import wave_speed
 from softway.errors import Cancel, InputError
-from softway.march.advance import Method, Rule, rule
-from softway.march.begin import begin
-from softway.march.control import StepControl, crushing, may_grow
-from softway.march.ledger import booked, opened, opening
-from softway.march.situation import Situation, joined, parted
-from softway.march.standing import Pace, Settings, Standing
-from softway.march.step import Report, Step
-from softway.march.tries import SETTLING, Accepted, accepted, endured
-from softway.model import Model, build
-from softway.scene import Scene, State
-from softway.solve.balance import SLIGHT
-from softway.solve.explicit import Explicit
-from softway.solve.fixed_point import FixedPoint
-from softway.solve.stability import require_stable, stable_step
-from softway.time.weight import EndPeaks, TimeWeight
+from softway.march.attempts import DAMPED, AcceptedSlab, accept_slab, recent_rejections
+from softway.march.audit.ledger import initial_ledger, open_account, update_account
+from softway.march.march_state import MarchState, Settings, StepHistory
+from softway.march.model_state import ModelState, join_states, split_states
+from softway.march.results.step import Report, Step
+from softway.march.rules.slab_rule import Method
+from softway.march.slab_step import Stepper, stepper
+from softway.march.start.initial_state import initial_state
+from softway.march.step_control import StepControl, crushing, may_grow
+from softway.model.model import Model, build
+from softway.model.scene import Scene, State
+from softway.model.time_weight import EndPeaks, TimeWeight
+from softway.solve.equations.energy_balance import SLIGHT
+from softway.solve.methods.central_difference import Explicit
+from softway.solve.methods.fixed_point import FixedPoint
+from softway.solve.stable_step import require_stable, stable_step
 from softway.units import Second
 
 log = logging.getLogger(__name__)
 STRAINED = 0.2
-"""Fraction of the length asked for below which a great scalar asks for no shorter slab."""
+"""Fraction of the requested length below which a large scalar does not shorten slabs further."""
 
 
 def march(
@@ -38,7 +38,7 @@ def march(
     step: Second | Literal["auto"] = "auto",
     weight: TimeWeight = EndPeaks(),
     method: Method = FixedPoint(),
-    state: State | Standing | None = None,
+    state: State | MarchState | None = None,
     control: StepControl = StepControl(),
     cancel: Cancel | None = None,
 ) -> Iterator[Step]:
@@ -47,40 +47,40 @@ def march(
     Parameters
     ----------
     scene
-        What moves; a built model is taken as it is.
+        Scene, or a built model.
     until
         End time [s].
     step
-        Slab length [s], shortened so that the slabs divide the duration evenly; ``auto`` is the time in which a wave
-        crosses the shortest edge, over the square root of 2: there the leading dispersion of a consistent mass and of
-        the end peaks cancel (docs/theory/time.md).
+        Slab length [s], shortened to divide the duration evenly; ``auto`` is the time in which a wave crosses the
+        shortest edge, divided by the square root of 2: there the leading dispersion of a consistent mass and of the end
+        peaks cancel (docs/theory/time.md).
     weight
         Virtual time function.
     method
-        Fixed point, Newton, or explicit.
+        Fixed point, Newton, or explicit method.
     state
-        Where to begin: a situation, or where another march stood after a step, ``step.standing``; by default the start
-        of the scene.
+        Initial state: a state, or the march state of another march after a step, ``step.march_state``; by default the
+        start of the scene.
     control
-        Limits of a slab; one that breaks them is tried again shorter.
+        Limits of a slab; a slab that exceeds them is tried again with half the length.
     cancel
-        Asked at every iteration, from the first equilibrium on, whether the caller wants no more.
+        Callback at every iteration, from the first equilibrium on, that may cancel the march.
 
     Raises
     ------
     InputError
-        Before the first step: a step beyond the stability limit, a start inside an obstacle.
+        Before the first step: if the step is beyond the stability limit, or a body starts inside an obstacle.
     NumericsError
-        When a slab fails at every length that was tried; steps handed out before stay valid.
+        If a slab fails at every attempted length; earlier steps stay valid.
     Cancelled
-        When ``cancel`` says so; steps handed out before stay valid.
+        If ``cancel`` requests it; earlier steps stay valid.
 
     Examples
     --------
     >>> import softway as sw
-    >>> bar = sw.Solid(mesh=sw.Interval(length=1.0, cells=2), material=sw.LinearElastic(E=1.0), density=1.0,
-    ...                velocity=sw.Uniform(value=1.0))
-    >>> wall = sw.Tool(shape=sw.HalfSpace(point=1.25, normal=-1.0))
+    >>> bar = sw.Solid(mesh=sw.meshes.Interval(length=1.0, cells=2), material=sw.LinearElastic(E=1.0), density=1.0,
+    ...                velocity=sw.bodies.Uniform(value=1.0))
+    >>> wall = sw.Tool(shape=sw.obstacles.HalfSpace(point=1.25, normal=-1.0))
     >>> scene = sw.Scene(bodies={"bar": bar, "wall": wall}, contacts=(sw.Contact(between=("bar.right", "wall")),))
     >>> steps = list(march(scene, until=4.0, step=0.05))
     >>> abs(steps[-1].ledger.energy_error) < 1e-12
@@ -88,28 +88,28 @@ def march(
     """
     model = scene if isinstance(scene, Model) else build(scene)
     settings = Settings(until=until, step=step, weight=weight, method=method, control=control)
-    stand = _begun(model, settings, state, cancel)
-    prepared = replace(rule(model, method, weight), cancel=cancel)
+    march_state = _begun(model, settings, state, cancel)
+    prepared = stepper(model, method, weight, cancel)
     stepping = method if isinstance(method, Explicit) else weight
-    if not stand.slabs and not (isinstance(stepping, Explicit) and step == "auto"):  # then a share of the limit
-        require_stable(model, stand.situation.start.displacement, stepping, stand.pace.span)
-    return _steps(prepared, stand)
+    if not march_state.slabs and not (isinstance(stepping, Explicit) and step == "auto"):  # auto is stable
+        require_stable(model, march_state.state.start.displacement, stepping, march_state.pace.span)
+    return _steps(prepared, march_state)
 
 
-def _begun(model: Model, settings: Settings, state: State | Standing | None, cancel: Cancel | None) -> Standing:
-    """Where the march stands at its start."""
-    if isinstance(state, Standing) and state.settings == settings:
+def _begun(model: Model, settings: Settings, state: State | MarchState | None, cancel: Cancel | None) -> MarchState:
+    """March state at the start of a march."""
+    if isinstance(state, MarchState) and state.settings == settings:
         return state.fitting(model)
-    past = 0.0 if state is None else state.situation.time if isinstance(state, Standing) else state.time
+    past = 0.0 if state is None else state.state.time if isinstance(state, MarchState) else state.time
     span = proposed(model, settings.step, settings.weight, settings.until - past, settings.method)
-    if isinstance(state, Standing):
+    if isinstance(state, MarchState):
         return state.fitting(model).asked(settings, span)
-    now = begin(model, span, cancel) if state is None else joined(model, state)
-    return Standing(
+    now = initial_state(model, span, cancel) if state is None else join_states(model, state)
+    return MarchState(
         settings=settings,
-        situation=now,
-        account=opened(opening(model, now)),
-        pace=Pace(span=span, length=span),
+        state=now,
+        account=open_account(initial_ledger(model, now)),
+        pace=StepHistory(span=span, length=span),
     )
 
 
@@ -120,9 +120,9 @@ def proposed(
     duration: float,
     method: Method = FixedPoint(),
 ) -> float:
-    """The slab length: the one asked for, or the crossing time of the shortest edge over sqrt(2), evenly divided.
+    """Slab length [s]: the requested one, or the crossing time of the shortest edge over sqrt(2), evenly divided.
 
-    Central differences take a share of their stability limit.
+    Central differences use a fraction of their stability limit.
 
     Raises
     ------
@@ -143,7 +143,7 @@ def proposed(
 
 
 def evenly(duration: float, step: float) -> float:
-    """The greatest length up to ``step`` that divides the duration evenly; equal slabs share one operator.
+    """Greatest length up to ``step`` that divides the duration evenly; equal slabs share one operator.
 
     Examples
     --------
@@ -153,63 +153,63 @@ def evenly(duration: float, step: float) -> float:
     return float(duration / np.ceil(duration / step - 1e-9))
 
 
-def _steps(rules: Rule, stand: Standing) -> Iterator[Step]:
-    model, settings, span = rules.model, stand.settings, stand.pace.span
+def _steps(rules: Stepper, march_state: MarchState) -> Iterator[Step]:
+    model, settings, span = rules.model, march_state.settings, march_state.pace.span
     until, least = settings.until, settings.control.least * span
-    carry, before = stand.carry, parted(model, stand.situation)
+    memory, before = march_state.memory, split_states(model, march_state.state)
     watch = crushing(model, rules.method)
-    while stand.situation.time < until - 1e-9 * span:
-        time = stand.situation.time
-        length = min(stand.pace.length, until - time)
+    while march_state.state.time < until - 1e-9 * span:
+        time = march_state.state.time
+        length = min(march_state.pace.length, until - time)
         length = until - time if until - time - length < least else length
-        found = accepted(rules, stand, length, carry)
-        if carry.choice is None and found.carry.choice is not None:
-            log.info("operator %s: %s", found.carry.choice.operator, found.carry.choice.reason)
-        following = _next(model, settings.control, span, stand.situation, found)
-        following = min(following, span * watch.share(found.after.start.displacement))
-        stand = Standing(
+        found = accept_slab(rules, march_state, length, memory)
+        if memory.choice is None and found.memory.choice is not None:
+            log.info("operator %s: %s", found.memory.choice.operator, found.memory.choice.reason)
+        following = _next(model, settings.control, span, march_state.state, found)
+        following = min(following, span * watch.shortest_ratio(found.after.start.displacement))
+        march_state = MarchState(
             settings=settings,
-            situation=found.after,
-            account=booked(stand.account, found.ledger),
-            pace=Pace(
+            state=found.after,
+            account=update_account(march_state.account, found.ledger),
+            pace=StepHistory(
                 span=span,
                 length=following,
-                closed=found.closed,
+                energy_along_motion=found.energy_along_motion,
                 halted=found.halted,
-                endured=endured(stand.pace, found.slab.span, len(found.rejections)),
+                recent_rejections=recent_rejections(march_state.pace, found.slab.span, len(found.rejections)),
             ),
-            carry=found.carry.bare(),
-            slabs=stand.slabs + 1,
+            memory=found.memory.bare(),
+            slabs=march_state.slabs + 1,
         )
-        step = _step(model, before, found, stand)
-        log.debug("slab %d to t = %.6g s: %d iterations", stand.slabs, found.after.time, found.out.iterations)
+        step = _step(model, before, found, march_state)
+        log.debug("slab %d to t = %.6g s: %d iterations", march_state.slabs, found.after.time, found.out.iterations)
         yield step
-        before, carry = step.after, found.carry
+        before, memory = step.after, found.memory
 
 
-def _next(model: Model, control: StepControl, span: float, before: Situation, found: Accepted) -> float:
+def _next(model: Model, control: StepControl, span: float, before: ModelState, found: AcceptedSlab) -> float:
     """Length of the next slab."""
     length = found.slab.span
     if found.halted:
         return span * float(np.sqrt(0.5))
-    if found.slab.weight == SETTLING:
+    if found.slab.weight == DAMPED:
         return span
     end = found.out.solution.end
-    strained = ((np.abs(end.scalar) > control.scalar) & (end.share > SLIGHT)).any() and not found.out.events
+    strained = ((np.abs(end.scalar) > control.scalar) & (end.missing_work > SLIGHT)).any() and not found.out.events
     if strained and length > STRAINED * span:
-        log.info("next slab after t = %.6g s halved: the scalar of the energy balance is great", found.after.time)
+        log.info("next slab after t = %.6g s halved: large scalar of the energy balance", found.after.time)
         return 0.5 * length
     if found.rejections or length >= span:
         return min(span, length)
     return min(span, 2.0 * length) if may_grow(model, control, length, before, found.after) else length
 
 
-def _step(model: Model, before: State, found: Accepted, stand: Standing) -> Step:
+def _step(model: Model, before: State, found: AcceptedSlab, march_state: MarchState) -> Step:
     out = found.out
     names = [p.name for p in model.parts]
     return Step(
         before=before,
-        after=parted(model, found.after),
+        after=split_states(model, found.after),
         slab=found.slab,
         ledger=found.ledger,
         certificate=found.certificate,
@@ -218,11 +218,11 @@ def _step(model: Model, before: State, found: Accepted, stand: Standing) -> Step
         report=Report(
             iterations=out.iterations,
             pairs=out.pairs,
-            factorisations=found.carry.factorisations,
+            factorisations=found.memory.factorisations,
             passes=out.passes,
             contraction=out.solution.contraction,
             rejections=found.rejections,
             scalars=dict(zip(names, out.solution.end.scalar.tolist(), strict=True)),
         ),
-        standing=stand,
+        march_state=march_state,
     )

@@ -1,4 +1,4 @@
-"""Conduct: take the steps of a march one by one, record each, and leave a readable folder however it ends."""
+"""Recording of a march: each step is recorded, and the run folder stays readable however the march ends."""
 
 import logging
 import shutil
@@ -8,57 +8,59 @@ from pathlib import Path
 from types import MappingProxyType
 
 from softway.errors import Cancelled, NumericsError, StorageError
-from softway.march.step import Step
-from softway.record import checkpoint, events, fields, history, provenance, summary
-from softway.record.checkpoint import Checkpoint, Checkpoints
-from softway.record.keeper import Keeper
-from softway.record.lock import held
-from softway.record.place import Place
-from softway.record.progress import Meter, Watch
-from softway.record.provenance import CANCELLED, DONE, INTERRUPTED, Stop
-from softway.record.recorder import Opener, Opening, Recorder
+from softway.march.results.step import Step
+from softway.record.read import summary
 from softway.record.run import Run
+from softway.record.storage import checkpoint, provenance
+from softway.record.storage.checkpoint import Checkpoint, Checkpoints
+from softway.record.storage.lock import locked
+from softway.record.storage.provenance import CANCELLED, DONE, INTERRUPTED, Stop
+from softway.record.storage.run_folder import RunFolder
+from softway.record.write import events, fields, history
+from softway.record.write.checkpoint_schedule import CheckpointWriter
+from softway.record.write.progress import Meter, Watch
+from softway.record.write.recorder import Opener, Recorder, RunStart
 
 LOG = logging.getLogger(__name__)
 STANDARD: Mapping[str, Opener] = MappingProxyType(
     {history.FILE: history.open_history, events.FILE: events.open_events, fields.FILE: fields.open_fields}
 )
-"""The records of every run, by the name of their file."""
+"""Openers of the records of every run, by file name."""
 NO_CHECKPOINTS = Checkpoints(keep=0)
 
 
-def conduct(
+def record_run(
     steps: Iterator[Step],
-    opening: Opening,
-    place: Place,
+    opening: RunStart,
+    place: RunFolder,
     *,
     title: str = "",
     texts: Mapping[str, str] | None = None,
     plan: Checkpoints = NO_CHECKPOINTS,
     progress: Watch | None = None,
 ) -> Run:
-    """Record every step of ``steps``; the folder appears when the first slab is accepted or fails.
+    """Record every step of ``steps``; the folder is created when the first time step (slab) is accepted or fails.
 
     Parameters
     ----------
     steps
-        A march.
+        Steps of a march.
     opening
-        The start of the run.
+        Start of the run.
     place
-        Where to.
+        Folder to create.
     title, texts
-        For the records: a line, and files by name: the resolved scenario and what it needs beside it.
+        Title, and texts of further files by name: the resolved scenario and the modules that it needs.
     plan
-        Checkpoints to write; a folder without a name has none.
+        Schedule of the checkpoints; a temporary folder has none.
     progress
-        Told of each step after it has been recorded.
+        Callback after each recorded step.
 
     Raises
     ------
     InputError
-        Found before the first slab; no folder is left.
-    NumericsError, Cancelled, KeyboardInterrupt, StorageError, and what ``progress`` raises
+        For wrong input, found before the first slab; no folder is left.
+    NumericsError, Cancelled, KeyboardInterrupt, StorageError, and any exception of ``progress``
         After the records have been closed; a named folder stays, with the reason in ``provenance.json``.
     """
     first, early = _first(steps)
@@ -73,65 +75,65 @@ def conduct(
         folder = place.make(fill)
     run = Run(folder.path, folder if place.out is None else None)
     kept = NO_CHECKPOINTS if place.out is None else plan
-    with held(folder.path):
+    with locked(folder.path):
         try:
             with _stored(place.out):
                 recorders = _opened(folder.path, opening, {})
         except BaseException:
             shutil.rmtree(folder.path, ignore_errors=True)
             raise
-        keeper = Keeper(folder.path, kept, recorders, 0.0)
+        keeper = CheckpointWriter(folder.path, kept, recorders, 0.0)
         meter = None if progress is None else Meter(progress, opening.until, opening.initial.time)
         return _carried_on(_chain(first, early, steps), run, keeper, run.provenance, meter)
 
 
-def proceed(
+def continue_run(
     steps: Iterator[Step],
-    opening: Opening,
+    opening: RunStart,
     run: Run,
     found: Checkpoint | None,
     *,
     plan: Checkpoints,
     progress: Watch | None = None,
 ) -> Run:
-    """Go on with the records of a run that stopped, cut back to the checkpoint, or from the start where there is none.
+    """Continue the records of a stopped run from its checkpoint, or from the start if there is no checkpoint.
 
-    The caller holds the folder.
+    The records are truncated to their lengths at the checkpoint.  The caller holds the lock of the folder.
 
     Parameters
     ----------
     steps
-        The march from the checkpoint on.
+        Steps of the march from the checkpoint on.
     opening
-        The start of the run.
+        Start of the run.
     run
-        The run that stopped.
+        The stopped run.
     found
-        Where it stood.
+        Its last checkpoint, if any.
     plan, progress
-        As for :func:`conduct`.
+        As for :func:`record_run`.
 
     Raises
     ------
     InputError
         If a record is shorter than it was at the checkpoint.
-    NumericsError, Cancelled, KeyboardInterrupt, StorageError, and what ``progress`` raises
-        As for :func:`conduct`.
+    NumericsError, Cancelled, KeyboardInterrupt, StorageError, and any exception of ``progress``
+        As for :func:`record_run`.
     """
     with _stored(run.path):
         recorders = _opened(run.path, opening, {} if found is None else found.marks)
-        slabs, time = (0, 0.0) if found is None else (found.standing.slabs, found.standing.situation.time)
+        slabs, time = (0, 0.0) if found is None else (found.standing.slabs, found.standing.state.time)
         record = provenance.resume(run.path, run.provenance, slabs, time)
         (run.path / summary.FILE).unlink(missing_ok=True)
-    keeper = Keeper(run.path, plan, recorders, 0.0 if found is None else found.wall)
+    keeper = CheckpointWriter(run.path, plan, recorders, 0.0 if found is None else found.wall)
     meter = None if progress is None else Meter(progress, opening.until, time, slabs)
     return _carried_on(steps, run, keeper, record, meter)
 
 
 def _carried_on(
-    steps: Iterator[Step], run: Run, keeper: Keeper, record: Mapping[str, object], meter: Meter | None
+    steps: Iterator[Step], run: Run, keeper: CheckpointWriter, record: Mapping[str, object], meter: Meter | None
 ) -> Run:
-    """Record the steps and finish."""
+    """Record all steps and finish the run."""
     stop = Stop("failed", "unexpected error")
     try:
         for step in steps:
@@ -149,7 +151,7 @@ def _carried_on(
     except (NumericsError, StorageError) as error:
         stop = Stop("failed", str(error))
         raise
-    except Exception as error:  # of whoever watches, or a fault of ours: it comes out as it is
+    except Exception as error:  # from the progress callback, or a defect: it propagates unchanged
         stop = Stop("failed", f"{type(error).__name__}: {error}")
         raise
     finally:
@@ -157,8 +159,8 @@ def _carried_on(
     return run
 
 
-def _opened(folder: Path, opening: Opening, marks: Mapping[str, int]) -> dict[str, Recorder]:
-    """The records, all of them or none, cut back to their marks."""
+def _opened(folder: Path, opening: RunStart, marks: Mapping[str, int]) -> dict[str, Recorder]:
+    """Open all records, truncated to their marks; if one fails, close the others."""
     found: dict[str, Recorder] = {}
     with ExitStack() as failing:
         for name, start in STANDARD.items():
@@ -169,7 +171,7 @@ def _opened(folder: Path, opening: Opening, marks: Mapping[str, int]) -> dict[st
 
 
 def _first(steps: Iterator[Step]) -> tuple[Step | None, BaseException | None]:
-    """The first step, or what prevented it; wrong input is raised at once."""
+    """Compute the first step, or return the exception that prevented it; an InputError is raised at once."""
     try:
         return next(steps, None), None
     except (KeyboardInterrupt, Cancelled, NumericsError) as error:
@@ -184,29 +186,27 @@ def _chain(first: Step | None, early: BaseException | None, rest: Iterator[Step]
         yield from rest
 
 
-def _take(keeper: Keeper, step: Step) -> None:
+def _take(keeper: CheckpointWriter, step: Step) -> None:
     for recorder in keeper.recorders.values():
         recorder.take(step)
-    keeper.took(step.standing)
+    keeper.took(step.march_state)
 
 
 @contextmanager
 def _stored(place: Path | None) -> Iterator[None]:
-    """Say where there was no room, and that the run can go on once there is."""
+    """Turn an OSError into a StorageError that names the folder and the way to resume the run."""
     try:
         yield
     except OSError as error:
         name = str(place or "temporary folder")
         problem = f"cannot be written: {error.strerror or error}"
-        raise StorageError(name, problem, f"make room, then softway resume {name}") from error
+        raise StorageError(name, problem, f"free some disk space, then softway resume {name}") from error
 
 
-def _finish(run: Run, keeper: Keeper, record: Mapping[str, object], stop: Stop) -> None:
-    """Write a last checkpoint or forget them all, close the records, then the summary, then the provenance that says
-    it is over.
-    """
+def _finish(run: Run, keeper: CheckpointWriter, record: Mapping[str, object], stop: Stop) -> None:
+    """Write a last checkpoint, or remove all of them after success; close the records; write summary and provenance."""
 
-    def storing() -> AbstractContextManager[None]:  # of a run that went wrong, what did so first is what is raised
+    def storing() -> AbstractContextManager[None]:  # after a failure the first exception is the one that is raised
         return _stored(run.path) if stop is DONE else suppress(OSError)
 
     with storing(), ExitStack() as closing:
@@ -220,4 +220,4 @@ def _finish(run: Run, keeper: Keeper, record: Mapping[str, object], stop: Stop) 
         provenance.end(run.path, record, stop)
         if stop is DONE:
             checkpoint.forget(run.path)
-    LOG.info("run '%s' %s after %d slabs, %.3g s on the clock", run.path, stop.reason, numbers["slabs"], keeper.wall)
+    LOG.info("run '%s' %s after %d slabs, %.3g s wall time", run.path, stop.reason, numbers["slabs"], keeper.wall)

@@ -1,25 +1,27 @@
-"""A run in a notebook: its summary as a table, and a picture."""
+"""Display of a run in a notebook: its summary as a table, and a picture."""
 
 import base64
+from collections.abc import Mapping
+from typing import Any
 
 from softway.errors import InputError
-from softway.markup import table
-from softway.record.look import Look
-from softway.record.run import Run
-from softway.record.view import picture
+from softway.html_tables import table
+from softway.record.read.records import Records
+from softway.record.storage.provenance import Stop
+from softway.record.view.options import PictureOptions
+from softway.record.view.pictures import picture
 
-SMALL = Look(dpi=75)
+SMALL = PictureOptions(dpi=75)
 
 
-def shown(run: Run) -> str:
-    """The table and the picture as HTML."""
-    found, stop = run.summary, run.stop
+def shown(run: Records, found: Mapping[str, Any], stop: Stop) -> str:
+    """Table and picture of a run with its summary ``found`` and the reason of its stop, as HTML."""
     rows: dict[str, object] = {"folder": run.path, "state": f"{stop.reason} {stop.message}".strip()}
     if found["slabs"]:
         relative = found["energy_error_relative"]
         rows |= {
             "slabs": f"{found['slabs']} until {found['time_end']:.4g} s, {found['iterations']} iterations",
-            "energy error": "-" if relative is None else f"{relative:.1e} of the greatest energy",
+            "energy error": "-" if relative is None else f"{relative:.1e} of the largest energy",
             "deepest penetration": f"{found['penetration_worst']:.2g} m",
         }
     events = run.events["kind"]
@@ -28,8 +30,8 @@ def shown(run: Run) -> str:
     return table(run.provenance.get("title", "") or "Run", rows) + _picture(run)
 
 
-def _picture(run: Run) -> str:
-    """The picture of the bodies inside the page; nothing where it cannot be drawn."""
+def _picture(run: Records) -> str:
+    """Picture of the bodies as an embedded image; empty if it cannot be drawn."""
     try:
         data = picture(run, look=SMALL)._repr_png_() if run.history.rows > 1 and len(run.fields) else b""
     except InputError:

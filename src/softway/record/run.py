@@ -1,55 +1,41 @@
-"""Run: the reader of a run folder, finished, interrupted or still growing."""
+"""Reader of a run folder, whether the run is finished, interrupted or still going on."""
 
 import json
-import shutil
-import tempfile
-import weakref
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from softway.errors import InputError
-from softway.record import events, fields, history, provenance, summary, table
-from softway.record.frames import Fields
-from softway.record.provenance import Stop
-from softway.record.table import Table
+from softway.record.read import summary
+from softway.record.read.frames import Fields
+from softway.record.storage import provenance, table
+from softway.record.storage.provenance import Stop
+from softway.record.storage.table import Table
+from softway.record.write import events, fields, history
+from softway.record.write.history_columns import COLUMNS
 
 if TYPE_CHECKING:
-    from softway.record.view import Picture
+    from softway.record.view.pictures import Picture
 
 SCENARIO = "scenario.toml"
 
 
-@dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
-class Scratch:
-    """A temporary folder that vanishes with the last object that holds it."""
-
-    path: Path
-
-
-def scratch() -> Scratch:
-    """A new temporary folder for a run without a name."""
-    made = Scratch(Path(tempfile.mkdtemp(prefix="softway-")))
-    weakref.finalize(made, shutil.rmtree, made.path, ignore_errors=True)
-    return made
-
-
 @dataclass(frozen=True, slots=True, eq=False, init=False)
 class Run:
-    """A run folder; every property reads the files as they are at that moment.
+    """Run folder; every property reads the files in their present state.
 
     Parameters
     ----------
     path
-        The folder.
+        Path of the folder.
     keep
-        Whatever must live as long as the folder does (temporary folders).
+        Object that must live as long as the folder, such as the holder of a temporary folder.
 
     Raises
     ------
     InputError
-        When ``path`` is no run folder.
+        If ``path`` is not a run folder.
     """
 
     path: Path
@@ -59,34 +45,34 @@ class Run:
         object.__setattr__(self, "path", Path(path))
         object.__setattr__(self, "keep", keep)
         if not (self.path / provenance.FILE).is_file():
-            raise InputError("", f"no run folder: '{self.path}'", "a folder that 'softway run --out' has written")
+            raise InputError("", f"no run folder: '{self.path}'", "a folder written by 'softway run --out'")
 
     @property
     def history(self) -> Table:
-        """A row per accepted slab; the first is the initial situation."""
-        return table.read(self.path / history.FILE, history.COLUMNS)
+        """History with one row per accepted time step (slab); the first row is the initial state."""
+        return table.read(self.path / history.FILE, [(c.name, c.unit) for c in COLUMNS])
 
     @property
     def events(self) -> Table:
-        """A row per touch or release of a node."""
+        """Contact events with one row per touch, release, stick or slip of a node."""
         return table.read(self.path / events.FILE, events.COLUMNS)
 
     @property
     def fields(self) -> Fields:
-        """The frames: ``len``, ``[k]``, ``times``, ``cells``, ``to_pyvista(k)``."""
+        """Frames of the fields: ``len``, ``[k]``, ``times``, ``cells``, ``to_pyvista(k)``."""
         return Fields(self.path / fields.FILE, self.keep)
 
     @property
     def provenance(self) -> Mapping[str, Any]:
-        """Versions, platform, start, stop and its reason."""
-        return _notes(self.path / provenance.FILE, "the run folder as it was written")
+        """Versions, platform, start and stop of the run, and the reason of the stop."""
+        return _notes(self.path / provenance.FILE, "the unchanged run folder")
 
     @property
     def summary(self) -> Mapping[str, Any]:
-        """The run in a few numbers; computed on the spot while the run has not ended."""
+        """Summary of the run in a few numbers; computed from the history while the run has not ended."""
         written = self.path / summary.FILE
         if written.is_file():
-            return _notes(written, "to delete it: its numbers follow from history.csv")
+            return _notes(written, "delete this file: its numbers are computed again from history.csv")
         return summary.summarise(self.history, self.events)
 
     @property
@@ -98,42 +84,42 @@ class Run:
     def plot(
         self, what: Literal["bodies", "history"] = "bodies", *, colour: str | None = None, times: Sequence[float] = ()
     ) -> "Picture":
-        """A picture for notebooks and files.
+        """Draw a picture for notebooks and files.
 
         Parameters
         ----------
         what
-            The bodies (of bars: their paths), or the history as curves.
+            ``bodies`` for the deformed bodies (for bars, their paths), or ``history`` for curves over time.
         colour
-            Field that colours the bodies, as of ``softway plot --field``.
+            Field that colours the bodies, as in ``softway plot --field``.
         times
-            Instants of the bodies [s].
+            Instants at which the bodies are drawn [s].
 
         Raises
         ------
         InputError
-            There is no such picture, field or instant.
+            If there is no such picture, field or instant.
         """
-        from softway.record.look import Look
-        from softway.record.view import picture
+        from softway.record.view.options import PictureOptions
+        from softway.record.view.pictures import picture
 
-        return picture(self, what, Look(field=colour, times=tuple(times)))
+        return picture(self, what, PictureOptions(field=colour, times=tuple(times)))
 
     def _repr_html_(self) -> str:
-        """A table and a picture for notebooks; nothing is drawn before there is a frame."""
+        """Table and picture for notebooks; there is no picture before the first frame."""
         from softway.record.notebook import shown
 
-        return shown(self)
+        return shown(self, self.summary, self.stop)
 
     @property
     def stop(self) -> Stop:
-        """Why the run stopped, or that it is running."""
+        """Reason of the stop of the run, or ``running``."""
         found = self.provenance
         return Stop(found["stop_reason"], found["message"])
 
 
 def _notes(file: Path, remedy: str) -> dict[str, Any]:
-    """What a JSON file of the folder holds."""
+    """Content of a JSON file of the folder."""
     try:
         return dict(json.loads(file.read_text(encoding="utf-8")))
     except (OSError, ValueError, TypeError) as error:

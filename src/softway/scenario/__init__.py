@@ -1,9 +1,9 @@
-"""Scenarios: the text form of a run, read, checked and written."""
+"""Scenarios: the description of a run as text, with reader, checks and writer."""
 
-from softway.scenario.check import Checked as Checked
-from softway.scenario.check import check as check
-from softway.scenario.codec import dump as dump
-from softway.scenario.codec import load as load
-from softway.scenario.codec import loads as loads
-from softway.scenario.codec import resolved as resolved
+from softway.scenario.checks.check import Checked as Checked
+from softway.scenario.checks.check import check as check
+from softway.scenario.files import dump as dump
+from softway.scenario.files import dumps as dumps
+from softway.scenario.files import load as load
+from softway.scenario.files import loads as loads
 from softway.scenario.scenario import Scenario as Scenario

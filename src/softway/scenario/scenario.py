@@ -1,42 +1,42 @@
-"""Scenario: a scene with its start, its time, its solver and its output, as plain data."""
+"""Scenario: bodies, contacts, loads, start, time, solver and output of a run as plain data."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import isfinite
 from typing import Literal
 
-from softway.bodies.inertia import Full, Inertia
-from softway.bodies.loads import Load
-from softway.bodies.placement import Placement
+from softway.bodies.inertia.inertia_scaling import Full, Inertia
+from softway.bodies.setup.loads import Load
+from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact
 from softway.errors import InputError, real
-from softway.march.control import StepControl
-from softway.markup import table as html_table
-from softway.record.checkpoint import Checkpoints
-from softway.scene import AsGiven, Scene, StaticStart
-from softway.solve.explicit import Explicit
-from softway.solve.fixed_point import FixedPoint
-from softway.solve.newton import Newton
-from softway.space.mesh import Mesh
-from softway.time.weight import EndPeaks, TimeWeight
+from softway.html_tables import table as html_table
+from softway.march.step_control import StepControl
+from softway.meshes.mesh import Mesh
+from softway.model.scene import AsGiven, Scene, StaticStart
+from softway.model.time_weight import EndPeaks, TimeWeight
+from softway.record.storage.checkpoint import Checkpoints
+from softway.solve.methods.central_difference import Explicit
+from softway.solve.methods.fixed_point import FixedPoint
+from softway.solve.methods.newton import Newton
 from softway.units import Metre, Second
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Time:
-    """How long, and in which slabs.
+    """End time and time steps (slabs) of a run.
 
     Parameters
     ----------
     end
-        Last instant [s].
+        End time [s].
     step
-        Length of a slab [s]; ``auto``: a wave crosses the smallest edge in sqrt(2) slabs.
+        Length of a time step (slab) [s]; with ``auto`` a wave crosses the smallest edge in sqrt(2) slabs.
     weight
-        Virtual time function.
+        Virtual time function of the weighted momentum balance.
     control
-        Limits of a slab; one that breaks them is tried again shorter.
+        Limits for the acceptance of a slab; a rejected slab is repeated with a shorter length.
 
     Examples
     --------
@@ -61,20 +61,22 @@ class Time:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Probe:
-    """A column of the history: one quantity of one place.
+    """Probe: one quantity at one place, recorded in a column of the history.
 
     Parameters
     ----------
     name
-        Head of the column.
+        Name of the column.
     of
-        Body.
+        Name of the body.
     tag
-        Nodes; the mean over them is recorded, for a reaction the sum.
+        Tag of the nodes; the mean over the nodes is recorded, or the sum for a reaction.
     at
-        Or a reference point, whose nearest node is taken [m].
-    quantity, component
-        What is recorded; ``norm`` is the length of the vector.
+        Reference point whose nearest node is recorded, instead of a tag [m].
+    quantity
+        Recorded quantity.
+    component
+        Recorded component; ``norm`` is the magnitude of the vector.
 
     Examples
     --------
@@ -92,16 +94,16 @@ class Probe:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Output:
-    """What is recorded besides the history.
+    """Output of a run in addition to the history.
 
     Parameters
     ----------
     fields_every
-        Time between stored fields [s]; ``auto``: about a hundred in all.
+        Time between two stored frames of the fields [s]; ``auto`` stores about one hundred frames in total.
     probes
         Further columns of the history.
     checkpoints
-        How often the run notes where it stands, so that it can be resumed.
+        Schedule of the checkpoints from which a stopped run can be resumed.
 
     Examples
     --------
@@ -122,20 +124,28 @@ class Output:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scenario:
-    """Everything that a run needs.
+    """Complete description of a run.
 
     Parameters
     ----------
+    bodies
+        Solids and rigid tools by name, as in :class:`~softway.model.scene.Scene`.
+    time
+        End time and time steps.
     title
-        One line for people.
-    bodies, contacts, loads
-        As in :class:`~softway.scene.Scene`.
+        Title of the run, in one line.
+    contacts
+        Contact pairs, as in :class:`~softway.model.scene.Scene`.
+    loads
+        Loads on the bodies, as in :class:`~softway.model.scene.Scene`.
     start
-        The initial fields as given, or a static equilibrium.
+        Initial fields as given, or a static equilibrium.
     inertia
-        Full, off (quasi-static) or scaled.
-    time, solver, output
-        Slabs, method, records.
+        Inertia: full, off (quasi-static) or scaled.
+    solver
+        Solution method for a time step.
+    output
+        Stored frames, probes and checkpoints.
     """
 
     bodies: Mapping[str, Solid | Tool]
@@ -149,7 +159,7 @@ class Scenario:
     output: Output = Output()
 
     def _repr_html_(self) -> str:
-        """A table for notebooks."""
+        """HTML table for notebooks."""
         step = self.time.step if isinstance(self.time.step, str) else f"{self.time.step:.4g} s"
         rows = {
             "bodies": "\n".join(_described(name, body) for name, body in self.bodies.items()),
@@ -167,7 +177,7 @@ class Scenario:
 
     @property
     def scene(self) -> Scene:
-        """What there is, with the meshes as recipes."""
+        """Scene of the scenario; its meshes are still recipes."""
         return Scene(
             bodies=self.bodies,
             contacts=self.contacts,
@@ -178,7 +188,7 @@ class Scenario:
 
 
 def _described(name: str, body: Solid | Tool) -> str:
-    """A body in words."""
+    """Description of a body for notebooks."""
     if isinstance(body, Tool):
         return f"{name}: {type(body.shape).__name__}, {type(body.motion).__name__}"
     size = f" of {body.mesh.n_nodes} nodes" if isinstance(body.mesh, Mesh) else ""
@@ -186,12 +196,12 @@ def _described(name: str, body: Solid | Tool) -> str:
 
 
 def built(scenario: Scenario) -> Scene:
-    """The scene with every mesh made and put into its place.
+    """Scene with all meshes built and placed.
 
     Raises
     ------
     InputError
-        With the path of the mesh: missing file, inverted cell, impossible size.
+        For a missing mesh file, an inverted cell or an impossible size, with the path of the mesh.
     """
     bodies = {}
     for name, body in scenario.bodies.items():
@@ -200,7 +210,7 @@ def built(scenario: Scenario) -> Scene:
 
 
 def _built(solid: Solid, where: str) -> Solid:
-    """The solid with a mesh in place of the recipe."""
+    """Solid with a built mesh instead of the recipe."""
     try:
         mesh = solid.mesh if isinstance(solid.mesh, Mesh) else solid.mesh.build()
     except InputError as error:

@@ -1,4 +1,4 @@
-"""Public examinations: what you write yourself is checked as the parts of the package are."""
+"""Public checks for laws, elements, obstacles and solvers, including your own implementations."""
 
 from softway.testing.elements import check_element as check_element
 from softway.testing.examination import Finding as Finding

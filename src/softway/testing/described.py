@@ -1,4 +1,4 @@
-"""Examinations of how a law is described: the units of its parameters, and its text in a scenario."""
+"""Checks of the description of a law: units of its parameters, and its text in a scenario."""
 
 from collections.abc import Mapping
 from dataclasses import is_dataclass
@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any, get_args
 
 from softway.errors import InputError
-from softway.scenario.kinds import Hint, hints, inputs, is_mapping, is_tuple, members
-from softway.scenario.quantity import Units
-from softway.scenario.reader import Reader, join
-from softway.scenario.writer import write
+from softway.scenario.hints.type_hints import Hint, hints, inputs, is_mapping, is_tuple, members
+from softway.scenario.hints.units_text import Units
+from softway.scenario.text.reader import Reader, join
+from softway.scenario.text.writer import write
 from softway.testing.examination import Examination
 from softway.testing.verdict import require
 
@@ -29,7 +29,7 @@ def _units(law: Any) -> float:
 
 
 def _numbers(value: Any, where: str) -> list[tuple[str, Hint]]:
-    """Every field of a law, and of what it is made of, that holds numbers."""
+    """All numeric fields of a law and of its nested parts."""
     kind, found = type(value), []
     for name in inputs(kind):
         place, item = join(where, name), getattr(value, name)
@@ -41,7 +41,7 @@ def _numbers(value: Any, where: str) -> list[tuple[str, Hint]]:
 
 
 def _floats(hint: Hint) -> list[Hint]:
-    """The numbers inside a hint."""
+    """Hints of the numbers inside a type hint."""
     if hint.type is float:
         return [hint]
     parts = members(hint.type)
@@ -61,13 +61,13 @@ def _round_trip(law: Any) -> float:
         if "Python" in error.remedy:
             return nan
         raise AssertionError(f"{law}: {error}") from None
-    require(isinstance(text, Mapping), law, "is not written as a table")
+    require(isinstance(text, Mapping), law, "it is not written as a table")
     again = Reader(Units.standard(), Path()).read(text, kind, "")
-    require(again == law, law, f"read back from its text it is {again}")
+    require(again == law, law, f"its text is read back as {again}")
     return 0.0
 
 
 DESCRIBED = (
     Examination(name="every parameter has a unit", look=_units),
-    Examination(name="its text in a scenario gives it back", look=_round_trip),
+    Examination(name="scenario text reproduces the law", look=_round_trip),
 )

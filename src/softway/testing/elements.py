@@ -1,26 +1,26 @@
-"""Examination of an element."""
+"""Checks of a finite element."""
 
 from itertools import product
 
 import numpy as np
 from scipy.sparse.linalg import spsolve
 
-from softway.bodies.internal import InternalForce, internal_force
-from softway.bodies.section import default_section
+from softway.arrays import Array
+from softway.bodies.elements.section import default_section
+from softway.bodies.internal_force.elastic.elastic_force import ElasticForce, elastic_force
 from softway.laws.bulk.linear_elastic import LinearElastic
-from softway.space.cells import CELLS, Cell
-from softway.space.element import element, stiffness_degree, tabulate
-from softway.space.mesh import Mesh
-from softway.space.shapes import box, interval, rectangle
+from softway.meshes.cells import CELLS, Cell
+from softway.meshes.element import element, stiffness_degree, tabulate
+from softway.meshes.generators.shapes import box, interval, rectangle
+from softway.meshes.mesh import Mesh
 from softway.testing.verdict import close, require
-from softway.typing import Array
 
 
 def check_element(cell: str) -> None:
-    """Raise ``AssertionError`` saying what is wrong with an element; return quietly if nothing is.
+    """Check an element; raise ``AssertionError`` with the first error found.
 
-    Examined: partition of unity, values at the nodes, completeness, gradients, degree of quadrature, and on a patch of
-    irregular cells the patch test and the number of modes without energy.
+    Checked: partition of unity, values at the nodes, completeness, gradients and degree of quadrature. A patch of
+    irregular cells is used for the patch test and to count the zero-energy modes.
 
     Examples
     --------
@@ -32,13 +32,13 @@ def check_element(cell: str) -> None:
     _gradients(cell, table, inside)
     _quadrature(cell, table)
     patch = irregular_patch(cell)
-    force = internal_force(patch, LinearElastic(E=1.0, nu=0.3), default_section(patch))
+    force = elastic_force(patch, LinearElastic(E=1.0, nu=0.3), default_section(patch))
     _patch_test(cell, patch, force)
     _free_modes(cell, patch, force)
 
 
 def irregular_patch(cell: str) -> Mesh:
-    """Two cells a side (three bars) of unit size whose inner corners are displaced; edges stay straight.
+    """Patch of unit size with two cells per side (three bars) and displaced inner corners; edges stay straight.
 
     Examples
     --------
@@ -63,7 +63,7 @@ def irregular_patch(cell: str) -> Mesh:
 
 
 def _linear_shapes(table: Cell) -> Array:
-    """Linear shape functions of the corners at all nodes of a cell, (a, c)."""
+    """Linear corner shape functions (a, c) at all nodes of a cell."""
     straight = next(n for n, c in CELLS.items() if c.dim == table.dim and c.corners == table.corners and c.order == 1)
     return tabulate(straight, table.nodes)[0]
 
@@ -84,7 +84,13 @@ def _gradients(cell: str, table: Cell, inside: Array) -> None:
     for r in range(table.dim):
         shift = step * np.eye(table.dim)[r]
         slope = (tabulate(cell, inside + shift)[0] - tabulate(cell, inside - shift)[0]) / (2.0 * step)
-        close(dN[..., r], slope, 1e-10, cell, f"gradients along coordinate {r} are not those of the shape functions")
+        close(
+            dN[..., r],
+            slope,
+            1e-10,
+            cell,
+            f"gradients along coordinate {r} are not the derivatives of the shape functions",
+        )
 
 
 def _quadrature(cell: str, table: Cell) -> None:
@@ -97,10 +103,10 @@ def _quadrature(cell: str, table: Cell) -> None:
             close(integral, exact, 1e-12, cell, f"powers {powers} are not integrated exactly", rule.weights.sum())
 
 
-def _patch_test(cell: str, patch: Mesh, force: InternalForce) -> None:
+def _patch_test(cell: str, patch: Mesh, force: ElasticForce) -> None:
     gradient = 0.01 * np.array([[1.0, 2.0, -1.0], [0.5, -1.5, 0.7], [-0.3, 0.4, 0.8]])[: patch.dim, : patch.dim]
     exact = patch.points @ gradient.T
-    close(force.sampling.volume.sum(), 1.0, 1e-13, cell, "volume of the patch")
+    close(force.sampling.volume.sum(), 1.0, 1e-13, cell, "wrong volume of the patch")
     K = force.tangent(np.zeros_like(exact)).tocsr()
     held = np.zeros(exact.shape, bool)
     held[patch.nodes("surface")] = True
@@ -114,15 +120,15 @@ def _patch_test(cell: str, patch: Mesh, force: InternalForce) -> None:
     close(stress, np.broadcast_to(stress[0], stress.shape), 1e-12, cell, "patch test: the stress is not constant")
 
 
-def _free_modes(cell: str, patch: Mesh, force: InternalForce) -> None:
+def _free_modes(cell: str, patch: Mesh, force: ElasticForce) -> None:
     K = force.tangent(np.zeros_like(patch.points)).toarray()
     values = np.linalg.eigvalsh(0.5 * (K + K.T))
     free, rigid = int(np.sum(values < 1e-10 * values[-1])), patch.dim * (patch.dim + 1) // 2
-    require(free == rigid, cell, f"{free} modes without energy, {rigid} rigid motions")
+    require(free == rigid, cell, f"{free} zero-energy modes, but {rigid} rigid-body motions")
 
 
 def _powers(table: Cell, degree: int) -> list[tuple[int, ...]]:
-    """Powers of the coordinates: up to a total degree on simplices, up to the degree in each direction otherwise."""
+    """Exponents of monomials: total degree on simplices, degree in each direction on other cells."""
     every = product(range(degree + 1), repeat=table.dim)
     return [p for p in every if sum(p) <= degree or not table.simplex]
 

@@ -1,4 +1,4 @@
-"""Examinations with a name: each looks at one property of a subject and can be listed, run and reported alone."""
+"""Named examinations. Each one checks one property and can be listed, run and reported alone."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -8,17 +8,17 @@ from typing import Any
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Examination:
-    """One property that a subject must have.
+    """Check of one property of a subject.
 
     Parameters
     ----------
     name
-        What is true of a subject that passes.
+        Property of a subject that passes.
     look
-        Returns the worst relative error that it met, zero where there is nothing to measure, ``nan`` where the property
-        does not apply; raises ``AssertionError`` saying what is wrong.
+        Function that returns the largest relative error. It returns zero if there is nothing to measure and ``nan`` if
+        the property does not apply. It raises ``AssertionError`` with a message if the subject fails.
     allowed
-        Relative error that passes; zero for yes or no.
+        Greatest relative error that passes; zero for a yes/no property.
     """
 
     name: str
@@ -28,7 +28,7 @@ class Examination:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Finding:
-    """What an examination found; ``error`` and ``allowed`` are relative, ``complaint`` is empty if it passed.
+    """Result of an examination; ``error`` and ``allowed`` are relative, ``complaint`` is empty if it passed.
 
     Examples
     --------
@@ -44,13 +44,13 @@ class Finding:
 
 
 def require_all(subject: Any, examinations: Iterable[Examination]) -> None:
-    """Run the examinations in turn; the first that fails raises its ``AssertionError``."""
+    """Run the examinations in turn; the first failure raises its ``AssertionError``."""
     for examination in examinations:
         examination.look(subject)
 
 
 def findings(subject: Any, examinations: Iterable[Examination]) -> tuple[Finding, ...]:
-    """What every examination found; an error of any kind in the subject is a finding too.
+    """Results of all examinations; any exception raised by the subject is reported as a finding.
 
     Examples
     --------
@@ -69,6 +69,6 @@ def _found(subject: Any, examination: Examination) -> Finding:
         return Finding(name=name, passed=True, error=float(examination.look(subject)), allowed=allowed)
     except AssertionError as error:
         complaint = str(error).removeprefix(f"{subject}: ")
-    except Exception as error:  # the subject is the user's own: whatever it raises is what is wrong with it
+    except Exception as error:  # user code: any exception is reported as a finding
         complaint = f"{type(error).__name__}: {error}"
     return Finding(name=name, passed=False, error=nan, allowed=allowed, complaint=complaint)

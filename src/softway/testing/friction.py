@@ -1,21 +1,21 @@
-"""Examinations of a law of friction."""
+"""Checks of a friction law."""
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.laws.friction_law import FrictionLaw
 from softway.testing.examination import Examination, require_all
 from softway.testing.verdict import close, require
-from softway.typing import Array
 
 STEP = 1e-6
-"""Relative difference of speeds and pressures."""
+"""Relative step of the finite differences in speed and pressure."""
 
 
 def check_friction(law: FrictionLaw) -> None:
-    """Raise ``AssertionError`` saying what is wrong with a law of friction; return quietly if nothing is.
+    """Check a friction law; raise ``AssertionError`` with the first error found.
 
-    Examined: shapes, that it never drives, that a place at rest is held at least as well as one that begins to slip,
-    derivatives against differences, and that nothing becomes infinite at rest.
+    Checked: array shapes, friction never drives the motion, the sticking limit is at least the resistance to slip,
+    derivatives agree with finite differences, and all values are finite at rest.
 
     Examples
     --------
@@ -26,7 +26,7 @@ def check_friction(law: FrictionLaw) -> None:
 
 
 def _slips() -> tuple[Array, Array]:
-    """Speeds [m/s] and pressures [Pa] of one shape."""
+    """Speeds [m/s] and pressures [Pa], arrays of the same shape."""
     speed, pressure = np.meshgrid([1e-3, 0.1, 0.37, 2.0], [0.1, 1.0, 30.0])
     return speed, pressure
 
@@ -38,7 +38,7 @@ def _shapes(law: FrictionLaw) -> float:
     answers["limit"] = law.limit(pressure)
     for (name, found), single in zip(answers.items(), one, strict=True):
         require(np.shape(found) == speed.shape, law, f"{name} of speeds {speed.shape} has shape {np.shape(found)}")
-        told = f"{name} of one place differs from {name} of many"
+        told = f"{name} of one place differs from {name} of an array"
         worst = max(worst, close(found[1, 2], single, 1e-14, law, told))
     return worst
 
@@ -46,8 +46,8 @@ def _shapes(law: FrictionLaw) -> float:
 def _opposes(law: FrictionLaw) -> float:
     speed, pressure = _slips()
     value = law.resistance(speed, pressure)[0]
-    require(bool((value >= 0.0).all() and (law.limit(pressure) >= 0.0).all()), law, "it drives")
-    require(law.frictionless == (not value.any()), law, "frictionless is not told")
+    require(bool((value >= 0.0).all() and (law.limit(pressure) >= 0.0).all()), law, "it drives the motion")
+    require(law.frictionless == (not value.any()), law, "frictionless contradicts the resistance")
     return 0.0
 
 
@@ -55,9 +55,13 @@ def _rests(law: FrictionLaw) -> float:
     speed, pressure = _slips()
     still = law.resistance(np.zeros_like(speed), pressure)[0]
     require(bool(np.isfinite(still).all()), law, "the resistance at rest is not finite")
-    require(bool((law.limit(pressure) >= still * (1.0 - 1e-12)).all()), law, "slip is resisted more than rest")
+    require(
+        bool((law.limit(pressure) >= still * (1.0 - 1e-12)).all()),
+        law,
+        "the resistance to slip exceeds the limit at rest",
+    )
     loose = law.resistance(np.zeros(1), np.zeros(1))[0]
-    require(bool(np.isfinite(loose).all()), law, "the resistance without pressure is not finite")
+    require(bool(np.isfinite(loose).all()), law, "the resistance at zero pressure is not finite")
     return 0.0
 
 
@@ -65,7 +69,7 @@ def _to_the_speed(law: FrictionLaw) -> float:
     speed, pressure = _slips()
     value, slope, _ = law.resistance(speed, pressure)
     up, down = (law.resistance(speed * (1.0 + d), pressure)[0] for d in (STEP, -STEP))
-    told = "the derivative to the speed is off"
+    told = "the derivative with respect to the speed is wrong"
     return close((up - down) / (2.0 * STEP), slope * speed, 1e-6, law, told, float(np.abs(value).max()))
 
 
@@ -73,14 +77,14 @@ def _to_the_pressure(law: FrictionLaw) -> float:
     speed, pressure = _slips()
     value, _, share = law.resistance(speed, pressure)
     up, down = (law.resistance(speed, pressure * (1.0 + d))[0] for d in (STEP, -STEP))
-    told = "the derivative to the pressure is off"
+    told = "the derivative with respect to the pressure is wrong"
     return close((up - down) / (2.0 * STEP), share * pressure, 1e-6, law, told, float(np.abs(value).max()))
 
 
 FRICTION_LAW = (
-    Examination(name="one place is answered as one of many", look=_shapes, allowed=1e-14),
-    Examination(name="it opposes slip", look=_opposes),
-    Examination(name="rest is held at least as well as slip", look=_rests),
-    Examination(name="its derivative to the speed", look=_to_the_speed, allowed=1e-6),
-    Examination(name="its derivative to the pressure", look=_to_the_pressure, allowed=1e-6),
+    Examination(name="single and array evaluation agree", look=_shapes, allowed=1e-14),
+    Examination(name="friction opposes slip", look=_opposes),
+    Examination(name="limit at rest is at least the resistance to slip", look=_rests),
+    Examination(name="derivative with respect to the speed", look=_to_the_speed, allowed=1e-6),
+    Examination(name="derivative with respect to the pressure", look=_to_the_pressure, allowed=1e-6),
 )

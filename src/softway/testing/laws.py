@@ -1,8 +1,8 @@
-"""Examination of a law: which examinations there are for its kind, and all of them at once."""
+"""Checks of a law: the examinations for each kind of law, run together."""
 
 from typing import Any
 
-from softway.laws.fitting import asked, lacking
+from softway.laws.conformance import asked, lacking
 from softway.laws.friction_law import FrictionLaw
 from softway.laws.law import RateLaw, StoredEnergy
 from softway.testing.described import DESCRIBED
@@ -16,19 +16,22 @@ KINDS: tuple[tuple[type, tuple[Examination, ...]], ...] = (
     (RateLaw, RATE_LAW),
     (FrictionLaw, FRICTION_LAW),
 )
-"""Protocols of laws with their examinations; a law belongs to the first whose members it has."""
+"""Protocols of laws with their examinations; the first protocol that a law satisfies is used."""
 
 
 def check_law(law: Any) -> None:
-    """Raise ``AssertionError`` saying what is wrong with a law; return quietly if nothing is.
+    """Check a law; raise ``AssertionError`` with the first error found.
 
-    For a stored energy: shapes, the undeformed state, stress as derivative of the energy, moduli as derivative of the
-    stress, their symmetries, the energy of tiny strains against the work of the stress, indifference to rotations,
-    inverted matter, and the moduli of small strains that the law reports.  For a law with a history, along paths of
-    several sizes and speeds: shapes, symmetries, moduli as derivative of the stress, elastic moduli, dissipation, the
-    energies against the work of the stress, rest, and turns of the body through its points.  For a law of friction:
-    that it opposes slip and holds what rests, and its derivatives.  For every law: units of its parameters, and its
-    text in a scenario.
+    Stored energy: shapes, undeformed state, stress as derivative of the energy, moduli as derivative of the stress,
+    their symmetries, energy of tiny strains against the work of the stress, objectivity under rotations, inverted
+    material, and the reported moduli at small strain.
+
+    Path-dependent law, along paths of several sizes and rates: shapes, symmetries, moduli as derivative of the stress,
+    elastic moduli, dissipation, energies against the work of the stress, rest, and rotations of the body.
+
+    Friction law: friction opposes slip, the limit at rest is at least the resistance to slip, and the derivatives.
+
+    Every law: units of its parameters, and its text in a scenario.
 
     Examples
     --------
@@ -39,7 +42,7 @@ def check_law(law: Any) -> None:
 
 
 def examine_law(law: Any) -> tuple[Finding, ...]:
-    """What each examination found, with its worst error; never raises for what the law does.
+    """Result of each examination with its largest error; an error of the law is reported, not raised.
 
     Examples
     --------
@@ -51,15 +54,15 @@ def examine_law(law: Any) -> tuple[Finding, ...]:
 
 
 def examinations(law: Any) -> tuple[Examination, ...]:
-    """The examinations for a law of its kind.
+    """Examinations for the kind of a law.
 
     Raises
     ------
     AssertionError
-        It has the members of no kind of law.
+        If the law does not have all members of any kind of law.
     """
     for protocol, those in KINDS:
         if not lacking(law, protocol):
             return (*those, *DESCRIBED)
     least = min((p for p, _ in KINDS), key=lambda p: len(lacking(law, p)) / len(asked(p)))
-    raise AssertionError(f"{law} is no law: for a {least.__name__} it lacks {', '.join(lacking(law, least))}")
+    raise AssertionError(f"{law} is not a law: for a {least.__name__} it lacks {', '.join(lacking(law, least))}")

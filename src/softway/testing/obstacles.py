@@ -1,15 +1,15 @@
-"""Examination of a rigid obstacle."""
+"""Checks of a rigid obstacle."""
 
 from typing import Protocol
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.testing.verdict import close, require
-from softway.typing import Array
 
 
 class Obstacle(Protocol):
-    """What a shape must be able to do."""
+    """Members that the shape of an obstacle must have."""
 
     @property
     def dim(self) -> int:
@@ -26,23 +26,23 @@ class Obstacle(Protocol):
 
 
 def check_obstacle(shape: Obstacle, points: Array, *, tolerance: float = 1e-6) -> None:
-    """Raise ``AssertionError`` saying what is wrong with an obstacle at some points; return quietly if nothing is.
+    """Check an obstacle at given points; raise ``AssertionError`` with the first error found.
 
-    Examined: shapes, unit normals, the normal as gradient of the gap (so that the gap grows outward by one metre a
-    metre), and that the point one gap down the normal lies on the surface.
+    Checked: array shapes, unit normals, the normal as gradient of the gap (the gap grows outward by one metre per
+    metre), and the closest point (the point moved by the gap against the normal) lies on the surface.
 
     Parameters
     ----------
     shape
-        With ``dim``, ``gap`` (...,) and ``normal_at`` (..., d) at points (..., d).
+        Obstacle with ``dim``, ``gap`` (...,) and ``normal_at`` (..., d) at points (..., d).
     points
-        (p, d) [m], away from edges of the surface and from where two parts of it are equally far.
+        (p, d) [m], away from edges of the surface and from points equally far from two parts of it.
     tolerance
-        Greatest error of a derivative, and of a distance against the extent of the points.
+        Greatest error of a derivative, and of a distance relative to the extent of the points.
 
     Examples
     --------
-    >>> from softway.space.curved import Sphere
+    >>> from softway.obstacles.primitives import Sphere
     >>> check_obstacle(Sphere(centre=(0.0, 0.0), radius=1.0), np.array([[2.0, 0.0], [0.3, 0.4]]))
     """
     x = np.array(points, dtype=float)
@@ -50,25 +50,38 @@ def check_obstacle(shape: Obstacle, points: Array, *, tolerance: float = 1e-6) -
     require(x.ndim == 2 and x.shape[1] == shape.dim, shape, f"points of shape {x.shape} for {shape.dim} dimensions")
     _shapes(shape, x)
     gap, normal = shape.gap(x), shape.normal_at(x)
-    close(np.linalg.norm(normal, axis=-1), np.ones(len(x)), 1e-12, shape, "a normal is no unit vector")
+    close(np.linalg.norm(normal, axis=-1), np.ones(len(x)), 1e-12, shape, "a normal is not a unit vector")
     step = 1e-4 * size
     arms = step * np.eye(shape.dim)
     near = [(shape.gap(x + k * arm) - shape.gap(x - k * arm)) / (2.0 * k * step) for arm in arms for k in (1.0, 2.0)]
     slope = np.stack([(4.0 * one - two) / 3.0 for one, two in zip(near[::2], near[1::2], strict=True)], axis=-1)
-    close(np.linalg.norm(slope, axis=-1), np.ones(len(x)), tolerance, shape, "the gradient of the gap has not length 1")
+    close(
+        np.linalg.norm(slope, axis=-1),
+        np.ones(len(x)),
+        tolerance,
+        shape,
+        "the gradient of the gap does not have length 1",
+    )
     close(normal, slope, tolerance, shape, "the normal is not the gradient of the gap", 1.0)
     foot = shape.gap(x - gap[:, None] * normal)
-    close(foot, np.zeros(len(x)), tolerance, shape, "the point one gap down the normal is not on the surface", size)
+    close(
+        foot,
+        np.zeros(len(x)),
+        tolerance,
+        shape,
+        "the point moved by the gap against the normal is not on the surface",
+        size,
+    )
 
 
 def _shapes(shape: Obstacle, x: Array) -> None:
-    """Answers of the right shape, the same for one point as for many."""
+    """Check the shapes of the results, and that one point gives the same result as many."""
     kept, twice = x.copy(), np.stack([x, x])
     for name, answer in (("gap", shape.gap), ("normal_at", shape.normal_at)):
         many = answer(x)
         wanted = x.shape[:1] if name == "gap" else x.shape
         require(np.shape(many) == wanted, shape, f"{name} of points {x.shape} has shape {np.shape(many)}")
         require(bool(np.isfinite(many).all()), shape, f"{name} is not finite")
-        close(answer(x[0]), many[0], 1e-12, shape, f"{name} of one point differs from {name} of many", 1.0)
+        close(answer(x[0]), many[0], 1e-12, shape, f"{name} of one point differs from {name} of an array", 1.0)
         close(answer(twice), np.stack([many, many]), 1e-12, shape, f"{name} of points (2, p, d) differs", 1.0)
-    require(np.array_equal(x, kept), shape, "the points given were changed")
+    require(np.array_equal(x, kept), shape, "the array of points was changed")

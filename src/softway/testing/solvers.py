@@ -1,31 +1,30 @@
-"""Examination of a direct solver."""
+"""Checks of a direct solver."""
 
 import numpy as np
 import scipy.sparse as sp
 
+from softway.arrays import Array
 from softway.errors import NoConvergence
-from softway.solve.linear import Factor, LinearSolver, number_type
+from softway.solve.linear.interface import Factor, LinearSolver, number_type
 from softway.testing.verdict import close, require
-from softway.typing import Array
 
 ACCURACY = {"double": 1e-12, "single": 1e-4}
-"""Error of a solution, relative to its greatest number, of well-conditioned equations."""
+"""Allowed error of the solution of well-conditioned equations, relative to its largest entry."""
 
 SOLVES = 100
-"""Times that the same equations are solved: threads that race do not lose every time."""
+"""Number of repeated solutions of the same equations; a race between threads does not show every time."""
 
 
 def check_solver(solver: LinearSolver) -> None:
-    """Raise ``AssertionError`` saying what is wrong with a direct solver; return quietly if nothing is.
+    """Check a direct solver; raise ``AssertionError`` with the first error found.
 
-    Examined: accuracy for one, several and no right-hand sides, arguments left as they are, other values on the same
-    pattern, factors that live side by side, the same bits again, systems of one and two unknowns, matrices that are
-    indefinite (solved or refused), singular (refused) or hold what is not a number (refused), and the refusal of
-    another pattern.
+    Checked: accuracy for one, several and no right-hand sides; arguments left unchanged; other values on the same
+    pattern; several factors at the same time; bitwise reproducible results; systems of one and two unknowns.
+    Indefinite matrices must be solved or refused, and singular matrices and matrices with NaN must be refused.
 
     Examples
     --------
-    >>> from softway.solve.linear import SuperLU
+    >>> from softway.solve.linear.interface import SuperLU
     >>> check_solver(SuperLU())
     """
     _accuracy(solver)
@@ -38,7 +37,7 @@ def check_solver(solver: LinearSolver) -> None:
 
 
 def _lattice(side: int = 6) -> sp.csc_array:
-    """Springs between the neighbours of a cubic lattice, on a ground: (side^3, side^3), positive definite."""
+    """Stiffness matrix of a cubic lattice of springs tied to the ground: (side^3, side^3), positive definite."""
     chain = sp.diags_array([-1.0, 2.0, -1.0], offsets=[-1, 0, 1], shape=(side, side))  # type: ignore[arg-type]
     one = sp.eye_array(side)
     sum_ = sp.kron(sp.kron(chain, one), one) + sp.kron(sp.kron(one, chain), one) + sp.kron(sp.kron(one, one), chain)
@@ -46,7 +45,7 @@ def _lattice(side: int = 6) -> sp.csc_array:
 
 
 def _other() -> sp.csc_array:
-    """Other values on the pattern of the lattice, positive definite and of other scales."""
+    """Positive definite matrix with the pattern of the lattice but other values and scales."""
     scale = sp.diags_array(np.random.default_rng(1).uniform(0.5, 2.0, 216))
     return _sorted(3.0 * scale @ _lattice() @ scale)
 
@@ -58,12 +57,12 @@ def _sorted(matrix: sp.sparray) -> sp.csc_array:
 
 
 def _solves(solver: LinearSolver, factor: Factor, matrix: sp.csc_array, complaint: str, columns: int = 0) -> None:
-    """Require that a factor finds a known solution."""
+    """Check that a factor reproduces a known solution."""
     f = matrix.shape[0]
     x = np.random.default_rng(0).normal(size=(f, columns) if columns else f)
     found = factor.solve(matrix @ x)
     require(found.shape == x.shape, solver, f"{complaint}: right-hand side {x.shape} gives shape {found.shape}")
-    require(found.dtype == np.float64, solver, f"{complaint}: the solution has numbers of {found.dtype}")
+    require(found.dtype == np.float64, solver, f"{complaint}: the solution has the type {found.dtype}")
     close(found, x, ACCURACY[solver.precision], solver, complaint)
 
 
@@ -71,14 +70,14 @@ def _accuracy(solver: LinearSolver) -> None:
     matrix = _lattice()
     factor = solver.factor(matrix)
     for columns in (0, 1, 7):
-        _solves(solver, factor, matrix, "solution is off", columns)
-    require(factor.solve(np.zeros((216, 0))).shape == (216, 0), solver, "no right-hand side gives another shape")
-    require(not factor.solve(np.zeros(216)).any(), solver, "zero gives what is not zero")
+        _solves(solver, factor, matrix, "the solution is wrong", columns)
+    require(factor.solve(np.zeros((216, 0))).shape == (216, 0), solver, "zero right-hand sides give a wrong shape")
+    require(not factor.solve(np.zeros(216)).any(), solver, "a zero right-hand side gives a nonzero solution")
     least = (matrix.nnz + 216) // 2 * (4 if solver.precision == "single" else 8)
     require(factor.bytes >= least, solver, f"a factor of {factor.bytes} bytes cannot hold the matrix")
     one, several = np.ones(216), np.ones((216, 3))[:, ::2]
     for column in factor.solve(several).T:
-        close(column, factor.solve(one), ACCURACY[solver.precision], solver, "columns with gaps are solved differently")
+        close(column, factor.solve(one), ACCURACY[solver.precision], solver, "strided columns are solved differently")
 
 
 def _arguments(solver: LinearSolver) -> None:
@@ -87,25 +86,30 @@ def _arguments(solver: LinearSolver) -> None:
     factor = solver.factor(matrix)
     first = factor.solve(b)
     same = all(np.array_equal(getattr(matrix, n), getattr(kept, n)) for n in ("data", "indices", "indptr"))
-    require(same, solver, "the matrix given was changed")
-    require(np.array_equal(b, given), solver, "the right-hand side given was changed")
+    require(same, solver, "the matrix was changed")
+    require(np.array_equal(b, given), solver, "the right-hand side was changed")
     matrix.data[:] = 0.0
-    require(np.array_equal(factor.solve(b), first), solver, "a factor changes with the matrix it was made of")
+    require(np.array_equal(factor.solve(b), first), solver, "a factor changes when its matrix is changed afterwards")
     b[:] = 0.0
     factor.solve(b)
-    require(bool(first.any()), solver, "a solution changes with the next one")
+    require(bool(first.any()), solver, "a solution is overwritten by the next one")
 
 
 def _refactored(solver: LinearSolver) -> None:
     analysis = solver.analyse(_lattice())
     first, second = analysis.factor(_lattice()), analysis.factor(_other())
-    _solves(solver, second, _other(), "solution of other values on the same pattern is off")
-    _solves(solver, first, _lattice(), "a factor is lost when another is made")
+    _solves(solver, second, _other(), "the solution for other values on the same pattern is wrong")
+    _solves(solver, first, _lattice(), "a factor is lost when another one is computed")
     del first
     for _ in range(3):
-        _solves(solver, analysis.factor(_lattice()), _lattice(), "a factor made after another went is off")
+        _solves(
+            solver,
+            analysis.factor(_lattice()),
+            _lattice(),
+            "a factor computed after the deletion of another one is wrong",
+        )
     del analysis
-    _solves(solver, second, _other(), "a factor is lost with its analysis")
+    _solves(solver, second, _other(), "a factor is lost when its analysis is deleted")
 
 
 def _repeated(solver: LinearSolver) -> None:
@@ -115,15 +119,15 @@ def _repeated(solver: LinearSolver) -> None:
     factor = analysis.factor(matrix)
     first = factor.solve(b)
     for _ in range(SOLVES):
-        require(np.array_equal(factor.solve(b), first), solver, "solve again gives other bits")
+        require(np.array_equal(factor.solve(b), first), solver, "solving again gives a different result")
     for other, what in ((analysis.factor(matrix), "factor"), (solver.factor(matrix), "analyse")):
-        require(np.array_equal(other.solve(b), first), solver, f"{what} again gives other bits")
+        require(np.array_equal(other.solve(b), first), solver, f"{what} again gives a different result")
 
 
 def _small(solver: LinearSolver) -> None:
     for rows in ([[4.0]], [[2.0, 1.0], [1.0, 3.0]], [[2.0, 0.0], [0.0, 3.0]]):
         matrix = sp.csc_array(np.array(rows))
-        _solves(solver, solver.factor(matrix), matrix, f"solution of {len(rows)} unknowns is off")
+        _solves(solver, solver.factor(matrix), matrix, f"the solution for {len(rows)} unknowns is wrong")
 
 
 def _indefinite(solver: LinearSolver) -> None:
@@ -148,16 +152,16 @@ def _refused(solver: LinearSolver) -> None:
             solver.factor(matrix)
         except NoConvergence:
             continue
-        require(False, solver, f"a matrix of {matrix.shape[0]} unknowns without an inverse is factored")
+        require(False, solver, f"a matrix of {matrix.shape[0]} unknowns that is singular or holds NaN is not refused")
     _blown(solver)
 
 
 def _blown(solver: LinearSolver) -> None:
-    """A pivot that is the difference of equal numbers may be rounding: then what has no solution gets a huge one."""
+    """Accept a singular matrix whose pivot is pure rounding if the solution is huge, because then the error shows."""
     try:
         x = solver.factor(sp.csc_array(np.ones((2, 2)))).solve(np.array([1.0, -1.0]))
     except NoConvergence:
         return
     huge = 1e-2 / float(np.finfo(number_type(solver.precision)).eps)
     shown = not np.isfinite(x).all() or float(np.abs(x).max()) > huge
-    require(shown, solver, "a matrix of 2 unknowns without an inverse is factored, and does not show")
+    require(shown, solver, "a singular matrix of 2 unknowns is factored without any sign in the solution")

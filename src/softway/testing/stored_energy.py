@@ -1,20 +1,20 @@
-"""Examinations of a law with a stored energy."""
+"""Checks of a law with a stored energy."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
-from softway.bodies.points import MaterialPoints
+from softway.arrays import Array
+from softway.bodies.internal_force.elastic.material_points import MaterialPoints
+from softway.laws.elasticity.elastic_constants import wave_modulus
 from softway.laws.law import StoredEnergy
-from softway.laws.measure import Green, Small
-from softway.laws.moduli import wave_modulus
+from softway.laws.strain_measures import Green, Small
 from softway.testing.examination import Examination
 from softway.testing.verdict import close, require
-from softway.typing import Array
 
 
 def strains() -> Iterator[Array]:
-    """Moderate strains (3, 3): stretches along the axes, shear, and a general one."""
+    """Moderate strains (3, 3): stretches along the axes, shear, and a general strain."""
     yield np.diag([0.1, 0.0, 0.0])
     yield np.diag([-0.1, 0.05, 0.2])
     yield np.array([[0.0, 0.15, 0.0], [0.15, 0.0, 0.0], [0.0, 0.0, 0.0]])
@@ -32,8 +32,10 @@ def _shapes(law: StoredEnergy) -> float:
         answer = getattr(law, name)(E)
         require(answer.shape == (2, 4) + (3,) * axes, law, f"{name} of strains (2, 4, 3, 3) has shape {answer.shape}")
         single = getattr(law, name)(E[1, 2])
-        worst = max(worst, close(answer[1, 2], single, 1e-14, law, f"{name} of one strain differs from {name} of many"))
-    require(np.array_equal(E, kept), law, "the strain given was changed")
+        worst = max(
+            worst, close(answer[1, 2], single, 1e-14, law, f"{name} of one strain differs from {name} of an array")
+        )
+    require(np.array_equal(E, kept), law, "the array of strains was changed")
     return worst
 
 
@@ -90,7 +92,7 @@ def _tiny(law: StoredEnergy) -> float:
     worst = 0.0
     for E in (1e-6 * strain for strain in strains()):
         work = sum(0.5 * wi * float(np.sum(law.stress(0.5 * (1.0 + xi) * E) * E)) for xi, wi in zip(x, w, strict=True))
-        worst = max(worst, close(law.energy(E), work, 1e-9, law, "energy of a strain of 1e-7 has lost its digits"))
+        worst = max(worst, close(law.energy(E), work, 1e-9, law, "energy of a strain of 1e-7 is inaccurate"))
     return worst
 
 
@@ -105,8 +107,8 @@ def _rotations(law: StoredEnergy) -> float:
     turn *= np.sign(np.linalg.det(turn))
     turned = (np.eye(3) + H) @ turn.T - np.eye(3)
     return max(
-        close(points.energy(turned), points.energy(H), 1e-12, law, "energy changes when the body is turned"),
-        close(points.flux(turned), points.flux(H) @ turn.T, 1e-12, law, "stress does not turn with the body"),
+        close(points.energy(turned), points.energy(H), 1e-12, law, "energy changes when the body is rotated"),
+        close(points.flux(turned), points.flux(H) @ turn.T, 1e-12, law, "stress does not rotate with the body"),
     )
 
 
@@ -117,8 +119,8 @@ def _inverted(law: StoredEnergy) -> float:
     H = np.diag([-1.5, 0.0, 0.0])[None]
     with np.errstate(all="raise"):
         energy, flux = points.energy_and_flux(H)
-    require(bool(np.isposinf(energy).all()), law, f"energy of inverted matter is {energy[0]:g}, not infinite")
-    require(not np.isfinite(flux).any(), law, "stress of inverted matter is finite")
+    require(bool(np.isposinf(energy).all()), law, f"energy of inverted material is {energy[0]:g}, not infinite")
+    require(not np.isfinite(flux).any(), law, "stress of inverted material is finite")
     return 0.0
 
 
@@ -135,28 +137,28 @@ def _reported(law: StoredEnergy) -> float:
 def _linear(law: StoredEnergy) -> float:
     if not law.linear:
         return np.nan
-    require(isinstance(law.measure, Small), law, "a linear law is written in the small strain")
+    require(isinstance(law.measure, Small), law, "a linear law must use the small strain as its measure")
     constant = law.tangent(np.zeros((3, 3)))
     return close(law.tangent(_general()), constant, 0.0, law, "a linear law has moduli that depend on strain")
 
 
 def difference(function, E: Array, direction: Array) -> Array:  # type: ignore[no-untyped-def]
-    """Central difference of fourth order of a function along a direction (3, 3) at the strain E (3, 3)."""
+    """Fourth-order central difference of a function along a direction (3, 3) at the strain E (3, 3)."""
     step = 1e-3
     one, two = (function(E + k * step * direction) - function(E - k * step * direction) for k in (1.0, 2.0))
     return (8.0 * one - two) / (12.0 * step)
 
 
 STORED_ENERGY = (
-    Examination(name="one strain is answered as one of many", look=_shapes, allowed=1e-14),
+    Examination(name="single and array evaluation agree", look=_shapes, allowed=1e-14),
     Examination(name="no energy and no stress without strain", look=_undeformed, allowed=1e-14),
     Examination(name="stress is the derivative of the energy", look=_stress, allowed=1e-8),
     Examination(name="moduli are the derivative of the stress", look=_moduli, allowed=1e-8),
     Examination(name="stress and moduli are symmetric", look=_symmetries, allowed=1e-13),
     Examination(name="energy of moderate strains is positive", look=_positive),
-    Examination(name="energy of tiny strains keeps its digits", look=_tiny, allowed=1e-9),
-    Examination(name="indifferent to rotations", look=_rotations, allowed=1e-12),
-    Examination(name="inverted matter has no finite energy", look=_inverted),
-    Examination(name="wave speed and Young's modulus as reported", look=_reported, allowed=1e-12),
+    Examination(name="energy of tiny strains is accurate", look=_tiny, allowed=1e-9),
+    Examination(name="objective under rotations", look=_rotations, allowed=1e-12),
+    Examination(name="inverted material has infinite energy", look=_inverted),
+    Examination(name="reported wave speed and Young's modulus match the moduli", look=_reported, allowed=1e-12),
     Examination(name="a linear law has constant moduli", look=_linear),
 )

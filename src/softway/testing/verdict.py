@@ -1,4 +1,4 @@
-"""How an examination speaks."""
+"""Assertions of the examinations."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,9 +13,9 @@ def require(passed: bool, subject: object, complaint: str) -> None:
 def close(
     got: ArrayLike, expected: ArrayLike, tolerance: float, subject: object, complaint: str, scale: float = 0.0
 ) -> float:
-    """Require agreement within ``tolerance`` of the greatest number expected, or of ``scale`` if that is greater.
+    """Require agreement within ``tolerance`` times the largest expected value, or times ``scale`` if that is larger.
 
-    Returns the error relative to that number.
+    Returns the error relative to that value.
 
     Examples
     --------

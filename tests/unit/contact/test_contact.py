@@ -1,7 +1,7 @@
 """The declaration of a contact."""
 
 from softway.contact.contact import Contact
-from softway.contact.timing import Energy, Paper
+from softway.contact.impact_rule import Energy, Paper
 
 
 def test_names() -> None:

@@ -7,8 +7,8 @@ import pytest
 
 from softway.errors import InputError
 from softway.laws.bulk import Hencky, LinearElastic, NeoHookean, StVenantKirchhoff
+from softway.laws.elasticity.elastic_constants import lame
 from softway.laws.law import StoredEnergy
-from softway.laws.moduli import lame
 from softway.testing import check_law
 from softway.units import Pascal
 

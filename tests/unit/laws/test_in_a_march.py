@@ -3,28 +3,28 @@
 import pytest
 
 import softway as sw
-from softway.laws.measure import Green, Small
-from softway.materials import find
+from softway.laws.materials import find
+from softway.laws.strain_measures import Green, Small
 
 WOOD = {"E": (14.0, 1.0, 0.7), "nu": (0.3, 0.45, 0.4), "G": (0.9, 1.1, 0.1)}
 LAWS = [
-    sw.Hencky(E=1.0, nu=0.3),
-    sw.MooneyRivlin(c10=0.1, c01=0.05, bulk=2.0),
-    sw.LinearOrthotropic(**WOOD, axes=((0.0, 1.0, 1.0), (1.0, 0.0, 0.0)), measure=Green()),
-    sw.LinearOrthotropic(**WOOD, measure=Small()),
+    sw.laws.Hencky(E=1.0, nu=0.3),
+    sw.laws.MooneyRivlin(c10=0.1, c01=0.05, bulk=2.0),
+    sw.laws.LinearOrthotropic(**WOOD, axes=((0.0, 1.0, 1.0), (1.0, 0.0, 0.0)), measure=Green()),
+    sw.laws.LinearOrthotropic(**WOOD, measure=Small()),
 ]
 
 
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: f"{type(law).__name__}-{type(law.measure).__name__}")
 def test_impact_of_a_block(law, tmp_path):
     block = sw.Solid(
-        mesh=sw.Box(size=(1.0, 1.0, 1.0), cells=(2, 2, 2)),
+        mesh=sw.meshes.Box(size=(1.0, 1.0, 1.0), cells=(2, 2, 2)),
         material=law,
         density=1.0,
-        velocity=sw.Uniform(value=(0.05, 0.0, -0.2)),
-        place=sw.Placement(bottom=0.05),
+        velocity=sw.bodies.Uniform(value=(0.05, 0.0, -0.2)),
+        place=sw.bodies.Placement(bottom=0.05),
     )
-    floor = sw.Tool(shape=sw.HalfSpace(point=(0.0, 0.0, 0.0), normal=(0.0, 0.0, 1.0)))
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0, 0.0), normal=(0.0, 0.0, 1.0)))
     contact = sw.Contact(between=("block.bottom", "floor"), name="floor")
     scenario = sw.Scenario(
         bodies={"block": block, "floor": floor}, contacts=(contact,), time=sw.Time(end=3.0, step=0.1)
@@ -42,12 +42,12 @@ def test_a_bar_of_the_library_carries_its_wave(name):
     law = material.elastic()
     speed = (law.youngs() / material.density) ** 0.5
     bar = sw.Solid(
-        mesh=sw.Interval(length=1.0, cells=40),
+        mesh=sw.meshes.Interval(length=1.0, cells=40),
         material=law,
         density=material.density,
-        velocity=sw.Uniform(value=1e-4 * speed),
+        velocity=sw.bodies.Uniform(value=1e-4 * speed),
     )
-    wall = sw.Tool(shape=sw.HalfSpace(point=1.00001, normal=-1.0))
+    wall = sw.Tool(shape=sw.obstacles.HalfSpace(point=1.00001, normal=-1.0))
     contact = sw.Contact(between=("bar.right", "wall"), name="wall")
     time = sw.Time(end=2.6 / speed, step=1.0 / (40 * speed))
     run = sw.run(sw.Scenario(bodies={"bar": bar, "wall": wall}, contacts=(contact,), time=time))

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from softway.arrays import Array
 from softway.errors import InputError
 from softway.laws.bulk import J2, Hypoelastic, Kelvin, Maxwell, NortonHoff
-from softway.laws.deviator import deviator, equivalent_strain, equivalent_stress
-from softway.laws.flow import JohnsonCook, NortonFlow, Perzyna
-from softway.laws.hardening import LinearHardening, PowerHardening, Voce
 from softway.laws.law import Increment, RateLaw, Response
-from softway.typing import Array
+from softway.laws.plasticity.deviator import deviator, equivalent_strain, equivalent_stress
+from softway.laws.plasticity.hardening import LinearHardening, PowerHardening, Voce
+from softway.laws.plasticity.rate_dependence import JohnsonCook, NortonFlow, Perzyna
 
 E, NU, YIELD = 200.0, 0.25, 1.0
 SHEAR = E / (2.0 * (1.0 + NU))

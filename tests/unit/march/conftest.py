@@ -6,19 +6,19 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from softway.bodies.fields import Uniform
-from softway.bodies.loads import Load
-from softway.bodies.placement import Placement, Rotation
+from softway.bodies.setup.initial_fields import Uniform
+from softway.bodies.setup.loads import Load
+from softway.bodies.setup.placement import Placement, Rotation
 from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact
-from softway.contact.timing import Energy, Timing
+from softway.contact.impact_rule import Energy, ImpactRule
 from softway.laws.bulk import LinearElastic, NeoHookean
 from softway.march.march import march
-from softway.march.step import Event, Step
-from softway.model import Model, build
-from softway.scene import AsGiven, Scene, StaticStart
-from softway.space.obstacles import HalfSpace
-from softway.space.shapes import box, interval, rectangle
+from softway.march.results.step import Event, Step
+from softway.meshes.generators.shapes import box, interval, rectangle
+from softway.model.model import Model, build
+from softway.model.scene import AsGiven, Scene, StaticStart
+from softway.obstacles.half_space import HalfSpace
 
 ENERGY, AS_GIVEN = Energy(), AsGiven()
 NEO, LINEAR = NeoHookean(E=1.0, nu=0.3), LinearElastic(E=1.0, nu=0.3)
@@ -79,7 +79,7 @@ class Motion:
             change = (self.model.mass @ (v1 - v0)).sum(axis=0) / s.slab.span
             forces = [self.model.load.sum(axis=0), *(r.sum(axis=0) for r in s.reactions.values())]
             for k, contact in enumerate(s.ledger.contacts.values()):
-                forces.append(contact.force_n * rows.normal[rows.of(k)][0])
+                forces.append(contact.force_n * rows.normal[rows.of_contact(k)][0])
             worst = max(worst, float(np.abs(change - np.sum(forces, axis=0)).max()))
             size = max(size, float(np.abs(forces).max()), float(np.abs(change).max()))
         return worst / size
@@ -99,7 +99,7 @@ def distance(a: Motion, b: Motion) -> float:
 
 
 def move(
-    solid: Solid, tools: Mapping[str, Tool] | None = None, *, timing: Timing = ENERGY,
+    solid: Solid, tools: Mapping[str, Tool] | None = None, *, timing: ImpactRule = ENERGY,
     tag: str | Mapping[str, str] = "bottom", loads: tuple[Load, ...] = (), start: AsGiven | StaticStart = AS_GIVEN,
     until: float = 2.0, step: float = 0.05, **options: object,
 ) -> Motion:  # fmt: skip

@@ -7,13 +7,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-from softway.contact.timing import Energy, Impulse, Paper, Timing
+from softway.contact.impact_rule import Energy, ImpactRule, Impulse, Paper
 from softway.errors import NoConvergence, NumericsError
+from softway.march import attempts
 from softway.march import march as module
-from softway.march import tries
-from softway.solve.carry import Carry
-from softway.solve.fixed_point import FixedPoint
-from softway.solve.newton import Newton
+from softway.solve.methods.fixed_point import FixedPoint
+from softway.solve.methods.newton import Newton
+from softway.solve.operators.operator_memory import OperatorMemory
 
 RULES = [Energy(), Energy(located=True), Impulse(), Paper(), Paper(approach="extrapolated")]
 NEAR = 2e-11
@@ -24,7 +24,7 @@ rules = pytest.mark.parametrize("rule", RULES, ids=str)
 def fall(shop) -> Callable[..., object]:
     """A turned block that slides and bounces."""
 
-    def make(rule: Timing, **options: object):
+    def make(rule: ImpactRule, **options: object):
         law = shop.linear if rule == Energy(located=True) else shop.neo
         solid = shop.block((0.03, -0.1), angle=0.2, material=law)
         return shop.move(solid, shop.floor, timing=rule, until=1.6, **options)
@@ -33,7 +33,7 @@ def fall(shop) -> Callable[..., object]:
 
 
 @pytest.fixture(scope="module")
-def plain(fall) -> Callable[[Timing], object]:
+def plain(fall) -> Callable[[ImpactRule], object]:
     """The same with nothing changed, computed once for each rule."""
     return cache(fall)
 
@@ -48,12 +48,12 @@ def same(a, b) -> bool:
 
 
 @rules
-def test_two_runs_are_equal_to_the_last_bit(fall, plain, rule: Timing) -> None:
+def test_two_runs_are_equal_to_the_last_bit(fall, plain, rule: ImpactRule) -> None:
     assert same(fall(rule), plain(rule))
 
 
 @rules
-def test_a_march_can_be_taken_up_from_any_state(shop, fall, plain, rule: Timing) -> None:
+def test_a_march_can_be_taken_up_from_any_state(shop, fall, plain, rule: ImpactRule) -> None:
     whole = plain(rule)
     for k in (5, 14, 24):
         rest = fall(rule, state=whole.steps[k].after)
@@ -67,7 +67,7 @@ def test_a_march_can_be_taken_up_from_any_state(shop, fall, plain, rule: Timing)
 @pytest.mark.parametrize(
     "method", [Newton(), FixedPoint(depth=0, limit=200), FixedPoint(depth=2), FixedPoint(tolerance=1e-13)], ids=str
 )
-def test_methods_agree(shop, fall, plain, rule: Timing, method: FixedPoint | Newton) -> None:
+def test_methods_agree(shop, fall, plain, rule: ImpactRule, method: FixedPoint | Newton) -> None:
     assert shop.distance(fall(rule, method=method), plain(rule)) <= NEAR
 
 
@@ -78,10 +78,12 @@ def test_the_answer_follows_the_tolerance(shop, fall, plain, tolerance: float) -
 
 
 @rules
-def test_nothing_but_the_state_matters(shop, fall, plain, rule: Timing, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_but_the_state_matters(shop, fall, plain, rule: ImpactRule, monkeypatch: pytest.MonkeyPatch) -> None:
     kept = plain(rule)
-    advance = tries.advance
-    monkeypatch.setattr(tries, "advance", lambda r, now, slab, carry, *rest: advance(r, now, slab, Carry(), *rest))
+    advance = attempts.advance
+    monkeypatch.setattr(
+        attempts, "advance", lambda r, now, slab, memory, *rest: advance(r, now, slab, OperatorMemory(), *rest)
+    )
     assert shop.distance(fall(rule), kept) <= NEAR
 
 
@@ -92,19 +94,19 @@ def test_one_factor_serves_the_whole_march(plain) -> None:
 
 @rules
 def test_a_failed_try_leaves_no_trace_but_its_reason(
-    shop, fall, plain, rule: Timing, monkeypatch: pytest.MonkeyPatch
+    shop, fall, plain, rule: ImpactRule, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     kept = plain(rule)
-    advance, calls = tries.advance, []
+    advance, calls = attempts.advance, []
 
-    def stumbling(r, now, slab, carry, *rest):
-        out = advance(r, now, slab, carry, *rest)
+    def stumbling(r, now, slab, memory, *rest):
+        out = advance(r, now, slab, memory, *rest)
         calls.append(slab)
         if len(calls) % 5 == 2:
             raise NoConvergence("stumbled")
         return out
 
-    monkeypatch.setattr(tries, "advance", stumbling)
+    monkeypatch.setattr(attempts, "advance", stumbling)
     motion = fall(rule)
     assert shop.distance(motion, kept) <= NEAR
     reasons = [reason for s in motion.steps for reason in s.report.rejections]
@@ -113,14 +115,14 @@ def test_a_failed_try_leaves_no_trace_but_its_reason(
 
 
 def test_a_slab_that_fails_is_halved_and_the_length_recovers(shop, monkeypatch: pytest.MonkeyPatch) -> None:
-    advance = tries.advance
+    advance = attempts.advance
 
-    def short_of_breath(r, now, slab, carry, *rest):
+    def short_of_breath(r, now, slab, memory, *rest):
         if slab.span > 0.02 and 0.3 < slab.end < 0.6:
             raise NoConvergence("too long")
-        return advance(r, now, slab, carry, *rest)
+        return advance(r, now, slab, memory, *rest)
 
-    monkeypatch.setattr(tries, "advance", short_of_breath)
+    monkeypatch.setattr(attempts, "advance", short_of_breath)
     motion = shop.move(shop.block(), shop.floor, until=1.0, step=0.05)
     spans = np.array([s.slab.span for s in motion.steps])
     ends = np.array([s.slab.end for s in motion.steps])
@@ -132,16 +134,16 @@ def test_a_slab_that_fails_is_halved_and_the_length_recovers(shop, monkeypatch: 
 
 
 def test_a_march_that_cannot_go_on_says_so_and_stops(shop, monkeypatch: pytest.MonkeyPatch) -> None:
-    advance = tries.advance
+    advance = attempts.advance
     calls = []
 
-    def blocked(r, now, slab, carry, *rest):
+    def blocked(r, now, slab, memory, *rest):
         calls.append(slab.span)
         if slab.end > 0.5 + 1e-12:
             raise NoConvergence("a stone")
-        return advance(r, now, slab, carry, *rest)
+        return advance(r, now, slab, memory, *rest)
 
-    monkeypatch.setattr(tries, "advance", blocked)
+    monkeypatch.setattr(attempts, "advance", blocked)
     found = []
     with pytest.raises(NumericsError, match="a stone") as error:
         found.extend(module.march(shop.move(shop.bar(), until=0.05).model, until=1.0, step=0.05))

@@ -9,14 +9,14 @@ import pytest
 from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact
 from softway.laws.bulk.linear_elastic import LinearElastic
-from softway.march.step import Certificate, ContactLedger, Event, Ledger, Report, Step
-from softway.record.probes import readings
-from softway.record.recorder import Opening
-from softway.scene import Scene, State
-from softway.space import shapes
-from softway.space.mesh import Mesh
-from softway.space.obstacles import HalfSpace
-from softway.time.slab import Slab
+from softway.march.results.step import Certificate, ContactLedger, Event, Ledger, Report, Step
+from softway.meshes.generators import shapes
+from softway.meshes.mesh import Mesh
+from softway.model.scene import Scene, State
+from softway.model.slab import Slab
+from softway.obstacles.half_space import HalfSpace
+from softway.record.write.probes import readings
+from softway.record.write.recorder import RunStart
 
 LABEL = "part.surface-floor"
 
@@ -72,9 +72,9 @@ class Fake:
             contacts={LABEL: contact},
         )  # fmt: skip
 
-    def opening(self) -> Opening:
+    def opening(self) -> RunStart:
         start, meshes = self.state(0.0), {"part": self.mesh}
-        return Opening(
+        return RunStart(
             scene=self.scene, meshes=meshes, stresses={"part": self.stress}, initial=start, ledger=self.ledger(start),
             touching={LABEL: self.mesh.nodes("surface")}, until=1.0, fields_every=0.1,
             readings=readings(self.probes, meshes),
@@ -106,7 +106,7 @@ class Fake:
             certificate=certificate, before=before, after=after, slab=Slab(start=begin, end=end),
             ledger=self.ledger(after), events=events,
             reactions={"part": np.ones_like(self.mesh.points)},
-            report=Report(iterations=3, pairs=4, factorisations=1, passes=1), standing=None,
+            report=Report(iterations=3, pairs=4, factorisations=1, passes=1), march_state=None,
         )  # fmt: skip
 
 

@@ -7,10 +7,10 @@ from html import unescape
 import pytest
 
 import softway as sw
-from softway.record.conduct import Place, conduct
-from softway.record.provenance import Stop
-from softway.scenario.codec import load
-from softway.study.rows import Row, Sweep
+from softway.record.conduct import RunFolder, record_run
+from softway.record.storage.provenance import Stop
+from softway.scenario.files import load
+from softway.studies.sweep.rows import Row, Sweep
 
 
 def text(html):
@@ -19,7 +19,7 @@ def text(html):
 
 def test_a_run_is_a_table_and_a_picture(square, bar, tmp_path):
     for fake in (square, bar):
-        run = conduct(fake.steps(), fake.opening(), Place(), title="<Made> up")
+        run = record_run(fake.steps(), fake.opening(), RunFolder(), title="<Made> up")
         html = run._repr_html_()
         assert "20 until 1 s" in text(html) and "1 touch, 1 release" in text(html) and "&lt;Made&gt;" in html
         packed = re.search(r"base64,([^\"]+)", html)[1]
@@ -27,7 +27,7 @@ def test_a_run_is_a_table_and_a_picture(square, bar, tmp_path):
 
 
 def test_a_run_without_steps_is_a_table(square):
-    run = conduct(iter(()), square.opening(), Place())
+    run = record_run(iter(()), square.opening(), RunFolder())
     html = run._repr_html_()
     assert "<img" not in html and "done" in html
 
@@ -48,7 +48,7 @@ def test_a_scenario_is_a_table(pytestconfig):
 
 def test_tables_audits_and_pictures_show_themselves(square, tmp_path):
     """In two lines of a notebook: a picture, a table with units, what a slab leaves over."""
-    run = conduct(square.steps(), square.opening(), Place())
+    run = record_run(square.steps(), square.opening(), RunFolder())
     assert "energy_kinetic" in run.history._repr_html_() and "greatest" in run.history._repr_html_()
     assert "normal_velocity_before [m/s]" in text(run.events._repr_html_())
     step = next(s for s in square.steps() if s.events)

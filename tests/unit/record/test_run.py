@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from softway.errors import InputError, NumericsError
-from softway.record.conduct import conduct
-from softway.record.history import CERTIFICATE, COLUMNS
-from softway.record.place import Place
-from softway.record.provenance import Stop
+from softway.record.conduct import record_run
+from softway.record.read.summary import summarise
 from softway.record.run import Run
-from softway.record.summary import summarise
-from softway.record.table import Table, parse
+from softway.record.storage.provenance import Stop
+from softway.record.storage.run_folder import RunFolder
+from softway.record.storage.table import Table, parse
+from softway.record.write.history_columns import CERTIFICATE, COLUMNS
 
 
 def broken(fake, after, error):
@@ -26,10 +26,10 @@ def broken(fake, after, error):
 
 def test_a_whole_run(fake, tmp_path):
     seen = []
-    run = conduct(
+    run = record_run(
         fake.steps(),
         fake.opening(),
-        Place(out=tmp_path / "a" / "run"),
+        RunFolder(out=tmp_path / "a" / "run"),
         title="Drop",
         texts={"scenario.toml": "title = 'Drop'\n"},
         progress=seen.append,
@@ -51,7 +51,7 @@ def test_a_whole_run(fake, tmp_path):
 
 def test_wrong_input_leaves_no_folder(bar, tmp_path):
     with pytest.raises(InputError):
-        conduct(broken(bar, 0, InputError("time.step", "too long")), bar.opening(), Place(out=tmp_path / "run"))
+        record_run(broken(bar, 0, InputError("time.step", "too long")), bar.opening(), RunFolder(out=tmp_path / "run"))
     assert not list(tmp_path.iterdir())
 
 
@@ -61,7 +61,7 @@ def test_wrong_input_leaves_no_folder(bar, tmp_path):
 )
 def test_a_run_cut_short_keeps_what_was_computed(bar, tmp_path, after, error, reason):
     with pytest.raises(type(error)):
-        conduct(broken(bar, after, error), bar.opening(), Place(out=tmp_path / "run"))
+        record_run(broken(bar, after, error), bar.opening(), RunFolder(out=tmp_path / "run"))
     run = Run(tmp_path / "run")
     assert run.history.rows == after + 1 and run.stop.reason == reason and run.stop.message == str(error)
     assert run.summary["slabs"] == after and len(run.fields) == 1 + after // 2
@@ -72,7 +72,7 @@ def test_an_interrupt_while_recording_leaves_a_readable_folder(bar, tmp_path):
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        conduct(bar.steps(), bar.opening(), Place(out=tmp_path / "run"), progress=pressed)
+        record_run(bar.steps(), bar.opening(), RunFolder(out=tmp_path / "run"), progress=pressed)
     assert Run(tmp_path / "run").history.rows == 2
 
 
@@ -84,12 +84,12 @@ def test_a_running_folder_is_readable(bar, tmp_path):
         assert run.stop.reason == "running" and run.summary["time_end"] == progress.time
         lengths.append((run.history.rows, len(run.fields), run.events.rows))
 
-    conduct(bar.steps(), bar.opening(), Place(out=tmp_path / "run"), progress=look)
+    record_run(bar.steps(), bar.opening(), RunFolder(out=tmp_path / "run"), progress=look)
     assert lengths[0] == (2, 1, 0) and lengths[-1] == (21, 11, 2)
 
 
 def test_without_a_name_the_records_live_as_long_as_what_reads_them(bar):
-    run = conduct(bar.steps(), bar.opening(), Place())
+    run = record_run(bar.steps(), bar.opening(), RunFolder())
     path, fields = run.path, run.fields
     del run
     gc.collect()
@@ -100,21 +100,21 @@ def test_without_a_name_the_records_live_as_long_as_what_reads_them(bar):
 
 
 def test_an_earlier_run_is_not_overwritten_by_accident(bar, tmp_path):
-    place = Place(out=tmp_path / "run")
-    conduct(bar.steps(), bar.opening(), place)
+    place = RunFolder(out=tmp_path / "run")
+    record_run(bar.steps(), bar.opening(), place)
     with pytest.raises(InputError, match="already holds a run"):
-        conduct(bar.steps(), bar.opening(), place)
-    again = Place(out=place.out, overwrite=True)
+        record_run(bar.steps(), bar.opening(), place)
+    again = RunFolder(out=place.out, overwrite=True)
     with pytest.raises(InputError, match="wrong"):
-        conduct(broken(bar, 0, InputError("x", "wrong")), bar.opening(), again)
+        record_run(broken(bar, 0, InputError("x", "wrong")), bar.opening(), again)
     assert Run(place.out).history.rows == 21
     (place.out / "old").touch()
-    assert not (conduct(bar.steps(), bar.opening(), again).path / "old").exists()
+    assert not (record_run(bar.steps(), bar.opening(), again).path / "old").exists()
 
 
 def test_other_folders_are_never_overwritten(bar, tmp_path):
     (tmp_path / "precious").touch()
-    for place in (Place(out=tmp_path, overwrite=True), Place(out=tmp_path / "precious")):
+    for place in (RunFolder(out=tmp_path, overwrite=True), RunFolder(out=tmp_path / "precious")):
         with pytest.raises(InputError):
             place.check()
     assert (tmp_path / "precious").exists()
@@ -126,7 +126,7 @@ def test_no_run_folder(tmp_path):
 
 
 def test_a_scene_without_contacts_and_nothing_yet():
-    columns = (*COLUMNS, *CERTIFICATE)
+    columns = [(c.name, c.unit) for c in (*COLUMNS, *CERTIFICATE)]
     head = ",".join(f"{name} [{unit}]" for name, unit in columns) + "\n"
     assert summarise(Table({}), Table({})) == {"slabs": 0, "contacts": {}}
     found = summarise(parse(head + ",".join("0" * len(columns)) + "\n"), Table({}))

@@ -4,15 +4,15 @@ from collections.abc import Callable
 
 import pytest
 
-from softway.bodies.fields import Uniform
+from softway.bodies.setup.initial_fields import Uniform
 from softway.bodies.solid import Fixed, Solid, Tool
 from softway.contact.contact import Contact
-from softway.contact.timing import Energy, Timing
+from softway.contact.impact_rule import Energy, ImpactRule
 from softway.laws.bulk import LinearElastic, NeoHookean
-from softway.model import Model, build
-from softway.scene import Scene
-from softway.space.obstacles import HalfSpace
-from softway.space.shapes import interval, rectangle
+from softway.meshes.generators.shapes import interval, rectangle
+from softway.model.model import Model, build
+from softway.model.scene import Scene
+from softway.obstacles.half_space import HalfSpace
 
 NEO = NeoHookean(E=1.0, nu=0.3)
 ENERGY = Energy()
@@ -23,7 +23,9 @@ FLOOR = Tool(shape=HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
 def bar() -> Callable[..., Model]:
     """A bar of unit data along x, by default free, with a wall at ``wall`` before its right end."""
 
-    def make(cells: int = 4, wall: float | None = None, timing: Timing = ENERGY, held: str = "", **changes) -> Model:
+    def make(
+        cells: int = 4, wall: float | None = None, timing: ImpactRule = ENERGY, held: str = "", **changes
+    ) -> Model:
         solid = {
             "mesh": interval(1.0, cells), "material": LinearElastic(E=1.0), "density": 1.0,
             "supports": (Fixed(on=held),) if held else (), **changes,
@@ -43,7 +45,7 @@ def block() -> Callable[..., Model]:
     """A square of side one, its bottom above the floor, by default y = 0."""
 
     def make(
-        cells: int = 3, timing: Timing = ENERGY, tag: str = "bottom", floor: Tool = FLOOR, **changes
+        cells: int = 3, timing: ImpactRule = ENERGY, tag: str = "bottom", floor: Tool = FLOOR, **changes
     ) -> Model:  # fmt: skip
         solid = {
             "mesh": rectangle((1.0, 1.0), (cells, cells)), "material": NEO, "density": 1.0,

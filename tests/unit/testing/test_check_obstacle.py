@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from softway.space.curved import Block, Cavity, Cylinder, Roller, Sphere, Torus
-from softway.space.distance import SignedDistance
-from softway.space.obstacles import HalfSpace
+from softway.obstacles.half_space import HalfSpace
+from softway.obstacles.primitives import Block, Cavity, Cylinder, Roller, Sphere, Torus
+from softway.obstacles.signed_distance import SignedDistance
 from softway.testing import check_obstacle
 
 POINTS = np.array([[1.2, 0.3, 0.1], [0.9, -1.1, 0.4], [-1.3, 0.2, 1.0]])

@@ -38,9 +38,9 @@ class Altered:
     ("mistake", "complaint"),
     [
         ("drives", "it drives"),
-        ("weak", "slip is resisted more than rest"),
-        ("speed", "the derivative to the speed is off"),
-        ("pressure", "the derivative to the pressure is off"),
+        ("weak", "the resistance to slip exceeds the limit at rest"),
+        ("speed", "the derivative with respect to the speed is wrong"),
+        ("pressure", "the derivative with respect to the pressure is wrong"),
         ("shape", "share of speeds .3, 4. has shape"),
         ("infinite", "the resistance at rest is not finite"),
     ],

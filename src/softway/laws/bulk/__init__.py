@@ -1,4 +1,4 @@
-"""Laws of the bulk material."""
+"""Material laws."""
 
 from softway.laws.bulk.hencky import Hencky as Hencky
 from softway.laws.bulk.hypoelastic import Hypoelastic as Hypoelastic

@@ -5,22 +5,22 @@ from typing import ClassVar
 
 import numpy as np
 
-from softway.kernels.spectral import moduli_in_axes, of_principal, principal
-from softway.laws.measure import Green
-from softway.laws.moduli import checked, dilatational_speed, lame
-from softway.typing import Array
+from softway.arrays import Array
+from softway.kernels.linalg.spectral import moduli_in_axes, of_principal, principal
+from softway.laws.elasticity.elastic_constants import checked, dilatational_speed, lame
+from softway.laws.strain_measures import Green
 from softway.units import Pascal, Pure
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Hencky:
-    """``W = mu ln U : ln U + lambda/2 (tr ln U)^2`` with the right stretch ``U^2 = I + 2 E``.
+    """Hencky's law ``W = mu ln U : ln U + lambda/2 (tr ln U)^2`` with the right stretch ``U^2 = I + 2 E``.
 
-    With the principal values e_a of Green's strain the logarithmic strains are ``h_a = ln(1 + 2 e_a)/2``, which keep
-    all digits of a small strain, and the stress has ``S_a = (2 mu h_a + lambda tr h)/(1 + 2 e_a)`` along the same axes.
-    The moduli between two axes are ``(S_a - S_b)/(e_a - e_b)``, written so that nothing cancels where values are
-    repeated.  Uniaxial stress gives ``J sigma = E ln(stretch)`` at any stretch.  Metals follow it well to moderate
-    strains; in strong tension (stretch above e) the energy is not convex.
+    With the principal values e_a of Green's strain, the logarithmic strains are ``h_a = ln(1 + 2 e_a)/2``, accurate
+    also at small strain.  The stress is ``S_a = (2 mu h_a + lambda tr h)/(1 + 2 e_a)`` along the same axes.  The moduli
+    between two axes are ``(S_a - S_b)/(e_a - e_b)``, without cancellation where values are repeated.  Uniaxial stress
+    gives ``J sigma = E ln(stretch)`` at any stretch.  The law describes metals well up to moderate strains; in strong
+    tension (stretch above e) the energy is not convex.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def _logarithms(e: Array) -> Array:
 
 
 def _atanh_ratio(z: Array) -> Array:
-    """``artanh(z)/z``, one at zero; even in z to the last digit."""
+    """``artanh(z)/z``, one at zero; exactly even in z."""
     z = np.abs(z)
     small = z < 1e-8  # the next term, z^2/3, is below rounding
     return np.where(small, 1.0, np.arctanh(np.where(small, 0.5, z)) / np.where(small, 1.0, z))

@@ -1,25 +1,25 @@
-"""Hypoelastic material: the rate of the stress is linear in the rate of deformation."""
+"""Hypoelastic material: the stress rate is linear in the rate of deformation."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from softway.kernels import tensors
+from softway.arrays import Array
+from softway.kernels.linalg import tensors
+from softway.laws.elasticity.elastic_constants import checked, lame
 from softway.laws.law import Increment, Response
-from softway.laws.moduli import checked, lame
-from softway.laws.rates import Jaumann, Rate
-from softway.typing import Array
+from softway.laws.objective_rates import Jaumann, Rate
 from softway.units import Pascal, Pure
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Hypoelastic:
-    """``rate of the Cauchy stress = lambda tr(D) I + 2 mu D``.
+    """Hypoelastic law: ``rate of the Cauchy stress = lambda tr(D) I + 2 mu D``.
 
-    No potential stands behind it: a closed cycle of large strain takes up or gives off energy, and leaves stresses,
-    except with the rate ``Logarithmic``, whose stress is a function of the stretch (docs/theory/rates.md).  What is
-    taken up counts as stored.
+    The law has no elastic potential: a closed cycle of large strain absorbs or releases energy, and leaves residual
+    stress.  With the rate ``Logarithmic`` it does not, as the stress is a function of the stretch
+    (docs/theory/rates.md).  The work of the stress is recorded as stored energy.
 
     Parameters
     ----------
@@ -51,11 +51,11 @@ class Hypoelastic:
         checked(self.E, self.nu)
 
     def virgin(self, points: int) -> Mapping[str, Array]:
-        """Nothing is remembered besides the stress."""
+        """History variables: none besides the stress."""
         return {}
 
     def respond(self, increment: Increment) -> Response:
-        """Stress (..., 3, 3) [Pa]; the energy taken up is the work of the mean stress."""
+        """Stress (..., 3, 3) [Pa]; the stored energy is the work of the mean stress."""
         bulk_part, shear = lame(self.E, self.nu)
         e = increment.strain
         stress = increment.stress + 2.0 * shear * e + bulk_part * tensors.trace(e)[..., None, None] * tensors.IDENTITY
@@ -63,9 +63,9 @@ class Hypoelastic:
         return Response(stress=stress, memory={}, stored=stored, dissipated=np.zeros_like(stored))
 
     def moduli(self, increment: Increment) -> Array:
-        """Isotropic, (..., 3, 3, 3, 3) [Pa]."""
+        """Isotropic moduli, (..., 3, 3, 3, 3) [Pa]."""
         return np.broadcast_to(self.elastic_moduli(), (*increment.strain.shape, 3, 3))
 
     def elastic_moduli(self) -> Array:
-        """Isotropic, (3, 3, 3, 3) [Pa]."""
+        """Isotropic moduli, (3, 3, 3, 3) [Pa]."""
         return tensors.isotropic(*lame(self.E, self.nu))

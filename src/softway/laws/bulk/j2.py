@@ -1,20 +1,20 @@
-"""J2 plasticity: elastic-plastic and elastic-viscoplastic metals of any strain."""
+"""J2 plasticity: elastic-plastic and elastic-viscoplastic metals at any strain."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.errors import InputError
-from softway.kernels import tensors
-from softway.laws.deviator import deviator, equivalent_stress, projector, volumetric
-from softway.laws.flow import Flow, RateIndependent
-from softway.laws.hardening import Hardening, LinearHardening
+from softway.kernels.linalg import tensors
+from softway.laws.elasticity.elastic_constants import checked, lame
 from softway.laws.law import Increment, Response
-from softway.laws.moduli import checked, lame
-from softway.laws.rates import Jaumann, Rate
-from softway.laws.return_mapping import returned
-from softway.typing import Array
+from softway.laws.objective_rates import Jaumann, Rate
+from softway.laws.plasticity.deviator import deviator, equivalent_stress, projector, volumetric
+from softway.laws.plasticity.hardening import Hardening, LinearHardening
+from softway.laws.plasticity.rate_dependence import Flow, RateIndependent
+from softway.laws.plasticity.return_mapping import returned
 from softway.units import Pascal, Pure
 
 
@@ -22,21 +22,24 @@ from softway.units import Pascal, Pure
 class J2:
     """Von Mises plasticity with isotropic and kinematic hardening and rate dependence, by radial return.
 
-    In corotational axes the strain of a slab splits into an elastic and a plastic part; the plastic one is along the
-    deviator of ``s - b`` at the end of the slab (backward Euler), b the back stress.
+    In corotational axes the strain increment of a slab (time step) is the sum of an elastic and a plastic part.  The
+    plastic part has the direction of the deviator of ``s - b`` at the end of the slab (backward Euler), with the back
+    stress b.
 
     Parameters
     ----------
-    E, nu
-        Young's modulus [Pa] and Poisson's ratio.
+    E
+        Young's modulus [Pa], positive.
+    nu
+        Poisson's ratio, between -1 and 1/2.
     yield_stress
         Initial yield stress in tension [Pa].
     hardening
-        Growth of the yield stress with the plastic strain.
+        Hardening: yield stress as a function of the plastic strain.
     kinematic
         Modulus of linear kinematic hardening (Prager) in tension [Pa], not negative: ``b' = 2/3 H d_plastic``.
     flow
-        Rate dependence.
+        Rate dependence of the flow stress.
     rate
         Objective rate of the stress.
 
@@ -66,13 +69,13 @@ class J2:
         if not self.yield_stress >= 0.0:
             raise InputError("yield_stress", f"{self.yield_stress:g} Pa is negative", "zero or more")
         if self.yield_stress == 0.0 and isinstance(self.flow, RateIndependent):
-            raise InputError("yield_stress", "0 Pa without rate dependence carries no shear", "a positive stress")
+            raise InputError("yield_stress", "0 Pa without rate dependence gives no strength", "a positive stress")
         if not self.kinematic >= 0.0:
             raise InputError("kinematic", f"{self.kinematic:g} Pa is negative", "zero or more")
         least = -3.0 * lame(self.E, self.nu)[1]
         if self.hardening.least_slope() + self.kinematic <= least:
             problem = f"slope {self.hardening.least_slope():g} Pa softens faster than -3 mu = {least:g} Pa"
-            raise InputError("hardening", f"{problem}: the stress would jump back", "a slope above -3 mu")
+            raise InputError("hardening", f"{problem}: the stress would snap back", "a slope above -3 mu")
 
     def virgin(self, points: int) -> Mapping[str, Array]:
         """Equivalent plastic strain (points,) and back stress (points, 3, 3) [Pa]."""
@@ -80,7 +83,7 @@ class J2:
         return none | {"back_stress": np.zeros((points, 3, 3))} if self.kinematic > 0.0 else none
 
     def respond(self, increment: Increment) -> Response:
-        """Radial return; stored are the energies of the elastic strain and of the back stress."""
+        """Stress by radial return; elastic strain and back stress store energy."""
         bulk_part, shear = lame(self.E, self.nu)
         e, p = increment.strain, increment.memory["plastic_strain"]
         back = increment.memory.get("back_stress")
@@ -129,5 +132,5 @@ class J2:
         return out - along[..., None, None, None, None] * n[..., :, :, None, None] * n[..., None, None, :, :]
 
     def elastic_moduli(self) -> Array:
-        """Isotropic, (3, 3, 3, 3) [Pa]."""
+        """Isotropic moduli, (3, 3, 3, 3) [Pa]."""
         return tensors.isotropic(*lame(self.E, self.nu))

@@ -5,10 +5,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from softway.kernels import tensors
-from softway.laws.measure import Small
-from softway.laws.moduli import checked, dilatational_speed, lame
-from softway.typing import Array
+from softway.arrays import Array
+from softway.kernels.linalg import tensors
+from softway.laws.elasticity.elastic_constants import checked, dilatational_speed, lame
+from softway.laws.strain_measures import Small
 from softway.units import Pascal, Pure
 
 
@@ -45,7 +45,7 @@ class LinearElastic:
         return 0.5 * bulk_part * tensors.trace(E) ** 2 + shear * tensors.double_dot(E, E)
 
     def stress(self, E: Array) -> Array:
-        """``lambda tr(e) I + 2 mu e``, (..., 3, 3) [Pa]."""
+        """Stress ``lambda tr(e) I + 2 mu e``, (..., 3, 3) [Pa]."""
         bulk_part, shear = lame(self.E, self.nu)
         return (bulk_part * tensors.trace(E))[..., None, None] * tensors.IDENTITY + 2.0 * shear * E
 

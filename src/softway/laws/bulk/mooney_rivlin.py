@@ -6,30 +6,30 @@ from typing import ClassVar
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.errors import InputError
-from softway.kernels import tensors
-from softway.laws import volume
-from softway.laws.measure import Green
-from softway.typing import Array
+from softway.kernels.linalg import tensors
+from softway.laws.elasticity import volume_change
+from softway.laws.strain_measures import Green
 from softway.units import Pascal
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MooneyRivlin:
-    """``W = c10 (I1 J^-2/3 - 3) + c01 (I2 J^-4/3 - 3) + bulk/4 (J^2 - 1 - 2 ln J)``.
+    """Mooney-Rivlin law ``W = c10 (I1 J^-2/3 - 3) + c01 (I2 J^-4/3 - 3) + bulk/4 (J^2 - 1 - 2 ln J)``.
 
-    I1 and I2 are invariants of ``C = I + 2 E``; the first two terms do not see a change of volume, the last sees
-    nothing else.  With ``theta = I1/3``, the deviator e of E and ``d = e/theta`` the former are functions of
-    ``q = 4 I2(d) + 8 det d`` and I2(d) alone, so that no digits are lost at small strain.  Small strains have the shear
-    modulus ``2 (c10 + c01)`` and the bulk modulus ``bulk``.  Neither constant may be negative: then the law is
-    polyconvex.
+    I1 and I2 are invariants of ``C = I + 2 E``.  The first two terms are independent of the volume, and the last term
+    depends on the volume only.  With ``theta = I1/3``, the deviator e of E and ``d = e/theta``, the first two terms are
+    functions of ``q = 4 I2(d) + 8 det d`` and I2(d), which avoids cancellation at small strain.  At small strain the
+    shear modulus is ``2 (c10 + c01)`` and the bulk modulus is ``bulk``.  The law is polyconvex, since neither constant
+    may be negative.
 
     Parameters
     ----------
     c10, c01
-        Constants of Mooney [Pa]; not negative, and not both zero.
+        Mooney constants [Pa]; not negative, and not both zero.
     bulk
-        Bulk modulus [Pa], positive; some thousand times the shear modulus for real rubber, which asks for elements that
+        Bulk modulus [Pa], positive; 1000 times the shear modulus or more for real rubber, which needs elements that
         do not lock.
 
     References
@@ -54,30 +54,30 @@ class MooneyRivlin:
         for name in ("c10", "c01"):
             value = getattr(self, name)
             if not (isfinite(value) and value >= 0.0):
-                raise InputError(name, f"{value:g} Pa is negative", "constants of a fit with c10 >= 0 and c01 >= 0")
+                raise InputError(name, f"{value:g} Pa is negative", "constants from a fit with c10 >= 0 and c01 >= 0")
         if self.c10 + self.c01 == 0.0:
-            raise InputError("c10", "0 Pa beside c01 = 0 Pa leaves no shear modulus", "a positive constant")
+            raise InputError("c10", "0 Pa together with c01 = 0 Pa gives no shear modulus", "a positive constant")
         if not (isfinite(self.bulk) and self.bulk > 0.0):
-            raise InputError("bulk", f"{self.bulk:g} Pa is not positive", "such as 2000 times the shear modulus")
+            raise InputError("bulk", f"{self.bulk:g} Pa is not positive", "for example 2000 times the shear modulus")
 
     def energy(self, E: Array) -> Array:
         """Energy per reference volume (...,) [J/m^3] of Green's strain E (..., 3, 3)."""
         theta, e = _split(E)
-        j = volume.jacobian(E)[1]
+        j = volume_change.jacobian(E)[1]
         with np.errstate(divide="ignore", invalid="ignore"):
             d = e / theta[..., None, None]
             minors = 4.0 * tensors.second_invariant(d)
             k = np.log1p(minors + 8.0 * tensors.determinant(d))
             first = 3.0 * np.expm1(-k / 3.0)
             second = 3.0 * np.expm1(-2.0 * k / 3.0) + minors * np.exp(-2.0 * k / 3.0)
-            W = self.c10 * first + self.c01 * second + 0.25 * self.bulk * volume.excess(j)
+            W = self.c10 * first + self.c01 * second + 0.25 * self.bulk * volume_change.excess(j)
         return np.where(_possible(j, theta) & np.isfinite(W), W, np.inf)
 
     def stress(self, E: Array) -> Array:
         """Second Piola-Kirchhoff stress, (..., 3, 3) [Pa]."""
         theta, e = _split(E)
-        inverse, logarithm = volume.inverse(E)
-        j = volume.jacobian(E)[1]
+        inverse, logarithm = volume_change.inverse(E)
+        j = volume_change.jacobian(E)[1]
         square = e @ e
         square = square - (tensors.trace(square) / 3.0)[..., None, None] * tensors.IDENTITY
         a = np.exp(-2.0 / 3.0 * logarithm)[..., None, None]
@@ -87,8 +87,8 @@ class MooneyRivlin:
     def tangent(self, E: Array) -> Array:
         """Moduli dS/dE, (..., 3, 3, 3, 3) [Pa]."""
         theta, _ = _split(E)
-        inverse, logarithm = volume.inverse(E)
-        j = volume.jacobian(E)[1]
+        inverse, logarithm = volume_change.inverse(E)
+        j = volume_change.jacobian(E)[1]
         C = tensors.IDENTITY + 2.0 * E
         B = (3.0 * theta)[..., None, None] * tensors.IDENTITY - C  # dI2/dC
         I2 = tensors.second_invariant(C)
@@ -114,13 +114,13 @@ class MooneyRivlin:
 
 
 def _split(E: Array) -> tuple[Array, Array]:
-    """A third of I1(C), (...,), and the deviator of E, (..., 3, 3)."""
+    """One third of I1(C), (...,), and the deviator of E, (..., 3, 3)."""
     mean = tensors.trace(E) / 3.0
     return 1.0 + 2.0 * mean, E - mean[..., None, None] * tensors.IDENTITY
 
 
 def _possible(j: Array, theta: Array) -> Array:
-    """Whether matter can have this volume."""
+    """True where the deformation is possible: where det C and tr C are positive."""
     return np.asarray((j > -1.0) & (theta > 0.0))
 
 

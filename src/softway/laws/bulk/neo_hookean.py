@@ -5,21 +5,21 @@ from typing import ClassVar
 
 import numpy as np
 
-from softway.kernels import tensors
-from softway.laws import volume
-from softway.laws.measure import Green
-from softway.laws.moduli import checked, dilatational_speed, lame
-from softway.typing import Array
+from softway.arrays import Array
+from softway.kernels.linalg import tensors
+from softway.laws.elasticity import volume_change
+from softway.laws.elasticity.elastic_constants import checked, dilatational_speed, lame
+from softway.laws.strain_measures import Green
 from softway.units import Pascal, Pure
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NeoHookean:
-    """``W = mu/2 (I1 - 3 - 2 ln J) + lambda/2 (ln J)^2``.
+    """Neo-Hookean law ``W = mu/2 (I1 - 3 - 2 ln J) + lambda/2 (ln J)^2``.
 
-    With Green's strain E and its invariants, ``I1 - 3 = 2 tr E`` and ``J^2 - 1 = j = 2 tr E + 4 I2(E) + 8 det E``, so
-    that ``W = mu/2 (j - ln(1 + j) - 4 I2 - 8 det E) + lambda/8 ln(1 + j)^2`` has no difference of large numbers at
-    small strain.  Stress ``S = 2 mu C^-1 E + lambda ln J C^-1``.
+    With Green's strain E and its invariants, ``I1 - 3 = 2 tr E`` and ``J^2 - 1 = j = 2 tr E + 4 I2(E) + 8 det E``.
+    Therefore ``W = mu/2 (j - ln(1 + j) - 4 I2 - 8 det E) + lambda/8 ln(1 + j)^2``, which has no cancellation at small
+    strain.  The stress is ``S = 2 mu C^-1 E + lambda ln J C^-1``.
 
     Parameters
     ----------
@@ -51,21 +51,21 @@ class NeoHookean:
     def energy(self, E: Array) -> Array:
         """Energy per reference volume (...,) [J/m^3] of Green's strain E (..., 3, 3)."""
         bulk_part, shear = lame(self.E, self.nu)
-        higher, j = volume.jacobian(E)
+        higher, j = volume_change.jacobian(E)
         with np.errstate(divide="ignore", invalid="ignore"):
-            W = 0.5 * shear * (volume.excess(j) - higher) + 0.125 * bulk_part * np.log1p(j) ** 2
+            W = 0.5 * shear * (volume_change.excess(j) - higher) + 0.125 * bulk_part * np.log1p(j) ** 2
         return np.where(j > -1.0, W, np.inf)
 
     def stress(self, E: Array) -> Array:
         """Second Piola-Kirchhoff stress, (..., 3, 3) [Pa]."""
         bulk_part, shear = lame(self.E, self.nu)
-        inverse, logarithm = volume.inverse(E)
+        inverse, logarithm = volume_change.inverse(E)
         return tensors.symmetric(2.0 * shear * (inverse @ E)) + (bulk_part * logarithm)[..., None, None] * inverse
 
     def tangent(self, E: Array) -> Array:
-        """``lambda C^-1 x C^-1 + 2 (mu - lambda ln J) dC^-1``, (..., 3, 3, 3, 3) [Pa]."""
+        """Moduli ``lambda C^-1 x C^-1 + 2 (mu - lambda ln J) dC^-1``, (..., 3, 3, 3, 3) [Pa]."""
         bulk_part, shear = lame(self.E, self.nu)
-        inverse, logarithm = volume.inverse(E)
+        inverse, logarithm = volume_change.inverse(E)
         squared = tensors.square_symmetric(inverse)
         squared *= 2.0 * (shear - bulk_part * logarithm)[..., None, None, None, None]
         squared += (bulk_part * inverse)[..., :, :, None, None] * inverse[..., None, None, :, :]

@@ -1,16 +1,16 @@
-"""Norton-Hoff material: rigid-viscoplastic flow, the law of hot forming."""
+"""Norton-Hoff material: rigid-viscoplastic flow, for hot forming."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.errors import InputError
-from softway.kernels import tensors
-from softway.laws.deviator import deviator, projector, volumetric
+from softway.kernels.linalg import tensors
 from softway.laws.law import Increment, Response
-from softway.laws.rates import Jaumann, Rate
-from softway.typing import Array
+from softway.laws.objective_rates import Jaumann, Rate
+from softway.laws.plasticity.deviator import deviator, projector, volumetric
 from softway.units import Pascal, PerSecond, Pure
 
 BULK = 1e5
@@ -19,23 +19,25 @@ BULK = 1e5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NortonHoff:
-    """``s = 2 K (sqrt(3) d)^(m-1) D'`` with ``d = sqrt(2/3 D':D')``; pressure ``-bulk ln J``.
+    """Norton-Hoff law ``s = 2 K (sqrt(3) d)^(m-1) D'`` with ``d = sqrt(2/3 D':D')``; the pressure is ``-bulk ln J``.
 
-    D is the mean rate of deformation of the slab.  The stress is a function of the rate alone; the bulk modulus keeps
-    the volume, to ``pressure/bulk``: cells then want ``dilatation = "mean"``.
+    D is the mean rate of deformation in a slab (time step).  The deviatoric stress s is a function of this rate alone.
+    The bulk modulus makes the material nearly incompressible, with the volume change ``pressure/bulk``: use
+    ``dilatation = "mean"`` in the cells.
 
     Parameters
     ----------
     K
         Consistency [Pa s^m], positive.
     m
-        Rate sensitivity: 1 is Newton's viscosity K, towards 0 plasticity with the yield stress sqrt(3) K.
+        Rate sensitivity, above 0 and at most 1.  The value 1 is a Newtonian fluid with the viscosity K; towards 0 the
+        law tends to plasticity with the yield stress sqrt(3) K.
     bulk
-        Bulk modulus [Pa]; by default 1e5 K.
+        Bulk modulus [Pa]; by default 1e5 times K.
     still
-        Rate [1/s] below which the viscosity no longer grows: what is nearly rigid creeps.
+        Strain rate [1/s] below which the viscosity no longer grows; nearly rigid regions creep.
     rate
-        Axes; they matter for nothing but the pressure.
+        Objective rate of the stress; only the pressure depends on it.
 
     References
     ----------
@@ -63,16 +65,16 @@ class NortonHoff:
         if not 0.0 < self.m <= 1.0:
             raise InputError("m", f"{self.m:g} is not in (0, 1]", "a rate sensitivity such as 0.2; J2 for m = 0")
         if self.bulk is not None and not self.bulk > 0.0:
-            raise InputError("bulk", f"{self.bulk:g} Pa is not positive", "some 1e5 K")
+            raise InputError("bulk", f"{self.bulk:g} Pa is not positive", "about 1e5 times K")
         if not self.still > 0.0:
-            raise InputError("still", f"{self.still:g} 1/s is not positive", "a rate far below those of interest")
+            raise InputError("still", f"{self.still:g} 1/s is not positive", "a rate far below the rates of interest")
 
     def virgin(self, points: int) -> Mapping[str, Array]:
-        """Nothing is remembered besides the stress."""
+        """History variables: none besides the stress."""
         return {}
 
     def respond(self, increment: Increment) -> Response:
-        """The deviator of the stress belongs to the mean rate; the pressure grows with the change of volume."""
+        """Deviatoric stress from the mean rate, and pressure from the change of volume."""
         e = increment.strain
         s = (2.0 * self.viscosity(increment) / increment.span)[..., None, None] * deviator(e)
         before = tensors.trace(increment.stress) / 3.0
@@ -86,7 +88,7 @@ class NortonHoff:
         )
 
     def viscosity(self, increment: Increment) -> Array:
-        """``K (sqrt(3) d)^(m-1)``, (...,) [Pa s]."""
+        """Viscosity ``K (sqrt(3) d)^(m-1)``, (...,) [Pa s]."""
         return np.asarray(self.K * (np.sqrt(3.0) * self._speed(increment)) ** (self.m - 1.0))
 
     def _speed(self, increment: Increment) -> Array:
@@ -97,21 +99,21 @@ class NortonHoff:
         return BULK * self.K if self.bulk is None else self.bulk
 
     def moduli(self, increment: Increment) -> Array:
-        """``2 viscosity/span (I' + (m - 1) 2/3 D' x D'/d^2) + bulk I x I``, (..., 3, 3, 3, 3) [Pa]."""
+        """Moduli ``2 viscosity/span (I' + (m - 1) 2/3 D' x D'/d^2) + bulk I x I``, (..., 3, 3, 3, 3) [Pa]."""
         return self.viscous_moduli(increment) + self._bulk() * volumetric()
 
     def viscous_moduli(self, increment: Increment) -> Array:
-        """The moduli without those of the volume, (..., 3, 3, 3, 3) [Pa]."""
+        """Moduli of the deviatoric stress, (..., 3, 3, 3, 3) [Pa]."""
         n = deviator(increment.strain) / (increment.span * self._speed(increment))[..., None, None]
         shape = projector() + 2.0 / 3.0 * (self.m - 1.0) * n[..., :, :, None, None] * n[..., None, None, :, :]
         stiff = 2.0 * self.viscosity(increment) / increment.span
         return np.asarray(stiff[..., None, None, None, None] * shape)
 
     def secant(self, increment: Increment) -> Array:
-        """The moduli with the viscosity held fixed: those of the plain fixed point, (..., 3, 3, 3, 3) [Pa]."""
+        """Moduli with the viscosity held fixed, for the fixed-point iteration, (..., 3, 3, 3, 3) [Pa]."""
         stiff = 2.0 * self.viscosity(increment) / increment.span
         return np.asarray(stiff[..., None, None, None, None] * projector() + self._bulk() * volumetric())
 
     def elastic_moduli(self) -> Array:
-        """Those of the volume, (3, 3, 3, 3) [Pa]."""
+        """Moduli of the volume change, (3, 3, 3, 3) [Pa]."""
         return tensors.isotropic(self._bulk(), 0.0) + 1e-12 * self._bulk() * projector()

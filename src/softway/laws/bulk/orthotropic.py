@@ -5,12 +5,12 @@ from math import sqrt
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.errors import InputError
-from softway.kernels import tensors
-from softway.kernels.spectral import moduli_in_axes
-from softway.laws.measure import Measure, Small
-from softway.laws.moduli import wave_modulus
-from softway.typing import Array
+from softway.kernels.linalg import tensors
+from softway.kernels.linalg.spectral import moduli_in_axes
+from softway.laws.elasticity.elastic_constants import wave_modulus
+from softway.laws.strain_measures import Measure, Small
 from softway.units import Pascal, Pure
 
 _NAMES = ("12", "13", "23")
@@ -19,10 +19,10 @@ _OF_PAIR = ((0, 1), (0, 2), (1, 2))
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LinearOrthotropic:
-    """``W = e:C:e/2`` with three planes of symmetry; stress and strain are proportional.
+    """Orthotropic law ``W = e:C:e/2`` with three planes of symmetry; the stress is linear in the strain.
 
     In the material axes ``e_11 = (S_11 - nu12 S_22 - nu13 S_33)/E1``, ..., ``2 e_12 = S_12/G12``, with
-    ``nu_ij/E_i = nu_ji/E_j``.  A pull along axis i shortens axis j by nu_ij times the stretch.
+    ``nu_ij/E_i = nu_ji/E_j``.  Tension along axis i shortens axis j by nu_ij times the elongation.
 
     Parameters
     ----------
@@ -33,9 +33,9 @@ class LinearOrthotropic:
     G
         Shear moduli G12, G13, G23 [Pa], positive.
     axes
-        First and second material axis, perpendicular; the third completes a right-handed set.  They are directions of
-        the body as it is placed in space; in a bar the first direction is the one along it.  A bar or a plate in plane
-        stress keeps its section free of shear: axes that are tilted out of it make it stiffer than it is.
+        First and second material axis, perpendicular; the third completes a right-handed set.  The axes are directions
+        in space, for the body after its placement; in a bar the first direction is along the bar.  Bars and plates in
+        plane stress have no shear strain of their section: with axes tilted out of it they are too stiff.
     measure
         ``Small`` for small rotations, with a force that is linear in the displacement; ``Green`` for any rotation
         (orthotropic St. Venant-Kirchhoff).
@@ -65,10 +65,10 @@ class LinearOrthotropic:
             most = sqrt(self.E[i] / self.E[j])
             if not abs(self.nu[k]) < most:
                 problem = f"nu{_NAMES[k]} = {self.nu[k]:g} is not below sqrt(E{i + 1}/E{j + 1}) = {most:.4g}"
-                raise InputError(f"nu[{k}]", problem, f"nu{_NAMES[k]} belongs to a pull along axis {i + 1}")
+                raise InputError(f"nu[{k}]", problem, f"nu{_NAMES[k]} of tension along axis {i + 1}")
         least = float(np.linalg.eigvalsh(self._scaled())[0])
         if least <= 0.0:
-            problem = f"{list(self.nu)} give stress without energy (eigenvalue {least:.3g} of the scaled compliance)"
+            problem = f"{list(self.nu)} give no positive energy (eigenvalue {least:.3g} of the scaled compliance)"
             raise InputError("nu", problem, "smaller Poisson's ratios")
         first, second = np.array(self.axes, float)
         sizes = np.linalg.norm(first), np.linalg.norm(second)
@@ -77,7 +77,7 @@ class LinearOrthotropic:
 
     @property
     def linear(self) -> bool:
-        """Whether the force is linear in the displacement: with the small strain."""
+        """True if the force is linear in the displacement, with the small strain."""
         return isinstance(self.measure, Small)
 
     def energy(self, E: Array) -> Array:
@@ -93,7 +93,7 @@ class LinearOrthotropic:
         return np.broadcast_to(self.moduli(), (*E.shape, 3, 3))
 
     def moduli(self) -> Array:
-        """The moduli C in the axes of space, (3, 3, 3, 3) [Pa]."""
+        """Moduli C in the axes of space, (3, 3, 3, 3) [Pa]."""
         root = np.sqrt(self.E)
         normal = np.linalg.inv(self._scaled()) * np.outer(root, root)
         shear = np.zeros((3, 3))
@@ -103,15 +103,15 @@ class LinearOrthotropic:
         return moduli_in_axes(0.5 * (normal + normal.T), shear, np.stack([first, second, np.cross(first, second)], -1))
 
     def wave_speed(self, density: float) -> float:
-        """Speed of the fastest wave of any direction in the undeformed volume [m/s]."""
+        """Speed of the fastest wave in any direction in the undeformed volume [m/s]."""
         return sqrt(wave_modulus(self.moduli()) / density)
 
     def youngs(self) -> float:
-        """Young's modulus along the first direction of space [Pa], that of the first material axis by default."""
+        """Young's modulus along the first direction of space [Pa], by default the first material axis."""
         return float(1.0 / np.linalg.pinv(self.moduli().reshape(9, 9), hermitian=True)[0, 0])
 
     def _scaled(self) -> Array:
-        """Compliance of the normal components with ``sqrt(E_i E_j)`` taken out, (3, 3)."""
+        """Compliance (3, 3) of the normal components, scaled by ``sqrt(E_i E_j)``."""
         scaled = np.eye(3)
         for k, (i, j) in enumerate(_OF_PAIR):
             scaled[i, j] = scaled[j, i] = -self.nu[k] * sqrt(self.E[j] / self.E[i])

@@ -5,16 +5,16 @@ from typing import ClassVar
 
 import numpy as np
 
-from softway.kernels import tensors
-from softway.laws.measure import Green
-from softway.laws.moduli import checked, dilatational_speed, lame
-from softway.typing import Array
+from softway.arrays import Array
+from softway.kernels.linalg import tensors
+from softway.laws.elasticity.elastic_constants import checked, dilatational_speed, lame
+from softway.laws.strain_measures import Green
 from softway.units import Pascal, Pure
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StVenantKirchhoff:
-    """``W = lambda/2 (tr E)^2 + mu E:E`` with Green's strain E.
+    """St. Venant-Kirchhoff law ``W = lambda/2 (tr E)^2 + mu E:E`` with Green's strain E.
 
     For small strains and arbitrary rotations.  It softens without limit in strong compression (below a stretch of
     ``1/sqrt(3)`` in a bar); use :class:`~softway.laws.bulk.NeoHookean` there.

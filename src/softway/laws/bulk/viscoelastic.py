@@ -1,34 +1,36 @@
-"""Viscoelastic materials in corotational axes: Maxwell branches beside a spring, and Kelvin's dashpot beside one."""
+"""Viscoelastic materials in corotational axes: Kelvin-Voigt model and generalised Maxwell model."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.errors import InputError
-from softway.kernels import tensors
-from softway.laws.deviator import deviator, projector
+from softway.kernels.linalg import tensors
+from softway.laws.elasticity.elastic_constants import checked, lame
 from softway.laws.law import Increment, Response
-from softway.laws.moduli import checked, lame
-from softway.laws.rates import Jaumann, Rate
-from softway.typing import Array
+from softway.laws.objective_rates import Jaumann, Rate
+from softway.laws.plasticity.deviator import deviator, projector
 from softway.units import Pascal, PascalSecond, Pure, Second
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Kelvin:
-    """A spring and a dashpot side by side: ``s = lambda tr(e) I + 2 mu e + 2 eta D' + zeta tr(D) I``.
+    """Spring and dashpot in parallel (Kelvin-Voigt): ``s = lambda tr(e) I + 2 mu e + 2 eta D' + zeta tr(D) I``.
 
     The elastic part is hypoelastic.
 
     Parameters
     ----------
-    E, nu
-        Young's modulus [Pa] and Poisson's ratio.
+    E
+        Young's modulus [Pa], positive.
+    nu
+        Poisson's ratio, between -1 and 1/2.
     shear_viscosity
-        eta [Pa s], not negative.
+        Shear viscosity eta [Pa s], not negative.
     bulk_viscosity
-        zeta [Pa s], not negative.
+        Bulk viscosity zeta [Pa s], not negative.
     rate
         Objective rate of the elastic stress.
 
@@ -53,7 +55,7 @@ class Kelvin:
                 raise InputError(name, f"{getattr(self, name):g} Pa s is negative", "zero or more")
 
     def virgin(self, points: int) -> Mapping[str, Array]:
-        """The elastic part of the stress."""
+        """History variable: elastic part of the stress."""
         return {"elastic_stress": np.zeros((points, 3, 3))}
 
     def respond(self, increment: Increment) -> Response:
@@ -70,36 +72,39 @@ class Kelvin:
         )
 
     def _viscosity(self) -> Array:
-        """(3, 3, 3, 3) [Pa s]."""
+        """Viscosities (3, 3, 3, 3) [Pa s]."""
         return tensors.isotropic(self.bulk_viscosity, 0.0) + 2.0 * self.shear_viscosity * projector()
 
     def moduli(self, increment: Increment) -> Array:
-        """Those of spring and dashpot, (..., 3, 3, 3, 3) [Pa]."""
+        """Moduli of spring and dashpot, (..., 3, 3, 3, 3) [Pa]."""
         return self.viscous_moduli(increment) + self.elastic_moduli()
 
     def viscous_moduli(self, increment: Increment) -> Array:
-        """Those of the dashpot, (..., 3, 3, 3, 3) [Pa]."""
+        """Moduli of the dashpot, (..., 3, 3, 3, 3) [Pa]."""
         return np.broadcast_to(self._viscosity() / increment.span, (*increment.strain.shape, 3, 3))
 
     def elastic_moduli(self) -> Array:
-        """Isotropic, (3, 3, 3, 3) [Pa]."""
+        """Isotropic moduli, (3, 3, 3, 3) [Pa]."""
         return tensors.isotropic(*lame(self.E, self.nu))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Maxwell:
-    """A spring beside Maxwell branches: the shear stress relaxes, the pressure does not (Prony series).
+    """Spring and Maxwell branches in parallel (Prony series): the shear stress relaxes, the pressure does not.
 
-    The relaxation modulus is ``mu (1 - sum g) + mu sum g_k exp(-t/t_k)``, mu that of sudden strains.
+    The relaxation modulus is ``mu (1 - sum g) + mu sum g_k exp(-t/t_k)`` with the instantaneous shear modulus mu.
 
     Parameters
     ----------
-    E, nu
-        Young's modulus [Pa] and Poisson's ratio of sudden strains.
+    E
+        Instantaneous Young's modulus [Pa], positive.
+    nu
+        Instantaneous Poisson's ratio, between -1 and 1/2.
     shares
-        g_k, positive, together at most 1; one branch with share 1 is Maxwell's fluid.
+        Fractions g_k of the shear modulus, positive, with a sum of at most 1; one branch with the fraction 1 is a
+        Maxwell fluid.
     times
-        Relaxation times t_k [s].
+        Relaxation times t_k [s], positive.
     rate
         Objective rate of the stress.
 
@@ -125,18 +130,18 @@ class Maxwell:
     def __post_init__(self) -> None:
         checked(self.E, self.nu)
         if len(self.shares) != len(self.times) or not self.shares:
-            raise InputError("times", f"{len(self.times)} times for {len(self.shares)} shares", "one for each")
+            raise InputError("times", f"{len(self.times)} times for {len(self.shares)} shares", "a time for each share")
         if min(self.shares) <= 0.0 or sum(self.shares) > 1.0 + 1e-12:
             raise InputError("shares", f"{list(self.shares)}", "positive numbers whose sum is at most 1")
         if min(self.times) <= 0.0:
             raise InputError("times", f"{min(self.times):g} s is not positive", "positive relaxation times")
 
     def virgin(self, points: int) -> Mapping[str, Array]:
-        """The stress of each branch."""
+        """History variables: stress of each branch."""
         return {f"branch_{k}": np.zeros((points, 3, 3)) for k in range(len(self.shares))}
 
     def respond(self, increment: Increment) -> Response:
-        """Stress, and the energies of the branches: each dissipates what its dashpot takes."""
+        """Stress, and energies: each branch dissipates the work of its dashpot."""
         shear = lame(self.E, self.nu)[1]
         e, flow = increment.strain, deviator(increment.strain)
         spring = increment.stress - sum(increment.memory.values())
@@ -148,7 +153,7 @@ class Maxwell:
         for k, (share, time) in enumerate(zip(self.shares, self.times, strict=True)):
             x, modulus = increment.span / time, 2.0 * shear * share
             before = increment.memory[f"branch_{k}"]
-            steady = modulus * flow / x  # the stress that this rate of strain tends to
+            steady = modulus * flow / x  # limit of the stress at this strain rate
             after = before * np.exp(-x) - steady * np.expm1(-x)
             memory[f"branch_{k}"] = after
             stress = stress + after
@@ -164,13 +169,13 @@ class Maxwell:
         return np.maximum(x * ss + 2.0 * one * se + two * ee, 0.0)
 
     def _spring(self) -> Array:
-        """Moduli (3, 3, 3, 3) of the spring that stays [Pa]."""
+        """Moduli (3, 3, 3, 3) of the parallel spring [Pa]."""
         bulk_part, shear = lame(self.E, self.nu)
         left = 2.0 * shear * (1.0 - sum(self.shares))
         return tensors.isotropic(bulk_part + 2.0 / 3.0 * shear, 0.0) + left * projector()
 
     def moduli(self, increment: Increment) -> Array:
-        """(..., 3, 3, 3, 3) [Pa]."""
+        """Moduli (..., 3, 3, 3, 3) [Pa]."""
         shear = lame(self.E, self.nu)[1]
         C = self._spring()
         for share, time in zip(self.shares, self.times, strict=True):
@@ -179,5 +184,5 @@ class Maxwell:
         return np.broadcast_to(C, (*increment.strain.shape, 3, 3))
 
     def elastic_moduli(self) -> Array:
-        """Those of sudden strains, (3, 3, 3, 3) [Pa]."""
+        """Instantaneous moduli, (3, 3, 3, 3) [Pa]."""
         return tensors.isotropic(*lame(self.E, self.nu))

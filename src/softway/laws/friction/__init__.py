@@ -1,4 +1,4 @@
-"""Laws of friction."""
+"""Friction laws."""
 
 from softway.laws.friction.coulomb import Coulomb as Coulomb
 from softway.laws.friction.frictionless import Frictionless as Frictionless

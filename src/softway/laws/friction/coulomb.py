@@ -5,14 +5,14 @@ from typing import ClassVar
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.laws.friction_law import at_least_zero
-from softway.typing import Array
 from softway.units import Pure
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Coulomb:
-    """``|t| <= mu p`` at rest, ``|t| = mu p`` in slip, without regularisation.
+    """Coulomb friction: ``|t| <= mu p`` at rest, ``|t| = mu p`` in slip, without regularisation.
 
     Parameters
     ----------

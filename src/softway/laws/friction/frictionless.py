@@ -5,12 +5,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from softway.typing import Array
+from softway.arrays import Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Frictionless:
-    """Surfaces that slip freely.
+    """No friction: surfaces slip freely.
 
     Examples
     --------

@@ -5,25 +5,31 @@ from typing import ClassVar
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.laws.friction_law import at_least_zero, positive
-from softway.typing import Array
 from softway.units import MetrePerSecond, Pascal, Pure
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LimitedViscoplastic:
-    """``|t| = min(alpha K (|v|/v0)^p, mbar sigma_eq/sqrt 3, mu p_n)``, as is used in metal forming.
+    """Limited viscoplastic friction ``|t| = min(alpha K (|v|/v0)^p, mbar sigma_eq/sqrt 3, mu p_n)``, for metal forming.
 
     Parameters
     ----------
-    alpha, p, K, v0
-        As for :class:`~softway.laws.friction.NortonHoff`.
+    alpha
+        Fraction of the consistency of the softer material, zero or more.
+    p
+        Exponent of the speed, positive; 1 is viscous friction.
+    K
+        Consistency of the softer material [Pa], zero or more.
     mbar
-        Share of the shear strength that the interface has, zero or more.
+        Shear strength of the interface as a fraction of the shear strength of the softer material, zero or more.
     sigma_eq
         Yield stress of the softer material [Pa], zero or more.
     mu
         Coefficient of dry friction, zero or more.
+    v0
+        Reference speed [m/s], positive.
 
     References
     ----------
@@ -54,7 +60,7 @@ class LimitedViscoplastic:
         return np.zeros_like(pressure)
 
     def resistance(self, speed: Array, pressure: Array) -> tuple[Array, Array, Array]:
-        """The least of the three (...,) [Pa] and its derivatives."""
+        """Least of the three tractions (...,) [Pa] and its derivatives."""
         v, n = (np.asarray(a, float) for a in np.broadcast_arrays(speed, pressure))
         x, scale = np.maximum(v / self.v0, 0.0), self.alpha * self.K
         with np.errstate(divide="ignore"):

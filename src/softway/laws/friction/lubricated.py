@@ -5,19 +5,19 @@ from typing import ClassVar
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.laws.friction_law import at_least_zero, positive
-from softway.typing import Array
 from softway.units import Metre, PascalSecond
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lubricated:
-    """``t = -viscosity v/film``: the shear flow in a film of constant thickness.
+    """Viscous friction of a lubricant film of constant thickness, ``t = -viscosity v/film``.
 
     Parameters
     ----------
     viscosity
-        Of the fluid [Pa s], zero or more.
+        Viscosity of the fluid [Pa s], zero or more.
     film
         Thickness of the film [m], positive.
 

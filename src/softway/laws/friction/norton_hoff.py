@@ -1,31 +1,31 @@
-"""Viscoplastic friction, of the form of the law of Norton and Hoff in the bulk."""
+"""Viscoplastic friction in the form of the Norton-Hoff law."""
 
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.laws.friction_law import at_least_zero, positive
-from softway.typing import Array
 from softway.units import MetrePerSecond, Pascal, Pure
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NortonHoff:
-    """``t = -alpha K |v/v0|^(p-1) v/v0``, eq. (3.6) of the paper.
+    """Viscoplastic friction ``t = -alpha K |v/v0|^(p-1) v/v0``, eq. (3.6) of the paper.
 
-    Nothing is held at rest; the pressure has no part in it.
+    There is no friction at rest, and the traction does not depend on the pressure.
 
     Parameters
     ----------
     alpha
-        Share of the consistency of the softer material, zero or more.
+        Fraction of the consistency of the softer material, zero or more.
     p
-        Sensitivity to the speed, positive; 1 is viscous friction.
+        Exponent of the speed, positive; 1 is viscous friction.
     K
-        Consistency [Pa], zero or more.
+        Consistency of the softer material [Pa], zero or more.
     v0
-        Unit of speed of the law [m/s].
+        Reference speed [m/s], positive.
 
     Examples
     --------

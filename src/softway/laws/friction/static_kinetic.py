@@ -5,17 +5,18 @@ from typing import ClassVar
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.errors import InputError
 from softway.laws.friction_law import at_least_zero
-from softway.typing import Array
 from softway.units import Pure
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StaticKinetic:
-    """``|t| <= mu_s p`` at rest, ``|t| = mu_k p`` in slip.
+    """Static and kinetic friction: ``|t| <= mu_s p`` at rest, ``|t| = mu_k p`` in slip.
 
-    A place that slips is held by ``mu_k p`` only, at the instant when its velocity is zero; from then on by ``mu_s p``.
+    At the instant when a slipping point comes to rest, it sticks only if ``mu_k p`` can hold it; from then on the limit
+    is ``mu_s p``.
 
     Parameters
     ----------

@@ -1,30 +1,32 @@
-"""Friction that falls with the speed and rises again (Stribeck)."""
+"""Friction that first decreases and then increases with the speed (Stribeck)."""
 
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.errors import InputError
 from softway.laws.friction_law import at_least_zero, positive
-from softway.typing import Array
 from softway.units import MetrePerSecond, Pure
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stribeck:
-    """``|t|/p = mu_k + (mu_s - mu_k) exp(-(|v|/v_s)^delta) + viscous |v|/v_s``; ``mu_s p`` is held at rest.
+    """Stribeck friction ``|t|/p = mu_k + (mu_s - mu_k) exp(-(|v|/v_s)^delta) + viscous |v|/v_s``.
+
+    At rest the limit is ``mu_s p``.
 
     Parameters
     ----------
     mu_s, mu_k
-        Coefficients at rest and in fast slip, ``mu_s >= mu_k >= 0``.
+        Coefficients of friction at rest and in fast slip, ``mu_s >= mu_k >= 0``.
     v_s
-        Speed of Stribeck [m/s], positive.
+        Stribeck speed [m/s], positive.
     delta
-        Exponent, positive.
+        Exponent of the speed, positive.
     viscous
-        Coefficient of the part that grows with the speed, at the speed ``v_s``.
+        Coefficient of the viscous part at the speed ``v_s``, zero or more.
 
     References
     ----------
@@ -55,7 +57,7 @@ class Stribeck:
         return np.asarray(self.mu_s * pressure)
 
     def resistance(self, speed: Array, pressure: Array) -> tuple[Array, Array, Array]:
-        """The traction (...,) [Pa] and its derivatives."""
+        """Traction (...,) [Pa] and its derivatives."""
         v, n = (np.asarray(a, float) for a in np.broadcast_arrays(speed, pressure))
         x = np.maximum(v / self.v_s, 0.0)
         power = x**self.delta

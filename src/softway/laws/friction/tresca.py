@@ -5,19 +5,19 @@ from typing import ClassVar
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.laws.friction_law import at_least_zero
-from softway.typing import Array
 from softway.units import Pascal
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Tresca:
-    """``|t| <= shear`` at rest, ``|t| = shear`` in slip, wherever surfaces touch.
+    """Tresca friction: ``|t| <= shear`` at rest, ``|t| = shear`` in slip, wherever surfaces are in contact.
 
     Parameters
     ----------
     shear
-        Tangential traction of slip [Pa], zero or more.
+        Tangential traction in slip [Pa], zero or more.
 
     Examples
     --------

@@ -1,11 +1,11 @@
-"""Operators of the fixed point: ways to invert ``M + h^2/2 mu2 K`` well enough."""
+"""Operators of the fixed point: approximate inverses of ``M + h^2/2 mu2 K``."""
 
-from softway.solve.operators.choice import Choice as Choice
-from softway.solve.operators.choice import choose as choose
+from softway.solve.operators.choice import OperatorChoice as OperatorChoice
+from softway.solve.operators.choice import choose_operator as choose_operator
 from softway.solve.operators.factored import Factored as Factored
+from softway.solve.operators.interface import BuiltOperator as BuiltOperator
+from softway.solve.operators.interface import Operator as Operator
 from softway.solve.operators.matrix_free import MatrixFree as MatrixFree
 from softway.solve.operators.multigrid import Multigrid as Multigrid
-from softway.solve.operators.operator import Made as Made
-from softway.solve.operators.operator import Operator as Operator
 
-__all__ = ["Choice", "Factored", "Made", "MatrixFree", "Multigrid", "Operator", "choose"]
+__all__ = ["BuiltOperator", "Factored", "MatrixFree", "Multigrid", "Operator", "OperatorChoice", "choose_operator"]

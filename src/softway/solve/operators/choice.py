@@ -1,35 +1,36 @@
-"""Which operator: by the number of unknowns, the length of the slab, the shape of the bodies and the memory."""
+"""Choice of the operator, by the number of unknowns, the slab length, the shape of the bodies and the memory."""
 
 import os
 from dataclasses import dataclass
 
 import numpy as np
 
-from softway.bodies.section import wave_speed
+from softway.bodies.elements.section import wave_speed
+from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.operators.factored import Factored
+from softway.solve.operators.interface import Operator
 from softway.solve.operators.matrix_free import MatrixFree
 from softway.solve.operators.multigrid import Multigrid, available
-from softway.solve.operators.operator import Operator
-from softway.solve.system import SlabSystem
 
 FILL = {1: (3.0, 1.0), 2: (12.0, 1.15), 3: (19.0, 4.0 / 3.0)}
-"""Numbers in a factor of f unknowns, ``c f^p``, by the dimension of the cells: measured with nested dissection."""
+"""Coefficients (c, p) of the number of factor entries ``c f^p`` of f unknowns, by the dimension of the cells: measured
+with nested dissection."""
 STREAM = 0.009
-"""Time to stream a number of a factor through a solution, relative to that of an unknown in a product."""
+"""Time per factor entry in a solution, relative to the time per unknown in a matrix-free product."""
 MANY = 60
-"""Products beyond which diagonal preconditioning is no match for multigrid."""
+"""Number of products above which multigrid is faster than diagonal preconditioning."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Choice:
-    """An operator, and why it was chosen."""
+class OperatorChoice:
+    """Operator with the reason of its choice."""
 
     operator: Operator
     reason: str
 
 
-def choose(system: SlabSystem, memory: float | None = None) -> Choice:
-    """The operator for slabs like this one; ``memory`` [bytes] is that of the machine unless it is given."""
+def choose_operator(system: SlabEquations, memory: float | None = None) -> OperatorChoice:
+    """Choose the operator for slabs like this one; ``memory`` [bytes] is by default that of the machine."""
     model = system.model
     unknowns = int(model.free.sum())
     cells = max(p.mesh.cell_dim for p in model.parts)
@@ -41,34 +42,34 @@ def choose(system: SlabSystem, memory: float | None = None) -> Choice:
     if 4.0 * numbers > room:
         why = f"{facts}: a factor of {4e-9 * numbers:.2g} GB would take more than half of the memory"
         iterative = Multigrid() if products > MANY and available() else MatrixFree()
-        return Choice(operator=iterative, reason=why)
+        return OperatorChoice(operator=iterative, reason=why)
     if cells == 3 and products * unknowns < STREAM * numbers:
         why = f"{facts}: about {products:.0f} products cost less than a solution with the factor"
-        return Choice(operator=MatrixFree(), reason=why)
-    return Choice(operator=Factored(), reason=f"{facts}: a factor of {4e-6 * numbers:.2g} MB serves many slabs")
+        return OperatorChoice(operator=MatrixFree(), reason=why)
+    return OperatorChoice(operator=Factored(), reason=f"{facts}: a factor of {4e-6 * numbers:.2g} MB serves many slabs")
 
 
-def courant(system: SlabSystem) -> float:
-    """Cells that the fastest wave crosses in a slab."""
+def courant(system: SlabEquations) -> float:
+    """Number of cells that the fastest wave crosses in a slab."""
     h = system.path.span
     return max(
         h * wave_speed(p.internal.material, p.density, p.internal.section) / p.mesh.edge() for p in system.model.parts
     )
 
 
-def slender(system: SlabSystem) -> float:
+def slender(system: SlabEquations) -> float:
     """Longest over shortest extent of the most slender body."""
     extents = [np.ptp(p.mesh.points, axis=0) for p in system.model.parts]
     return max(float(e.max() / max(e.min(), 1e-12 * e.max())) for e in extents)
 
 
-def _products(system: SlabSystem) -> float:
-    """Products that diagonal preconditioning needs for two digits."""
+def _products(system: SlabEquations) -> float:
+    """Number of products that diagonal preconditioning needs for an accuracy of two digits."""
     return 8.0 + 4.0 * courant(system) * float(np.sqrt(slender(system)))
 
 
 def _memory() -> float:
-    """Memory of the machine [bytes]; 8 GiB where it does not tell."""
+    """Memory of the machine [bytes]; 8 GiB if it is unknown."""
     try:
         return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
     except (AttributeError, ValueError, OSError):

@@ -1,44 +1,44 @@
-"""The frozen sparse factor."""
+"""Operator with a frozen sparse factor."""
 
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
-from softway.solve.backends.choice import best, named
-from softway.solve.linear import Analysis, Factor, LinearSolver, Precision, SuperLU, number_type
-from softway.solve.operators.operator import Made
-from softway.solve.stiffness import Stiffness
-from softway.typing import Array
+from softway.arrays import Array
+from softway.solve.equations.slab_matrix import SlabMatrix
+from softway.solve.linear.backends.choice import best_solver, solver_named
+from softway.solve.linear.interface import Analysis, Factor, LinearSolver, Precision, SuperLU, number_type
+from softway.solve.operators.interface import BuiltOperator
 
 MANY = 2000
-"""Unknowns below which a factor in double precision is as fast."""
+"""Number of unknowns below which a factor in double precision is as fast."""
 FEW = 1000
-"""Unknowns below which the backend that is always there is as fast."""
+"""Number of unknowns below which SuperLU, which is always installed, is as fast."""
 ALONE = 10000
-"""Unknowns below which threads wait for each other longer than they work."""
+"""Number of unknowns below which several threads are slower than one."""
 ASSEMBLY = 8.0
-"""Iterations that the assembly of the matrix and the new compliance of the contact cost."""
+"""Cost of assembling the matrix and of the new contact compliance, in iterations."""
 ROWS = 17.0
-"""Stored numbers for each unknown and iteration that a factor costs: measured with supernodal factors of cubes."""
+"""Factor entries for each unknown that cost one iteration: measured with supernodal factors of cubes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Factored:
-    """A sparse factor of ``M + h^2/2 mu2 K``: best for most.
+    """Sparse factor of ``M + h^2/2 mu2 K``, the best choice for most bodies.
 
-    In single precision the factor takes half the memory and time, and the iterates are the same to the tolerance, for
-    the residual is always that of double precision.
+    In single precision the factor takes half the memory and time.  The residual is always computed in double precision:
+    the iterates are the same within the tolerance.
 
     Parameters
     ----------
     backend
-        Library that factors; by default the fastest that is there.
+        Library that factors; by default the fastest that is installed.
     precision
-        Of the factor; by default single for bodies of large deformation with ``MANY`` unknowns or more: a linear slab
-        is solved by one solution in double precision.
+        Precision of the factor; by default single for bodies of large deformation with at least ``MANY`` unknowns: a
+        linear slab needs only one solution in double precision.
     moduli
-        ``tangent``, or ``secant``: those of a law with the viscosity held fixed, where a law has such (Picard).
+        ``tangent``, or ``secant``: moduli with fixed viscosity, for laws that have them (Picard iteration).
     threads
         Threads of the backend; by default one for few unknowns, else those of its library.
 
@@ -53,8 +53,8 @@ class Factored:
     moduli: Literal["tangent", "secant"] = "tangent"
     threads: int | None = None
 
-    def make(self, slab: Stiffness, u: Array, analysis: Analysis | None) -> Made:
-        """The factor of a slab at the displacement ``u`` (n, d)."""
+    def make(self, slab: SlabMatrix, u: Array, analysis: Analysis | None) -> BuiltOperator:
+        """Factor the matrix of a slab at the displacement ``u`` (n, d)."""
         matrix = slab.operator(u, secant=self.moduli == "secant")
         precision = self._precision(slab)
         if analysis is None:
@@ -62,25 +62,25 @@ class Factored:
         factor = analysis.factor(matrix)
         kind = number_type(precision)
         price = cost(factor, matrix.shape[0], precision)
-        return Made(factor=factor, local=None, analysis=analysis, price=price, kind=kind)
+        return BuiltOperator(factor=factor, local=None, analysis=analysis, price=price, kind=kind)
 
     def _solver(self, size: int, precision: Precision) -> LinearSolver:
         if self.backend != "auto":
-            return named(self.backend, precision, self.threads)
+            return solver_named(self.backend, precision, self.threads)
         return suited(size, precision, self.threads)
 
-    def _precision(self, slab: Stiffness) -> Precision:
+    def _precision(self, slab: SlabMatrix) -> Precision:
         if self.precision != "auto":
             return self.precision
         return "double" if slab.model.linear or slab.model.free.sum() < MANY else "single"
 
 
 def suited(size: int, precision: Precision = "double", threads: int | None = None) -> LinearSolver:
-    """The fastest direct solver for ``size`` unknowns."""
+    """Fastest direct solver for ``size`` unknowns."""
     threads = 1 if threads is None and size < ALONE else threads
-    return SuperLU(precision) if size < FEW else best(precision, threads)
+    return SuperLU(precision) if size < FEW else best_solver(precision, threads)
 
 
 def cost(factor: Factor, size: int, precision: Precision = "double") -> float:
-    """What a factor of ``size`` unknowns costs, in iterations."""
+    """Cost of a factor of ``size`` unknowns, in iterations."""
     return ASSEMBLY + factor.bytes / (np.dtype(number_type(precision)).itemsize * ROWS * max(size, 1))

@@ -6,27 +6,26 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from softway.arrays import Array
 from softway.errors import NoConvergence
-from softway.solve.linear import Analysis, Factor
-from softway.solve.operators.operator import Made
-from softway.solve.settings import check_products
-from softway.solve.stiffness import Stiffness
-from softway.typing import Array
+from softway.solve.checks import check_products
+from softway.solve.equations.slab_matrix import SlabMatrix
+from softway.solve.linear.interface import Analysis, Factor
+from softway.solve.operators.interface import BuiltOperator
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MatrixFree:
     """Jacobi-preconditioned conjugate gradients: no factor, no matrix.
 
-    Best for compact bodies in short slabs, where it takes a few products with the stiffness, and where a factor would
-    not fit into memory.
+    Best for compact bodies in short slabs, with few products per solution, and if a factor would not fit into memory.
 
     Parameters
     ----------
     tolerance
-        Residual at which a solution ends, relative to the right side; the fixed point makes up for what is left.
+        Residual at which a solution ends, relative to the right side; the fixed point corrects the rest.
     limit
-        Products after which it ends in any case.
+        Greatest number of products of a solution.
 
     References
     ----------
@@ -44,34 +43,36 @@ class MatrixFree:
     def __post_init__(self) -> None:
         check_products(self.tolerance, self.limit)
 
-    def make(self, slab: Stiffness, u: Array, analysis: Analysis | None) -> Made:
+    def make(self, slab: SlabMatrix, u: Array, analysis: Analysis | None) -> BuiltOperator:
         """The operator of a slab at the displacement ``u`` (n, d)."""
-        model, share, free = slab.model, slab.share, slab.model.free
+        model, stiffness_factor, free = slab.model, slab.stiffness_factor, slab.model.free
 
         def times(x: Array) -> Array:
             field = np.zeros(free.shape)
             field[free] = x
-            return np.asarray((model.mass @ field + share * model.tangent_product(u, field))[free])
+            return np.asarray((model.mass @ field + stiffness_factor * model.tangent_product(u, field))[free])
 
         local = nodal(slab, u)
-        return Made(factor=Gradients(times, local, self.tolerance, self.limit), local=local, analysis=None, price=1.0)
+        return BuiltOperator(
+            factor=Gradients(times, local, self.tolerance, self.limit), local=local, analysis=None, price=1.0
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Blocks:
-    """Inverse (f, f) of diagonal blocks, block-diagonal itself."""
+    """Block-diagonal matrix (f, f): inverse of the diagonal blocks."""
 
     matrix: sp.csr_array
     bytes: int = 0
 
     def solve(self, b: Array) -> Array:
-        """Solution (f,) or (f, k); sparse where b is."""
+        """Solution (f,) or (f, k); sparse if b is sparse."""
         found: Array = self.matrix @ b
         return found
 
 
-def nodal(slab: Stiffness, u: Array) -> Blocks:
-    """Inverse of the diagonal blocks of the operator at the displacement ``u`` (n, d), one for each node.
+def nodal(slab: SlabMatrix, u: Array) -> Blocks:
+    """Inverse of the nodal diagonal blocks of the operator at the displacement ``u`` (n, d).
 
     Raises
     ------
@@ -80,15 +81,15 @@ def nodal(slab: Stiffness, u: Array) -> Blocks:
     """
     model, free = slab.model, slab.model.free
     n, d = free.shape
-    blocks = slab.share * model.tangent_blocks(u) + model.mass.diagonal()[:, None, None] * np.eye(d)
+    blocks = slab.stiffness_factor * model.tangent_blocks(u) + model.mass.diagonal()[:, None, None] * np.eye(d)
     both = free[:, :, None] & free[:, None, :]
     try:
         inverse = np.linalg.inv(np.where(both, blocks, np.eye(d)))
     except np.linalg.LinAlgError:
         raise NoConvergence("a node has neither inertia nor stiffness") from None
-    whole = sp.bsr_array((inverse, np.arange(n), np.arange(n + 1)), shape=(n * d, n * d)).tocsr()
+    full = sp.bsr_array((inverse, np.arange(n), np.arange(n + 1)), shape=(n * d, n * d)).tocsr()
     keep = np.flatnonzero(free.ravel())
-    return Blocks(sp.csr_array(whole[keep][:, keep]))
+    return Blocks(sp.csr_array(full[keep][:, keep]))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,4 +1,4 @@
-"""Conjugate gradients with smoothed aggregation (pyamg), for bodies whose factor would not fit into memory."""
+"""Conjugate gradients with smoothed aggregation (pyamg), for bodies with a factor that would not fit into memory."""
 
 import importlib
 import importlib.util
@@ -8,28 +8,28 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator
 
-from softway.bodies.rigid_motions import motion_names, rigid_motions
+from softway.arrays import Array
+from softway.bodies.rigid_body_modes import motion_names, rigid_motions
 from softway.errors import InputError
-from softway.solve.linear import Analysis
+from softway.solve.checks import check_products
+from softway.solve.equations.slab_matrix import SlabMatrix
+from softway.solve.linear.interface import Analysis
+from softway.solve.operators.interface import BuiltOperator
 from softway.solve.operators.matrix_free import Gradients, nodal
-from softway.solve.operators.operator import Made
-from softway.solve.settings import check_products
-from softway.solve.stiffness import Stiffness
-from softway.typing import Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Multigrid:
-    """Conjugate gradients preconditioned by smoothed aggregation that knows the rigid motions of every body.
+    """Conjugate gradients preconditioned by smoothed aggregation with the rigid motions of every body.
 
     Needs pyamg (``pip install 'softway[multigrid]'``).
 
     Parameters
     ----------
     tolerance
-        Residual at which a solution ends, relative to the right side; the fixed point makes up for what is left.
+        Residual at which a solution ends, relative to the right side; the fixed point corrects the rest.
     limit
-        Products after which it ends in any case.
+        Greatest number of products of a solution.
 
     References
     ----------
@@ -49,7 +49,7 @@ class Multigrid:
     def __post_init__(self) -> None:
         check_products(self.tolerance, self.limit)
 
-    def make(self, slab: Stiffness, u: Array, analysis: Analysis | None) -> Made:
+    def make(self, slab: SlabMatrix, u: Array, analysis: Analysis | None) -> BuiltOperator:
         """The operator of a slab at the displacement ``u`` (n, d)."""
         if not available():
             raise InputError("solver.operator", "Multigrid without pyamg", "pip install 'softway[multigrid]'")
@@ -60,18 +60,18 @@ class Multigrid:
             sp.csr_matrix(matrix), B=motions, smooth=LOCAL, presmoother=SMOOTHER, postsmoother=SMOOTHER
         )
         gradients = Gradients(matrix.dot, _Cycle(levels.aspreconditioner()), self.tolerance, self.limit)
-        return Made(factor=gradients, local=nodal(slab, u), analysis=None, price=10.0)
+        return BuiltOperator(factor=gradients, local=nodal(slab, u), analysis=None, price=10.0)
 
 
 LOCAL = ("jacobi", {"weighting": "local"})
-"""Smoother of the aggregates, weighted by the sums of rows: an estimate of the spectrum would begin with random numbers
-that all of a process shares."""
+"""Smoother of the aggregates, weighted by the row sums: an estimate of the spectrum would use the random numbers of the
+process."""
 SMOOTHER = ("block_gauss_seidel", {"sweep": "symmetric"})
-"""Smoother on every level: symmetric, so that conjugate gradients stay what they are."""
+"""Smoother on every level: symmetric, as conjugate gradients require."""
 
 
 def available() -> bool:
-    """Whether pyamg is there."""
+    """True if pyamg is installed."""
     return importlib.util.find_spec("pyamg") is not None
 
 
@@ -83,12 +83,12 @@ class _Cycle:
     bytes: int = 0
 
     def solve(self, b: Array) -> Array:
-        """What a cycle makes of b (f,)."""
+        """Result (f,) of one cycle for the right side b (f,)."""
         return np.asarray(self.operator @ b)
 
 
-def _motions(slab: Stiffness, u: Array) -> Array:
-    """Rigid motions (f, k) of the bodies at the displacement ``u`` (n, d), each body for itself."""
+def _motions(slab: SlabMatrix, u: Array) -> Array:
+    """Rigid motions (f, k) of each body at the displacement ``u`` (n, d)."""
     model = slab.model
     d = model.shape[1]
     names = motion_names(d, axisymmetric=False)

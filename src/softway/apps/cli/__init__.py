@@ -1,0 +1,3 @@
+"""Command line ``softway``."""
+
+from softway.apps.cli.commands import main as main

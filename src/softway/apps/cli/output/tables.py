@@ -1,0 +1,130 @@
+"""Tables on the terminal: the scales of a scenario, the summary of a run, the ranking of a race."""
+
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table as Grid
+
+from softway.record.read.summary import UNITS as NUMBERS
+from softway.record.run import Run
+from softway.record.storage.table import RATIO
+
+UNITS = {
+    **{name: unit for name, unit in NUMBERS.items() if unit != RATIO},
+    "wave_speed": "m/s",
+    "length": "m",
+    "transit": "s",
+    "edge": "m",
+    "stable_step": "s",
+    "gap": "m",
+    "approach": "m/s",
+    "duration": "s",
+    "wall": "s",
+    "cpu": "s",
+    "first_slab_cpu": "s",
+    "slab_cpu": "s",
+    "penetration": "m",
+    "least_force": "N",
+    "distance": "m",
+}
+WORDS = {
+    "stable_step": "stable step (Momentum)",
+    "duration": "expected duration",
+    "approach": "approach speed",
+    "transit": "wave transit time",
+    "edge": "smallest edge",
+    "dofs": "free components",
+    "wall": "wall time",
+    "cpu": "CPU time",
+    "first_slab_cpu": "CPU time, first slab",
+    "slab_cpu": "CPU time of a slab (median)",
+    "energy_drift": "energy error (relative)",
+    "distance": "distance at the end",
+}
+RACE = (
+    "slabs",
+    "iterations_mean",
+    "iterations_max",
+    "factorisations",
+    "rejected",
+    "wall",
+    "cpu",
+    "first_slab_cpu",
+    "slab_cpu",
+    "energy_drift",
+    "penetration",
+    "least_force",
+    "distance",
+)
+"""Numbers shown for each method of a race."""
+COLUMNS = 6
+"""Greatest number of bodies or contacts side by side."""
+
+
+def scales(checked: Any, console: Console, most: int | None = None) -> None:
+    """Print the scales of a scenario: sizes, speeds, times and number of slabs, at most ``most``."""
+    title = checked.scenario.title
+    if title:
+        console.print(title, style="bold", markup=False)
+    _columns({f"body {n}": _numbers(b) for n, b in checked.bodies.items()}, console)
+    _columns({f"contact {n}": _numbers(c) for n, c in checked.contacts.items()}, console)
+    end = checked.scenario.time.end
+    some = f"{most} of " if most is not None and most < checked.slabs else ""
+    console.print(f"{some}{checked.slabs} slabs of {checked.step:.6g} s until {end:.6g} s\n", markup=False)
+
+
+def summary(run: Run, console: Console) -> None:
+    """Print the numbers of a run and the reason why it stopped."""
+    found, stop, title = run.summary, run.stop, run.provenance.get("title", "")
+    if title:
+        console.print(title, style="bold", markup=False)
+    plain = {k: v for k, v in found.items() if isinstance(v, int | float) and not isinstance(v, bool)}
+    _columns({"run": plain}, console)
+    _columns({f"contact {n}": c for n, c in found["contacts"].items()}, console)
+    if found.get("certificate"):
+        _columns({"certificate (worst slab)": found["certificate"]}, console)
+    console.print(f"{stop.reason}{': ' if stop.message else ''}{stop.message}", markup=False, soft_wrap=True)
+    console.print(f"records: {run.path}", markup=False, soft_wrap=True, highlight=False)
+
+
+def ranking(found: Mapping[str, Any], console: Console) -> None:
+    """Print the results of a race, one column per method, and the reasons of failures."""
+    methods = found["methods"]
+    _columns({name: {key: _short(method[key]) for key in RACE} for name, method in methods.items()}, console)
+    for name, method in methods.items():
+        failed = f"; failed: {method['reason']}" if method["reason"] else ""
+        console.print(f"{name}: {method['method']}{failed}", markup=False, soft_wrap=True, highlight=False)
+    if found["reference"]:
+        console.print(f"distance at the end: greatest distance of a node from '{found['reference']}'", highlight=False)
+
+
+def _short(value: float | int | None) -> str | int | None:
+    """Value with three significant digits."""
+    return f"{value:.3g}" if isinstance(value, float) else value
+
+
+def _numbers(item: Any) -> dict[str, Any]:
+    return {f.name: getattr(item, f.name) for f in fields(item)} if is_dataclass(item) else dict(item)
+
+
+def _columns(items: dict[str, dict[str, Any]], console: Console) -> None:
+    """Print one column per item and one line per number."""
+    names = list(items)
+    for start in range(0, len(names), COLUMNS):
+        chosen = names[start : start + COLUMNS]
+        grid = Grid(box=None, pad_edge=False, header_style="bold")
+        grid.add_column("")
+        for name in chosen:
+            grid.add_column(name, justify="right", overflow="fold")
+        grid.add_column("")
+        for key in dict.fromkeys(k for name in chosen for k in items[name]):
+            cells = [_cell(items[name].get(key)) for name in chosen]
+            grid.add_row(WORDS.get(key, key.replace("_", " ")), *cells, UNITS.get(key, ""))
+        console.print(grid)
+        console.print()
+
+
+def _cell(value: Any) -> str:
+    return "-" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,51 @@
+"""Command resume: resume a run that stopped."""
+
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+from rich.console import Console
+
+from softway.apps.cli.output.log import Verbose, listen
+from softway.apps.cli.output.progress import progress_of, waiting
+from softway.apps.cli.output.tables import summary
+from softway.record.run import Run
+from softway.record.storage.checkpoint import listed
+from softway.record.storage.provenance import DONE
+from softway.scenario.checks.check import check
+from softway.scenario.run import resume as go_on
+from softway.scenario.run import stored
+
+
+def resume(
+    folder: Path,
+    /,
+    *,
+    quiet: Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())] = False,
+    verbose: Verbose = False,
+    allow_python: Annotated[bool, Parameter(negative=())] = False,
+) -> None:
+    """Resume a run that was killed, interrupted or failed. The results are identical to those of an uninterrupted run.
+
+    Parameters
+    ----------
+    folder
+        Run folder.
+    quiet
+        Print errors only.
+    verbose
+        Report automatic choices and rejected slabs (time steps).
+    allow_python
+        Allow module:name in the scenario to run code of installed modules, not only of modules next to the file.
+    """
+    listen(verbose)
+    stopped, console = Run(folder), Console(quiet=quiet)
+    if stopped.stop == DONE:
+        console.print(f"already done: nothing is left to compute in {folder}", markup=False, soft_wrap=True)
+        return
+    with waiting(console, "reading the scenario and building the meshes"):
+        checked, known = check(stored(folder, allow_python)), listed(folder)
+    console.print(f"resumed from {known[0] if known else 'the start'}", markup=False, soft_wrap=True)
+    with progress_of(checked, console) as progress:
+        done = go_on(folder, scenario=checked, progress=progress)
+    summary(done, console)

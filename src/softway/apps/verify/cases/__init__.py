@@ -1,0 +1,1 @@
+"""Verification cases. Each module computes one case with ``compute() -> Outcome``."""

@@ -1,0 +1,1 @@
+"""Cases of group B: contact of elastic solids."""

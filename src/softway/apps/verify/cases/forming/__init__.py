@@ -1,0 +1,1 @@
+"""Cases of group E: viscous and plastic forming."""

@@ -1,0 +1,1 @@
+"""Cases of group C: friction."""

@@ -1,0 +1,1 @@
+"""Cases of group D: large rotations and strains."""

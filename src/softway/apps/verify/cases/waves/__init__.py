@@ -1,0 +1,1 @@
+"""Cases of group A: elastic waves in bars."""

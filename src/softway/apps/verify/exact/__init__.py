@@ -1,0 +1,1 @@
+"""Exact solutions: motions and equilibria known independently of the method."""

@@ -1,0 +1,1 @@
+"""Scenes shared by several cases, with their marches as arrays."""

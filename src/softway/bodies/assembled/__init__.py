@@ -1,0 +1,1 @@
+"""Assembled quantities of all solids: masses, loads, material states."""

@@ -1,0 +1,40 @@
+"""Inertia of one solid: nodal masses, and interpolation of the velocity of massless nodes."""
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.arrays import IntArray
+from softway.bodies.discretised import DiscreteSolid
+from softway.bodies.inertia.mass_matrix import condensation, nodal_mass
+from softway.bodies.inertia.mass_redistribution import redistribute_mass
+from softway.bodies.solid import Solid
+from softway.errors import InputError, within
+
+
+def solid_following(part: DiscreteSolid, light: IntArray) -> sp.csr_array:
+    """Matrix (n, n) that gives the velocities of all nodes from those with mass; ``light`` are the massless nodes."""
+    if not len(light):
+        return sp.csr_array(sp.eye_array(part.mesh.n_nodes))
+    return condensation(part.mesh, light)
+
+
+def solid_mass(part: DiscreteSolid, solid: Solid, candidates: IntArray, spread: int) -> sp.csr_array:
+    """Nodal mass matrix (n, n) [kg]; mass of the contact nodes ``candidates`` goes to ``spread`` layers of cells."""
+    section = part.internal.section
+    with within(f"bodies.{part.name}"):
+        if len(candidates):
+            if not solid.supports:
+                _require_inertia(part, candidates)
+            return redistribute_mass(part.mesh, solid.density, section, solid.mass, candidates, spread, part.name)
+        return nodal_mass(part.mesh, solid.density, section, solid.mass)
+
+
+def _require_inertia(part: DiscreteSolid, candidates: IntArray) -> None:
+    """Refuse a free body whose nodes with mass lie on one point, or in 3D on one line."""
+    points = np.delete(part.mesh.points, candidates, axis=0)
+    if not len(points):
+        return  # redistribute_mass refuses it
+    rank = int(np.linalg.matrix_rank(points - points.mean(axis=0), tol=1e-9 * float(np.ptp(part.mesh.points))))
+    if rank < part.mesh.dim - 1:
+        problem = f"only {len(points)} nodes are not in a contact tag; mass on them has no moment of inertia"
+        raise InputError("mesh", problem, "a finer mesh, or a smaller tag in the contact")

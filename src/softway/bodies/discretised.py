@@ -1,0 +1,190 @@
+"""Discretised solid: mesh in place, internal force, supports and initial fields."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray
+from softway.bodies.bulk_viscosity import BulkViscosityForce, bulk_viscosity_force
+from softway.bodies.elements.quadrature import Dilating
+from softway.bodies.elements.section import Section, default_section, wave_speed
+from softway.bodies.internal_force.body_force import BodyForce
+from softway.bodies.internal_force.elastic.elastic_force import elastic_force
+from softway.bodies.internal_force.inelastic.inelastic_force import inelastic_force
+from softway.bodies.internal_force.material_state import MaterialState
+from softway.bodies.internal_force.slab_average import SlabForce
+from softway.bodies.setup.initial_fields import sample
+from softway.bodies.solid import Driven, Solid, Support
+from softway.errors import InputError, within
+from softway.laws.law import Material, RateLaw
+from softway.meshes.cells import CELLS
+from softway.meshes.mesh import Mesh
+
+UNSTRAINED = 1e-14
+"""Strain below which a body is taken as undeformed."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class DiscreteSolid:
+    """Discretised solid of n nodes in d dimensions.
+
+    Parameters
+    ----------
+    name
+        Name of the solid in the scene.
+    mesh
+        Mesh, placed in the scene.
+    rows
+        Nodes of the solid among the nodes of the model.
+    internal
+        Internal force.
+    density
+        Mass per reference volume [kg/m^3].
+    average
+        Average of the internal force over a slab.
+    dilatation
+        Average of the volume change in the elements.
+    shock
+        Bulk viscosity; None without.
+    """
+
+    name: str
+    mesh: Mesh
+    rows: slice
+    internal: BodyForce
+    density: float
+    average: SlabForce
+    dilatation: Dilating = "point"
+    shock: BulkViscosityForce | None = None
+
+    def shock_force(self, middle: Array, change: Array, span: float) -> Array:
+        """Force (n, d) of the bulk viscosity [N], zero without; arguments as for :meth:`BulkViscosityForce.force`."""
+        return np.zeros_like(middle) if self.shock is None else self.shock.force(self.internal, middle, change, span)
+
+    def stiffness(self, u: Array, secant: bool, viscous_factor: float, chosen: BoolArray) -> Array:
+        """Entries of the tangent stiffness on its pattern, or of the secant stiffness where the law has one [N/m].
+
+        Parameters
+        ----------
+        u
+            (n, d) displacement of the solid [m].
+        secant
+            True for secant moduli.
+        viscous_factor
+            Factor of the viscous tangent, which is added between the ``chosen`` nodes.
+        chosen
+            (n,) nodes between which the viscous tangent counts.
+        """
+        values = np.asarray((self.internal.secant(u) if secant else self.internal.tangent(u)).data)
+        viscous = self.internal.viscous_tangent(u) if viscous_factor > 0.0 else None
+        if viscous is None:
+            return values
+        keep = np.repeat(chosen, self.mesh.dim)
+        rows, columns = keep[viscous.indices], np.repeat(keep, np.diff(viscous.indptr))
+        return np.asarray(values + viscous_factor * viscous.data * rows * columns)
+
+    def floor(self) -> float:
+        """Stored energy below which the solid is taken as undeformed [J]."""
+        speed = wave_speed(self.internal.material, self.density, self.internal.section)
+        return float(UNSTRAINED**2 * self.density * speed**2 * self.internal.sampling.volume.sum())
+
+    def during(self, state: MaterialState | None, span: float) -> "DiscreteSolid":
+        """Solid in a slab of length ``span`` [s] that starts from a material state; the solid itself without one."""
+        return self if state is None else replace(self, internal=self.internal.during(state, span))
+
+
+def discretise(name: str, solid: Solid, first: int) -> DiscreteSolid:
+    """Discretise a solid whose nodes are numbered from ``first``."""
+    with within("mesh"):
+        mesh = solid.mesh if isinstance(solid.mesh, Mesh) else solid.mesh.build()
+    with within("place"):
+        mesh = solid.place.applied(mesh)
+    section = default_section(mesh) if solid.section is None else solid.section
+    if solid.dilatation == "mean" and any(CELLS[cell].order > 1 for cell in mesh.blocks):
+        problem = (
+            "'mean' with quadratic elements: one mean per element leaves some of their deformations without stiffness"
+        )
+        raise InputError("dilatation", problem, "'corner'")
+    internal = force_of(mesh, solid.material, section, solid.dilatation)
+    rows = slice(first, first + mesh.n_nodes)
+    with within("shock"):
+        shock = bulk_viscosity_force(solid.shock, mesh, solid.density, internal)
+    return DiscreteSolid(
+        name=name,
+        mesh=mesh,
+        rows=rows,
+        internal=internal,
+        density=solid.density,
+        average=solid.force,
+        dilatation=solid.dilatation,
+        shock=shock,
+    )
+
+
+def force_of(mesh: Mesh, material: Material, section: Section, dilatation: Dilating) -> BodyForce:
+    """Build the internal force of a body for its material law."""
+    if isinstance(material, RateLaw):
+        return inelastic_force(mesh, material, section, dilatation)
+    return elastic_force(mesh, material, section, dilatation)
+
+
+def initial(part: DiscreteSolid, solid: Solid) -> tuple[Array, Array, BoolArray]:
+    """Initial displacement [m] and velocity [m/s] (n, d), and the mask (n, d) of components without support."""
+    with within(f"bodies.{part.name}.displacement"):
+        displacement = sample(solid.displacement, part.mesh)
+    with within(f"bodies.{part.name}.velocity"):
+        velocity = sample(solid.velocity, part.mesh)
+    with within(f"bodies.{part.name}"):
+        return displacement, velocity, free_components(solid.supports, part.mesh)
+
+
+def free_components(supports: tuple[Support, ...], mesh: Mesh) -> BoolArray:
+    """Mask (n, d) of the components of a mesh without support.
+
+    Raises
+    ------
+    InputError
+        Naming the place from ``supports[k]`` on: letters that are not axes of the mesh, a tag that matches nothing.
+    """
+    free = np.ones((mesh.n_nodes, mesh.dim), bool)
+    for k, support in enumerate(supports):
+        with within(f"supports[{k}]"):
+            free &= ~supported_components(support, mesh)
+    return free
+
+
+def supported_components(support: Support, mesh: Mesh) -> BoolArray:
+    """Mask (n, d) of the components of a mesh that a support fixes or drives.
+
+    Raises
+    ------
+    InputError
+        Letters that are not axes of the mesh, or a tag that matches nothing.
+    """
+    supported = np.zeros((mesh.n_nodes, mesh.dim), bool)
+    axes = "xyz"[: mesh.dim]
+    letters = axes if support.components == "all" else support.components
+    if not letters or set(letters) - set(axes):
+        problem = f"{support.components!r} in {mesh.dim}D"
+        raise InputError("components", problem, f"letters of {axes!r}, or 'all'")
+    with within("on"):
+        nodes = mesh.nodes(support.on)
+    for letter in letters:
+        supported[nodes, axes.index(letter)] = True
+    return supported
+
+
+def driven_components(
+    parts: Sequence[DiscreteSolid], solids: Mapping[str, Solid], shape: tuple[int, ...]
+) -> tuple[tuple[Driven, BoolArray], ...]:
+    """Driven supports with the masks (n, d) of the components that they move; later supports have precedence."""
+    found = []
+    for part in parts:
+        for k, support in enumerate(solids[part.name].supports):
+            if isinstance(support, Driven):
+                with within(f"bodies.{part.name}.supports[{k}]"):
+                    where = np.zeros(shape, bool)
+                    where[part.rows] = supported_components(support, part.mesh)
+                found.append((support, where))
+    return tuple(found)

@@ -1,0 +1,1 @@
+"""Finite elements of a body: quadrature, sections, strains, mean dilatation."""

@@ -1,0 +1,1 @@
+"""Inertia of a body: mass matrix, redistribution, scaling."""

@@ -1,0 +1,1 @@
+"""Internal force of elastic bodies."""

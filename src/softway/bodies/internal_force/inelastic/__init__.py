@@ -1,0 +1,1 @@
+"""Internal force of bodies with path-dependent laws."""

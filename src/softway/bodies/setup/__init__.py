@@ -1,0 +1,1 @@
+"""Set-up of a body: placement, loads, amplitudes, initial fields."""

@@ -1,3 +1,0 @@
-"""The command ``softway``."""
-
-from softway.cli.commands import main as main

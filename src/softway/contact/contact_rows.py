@@ -1,0 +1,140 @@
+"""Contact rows: the linearised contact conditions of a model as arrays, one row for each pair that may touch."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.arrays import Array, BoolArray, IntArray
+from softway.contact.tangential_rows import TangentialRows
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ContactRows:
+    """Rows of the contact conditions ``gap >= 0``, ``gap = offset + G u``.
+
+    Parameters
+    ----------
+    node
+        (m,) slave node of the model.
+    contact
+        (m,) number of the contact that the row belongs to.
+    normal
+        (m, d) outward unit normal of the opponent.
+    gradient
+        (m, n d) rows G on the components ``j d + i`` of a nodal field.
+    offset
+        (m,) gap at zero displacement [m]; infinite for rows with no opponent in reach.
+    tool_motion
+        (m,) normal motion of a driven opponent over the slab, positive towards the slave [m].
+    labels
+        Names of the contacts.
+    shear
+        Tangential parts of the rows; without directions if no contact has friction.
+    """
+
+    node: IntArray
+    contact: IntArray
+    normal: Array
+    gradient: sp.csr_array
+    offset: Array
+    tool_motion: Array
+    labels: tuple[str, ...]
+    shear: TangentialRows
+
+    @property
+    def near(self) -> BoolArray:
+        """Rows (m,) with an opponent in reach."""
+        return np.isfinite(self.offset)
+
+    def without_friction(self) -> "ContactRows":
+        """Contact rows without tangential directions."""
+        m, n = self.shear.weights.shape
+        return replace(self, shear=TangentialRows.none(m, n, self.normal.shape[1]))
+
+    def gap(self, u: Array) -> Array:
+        """Gap (m,) at the displacement ``u`` (n, d) [m]."""
+        return self.offset + self.normal_component(u)
+
+    def normal_component(self, field: Array) -> Array:
+        """Normal component (m,) of a nodal field (n, d), relative to the opponent's."""
+        return np.asarray(self.gradient @ field.ravel())
+
+    def spread(self, values: Array, shape: tuple[int, int]) -> Array:
+        """Nodal field (n, d) ``G^T values`` of row values (m,)."""
+        return np.asarray(self.gradient.T @ values).reshape(shape)
+
+    def matrix(self, free: BoolArray) -> sp.csr_array:
+        """Rows G (m, f) on the free components of a field; with friction, the tangential rows follow below."""
+        return sp.csr_array(self._all()[:, np.flatnonzero(free.ravel())])
+
+    def _all(self) -> sp.csr_array:
+        if not self.shear.count:
+            return self.gradient
+        return sp.vstack([self.gradient, self.shear.gradient()], format="csr")
+
+    def reachable(self, free: BoolArray) -> BoolArray:
+        """Rows (m,) with an opponent that the free components (n, d) can move."""
+        return np.asarray(self.near & (self.gradient.power(2) @ free.ravel().astype(float) > 1e-12))
+
+    def motion(self, values: Array, which: BoolArray, free: BoolArray) -> Array:
+        """Smallest nodal field (n, d) on the free components of slave nodes, with normal components ``values`` (m,) on
+        the rows ``which`` (m,).
+
+        A node with several rows gets the smallest motion that satisfies all of them.  The same holds for slave nodes
+        that belong to facets of other rows.
+        """
+        out = np.zeros(free.shape)
+        rows = self._own(which, free)
+        own = np.unique(self.node[rows])
+        parts = (own[:, None] * free.shape[1] + np.arange(free.shape[1])).ravel()
+        felt = self.gradient[rows][:, parts[free.ravel()[parts]]]
+        if felt.nnz > (free[self.node[rows]] & (self.normal[rows] != 0.0)).sum():
+            out.ravel()[parts[free.ravel()[parts]]] = np.linalg.lstsq(felt.toarray(), values[rows], rcond=1e-12)[0]
+            return out
+        node, n = self.node[rows], self.normal[rows] * free[self.node[rows]]
+        if len(np.unique(node)) == len(node):
+            out[node] = (values[rows] / (n**2).sum(axis=1))[:, None] * n
+            return out
+        for i in np.unique(node):
+            here = node == i
+            out[i] = np.linalg.lstsq(n[here], values[rows][here], rcond=1e-12)[0]
+        return out
+
+    def normal_forces(self, force: Array, which: BoolArray, free: BoolArray) -> Array:
+        """Normal forces (m,) of the rows ``which`` (m,) that sum up to forces (n, d) on the free components of their
+        slave nodes.
+
+        If one obstacle touches a node more than once, its rows share the force evenly.
+        """
+        out = np.zeros(len(self.node))
+        rows = self._own(which, free)
+        node, n = self.node[rows], self.normal[rows] * free[self.node[rows]]
+        pull = force[node] * free[node]
+        out[rows] = np.einsum("mi,mi->m", n, pull) / (n**2).sum(axis=1)
+        for i in np.flatnonzero(np.bincount(node, minlength=0) > 1) if len(node) else ():
+            here = node == i
+            out[rows[here]] = np.linalg.lstsq(n[here].T, pull[here][0], rcond=1e-12)[0]
+        return out
+
+    def _own(self, which: BoolArray, free: BoolArray) -> IntArray:
+        """Numbers (k,) of those of the rows ``which`` that the motion of their slave node changes."""
+        rows = np.flatnonzero(which & self.near)
+        found: IntArray = rows[((self.normal[rows] * free[self.node[rows]]) ** 2).sum(axis=1) > 1e-12]
+        return found
+
+    def of_contact(self, contact: int) -> BoolArray:
+        """Mask (m,) of the rows of one contact."""
+        return self.contact == contact
+
+
+def on_nodes(node: IntArray, n: int) -> sp.csr_array:
+    """Weights (m, n) of rows that depend on their slave node only.
+
+    Examples
+    --------
+    >>> on_nodes(np.array([2, 0]), 3).toarray().tolist()
+    [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
+    """
+    m = len(node)
+    return sp.csr_array((np.ones(m), np.asarray(node), np.arange(m + 1)), shape=(m, n))

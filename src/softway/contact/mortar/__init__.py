@@ -1,0 +1,1 @@
+"""Mortar contact: weighted gaps over the overlap of two surfaces."""

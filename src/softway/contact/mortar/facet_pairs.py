@@ -1,0 +1,108 @@
+"""Pairs of simplices of two surfaces that may touch in a slab."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.arrays import Array, IntArray
+from softway.contact.surfaces.broad_phase import Sweep, near, sweep
+
+ANGLE = -0.5
+"""Greatest product of unit normals that face each other: 60 degrees."""
+DEEP = 0.2
+"""Overlap at the start of the slab, in sizes of the simplices, beyond which they belong to opposite sides of bodies."""
+FEW = 3.0
+"""Distance in sizes of the simplices, in addition to travel and reach, beyond which a pair is ignored in the slab."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FacetPairs:
+    """Pairs of simplices.
+
+    Parameters
+    ----------
+    slave, master
+        (s,) numbers of the simplices; ``slave`` ascends.
+    limit
+        (s,) greatest distance, in front or behind, at which the pair is considered [m].
+    """
+
+    slave: IntArray
+    master: IntArray
+    limit: Array
+
+
+def vector_areas(corners: Array) -> Array:
+    """Outward normals (d, p) of segments (2, 2, p) or triangles (3, 3, p), with their length or area as magnitude.
+
+    Examples
+    --------
+    >>> vector_areas(np.array([[0.0, 2.0], [0.0, 0.0]])[:, :, None])[:, 0].tolist()
+    [0.0, -2.0]
+    """
+    edge = corners[:, 1:] - corners[:, :1]
+    if len(corners) == 2:
+        return np.stack([edge[1, 0], -edge[0, 0]])
+    return np.asarray(0.5 * np.cross(edge[:, 0], edge[:, 1], axis=0))
+
+
+def unit(vectors: Array, axis: int = 0) -> Array:
+    """Unit vectors along an axis; zero vectors stay zero."""
+    length = np.sqrt(np.sum(vectors**2, axis=axis, keepdims=True))
+    return np.asarray(vectors / np.where(length > 0.0, length, 1.0))
+
+
+def facet_pairs(slave: tuple[Array, Array], master: tuple[Array, Array], reach: float) -> FacetPairs:
+    """Find the pairs that may touch between two configurations.
+
+    Their paths come within ``reach``.  At the start they face each other and the master is not behind the slave; at
+    the start or at the end it is within ``reach`` in front of the slave.
+
+    Parameters
+    ----------
+    slave, master
+        Coordinates (d, k, p) of the corners at the start and at the end [m].
+    reach
+        [m].
+
+    Examples
+    --------
+    >>> below, above = (np.array([[a, b], [y, y]])[:, :, None] for a, b, y in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.3)))
+    >>> [len(facet_pairs((below, below), (above, above), reach).slave) for reach in (0.2, 0.5)]
+    [0, 1]
+    """
+    i, j = near(_sweep(slave), _sweep(master), reach)
+    own, other = (unit(vector_areas(corners[0])) for corners in (slave, master))
+    opposite = np.einsum("ds,ds->s", np.take(own, i, axis=1), np.take(other, j, axis=1)) <= ANGLE
+    i, j = i[opposite], j[opposite]
+    size = np.maximum(_sizes(slave[0])[i], _sizes(master[0])[j])
+    start, end = (_heights(below, above, i, j) for below, above in zip(slave, master, strict=True))
+    kept = (start[1] >= -DEEP * size) & (np.minimum(start[0], end[0]) <= reach)
+    i, j, size = i[kept], j[kept], size[kept]
+    motion = _centre_motion(slave)[:, i] - _centre_motion(master)[:, j]
+    return FacetPairs(slave=i, master=j, limit=FEW * size + reach + np.sqrt(np.sum(motion**2, axis=0)))
+
+
+def _sweep(corners: tuple[Array, Array]) -> Sweep:
+    """Moving boxes around the simplices."""
+    d, k, p = corners[0].shape
+    start, end = (points.reshape(d, -1).T for points in corners)
+    return sweep(start, end, np.arange(k * p).reshape(k, p).T)
+
+
+def _heights(slave: Array, master: Array, i: IntArray, j: IntArray) -> tuple[Array, Array]:
+    """Least and greatest height (s,) of the master corners above the slave corners, along the slave normals."""
+    normal = unit(vector_areas(slave))
+    base = np.sum(normal[:, None] * slave, axis=0)
+    over = np.einsum("ds,dks->ks", np.take(normal, i, axis=1), np.take(master, j, axis=2))
+    return over.min(axis=0) - base.max(axis=0)[i], over.max(axis=0) - base.min(axis=0)[i]
+
+
+def _sizes(corners: Array) -> Array:
+    """Longest edge (p,)."""
+    return np.asarray(np.sqrt(np.sum((corners - np.roll(corners, 1, axis=1)) ** 2, axis=0)).max(axis=0))
+
+
+def _centre_motion(corners: tuple[Array, Array]) -> Array:
+    """Displacement (d, p) of the centres."""
+    return np.asarray((corners[1] - corners[0]).mean(axis=1))

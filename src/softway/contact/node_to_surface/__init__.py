@@ -1,0 +1,1 @@
+"""Node-to-surface and edge-to-edge contact."""

@@ -1,0 +1,1 @@
+"""Contact surfaces: boundaries, facets, broad phase, nodal tractions."""

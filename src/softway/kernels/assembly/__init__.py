@@ -1,0 +1,1 @@
+"""Assembly: sparsity patterns, order of the cells, sums from cells to nodes."""

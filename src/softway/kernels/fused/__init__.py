@@ -1,0 +1,1 @@
+"""Fused kernels: nodal forces of whole bodies in one compiled pass."""

@@ -1,0 +1,157 @@
+"""Kernels of :mod:`softway.kernels.fused.inelastic` for cells with mean dilatation.
+
+The volume ratio in a cell is replaced by its mean,
+
+    F_bar = (theta/J)^(1/m) F,        theta = mean of J over the cell
+
+at the start and at the end of the slab.  The law is evaluated with F_bar (softway.bodies.elements.mean_dilatation).
+With the Cauchy stress s of the law, its mean normal stress p in m dimensions and the mean of p over the cell, the flux
+on the derivatives is
+
+    ((theta/J) (s - p I) + mean(p) I) J F^-T.
+
+The kernels have the same arguments, and in addition the number ``m`` of dimensions that theta scales.
+"""
+
+from softway.kernels.fused.history_stages import foresee, recall, turn
+from softway.kernels.fused.inelastic import answered, moved, remember
+from softway.kernels.fused.stages import collect, gather, scatter, scratch, six
+from softway.kernels.jit.compilation import inlined, kernel
+from softway.kernels.jit.elementary import inverse_cube_root
+from softway.kernels.jit.lanes import (
+    BACK,
+    FRAME,
+    LANES,
+    LOST,
+    NATURAL,
+    PAST,
+    RATIO,
+    STEP,
+    STORED,
+    STRESS,
+    TENSOR,
+    TOTAL,
+    VECTOR,
+)
+from softway.kernels.jit.simd import load, root, spread, store
+
+_KEPT = 20 * LANES  # stored numbers of a point: two tensors and two determinants
+
+
+@kernel
+def force(m, motion, law, numbers, rows, points, table, geometry, starts, first, last, u, step, past, out, energy):
+    """Add nodal forces [N] to ``out`` (n, d), and the energy that each part stores and dissipates [J] to ``energy``."""
+    other = PAST + rows.shape[1] * VECTOR
+    sums = other + rows.shape[1] * VECTOR
+    kept = sums + rows.shape[1] * VECTOR
+    s = scratch(kept + table.shape[0] * _KEPT)
+    for part in range(first, last):
+        store(s, TOTAL, spread(0.0))
+        for block in range(starts[part], starts[part + 1]):
+            gather(u, rows[block], s, PAST)
+            gather(step, rows[block], s, other)
+            before, after, size = _means(s, other, kept, table, geometry[block], u.shape[1])
+            s[sums:kept] = 0.0
+            pressure = spread(0.0)
+            for q in range(table.shape[0]):
+                X, at = geometry[block, q], kept + q * _KEPT
+                foresee(points, block, starts[part + 1] - 1, q, table.shape[0], past)
+                x, r = _scaled(s, at, X, before, after, m)
+                recall(s, points[block], q, past)
+                answered(motion, law, numbers, s, len(past[2]) > 0)
+                taken = load(X, TENSOR) * load(s, RATIO) * (load(s, STORED) + load(s, LOST))
+                store(s, TOTAL, load(s, TOTAL) + taken)
+                turn(s, STRESS)
+                pressure = pressure + load(X, TENSOR + LANES) * _split(s, at, load(X, TENSOR) * r, x, m)
+            pressure = pressure / size
+            for q in range(table.shape[0]):
+                at = kept + q * _KEPT
+                for row in range(0, TENSOR, LANES):
+                    store(s, NATURAL + row, load(s, at + row) + pressure * load(s, at + TENSOR + row))
+                collect(s, table[q], sums)
+            scatter(s, sums, rows[block], out)
+        energy[part] += s[TOTAL : TOTAL + LANES].sum()
+
+
+@kernel
+def settle(m, motion, law, numbers, rows, points, table, geometry, starts, first, last, u, step, past, after):
+    """Write the history variables at the end of the slab to ``after``, which has the same arrays as ``past``."""
+    other = PAST + rows.shape[1] * VECTOR
+    kept = other + rows.shape[1] * VECTOR
+    s = scratch(kept + table.shape[0] * _KEPT)
+    for block in range(starts[first], starts[last]):
+        gather(u, rows[block], s, PAST)
+        gather(step, rows[block], s, other)
+        start, end, _ = _means(s, other, kept, table, geometry[block], u.shape[1])
+        for q in range(table.shape[0]):
+            foresee(points, block, starts[last] - 1, q, table.shape[0], past)
+            _scaled(s, kept + q * _KEPT, geometry[block, q], start, end, m)
+            recall(s, points[block], q, past)
+            answered(motion, law, numbers, s, len(past[2]) > 0)
+            turn(s, STRESS)
+            if len(past[2]) > 0:
+                turn(s, BACK)
+            remember(s, points[block], q, geometry[block, q], past, after)
+
+
+@inlined
+def _means(s, other, kept, table, geometry, d):
+    """theta at the start and at the end, and the volume of the cells; store the derivatives at all points."""
+    before, after, size = spread(0.0), spread(0.0), spread(0.0)
+    for q in range(table.shape[0]):
+        X, at = geometry[q], kept + q * _KEPT
+        moved(s, other, table[q], X, d)
+        for row in range(0, TENSOR, LANES):
+            f, change = load(s, FRAME + row), load(s, STEP + row)
+            store(s, at + row, f)
+            store(s, at + TENSOR + row, f - change)
+        end, start = _determinant(s, at), _determinant(s, at + TENSOR)
+        store(s, at + 2 * TENSOR, end)
+        store(s, at + 2 * TENSOR + LANES, start)
+        weight = load(X, TENSOR)
+        before, after, size = before + weight * start, after + weight * end, size + load(X, TENSOR + LANES)
+    return before / size, after / size, size
+
+
+@inlined
+def _scaled(s, at, X, before, after, m):
+    """Store the derivatives of F_bar at the end and their change; return ``J/theta`` and ``(theta/J)^(1/m)``."""
+    ratio = load(X, TENSOR) / load(X, TENSOR + LANES)
+    x1, x0 = ratio * load(s, at + 2 * TENSOR) / after, ratio * load(s, at + 2 * TENSOR + LANES) / before
+    if m == 3:
+        r1, r0 = inverse_cube_root(x1), inverse_cube_root(x0)
+    else:
+        r1, r0 = 1.0 / root(x1), 1.0 / root(x0)
+    for row in range(9):
+        end, start = load(s, at + row * LANES), load(s, at + TENSOR + row * LANES)
+        if m == 3 or row in (0, 1, 3, 4):
+            end, start = r1 * end, r0 * start
+        store(s, FRAME + row * LANES, end)
+        store(s, STEP + row * LANES, end - start)
+    return x1, r1
+
+
+@inlined
+def _split(s, at, weight, x, m):
+    """Store the flux of the deviator and the factor of the mean pressure; return the pressure of the point."""
+    xx, yy, zz, xy, yz, zx = six(s, STRESS)
+    p = (1.0 / 3.0) * (xx + yy + zz) if m == 3 else 0.5 * (xx + yy)
+    xx, yy, zz = xx - p, yy - p, zz - p
+    for J in range(0, TENSOR, VECTOR):
+        a, b, c = load(s, FRAME + J), load(s, FRAME + J + LANES), load(s, FRAME + J + 2 * LANES)
+        a, b, c = weight * a, weight * b, weight * c
+        store(s, at + J, xx * a + xy * b + zx * c)
+        store(s, at + J + LANES, xy * a + yy * b + yz * c)
+        store(s, at + J + 2 * LANES, zx * a + yz * b + zz * c)
+        store(s, at + TENSOR + J, x * a)
+        store(s, at + TENSOR + J + LANES, x * b)
+        store(s, at + TENSOR + J + 2 * LANES, x * c)
+    return p
+
+
+@inlined
+def _determinant(s, at):
+    a, b, c = load(s, at), load(s, at + LANES), load(s, at + 2 * LANES)
+    d, e, f = load(s, at + 3 * LANES), load(s, at + 4 * LANES), load(s, at + 5 * LANES)
+    g, h, i = load(s, at + 6 * LANES), load(s, at + 7 * LANES), load(s, at + 8 * LANES)
+    return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)

@@ -1,0 +1,1 @@
+"""Geometry of contact: closest points, clipping, event times."""

@@ -1,0 +1,1 @@
+"""Compilation of kernels with Numba, threads and vector lanes."""

@@ -1,0 +1,56 @@
+"""Compilation of kernels, with a cache on disk.
+
+Numba looks for changes only in the file of a kernel, but kernels share parts from other files.  The name of a cached
+kernel therefore contains a digest of these files.
+"""
+
+from collections.abc import Callable
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from numba import cfunc, njit, types
+
+Stage = Any
+"""Compiled function ``(state, moduli)`` of one point in every lane; both arguments are addresses of numbers."""
+
+# Products may be fused with sums, but nothing is reordered; division by zero raises no error.
+_EXACT: dict[str, Any] = {"fastmath": {"contract"}, "error_model": "numpy"}
+_KERNEL = _EXACT | {"nogil": True, "no_cfunc_wrapper": True}
+_PART = _EXACT | {"forceinline": True, "no_cfunc_wrapper": True, "no_cpython_wrapper": True}
+_POINT = types.void(types.CPointer(types.float64), types.CPointer(types.float64))
+_SHARED = (
+    "jit/compilation.py",
+    "jit/elementary.py",
+    "jit/lanes.py",
+    "jit/simd.py",
+    "fused/history_stages.py",
+    "fused/inelastic.py",
+    "fused/stages.py",
+)
+_SOURCES = b"".join((Path(__file__).parents[1] / name).read_bytes() for name in _SHARED)
+_ENDING = f"_{sha256(_SOURCES).hexdigest()[:12]}"
+
+
+def stage(function: Callable[..., None]) -> Stage:
+    """Compile a stage, which kernels call by its address, and cache it on disk."""
+    return _kept(lambda **options: cfunc(_POINT, **options), function, _EXACT)
+
+
+def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Make a kernel that is compiled at its first call, cached on disk, and lets other threads run."""
+    return _kept(njit, function, _KERNEL)
+
+
+def inlined(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Make a function that is inlined in stages and kernels."""
+    return njit(**_PART)(function)
+
+
+def _kept(compiler: Callable[..., Any], function: Callable[..., Any], options: dict[str, Any]) -> Any:
+    """Compile a function, with a cache on disk if there is a writable folder."""
+    function.__qualname__ = function.__qualname__.removesuffix(_ENDING) + _ENDING  # safe if two threads do this at once
+    try:
+        return compiler(cache=True, **options)(function)
+    except RuntimeError:
+        return compiler(**options)(function)

@@ -1,0 +1,1 @@
+"""Building blocks of elastic laws: constants, volume change, stress-free directions."""

@@ -1,0 +1,152 @@
+"""Materials: constants, their sources, and the laws made from them."""
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from softway.errors import InputError
+from softway.laws.bulk import J2, LinearElastic, LinearOrthotropic, MooneyRivlin, NeoHookean
+from softway.laws.law import Material as Law
+from softway.laws.plasticity.hardening import LinearHardening, PowerHardening
+from softway.laws.plasticity.rate_dependence import JohnsonCook, RateIndependent
+from softway.laws.strain_measures import Green
+from softway.units import Kelvin, KilogramPerCubicMetre, Pascal, Pure
+
+LawName = Literal["elastic", "linear", "plastic"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Isotropic:
+    """Young's modulus and Poisson's ratio."""
+
+    E: Pascal
+    nu: Pure
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rubber:
+    """Mooney constants and bulk modulus."""
+
+    c10: Pascal
+    c01: Pascal
+    bulk: Pascal
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Orthotropic:
+    """Constants of :class:`~softway.laws.bulk.LinearOrthotropic`; axes of wood: along the grain, radial, tangential."""
+
+    E: tuple[Pascal, Pascal, Pascal]
+    nu: tuple[Pure, Pure, Pure]
+    G: tuple[Pascal, Pascal, Pascal]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Strength:
+    """Flow stress ``(A + B p^n)(1 + C ln(rate/(1/s)))(1 - T*^m)`` of Johnson and Cook in tension.
+
+    A is the yield stress; ``T* = (T - 298 K)/(melting - 298 K)``.  If only A is known, the others keep their defaults.
+    """
+
+    A: Pascal
+    B: Pascal = 0.0
+    n: Pure = 1.0
+    C: Pure = 0.0
+    m: Pure | None = None
+    melting: Kelvin | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Thermal:
+    """Conductivity [W/(m K)], heat capacity [J/(kg K)] and linear expansion [1/K] near 20 degrees Celsius."""
+
+    conductivity: Annotated[float, "W/(m K)"] | None = None
+    capacity: Annotated[float, "J/(kg K)"] | None = None
+    expansion: Annotated[float, "1/K"] | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Material:
+    """Constants of a material at room temperature.
+
+    Parameters
+    ----------
+    name, aliases
+        Name and alternative names.
+    density
+        Density [kg/m^3].
+    moduli
+        Elastic constants.
+    strength
+        Flow stress, if the material yields and its yield stress is known.
+    thermal
+        Thermal constants, if known.
+    source
+        Source of the constants.
+    note
+        Conditions for which the constants are valid.
+
+    Examples
+    --------
+    >>> from softway.laws.materials import find
+    >>> find("steel S235").elastic()
+    NeoHookean(E=210000000000.0, nu=0.3)
+    """
+
+    name: str
+    density: KilogramPerCubicMetre
+    moduli: Isotropic | Rubber | Orthotropic
+    source: str
+    aliases: tuple[str, ...] = ()
+    strength: Strength | None = None
+    thermal: Thermal | None = None
+    note: str = ""
+
+    def elastic(self) -> NeoHookean | MooneyRivlin | LinearOrthotropic:
+        """Elastic law for any rotation: neo-Hookean, Mooney-Rivlin, or orthotropic in Green's strain."""
+        match self.moduli:
+            case Isotropic(E=E, nu=nu):
+                return NeoHookean(E=E, nu=nu)
+            case Rubber(c10=c10, c01=c01, bulk=bulk):
+                return MooneyRivlin(c10=c10, c01=c01, bulk=bulk)
+            case Orthotropic(E=E3, nu=nu3, G=G):
+                return LinearOrthotropic(E=E3, nu=nu3, G=G, measure=Green())
+
+    def linear(self) -> LinearElastic | LinearOrthotropic:
+        """Elastic law for small strains and rotations."""
+        match self.moduli:
+            case Isotropic(E=E, nu=nu):
+                return LinearElastic(E=E, nu=nu)
+            case Rubber(bulk=bulk):
+                E = self.elastic().youngs()
+                return LinearElastic(E=E, nu=0.5 - E / (6.0 * bulk))
+            case Orthotropic(E=E3, nu=nu3, G=G):
+                return LinearOrthotropic(E=E3, nu=nu3, G=G)
+
+    def plastic(self) -> J2:
+        """J2 plasticity at room temperature with the hardening and the rate dependence of Johnson and Cook.
+
+        Raises
+        ------
+        InputError
+            If the material does not yield, or its yield stress is not known.
+        """
+        if self.strength is None or not isinstance(self.moduli, Isotropic):
+            raise InputError("law", f"{self.name!r} has no yield stress in the library", "elastic or linear")
+        given = self.strength
+        return J2(
+            E=self.moduli.E,
+            nu=self.moduli.nu,
+            yield_stress=given.A,
+            hardening=PowerHardening(modulus=given.B, exponent=given.n) if given.B else LinearHardening(),
+            flow=JohnsonCook(C=given.C) if given.C else RateIndependent(),
+        )
+
+    def law(self, name: LawName = "elastic") -> Law:
+        """Law of the material with a given name."""
+        match name:
+            case "elastic":
+                return self.elastic()
+            case "linear":
+                return self.linear()
+            case "plastic":
+                return self.plastic()

@@ -1,0 +1,1 @@
+"""Building blocks of plastic laws: hardening, rate dependence, return mapping."""

@@ -1,0 +1,169 @@
+"""Attempts at the next slab (time step), with cutbacks until a slab is accepted."""
+
+import logging
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from softway.errors import Halts, NoConvergence, NumericsError, TooFast, Unbalanced, heed
+from softway.march.audit.certificate import balance, certify, violation
+from softway.march.audit.ledger import audit
+from softway.march.friction.slip_end import slip_end
+from softway.march.friction.slip_start import slip_start
+from softway.march.march_state import MarchState, StepHistory
+from softway.march.model_state import ModelState
+from softway.march.results.slab_result import SlabResult
+from softway.march.results.step import Certificate, Ledger
+from softway.march.rules.slab_rule import Attempt
+from softway.march.slab_step import Stepper, advance
+from softway.march.step_control import CRAWL
+from softway.model.slab import Slab
+from softway.model.time_weight import EndPeaks
+from softway.solve.equations.energy_balance import BOUND
+from softway.solve.methods.newton import Newton
+from softway.solve.operators.operator_memory import OperatorMemory
+
+log = logging.getLogger(__name__)
+PATIENCE = 1
+"""Cutbacks after which an energy balance that the scalar cannot close is closed along the motion."""
+DAMPED = EndPeaks(theta=1.0)
+"""Virtual time function of the slab after a stop: the forces at its end act over the whole slab.  Friction may reverse
+at once, and vibrations caused by the stop are damped.  The operator is that of a slab longer by the root of 2."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class AcceptedSlab:
+    """Accepted slab, with the reasons of rejected attempts."""
+
+    after: ModelState
+    out: SlabResult
+    memory: OperatorMemory
+    slab: Slab
+    ledger: Ledger
+    certificate: Certificate
+    rejections: tuple[str, ...]
+    energy_along_motion: bool
+    halted: bool = False
+
+
+def accept_slab(rules: Stepper, march_state: MarchState, length: float, memory: OperatorMemory) -> AcceptedSlab:
+    """Find the next accepted slab, with cutbacks of its length to one half.
+
+    A slab that fails with an old operator is first tried again with a new one.  If the scalar cannot close the energy
+    balance at half the length either, it is closed along the motion, also in the following slabs.  A slab inside which
+    a body comes to rest is tried again with its end at that instant; the slab after it is damped.  ``memory`` is that
+    of the march state, with its operator if available.
+
+    Raises
+    ------
+    NumericsError
+        If no slab was accepted.
+    """
+    now, until, settings = march_state.state, march_state.settings.until, march_state.settings
+    least, crawls = (
+        settings.control.least * march_state.pace.span,
+        march_state.pace.recent_rejections > settings.control.patience,
+    )
+    reasons: list[str] = []
+    halted = False
+    unbalanced = PATIENCE if march_state.pace.energy_along_motion else 0
+    fresh = memory.origin is None
+    while length > least and not (crawls and reasons):
+        heed(rules.cancel, now.time)
+        end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
+        slab = Slab(start=now.time, end=end, weight=DAMPED if march_state.pace.halted else settings.weight)
+        try:
+            attempt = Attempt(
+                approach=settings.control.approach, energy_along_motion=unbalanced >= PATIENCE, cancel=rules.cancel
+            )
+            found = _tried(rules, march_state, slab, memory, attempt)
+            return replace(found, rejections=tuple(reasons), halted=halted)
+        except Halts as stop:
+            length, halted = stop.share * length, True
+            continue
+        except (TooFast, Unbalanced) as failure:
+            length = 0.5 * length
+            unbalanced += isinstance(failure, Unbalanced)
+            reasons.append(f"h = {slab.span:.3g} s: {failure}")
+        except NoConvergence as failure:
+            reasons.append(f"h = {slab.span:.3g} s: {failure}")
+            length = 0.5 * length if fresh else length
+            fresh, memory = True, memory.failed()
+        log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
+    raise NumericsError(_reason(march_state, reasons, crawls), now.time, _remedy(rules))
+
+
+def recent_rejections(before: StepHistory, span: float, rejections: int) -> float:
+    """Number of recent rejections in slabs far below the requested length; four such slabs without any cancel one.
+
+    Examples
+    --------
+    >>> pace, found = StepHistory(span=1.0, length=1.0), []
+    >>> for span, rejections in [(0.5, 3), (0.009, 2), (0.009, 2), (0.009, 0), (0.02, 1)]:
+    ...     pace = replace(pace, recent_rejections=recent_rejections(pace, span, rejections))
+    ...     found.append(pace.recent_rejections)
+    >>> found
+    [0.0, 2.0, 4.0, 3.75, 0.0]
+    """
+    return max(0.0, before.recent_rejections + (rejections or -0.25)) if span <= CRAWL * before.span else 0.0
+
+
+def _reason(march_state: MarchState, reasons: list[str], crawls: bool) -> str:
+    """Reason for the end of a march."""
+    if not reasons:
+        return "no time step was accepted: bodies come to rest again and again"
+    if crawls:
+        count = march_state.pace.recent_rejections + len(reasons)
+        return f"{count:.0f} rejections among slabs shorter than {CRAWL:g} of the step; last: {reasons[-1]}"
+    return f"no time step was accepted after {len(reasons)} cutbacks; last: {reasons[-1]}"
+
+
+def _remedy(rules: Stepper) -> str:
+    """Possible remedies if no time step was accepted."""
+    found = ["a smaller step", "a finer mesh where the cells are crushed"]
+    if isinstance(rules.method, Newton):
+        found.append("the method FixedPoint, which converges more often than Newton alone")
+    if rules.model.contacts.watchers:  # mean gaps
+        found.append("the method NodeToSurface for coarse facets in contact")
+    return ", or ".join(found)
+
+
+def _tried(
+    rules: Stepper, march_state: MarchState, slab: Slab, memory: OperatorMemory, attempt: Attempt
+) -> AcceptedSlab:
+    """Solve and audit one slab: the first solution with a valid certificate.
+
+    Raises
+    ------
+    NoConvergence, Halts
+        If there is none, or a body comes to rest inside the slab.
+    """
+    model, now = rules.model, march_state.state
+    broken: str | None = "no solution"
+    for after, out, new in advance(rules, now, slab, memory, attempt):
+        if slab.weight != DAMPED:
+            slip_end(model, now, out, slab.span)
+            slip_start(model, now, out, partial(_stuck, rules, now, slab, new, attempt))
+        ledger = audit(model, march_state.account, now, out, after)
+        certificate = certify(model, out, after, march_state.account, ledger, balance(model, now, out, after))
+        broken = violation(model, now, out, after, ledger, certificate)
+        if broken is None:
+            return AcceptedSlab(
+                after=after,
+                out=out,
+                memory=new.after(out.iterations // out.passes),
+                slab=slab,
+                ledger=ledger,
+                certificate=certificate,
+                rejections=(),
+                energy_along_motion=attempt.energy_along_motion
+                and bool((np.abs(out.solution.end.scalar) >= BOUND).any()),
+            )
+        log.debug("after %d iterations: %s; iterating further", out.iterations, broken)
+    raise NoConvergence(f"certificate: {broken}")
+
+
+def _stuck(rules: Stepper, now: ModelState, slab: Slab, memory: OperatorMemory, attempt: Attempt) -> SlabResult:
+    """Slab with sticking at any force of all rows at rest."""
+    return next(advance(rules, now, slab, memory, replace(attempt, stick_at_any_force=True)))[1]

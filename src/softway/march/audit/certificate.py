@@ -1,0 +1,150 @@
+"""Certificate of a slab (time step): residuals of the contact conditions and conservation laws, and their limits."""
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.bodies.discretised import UNSTRAINED
+from softway.bodies.elements.section import Axisymmetric
+from softway.march.audit.ledger import resultant
+from softway.march.march_state import EnergyAccount
+from softway.march.model_state import ModelState
+from softway.march.results.slab_result import SlabResult
+from softway.march.results.step import Certificate, Ledger
+from softway.model.model import Model
+from softway.tolerances import DEPTH, ENERGY, FORCES, MOMENTUM, TENSION, UNSTABLE
+
+AT_REST = 1e10
+"""Energies, relative to the rounding error of the stored energy, below which bodies are at rest: strains of 1e-9."""
+BEQUEST = 0.5
+"""Fraction of the admissible momentum error that a slab may leave to the next one."""
+PLACES = 16.0 * float(np.finfo(float).eps)
+"""Rounding error of positions, relative to the coordinates, after the sums that yield forces."""
+INTERNAL = 1e-4
+"""Fraction of the impulses of internal forces, which cancel up to rounding, in the scale of momentum."""
+
+
+def certify(
+    model: Model, out: SlabResult, after: ModelState, last: EnergyAccount, ledger: Ledger, leftover: Array
+) -> Certificate:
+    """Certificate of a solved slab; ``leftover`` (d,) is its momentum error from :func:`balance`."""
+    rows = out.system.contact.nearest_rows(after.start.displacement)
+    gap = np.where(rows.near, rows.gap(after.start.displacement), np.inf)
+    closed = after.closed & rows.near
+    return Certificate(
+        min_gap=float(gap.min(initial=np.inf)),
+        min_force=float(after.pressure.min(initial=0.0)),
+        complementarity=float(np.abs(after.pressure[closed] * gap[closed]).sum()),
+        power_residual=float(sum(c.power_residual for c in ledger.contacts.values())),
+        momentum_error=float(np.abs(leftover).max()),
+        energy_error=ledger.energy_error - last.energy_error,
+    )
+
+
+def violation(
+    model: Model,
+    before: ModelState,
+    out: SlabResult,
+    after: ModelState,
+    ledger: Ledger,
+    found: Certificate,
+) -> str | None:
+    """Message on the first violated condition of a certificate; None if it is valid."""
+    kept = (found.min_gap, found.min_force, found.power_residual, found.momentum_error, found.energy_error)
+    if np.isnan(kept).any() or not np.isfinite(kept[1:]).all():
+        return "a gap, a force or a balance is not a number"
+    if found.min_gap < 0.0 and found.min_gap < -DEPTH * _extent(model, after):
+        return f"a node ends {-found.min_gap:.3g} m inside its opponent"
+    if found.min_force < -TENSION * float(np.abs(after.pressure).max(initial=0.0)):
+        return f"a contact row is in tension: {-found.min_force:.3g} N"
+    return _energetic(model, before, out, after, ledger, found) or _pushing(model, before, out, after, ledger, found)
+
+
+def _energetic(
+    model: Model, before: ModelState, out: SlabResult, after: ModelState, ledger: Ledger, found: Certificate
+) -> str | None:
+    """Message on the energy balance; the full energy scale is computed only if a part of it is not sufficient."""
+    closes, error = out.required.energy == "closed", found.energy_error
+    error = abs(error) if closes else error
+    level = float(np.abs(before.start.energy).sum() + np.abs(after.start.energy).sum()) + ledger.energy_kinetic
+    level += abs(ledger.work_external)
+    growth, rest = (0.0 if closes else UNSTABLE), AT_REST * float(model.floor.sum())
+    if out.required.energy == "free" or error <= (growth + ENERGY) * level + rest:
+        return None
+    level += float(model.kinetic(before.start.velocity).sum())
+    moved = np.abs(after.start.displacement - before.start.displacement).max(axis=1)
+    if error <= (growth + ENERGY) * level + rest + float(np.sum(_blurred(model, after) * moved)):
+        return None
+    if closes:
+        return f"the energy balance misses {found.energy_error:.3g} J of {level:.3g} J"
+    return f"the energy grows by {error:.3g} J of {level:.3g} J: beyond the stability limit"
+
+
+def _pushing(
+    model: Model, before: ModelState, out: SlabResult, after: ModelState, ledger: Ledger, found: Certificate
+) -> str | None:
+    """Message on the momentum balance; its scale is at least the total momentum."""
+    if not out.required.momentum:
+        return None
+    accuracy = MOMENTUM if model.massive.any() else FORCES
+    closes = out.required.energy == "closed"
+    if not closes and found.momentum_error <= accuracy * float(np.abs(ledger.momentum).sum()):
+        return None
+    scale = _participating(model, before, out, after)
+    most = accuracy * scale + float(np.sqrt(2.0 * model.mass.sum() * model.floor.sum()))
+    most += (after.time - before.time) * float(_blurred(model, after).sum())
+    if found.momentum_error > most:
+        return f"the momentum balance misses {found.momentum_error:.3g} of {scale:.3g} kg m/s"
+    unrest = float(np.abs(_unrest(out, after)).max()) if closes else 0.0
+    if unrest > BEQUEST * most:
+        return f"unbalanced forces on massless nodes leave {unrest:.3g} of {scale:.3g} kg m/s to the next slab"
+    return None
+
+
+def _unrest(out: SlabResult, after: ModelState) -> Array:
+    """Momentum (d,) over a slab of the unbalanced forces on massless nodes at its end.
+
+    They persist at the start of the next slab, whose iterations cannot remove them.
+    """
+    model = out.system.model
+    force = after.start.force - model.load - out.rows.spread(after.pressure, model.shape)
+    if out.rows.shear.count:
+        force = force - out.rows.shear.spread(after.traction)
+    here = model.free & ~model.massive[:, None]
+    return np.asarray(out.system.path.span * np.where(here, force, 0.0).sum(axis=0))
+
+
+def _blurred(model: Model, after: ModelState) -> Array:
+    """Rounding error (n,) of the equilibrium of massless nodes, from the rounding of positions [N].
+
+    The energy of bodies that slide to rest decreases with the square of the speed, the work of these forces with the
+    speed only.
+    """
+    stiffness = model.floor / UNSTRAINED**2 / [p.mesh.n_nodes for p in model.parts]
+    spring = stiffness[model.part_of] / model.edge**2
+    return PLACES * _extent(model, after) * np.where(model.massive, 0.0, spring)
+
+
+def _extent(model: Model, after: ModelState) -> float:
+    """Greatest coordinate [m]."""
+    return float(np.abs(model.points + after.start.displacement).max())
+
+
+def balance(model: Model, before: ModelState, out: SlabResult, after: ModelState) -> Array:
+    """Change of momentum (d,) less the impulses of loads, contact and supports [kg m/s]."""
+    keep = np.ones(model.shape[1])
+    keep[0] = not any(isinstance(p.internal.section, Axisymmetric) for p in model.parts)
+    gained = (model.mass @ np.ones(len(model.massive))) @ (after.start.velocity - before.start.velocity)
+    pushed = sum(resultant(part) for part in _given(out))
+    return np.asarray((gained - (after.time - before.time) * pushed) * keep)
+
+
+def _given(out: SlabResult) -> tuple[Array, Array, Array]:
+    """Mean forces (n, d) of loads, contact and supports [N]."""
+    return out.system.model.slab_load(out.solution.end.scalar), out.push, out.support
+
+
+def _participating(model: Model, before: ModelState, out: SlabResult, after: ModelState) -> float:
+    """Scale of the momentum balance [kg m/s]."""
+    own = np.abs(model.mass @ before.start.velocity).sum() + np.abs(model.mass @ after.start.velocity).sum()
+    inner = INTERNAL * (after.time - before.time) * (np.abs(before.start.force).sum() + np.abs(after.start.force).sum())
+    return float(own + (after.time - before.time) * np.abs(sum(_given(out))).sum() + inner)

@@ -1,0 +1,1 @@
+"""Massless contact nodes in slabs of central differences."""

@@ -1,0 +1,1 @@
+"""Friction events inside a slab: stick, slip and their instants."""

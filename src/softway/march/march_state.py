@@ -1,0 +1,112 @@
+"""March state: all data that the next slab (time step) needs besides the model."""
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from softway.errors import InputError
+from softway.march.model_state import ModelState
+from softway.march.step_control import StepControl
+from softway.model.model import Model
+from softway.model.time_weight import TimeWeight
+from softway.solve.methods.central_difference import Explicit
+from softway.solve.methods.fixed_point import FixedPoint
+from softway.solve.methods.newton import Newton
+from softway.solve.operators.operator_memory import OperatorMemory
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Settings:
+    """Settings of a march, see :func:`softway.march.march.march`."""
+
+    until: float
+    step: float | Literal["auto"]
+    weight: TimeWeight
+    method: FixedPoint | Newton | Explicit
+    control: StepControl
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EnergyAccount:
+    """Energy account: energy at the start, and since then external work, dissipation and error of the energy balance
+    [J].
+    """
+
+    energy_start: float
+    work_external: float = 0.0
+    dissipation: float = 0.0
+    energy_error: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StepHistory:
+    """Step history of a march.
+
+    Parameters
+    ----------
+    span, length
+        Requested slab length, and proposed length of the next slab [s].
+    energy_along_motion
+        True if the energy balance of the next slab is closed along the motion from the first attempt.
+    halted
+        True if the last slab ended where a body came to rest.
+    recent_rejections
+        Number of recent rejections in slabs far below the requested length.
+    """
+
+    span: float
+    length: float
+    energy_along_motion: bool = False
+    halted: bool = False
+    recent_rejections: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class MarchState:
+    """State of a march after a slab.
+
+    With it as ``state``, :func:`~softway.march.march.march` continues with the same bits: in this process or, stored,
+    in another process on the same machine with the same number of threads.
+
+    Parameters
+    ----------
+    settings
+        Settings of the march; with other settings the step history and the operator start anew.
+    state
+        Displacement, velocity, forces and history variables.
+    account, pace
+        Energy account and step history.
+    memory
+        Origin and statistics of the operator.
+    slabs
+        Number of slabs accepted with these settings.
+    """
+
+    settings: Settings
+    state: ModelState
+    account: EnergyAccount
+    pace: StepHistory
+    memory: OperatorMemory = OperatorMemory()
+    slabs: int = 0
+
+    def asked(self, settings: Settings, span: float) -> "MarchState":
+        """Initial march state for other ``settings`` and slab length ``span`` [s]."""
+        return replace(
+            self, settings=settings, pace=StepHistory(span=span, length=span), memory=OperatorMemory(), slabs=0
+        )
+
+    def fitting(self, model: Model) -> "MarchState":
+        """Check that the state belongs to this model, and return it.
+
+        Raises
+        ------
+        InputError
+            If it belongs to another scene.
+        """
+        ours, rows = model.shape, len(model.contacts.node)
+        start, closed = self.state.start, self.state.closed
+        pasts = [m is not None for m in start.states]
+        complete = len(pasts) in (0, len(model.parts))
+        if start.displacement.shape != ours or len(closed) != rows or not complete:
+            found = f"{start.displacement.shape} nodal values and {len(closed)} contact rows"
+            raise InputError("state", f"of another scene: {found}", f"one of {ours} and {rows}")
+        return self

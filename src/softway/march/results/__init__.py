@@ -1,0 +1,1 @@
+"""Results of a slab and of its friction, and accepted steps."""

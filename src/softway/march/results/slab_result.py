@@ -1,0 +1,136 @@
+"""Result of a contact rule for one slab (time step): solution and contact events, as arrays."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray
+from softway.bodies.solid import Tool
+from softway.contact.contact_rows import ContactRows
+from softway.march.model_state import ModelState
+from softway.march.results.friction_result import FrictionResult
+from softway.march.results.step import Event
+from softway.model.model import Model
+from softway.model.slab import Slab
+from softway.solve.equations.slab_equations import SlabEquations
+from softway.solve.equations.slab_values import Evaluation
+from softway.solve.methods.iteration import Solution
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Balances:
+    """Balances that an accepted slab must satisfy.
+
+    Parameters
+    ----------
+    energy
+        ``closed``: the energy balance closes up to rounding; ``bounded``: the energy does not grow more than in a
+        stable slab; ``free``: no requirement.
+    momentum
+        True if the momentum balance closes.
+    """
+
+    energy: Literal["closed", "bounded", "free"] = "free"
+    momentum: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SlabResult:
+    """A solved slab.
+
+    Parameters
+    ----------
+    system, solution
+        The equations and their solution.
+    rows
+        Contact rows at the end of the slab.
+    velocity, acceleration
+        (n, d) at the end of the slab.
+    closed, pressure
+        (m,) contact rows that touch at the end, and their normal force there [N].
+    force
+        (m,) normal force over the slab, impulse / h [N].
+    push, support
+        (n, d) mean forces of contact and of supports on the nodes [N].
+    work
+        Work of driven tools and supports [J].
+    dissipation
+        Energy lost in velocity jumps [J].
+    events
+        Touches and releases, and rows that stick or slip.
+    pairs
+        Number of pairs that the search found.
+    passes
+        Number of solutions of the slab.
+    iterations
+        Total number of iterations.
+    required
+        Balances that the slab must satisfy.
+    handed_on
+        Contact rows for the start of the next slab, if a search might find others; None if the search finds the same
+        rows.
+    friction
+        Friction over the slab.
+    """
+
+    system: SlabEquations
+    solution: Solution
+    rows: ContactRows
+    velocity: Array
+    acceleration: Array
+    closed: BoolArray
+    pressure: Array
+    force: Array
+    push: Array
+    support: Array
+    work: float
+    dissipation: float
+    events: tuple[Event, ...]
+    pairs: int
+    iterations: int
+    required: Balances
+    friction: FrictionResult
+    passes: int = 1
+    handed_on: ContactRows | None = None
+
+
+def supports(model: Model, now: ModelState, end: Evaluation, velocity: Array, push: Array, span: float) -> Array:
+    """Mean force (n, d) of the supports on the nodes [N]; ``push`` (n, d) is that of contact."""
+    if model.free.all():
+        return np.zeros(model.shape)
+    inertia = model.mass @ ((velocity - now.start.velocity) / span)
+    return np.where(model.free, 0.0, inertia + end.mean_force - model.slab_load(end.scalar) - push)
+
+
+def contact_event(
+    model: Model,
+    now: ModelState,
+    slab: Slab,
+    rows: ContactRows,
+    end: Array,
+    row: int,
+    kind: str,
+    tau: float,
+    speeds: tuple[float, float],
+    impulse: float = 0.0,
+) -> Event:
+    """Event of a contact row at ``tau``; its position lies between those at both slab ends, exactly on a tool."""
+    node, contact = int(rows.node[row]), int(rows.contact[row])
+    part = model.parts[model.part_of[node]]
+    u0 = now.start.displacement[node]
+    time, place = slab.start + tau * slab.span, model.points[node] + u0 + tau * (end[node] - u0)
+    opponent = model.scene.bodies[model.scene.contacts[contact].opponent]
+    if isinstance(opponent, Tool):
+        gap, normal = opponent.at(time).gap_and_normal(place[None])
+        place = place - gap[0] * normal[0]
+    return Event(
+        time=time,
+        contact=rows.labels[contact],
+        kind=kind,
+        node=node - part.rows.start,
+        position=place,
+        velocity_before=speeds[0],
+        velocity_after=speeds[1],
+        impulse=impulse,
+    )

@@ -1,0 +1,219 @@
+"""Accepted slab (time step): the state before and after, its audit, and its events."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.html_tables import table
+from softway.march.march_state import MarchState
+from softway.model.scene import State
+from softway.model.slab import Slab
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Event:
+    """Contact event inside a slab: touch, release, start of sticking or start of slip of a contact node.
+
+    Parameters
+    ----------
+    time
+        Instant inside the slab [s].
+    contact, kind, node
+        Contact label; ``touch``, ``release``, ``stick`` or ``slip``; node number in its body.
+    position
+        (d,) position of the node [m].
+    velocity_before, velocity_after
+        Normal velocity before and after the instant, negative towards the obstacle; for ``stick`` and ``slip`` the slip
+        speed [m/s].
+    impulse
+        Normal impulse of the velocity jump [N s]; zero at a release.
+    """
+
+    time: float
+    contact: str
+    kind: str
+    node: int
+    position: Array
+    velocity_before: float
+    velocity_after: float
+    impulse: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactLedger:
+    """Audit of one contact over one slab.
+
+    Parameters
+    ----------
+    force_n, force_t
+        Resultant normal and tangential force over the slab (impulse / h) [N].
+    min_gap
+        Least gap at the end [m].
+    power_residual
+        Sum of F_n v_n dt, eq. (3.9) [J].
+    count
+        Number of contact nodes in contact at the end.
+    """
+
+    force_n: float
+    force_t: float
+    min_gap: float
+    power_residual: float
+    count: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ledger:
+    """Energies and momenta at the end of a slab, and works since the start of the march.
+
+    Parameters
+    ----------
+    energy_kinetic, energy_strain
+        At the end [J].
+    work_external, dissipation
+        Since the start: work of loads, supports and moving tools; energy dissipated by friction and material [J].
+    energy_error
+        ``kinetic + strain - initial - work_external + dissipation`` [J].
+    momentum
+        (3,) [kg m/s].
+    spin
+        (3,) angular momentum about the origin [kg m^2/s].
+    contacts
+        Contact label -> its audit over the slab.
+    """
+
+    energy_kinetic: float
+    energy_strain: float
+    work_external: float
+    dissipation: float
+    energy_error: float
+    momentum: Array
+    spin: Array
+    contacts: Mapping[str, ContactLedger]
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        joules = ("energy_kinetic", "energy_strain", "work_external", "dissipation", "energy_error")
+        rows = {name.replace("_", " "): f"{getattr(self, name):.4g} J" for name in joules}
+        rows["momentum"] = f"{np.array2string(self.momentum, precision=4)} kg m/s"
+        rows |= {f"contact {name}": _contact(found) for name, found in self.contacts.items()}
+        return table("Ledger", rows)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Certificate:
+    """Residuals of the contact conditions and the balances of a slab.
+
+    Parameters
+    ----------
+    min_gap
+        Least gap at the end [m].
+    min_force
+        Least normal force at the end [N].
+    complementarity
+        Sum of force times gap at the end [J].
+    power_residual
+        Sum of F_n v_n dt over the slab, eq. (3.9) [J].
+    momentum_error, energy_error
+        Errors of the balances of this slab [kg m/s], [J].
+    """
+
+    min_gap: float
+    min_force: float
+    complementarity: float
+    power_residual: float
+    momentum_error: float
+    energy_error: float
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        units = ("m", "N", "J", "J", "kg m/s", "J")
+        numbers = zip(fields(self), units, strict=True)
+        return table("Certificate", {f.name.replace("_", " "): f"{getattr(self, f.name):.3g} {u}" for f, u in numbers})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Report:
+    """Report on the solution of a slab.
+
+    Parameters
+    ----------
+    iterations
+        Number of iterations of this slab.
+    pairs
+        Number of pairs of nodes, facets or edges that the search found.
+    factorisations
+        Number of factorisations since the start of the march.
+    passes
+        Number of solutions of the slab with different contact events.
+    contraction
+        Mean ratio of successive changes of the iterates.
+    rejections
+        Reasons of rejected attempts.
+    scalars
+        Scalar of the Energy rule for each body.
+    """
+
+    iterations: int
+    pairs: int
+    factorisations: int
+    passes: int
+    contraction: float = 0.0
+    rejections: tuple[str, ...] = ()
+    scalars: Mapping[str, float] | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Step:
+    """Accepted slab.
+
+    Parameters
+    ----------
+    before, after
+        State at both ends.
+    slab
+        Time interval of the slab.
+    ledger
+        Energies, works and momenta.
+    certificate
+        Residuals of the contact conditions and the balances.
+    events
+        Contact events inside the slab, in order.
+    reactions
+        Body -> (n, d) mean force of the supports on the nodes [N].
+    report
+        Iterations, rejections and other data on the solution.
+    march_state
+        State of the march after the slab, from which another march continues with the same bits.
+    """
+
+    before: State
+    after: State
+    slab: Slab
+    ledger: Ledger
+    certificate: Certificate
+    events: tuple[Event, ...]
+    reactions: Mapping[str, Array]
+    report: Report
+    march_state: MarchState
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        ledger = self.ledger
+        rows = {
+            "iterations": self.report.iterations,
+            "kinetic, strain energy": f"{ledger.energy_kinetic:.4g} J, {ledger.energy_strain:.4g} J",
+            "energy error": f"{ledger.energy_error:.2g} J",
+            **{f"contact {name}": _contact(found) for name, found in ledger.contacts.items()},
+            "events": "\n".join(f"{e.kind} of node {e.node} ({e.contact}) at {e.time:.6g} s" for e in self.events[:8]),
+        }
+        more = f"\nand {len(self.events) - 8} more" if len(self.events) > 8 else ""
+        rows["events"] = f"{rows['events']}{more}" or "none"
+        return table(f"Slab from {self.slab.start:.6g} s to {self.slab.end:.6g} s", rows)
+
+
+def _contact(found: ContactLedger) -> str:
+    """Description of a contact for notebooks."""
+    return f"{found.count} nodes in contact, {found.force_n:.4g} N, least gap {found.min_gap:.3g} m"

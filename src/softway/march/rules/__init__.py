@@ -1,0 +1,1 @@
+"""Contact rules: how a slab with contact is solved."""

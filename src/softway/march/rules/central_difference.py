@@ -1,0 +1,174 @@
+"""Slab (time step) of central differences: explicit motion of nodes with inertia, equilibrium of contact nodes.
+
+    v = v0 + h/2 a0,    x1 = x0 + h v,    v1 = v + h/2 a1,    M a = load - f        nodes with inertia
+    f(x1) = load + G^T p,   gap(x1) >= 0,  p >= 0                                   massless nodes
+
+Contact forces act on massless nodes only: there are no impacts (docs/theory/explicit.md).
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.assembled.contact_layer import layer
+from softway.contact.contact_rows import ContactRows
+from softway.contact.impact_rule import Energy
+from softway.errors import InputError
+from softway.march.explicit.contact_equilibrium import solve_contact_nodes, watched_nodes
+from softway.march.explicit.massless_nodes import FollowedNodes, MasslessNodes, handed_forces, pushed_nodes
+from softway.march.model_state import ModelState
+from softway.march.results.friction_result import first_impulses
+from softway.march.results.slab_result import Balances
+from softway.march.rules.equilibrated import EndForceContact
+from softway.march.rules.massless_slab import equations, slab_result
+from softway.march.rules.slab_rule import Attempt, Solutions
+from softway.march.step_control import require_slow
+from softway.model.model import Model
+from softway.model.slab import Slab
+from softway.model.time_weight import EndPeaks, TimeWeight, moments
+from softway.solve.equations.slab_equations import SlabEquations
+from softway.solve.equations.slab_values import Evaluation
+from softway.solve.linear.mass_solver import MassSolver, mass_solver
+from softway.solve.methods.central_difference import Explicit
+from softway.solve.methods.iteration import Iterate, Solution
+from softway.solve.operators.operator_memory import OperatorMemory
+
+HOW = EndForceContact()
+"""Contact forces and instants of a slab, without a closure of the energy balance."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class CentralDifference:
+    """Central differences of a model: the inverse mass, and the massless nodes with the nodes that they follow."""
+
+    method: Explicit
+    inertia: MassSolver
+    still: MasslessNodes
+    followed: FollowedNodes
+    light: IntArray
+    supported: BoolArray | None
+
+    def sloped(self, force: Array, before: Array) -> Array:
+        """Slope (n, d) of the velocity by a force (n, d).
+
+        Massless nodes keep the slope ``before`` (n, d) of the previous slab.  It counts twice, because their velocity
+        is the mean of a slab.
+        """
+        out = self.inertia.acceleration(force)
+        out[self.light] = 2.0 * before[self.light]
+        return out
+
+    def guessed(self, system: SlabEquations, moving: Array, coasting: Array) -> tuple[Array, Array]:
+        """Initial guess of q (n, d) and of the end displacement, from the velocity and displacement without contact.
+
+        The array of the velocity is used for q.
+        """
+        moving[self.light] += system.start.velocity[self.light]
+        if self.supported is None:
+            return moving, coasting
+        q = np.where(self.supported, system.given, moving)
+        return q, system.path.end(q)
+
+    def reached(self, q: Array, moving: Array) -> Array:
+        """Velocity (n, d) at the end from q and from ``moving`` for nodes with inertia, which is overwritten."""
+        out = moving if self.supported is None else np.where(self.supported, q, moving)
+        out[self.light] = 0.5 * q[self.light]
+        return out
+
+    def solve(self, model: Model, now: ModelState, slab: Slab, memory: OperatorMemory, attempt: Attempt) -> Solutions:
+        """Solution of the slab.
+
+        Raises
+        ------
+        NoConvergence
+            If the equilibrium of the contact nodes does not converge.
+        """
+        h, start = slab.span, now.start
+        shock = model.shock_force(start.displacement, h * start.velocity, h)
+        push = model.load if shock is None else model.load - shock
+        opening = _opening(model, now, self)
+        slope = self.sloped(push - opening, now.acceleration)
+        moving = h * slope
+        coasting = 0.5 * moving
+        moving += start.velocity
+        coasting += start.velocity
+        coasting *= h
+        coasting += start.displacement
+        pairs = model.contacts.meet(start.displacement, coasting, slab.start, slab.end)
+        require_slow(model, pairs, coasting, attempt.approach)
+        system = equations(HOW, model, now, slab, pairs, attempt).without_closure()
+        guess, first = self.guessed(system, moving, coasting), first_impulses(now, slab, system.path.rows)
+        it, u1, count = solve_contact_nodes(system, self.still, guess, first, memory, self.method)
+        end = _evaluated(system, it, u1)
+        closing, left = handed_forces(self.followed, self.still, end.force, _outer(system, self.still, it, end.rows))
+        opening += closing
+        opening *= 0.5
+        end = replace(end, mean_force=opening)
+        if shock is not None:
+            lost = model.totals(shock * (end.displacement - start.displacement))
+            end = replace(end, mean_force=end.mean_force + shock, lost=lost)
+        solution = Solution(last=it, end=end, predicted=it.free, iterations=count, contraction=0.0)
+        slope += self.inertia.acceleration(push - closing)
+        slope *= 0.5 * h
+        slope += start.velocity
+        velocity = self.reached(it.q, slope)
+        out = slab_result(HOW, model, now, slab, system, solution, pairs.found, velocity)
+        required = Balances(energy="bounded" if out.required.energy == "closed" else out.required.energy)
+        yield replace(out, required=required), watched_nodes(it.memory, self.still, left)
+
+
+def central_difference(model: Model, method: Explicit, weight: TimeWeight) -> CentralDifference:
+    """Prepare central differences.
+
+    Raises
+    ------
+    InputError
+        If contact nodes have inertia, or the time weight is not the default.
+    """
+    if weight != EndPeaks():
+        raise InputError("time.weight", f"{weight} with Explicit, whose peak is at the start", "the default weight")
+    if not isinstance(model.timing, Energy) or model.timing.located:
+        raise InputError("solver", "Explicit with contact nodes that have inertia", "the timing Energy")
+    light = ~model.massive
+    still = MasslessNodes(light=model.free & light[:, None], layer=layer(model.parts, light))
+    return CentralDifference(
+        method=method,
+        inertia=mass_solver(model),
+        still=still,
+        followed=FollowedNodes.of(model, still),
+        light=np.flatnonzero(light),
+        supported=None if model.free.all() else ~model.free,
+    )
+
+
+def _evaluated(system: SlabEquations, it: Iterate, u1: Array) -> Evaluation:
+    """Evaluation of all bodies at the end displacement ``u1`` (n, d) of the slab."""
+    none = np.zeros(len(system.model.parts))
+    energy, force = system.model.energy_and_force(u1)
+    return Evaluation(
+        residual=np.zeros_like(force),
+        displacement=u1,
+        force=force,
+        energy=energy,
+        mean_force=force,
+        scalar=none,
+        missing_work=none,
+        clipped=False,
+        rows=it.system.contact.at(u1),
+    )
+
+
+def _opening(model: Model, now: ModelState, central: CentralDifference) -> Array:
+    """Internal force (n, d) at the start, with residual forces of massless nodes on the nodes that they follow [N]."""
+    start = now.start
+    rows = now.rows or model.rows(start.displacement, now.time)
+    outer = pushed_nodes(central.still, model.load_before, rows, now.pressure, now.traction)
+    return handed_forces(central.followed, central.still, start.force, outer)[0]
+
+
+def _outer(system: SlabEquations, still: MasslessNodes, it: Iterate, rows: ContactRows) -> Array:
+    """Forces (f,) of loads and contact at the end of the slab on massless components [N]."""
+    m, forces = len(rows.node), it.impulse / (system.path.span * moments(system.weight)[1])
+    traction = rows.shear.vectors(rows.shear.components(forces[m:]))
+    return pushed_nodes(still, system.model.load, rows, forces[:m], traction)

@@ -1,0 +1,104 @@
+"""Energy rule: massless contact nodes, in constrained equilibrium at the end of the slab (time step)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray
+from softway.march.model_state import ModelState
+from softway.march.results.friction_result import first_impulses
+from softway.march.results.step import Event
+from softway.march.rules.contact_instants import releases, touches
+from softway.march.rules.massless_slab import (
+    ContactForces,
+    MasslessContact,
+    equations,
+    require_end_points,
+    slab_result,
+)
+from softway.march.rules.slab_rule import Attempt, Solutions
+from softway.march.step_control import require_slow
+from softway.model.model import Model
+from softway.model.slab import Slab
+from softway.model.time_weight import EndPeaks, TimeWeight
+from softway.solve.equations.closure import Closure, EndForcesOnly, EnergyScalar, Unclosed
+from softway.solve.equations.mean_force import MeanForce, WeightedMean
+from softway.solve.equations.slab_equations import SlabEquations
+from softway.solve.methods.cancellable import cancellable
+from softway.solve.methods.fixed_point import FixedPoint
+from softway.solve.methods.iteration import Guess, Solution, iterate
+from softway.solve.methods.newton import Newton
+from softway.solve.operators.operator_memory import OperatorMemory
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Equilibrated:
+    """Slabs with massless contact nodes in equilibrium; contact rows are inequalities on the gap at the end."""
+
+    method: FixedPoint | Newton
+    contact: MasslessContact
+
+    def solve(self, model: Model, now: ModelState, slab: Slab, memory: OperatorMemory, attempt: Attempt) -> Solutions:
+        """Solutions of the slab, each more accurate than the previous one."""
+        h, start = slab.span, now.start
+        rate = start.velocity + h * now.acceleration
+        coasting = start.displacement + h * np.where(model.massive[:, None], 0.5 * (start.velocity + rate), rate)
+        pairs = model.contacts.meet(start.displacement, coasting, slab.start, slab.end)
+        require_slow(model, pairs, coasting, attempt.approach)
+        system = equations(self.contact, model, now, slab, pairs, attempt)
+        guess = np.where(model.free, np.where(model.massive[:, None], rate, 2.0 * rate), system.given)
+        impulse, active = first_impulses(now, slab, system.path.rows)
+        method = cancellable(self.method, attempt.cancel, slab.start)
+        iterates = method.iterate(system, Guess(q=guess, impulse=impulse, active=active, memory=memory))
+        for solution in iterate(system, iterates, method.tolerance, method.limit):
+            q = solution.last.q
+            velocity = np.where(model.massive[:, None], q, 0.5 * q)
+            out = slab_result(self.contact, model, now, slab, system, solution, pairs.found, velocity)
+            yield out, solution.last.memory
+
+
+@dataclass(frozen=True, slots=True)
+class EndForceContact:
+    """Contact forces linear in time between the ends of the slab; one scalar per body closes the energy balance."""
+
+    def average(self, slab: Slab) -> MeanForce:
+        """Mean by the virtual time function."""
+        return WeightedMean(slab.weight)
+
+    def closure(self, model: Model, now: ModelState, slab: Slab, attempt: Attempt) -> Closure:
+        """Closure by the scalar; with friction and another time weight, forces at the end only."""
+        if slab.weight == EndPeaks():
+            return EnergyScalar(attempt.energy_along_motion)
+        return Unclosed() if model.friction.frictionless else EndForcesOnly()
+
+    def forces(
+        self, model: Model, now: ModelState, system: SlabEquations, solution: Solution, pressure: Array
+    ) -> ContactForces:
+        """Forces at both ends, weighted by the scalar of each body."""
+        first, rows = system.contact.initial.rows, solution.end.rows
+        a = solution.end.scalar[model.part_of[rows.node]]
+        old, new = (0.5 - a) * now.pressure, (0.5 + a) * pressure
+        if first is rows:
+            nodes = rows.spread(old + new, model.shape)
+        else:
+            nodes = first.spread(old, model.shape) + rows.spread(new, model.shape)
+        return ContactForces(rows=old + new, nodes=nodes, work=float(old @ first.tool_motion + new @ rows.tool_motion))
+
+    def events(
+        self, model: Model, now: ModelState, slab: Slab, system: SlabEquations, solution: Solution, closed: BoolArray
+    ) -> list[Event]:
+        """Touches and releases at the roots of gap and reaction."""
+        found = touches(model, now, slab, system, solution, closed)
+        return found + releases(model, now, slab, solution.end.rows, solution, closed)
+
+
+def equilibrated(model: Model, method: FixedPoint | Newton, weight: TimeWeight) -> Equilibrated:
+    """Prepare the rule.
+
+    Raises
+    ------
+    InputError
+        If the time weight does not fit.
+    """
+    require_end_points(model, weight)
+    return Equilibrated(method=method, contact=EndForceContact())

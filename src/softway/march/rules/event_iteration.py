@@ -1,0 +1,178 @@
+"""Iteration over the contact events of a slab (time step), for nodes with inertia.
+
+Nodes that end inside the obstacle get a touch, closed rows with a reaction in tension at the end a release, both at
+instants inside the slab.  A row touches once and is released once in a slab; one that would touch again stays closed.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray
+from softway.contact.contact_rows import ContactRows
+from softway.contact.contact_set import SlabContacts
+from softway.contact.slab_motion.trajectory import ContactEvents, contact_events
+from softway.kernels.geometry.event_times import crossing, fading
+from softway.march.model_state import ModelState
+from softway.march.rules.touch import Touch
+from softway.march.rules.velocity_jumps import at, instants
+from softway.model.model import Model
+from softway.solve.constraints.impact_multipliers import ImpactMultipliers
+from softway.solve.equations.slab_equations import SlabEquations
+from softway.solve.methods.iteration import Solution
+
+APART = 1e-9
+"""Gap at the start of a slab, relative to the coordinates, beyond which a row does not touch."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class EventIteration:
+    """Contact events of a slab found so far.
+
+    ``rows`` are the contact rows at the end of the slab, ``events`` their events, ``reaction`` (m,) the forces at the
+    start of their closed phases; the rows ``may_not_release`` (m,) stay closed.
+    """
+
+    rows: ContactRows
+    events: ContactEvents
+    reaction: Array
+    may_not_release: BoolArray
+
+    @property
+    def impulse(self) -> Array:
+        """Impulse divided by h (m,), for a force that fades linearly from the start of contact to the release [N]."""
+        begin = np.nan_to_num(self.events.touch)
+        length = np.where(np.isfinite(self.events.release), np.nan_to_num(self.events.release) - begin, 0.0)
+        return 0.5 * np.maximum(self.reaction, 0.0) * length
+
+
+def without_events(model: Model, now: ModelState, pairs: SlabContacts, rows: ContactRows) -> EventIteration:
+    """Contact events without touches; closed rows without contact at the start (node slid off a facet) are released."""
+    first, u0 = pairs.start(now.start.displacement), now.start.displacement
+    extent = float(np.abs(model.points + u0).max())
+    gone = now.closed & ~(rows.near & first.near & (first.gap(u0) <= APART * extent))
+    events = contact_events(now.closed & ~gone)
+    events = replace(events, release=np.where(gone, 0.0, events.release))
+    return EventIteration(
+        rows=rows, events=events, reaction=now.pressure, may_not_release=np.zeros(len(now.closed), bool)
+    )
+
+
+def with_new_events(
+    model: Model,
+    now: ModelState,
+    system: SlabEquations,
+    current: EventIteration,
+    found: Solution,
+    inertia: ImpactMultipliers,
+    touch: Touch,
+) -> EventIteration | None:
+    """Add the touches and releases that the solution requires; None if there are none."""
+    rows, events, end = current.rows, current.events, found.end
+    gap = rows.gap(end.displacement)
+    below = ~events.closed & (gap < -rounding(model, rows, end.displacement)) & rows.reachable(model.free)
+    if below.any():
+        return _touching(model, now, system, current, found.last.q, below, touch)
+    pull = inertia.multiplier(rows, end.force, events.closed)
+    floor = 1e-11 * max(float(np.abs(end.force).max(initial=0.0)), float(np.abs(pull).max(initial=0.0)))
+    tense = events.closed & ~current.may_not_release & (pull < -floor)
+    if tense.any():
+        return _releasing(model, system, current, found.last.q, tense, pull, inertia)
+    return None
+
+
+def with_new_facets(
+    model: Model, pairs: SlabContacts, current: EventIteration, found: Solution
+) -> EventIteration | None:
+    """Update the contact rows to those at the end of the solution; None if they have converged."""
+    if pairs.fixed_rows is not None:
+        return None
+    u1 = found.end.displacement
+    rows = pairs.at(u1)
+    compared = rows.near & current.rows.near
+    compared = compared & current.events.kinked
+    off = rows.gap(u1)[compared] - current.rows.gap(u1)[compared]
+    fresh = rows.near & ~current.rows.near & (rows.gap(u1) < 0.0)
+    if not fresh.any() and np.abs(off).max(initial=0.0) <= 8.0 * rounding(model, rows, u1):
+        return None
+    return replace(current, rows=rows)
+
+
+def rounding(model: Model, rows: ContactRows, u: Array) -> float:
+    """Rounding error of gaps [m]: a few units in the last place of the coordinates."""
+    extent = max(float(np.abs(p.mesh.points).max()) for p in model.parts)
+    return 4e-16 * (extent + float(np.abs(u).max(initial=0.0)) + float(np.abs(rows.offset[rows.near]).max(initial=0.0)))
+
+
+def _touching(
+    model: Model,
+    now: ModelState,
+    system: SlabEquations,
+    current: EventIteration,
+    q: Array,
+    below: BoolArray,
+    touch: Touch,
+) -> EventIteration:
+    """Close the rows that end inside the obstacle; a row that was released in this slab stays closed instead."""
+    rows, events, h = current.rows, current.events, system.path.span
+    back = below & np.isfinite(events.release)
+    fresh = below & ~back
+    gap = np.where(rows.near, rows.gap(now.start.displacement) + rows.tool_motion, 0.0)
+    jumped = sum((j for _, j in system.path.jumps), np.zeros(model.shape))
+    speed, solved = rows.normal_component(now.start.velocity), rows.normal_component(q - now.start.velocity - jumped)
+    slope = touch.slope(rows, now, h, solved)
+    closing = h * speed - rows.tool_motion
+    tau = crossing(gap, closing, h * slope)
+    missed = ~np.isfinite(tau)
+    slope = np.where(missed, solved, slope)
+    tau = _reached(rows, system, (gap, closing, h * slope), tau)
+    return replace(
+        current,
+        events=ContactEvents(
+            closed=events.closed | below,
+            touch=np.where(fresh, tau, events.touch),
+            speed=np.where(fresh, speed, events.speed),
+            slope=np.where(fresh, slope, events.slope),
+            release=np.where(back, np.nan, events.release),
+        ),
+        may_not_release=current.may_not_release | back,
+    )
+
+
+def _reached(rows: ContactRows, system: SlabEquations, motion: tuple[Array, Array, Array], tau: Array) -> Array:
+    """Instants (m,) at which the gap closes, with the velocity jumps of earlier touches in the slab."""
+    gap, speed, slope = motion
+    bent = gap
+    for _ in range(1 if not system.path.jumps else 6):
+        found = np.where(np.isfinite(tau) & (bent == gap), tau, crossing(bent, speed, slope))
+        found = np.where(np.isfinite(found), found, np.where(gap <= 0.0, 0.0, 1.0))
+        bent = gap.copy()
+        for instant, field in system.path.jumps:
+            bent += system.path.span * rows.normal_component(field) * np.maximum(found - instant, 0.0)
+        tau = np.where(bent == gap, found, np.nan)
+    return found
+
+
+def _releasing(
+    model: Model,
+    system: SlabEquations,
+    current: EventIteration,
+    q: Array,
+    tense: BoolArray,
+    pull: Array,
+    inertia: ImpactMultipliers,
+) -> EventIteration:
+    """Release the closed rows with a reaction in tension at the end, at the instant where it vanishes."""
+    events = current.events
+    first = current.reaction.copy()
+    for instant in instants(np.where(tense, events.touch, np.nan)):
+        here = tense & at(events.touch, instant)
+        after = events.closed & (~(events.touch > instant) | here)
+        first[here] = inertia.multiplier(current.rows, model.force(system.path.at(instant, q)), after)[here]
+    begin = np.nan_to_num(events.touch)
+    release = np.minimum(begin + (1.0 - begin) * fading(first, pull), 1.0 - 1e-9)
+    return replace(
+        current,
+        events=replace(events, closed=events.closed & ~tense, release=np.where(tense, release, events.release)),
+        reaction=np.where(tense, first, current.reaction),
+    )

@@ -1,0 +1,85 @@
+"""Energy rule with exact instants: touch and release divide the slab, and no scalar is needed at small strain."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray
+from softway.contact.slab_motion.exact_instants import ExactInstantMean, exact_instant_mean
+from softway.errors import InputError
+from softway.march.model_state import ModelState
+from softway.march.results.slab_result import contact_event
+from softway.march.results.step import Event
+from softway.march.rules.equilibrated import Equilibrated
+from softway.march.rules.massless_slab import ContactForces, require_end_points
+from softway.march.rules.slab_rule import Attempt
+from softway.model.model import Model
+from softway.model.slab import Slab
+from softway.model.time_weight import TimeWeight
+from softway.solve.equations.closure import Closure, Unclosed
+from softway.solve.equations.mean_force import ExactMean, MeanForce
+from softway.solve.equations.slab_equations import SlabEquations
+from softway.solve.methods.fixed_point import FixedPoint
+from softway.solve.methods.iteration import Solution
+from softway.solve.methods.newton import Newton
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ExactInstantContact:
+    """Contact forces between exact instants of touch and release, from the mean of a linear internal force."""
+
+    exact: ExactInstantMean
+
+    def average(self, slab: Slab) -> MeanForce:
+        """Exact mean of the internal force."""
+        return ExactMean(self.exact)
+
+    def closure(self, model: Model, now: ModelState, slab: Slab, attempt: Attempt) -> Closure:
+        """No closure: the exact mean satisfies the balance."""
+        return Unclosed()
+
+    def forces(
+        self, model: Model, now: ModelState, system: SlabEquations, solution: Solution, pressure: Array
+    ) -> ContactForces:
+        """Mean internal forces of the contact nodes less their loads."""
+        end, rows = solution.end, solution.end.rows
+        light = ~model.massive[:, None]
+        force = rows.normal_forces((end.mean_force - model.load) * light, (pressure > 0.0) | now.closed, model.free)
+        return ContactForces(rows=force, nodes=rows.spread(force, model.shape), work=0.0)
+
+    def events(
+        self, model: Model, now: ModelState, slab: Slab, system: SlabEquations, solution: Solution, closed: BoolArray
+    ) -> list[Event]:
+        """Touches and releases at the instants that divide the slab."""
+        rows, end = solution.end.rows, solution.end.displacement
+        branches = self.exact.branches(now.start.displacement, end, now.closed, solution.last.impulse > 0.0)
+        before, after = rows.normal_component(now.start.velocity), 0.5 * rows.normal_component(solution.last.q)
+        found = []
+        for b in branches:
+            kind = "touch" if b.closes else "release"
+            speeds = (float(before[b.row]), 0.0) if b.closes else (0.0, float(after[b.row]))
+            found.append(contact_event(model, now, slab, rows, end, b.row, kind, b.instant, speeds))
+        return found
+
+
+def exact_instants(model: Model, method: FixedPoint | Newton, weight: TimeWeight) -> Equilibrated:
+    """Prepare the rule.
+
+    Raises
+    ------
+    InputError
+        If a material is nonlinear, an obstacle moves or is curved, a contact has friction, or the time weight does not
+        fit.
+    """
+    require_end_points(model, weight)
+    if not model.friction.frictionless:
+        raise InputError("contacts[0].friction", "friction with the located Energy rule", "located = false")
+    if not (model.linear and model.contacts.fixed):
+        raise InputError(
+            "contacts[0].timing.located",
+            "the located Energy rule is for small strain and resting half-spaces",
+            "the material LinearElastic, or located = false",
+        )
+    stiffness = model.tangent(np.zeros(model.shape))
+    exact = exact_instant_mean(model.rows(model.displacement), model.free, model.massive, model.load, stiffness)
+    return Equilibrated(method=method, contact=ExactInstantContact(exact))

@@ -1,0 +1,188 @@
+"""Slab (time step) with massless contact nodes: its equations, and the result from their solution."""
+
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray
+from softway.contact.contact_set import SlabContacts
+from softway.contact.slab_motion.trajectory import Trajectory, contact_events
+from softway.errors import InputError
+from softway.march.friction.stick_slip_events import stick_slip_events
+from softway.march.model_state import ModelState
+from softway.march.results.friction_result import friction_result, slipping
+from softway.march.results.slab_result import Balances, SlabResult, supports
+from softway.march.results.step import Event
+from softway.march.rules.slab_rule import Attempt
+from softway.model.model import Model
+from softway.model.slab import Slab
+from softway.model.time_weight import EndPeaks, TimeWeight, moments
+from softway.solve.constraints.normal_active_set import RowConditions, rounded
+from softway.solve.equations.closure import Closure
+from softway.solve.equations.mean_force import MeanForce
+from softway.solve.equations.slab_contact import FixedContact, InitialContact, SlabContact, TurningContact
+from softway.solve.equations.slab_equations import SlabEquations
+from softway.solve.methods.iteration import Solution
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ContactForces:
+    """Normal forces over a slab: of the ``rows`` (m,), on the ``nodes`` (n, d) [N]; ``work`` of driven tools [J]."""
+
+    rows: Array
+    nodes: Array
+    work: float
+
+
+class MasslessContact(Protocol):
+    """Treatment of massless contact nodes in a slab: mean force, closure, contact forces, and contact events."""
+
+    def average(self, slab: Slab) -> MeanForce:
+        """Average of the internal force over a slab."""
+        ...
+
+    def closure(self, model: Model, now: ModelState, slab: Slab, attempt: Attempt) -> Closure:
+        """Closure of the energy balance of a slab."""
+        ...
+
+    def forces(
+        self, model: Model, now: ModelState, system: SlabEquations, solution: Solution, pressure: Array
+    ) -> ContactForces:
+        """Normal forces over a slab, with the forces ``pressure`` (m,) at its end [N]."""
+        ...
+
+    def events(
+        self, model: Model, now: ModelState, slab: Slab, system: SlabEquations, solution: Solution, closed: BoolArray
+    ) -> list[Event]:
+        """Touches and releases inside a slab; ``closed`` (m,) are the rows in contact at its end."""
+        ...
+
+
+def require_end_points(model: Model, weight: TimeWeight) -> None:
+    """Refuse time weights that do not fit contact nodes in equilibrium at the ends of slabs.
+
+    Raises
+    ------
+    InputError
+        If there are massless nodes and the weight is not the default.
+    """
+    if weight != EndPeaks() and not model.massive.all():
+        raise InputError(
+            "time.weight",
+            f"{weight} with the Energy rule, whose contact nodes are in equilibrium at the slab's ends",
+            "EndPeaks with theta = 0.5, or the rule Impulse or Paper",
+        )
+
+
+def equations(
+    how: MasslessContact,
+    model: Model,
+    now: ModelState,
+    slab: Slab,
+    pairs: SlabContacts,
+    attempt: Attempt,
+) -> SlabEquations:
+    """Equations of the slab."""
+    start = now.start
+    rows = pairs.start(start.displacement)
+    path = Trajectory(
+        span=slab.span,
+        start=start.displacement,
+        velocity=start.velocity,
+        massive=model.massive,
+        free=model.free,
+        rows=rows,
+        events=contact_events(np.zeros(len(rows.node), bool)),
+    )
+    last = model.prescribed(slab.end)
+    given = last if not model.driven else np.where(model.massive[:, None], last, model.prescribed(slab.start) + last)
+    return SlabEquations(
+        model=model,
+        start=start,
+        weight=slab.weight,
+        path=path,
+        average=how.average(slab),
+        closure=how.closure(model, now, slab, attempt),
+        contact=_contact(model, now, slab, pairs, path, given, attempt),
+        given=given,
+    )
+
+
+def _contact(
+    model: Model,
+    now: ModelState,
+    slab: Slab,
+    pairs: SlabContacts,
+    path: Trajectory,
+    given: Array,
+    attempt: Attempt,
+) -> SlabContact:
+    """Contact rows with their conditions: inequalities on the gap at the end of the slab."""
+    h, rows, fixed = slab.span, path.rows, model.contacts.fixed
+    initial = InitialContact(rows=now.force_rows(rows), pressure=now.pressure, traction=now.traction)
+    conditions = RowConditions(
+        target=-2.0 * rows.gap(path.end(given)) / h if fixed else np.zeros(len(rows.node)),
+        equal=path.events.closed,
+        unilateral=rows.reachable(model.free),
+        slipping=slipping(model, now, slab, rows, attempt.stick_at_any_force),
+        rounding=2.0 / h * rounded(model.points + now.start.displacement),
+    )
+    if fixed:
+        return FixedContact(rows=rows, conditions=conditions, initial=initial)
+    return TurningContact(pairs=pairs, facets=pairs, conditions=conditions, initial=initial)
+
+
+def slab_result(
+    how: MasslessContact,
+    model: Model,
+    now: ModelState,
+    slab: Slab,
+    system: SlabEquations,
+    solution: Solution,
+    pairs: int,
+    velocity: Array,
+) -> SlabResult:
+    """Forces, works and events of a solved slab; ``velocity`` (n, d) is that at its end."""
+    h, end = slab.span, solution.end
+    rows, first = end.rows, system.contact.initial.rows
+    pressure = solution.last.impulse[: len(rows.node)] / (h * moments(slab.weight)[1])
+    normal = how.forces(model, now, system, solution, pressure)
+    friction = friction_result(now, slab, solution, (first, rows), end.scalar[model.part_of[rows.node]])
+    push, tools = normal.nodes + friction.push, normal.work + friction.work
+    events = how.events(model, now, slab, system, solution, solution.last.impulse[: len(rows.node)] > 0.0)
+    events += stick_slip_events(model, now, slab, solution, (first, rows), friction)
+    support = supports(model, now, end, velocity, push, h)
+    moved = end.displacement - now.start.displacement
+    return SlabResult(
+        system=system,
+        solution=solution,
+        rows=rows,
+        velocity=velocity,
+        acceleration=(velocity - now.start.velocity) * (model.massive.any() / h),  # without inertia, speed may jump
+        closed=pressure > 0.0,
+        pressure=pressure,
+        force=normal.rows,
+        push=push,
+        support=support,
+        work=tools + (float(np.sum(support * moved)) if model.driven else 0.0),
+        dissipation=friction.dissipation,
+        events=_ordered(events, slab),
+        pairs=pairs,
+        iterations=solution.iterations,
+        required=Balances(energy=_energy(model, slab)),
+        handed_on=rows if model.contacts.paired else None,
+        friction=friction,
+    )
+
+
+def _ordered(events: list[Event], slab: Slab) -> tuple[Event, ...]:
+    """Events in the order of time, contact and node."""
+    return tuple(sorted(events, key=lambda e: (round((e.time - slab.start) / slab.span, 9), e.contact, e.node)))
+
+
+def _energy(model: Model, slab: Slab) -> Literal["closed", "bounded", "free"]:
+    """Requirement on the energy balance of a slab."""
+    if slab.weight != EndPeaks():
+        return "free"
+    return "closed" if model.massive.any() else "bounded"

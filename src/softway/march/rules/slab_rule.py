@@ -1,0 +1,85 @@
+"""Protocol of contact rules in time: solution of one slab (time step) with contact."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from softway.errors import Cancel
+from softway.march.model_state import ModelState
+from softway.march.results.slab_result import SlabResult
+from softway.model.model import Model
+from softway.model.slab import Slab
+from softway.model.time_weight import TimeWeight
+from softway.solve.methods.central_difference import Explicit
+from softway.solve.methods.fixed_point import FixedPoint
+from softway.solve.methods.newton import Newton
+from softway.solve.operators.operator_memory import OperatorMemory
+
+Method = FixedPoint | Newton | Explicit
+Solutions = Iterator[tuple[SlabResult, OperatorMemory]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Attempt:
+    """One attempt at a slab.
+
+    Parameters
+    ----------
+    approach
+        Greatest approach of two surfaces in the slab, in edges; beyond it the slab is refused.
+    energy_along_motion
+        True if an energy balance that the bounded scalar cannot close is closed along the motion.
+    stick_at_any_force
+        True if rows at rest stick at any force.
+    cancel
+        Callback between iterates that may cancel the march.
+    """
+
+    approach: float = np.inf
+    energy_along_motion: bool = False
+    stick_at_any_force: bool = False
+    cancel: Cancel | None = None
+
+
+class SlabRule(Protocol):
+    """A contact rule in time, prepared for a model: it solves one slab after another."""
+
+    def solve(self, model: Model, now: ModelState, slab: Slab, memory: OperatorMemory, attempt: Attempt) -> Solutions:
+        """Solutions of a slab, each more accurate than the previous one, with the operator for the next slab.
+
+        Parameters
+        ----------
+        model
+            The model with its loads and path-dependent materials in this slab.
+        now
+            State at the start of the slab.
+        memory
+            Operator of the previous slab.
+
+        Raises
+        ------
+        NoConvergence, TooFast
+            If the iteration does not converge, or the slab is too long for the approach.
+        """
+        ...
+
+
+class OwnRule(Protocol):
+    """User-defined contact rule, which prepares its slab rule itself."""
+
+    massless: bool
+    """True if contact nodes have no inertia."""
+    spread: int
+    """Number of cells over which the inertia of massless contact nodes is spread."""
+
+    def slab_rule(self, model: Model, method: Method, weight: TimeWeight) -> SlabRule:
+        """Prepare the rule for a model.
+
+        Raises
+        ------
+        InputError
+            If the rule does not fit the model, the method or the time weight.
+        """
+        ...

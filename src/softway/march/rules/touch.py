@@ -1,0 +1,173 @@
+"""Effect of a touch inside a slab on nodes with inertia: literal (Paper) or mass-consistent (Impulse)."""
+
+from dataclasses import dataclass
+from typing import ClassVar, Literal, Protocol
+
+import numpy as np
+from scipy import sparse
+
+from softway.arrays import Array, BoolArray
+from softway.contact.contact_rows import ContactRows
+from softway.contact.slab_motion.trajectory import ContactEvents
+from softway.contact.slab_motion.trapezoid_triangle import TrapezoidTriangle
+from softway.kernels.linalg.dense import shared
+from softway.march.model_state import ModelState
+from softway.model.model import Model
+from softway.model.time_weight import TimeWeight
+from softway.solve.constraints.impact_multipliers import ImpactMultipliers
+from softway.solve.equations.mean_force import MeanForce, SplitMean, WeightedMean
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class VelocityJump:
+    """Velocity jump: ``instant`` tau, rows ``hits`` (m,), velocity change ``field`` (n, d), normal impulses (m,), and
+    normal velocities ``speed`` (m,) of the hit rows just before the jump.
+    """
+
+    instant: float
+    hits: BoolArray
+    field: Array
+    impulse: Array
+    speed: Array
+
+
+class Touch(Protocol):
+    """Effect of a touch on the velocity field."""
+
+    balanced: ClassVar[bool]
+    """True if all nodes take part in the jump, so that momentum is balanced."""
+
+    def average(self, weight: TimeWeight) -> MeanForce:
+        """Average of the internal force over a slab."""
+        ...
+
+    def slope(self, rows: ContactRows, now: ModelState, span: float, solved: Array) -> Array:
+        """Change (m,) of the normal velocities before a touch, over a slab [m/s]; ``solved`` (m,) is computed."""
+        ...
+
+    def jump(
+        self, model: Model, rows: ContactRows, approach: Array, hits: BoolArray, stopped: BoolArray
+    ) -> tuple[Array, Array]:
+        """Velocity change (n, d) that stops the hit rows, and its impulses (m,).
+
+        ``approach`` (m,) are the normal velocities of the hit rows, ``stopped`` (m,) all rows in contact.
+        """
+        ...
+
+    def loss(
+        self,
+        model: Model,
+        rows: ContactRows,
+        events: ContactEvents,
+        found: tuple[VelocityJump, ...],
+        v: tuple[Array, Array],
+        span: float,
+    ) -> float:
+        """Kinetic energy lost in the jumps of a slab [J]; ``v`` are the velocities (n, d) at its ends."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class InelasticImpact:
+    """Mass-consistent jump: every node moves, so that momentum is balanced."""
+
+    balanced: ClassVar[bool] = True
+
+    inertia: ImpactMultipliers
+
+    def average(self, weight: TimeWeight) -> MeanForce:
+        """Mean by the virtual time function."""
+        return WeightedMean(weight)
+
+    def slope(self, rows: ContactRows, now: ModelState, span: float, solved: Array) -> Array:
+        """Return the computed change."""
+        return solved
+
+    def jump(
+        self, model: Model, rows: ContactRows, approach: Array, hits: BoolArray, stopped: BoolArray
+    ) -> tuple[Array, Array]:
+        """Velocity change (n, d) that brings all rows in contact to rest, and its impulses (m,)."""
+        return self.inertia.jump(rows, approach, stopped)
+
+    def loss(
+        self,
+        model: Model,
+        rows: ContactRows,
+        events: ContactEvents,
+        found: tuple[VelocityJump, ...],
+        v: tuple[Array, Array],
+        span: float,
+    ) -> float:
+        """Half the product of impulses and approach speeds [J]."""
+        total = 0.0
+        for jump in found:
+            total -= 0.5 * float(jump.impulse @ jump.speed)
+        return total
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class NodalStop:
+    """Literal rule: only the normal velocity of the touching node is reset.
+
+    Its row of the mass matrix determines the lost momentum.  Between two bodies the nodes on both sides share the
+    change, weighted by the sums of their mass rows.
+
+    Parameters
+    ----------
+    approach
+        Velocity before the instant: kept or extrapolated from the slab before.
+    split
+        Trapezoid and triangle in place of the product elements at a touch (Fig. 4); None for product elements.
+    """
+
+    balanced: ClassVar[bool] = False
+
+    approach: Literal["kept", "extrapolated"] = "kept"
+    split: TrapezoidTriangle | None = None
+
+    def average(self, weight: TimeWeight) -> MeanForce:
+        """Mean by the virtual time function, with split elements if there are any."""
+        weighted = WeightedMean(weight)
+        return weighted if self.split is None else SplitMean(weighted, self.split)
+
+    def slope(self, rows: ContactRows, now: ModelState, span: float, solved: Array) -> Array:
+        """Change of the previous slab, or zero."""
+        return (
+            span * rows.normal_component(now.acceleration) if self.approach == "extrapolated" else np.zeros_like(solved)
+        )
+
+    def jump(
+        self, model: Model, rows: ContactRows, approach: Array, hits: BoolArray, stopped: BoolArray
+    ) -> tuple[Array, Array]:
+        """Velocity change (n, d) of only the nodes of the hit rows, and its impulses (m,)."""
+        inertia = np.asarray(model.mass.sum(axis=1)).reshape(-1, 1)
+        index = np.flatnonzero(hits & rows.reachable(model.free))
+        some = rows.gradient[index]
+        if np.unique(some.tocoo().coords[1] // model.shape[1]).size <= np.unique(rows.node[index]).size:
+            field = rows.motion(-approach, hits, model.free)
+            return field, rows.normal_forces(inertia * field, hits, model.free)
+        mobility = np.where(model.free & (inertia > 0.0), 1.0 / np.where(inertia > 0.0, inertia, 1.0), 0.0).ravel()
+        impulse = np.zeros(len(hits))
+        impulse[index] = shared((some @ sparse.diags_array(mobility) @ some.T).toarray(), -approach[index])
+        return mobility.reshape(model.shape) * rows.spread(impulse, model.shape), impulse
+
+    def loss(
+        self,
+        model: Model,
+        rows: ContactRows,
+        events: ContactEvents,
+        found: tuple[VelocityJump, ...],
+        v: tuple[Array, Array],
+        span: float,
+    ) -> float:
+        """``-(v . M J + J . M J / 2)`` with v just before each jump J [J]."""
+        total, tool = 0.0, rows.tool_motion / span
+        before, smooth = v[0], v[1] - sum((jump.field for jump in found), v[0])
+        for jump in found:
+            at = before + jump.instant * smooth
+            before = before + jump.field
+            stopped = (events.closed & ~np.isfinite(events.touch)) | (events.touch < jump.instant)
+            normal = np.where(jump.hits, jump.speed + tool, np.where(stopped, tool, rows.normal_component(at)))
+            at = at + rows.motion(normal - rows.normal_component(at), events.kinked, model.free)
+            total += float(jump.impulse @ tool - np.sum((at + 0.5 * jump.field) * (model.mass @ jump.field)))
+        return total

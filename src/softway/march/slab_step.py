@@ -1,0 +1,88 @@
+"""One slab (time step): from a state to the next, by the contact rule of the model."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from softway.bodies.assembled import material_states
+from softway.errors import Cancel, Unbalanced
+from softway.march.model_state import ModelState
+from softway.march.results.slab_result import SlabResult
+from softway.march.rules.declared import slab_rule
+from softway.march.rules.slab_rule import Attempt, Method, SlabRule
+from softway.model.model import Model
+from softway.model.slab import Slab
+from softway.model.time_weight import TimeWeight
+from softway.solve.equations.slab_values import SlabStart
+from softway.solve.operators.operator_memory import OperatorMemory
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Stepper:
+    """Model with its contact rule, prepared for a march by a method; ``cancel`` may cancel the march."""
+
+    model: Model
+    method: Method
+    rule: SlabRule
+    cancel: Cancel | None = None
+
+
+def stepper(model: Model, method: Method, weight: TimeWeight, cancel: Cancel | None = None) -> Stepper:
+    """Prepare a model for a march.
+
+    Raises
+    ------
+    InputError
+        If the contact rule does not fit the material, the method or the time weight.
+    """
+    return Stepper(model=model, method=method, rule=slab_rule(model, method, weight), cancel=cancel)
+
+
+def advance(
+    stepper: Stepper, now: ModelState, slab: Slab, memory: OperatorMemory, attempt: Attempt
+) -> Iterator[tuple[ModelState, SlabResult, OperatorMemory]]:
+    """States at the end of the slab, each more accurate than the previous one; the initial state is not changed.
+
+    Raises
+    ------
+    NoConvergence, TooFast, Unbalanced
+        If the method does not converge, the slab is too long for the approach, or the energy balance cannot be closed.
+    """
+    model = stepper.model.during(now.start.states, slab.span).pushed(slab.start, slab.end)
+    for out, after in stepper.rule.solve(model, now, slab, memory, attempt):
+        yield _state(slab, out), out, after
+
+
+def _state(slab: Slab, out: SlabResult) -> ModelState:
+    """State at the end of a solved slab.
+
+    Raises
+    ------
+    Unbalanced
+        If the energy balance cannot be closed.
+    """
+    if out.solution.end.clipped:
+        raise Unbalanced("the scalar that closes the energy balance is outside [-1/2, 1/2]")
+    return ModelState(
+        time=slab.end,
+        start=_committed(out),
+        acceleration=out.acceleration,
+        closed=out.closed,
+        pressure=out.pressure,
+        traction=out.friction.traction,
+        sliding=out.friction.sliding,
+        rows=out.handed_on,
+    )
+
+
+def _committed(out: SlabResult) -> SlabStart:
+    """Initial values of the next slab."""
+    model, end = out.system.model, out.solution.end
+    states = material_states.committed(model.parts, end.displacement)
+    return SlabStart(
+        displacement=end.displacement,
+        velocity=out.velocity,
+        force=end.force,
+        energy=material_states.stored_energy(model.parts, states, end.energy),
+        states=states,
+        viscous=material_states.stored_viscous_force(model.parts, states),
+    )

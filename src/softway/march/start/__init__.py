@@ -1,0 +1,1 @@
+"""Start of a march: initial overlap and initial state."""

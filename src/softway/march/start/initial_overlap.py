@@ -1,0 +1,122 @@
+"""Overlap of bodies at the start: nodes inside another body or inside a tool."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from softway.arrays import Array, IntArray
+from softway.bodies.discretised import DiscreteSolid
+from softway.contact.surfaces.boundary import ContactSurface
+from softway.meshes.cells import FLAT
+from softway.model.model import Model
+from softway.obstacles.triangulated import Facets
+
+CHORD = 0.02
+"""Admissible distance between flat simplices and curved facets, in edges at the node."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Overlap:
+    """Deepest node of a contact: its ``depth`` [m], its ``body``, and the opponent ``other``."""
+
+    contact: int
+    depth: float
+    body: str
+    other: str
+    node: int
+    place: tuple[float, ...]
+
+
+def deepest(model: Model, u: Array, rounding: float, start: Literal["apart", "fit"] = "apart") -> Overlap | None:
+    """Deepest overlap of contacts with this ``start``, at the displacement ``u`` (n, d); None without overlap."""
+    found = []
+    for k, contact in enumerate(model.scene.contacts):
+        if contact.start != start:
+            continue
+        one, other = model.opponents[k]
+        if other < 0:
+            found.append(_in_tool(model, u, k, rounding))
+            continue
+        found += [_in_body(model, u, k, a, b, rounding) for a, b in ((one, other), (other, one))]
+    deep = [f for f in found if f is not None]
+    return max(deep, key=lambda f: f.depth) if deep else None
+
+
+def shrunk(model: Model, u: Array, rounding: float) -> Array:
+    """Displacement (n, d) with the surfaces of the first bodies of press fits moved inward until nothing overlaps.
+
+    On the path from there to ``u`` the surfaces touch from outside, for any depth of overlap.
+    """
+    found = deepest(model, u, rounding, "fit")
+    out = u.copy()
+    if found is None:
+        return out
+    first = {int(model.opponents[k][0]) for k, c in enumerate(model.scene.contacts) if c.start == "fit"}
+    for part in (model.parts[i] for i in sorted(first)):
+        nodes = _candidates(model, part)
+        out[nodes] -= 1.1 * found.depth * _outward(part, (model.points + u)[part.rows])[nodes - part.rows.start]
+    return out
+
+
+def _outward(part: DiscreteSolid, x: Array) -> Array:
+    """Unit outward normals (n, d) at the boundary nodes of a solid whose nodes are at ``x`` (n, d)."""
+    if x.shape[1] == 1:
+        return np.sign(x - x.mean(axis=0))
+    side = ContactSurface(facets=part.mesh.boundary())
+    out = np.zeros_like(x)
+    out[side.nodes] = side.nodal_normals(x)
+    return out
+
+
+def _in_tool(model: Model, u: Array, k: int, rounding: float) -> Overlap | None:
+    rows = model.rows(u)
+    here = np.flatnonzero(rows.of_contact(k))
+    gap = rows.gap(u)[here]
+    if not len(gap) or gap.min() >= -rounding:
+        return None
+    node = int(rows.node[here[int(np.argmin(gap))]])
+    return _named(model, u, k, node, -float(gap.min()), model.scene.contacts[k].opponent)
+
+
+def _in_body(model: Model, u: Array, k: int, a: int, b: int, rounding: float) -> Overlap | None:
+    """Deepest contact node of solid a inside solid b."""
+    inner, outer = model.parts[a], model.parts[b]
+    nodes = _candidates(model, inner)
+    x = model.points + u
+    gap = _distance(outer, x[outer.rows], x[nodes])
+    slack = rounding + (CHORD * model.edge[nodes] if _curved(outer) else 0.0)
+    depth = np.where(gap < -slack, -gap, 0.0)
+    if not depth.any():
+        return None
+    worst = int(np.argmax(depth))
+    return _named(model, u, k, int(nodes[worst]), float(depth[worst]), outer.name)
+
+
+def _candidates(model: Model, part: DiscreteSolid) -> IntArray:
+    """Contact nodes (k,) of a solid."""
+    found: IntArray = model.touchable[(model.touchable >= part.rows.start) & (model.touchable < part.rows.stop)]
+    return found
+
+
+def _distance(part: DiscreteSolid, corners: Array, x: Array) -> Array:
+    """Distance (p,) of points from the boundary of a solid whose nodes are at ``corners``; negative inside."""
+    if corners.shape[1] == 1:
+        low, high = float(corners.min()), float(corners.max())
+        return np.maximum(low - x[:, 0], x[:, 0] - high)
+    boundary = part.mesh.boundary()
+    cells: list[IntArray] = [f[:, list(s)] for name, f in boundary.items() for s in FLAT.get(name, ())]
+    if not cells:
+        return np.full(len(x), np.inf)
+    surface = Facets(points=corners, cells=np.concatenate(cells))
+    return surface.gap(x) if surface.closed else np.full(len(x), np.inf)
+
+
+def _curved(part: DiscreteSolid) -> bool:
+    return any(name in ("bar3", "tri6", "quad9", "quad4") for name in part.mesh.boundary())
+
+
+def _named(model: Model, u: Array, k: int, node: int, depth: float, other: str) -> Overlap:
+    part = model.parts[model.part_of[node]]
+    place = tuple(float(v) for v in model.points[node] + u[node])
+    return Overlap(contact=k, depth=depth, body=part.name, other=other, node=node - part.rows.start, place=place)

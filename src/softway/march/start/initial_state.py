@@ -1,0 +1,149 @@
+"""Initial state of a march: as given, or in static equilibrium, with massless nodes relaxed."""
+
+import logging
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.bodies.assembled import material_states
+from softway.bodies.assembled.nodal_loads import dead_load
+from softway.bodies.elements.section import Axisymmetric
+from softway.bodies.rigid_body_modes import free_motions
+from softway.errors import Cancel, InputError
+from softway.march.model_state import ModelState
+from softway.march.start.initial_overlap import deepest, shrunk
+from softway.model.model import Model
+from softway.model.scene import StaticStart
+from softway.solve.equations.slab_values import SlabStart
+from softway.solve.static_equilibrium import (
+    InitialFriction,
+    InitialSlip,
+    NoInitialSlip,
+    StaticState,
+    equilibrium,
+    fitted,
+)
+from softway.tolerances import DEPTH
+
+log = logging.getLogger(__name__)
+
+SOON = 1e-6
+"""Time interval from which the initial velocity of a driven tool is computed [s]."""
+TOGETHER = 1e-7
+"""Relative velocity of surfaces at the start, relative to the greatest speed, that is rounding."""
+
+
+def initial_state(model: Model, span: float = 1.0, cancel: Cancel | None = None) -> ModelState:
+    """State at t = 0; path-dependent materials reach their initial displacement in one slab of length ``span`` [s].
+
+    Raises
+    ------
+    InputError
+        If a body overlaps an obstacle, or a static start leaves rigid motions free.
+    Cancelled
+        If ``cancel`` requests it at an iteration of an equilibrium.
+    """
+    model = model.during((), span)
+    rest = _resting(model, cancel)
+    u, pressure = rest.displacement, rest.pressure
+    energy, force = model.energy_and_force(u)
+    states = material_states.committed(model.parts, u)
+    return ModelState(
+        time=0.0,
+        start=SlabStart(
+            displacement=u,
+            velocity=model.velocity + model.prescribed(0.0),
+            force=force,
+            energy=material_states.stored_energy(model.parts, states, energy),
+            states=states,
+            viscous=material_states.stored_viscous_force(model.parts, states),
+        ),
+        acceleration=np.zeros(model.shape),
+        closed=pressure > 0.0,
+        pressure=pressure,
+        traction=rest.traction,
+        sliding=rest.sliding,
+    )
+
+
+def _resting(model: Model, cancel: Cancel | None) -> StaticState:
+    """Initial static state: in equilibrium if requested, with massless nodes relaxed."""
+    u, count = model.displacement, len(model.contacts.contact)
+    rest = StaticState.apart(u, count)
+    require_apart(model, u)
+    friction: InitialFriction = NoInitialSlip() if model.friction.frictionless else _passing(model, u)
+    start, loads = model.scene.start, model.load
+    require_supported(model)
+    if isinstance(start, StaticStart):
+        loads = dead_load(model.parts, model.weight, start.loads, "start.loads").at(0.0) if start.loads else model.load
+    fits = any(c.start == "fit" for c in model.scene.contacts)
+    if fits or (isinstance(start, StaticStart) and unsupported_motions(model)):
+        apart = shrunk(model, u, DEPTH * _extent(model, u))
+        rest = fitted(model, u, model.free, loads, apart, friction=NoInitialSlip() if fits else friction, cancel=cancel)
+    elif isinstance(start, StaticStart):
+        rest = equilibrium(model, u, model.free, loads, friction=friction, cancel=cancel)
+    if model.timing.massless and not model.massive.all():
+        before = float(model.energy_and_force(rest.displacement)[0].sum())
+        light = model.free & ~model.massive[:, None]
+        rest = equilibrium(model, rest.displacement, light, model.load, friction=friction, cancel=cancel)
+        after = float(model.energy_and_force(rest.displacement)[0].sum())
+        if before != after:
+            log.info("relaxing the contact nodes at the start releases %.3g J of %.3g J", before - after, before)
+    return rest
+
+
+def _passing(model: Model, u: Array) -> InitialSlip:
+    """Friction with the initial velocities: slipping rows have the force of slip, the others stick."""
+    shear = model.contacts.meet(u, u, 0.0, SOON).at(u).shear
+    velocity = model.velocity + model.prescribed(0.0)
+    passing = shear.slip(SOON * velocity) / SOON
+    most = max(float(np.abs(velocity).max()), float(np.abs(shear.moved).max(initial=0.0)) / SOON)
+    moves = np.linalg.norm(passing, axis=1) > TOGETHER * most
+    return InitialSlip(reference=u, velocity=np.where(moves[:, None], passing, 0.0))
+
+
+def unsupported_motions(model: Model) -> dict[str, tuple[str, ...]]:
+    """Rigid motions of each solid that its supports leave free."""
+    found = {}
+    for part in model.parts:
+        axisymmetric = isinstance(part.internal.section, Axisymmetric)
+        motions = free_motions(part.mesh.points, ~model.free[part.rows], axisymmetric)
+        if motions:
+            found[part.name] = motions
+    return found
+
+
+def require_supported(model: Model) -> None:
+    """Refuse free rigid motions of bodies without inertia, and in a static start of bodies without contacts."""
+    inert = not model.scene.inertia.factor > 0.0
+    if not inert and not isinstance(model.scene.start, StaticStart):
+        return
+    met = {c.body for c in model.scene.contacts} | {c.opponent for c in model.scene.contacts}
+    what = "body without inertia" if inert else "static start"
+    otherwise = 'inertia = { kind = "Full" }' if inert else 'a contact, or start = "AsGiven"'
+    for name, motions in unsupported_motions(model).items():
+        if inert or name not in met:
+            raise InputError(
+                f"bodies.{name}.supports",
+                f"the supports leave free: {', '.join(motions)}; no {what}",
+                f'sufficient supports, such as {{ on = "left" }}, {otherwise}',
+            )
+
+
+def require_apart(model: Model, u: Array) -> None:
+    """Refuse a start inside an opponent; the message names both bodies, depth and position."""
+    found = deepest(model, u, DEPTH * _extent(model, u))
+    if found is None:
+        return
+    place, depth = ", ".join(f"{x:.6g}" for x in found.place), f"{found.depth:.6g} m"
+    move = f"move a body out by {depth} (bodies.{found.body}.place.translation or .bottom)"
+    raise InputError(
+        f"contacts[{found.contact}].between",
+        f"{found.body!r} starts {depth} inside {found.other!r}: node {found.node} at ({place}) m",
+        f'{move}, or start = "fit" for a press fit',
+    )
+
+
+def _extent(model: Model, u: Array) -> float:
+    """Greatest coordinate [m], the scale of rounding."""
+    return max(float(np.abs(p.mesh.points + u[p.rows]).max()) for p in model.parts)

@@ -1,0 +1,114 @@
+"""Step control: limits of slabs (time steps) and growth of their length."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.arrays import Array, IntArray
+from softway.bodies.discretised import DiscreteSolid
+from softway.contact.contact_set import SlabContacts
+from softway.errors import InputError, TooFast
+from softway.kernels.geometry.shortest_edge import shortest
+from softway.march.model_state import ModelState
+from softway.model.model import Model
+from softway.solve.constraints.normal_active_set import greatest
+from softway.solve.methods.central_difference import Explicit
+
+CRAWL = 1e-2
+"""Fraction of the requested length below which rejections in a march are counted."""
+SMALL_STRAIN = 1.0
+"""Least limit of the approach, in edges, for bodies of small strain: their cells cannot be crushed."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StepControl:
+    """Limits of a slab besides the requested length.
+
+    A slab that exceeds a limit is rejected and tried again at half the length.  The length doubles again, up to the
+    requested one, if the motion is smooth: the displacement error by a jump of the acceleration,
+    ``h^2 |a1 - a0| / 12``, would be below ``growth`` edges at the double length (docs/theory/control.md).
+
+    Parameters
+    ----------
+    approach
+        Greatest overlap of bodies, in edges of the mesh, if they moved through the slab without contact: a greater
+        approach would crush or miss surface cells.
+    scalar
+        Scalar of the Energy rule above which the next slab is halved, in slabs without touches and releases.
+    growth
+        Displacement error of a slab, in edges of the mesh, below which a shortened slab grows again.
+    least
+        Shortest slab, as a fraction of the requested length; below it the march ends with the reason.
+    patience
+        Number of rejections among slabs shorter than ``CRAWL`` of the requested length, less a quarter of such slabs
+        without rejection, after which the march ends with the reason: it would continue for hours by halving slabs.
+
+    References
+    ----------
+    Zienkiewicz, Xie (1991), A simple error estimator and adaptive time stepping procedure for dynamic analysis,
+    Earthq. Eng. Struct. Dyn. 20, 871-887.
+
+    Examples
+    --------
+    >>> StepControl().approach
+    0.25
+    """
+
+    approach: float = 0.25
+    scalar: float = 0.2
+    growth: float = 0.01
+    least: float = 1e-7
+    patience: int = 300
+
+    def __post_init__(self) -> None:
+        for name in ("approach", "scalar", "growth", "least", "patience"):
+            if not 0.0 < getattr(self, name) < np.inf:
+                raise InputError(name, f"{getattr(self, name):g} is not positive", "a positive number")
+
+
+def require_slow(model: Model, pairs: SlabContacts, coasting: Array, limit: float) -> None:
+    """Refuse a slab in which a node would overlap by more than ``limit`` edges at the free displacement ``coasting``.
+
+    Raises
+    ------
+    TooFast
+        With the contact and the overlap.
+    """
+    rows = pairs.watch(coasting)
+    edges = np.where(rows.near, -rows.gap(coasting), -np.inf) / model.edge[rows.node]
+    crushable = np.array([not p.internal.linear for p in model.parts])[model.part_of[rows.node]]
+    depth = edges * np.where(crushable, 1.0, min(limit / SMALL_STRAIN, 1.0))
+    if len(depth) and depth.max() > limit * (1.0 + 1e-6):
+        worst = int(np.argmax(depth))
+        label = rows.labels[rows.contact[worst]]
+        raise TooFast(f"in {label} a node approaches by {edges[worst]:.3g} edges beyond the touch")
+
+
+def may_grow(model: Model, control: StepControl, length: float, before: ModelState, after: ModelState) -> bool:
+    """True if the motion is smooth enough for a slab of twice the length."""
+    moving = model.massive
+    jump = after.acceleration - before.acceleration
+    factor, allowed = 8.0 * length**2 / 12.0, control.growth * model.edge
+    if factor * greatest(jump) <= allowed.min():
+        return True
+    error = factor * np.abs(jump)
+    return bool((error[moving] <= allowed[moving, None]).all())
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Crushing:
+    """Crushing of cells under central differences: edges (e, 2) of each solid, and its shortest edge at rest [m]."""
+
+    edges: tuple[tuple[DiscreteSolid, IntArray, float], ...]
+
+    def shortest_ratio(self, u: Array) -> float:
+        """Ratio of the shortest present to the shortest initial edge at the displacement u (n, d); at most 1."""
+        ratios = [shortest(p.mesh.points, u[p.rows], ends) / first for p, ends, first in self.edges]
+        return min([1.0, *ratios])
+
+
+def crushing(model: Model, method: object) -> Crushing:
+    """:class:`Crushing` of a march; empty for small strain and for methods other than central differences."""
+    if not isinstance(method, Explicit) or model.linear:
+        return Crushing(edges=())
+    return Crushing(edges=tuple((p, p.mesh.edge_ends(), p.mesh.edge()) for p in model.parts))

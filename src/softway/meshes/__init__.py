@@ -1,0 +1,21 @@
+"""Meshes: cells, their generators and mesh files."""
+
+from softway.meshes.generators.recipes import Ball as Ball
+from softway.meshes.generators.recipes import Box as Box
+from softway.meshes.generators.recipes import Cylinder as Cylinder
+from softway.meshes.generators.recipes import Disc as Disc
+from softway.meshes.generators.recipes import Interval as Interval
+from softway.meshes.generators.recipes import MeshFile as MeshFile
+from softway.meshes.generators.recipes import Rectangle as Rectangle
+from softway.meshes.mesh import Mesh as Mesh
+
+__all__ = [
+    "Ball",
+    "Box",
+    "Cylinder",
+    "Disc",
+    "Interval",
+    "Mesh",
+    "MeshFile",
+    "Rectangle",
+]

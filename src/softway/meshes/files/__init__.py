@@ -1,0 +1,1 @@
+"""Readers of mesh files and Abaqus decks."""

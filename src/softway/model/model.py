@@ -1,0 +1,295 @@
+"""Model: a scene converted to arrays before the march."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent, during
+from softway.bodies.assembled.nodal_loads import DeadLoads, dead_load
+from softway.bodies.assembled.nodal_masses import solid_following, solid_mass
+from softway.bodies.discretised import DiscreteSolid, discretise, driven_components, initial
+from softway.bodies.internal_force.material_state import MaterialState
+from softway.bodies.solid import Driven, Solid
+from softway.contact.assemble import assemble_contacts
+from softway.contact.contact_rows import ContactRows
+from softway.contact.contact_set import ContactSet
+from softway.contact.friction_rows import FrictionRows
+from softway.contact.impact_rule import Energy, ImpactRule
+from softway.errors import InputError, within
+from softway.kernels.assembly.sparsity import Sum, sum_of
+from softway.meshes.mesh import Mesh
+from softway.model.scene import Scene
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Model:
+    """Constant data of a march; nodal fields are (n, d) over all solids in order.
+
+    Parameters
+    ----------
+    parts
+        The solids.
+    mass
+        (n, n) nodal mass matrix; massless contact nodes of the Energy rule have empty rows.
+    follow
+        (n, n) velocities of all nodes from those with inertia: massless nodes follow their neighbours.
+    massive
+        (n,) nodes with inertia.
+    free
+        (n, d) components without support.
+    load, load_before
+        (n, d) dead loads of a slab [N]: mean loads on nodes with inertia; on massless nodes the loads at its end, and
+        at its start.
+    loads
+        Loads as functions of time.
+    weight
+        (n,) nodal mass for the weight [kg].
+    displacement, velocity
+        (n, d) given initial fields.
+    contacts
+        The contacts.
+    opponents
+        (contacts, 2) numbers of the two solids of each contact; -1 for a tool.
+    touchable
+        (k,) nodes that may come into contact.
+    edge
+        (n,) shortest edge at each node [m].
+    driven
+        Driven supports with the components (n, d) that they move.
+    floor
+        (parts,) stored energy below which a body is undeformed: a uniform strain of 1e-14 [J].
+    total
+        Assembly of mass plus tangent stiffness on the free components.
+    timing
+        Impact rule of the scene.
+    friction
+        Friction laws of the contact rows.
+    """
+
+    scene: Scene
+    parts: tuple[DiscreteSolid, ...]
+    mass: sp.csr_array
+    follow: sp.csr_array
+    massive: BoolArray
+    free: BoolArray
+    load: Array
+    load_before: Array
+    loads: DeadLoads
+    weight: Array
+    displacement: Array
+    velocity: Array
+    contacts: ContactSet
+    opponents: IntArray
+    touchable: IntArray
+    edge: Array
+    driven: tuple[tuple[Driven, BoolArray], ...]
+    floor: Array
+    total: Sum
+    timing: ImpactRule
+    friction: FrictionRows
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Shape (n, d) of the nodal fields."""
+        return self.free.shape[0], self.free.shape[1]
+
+    @property
+    def points(self) -> Array:
+        """Reference positions (n, d) [m]."""
+        return self.contacts.points
+
+    @property
+    def part_of(self) -> IntArray:
+        """Number (n,) of the solid of each node."""
+        return np.repeat(np.arange(len(self.parts)), [p.mesh.n_nodes for p in self.parts])
+
+    def rows(self, u: Array, time: float = 0.0) -> ContactRows:
+        """Contact rows of the bodies at rest at the displacement ``u`` (n, d)."""
+        return self.contacts.rest(u, time).at(u)
+
+    def prescribed(self, time: float) -> Array:
+        """Velocity (n, d) of the driven components at a time [m/s]; zero on all others."""
+        out = np.zeros(self.shape)
+        for support, where in self.driven:
+            out[where] = support.at(time)
+        return out
+
+    @property
+    def meshes(self) -> Mapping[str, Mesh]:
+        """Mesh of each solid."""
+        return {p.name: p.mesh for p in self.parts}
+
+    @property
+    def linear(self) -> bool:
+        """True if the forces of all solids are linear in the displacement."""
+        return all(p.internal.linear for p in self.parts)
+
+    def stress(self, name: str, u: Array, memory: MaterialState | None = None) -> Array:
+        """Mean Cauchy stress (cells, 3, 3) of the solid ``name`` at its displacement ``u`` or from its memory [Pa]."""
+        return next(p.internal for p in self.parts if p.name == name).stress(u, memory)
+
+    def during(self, memory: MaterialStates, span: float) -> "Model":
+        """Model in a slab of length ``span`` [s], with the material states at its start."""
+        return replace(self, parts=during(self.parts, memory, span)) if any_path_dependent(self.parts) else self
+
+    def pushed(self, start: float, end: float) -> "Model":
+        """Model in a slab from ``start`` to ``end`` [s], with its loads."""
+        if self.loads.steady:
+            return self
+        mean, still = self.loads.mean(start, end), ~self.massive[:, None]
+        before, after = (np.where(still, self.loads.at(t), mean) for t in (start, end))
+        return replace(self, load=after, load_before=before)
+
+    def slab_load(self, scalar: Array) -> Array:
+        """Mean loads (n, d) over the slab; the scalars (parts,) weight the ends for massless nodes [N]."""
+        if self.loads.steady:
+            return self.load
+        a = self.nodal(np.asarray(scalar))
+        return (0.5 - a) * self.load_before + (0.5 + a) * self.load
+
+    def split(self, field: Array) -> dict[str, Array]:
+        """Field of each solid by name."""
+        return {p.name: field[p.rows] for p in self.parts}
+
+    def join(self, fields: Mapping[str, Array]) -> Array:
+        """Field over all nodes from the fields of the solids."""
+        return np.concatenate([fields[p.name] for p in self.parts])
+
+    def totals(self, density: Array) -> Array:
+        """Sums (parts,) of a nodal quantity (n, ...) over each solid."""
+        return np.array([density[p.rows].sum() for p in self.parts])
+
+    def nodal(self, values: Array) -> Array:
+        """Values (parts,) of the solids on their nodes, (n, 1)."""
+        return np.repeat(values, [p.mesh.n_nodes for p in self.parts])[:, None]
+
+    def energy_and_force(self, u: Array) -> tuple[Array, Array]:
+        """Stored energy of each solid (parts,) [J] and internal force (n, d) [N]."""
+        energy, force = zip(*(p.internal.energy_and_force(u[p.rows]) for p in self.parts), strict=True)
+        return np.array(energy), np.concatenate(force)
+
+    def force(self, u: Array) -> Array:
+        """Internal force (n, d) [N]."""
+        return np.concatenate([p.internal.force(u[p.rows]) for p in self.parts])
+
+    def tangent(self, u: Array) -> sp.csc_array:
+        """Tangent stiffness (n d, n d) [N/m]."""
+        return _tangent(self.parts, u)
+
+    def inertia_and_stiffness(
+        self, u: Array, factor: float, secant: bool = False, viscous_factor: float = 0.0
+    ) -> sp.csc_array:
+        """``M + factor K(u)`` (f, f) on the free components, K of tangent or secant moduli.
+
+        ``viscous_factor`` is the additional weight of the viscous stiffness between nodes with inertia.
+        """
+        values = [p.stiffness(u[p.rows], secant, viscous_factor, self.massive[p.rows]) for p in self.parts]
+        return self.total.of(np.concatenate(values), factor)
+
+    def tangent_product(self, u: Array, w: Array) -> Array:
+        """Product (n, d) of the tangent stiffness with a field (n, d) [N]."""
+        return np.concatenate([p.internal.tangent_product(u[p.rows], w[p.rows]) for p in self.parts])
+
+    def tangent_blocks(self, u: Array) -> Array:
+        """Diagonal blocks (n, d, d) of the tangent stiffness [N/m]."""
+        return np.concatenate([p.internal.tangent_diagonal_blocks(u[p.rows]) for p in self.parts])
+
+    def shock_force(self, middle: Array, change: Array, span: float) -> Array | None:
+        """Force (n, d) of the bulk viscosities [N] in a slab, see
+        :class:`~softway.bodies.bulk_viscosity.BulkViscosityForce`; None without.
+
+        The forces of massless nodes act on the nodes that they follow.
+        """
+        if all(p.shock is None for p in self.parts):
+            return None
+        out = np.concatenate([p.shock_force(middle[p.rows], change[p.rows], span) for p in self.parts])
+        own = out * self.massive[:, None]
+        return np.asarray(own + self.follow.T @ (out - own))
+
+    def kinetic(self, v: Array) -> Array:
+        """Kinetic energy of each solid (parts,) [J]."""
+        return 0.5 * self.totals(v * (self.mass @ v))
+
+
+def build(scene: Scene) -> Model:
+    """Build the model of a scene: meshes, tables, mass and contacts.
+
+    Raises
+    ------
+    InputError
+        With the place in the scene: if a tag matches nothing, a body does not exist, or dimensions are mixed.
+    """
+    solids, timing, factor = _solids(scene), _timing(scene), scene.inertia.factor
+    parts = _parts(solids)
+    met = assemble_contacts(scene.contacts, scene.bodies, parts)
+    light = met.nodes if timing.massless and factor > 0.0 else np.zeros(0, int)
+    own = [light[(light >= p.rows.start) & (light < p.rows.stop)] - p.rows.start for p in parts]
+    masses = [solid_mass(p, solids[p.name], nodes, timing.spread) for p, nodes in zip(parts, own, strict=True)]
+    follow = [solid_following(p, nodes) for p, nodes in zip(parts, own, strict=True)]
+    weight = sp.csr_array(sp.block_diag(masses, format="csr"))
+    mass = sp.csr_array(factor * weight) if factor > 0.0 else sp.csr_array(weight.shape)
+    fields = [initial(p, solids[p.name]) for p in parts]
+    free = np.concatenate([movable for _, _, movable in fields])
+    weights = np.asarray(weight.sum(axis=1)).ravel()
+    displacement = np.concatenate([u for u, _, _ in fields]) * free
+    loads = dead_load(parts, weights, scene.loads, "loads")
+    inertia = sp.csc_array(sp.kron(mass, sp.eye_array(free.shape[1]), format="csc"))
+    return Model(
+        scene=scene,
+        parts=parts,
+        mass=mass,
+        follow=sp.csr_array(sp.block_diag(follow, format="csr")),
+        massive=np.asarray(mass.diagonal()) > 0.0,
+        free=free,
+        load=loads.at(0.0),
+        load_before=loads.at(0.0),
+        loads=loads,
+        weight=weights,
+        displacement=displacement,
+        velocity=np.concatenate([v for _, v, _ in fields]) * free,
+        contacts=met.contacts.cleared(displacement, [c.start == "apart" for c in scene.contacts]),
+        opponents=met.opponents,
+        touchable=met.nodes,
+        edge=np.concatenate([p.mesh.edges() for p in parts]),
+        driven=driven_components(parts, solids, free.shape),
+        floor=np.array([p.floor() for p in parts]),
+        total=sum_of(inertia, _tangent(parts, np.zeros_like(displacement)), free.ravel()),
+        timing=timing,
+        friction=met.friction,
+    )
+
+
+def _solids(scene: Scene) -> dict[str, Solid]:
+    solids = {n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}
+    if not solids:
+        raise InputError("bodies", "no Solid among them", "at least one body of kind Solid")
+    return solids
+
+
+def _parts(solids: Mapping[str, Solid]) -> tuple[DiscreteSolid, ...]:
+    parts: list[DiscreteSolid] = []
+    for name, solid in solids.items():
+        with within(f"bodies.{name}"):
+            parts.append(discretise(name, solid, parts[-1].rows.stop if parts else 0))
+    if len({p.mesh.dim for p in parts}) > 1:
+        raise InputError("bodies", "solids of different space dimension in one scene", "meshes of one dimension")
+    return tuple(parts)
+
+
+def _tangent(parts: Sequence[DiscreteSolid], u: Array) -> sp.csc_array:
+    blocks = [p.internal.tangent(u[p.rows]) for p in parts]
+    return blocks[0] if len(blocks) == 1 else sp.csc_array(sp.block_diag(blocks, format="csc"))
+
+
+def _timing(scene: Scene) -> ImpactRule:
+    rules = {c.timing for c in scene.contacts}
+    if len(rules) > 1:
+        raise InputError("contacts", f"{len(rules)} different timing rules in one scene", "the same timing for all")
+    timing = rules.pop() if rules else Energy()
+    if scene.inertia.factor == 0.0 and not timing.massless:
+        problem = f"Off with the rule {type(timing).__name__}, whose contact nodes have inertia"
+        raise InputError("inertia", problem, "the timing Energy")
+    return timing

@@ -1,0 +1,97 @@
+"""Scene: bodies, contacts and loads.  State: the fields at one time."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from softway.arrays import Array, BoolArray
+from softway.bodies.inertia.inertia_scaling import Full, Inertia
+from softway.bodies.internal_force.material_state import MaterialState
+from softway.bodies.setup.loads import Load
+from softway.bodies.solid import Solid, Tool
+from softway.contact.contact import Contact
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AsGiven:
+    """The march starts from the initial fields of the solids.
+
+    Examples
+    --------
+    >>> AsGiven()
+    AsGiven()
+    """
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StaticStart:
+    """The march starts from a static equilibrium of the supported solids.
+
+    Parameters
+    ----------
+    loads
+        Loads of the equilibrium, removed at the start; the loads of the scene if empty.
+
+    Examples
+    --------
+    >>> StaticStart()
+    StaticStart(loads=())
+    """
+
+    loads: tuple[Load, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scene:
+    """Bodies, the contacts between them, and the loads: an immutable description.
+
+    Parameters
+    ----------
+    bodies
+        Solids and tools by name.
+    contacts
+        Contacts between tagged surfaces and tools or other surfaces.
+    loads
+        Dead loads: gravity, tractions.
+    start
+        Initial fields as given, or static equilibrium.
+    inertia
+        Full, off (quasi-static) or scaled inertia.
+    """
+
+    bodies: Mapping[str, Solid | Tool]
+    contacts: tuple[Contact, ...] = ()
+    loads: tuple[Load, ...] = ()
+    start: AsGiven | StaticStart = AsGiven()
+    inertia: Inertia = Full()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class State:
+    """State at one time; arrays are read-only.
+
+    Parameters
+    ----------
+    time
+        [s].
+    displacement, velocity, acceleration
+        Body name -> (n, d) nodal arrays [m], [m/s], [m/s^2]; acceleration: slope of the velocity in the slab before.
+    closed
+        Contact name -> (c,) contact rows that touch.
+    pressure
+        Contact name -> (c,) normal force of the obstacle on the node of each row, >= 0 [N].
+    memory
+        Body name -> history variables of path-dependent materials.
+    traction, sliding
+        Contact name -> (c, d) tangential force of the obstacle on the node of each row [N], and (c,) rows that slip;
+        both empty without friction.
+    """
+
+    time: float
+    displacement: Mapping[str, Array]
+    velocity: Mapping[str, Array]
+    acceleration: Mapping[str, Array]
+    closed: Mapping[str, BoolArray]
+    pressure: Mapping[str, Array]
+    memory: Mapping[str, MaterialState] = field(default_factory=dict)
+    traction: Mapping[str, Array] = field(default_factory=dict)
+    sliding: Mapping[str, BoolArray] = field(default_factory=dict)

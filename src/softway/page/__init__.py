@@ -1,1 +1,0 @@
-"""A run in the browser: moving mesh, fields, curves and events, from this machine to this machine."""

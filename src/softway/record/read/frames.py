@@ -1,0 +1,213 @@
+"""Stored frames of the fields, read back as plain arrays."""
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from softway.arrays import Array, IntArray
+from softway.bodies.prescribed_motion import PlacedShape
+from softway.bodies.solid import Tool
+from softway.errors import InputError
+from softway.record.write.fields import CELL_DATA, POINT_DATA, SIZES, reading
+from softway.record.write.grid_layout import VTK
+from softway.record.write.tool_shapes import recovered
+
+if TYPE_CHECKING:
+    import pyvista
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Cells:
+    """Cells, reference coordinates and rigid obstacles, common to all frames.
+
+    Parameters
+    ----------
+    bodies
+        Names of the solids.
+    tools
+        Rigid obstacles by name.
+    lost
+        Names of the obstacles that depend on a function that cannot be imported.
+    dimension
+        Dimension d of space.
+    reference
+        (n, 3) reference coordinates [m].
+    connectivity, offsets, types, body
+        Cells in the format of VTK: (k,), (e + 1,), (e,); and (e,) number of the solid of each cell.
+    """
+
+    bodies: tuple[str, ...]
+    tools: Mapping[str, Tool]
+    lost: tuple[str, ...]
+    dimension: int
+    reference: Array
+    connectivity: IntArray
+    offsets: IntArray
+    types: IntArray
+    body: IntArray
+
+    def blocks(self) -> dict[str, IntArray]:
+        """Connectivity (cells, nodes) by cell name."""
+        return {name: self._nodes(kind) for name, kind in VTK.items() if (self.types == kind).any()}
+
+    def numbers(self, name: str) -> IntArray:
+        """Numbers (cells,) in the grid of the cells with one name, in the order of ``blocks``."""
+        return np.flatnonzero(self.types == VTK[name])
+
+    def obstacles(self, time: float) -> dict[str, PlacedShape]:
+        """Rigid obstacles in their positions at a time [s]."""
+        return {name: tool.at(time) for name, tool in self.tools.items()}
+
+    def _nodes(self, kind: int) -> IntArray:
+        mine = np.flatnonzero(self.types == kind)
+        width = int(self.offsets[mine[0] + 1] - self.offsets[mine[0]])
+        return self.connectivity[self.offsets[mine][:, None] + np.arange(width)]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Frame:
+    """Solids at one instant.
+
+    Parameters
+    ----------
+    time
+        Instant [s].
+    points, displacement, velocity
+        (n, 3) deformed positions [m], displacements [m], velocities [m/s].
+    contact_force
+        (n,) normal contact force on the slave nodes [N].
+    stress, von_mises
+        (e, 6) mean Cauchy stress of the cells, xx yy zz xy yz xz, and (e,) its von Mises equivalent [Pa].
+    more
+        Further recorded fields by name: ``contact_pressure`` (n,) and ``tangential_traction`` (n, 3) [Pa],
+        ``plastic_strain`` and other scalar history variables (e,) of a law, ``dissipation`` (e,) [J/m^3].
+    """
+
+    time: float
+    points: Array
+    displacement: Array
+    velocity: Array
+    contact_force: Array
+    stress: Array
+    von_mises: Array
+    more: Mapping[str, Array] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> Array:
+        """Field with a given name."""
+        if name in self.more:
+            return self.more[name]
+        if name not in ALWAYS:
+            raise KeyError(f"no field {name!r}; known fields: {', '.join((*ALWAYS, *self.more))}")
+        return np.asarray(getattr(self, name))
+
+
+ALWAYS = ("displacement", "velocity", "contact_force", "stress", "von_mises", "points")
+"""Fields of every frame."""
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """Description of a field, given ``on`` "nodes" or "cells", with a ``unit`` (may be empty) and 1, 3 or 6
+    ``components``.
+    """
+
+    on: str
+    unit: str
+    components: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Fields:
+    """Frames of a run; ``fields[k]`` reads one, and negative numbers count from the end.
+
+    ``keep`` is an object that must live as long as the file, such as the holder of a temporary folder.
+    """
+
+    path: Path
+    keep: object = None
+
+    def __len__(self) -> int:
+        with reading(self.path) as file:
+            return int(file["VTKHDF/Steps"].attrs["NSteps"])
+
+    def __iter__(self) -> Iterator[Frame]:
+        return (self[k] for k in range(len(self)))
+
+    def __getitem__(self, k: int) -> Frame:
+        with reading(self.path) as file:
+            root = file["VTKHDF"]
+            count = int(root["Steps"].attrs["NSteps"])
+            if not -count <= k < count:
+                raise IndexError(f"frame {k} of {count}")
+            n, e = (int(root[name][0]) for name in SIZES[:2])
+            at, k = slice(k % count * n, (k % count + 1) * n), k % count
+            point = {name: data[at] for name, data in root["PointData"].items()}
+            cell = {name: d[k * e : (k + 1) * e] for name, d in root["CellData"].items() if name != "body"}
+            data = {**point, **cell}
+            always = {name: data.pop(name) for name in (*POINT_DATA, *CELL_DATA)}
+            return Frame(time=float(root["Steps/Values"][k]), points=root["Points"][at], **always, more=data)
+
+    @property
+    def kinds(self) -> dict[str, Kind]:
+        """Description of every field by name: on nodes or cells, unit, number of components."""
+        with reading(self.path) as file:
+            return {
+                name: Kind(on=on, unit=str(data.attrs.get("unit", "")), components=int(np.prod(data.shape[1:])))
+                for on, group in (("nodes", "PointData"), ("cells", "CellData"))
+                for name, data in file["VTKHDF"][group].items()
+                if name != "body"
+            }
+
+    @property
+    def times(self) -> Array:
+        """Instants of the frames (frames,) [s]."""
+        with reading(self.path) as file:
+            return np.asarray(file["VTKHDF/Steps/Values"][: int(file["VTKHDF/Steps"].attrs["NSteps"])])
+
+    @property
+    def cells(self) -> Cells:
+        """Cells, reference coordinates and rigid obstacles, common to all frames."""
+        with reading(self.path) as file:
+            root = file["VTKHDF"]
+            tools = {name: _tool(data) for name, data in json.loads(file["tools"][()]).items()}
+            whole = {name: np.asarray(root[name.title()][:], int) for name in ("connectivity", "offsets", "types")}
+            return Cells(
+                bodies=tuple(json.loads(file.attrs["bodies"])),
+                tools={n: tool for n, tool in tools.items() if tool is not None},
+                lost=tuple(n for n, tool in tools.items() if tool is None),
+                dimension=int(file.attrs["dimension"]),
+                reference=file["reference"][:],
+                body=np.asarray(root["CellData/body"][:], int),
+                **whole,
+            )
+
+    def to_pyvista(self, k: int) -> "pyvista.UnstructuredGrid":
+        """Frame ``k`` as a deformed PyVista grid with all its fields."""
+        try:
+            import pyvista
+        except ImportError:
+            raise InputError("fields", "PyVista is not installed", "pip install pyvista") from None
+        frame, cells = self[k], self.cells
+        grid = pyvista.UnstructuredGrid(_padded(cells), cells.types.astype(np.uint8), frame.points)
+        for name, kind in self.kinds.items():
+            (grid.point_data if kind.on == "nodes" else grid.cell_data)[name] = frame[name]
+        grid.cell_data["body"] = cells.body
+        return grid
+
+
+def _tool(data: Mapping[str, Any]) -> Tool | None:
+    """Tool from its description; None if a function in it cannot be imported."""
+    try:
+        made: Tool = recovered(data)
+    except InputError:
+        return None
+    return made
+
+
+def _padded(cells: Cells) -> IntArray:
+    """Connectivity with the number of nodes in front of each cell, as PyVista needs it."""
+    return np.insert(cells.connectivity, cells.offsets[:-1], np.diff(cells.offsets))

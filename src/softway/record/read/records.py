@@ -1,0 +1,37 @@
+"""Records of a run as pictures and readers need them: tables and frames, wherever they come from."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Protocol
+
+from softway.record.read.frames import Fields
+from softway.record.storage.table import Table
+
+
+class Records(Protocol):
+    """Tables and frames of a run; :class:`softway.record.run.Run` reads them from a run folder."""
+
+    @property
+    def path(self) -> Path:
+        """Path of the folder that the records are in."""
+        ...
+
+    @property
+    def history(self) -> Table:
+        """History with one row per accepted time step (slab)."""
+        ...
+
+    @property
+    def events(self) -> Table:
+        """Contact events with one row per touch, release, stick or slip of a node."""
+        ...
+
+    @property
+    def fields(self) -> Fields:
+        """Frames of the fields."""
+        ...
+
+    @property
+    def provenance(self) -> Mapping[str, Any]:
+        """Title, versions and times of the run."""
+        ...

@@ -1,0 +1,114 @@
+"""summary.json: a few numbers of a run, computed from its history and its contact events."""
+
+from collections.abc import Mapping
+from math import isfinite
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from softway.record.storage.table import Table
+
+FILE = "summary.json"
+LEAST = ("min_gap", "min_force")
+LEFT = ("complementarity", "power_residual", "momentum_error", "energy_error")
+
+UNITS: Mapping[str, str] = MappingProxyType(
+    {
+        "time_end": "s",
+        "energy_error_worst": "J",
+        "energy_error_relative": "ratio",
+        "dissipation": "J",
+        "work_external": "J",
+        "penetration_worst": "m",
+        "power_residual_worst": "J",
+        "wall_time": "s",
+        "min_gap": "m",
+        "min_force": "N",
+        "complementarity": "J",
+        "power_residual": "J",
+        "momentum_error": "kg m/s",
+        "energy_error": "J",
+        "first_touch": "s",
+        "last_release": "s",
+        "impulse": "N s",
+        "peak_force": "N",
+        "peak_force_time": "s",
+    }
+)
+"""Units of all numbers that are not counts."""
+
+
+def summarise(history: Table, events: Table) -> dict[str, Any]:
+    """Summarise a finished or unfinished run in a few numbers.
+
+    ``energy_error_worst`` is the largest ``|energy_error|`` [J]; ``energy_error_relative`` is its ratio to the largest
+    sum of kinetic and strain energy; ``penetration_worst`` is the largest penetration at the end of a slab [m].
+    """
+    if history.rows == 0:
+        return {"slabs": 0, "contacts": {}}
+    worst = float(np.abs(history["energy_error"]).max())
+    scale = float((history["energy_kinetic"] + history["energy_strain"]).max())
+    contacts = {label: _contact(label, history, events) for label in contacts_of(history)}
+    return {
+        "slabs": int((history["h"] > 0.0).sum()),
+        "time_end": float(history["time"][-1]),
+        "iterations": int(history["iterations"].sum()),
+        "energy_error_worst": worst,
+        "energy_error_relative": worst / scale if scale > 0.0 else None,
+        "dissipation": float(history["dissipation"][-1]),
+        "work_external": float(history["work_external"][-1]),
+        "penetration_worst": max((c["penetration_worst"] for c in contacts.values()), default=0.0),
+        "power_residual_worst": max((c["power_residual_worst"] for c in contacts.values()), default=0.0),
+        "certificate": _certificate(history),
+        "contacts": contacts,
+        "units": {"time": "s", "energy": "J", "penetration": "m", "impulse": "N s", "force": "N"},
+    }
+
+
+def _certificate(history: Table) -> dict[str, float | None]:
+    """Worst residuals of the contact conditions and balances over all slabs."""
+    worst = {name: float(np.abs(history[f"certificate.{name}"]).max()) for name in LEFT}
+    least = {name: float(history[f"certificate.{name}"].min()) for name in LEAST}
+    return {name: value if isfinite(value) else None for name, value in (least | worst).items()}
+
+
+def contacts_of(history: Table) -> tuple[str, ...]:
+    """Names of the contacts that have columns in a history.
+
+    Examples
+    --------
+    >>> contacts_of(Table({"time": np.zeros(1), "contact.bar.right-wall.force_n": np.zeros(1)}))
+    ('bar.right-wall',)
+    """
+    head, tail = "contact.", ".force_n"
+    return tuple(c[len(head) : -len(tail)] for c in history if c.startswith(head) and c.endswith(tail))
+
+
+def _contact(label: str, history: Table, events: Table) -> dict[str, Any]:
+    force, gap = history[f"contact.{label}.force_n"], history[f"contact.{label}.min_gap"]
+    peak = int(np.argmax(np.abs(force)))
+    return {
+        "first_touch": _instant(label, "touch", 0, events),
+        "last_release": _instant(label, "release", -1, events),
+        "touches": _count(label, "touch", events),
+        "releases": _count(label, "release", events),
+        "impulse": float((force * history["h"]).sum()),
+        "peak_force": float(force[peak]),
+        "peak_force_time": float(history["time"][peak]),
+        "penetration_worst": max(0.0, -float(gap.min())) if isfinite(gap.min()) else 0.0,
+        "power_residual_worst": float(np.abs(history[f"contact.{label}.power_residual"]).max()),
+    }
+
+
+def _chosen(label: str, kind: str, events: Table) -> np.ndarray[Any, np.dtype[np.bool_]]:
+    return np.asarray((events["contact"] == label) & (events["kind"] == kind))
+
+
+def _instant(label: str, kind: str, which: int, events: Table) -> float | None:
+    times = np.sort(events["time"][_chosen(label, kind, events)])
+    return float(times[which]) if len(times) else None
+
+
+def _count(label: str, kind: str, events: Table) -> int:
+    return int(_chosen(label, kind, events).sum())

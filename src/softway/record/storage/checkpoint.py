@@ -1,0 +1,139 @@
+"""Checkpoints: the state of a march and the lengths of its records, each checkpoint in one file written atomically.
+
+A file consists of a line with the checksum of the rest, and a NumPy archive of plain arrays.  One of the arrays is a
+text that describes how to assemble the others.
+"""
+
+import hashlib
+import io
+import json
+import logging
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+
+import numpy as np
+
+from softway.errors import InputError
+from softway.march.march_state import MarchState
+from softway.record.storage.atomic_file import replaced
+from softway.record.storage.serialisation import packed, unpacked
+from softway.units import Second
+
+LOG = logging.getLogger(__name__)
+FOLDER = "checkpoints"
+FORMAT = "softway checkpoint 1"
+RARE = 100.0
+"""Minimum time between checkpoints, as a multiple of the time that the last one took to write."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Checkpoints:
+    """Schedule of the checkpoints from which a run can be resumed after it was killed or interrupted.
+
+    Writing takes less than one percent of the run time: large checkpoints are written less often.
+
+    Parameters
+    ----------
+    every
+        Wall-clock time between two checkpoints [s]; 0 writes one after every time step at any cost.  A run that is
+        interrupted or fails also writes one at its end.
+    keep
+        Number of most recent checkpoints to keep; 0 for no checkpoints.
+
+    Examples
+    --------
+    >>> Checkpoints().keep
+    2
+    """
+
+    every: Second = 30.0
+    keep: int = 2
+
+    def __post_init__(self) -> None:
+        if not (isfinite(self.every) and self.every >= 0.0):
+            raise InputError("every", f"{self.every:g} s is negative or not finite", 'a time such as "30 s", or 0')
+        if self.keep < 0:
+            raise InputError("keep", f"{self.keep} is negative", "0 for no checkpoints, or 2")
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Checkpoint:
+    """State of a run: the state of the march, the length of each record, and the wall-clock time so far [s]."""
+
+    standing: MarchState
+    marks: Mapping[str, int]
+    wall: float
+
+
+class Damaged(Exception):
+    """Error for a checkpoint that cannot be read; the message gives the reason."""
+
+
+def save(folder: Path, checkpoint: Checkpoint, keep: int) -> Path:
+    """Write a checkpoint of a run folder and remove all but the last ``keep``.
+
+    Raises
+    ------
+    OSError
+        If the checkpoint cannot be written; the earlier ones stay.
+    """
+    place = folder / FOLDER
+    place.mkdir(exist_ok=True)
+    text, arrays = packed(checkpoint.standing)
+    about = json.dumps({"standing": text, "marks": dict(checkpoint.marks), "wall": checkpoint.wall})
+    body = io.BytesIO()
+    np.savez(body, allow_pickle=False, about=np.frombuffer(about.encode(), np.uint8), **arrays)
+    content = body.getvalue()
+    head = f"{FORMAT} {hashlib.sha256(content).hexdigest()}\n".encode()
+    file = place / f"slab-{checkpoint.standing.slabs:09d}"
+    replaced(file, head + content, sync=True)
+    for old in listed(folder)[keep:]:
+        old.unlink(missing_ok=True)
+    return file
+
+
+def listed(folder: Path) -> list[Path]:
+    """Checkpoint files of a run folder, the last one first."""
+    return sorted((folder / FOLDER).glob("slab-*"), reverse=True)
+
+
+def last(folder: Path) -> Checkpoint | None:
+    """Last readable checkpoint of a run folder; a warning names each unreadable one."""
+    for file in listed(folder):
+        try:
+            return read(file)
+        except Damaged as error:
+            LOG.warning("checkpoint '%s' %s; the previous checkpoint or the start of the run is used", file, error)
+    return None
+
+
+def read(file: Path) -> Checkpoint:
+    """Read the checkpoint in a file.
+
+    Raises
+    ------
+    Damaged
+        If the file cannot be read or its checksum is wrong.
+    """
+    try:
+        head, _, content = file.read_bytes().partition(b"\n")
+    except OSError as error:
+        raise Damaged(f"cannot be read: {error.strerror}") from None
+    if head != f"{FORMAT} {hashlib.sha256(content).hexdigest()}".encode():
+        raise Damaged("is damaged: its checksum is wrong")
+    with np.load(io.BytesIO(content), allow_pickle=False) as stored:
+        arrays = {name: stored[name] for name in stored.files}
+    about = json.loads(arrays.pop("about").tobytes())
+    return Checkpoint(standing=unpacked(about["standing"], arrays), marks=about["marks"], wall=about["wall"])
+
+
+def forget(folder: Path) -> None:
+    """Remove the checkpoints of a finished run."""
+    for file in listed(folder):
+        file.unlink(missing_ok=True)
+    if (folder / FOLDER).is_dir():
+        for rest in (folder / FOLDER).iterdir():
+            rest.unlink()
+        (folder / FOLDER).rmdir()

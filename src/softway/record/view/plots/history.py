@@ -1,0 +1,129 @@
+"""History of a run as curves: energies, their balance, contact forces and gaps, probes."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.record.read.records import Records
+from softway.record.read.summary import contacts_of
+from softway.record.storage.table import Table
+from softway.record.view.options import STANDARD, PictureOptions
+from softway.record.view.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, PURPLE, RED, canvas, scaled
+from softway.record.write.history_columns import CERTIFICATE, COLUMNS
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+WORDS = {"m": "position or displacement", "m/s": "velocity", "N": "reaction"}
+"""Quantities of probes by unit."""
+
+
+WORKS = (("dissipation", ORANGE, "dissipated", "-"), ("work_external", GREEN, "external work", (0, (4, 4))))
+"""Columns with colours, labels and line styles; the external work is dashed, since dissipation often covers it."""
+NOISE = 1e-9
+"""Gaps below this size are rounding errors [m]."""
+
+
+def history(run: Records, look: PictureOptions = STANDARD) -> "Figure":
+    """Figure of energies, energy balance error, contact forces, smallest gaps and probes over time."""
+    table, title = run.history, run.provenance.get("title", "")
+    factor, unit = scaled(table["time"], "s")
+    time, panels = factor * table["time"], _panels(table)
+    rows = -(-len(panels) // 2)
+    figure = canvas(*(look.inches or (9.0, 3.1 * rows + 0.2)))
+    axes = figure.subplots(rows, 2, sharex=True, squeeze=False).ravel()
+    for draw, axis in zip(panels, axes, strict=False):
+        draw(axis, time, table)
+    for axis in axes[len(panels) :]:
+        axis.remove()
+    for axis in axes[max(len(panels) - 2, 0) : len(panels)]:
+        axis.tick_params(labelbottom=True)
+        axis.set_xlabel(f"time [{unit}]")
+    if title:
+        figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold")
+    return figure
+
+
+def _panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
+    """Drawing functions of all panels; probes with the same unit share a panel."""
+    contacts = contacts_of(table)
+    panels: list[Callable[[Axes, Array, Table], None]] = [energies, balance]
+    if contacts:
+        panels += [partial(forces, contacts=contacts), partial(gaps, contacts=contacts)]
+    known = {column.name for column in (*COLUMNS, *CERTIFICATE)}
+    probes = [n for n in table if n not in known and not n.startswith("contact.")]
+    units = dict.fromkeys(table.units[n] for n in probes)
+    return panels + [partial(_probes, names=[n for n in probes if table.units[n] == unit]) for unit in units]
+
+
+def energies(axis: "Axes", time: Array, table: Table) -> None:
+    """Draw the energies, and dissipation and external work where they are not negligible."""
+    kinetic, strain = table["energy_kinetic"], table["energy_strain"]
+    total = kinetic + strain
+    curves: list[tuple[str, Array, str, Any]] = [
+        ("kinetic", kinetic, BLUE, "-"),
+        ("strain", strain, RED, "-"),
+        ("kinetic + strain", total, BLACK, "--"),
+    ]
+    for name, color, label, style in WORKS:
+        if np.abs(table[name]).max() > 1e-3 * np.abs(total).max():
+            curves.append((label, table[name], color, style))
+    factor, unit = scaled(np.concatenate([values for _, values, _, _ in curves]), "J")
+    for label, values, color, style in curves:
+        axis.plot(time, factor * values, linestyle=style, color=color, label=label)
+    axis.set(title="Energy", ylabel=f"energy [{unit}]")
+    axis.legend(loc="best")
+
+
+def balance(axis: "Axes", time: Array, table: Table) -> None:
+    """Draw the error of the energy balance relative to the largest energy."""
+    scale = float((table["energy_kinetic"] + table["energy_strain"]).max()) or 1.0
+    relative = np.maximum(np.abs(table["energy_error"]) / scale, 1e-17)
+    axis.semilogy(time, relative, color=PURPLE, lw=1.2)
+    axis.set_ylim(min(1e-17, relative.min()), max(1e-11, 10.0 * relative.max()))
+    axis.set(title=f"Energy balance: largest error {relative.max():.1e}", ylabel="relative error")
+
+
+def forces(axis: "Axes", time: Array, table: Table, contacts: tuple[str, ...]) -> None:
+    """Draw the mean normal force of each slab as a step curve."""
+    factor, unit = scaled(np.concatenate([table[f"contact.{c}.force_n"] for c in contacts]), "N")
+    for contact, color in zip(contacts, _cycle(len(contacts)), strict=True):
+        force = factor * table[f"contact.{contact}.force_n"]
+        axis.step(time, force, where="pre", color=color, label=contact, lw=1.3)
+        axis.fill_between(time, force, step="pre", color=color, alpha=0.15, lw=0)
+    axis.set(title="Normal contact force", ylabel=f"force [{unit}]")
+    axis.set_ylim(bottom=0.0, top=None if any(table[f"contact.{c}.force_n"].any() for c in contacts) else 1.0)
+    axis.legend(loc="best")
+
+
+def gaps(axis: "Axes", time: Array, table: Table, contacts: tuple[str, ...]) -> None:
+    """Draw the smallest gap of each contact."""
+    every = np.concatenate([table[f"contact.{c}.min_gap"] for c in contacts])
+    known = every[np.isfinite(every)]
+    factor, unit = scaled(np.append(known, NOISE), "m")
+    if np.abs(known).max(initial=0.0) < NOISE:
+        axis.set_ylim(-factor * NOISE, factor * NOISE)
+    axis.axhline(0.0, color=BLACK, lw=0.8)
+    for contact, color in zip(contacts, _cycle(len(contacts)), strict=True):
+        axis.plot(time, factor * table[f"contact.{contact}.min_gap"], color=color, label=contact)
+    axis.set(title="Smallest gap", ylabel=f"gap [{unit}]")
+    if len(contacts) > 1:
+        axis.legend(loc="best")
+
+
+def _probes(axis: "Axes", time: Array, table: Table, names: list[str]) -> None:
+    factor, unit = scaled(np.concatenate([table[n] for n in names]), table.units[names[0]])
+    for name, color in zip(names, _cycle(len(names)), strict=True):
+        axis.plot(time, factor * table[name], color=color, label=name)
+    word = WORDS[table.units[names[0]]]
+    axis.set(title=f"Probes: {word}", ylabel=f"{word} [{unit}]")
+    axis.legend(loc="best")
+
+
+def _cycle(count: int) -> list[str]:
+    return [CYCLE[k % len(CYCLE)] for k in range(count)]

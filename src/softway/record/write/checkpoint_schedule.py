@@ -1,0 +1,71 @@
+"""Schedule of the checkpoints of a run: when the next one is due, and its content."""
+
+import time as clock
+from collections.abc import Mapping
+from pathlib import Path
+
+from softway.march.march_state import MarchState
+from softway.record.storage.checkpoint import RARE, Checkpoint, Checkpoints, save
+from softway.record.write.recorder import Recorder
+
+
+class CheckpointWriter:
+    """Writer of checkpoints: it takes every recorded step and writes a checkpoint when one is due.
+
+    Parameters
+    ----------
+    folder
+        Folder of the run.
+    plan
+        Time between checkpoints, and number of checkpoints to keep.
+    recorders
+        Records by name; a checkpoint stores their lengths.
+    before
+        Wall-clock time of the earlier parts of the run [s].
+    """
+
+    __slots__ = ("_latest", "_saved", "before", "begun", "due", "folder", "plan", "recorders")
+
+    def __init__(self, folder: Path, plan: Checkpoints, recorders: Mapping[str, Recorder], before: float) -> None:
+        self.folder, self.plan, self.recorders, self.before = folder, plan, recorders, before
+        self.begun = clock.perf_counter()
+        self.due = self.begun + plan.every
+        self._latest: tuple[MarchState, dict[str, int]] | None = None
+        self._saved = -1
+
+    @property
+    def wall(self) -> float:
+        """Wall-clock time of the run so far [s]."""
+        return self.before + clock.perf_counter() - self.begun
+
+    def took(self, standing: MarchState) -> None:
+        """Take the state of the march after its last step was recorded, and write a checkpoint if one is due.
+
+        Raises
+        ------
+        OSError
+            If a checkpoint cannot be written.
+        """
+        self._latest = standing, {name: recorder.mark for name, recorder in self.recorders.items()}
+        if clock.perf_counter() >= self.due:
+            self.write()
+
+    def write(self) -> None:
+        """Write a checkpoint of the last step that was recorded completely, unless it has one already.
+
+        Raises
+        ------
+        OSError
+            If the checkpoint cannot be written.
+        """
+        if self._latest is None or not self.plan.keep:
+            return
+        standing, marks = self._latest
+        if standing.slabs == self._saved:
+            return
+        start = clock.perf_counter()
+        for recorder in self.recorders.values():
+            recorder.sync()
+        save(self.folder, Checkpoint(standing=standing, marks=marks, wall=self.wall), self.plan.keep)
+        self._saved, now = standing.slabs, clock.perf_counter()
+        self.due = now + max(self.plan.every, RARE * (now - start)) if self.plan.every else now

@@ -1,0 +1,61 @@
+"""events.csv: one line for each contact event of a node: touch, release, stick or slip."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from softway.march.results.step import Step
+from softway.record.storage import table
+from softway.record.storage.table import Lines
+from softway.record.write.recorder import RunStart
+
+FILE = "events.csv"
+COLUMNS = (
+    ("time", "s"),
+    ("contact", table.TEXT),
+    ("kind", table.TEXT),
+    ("node", table.COUNT),
+    ("x", "m"),
+    ("y", "m"),
+    ("z", "m"),
+    ("normal_velocity_before", "m/s"),
+    ("normal_velocity_after", "m/s"),
+    ("impulse", "N s"),
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Events:
+    """Open file ``events.csv``."""
+
+    lines: Lines
+
+    def take(self, step: Step) -> None:
+        """Write the events inside one time step (slab), in order of time."""
+        for event in sorted(step.events, key=lambda e: e.time):
+            place = np.zeros(3)
+            place[: len(event.position)] = event.position
+            numbers = [float(x) for x in (*place, event.velocity_before, event.velocity_after, event.impulse)]
+            self.lines.write([float(event.time), event.contact, event.kind, int(event.node), *numbers])
+
+    @property
+    def mark(self) -> int:
+        """Length of the file [bytes]."""
+        return self.lines.mark
+
+    def sync(self) -> None:
+        """Flush the lines to the disk."""
+        self.lines.sync()
+
+    def close(self) -> None:
+        """Close the file."""
+        self.lines.close()
+
+
+def open_events(folder: Path, opening: RunStart, mark: int | None = None) -> Events:
+    """Create ``events.csv`` with its header, or continue the existing file."""
+    rows = table.lines(folder / FILE, mark)
+    if mark is None:
+        rows.write(table.header(COLUMNS))
+    return Events(rows)

@@ -1,0 +1,50 @@
+"""history.csv: one line for each accepted time step (slab), written before the next slab starts."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from softway.march.results.step import Step
+from softway.record.storage import table
+from softway.record.storage.table import Lines
+from softway.record.write.history_columns import Column, columns
+from softway.record.write.probes import Reading
+from softway.record.write.recorder import RunStart
+
+FILE = "history.csv"
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class History:
+    """Open file ``history.csv``; the probes ``readings`` follow its ``columns``."""
+
+    lines: Lines
+    columns: tuple[Column, ...]
+    readings: tuple[Reading, ...]
+
+    def take(self, step: Step) -> None:
+        """Write the line of one slab: its energy and momentum audit, and the probes at its end."""
+        probes = [r.value(step.after, step.reactions) for r in self.readings]
+        self.lines.write([*(column.value(step) for column in self.columns), *probes])
+
+    @property
+    def mark(self) -> int:
+        """Length of the file [bytes]."""
+        return self.lines.mark
+
+    def sync(self) -> None:
+        """Flush the lines to the disk."""
+        self.lines.sync()
+
+    def close(self) -> None:
+        """Close the file."""
+        self.lines.close()
+
+
+def open_history(folder: Path, opening: RunStart, mark: int | None = None) -> History:
+    """Create ``history.csv``, or continue the existing file; its first line is the initial state, with ``h = 0``."""
+    rows, found = table.lines(folder / FILE, mark), columns(tuple(c.label for c in opening.scene.contacts))
+    if mark is None:
+        rows.write(table.header([*((c.name, c.unit) for c in found), *((r.name, r.unit) for r in opening.readings)]))
+        probes = [r.value(opening.initial, {}) for r in opening.readings]
+        rows.write([*(column.initial(opening) for column in found), *probes])
+    return History(lines=rows, columns=found, readings=opening.readings)

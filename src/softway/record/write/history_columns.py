@@ -1,0 +1,95 @@
+"""Columns of history.csv: their names, units and values; a new column is one more line of ``EXTRA``."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from softway.march.results.step import Ledger, Step
+from softway.record.storage import table
+from softway.record.write.recorder import RunStart
+
+
+def nothing(start: RunStart) -> float:
+    """Value of a column in the line of the initial state where nothing has happened yet."""
+    return 0.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Column:
+    """A column of the history.
+
+    Parameters
+    ----------
+    name, unit
+        Name and unit of the values.
+    value
+        Value after a step.
+    initial
+        Value in the line of the initial state.
+    """
+
+    name: str
+    unit: str
+    value: Callable[[Step], float]
+    initial: Callable[[RunStart], float] = nothing
+
+
+def of_ledger(name: str, unit: str, read: Callable[[Ledger], float]) -> Column:
+    """Column of a number of the ledger."""
+    return Column(name, unit, lambda step: float(read(step.ledger)), lambda start: float(read(start.ledger)))
+
+
+def of_certificate(name: str, unit: str) -> Column:
+    """Column of a number of the certificate; zero at the start."""
+    return Column(f"certificate.{name}", unit, lambda step: float(getattr(step.certificate, name)))
+
+
+def of_contact(label: str) -> tuple[Column, ...]:
+    """Columns of a contact."""
+    return tuple(of_ledger(f"contact.{label}.{name}", unit, _number(label, name)) for name, unit in CONTACT)
+
+
+def _number(label: str, name: str) -> Callable[[Ledger], float]:
+    return lambda ledger: float(getattr(ledger.contacts[label], name))
+
+
+CONTACT = (("force_n", "N"), ("force_t", "N"), ("min_gap", "m"), ("power_residual", "J"))
+COLUMNS = (
+    Column("time", "s", lambda step: step.after.time, lambda start: start.initial.time),
+    Column("h", "s", lambda step: step.slab.span),
+    Column("iterations", table.COUNT, lambda step: step.report.iterations, lambda start: 0),
+    Column("pairs", table.COUNT, lambda step: step.report.pairs, lambda start: 0),
+    Column("contraction", table.RATIO, lambda step: step.report.contraction),
+    of_ledger("energy_kinetic", "J", lambda ledger: ledger.energy_kinetic),
+    of_ledger("energy_strain", "J", lambda ledger: ledger.energy_strain),
+    of_ledger("work_external", "J", lambda ledger: ledger.work_external),
+    of_ledger("dissipation", "J", lambda ledger: ledger.dissipation),
+    of_ledger("energy_error", "J", lambda ledger: ledger.energy_error),
+    of_ledger("momentum_x", "kg m/s", lambda ledger: ledger.momentum[0]),
+    of_ledger("momentum_y", "kg m/s", lambda ledger: ledger.momentum[1]),
+    of_ledger("momentum_z", "kg m/s", lambda ledger: ledger.momentum[2]),
+    of_ledger("spin_x", "kg m^2/s", lambda ledger: ledger.spin[0]),
+    of_ledger("spin_y", "kg m^2/s", lambda ledger: ledger.spin[1]),
+    of_ledger("spin_z", "kg m^2/s", lambda ledger: ledger.spin[2]),
+)
+"""Columns of every run; a file without one of them is refused."""
+CERTIFICATE = (
+    Column(
+        "certificate.min_gap",
+        "m",
+        lambda step: float(step.certificate.min_gap),
+        lambda start: min((c.min_gap for c in start.ledger.contacts.values()), default=float("inf")),
+    ),
+    of_certificate("min_force", "N"),
+    of_certificate("complementarity", "J"),
+    of_certificate("power_residual", "J"),
+    of_certificate("momentum_error", "kg m/s"),
+    of_certificate("energy_error", "J"),
+)
+EXTRA: tuple[Column, ...] = ()
+"""Columns after those of the certificate; files of earlier versions lack them."""
+
+
+def columns(contacts: tuple[str, ...]) -> tuple[Column, ...]:
+    """Columns of a run with some contacts, in order, without its probes."""
+    each = (column for label in contacts for column in of_contact(label))
+    return (*COLUMNS, *each, *CERTIFICATE, *EXTRA)

@@ -1,0 +1,161 @@
+"""Probes: one number per time step (slab), read at the nodes of a tag or at the node nearest to a point."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from softway.arrays import Array, IntArray
+from softway.errors import InputError
+from softway.meshes.mesh import Mesh
+from softway.model.scene import State
+
+UNITS = {"displacement": "m", "position": "m", "velocity": "m/s", "reaction": "N"}
+COMPONENTS = ("x", "y", "z", "norm")
+
+
+class Probe(Protocol):
+    """Declaration of a probe in a scenario.
+
+    ``tag`` or ``at`` gives the place in the body ``of``; ``quantity`` is a key of ``UNITS``; ``component`` is one of
+    ``COMPONENTS``.
+    """
+
+    @property
+    def name(self) -> str:
+        """Name of the column in the history."""
+        ...
+
+    @property
+    def of(self) -> str:
+        """Name of the solid."""
+        ...
+
+    @property
+    def tag(self) -> str | None:
+        """Tag of the nodes."""
+        ...
+
+    @property
+    def at(self) -> float | Sequence[float] | None:
+        """Reference point whose nearest node is read, instead of a tag [m]."""
+        ...
+
+    @property
+    def quantity(self) -> str:
+        """Recorded quantity."""
+        ...
+
+    @property
+    def component(self) -> str:
+        """Component of the quantity, or ``norm``."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Reading:
+    """Probe resolved on a mesh: the mean over its nodes, or the sum for reactions.
+
+    Parameters
+    ----------
+    name, unit
+        Name and unit of the column in the history.
+    body
+        Name of the solid.
+    nodes
+        (k,) node numbers.
+    reference
+        (k, d) reference coordinates of the nodes [m].
+    quantity, component
+        Recorded quantity and its component.
+
+    Examples
+    --------
+    >>> reading = Reading(name="tip", unit="m", body="bar", nodes=np.array([1]), reference=np.array([[2.0]]),
+    ...                   quantity="position", component="x")
+    >>> u = {"bar": np.array([[0.0], [0.5]])}
+    >>> reading.value(State(time=0.0, displacement=u, velocity=u, acceleration=u, closed={}, pressure={}), {})
+    2.5
+    """
+
+    name: str
+    unit: str
+    body: str
+    nodes: IntArray
+    reference: Array
+    quantity: str
+    component: str
+
+    def value(self, state: State, reactions: Mapping[str, Array]) -> float:
+        """Value at ``state``; a reaction that has not been computed is ``nan``."""
+        match self.quantity:
+            case "reaction":
+                if self.body not in reactions:
+                    return float("nan")
+                vector = reactions[self.body][self.nodes].sum(axis=0)
+            case "velocity":
+                vector = state.velocity[self.body][self.nodes].mean(axis=0)
+            case "displacement":
+                vector = state.displacement[self.body][self.nodes].mean(axis=0)
+            case _:
+                vector = (self.reference + state.displacement[self.body][self.nodes]).mean(axis=0)
+        if self.component == "norm":
+            return float(np.linalg.norm(vector))
+        return float(vector["xyz".index(self.component)])
+
+
+def readings(probes: Sequence[Probe], meshes: Mapping[str, Mesh]) -> tuple[Reading, ...]:
+    """Resolve the declared probes.
+
+    Raises
+    ------
+    InputError
+        For an unknown body, a tag without nodes or a component that does not exist; the path is ``output.probes[k]``.
+    """
+    names = [p.name for p in probes]
+    for k, name in enumerate(names):
+        if not name or name in names[:k] or not set(name).isdisjoint(',"[]\n'):
+            raise InputError(
+                f"output.probes[{k}].name",
+                f"'{name}' cannot be the name of a column",
+                "a name that no other probe has, without commas, quotes and brackets",
+            )
+    return tuple(_resolve(f"output.probes[{k}]", probe, meshes) for k, probe in enumerate(probes))
+
+
+def _resolve(path: str, probe: Probe, meshes: Mapping[str, Mesh]) -> Reading:
+    mesh = meshes.get(probe.of)
+    if mesh is None:
+        raise InputError(f"{path}.of", f"no solid '{probe.of}'", f"one of {list(meshes)}")
+    if probe.quantity not in UNITS:
+        raise InputError(f"{path}.quantity", f"'{probe.quantity}' is not recorded", f"one of {list(UNITS)}")
+    allowed = (*COMPONENTS[: mesh.dim], "norm")
+    if probe.component not in allowed:
+        raise InputError(
+            f"{path}.component", f"'{probe.component}' does not exist in {mesh.dim}D", f"one of {list(allowed)}"
+        )
+    nodes = _nodes(path, probe, mesh)
+    return Reading(
+        name=probe.name,
+        unit=UNITS[probe.quantity],
+        body=probe.of,
+        nodes=nodes,
+        reference=mesh.points[nodes],
+        quantity=probe.quantity,
+        component=probe.component,
+    )
+
+
+def _nodes(path: str, probe: Probe, mesh: Mesh) -> IntArray:
+    if (probe.tag is None) == (probe.at is None):
+        raise InputError(path, "a probe needs exactly one place", "either 'tag' or 'at'")
+    if probe.tag is not None:
+        try:
+            return mesh.nodes(probe.tag)
+        except InputError as error:
+            raise error.within(f"{path}.tag") from None
+    point = np.atleast_1d(np.asarray(probe.at, float))
+    if point.shape != (mesh.dim,):
+        raise InputError(f"{path}.at", f"{point.size} coordinates in {mesh.dim}D", f"{mesh.dim} coordinates")
+    return np.array([mesh.nearest(point.tolist())])

@@ -1,0 +1,91 @@
+"""Progress of a run, reported to a callback after each time step (slab)."""
+
+import time as clock
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import inf
+
+from softway.march.results.step import Step
+
+RECENT = 30.0
+"""Wall-clock window over which the pace is measured [s]: slabs in contact take longer than slabs in free flight."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Progress:
+    """Progress of a run after a recorded slab.
+
+    Parameters
+    ----------
+    step
+        The recorded slab.
+    until
+        End of the march [s].
+    slabs
+        Number of accepted slabs since the start of the march, including those before an interruption.
+    wall
+        Wall-clock time since this call of ``run`` or ``resume`` began to march [s].
+    pace
+        Recent simulated time per wall-clock time.
+    """
+
+    step: Step
+    until: float
+    slabs: int
+    wall: float
+    pace: float
+
+    @property
+    def time(self) -> float:
+        """Time at the end of the slab [s]."""
+        return self.step.after.time
+
+    @property
+    def fraction(self) -> float:
+        """Completed fraction of the simulated time, 0 to 1."""
+        return min(1.0, self.time / self.until)
+
+    @property
+    def left(self) -> float:
+        """Estimated wall-clock time until the end at the present pace [s]; infinite while the pace is unknown."""
+        return max(0.0, self.until - self.time) / self.pace if self.pace > 0.0 else inf
+
+
+Watch = Callable[[Progress], None]
+"""Callback after every slab, in the thread of the run; an exception that it raises ends the run and propagates."""
+
+
+class Meter:
+    """Meter of the progress of a run, which calls a watch after each slab.
+
+    Parameters
+    ----------
+    watch
+        Callback that receives the progress.
+    until
+        End of the march [s].
+    start
+        Time at which the march starts or continues [s].
+    slabs
+        Number of slabs accepted before that time.
+    """
+
+    __slots__ = ("_begun", "_marks", "_slabs", "_until", "_watch")
+
+    def __init__(self, watch: Watch, until: float, start: float, slabs: int = 0) -> None:
+        self._watch, self._until, self._slabs = watch, until, slabs
+        self._begun = clock.perf_counter()
+        self._marks = deque([(0.0, start)])
+
+    def took(self, step: Step) -> None:
+        """Take a recorded slab and report the progress."""
+        now, time = clock.perf_counter() - self._begun, step.after.time
+        while len(self._marks) > 1 and self._marks[1][0] <= now - RECENT:
+            self._marks.popleft()
+        since, before = self._marks[0]
+        if now - self._marks[-1][0] > 1e-2 * RECENT:
+            self._marks.append((now, time))
+        self._slabs += 1
+        pace = (time - before) / (now - since) if now > since else 0.0
+        self._watch(Progress(step=step, until=self._until, slabs=self._slabs, wall=now, pace=pace))

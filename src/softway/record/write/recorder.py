@@ -1,0 +1,85 @@
+"""Interface of the recorders, and the data that they receive at the start of a run."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Protocol
+
+from softway.arrays import Array, IntArray
+from softway.march.results.step import Ledger, Step
+from softway.meshes.mesh import Mesh
+from softway.model.scene import Scene, State
+from softway.record.write.probes import Reading
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class RunStart:
+    """Start of a run, with the data that the recorders need.
+
+    Parameters
+    ----------
+    scene
+        Bodies, contacts and loads.
+    meshes
+        Mesh of each solid.
+    stresses
+        For each solid, a function from a state to the mean Cauchy stress of its cells (e, 3, 3) [Pa].
+    touching
+        For each contact, (m,) slave node of each contact row, numbered over all solids in order.
+    initial, ledger
+        Initial state, and its energy and momentum audit.
+    remembered
+        For each solid with history, a function from a state to the history variables of its cells: arrays (e,) by name.
+    spread
+        Function from a state and contact forces (n, k) of all nodes [N] to forces per current area (n, k) [Pa].
+    until
+        End of the march [s].
+    fields_every
+        Time between two frames of the fields [s].
+    readings
+        Resolved probes.
+    """
+
+    scene: Scene
+    meshes: Mapping[str, Mesh]
+    stresses: Mapping[str, Callable[[State], Array]]
+    touching: Mapping[str, IntArray]
+    initial: State
+    ledger: Ledger
+    until: float
+    fields_every: float
+    readings: tuple[Reading, ...] = ()
+    remembered: Mapping[str, Callable[[State], Mapping[str, Array]]] = field(default_factory=dict)
+    spread: Callable[[State, Array], Array] | None = None
+
+
+class Recorder(Protocol):
+    """Recorder of the accepted steps, which it takes in order; its file is valid after each of them."""
+
+    def take(self, step: Step) -> None:
+        """Record one accepted slab."""
+        ...
+
+    @property
+    def mark(self) -> int:
+        """Length of the record; the opener truncates the record to this length when a run is resumed."""
+        ...
+
+    def sync(self) -> None:
+        """Flush the recorded steps to the disk."""
+        ...
+
+    def close(self) -> None:
+        """Close the record; no step is taken afterwards."""
+        ...
+
+
+class Opener(Protocol):
+    """Function that opens a recorder in a folder: it writes the initial state and returns the recorder.
+
+    With a ``mark`` it truncates the existing record to that length and continues it.
+    """
+
+    def __call__(self, folder: Path, opening: RunStart, mark: int | None = None) -> Recorder:
+        """Open the record."""
+        ...

@@ -1,0 +1,155 @@
+"""Check of a scenario before the computation, and the scales of its bodies and contacts."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from softway.arrays import Array
+from softway.bodies.solid import Solid
+from softway.errors import InputError
+from softway.march.march import proposed
+from softway.march.start.initial_state import SOON, require_apart, require_supported
+from softway.model.model import Model, build
+from softway.model.scene import StaticStart
+from softway.record.write.probes import readings
+from softway.scenario.checks.names import (
+    check_contact,
+    check_contacts,
+    check_density,
+    check_dimensions,
+    check_loads,
+    check_solid,
+    mesh_of,
+)
+from softway.scenario.checks.scales import (
+    BodyScales,
+    ContactScales,
+    body_scales,
+    contact_duration,
+)
+from softway.scenario.checks.value_types import require
+from softway.scenario.scenario import Scenario, built
+from softway.solve.methods.central_difference import Explicit
+from softway.solve.stable_step import require_stable
+
+MOST = 1_000_000_000
+"""Maximum number of time steps (slabs) in a run."""
+SAME = 1e-9
+"""Difference of gaps relative to the body length below which two places are regarded as equally near."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Checked:
+    """Scenario that has passed all checks.
+
+    Parameters
+    ----------
+    scenario
+        Scenario as given.
+    model
+        Scene as arrays, ready to march.
+    bodies, contacts
+        Scales of the bodies by name and of the contacts by label.
+    step, slabs
+        Length of a time step (slab) [s], resolved if it is automatic, and number of slabs.
+    """
+
+    scenario: Scenario
+    model: Model
+    bodies: Mapping[str, BodyScales]
+    contacts: Mapping[str, ContactScales]
+    step: float
+    slabs: int
+
+
+def check(scenario: Scenario) -> Checked:
+    """Build the meshes and check all names, signs and dimensions and the initial state.
+
+    Raises
+    ------
+    InputError
+        With the path in the scenario, the value, and a remedy.
+    """
+    _require_scenario(scenario)
+    for name, body in scenario.bodies.items():
+        if isinstance(body, Solid):
+            check_density(body.density, f"bodies.{name}.density")
+    scene = built(scenario)
+    solids = {n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}
+    if not solids:
+        raise InputError("bodies", f"no Solid among {list(scene.bodies)}", 'at least one body of kind = "Solid"')
+    check_dimensions(scene, solids)
+    for name, solid in solids.items():
+        if not mesh_of(solid).edge() > 0.0:
+            raise InputError(
+                f"bodies.{name}.mesh", "an edge has the length zero", "a mesh without coincident nodes in a cell"
+            )
+    fixed = {n: check_solid(s, f"bodies.{n}") for n, s in solids.items()}
+    check_loads(scenario.loads, "loads", solids)
+    check_contacts(scene.contacts)
+    bodies = {n: body_scales(s, mesh_of(s), int((~fixed[n]).sum())) for n, s in solids.items()}
+    for k, contact in enumerate(scene.contacts):
+        check_contact(scene.bodies, contact, f"contacts[{k}]")
+    readings(scenario.output.probes, {n: mesh_of(s) for n, s in solids.items()})
+    if isinstance(scenario.start, StaticStart):
+        check_loads(scenario.start.loads, "start.loads", solids)
+    model = build(scene)
+    require_apart(model, model.displacement)
+    contacts = {c.label: _contact(model, k, bodies) for k, c in enumerate(scene.contacts)}
+    require_supported(model)
+    time = scenario.time
+    if time.step != "auto" and time.step > time.end:
+        raise InputError("time.step", f"{time.step:g} s is longer than time.end = {time.end:g} s", "a shorter step")
+    solver = scenario.solver
+    step = proposed(model, time.step, time.weight, time.end, solver)
+    stepping = solver if isinstance(solver, Explicit) else time.weight
+    if not (isinstance(stepping, Explicit) and time.step == "auto"):  # such a step is a fraction of the stability limit
+        require_stable(model, model.displacement, stepping, step)
+    slabs = int(np.ceil(time.end / step * (1.0 - 1e-12)))
+    if slabs > MOST:
+        raise InputError("time.end", f"needs {slabs:.3g} slabs of {step:.3g} s", "an earlier end, or longer slabs")
+    return Checked(scenario=scenario, model=model, bodies=bodies, contacts=contacts, step=step, slabs=slabs)
+
+
+def _require_scenario(scenario: object) -> None:
+    """Refuse an object that is not a scenario, and a scenario with parts of a wrong type."""
+    if not isinstance(scenario, Scenario):
+        raise InputError("scenario", f"{scenario!r:.60} is no scenario", "a Scenario, such as softway.load(FILE)")
+    require(scenario, Scenario, "")
+
+
+def _contact(model: Model, number: int, bodies: Mapping[str, BodyScales]) -> ContactScales:
+    """Scales of one contact."""
+    u = model.displacement
+    rows = model.rows(u)
+    here = rows.of_contact(number) & rows.near
+    driven = model.contacts.meet(u, u, 0.0, SOON).at(u).tool_motion / SOON
+    normals, gaps, speeds = rows.normal[here], rows.gap(u)[here], (driven - rows.normal_component(model.velocity))[here]
+    if not here.any():
+        normals, gaps, speeds = _nearest(model, number)
+    parts = [model.parts[k] for k in model.opponents[number] if k >= 0]
+    least = np.flatnonzero(gaps <= gaps.min() + SAME * max(bodies[p.name].length for p in parts))
+    first = least[np.argmax(speeds[least])]
+    durations = [contact_duration(p.mesh.points, normals[first], bodies[p.name].wave_speed) for p in parts]
+    return ContactScales(
+        nodes=len(np.unique(rows.node[rows.of_contact(number)])),
+        gap=float(gaps.min()),
+        approach=float(speeds[first]) + 0.0,
+        duration=min(durations),
+    )
+
+
+def _nearest(model: Model, number: int) -> tuple[Array, Array, Array]:
+    """Direction (1, d), distance (1,) and closing speed (1,) between the nearest nodes of two distant solids."""
+    contact = model.scene.contacts[number]
+    parts = [model.parts[k] for k in model.opponents[number]]
+    tags = contact.tag, contact.opponent_tag
+    one, other = (p.mesh.nodes(tag) + p.rows.start for p, tag in zip(parts, tags, strict=True))
+    x = model.points + model.displacement
+    distance, found = cKDTree(x[other]).query(x[one])
+    least = int(np.argmin(distance))
+    a, b = one[least], other[found[least]]
+    direction = (x[a] - x[b]) / distance[least]
+    return direction[None], distance[[least]], -np.array([(model.velocity[a] - model.velocity[b]) @ direction])

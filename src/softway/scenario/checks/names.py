@@ -1,0 +1,135 @@
+"""Checks of the references in a scenario: bodies, tags, components, dimensions."""
+
+from collections.abc import Iterable, Mapping
+from math import isfinite
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray
+from softway.bodies.discretised import free_components
+from softway.bodies.elements.section import check_section
+from softway.bodies.setup.initial_fields import components, sample
+from softway.bodies.setup.loads import Gravity, Load, Traction
+from softway.bodies.solid import Solid, Tool
+from softway.contact.contact import Contact
+from softway.errors import InputError, within
+from softway.meshes.mesh import Mesh
+from softway.model.scene import Scene
+from softway.scenario.checks.scales import section_of
+from softway.scenario.hints.type_hints import nearest
+
+
+def mesh_of(solid: Solid) -> Mesh:
+    """Mesh of a solid whose mesh has been built."""
+    if not isinstance(solid.mesh, Mesh):
+        raise TypeError("the mesh has not been built: call softway.scenario.scenario.built first")
+    return solid.mesh
+
+
+def solid_named(bodies: Mapping[str, Solid | Tool], name: str, where: str) -> Solid:
+    """Deformable body with a given name."""
+    solids = [n for n, b in bodies.items() if isinstance(b, Solid)]
+    if name not in bodies:
+        raise InputError(where, f"there is no body {name!r}", nearest(name, solids))
+    body = bodies[name]
+    if not isinstance(body, Solid):
+        raise InputError(where, f"{name!r} is a Tool, which has no nodes", nearest(name, solids))
+    return body
+
+
+def check_contact(bodies: Mapping[str, Solid | Tool], contact: Contact, where: str) -> None:
+    """Refuse a contact with unknown bodies or tags, with a tool in the first place, or with a tag of a tool."""
+    path, (first, second) = f"{where}.between", contact.between
+    opponent = bodies.get(contact.opponent)
+    if isinstance(bodies.get(contact.body), Tool) and isinstance(opponent, Solid):
+        raise InputError(
+            path, f"{contact.body!r} is a Tool, which has no nodes", f'the solid first: ["{second}", "{first}"]'
+        )
+    solid_named(bodies, contact.body, path)
+    if opponent is None:
+        others = [n for n in bodies if n != contact.body]
+        raise InputError(path, f"there is no body {contact.opponent!r}", nearest(contact.opponent, others))
+    if isinstance(opponent, Tool) and second != contact.opponent:
+        raise InputError(path, f"{second!r}: a Tool has no tags", f'its name: ["{first}", "{contact.opponent}"]')
+    for name, tag in ((contact.body, contact.tag), (contact.opponent, contact.opponent_tag)):
+        body = bodies[name]
+        if isinstance(body, Solid):
+            with within(f"{where}.between"):
+                mesh_of(body).nodes(tag)
+
+
+def entries(value: Iterable[float] | float, dim: int, where: str) -> Array:
+    """Convert a value to a vector (d,), and refuse another number of entries."""
+    vector = np.atleast_1d(np.asarray(value, float))
+    if vector.shape != (dim,):
+        raise InputError(where, f"{vector.tolist()} has {vector.size} entries in {dim}D", f"{dim} numbers")
+    return vector
+
+
+def check_density(density: float, where: str) -> None:
+    """Refuse a density that is not positive."""
+    if not (isfinite(density) and density > 0.0):
+        raise InputError(where, f"{density:g} kg/m^3 is not positive", 'a density such as "7850 kg/m^3"')
+
+
+def check_dimensions(scene: Scene, solids: Mapping[str, Solid]) -> None:
+    """Refuse bodies and obstacles of different space dimensions."""
+    first = next(iter(solids))
+    dim = mesh_of(solids[first]).dim
+    for name, solid in solids.items():
+        if mesh_of(solid).dim != dim:
+            problem = f"a mesh in {mesh_of(solid).dim}D together with {first!r} in {dim}D"
+            raise InputError(f"bodies.{name}.mesh", problem, "all bodies in the same space")
+    for name, body in scene.bodies.items():
+        if isinstance(body, Tool) and body.shape.dim != dim:
+            problem = f"{type(body.shape).__name__} in {body.shape.dim}D together with {first!r} in {dim}D"
+            raise InputError(f"bodies.{name}.shape", problem, f"{dim} coordinates")
+
+
+def check_solid(solid: Solid, where: str) -> BoolArray:
+    """Check section, initial fields and supports; return a mask of the supported components (n, d)."""
+    mesh = mesh_of(solid)
+    with within(where):
+        check_section(mesh, section_of(solid, mesh))
+    for name in ("velocity", "displacement"):
+        with within(f"{where}.{name}"):
+            sample(getattr(solid, name), mesh)
+    with within(where):
+        return ~free_components(solid.supports, mesh)
+
+
+def check_loads(loads: tuple[Load, ...], where: str, solids: Mapping[str, Solid]) -> None:
+    """Refuse loads of a wrong dimension, or on unknown bodies or tags."""
+    dim = mesh_of(next(iter(solids.values()))).dim
+    for k, load in enumerate(loads):
+        path = f"{where}[{k}]"
+        if isinstance(load, Gravity):
+            with within(path):
+                load.vector(dim)
+        elif isinstance(load, Traction):
+            mesh = mesh_of(solid_named(solids, load.body, f"{path}.on"))
+            with within(path):
+                components("value", load.value, dim)
+            with within(f"{path}.on"):
+                covered = mesh.facets_on(load.tag)
+            if not covered:
+                raise InputError(f"{path}.on", f"{load.on!r} contains no whole facet", "a tag that covers a surface")
+
+
+def check_contacts(contacts: tuple[Contact, ...]) -> None:
+    """Refuse different timing rules, two contacts with the same name, and two contacts of the same surfaces."""
+    for k, contact in enumerate(contacts):
+        if contact.timing != contacts[0].timing:
+            problem = f"{contact.timing} differs from {contacts[0].timing} of contacts[0]"
+            raise InputError(f"contacts[{k}].timing", problem, "the same timing rule for all contacts")
+        if contact.label in [c.label for c in contacts[:k]]:
+            raise InputError(f"contacts[{k}].name", f"{contact.label!r} is already in use", "another name")
+        pairs = [_surfaces(c) for c in contacts[:k]]
+        if _surfaces(contact) in pairs:
+            first = pairs.index(_surfaces(contact))
+            problem = f"{list(contact.between)} are also the surfaces of contacts[{first}]"
+            raise InputError(f"contacts[{k}].between", problem, "a single contact: it checks both surfaces")
+
+
+def _surfaces(contact: Contact) -> frozenset[tuple[str, str]]:
+    return frozenset([(contact.body, contact.tag), (contact.opponent, contact.opponent_tag)])

@@ -1,0 +1,101 @@
+"""Scales of a scenario before the computation: speeds, times, lengths, numbers."""
+
+from dataclasses import dataclass
+from math import sqrt
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.bodies.elements.section import Section, default_section, wave_speed
+from softway.bodies.inertia.mass_matrix import Lumped
+from softway.bodies.solid import Solid
+from softway.meshes.mesh import Mesh
+from softway.model.time_weight import Momentum, limit
+
+_FREQUENCY = {("linear", False): 12.0, ("linear", True): 4.0, ("quadratic", False): 60.0, ("quadratic", True): 24.0}
+_QUADRATIC = {"bar3", "tri6", "quad9", "tet10", "hex27"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BodyScales:
+    """Scales of one body.
+
+    Parameters
+    ----------
+    nodes, cells, dofs
+        Numbers of nodes, cells and degrees of freedom; ``dofs`` does not include supported components.
+    wave_speed
+        Speed of the fastest wave [m/s].
+    length
+        Largest extent along an axis [m].
+    transit
+        Time in which a wave crosses the length [s].
+    edge
+        Length of the smallest edge [m].
+    stable_step
+        Estimate of the longest stable slab for the weight Momentum [s]; exact for equal two-node bars.
+    """
+
+    nodes: int
+    cells: int
+    dofs: int
+    wave_speed: float
+    length: float
+    transit: float
+    edge: float
+    stable_step: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactScales:
+    """Scales of one contact.
+
+    Parameters
+    ----------
+    nodes
+        Number of nodes that may touch.
+    gap
+        Smallest gap at the start; for distant solids the distance of their nearest nodes [m].
+    approach
+        Closing speed of this gap at the start; the largest one if several places have the same gap [m/s].
+    duration
+        Expected time of contact ``2 L / c``, with the extent L along the normal [s].
+    """
+
+    nodes: int
+    gap: float
+    approach: float
+    duration: float
+
+
+def section_of(solid: Solid, mesh: Mesh) -> Section:
+    """Section of a solid; the default section if none is given."""
+    return default_section(mesh) if solid.section is None else solid.section
+
+
+def body_scales(solid: Solid, mesh: Mesh, free: int) -> BodyScales:
+    """Scales of a solid with its mesh; ``free`` is the number of components without support.
+
+    The highest frequency of a cell with edge a in d dimensions is estimated by ``omega^2 = k d c^2 / a^2``.  The factor
+    k is exact for one cell in one dimension: 12 and 4 (linear, consistent and lumped mass), 60 and 24 (quadratic).
+    """
+    speed = wave_speed(solid.material, solid.density, section_of(solid, mesh))
+    length = float(np.ptp(mesh.points, axis=0).max())
+    edge = mesh.edge()
+    order = "quadratic" if _QUADRATIC & set(mesh.blocks) else "linear"
+    highest = sqrt(_FREQUENCY[order, isinstance(solid.mass, Lumped)] * mesh.cell_dim) * speed / edge
+    return BodyScales(
+        nodes=mesh.n_nodes,
+        cells=sum(len(b) for b in mesh.blocks.values()),
+        dofs=free,
+        wave_speed=speed,
+        length=length,
+        transit=length / speed,
+        edge=edge,
+        stable_step=limit(Momentum()) / highest,
+    )
+
+
+def contact_duration(points: Array, normal: Array, speed: float) -> float:
+    """Expected time of contact ``2 L / c`` [s]; L is the extent of the points (n, d) along the normal (d,)."""
+    return 2.0 * float(np.ptp(points @ normal)) / speed

@@ -1,0 +1,1 @@
+"""Remedies and types of scenario keys, read from docstrings and annotations."""

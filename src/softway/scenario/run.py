@@ -1,0 +1,216 @@
+"""Execution of a scenario: check, march and record in one call, and resumption of a stopped run."""
+
+import logging
+import tomllib
+from collections.abc import Iterator, Mapping
+from functools import partial
+from pathlib import Path
+
+from softway.arrays import Array
+from softway.bodies.discretised import DiscreteSolid
+from softway.contact.surfaces.nodal_tractions import TractionMap, traction_map
+from softway.errors import Cancel, InputError
+from softway.march.audit.ledger import initial_ledger as audit
+from softway.march.march import march, proposed
+from softway.march.march_state import MarchState
+from softway.march.model_state import split_states
+from softway.march.results.step import Step
+from softway.march.start.initial_state import initial_state
+from softway.model.model import Model
+from softway.model.scene import State
+from softway.record.conduct import continue_run, record_run
+from softway.record.run import SCENARIO, Run
+from softway.record.storage import provenance
+from softway.record.storage.checkpoint import last
+from softway.record.storage.lock import locked
+from softway.record.storage.provenance import DONE
+from softway.record.storage.run_folder import RunFolder
+from softway.record.write.probes import readings
+from softway.record.write.progress import Watch
+from softway.record.write.recorder import RunStart
+from softway.scenario.checks.check import Checked, check
+from softway.scenario.files import dumps, load
+from softway.scenario.scenario import Scenario
+from softway.scenario.text.user_modules import own_sources
+
+LOG = logging.getLogger(__name__)
+FRAMES = 100
+"""Number of stored frames when the scenario does not prescribe it."""
+
+
+def run(
+    scenario: Scenario | Checked,
+    out: str | Path | None = None,
+    *,
+    progress: Watch | None = None,
+    cancel: Cancel | None = None,
+    overwrite: bool = False,
+) -> Run:
+    """Run a scenario to its end and record it.
+
+    Parameters
+    ----------
+    scenario
+        Scenario to compute; a :class:`~softway.scenario.checks.check.Checked` if it has been checked before.
+    out
+        Folder of the records.  Without it the records are in a temporary folder that lives as long as the returned
+        object.
+    progress
+        Callback with a :class:`Progress` after each accepted time step (slab).
+    cancel
+        Function called in every iteration, such as ``threading.Event().is_set``; the run stops when it returns True.
+    overwrite
+        True if ``out`` may replace an earlier run.
+
+    Raises
+    ------
+    InputError
+        If the scenario is wrong; no folder is left.
+    NumericsError, Cancelled, KeyboardInterrupt, StorageError
+        The folder ``out`` contains all results up to the stop, and :func:`resume` can continue the run.  No folder
+        exists if the run is cancelled during the first equilibrium.  Exceptions of ``progress`` propagate in the same
+        way.
+    """
+    place = RunFolder(out=None if out is None else Path(out), overwrite=overwrite)
+    place.check()
+    checked = scenario if isinstance(scenario, Checked) else check(scenario)
+    given, opening = checked.scenario, _opening(checked, cancel)
+    steps = _steps(checked, opening.initial, cancel)
+    plan = given.output.checkpoints
+    return record_run(steps, opening, place, title=given.title, texts=_texts(given), plan=plan, progress=progress)
+
+
+def resume(
+    folder: str | Path,
+    *,
+    scenario: Scenario | Checked | None = None,
+    progress: Watch | None = None,
+    cancel: Cancel | None = None,
+    allow_python: bool = False,
+) -> Run:
+    """Resume a run that was killed, interrupted, cancelled or failed, from its last checkpoint.
+
+    On the same machine with the same number of threads, the results are bitwise identical to those of an uninterrupted
+    run.  A completed run is left unchanged.
+
+    Parameters
+    ----------
+    folder
+        Folder of the run.
+    scenario
+        Scenario of the run, needed if parts of it were built in Python; by default the scenario in the folder.
+    progress, cancel
+        As for :func:`run`.
+    allow_python
+        True if ``module:name`` in the scenario may also name an installed module.
+
+    Raises
+    ------
+    InputError
+        If ``folder`` contains no run, a run that is still going on, a changed scenario, or incomplete records.
+    NumericsError, Cancelled, KeyboardInterrupt, StorageError
+        As for :func:`run`.
+    """
+    stopped = Run(Path(folder))
+    if stopped.stop == DONE:
+        LOG.info("'%s' is complete: nothing to compute", stopped.path)
+        return stopped
+    with locked(stopped.path):
+        given = stored(stopped.path, allow_python) if scenario is None else scenario
+        checked = given if isinstance(given, Checked) else check(given)
+        provenance.require_same(stopped.path, stopped.provenance, _texts(checked.scenario))
+        opening, found = _opening(checked, cancel), last(stopped.path)
+        steps = _steps(checked, opening.initial if found is None else found.standing, cancel)
+        return continue_run(steps, opening, stopped, found, plan=checked.scenario.output.checkpoints, progress=progress)
+
+
+def of_same_input(folder: Path, scenario: Scenario) -> bool:
+    """Check whether the run in a folder was started with this scenario and the same files named in it."""
+    return bool(Run(folder).provenance.get("input") == provenance.digest(_texts(scenario)))
+
+
+def stored(folder: Path, allow_python: bool = False) -> Scenario:
+    """Load the scenario in a run folder.
+
+    Raises
+    ------
+    InputError
+        If parts of it were built in Python.
+    """
+    file = folder / SCENARIO
+    if file.is_file() and not tomllib.loads(file.read_text(encoding="utf-8")):
+        remedy = "softway.resume(folder, scenario=...) with the same scenario"
+        raise InputError(str(file), "parts of the scenario were built in Python", remedy)
+    return load(file, allow_python=allow_python)
+
+
+def _opening(checked: Checked, cancel: Cancel | None) -> RunStart:
+    """Start of the run of a checked scenario."""
+    given, model = checked.scenario, checked.model
+    start = initial_state(model, proposed(model, checked.step, given.time.weight, given.time.end, given.solver), cancel)
+    initial, met = split_states(model, start), model.contacts
+    return RunStart(
+        scene=model.scene,
+        meshes=model.meshes,
+        stresses={name: partial(_stress, model, name) for name in model.meshes},
+        remembered={part.name: partial(_remembered, part) for part in model.parts},
+        spread=partial(_spread, model, traction_map(model.scene.contacts, model.parts))
+        if model.scene.contacts
+        else None,
+        touching={label: met.node[met.rows_of(k)] for k, label in enumerate(met.labels)},
+        initial=initial,
+        ledger=audit(model, start),
+        until=given.time.end,
+        fields_every=_every(given),
+        readings=readings(given.output.probes, model.meshes),
+    )
+
+
+def _steps(checked: Checked, state: State | MarchState, cancel: Cancel | None) -> Iterator[Step]:
+    """March of a checked scenario."""
+    time = checked.scenario.time
+    return march(
+        checked.model,
+        until=time.end,
+        step=checked.step,
+        weight=time.weight,
+        method=checked.scenario.solver,
+        state=state,
+        control=time.control,
+        cancel=cancel,
+    )
+
+
+def _texts(scenario: Scenario) -> dict[str, str]:
+    """Texts of the resolved scenario and of the modules that it needs, by file name."""
+    text = _text(scenario)
+    return {SCENARIO: text, **own_sources(tomllib.loads(text), scenario)}
+
+
+def _stress(model: Model, name: str, state: State) -> Array:
+    """Mean Cauchy stress (cells, 3, 3) of a solid [Pa]."""
+    return model.stress(name, state.displacement[name], state.memory.get(name))
+
+
+def _remembered(part: DiscreteSolid, state: State) -> Mapping[str, Array]:
+    """History variables of the cells of a solid, arrays (cells,) by name."""
+    return part.internal.stored_scalars(state.memory.get(part.name))
+
+
+def _spread(model: Model, surfaces: TractionMap, state: State, force: Array) -> Array:
+    """Nodal contact forces (n, k) [N] per current area, (n, k) [Pa]."""
+    return surfaces.at(model.join(state.displacement), force)
+
+
+def _every(scenario: Scenario) -> float:
+    """Time between two stored frames of the fields [s]."""
+    every = scenario.output.fields_every
+    return scenario.time.end / FRAMES if isinstance(every, str) else every
+
+
+def _text(scenario: Scenario) -> str:
+    """Text of the resolved scenario; only a comment if parts were built in Python."""
+    try:
+        return dumps(scenario)
+    except InputError as error:
+        return f"# {error.where}: {error.problem}\n"

@@ -1,0 +1,1 @@
+"""Text of scenarios: reader, writer, templates, overrides."""

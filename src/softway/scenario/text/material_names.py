@@ -1,0 +1,68 @@
+"""Library materials in a scenario: the name of a material gives the law, and the density if none is given."""
+
+import copy
+from collections.abc import Mapping
+from typing import Any, get_args
+
+from softway.errors import InputError
+from softway.laws.law import Material as Law
+from softway.laws.materials import find
+from softway.laws.materials.library import everything
+from softway.laws.materials.material import LawName
+from softway.scenario.hints.type_hints import kinds, members, nearest
+from softway.scenario.text.writer import write
+
+
+def with_materials(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Copy of the data of a scenario, with library materials replaced by laws and densities.
+
+    ``material = "steel S235"`` selects the elastic law for arbitrary rotations.
+    ``material = { library = "steel S235", law = "plastic" }`` selects another law: elastic, linear or plastic.  Further
+    keys of such a table replace parameters of the law.
+
+    Examples
+    --------
+    >>> with_materials({"bodies": {"rod": {"material": "glass"}}})["bodies"]["rod"]["density"]
+    '2500.0 kg/m^3'
+    """
+    out = copy.deepcopy(dict(data))
+    bodies = out.get("bodies")
+    if isinstance(bodies, dict):
+        for name, body in bodies.items():
+            if isinstance(body, dict) and "material" in body:
+                _furnish(body, f"bodies.{name}.material")
+    return out
+
+
+def _named(kind: Any) -> bool:
+    """True if a kind is the name of a library material, as in a table that an override of one parameter has created."""
+    if not isinstance(kind, str) or kind in kinds(members(Law)):
+        return False
+    return kind.casefold() in [word.casefold() for m in everything() for word in (m.name, *m.aliases)]
+
+
+def _furnish(body: dict[str, Any], where: str) -> None:
+    """Replace the material of one body by its law if it is a library material."""
+    given = body["material"]
+    if isinstance(given, dict) and "library" not in given and _named(given.get("kind")):
+        given = {"library": given["kind"], **{key: value for key, value in given.items() if key != "kind"}}
+    if isinstance(given, str) and given not in kinds(members(Law)):
+        given = {"library": given}
+    if not (isinstance(given, dict) and "library" in given):
+        return
+    if not isinstance(given["library"], str):
+        raise InputError(f"{where}.library", f"{given['library']!r} is not a name", 'a name such as "steel S235"')
+    try:
+        material = find(given["library"])
+    except InputError as error:
+        raise InputError(where, error.problem, f"{error.remedy}; or a table with kind = ...") from None
+    choice, known = given.get("law", "elastic"), get_args(LawName)
+    if choice not in known:
+        raise InputError(f"{where}.law", f"{choice!r} is unknown", nearest(str(choice), known))
+    try:
+        law = material.law(choice)
+    except InputError as error:
+        raise error.within(where) from None
+    more = {key: value for key, value in given.items() if key not in ("library", "law")}
+    body["material"] = {**write(law, Law, where), **more}
+    body.setdefault("density", f"{material.density!r} kg/m^3")

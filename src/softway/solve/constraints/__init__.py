@@ -1,0 +1,1 @@
+"""Contact and friction constraints: compliance, active set, return map."""

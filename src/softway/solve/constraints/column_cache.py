@@ -1,0 +1,74 @@
+"""Cache of the columns of a matrix that are computed on demand."""
+
+import numpy as np
+
+from softway.arrays import Array, IntArray
+
+ROOM = 64
+"""Initial capacity in columns; it doubles when it is used up."""
+GROWTH = 256
+"""Greatest growth of the capacity at a time beyond the request, in columns."""
+
+
+class ColumnCache:
+    """Cache of columns in the order in which they were added; ``batches`` lists the columns added together.
+
+    Examples
+    --------
+    >>> table = ColumnCache()
+    >>> table.add(np.array([3, 1]), np.array([[1.0, 2.0], [3.0, 4.0]]))
+    >>> table.missing(np.array([1, 2])).tolist(), table.product(np.array([1, 3]), np.array([1.0, 10.0])).tolist()
+    ([2], [13.0, 24.0])
+    """
+
+    __slots__ = ("batches", "count", "place", "room", "stored")
+
+    def __init__(self) -> None:
+        self.count, self.room = 0, ROOM
+        self.batches: tuple[IntArray, ...] = ()
+        self.place = np.full(0, -1)
+        self.stored = np.zeros((0, 0))
+
+    def missing(self, which: IntArray) -> IntArray:
+        """Subset of the columns ``which`` (k,) that are not stored yet."""
+        inside = which < len(self.place)
+        return which[~inside | (self.place[np.where(inside, which, 0)] < 0)] if len(self.place) else which
+
+    def reserve(self, more: int) -> None:
+        """Reserve memory for ``more`` columns."""
+        need = self.count + more
+        if self.count and need > len(self.stored):
+            self._move(max(need, min(2 * self.count, self.count + GROWTH)), self.stored.shape[1])
+        self.room = max(need, ROOM)
+
+    def _move(self, room: int, length: int) -> None:
+        stored = np.empty((room, length), self.stored.dtype)
+        stored[: self.count] = self.stored[: self.count]
+        self.stored = stored
+
+    def add(self, which: IntArray, columns: Array) -> None:
+        """Store new columns (k, m), given as rows."""
+        if len(which) and which.max() >= len(self.place):
+            self.place = np.concatenate([self.place, np.full(which.max() + 1 - len(self.place), -1)])
+        end = self.count + len(which)
+        if not self.count:
+            self.stored = np.empty((max(end, self.room), columns.shape[1]), columns.dtype)
+        elif end > len(self.stored):
+            self._move(max(end, min(2 * self.count, self.count + GROWTH)), columns.shape[1])
+        self.stored[self.count : end] = columns
+        self.place[which] = np.arange(self.count, end)
+        self.count = end
+        self.batches = (*self.batches, which)
+
+    def columns(self, which: IntArray) -> Array:
+        """Stored columns (m, k)."""
+        return np.asarray(self.stored[self.place[which]].T)
+
+    def product(self, which: IntArray, amounts: Array) -> Array:
+        """Sum (m,) of columns times amounts (k,)."""
+        full = np.zeros(self.count, self.stored.dtype)
+        full[self.place[which]] = amounts
+        if 2 * len(which) > self.count:
+            return np.asarray(full @ self.stored[: self.count], float)
+        used = self.place[which]
+        return np.asarray(full[used] @ self.stored[used], float)

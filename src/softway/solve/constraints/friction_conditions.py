@@ -1,0 +1,213 @@
+"""Contact problem with friction of the touching rows: conditions, linearisation, Gauss-Seidel sweeps."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray
+from softway.errors import NoConvergence
+from softway.solve.constraints.return_map import SlipConditions, return_map
+
+LIFT = 1e-12
+"""Fraction of the compliance added to the diagonal, which makes dependent rows regular."""
+EPS = 4.0 * float(np.finfo(float).eps)
+"""Rounding error of a multiplier, relative to it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FrictionProblem:
+    """Contact problem of rows (c,) with k tangential directions each.
+
+    The unknowns are the changes x (c (1 + k),) of the previous multipliers.  So no digits cancel between the gaps
+    without contact and the effect of the total multipliers, as they would for a body supported by contact only.
+
+    Parameters
+    ----------
+    compliance
+        (c (1 + k), c (1 + k)): normals first, then the tangential directions row by row.
+    free
+        (c (1 + k),) gaps and slips under the previous multipliers.
+    law
+        Slip conditions.
+    normal_compliance
+        (c,) compliance of each row along its normal; ``tangential_compliance`` (c,) along its surface.
+    previous
+        (c (1 + k),) previous multipliers.
+    rounding
+        Rounding error of gaps and slips.
+    """
+
+    compliance: Array
+    free: Array
+    law: SlipConditions
+    normal_compliance: Array
+    tangential_compliance: Array
+    previous: Array
+    rounding: float = 0.0
+
+    @property
+    def count(self) -> int:
+        """Number of rows."""
+        return len(self.normal_compliance)
+
+    def split(self, x: Array) -> tuple[Array, Array]:
+        """Normal (c,) and tangential (c, k) parts."""
+        return x[: self.count], x[self.count :].reshape(self.law.shift.shape)
+
+    def multipliers(self, x: Array) -> tuple[Array, Array]:
+        """Total normal (c,) and tangential (c, k) multipliers after the changes x."""
+        return self.split(self.previous + x)
+
+    def drawn(self, x: Array, factor: float) -> "FrictionProblem":
+        """Proximal problem: its multipliers are drawn to those after x by ``factor`` times the compliance of the rows.
+
+        Dependent rows have a unique solution there; a solution x of the original problem also solves it.
+        """
+        more = factor * np.concatenate(
+            [self.normal_compliance, np.repeat(self.tangential_compliance, self.law.shift.shape[1])]
+        )
+        return replace(
+            self,
+            compliance=self.compliance + np.diag(more),
+            free=self.free - more * x,
+            normal_compliance=(1.0 + factor) * self.normal_compliance,
+            tangential_compliance=(1.0 + factor) * self.tangential_compliance,
+        )
+
+
+def friction_problem(
+    compliance: Array, free: Array, law: SlipConditions, previous: Array | None = None, rounding: float = 0.0
+) -> FrictionProblem:
+    """Contact problem of rows with their compliance, and with gaps and slips under the ``previous`` multipliers.
+
+    Raises
+    ------
+    NoConvergence
+        If no row has a positive compliance, as in crushed cells with an unstable tangent.
+    """
+    count, k = law.shift.shape
+    diagonal = np.diag(compliance)
+    if count and not diagonal[:count].max() > 0.0:
+        raise NoConvergence(f"{count} contact rows have no positive compliance (unstable tangent of crushed cells)")
+    tangential_compliance = diagonal[count:].reshape(count, k).mean(axis=1)
+    least = 1e-12 * max(float(diagonal.max(initial=0.0)), 1e-300)
+    return FrictionProblem(
+        compliance=compliance,
+        free=free,
+        law=law,
+        normal_compliance=np.maximum(diagonal[:count], least),
+        tangential_compliance=np.maximum(tangential_compliance, least),
+        previous=np.zeros(len(free)) if previous is None else previous,
+        rounding=rounding,
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FrictionResidual:
+    """Residual of the contact conditions.
+
+    Parameters
+    ----------
+    missed, rounding
+        (c (1 + k),) violation of the conditions in units of y, and its part by rounding of the multipliers.
+    touch, slips
+        (c,) rows that touch and slip.
+    direction
+        (c, k) directions of the trials.
+    slope, pressure_slope
+        (c, k, k) and (c,) derivatives of the forces with respect to the trials and to the normal multipliers.
+    """
+
+    missed: Array
+    rounding: Array
+    touch: BoolArray
+    slips: BoolArray
+    direction: Array
+    slope: Array
+    pressure_slope: Array
+
+    @property
+    def worst(self) -> float:
+        """Greatest violation beyond rounding."""
+        return float(np.maximum(np.abs(self.missed) - self.rounding, 0.0).max(initial=0.0))
+
+
+def friction_residual(problem: FrictionProblem, x: Array) -> FrictionResidual:
+    """Evaluate the contact conditions after the changes x (c (1 + k),)."""
+    p, s = problem.multipliers(x)
+    gap, slip = problem.split(problem.free + problem.compliance @ x)
+    k = s.shape[1]
+    touch = p - gap / problem.normal_compliance > 0.0
+    trial = s - slip / problem.tangential_compliance[:, None]
+    size = np.linalg.norm(trial, axis=1)
+    direction = trial / np.maximum(size, 1e-300)[:, None]
+    found = return_map(problem.law, size, np.maximum(p, 0.0), 1.0 / problem.tangential_compliance)
+    slips = touch & found.slips
+    missed_s = np.where(
+        slips[:, None], (s - found.force[:, None] * direction) * problem.tangential_compliance[:, None], slip
+    )
+    missed_p = np.where(touch, gap, p * problem.normal_compliance)
+    missed_s = np.where(touch[:, None], missed_s, s * problem.tangential_compliance[:, None])
+    turn = np.where(size > 0.0, found.force / np.maximum(size, 1e-300), 0.0)[:, None, None]
+    projector = direction[:, :, None] * direction[:, None, :]
+    rounding_s = np.where(touch & ~slips, 0.0, EPS * np.linalg.norm(s, axis=1) * problem.tangential_compliance)
+    return FrictionResidual(
+        missed=np.concatenate([missed_p, missed_s.ravel()]),
+        rounding=np.concatenate(
+            [np.where(touch, 0.0, EPS * np.abs(p) * problem.normal_compliance), np.repeat(rounding_s, k)]
+        ),
+        touch=touch,
+        slips=slips,
+        direction=direction,
+        slope=turn * (np.eye(k) - projector) + found.steep[:, None, None] * projector,
+        pressure_slope=found.pressure_slope,
+    )
+
+
+def linearised(problem: FrictionProblem, residual: FrictionResidual) -> Array:
+    """Derivatives (c (1 + k), c (1 + k)) of the violation of the conditions."""
+    c, W, touch, slips = problem.count, problem.compliance, residual.touch, residual.slips
+    k = residual.direction.shape[1]
+    diagonal = np.arange(c)
+    places = c + k * diagonal[:, None] + np.arange(k)
+    matrix = W.copy()
+    matrix[:c][~touch], matrix[places[~touch].ravel()] = 0.0, 0.0
+    matrix[diagonal, diagonal] += np.where(touch, LIFT, 1.0) * problem.normal_compliance
+    matrix[places, places] += (np.where(touch, LIFT, 1.0) * problem.tangential_compliance)[:, None]
+    at, tangential_compliance, slope = (
+        places[slips],
+        problem.tangential_compliance[slips][:, None, None],
+        residual.slope[slips],
+    )
+    matrix[at] = np.einsum("cij,cjn->cin", slope, W[at]) if k > 1 else slope * W[at]
+    matrix[at[:, :, None], at[:, None, :]] += tangential_compliance * (np.eye(k) - slope)
+    matrix[at, diagonal[slips][:, None]] -= (
+        tangential_compliance[:, 0] * residual.pressure_slope[slips, None] * residual.direction[slips]
+    )
+    return matrix
+
+
+def gauss_seidel(problem: FrictionProblem, x: Array, count: int) -> Array:
+    """Changes of the multipliers after ``count`` Gauss-Seidel sweeps: each row in turn satisfies its conditions."""
+    c, W = problem.count, problem.compliance
+    x, previous = x.copy(), problem.previous
+    k = (len(x) - c) // c
+    parts = [problem.law.subset(np.array([i])) for i in range(c)]
+    for _ in range(count):
+        for i in range(c):
+            at = c + k * i + np.arange(k)
+            gap = problem.free[i] + W[i] @ x
+            x[i] = max(x[i] - gap / problem.normal_compliance[i], -previous[i])
+            slip = problem.free[at] + W[at] @ x
+            soft = max(
+                float(np.linalg.eigvalsh(W[np.ix_(at, at)]).max(initial=0.0)), 1e-12 * problem.tangential_compliance[i]
+            )
+            if not soft > 0.0:
+                raise NoConvergence(f"a contact row has the compliance {soft:g} along the surface")
+            stiff = 1.0 / soft
+            trial = previous[at] + x[at] - stiff * slip
+            size = np.linalg.norm(trial)
+            pressed = np.maximum(previous[i : i + 1] + x[i : i + 1], 0.0)
+            force = return_map(parts[i], np.array([size]), pressed, np.array([stiff])).force[0]
+            x[at] = force * trial / max(size, 1e-300) - previous[at]
+    return x

@@ -1,0 +1,241 @@
+"""Contact with friction on the frozen operator: Newton's method for the forces of the touching rows.
+
+Given the free solution ``y`` of A y = b, find normal and tangential multipliers of the contact rows such that
+``z = y + A^-1 (G^T p + T^T s)`` satisfies
+
+    G z >= c,  p >= 0,  p (G z - c) = 0,    s = -resistance(T z - shift, p) along the slip, or no slip within a limit.
+
+The tangential condition is the return map of a trial ``s - r (T z - shift)``.  Nothing is regularised: rows that stick
+do not move, rows that slip have the force of the law (docs/theory/friction.md).  The unknowns are the changes of the
+previous multipliers (:class:`~softway.solve.constraints.friction_conditions.FrictionProblem`).
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.linalg import lstsq, lu_factor, lu_solve
+
+from softway.arrays import Array, BoolArray, IntArray
+from softway.errors import NoConvergence
+from softway.solve.constraints.compliance import FrozenOperator
+from softway.solve.constraints.friction_conditions import (
+    FrictionProblem,
+    FrictionResidual,
+    friction_problem,
+    friction_residual,
+    gauss_seidel,
+    linearised,
+)
+from softway.solve.constraints.normal_active_set import RowConditions, delassus, without_contact
+from softway.solve.constraints.row_basis import RowCoefficients
+from softway.solve.stagnation import Stagnation
+
+NEWTON = 25
+"""Steps of Newton's method before proximal problems are solved."""
+HALVINGS = 6
+"""Halvings of a step that would increase the violation."""
+FALLS = 0.1
+"""Reduction of the violation by a step above which the linearisation is renewed."""
+SWEEPS = 10
+"""Gauss-Seidel sweeps after Newton's method has failed on a proximal problem."""
+ROUNDS = 30
+"""Greatest number of proximal problems."""
+FIRST, NEARER, LEAST = 0.1, 0.1, 1e-7
+"""First proximal term relative to the compliance of the rows, its reduction each time, and its least value."""
+FINAL = 1e-8
+"""Residual, relative to the motion by the forces, below which dependent rows are treated separately."""
+DEPENDENT, SUSPECT = 1e-11, 1e-9
+"""Pivots, relative to the greatest, below which rows depend on each other, and below which a factor with exchange of
+columns is computed."""
+CONVERGED = 1e-14
+"""Residual, relative to the motion by the forces, at the level of rounding."""
+
+
+def solve_friction(
+    free: Array,
+    frozen: FrozenOperator,
+    coefficients: RowCoefficients,
+    rows: RowConditions,
+    guess: BoolArray,
+    previous: Array,
+) -> tuple[Array, Array, BoolArray]:
+    """Solve the contact problem with friction for a free solution: solution (f,), multipliers and active rows.
+
+    The normal multipliers (m,) are followed by the tangential ones (m k,), row by row; the touching rows (m,) by the
+    slipping rows (m,).  The free solution contains the ``previous`` multipliers already.
+
+    Raises
+    ------
+    NoConvergence
+        If no forces are found.
+    """
+    law, (m, k) = rows.slipping, rows.slipping.shift.shape
+    before = coefficients.spread(previous)
+    offset = np.concatenate([rows.target, law.shift.ravel()])
+    open_ = np.concatenate([rows.unilateral, np.repeat(rows.unilateral, k)])
+    loaded = np.where(open_, coefficients.from_basis(frozen.restrict(free)) - offset, 0.0)
+    slack = np.where(open_, coefficients.from_basis(without_contact(free, frozen, before)) - offset, 0.0)
+    floor = rows.missable(slack[:m])
+    near = rows.unilateral & guess[:m]
+    x = np.zeros(len(previous))
+    for _ in range(30 + m):
+        index = np.flatnonzero(near)
+        here = stacked(index, m, k)
+        part, rest = coefficients.subset(here), previous.copy()
+        rest[here] = 0.0
+        lifted = coefficients.spread(rest)
+        now = loaded - np.where(open_, coefficients.from_basis(frozen.compliance_times(lifted)), 0.0)
+        problem = friction_problem(delassus(frozen, part), now[here], law.subset(index), previous[here], rows.rounding)
+        x[here], slips = solve_multipliers(problem, x[here])
+        push = part.spread(x[here])
+        gap = now[:m] + coefficients.from_basis(frozen.compliance_times(push))[:m]
+        fresh = rows.unilateral & ~near & (gap < -floor)
+        if not fresh.any():
+            break
+        near = near | fresh
+    else:
+        raise NoConvergence(f"the {m} contact rows have no solution")
+    multiplier = np.zeros(len(previous))
+    multiplier[here] = previous[here] + x[here]
+    sliding = np.zeros(m, bool)
+    sliding[index] = slips
+    active = np.concatenate([multiplier[:m] > 0.0, sliding])
+    return free + frozen.solve_push(push - lifted), multiplier, active
+
+
+def stacked(index: IntArray, m: int, k: int) -> IntArray:
+    """Places of the rows ``index`` out of m, followed by those of their k tangential directions.
+
+    Examples
+    --------
+    >>> stacked(np.array([1]), 2, 2).tolist()
+    [1, 4, 5]
+    """
+    return np.concatenate([index, (m + k * index[:, None] + np.arange(k)).ravel()])
+
+
+def solve_multipliers(problem: FrictionProblem, x: Array) -> tuple[Array, BoolArray]:
+    """Changes of the multipliers (c (1 + k),) from a guess x, and slipping rows (c,).
+
+    If friction drops with the slip, rows at rest first stick at any force.  Then rows with a force beyond the limit are
+    released, and so on: a released row does not stick again.
+
+    Raises
+    ------
+    NoConvergence
+        If no forces are found.
+    """
+    law = problem.law
+    if not problem.count or not law.drops(np.maximum(problem.multipliers(x)[0], 0.0)):
+        return _solved(problem, x)
+    slipping = law.sliding
+    while True:
+        x, slips = _solved(replace(problem, law=replace(law, sliding=slipping, stick_at_any_force=True)), x)
+        p, s = problem.multipliers(x)
+        more = ~slipping & (np.linalg.norm(s, axis=1) > law.limit(p))
+        if law.stick_at_any_force or not more.any():
+            return x, slips
+        slipping = slipping | more
+
+
+def _solved(problem: FrictionProblem, x: Array) -> tuple[Array, BoolArray]:
+    """Changes of the multipliers and slipping rows for a law that does not drop.
+
+    If Newton's method does not converge, a sequence of proximal problems is solved: their multipliers are drawn to the
+    previous ones, less and less (Rockafellar 1976, Monotone operators and the proximal point algorithm, SIAM J. Control
+    Optim. 14, 877).  The limit of the sequence solves the original problem.
+    """
+    if not problem.count:
+        return x, np.zeros(0, bool)
+    x, converged = _newton(problem, x)
+    pull, seen, residual = FIRST, Stagnation(), friction_residual(problem, x)
+    for _ in range(ROUNDS):
+        if converged:
+            return _clean(problem, x, residual), residual.slips & residual.touch
+        near = problem.drawn(np.nan_to_num(x), pull)
+        x, reached = _newton(near, np.nan_to_num(x))
+        x = x if reached else _newton(near, gauss_seidel(near, np.nan_to_num(x), SWEEPS))[0]
+        residual, pull = friction_residual(problem, x), max(NEARER * pull, LEAST)
+        seen = seen.after(residual.worst)
+        converged = _converged(problem, x, residual, seen.since)
+    if not np.isfinite(residual.worst):
+        raise NoConvergence(f"friction of {problem.count} contact rows: the forces are not finite")
+    size = _size(problem, x, residual)
+    raise NoConvergence(f"friction of {problem.count} contact rows leaves {residual.worst:.1e} of {size:.1e}")
+
+
+def _newton(problem: FrictionProblem, x: Array) -> tuple[Array, bool]:
+    """Changes (c (1 + k),) by Newton's method from x, and True if they converged; x if they are not finite."""
+    seen, factor, before, last_status = Stagnation(), None, np.inf, b""
+    residual = friction_residual(problem, x)
+    for _ in range(NEWTON):
+        seen = seen.after(residual.worst)
+        if _converged(problem, x, residual, seen.since):
+            return x, True
+        status = residual.touch.tobytes() + residual.slips.tobytes()
+        if factor is None or residual.worst > FALLS * before or status != last_status:
+            last_status = status
+            factor = lu_factor(linearised(problem, residual), overwrite_a=True, check_finite=False)
+        step, before = lu_solve(factor, residual.missed, check_finite=False), residual.worst
+        if not np.isfinite(step).all():
+            break
+        steps = [step, *_shortest(problem, x, residual, factor)] if seen.since else [step]
+        x, residual = min((_line_searched(problem, x, one, residual) for one in steps), key=lambda it: it[1].worst)
+    return x, False
+
+
+def _shortest(
+    problem: FrictionProblem, x: Array, residual: FrictionResidual, factor: tuple[Array, IntArray]
+) -> list[Array]:
+    """Shortest step (c (1 + k),) of Newton's method near convergence, if dependent rows make it ambiguous.
+
+    Otherwise rounding determines the ambiguous part, and may create self-equilibrated forces between these rows that
+    prevent convergence to machine precision.
+    """
+    pivot = np.abs(np.diagonal(factor[0]))
+    if residual.worst > FINAL * _size(problem, x, residual) or pivot.min() > SUSPECT * pivot.max():
+        return []
+    matrix = linearised(problem, residual)
+    return [lstsq(matrix, residual.missed, cond=DEPENDENT, lapack_driver="gelsy", check_finite=False)[0]]
+
+
+def _converged(problem: FrictionProblem, x: Array, residual: FrictionResidual, since: int) -> bool:
+    """True if the multipliers satisfy the conditions up to rounding, or nearly and without progress for some steps."""
+    least = CONVERGED * _size(problem, x, residual)
+    return bool(residual.worst <= max(least, problem.rounding) or (since >= 3 and residual.worst <= 1e3 * least))
+
+
+def _line_searched(
+    problem: FrictionProblem, x: Array, step: Array, residual: FrictionResidual
+) -> tuple[Array, FrictionResidual]:
+    """Changes after a step and their residual; the step is halved while the violation grows, or full if this fails."""
+    now, fraction = float(np.linalg.norm(residual.missed)), 1.0
+    full_step = x - step, friction_residual(problem, x - step)
+    new, found = full_step
+    for _ in range(HALVINGS):
+        if float(np.linalg.norm(found.missed)) <= (1.0 - 0.1 * fraction) * now:
+            return new, found
+        fraction *= 0.5
+        new = x - fraction * step
+        found = friction_residual(problem, new)
+    return full_step
+
+
+def _size(problem: FrictionProblem, x: Array, residual: FrictionResidual) -> float:
+    """Greatest motion by single changes, and of sticking rows without them: the scale of rounding.
+
+    Changes of neighbours may cancel each other: the motion by each single change determines the rounding error.
+    """
+    gap, slip = problem.split(problem.free)
+    sticking = np.abs(slip[~residual.slips]).max(initial=0.0)
+    moved = (np.abs(problem.compliance) @ np.abs(x)).max(initial=0.0)
+    return float(max(np.abs(gap).max(initial=0.0), sticking, moved, 1e-300))
+
+
+def _clean(problem: FrictionProblem, x: Array, residual: FrictionResidual) -> Array:
+    """Changes with zero multipliers on rows that do not touch, and without tension by rounding."""
+    c = problem.count
+    touch = np.concatenate([residual.touch, np.repeat(residual.touch, problem.law.shift.shape[1])])
+    out = np.where(touch, x, -problem.previous)
+    out[:c] = np.maximum(out[:c], -problem.previous[:c])
+    return out

@@ -1,0 +1,59 @@
+"""Contact reactions of nodes with inertia: the multipliers that keep the closed rows at rest.
+
+    M a = load - f + G^T lambda,   G a = 0      =>      lambda = (G M^-1 G^T)^-1 G M^-1 (f - load)
+
+and the mass-consistent jump ``J = -M^-1 G^T (G M^-1 G^T)^-1 G v``.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.arrays import Array, BoolArray, IntArray
+from softway.contact.contact_rows import ContactRows
+from softway.model.model import Model
+from softway.solve.constraints.compliance import FrozenOperator, frozen_operator, row_basis
+from softway.solve.constraints.normal_active_set import multipliers
+from softway.solve.constraints.row_basis import RowCoefficients
+from softway.solve.linear.interface import SuperLU
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ImpactMultipliers:
+    """Factored mass matrix of the free components, with the contact directions."""
+
+    model: Model
+    mass: FrozenOperator
+
+    def multiplier(self, rows: ContactRows, force: Array, closed: BoolArray) -> Array:
+        """Normal reaction (m,) of the closed rows for the internal force (n, d); zero on the others [N]."""
+        index, active = self._active(rows, closed)
+        out = np.zeros(len(closed))
+        if len(index):
+            pull = self.mass.solve((force - self.model.load)[self.model.free])
+            out[index] = multipliers(self.mass, active, active.from_basis(self.mass.restrict(pull)))[0]
+        return out
+
+    def jump(self, rows: ContactRows, approach: Array, closed: BoolArray) -> tuple[Array, Array]:
+        """Velocity jump (n, d) and impulses (m,) that bring the closed rows from ``approach`` (m,) to rest."""
+        index, active = self._active(rows, closed)
+        out, impulse = np.zeros(self.model.shape), np.zeros(len(closed))
+        if len(index):
+            impulse[index], push = multipliers(self.mass, active, -approach[index])
+            out[self.model.free] = self.mass.solve(self.mass.basis.directions @ push.directions)
+        return out, impulse
+
+    def _active(self, rows: ContactRows, closed: BoolArray) -> tuple[IntArray, RowCoefficients]:
+        """Closed rows that can move (k,), with their coefficients along the contact directions."""
+        index = np.flatnonzero(closed & rows.reachable(self.model.free))
+        return index, self.mass.coefficients(rows, self.model.free).subset(index)
+
+
+def impact_multipliers(model: Model) -> ImpactMultipliers:
+    """Factor the mass matrix of a model whose nodes all have inertia."""
+    d = model.shape[1]
+    keep = np.flatnonzero(model.free.ravel())
+    mass = sp.csc_array(sp.kron(model.mass, sp.eye_array(d), format="csc")[keep][:, keep])
+    directions = row_basis(model.rows(model.displacement), model.free, model.contacts.fixed, model.touchable)
+    return ImpactMultipliers(model=model, mass=frozen_operator(mass, directions, SuperLU()))

@@ -1,0 +1,161 @@
+"""Normal contact on the frozen operator: a dual active set on the compliance of the contact rows.
+
+Given the free solution ``y`` of A y = b, find multipliers P such that ``z = y + A^-1 G^T P`` satisfies
+
+    G z = c  on closed rows,     G z >= c,  P >= 0,  P (G z - c) = 0  on unilateral rows.
+
+The Schur complement eliminates the active rows, and one factor of A serves every active set.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray, IntArray
+from softway.errors import NoConvergence
+from softway.kernels.linalg.active_set import exchanged, most_sweeps
+from softway.kernels.linalg.dense import Shared, factored
+from softway.solve.constraints.compliance import FrozenOperator
+from softway.solve.constraints.return_map import NO_SLIP, SlipConditions
+from softway.solve.constraints.row_basis import CombinedRows, RowCoefficients
+
+BATCH = 16
+"""Rows close to contact whose columns are computed along with a new one: in a batch they cost a third."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class RowConditions:
+    """Conditions of one slab on the contact rows: ``target`` (m,), ``equal`` and ``unilateral`` rows (m,), and slip
+    conditions ``slipping``.
+
+    A row without multiplier may miss its target by ``rounding``, the rounding error of gaps.  Otherwise rows that
+    depend on each other (flush blocks) would alternate between the active and the inactive set.
+    """
+
+    target: Array
+    equal: BoolArray
+    unilateral: BoolArray
+    slipping: SlipConditions = NO_SLIP
+    rounding: float = 0.0
+
+    def subset(self, which: IntArray) -> "RowConditions":
+        """Conditions on a subset of the rows, without friction."""
+        equal, unilateral = self.equal[which], self.unilateral[which]
+        return RowConditions(target=self.target[which], equal=equal, unilateral=unilateral, rounding=self.rounding)
+
+    def missable(self, slack: Array) -> float:
+        """Admissible violation of the targets by rounding; ``slack`` (m,) are the present differences from them."""
+        target = np.where(self.equal | self.unilateral, self.target, 0.0)
+        return max(1e-14 * max(greatest(slack), greatest(target), 1e-300), self.rounding)
+
+
+def greatest(values: Array) -> float:
+    """Greatest magnitude of values of any shape, without a copy of them; zero for empty arrays.
+
+    Examples
+    --------
+    >>> greatest(np.array([[0.5, -2.0]])), greatest(np.zeros(0))
+    (2.0, 0.0)
+    """
+    return max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))
+
+
+def rounded(x: Array) -> float:
+    """Rounding error of differences of positions x (n, d): a few units in the last place of the greatest.
+
+    Examples
+    --------
+    >>> rounded(np.array([[0.5, -1.0]])) == 2.0**-50
+    True
+    """
+    return 4.0 * float(np.finfo(float).eps) * greatest(x)
+
+
+def solve_normal_contact(
+    free: Array,
+    frozen: FrozenOperator,
+    coefficients: RowCoefficients,
+    rows: RowConditions,
+    guess: BoolArray,
+    previous: Array | None = None,
+) -> tuple[Array, Array, BoolArray]:
+    """Solve the contact problem: solution (f,), multipliers (m,) and active rows (m,).
+
+    The contact rows are ``G = C B^T`` with their ``coefficients`` C along the contact directions B.  The free solution
+    contains the ``previous`` multipliers (m,) already; the returned multipliers are total values.  The unknowns are
+    their changes: for converged multipliers no digits cancel between the free solution and the effect of the total
+    multipliers, as they would for a body supported by contact only.
+
+    Primal-dual active set iteration from the ``guess``; after 30 sweeps single exchanges of least index (Murty), which
+    terminate for every symmetric positive definite compliance.
+    """
+    count = rows.equal | rows.unilateral
+    active = rows.equal | (guess & rows.unilateral)
+    previous = np.zeros(len(count)) if previous is None else previous
+    loaded = np.where(count, coefficients.from_basis(frozen.restrict(free)) - rows.target, 0.0)
+    slack = loaded - np.where(
+        count, coefficients.from_basis(frozen.compliance_times(coefficients.spread(previous))), 0.0
+    )
+    floor = rows.missable(slack)
+    for sweep in range(most_sweeps(len(active))):
+        index = np.flatnonzero(active)
+        _expect(frozen, coefficients, index, np.where(rows.unilateral, slack, np.inf))
+        lifted = coefficients.spread(np.where(active, 0.0, previous))
+        now = loaded - np.where(count, coefficients.from_basis(frozen.compliance_times(lifted)), 0.0)
+        change, push = multipliers(frozen, coefficients.subset(index), -now[index])
+        gap = now + coefficients.from_basis(push.sensed)
+        multiplier = np.zeros(len(active))
+        multiplier[index] = previous[index] + change
+        wrong = rows.unilateral & ((active & (multiplier < 0.0)) | (~active & (gap < -floor)))
+        if not wrong.any():
+            break
+        active = exchanged(active, wrong, sweep)
+    else:
+        raise NoConvergence(f"the {len(active)} contact rows have no solution")
+    return free + frozen.solve_push(push.directions - lifted), multiplier, active
+
+
+def _expect(frozen: FrozenOperator, coefficients: RowCoefficients, index: IntArray, slack: Array) -> None:
+    """Compute the columns of the active rows (k,); with new ones also those of rows close to contact."""
+    if not len(frozen.table.missing(coefficients.subset(index).used)):
+        return
+    soon = np.argsort(slack, kind="stable")[: len(index) + BATCH]
+    frozen.fill(np.union1d(coefficients.subset(index).used, coefficients.subset(soon[slack[soon] < np.inf]).used))
+
+
+def without_contact(free: Array, frozen: FrozenOperator, before: Array) -> Array:
+    """Components (b,) along the directions of a solution (f,) without the contact forces ``before`` (b,) in it."""
+    return frozen.restrict(free) - frozen.compliance_times(before)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ContactPush:
+    """Forces along the contact ``directions`` (b,), and the motion ``sensed`` (b,) along them that they cause."""
+
+    directions: Array
+    sensed: Array
+
+
+def delassus(frozen: FrozenOperator, active: RowCoefficients) -> Array:
+    """Compliance (Delassus operator) ``G A^-1 G^T`` (k, k) of the active rows."""
+    used = active.used
+    return active.folded(frozen.compliance(used)[used])
+
+
+def _factored_compliance(frozen: FrozenOperator, active: RowCoefficients) -> Shared:
+    """Factored compliance of the active rows (k,), unscaled; kept for all slabs if directions are rows."""
+    plain = frozen.scaled(1.0)
+    if isinstance(active, CombinedRows):
+        return factored(delassus(plain, active))
+    key = active.index.tobytes()
+    if key not in frozen.factored_sets:
+        frozen.factored_sets.clear()
+        frozen.factored_sets[key] = factored(delassus(plain, active))
+    return frozen.factored_sets[key]
+
+
+def multipliers(frozen: FrozenOperator, active: RowCoefficients, wanted: Array) -> tuple[Array, ContactPush]:
+    """Multipliers (k,) of the active rows that move them by ``wanted`` (k,), and their contact forces."""
+    force = _factored_compliance(frozen, active).solve(wanted / frozen.scale)
+    directions = active.spread(force)
+    return force, ContactPush(directions=directions, sensed=frozen.compliance_times(directions))

@@ -1,0 +1,169 @@
+"""Return map of friction: from a trial force to the force of the law."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray, IntArray
+from softway.contact.friction_rows import FrictionRows
+from softway.contact.tangential_rows import TangentialRows
+
+ITERATIONS = 100
+"""Iterations of the scalar equation; bisection alone would take about 60."""
+STEEPEST = 1e3
+"""Greatest ratio of tangential to normal force: laws independent of the pressure fade where a row is released."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SlipConditions:
+    """Conditions of one slab on the slip of contact rows, in the units of the multipliers.
+
+    The slip of a row is ``y = T z - shift``, its mean speed ``pace |y|``.  A law that depends on the speed takes the
+    one at the end of the slab, ``(1 + ahead) pace |y| - ahead before``, extrapolated from the mean speed ``before`` of
+    the previous slab.
+
+    Parameters
+    ----------
+    friction
+        Friction laws.
+    shift
+        (m, k) shift of the slip.
+    pace
+        Speed per unit of the slip y.
+    unit
+        Force per unit of the multipliers.
+    ahead, before
+        Extrapolation of the speed, see above; ``before`` (m,) [m/s].
+    sliding
+        (m,) rows that slip at the start of the slab: they stick up to the slip resistance at zero speed instead of the
+        stick limit.
+    stick_at_any_force
+        True if the other rows stick at any force.
+    """
+
+    friction: FrictionRows
+    shift: Array
+    pace: float
+    unit: float
+    ahead: float
+    before: Array
+    sliding: BoolArray
+    stick_at_any_force: bool = False
+
+    @property
+    def frictionless(self) -> bool:
+        """True if no row may stick or slip."""
+        return self.shift.size == 0
+
+    def subset(self, which: IntArray) -> "SlipConditions":
+        """Subset of the rows."""
+        if self.frictionless:
+            return self
+        return replace(
+            self,
+            friction=self.friction.subset(which),
+            shift=self.shift[which],
+            before=self.before[which],
+            sliding=self.sliding[which],
+        )
+
+    def with_slipping(self, which: BoolArray) -> "SlipConditions":
+        """Conditions with the rows ``which`` (m,) counted as slipping at the start."""
+        return self if self.frictionless else replace(self, sliding=self.sliding | which)
+
+    def limit(self, pressed: Array) -> Array:
+        """Greatest multiplier (m,) of sticking rows under normal multipliers (m,)."""
+        if self.stick_at_any_force:
+            return np.where(self.sliding, self.resistance(np.zeros(len(pressed)), pressed)[0], np.inf)
+        at_rest = np.minimum(self.friction.limit(self.unit * pressed) / self.unit, STEEPEST * pressed)
+        if not self.sliding.any():
+            return at_rest
+        return np.where(self.sliding, self.resistance(np.zeros(len(at_rest)), pressed)[0], at_rest)
+
+    def drops(self, pressed: Array) -> bool:
+        """True if friction is lower in slip than at rest, under normal multipliers (m,)."""
+        force = self.unit * pressed
+        return bool((self.friction.resistance(np.zeros(len(force)), force)[0] < self.friction.limit(force)).any())
+
+    def resistance(self, slip: Array, pressed: Array) -> tuple[Array, Array, Array]:
+        """Multiplier (m,) of slips ``|y|`` (m,), with its derivatives with respect to slip and normal multiplier."""
+        late = (1.0 + self.ahead) * self.pace * slip - self.ahead * self.before
+        value, slope, pressure_slope = self.friction.resistance(np.maximum(late, 0.0), self.unit * pressed)
+        with np.errstate(invalid="ignore"):
+            change = np.where(late >= 0.0, slope * ((1.0 + self.ahead) * self.pace / self.unit), 0.0)
+        change, value = np.nan_to_num(change, nan=0.0, posinf=np.inf, neginf=-np.inf), value / self.unit
+        lifted = value > STEEPEST * pressed
+        if not lifted.any():
+            return value, change, pressure_slope
+        return (
+            np.where(lifted, STEEPEST * pressed, value),
+            np.where(lifted, 0.0, change),
+            np.where(lifted, STEEPEST, pressure_slope),
+        )
+
+
+NO_SLIP = SlipConditions(
+    friction=FrictionRows(laws=(), contact=np.zeros(0, int), area=np.zeros(0)),
+    shift=np.zeros((0, 0)),
+    pace=0.0,
+    unit=1.0,
+    ahead=0.0,
+    before=np.zeros(0),
+    sliding=np.zeros(0, bool),
+)
+"""Conditions of rows without friction."""
+
+
+def slip_conditions(law: SlipConditions, shear: TangentialRows, fixed: Array, span: float) -> SlipConditions:
+    """Slip conditions of a slab with the slip ``span/2 (T z - shift)``; ``fixed`` (n, d) are given components of z."""
+    if law.frictionless:
+        return law
+    return replace(law, shift=shear.flat(2.0 / span * shear.moved - shear.weights @ fixed))
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ReturnedForces:
+    """Forces of the law for a trial.
+
+    Parameters
+    ----------
+    force
+        (m,) along the trial.
+    slips
+        (m,) rows that slip.
+    steep, pressure_slope
+        (m,) derivatives of the force with respect to the trial and to the normal multiplier.
+    """
+
+    force: Array
+    slips: BoolArray
+    steep: Array
+    pressure_slope: Array
+
+
+def return_map(law: SlipConditions, trial: Array, pressed: Array, stiffness: Array) -> ReturnedForces:
+    """Solve ``resistance(y) + stiffness y = trial`` for the slip y >= 0 of each row (m,); rows below the limit stick.
+
+    Newton's method within a bracket; exact in one step where the resistance is linear in the speed.
+    """
+    slips = trial > law.limit(pressed)
+    low, high = np.zeros(len(trial)), np.where(slips, trial / stiffness, 0.0)
+    force, change, pressure_slope = law.resistance(low, pressed)
+    slip = np.clip((trial - force) / stiffness, 0.0, high)
+    for _ in range(ITERATIONS):
+        force, change, pressure_slope = law.resistance(slip, pressed)
+        excess = force + stiffness * slip - trial
+        low, high = np.where(excess < 0.0, slip, low), np.where(excess >= 0.0, slip, high)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            better = slip - excess / (change + stiffness)
+        inside = np.isfinite(better) & (better >= low) & (better <= high)
+        moved = np.where(inside, better, 0.5 * (low + high))
+        done = np.abs(moved - slip) <= 1e-15 * np.maximum(moved, trial / stiffness)
+        slip = np.where(slips, moved, 0.0)
+        if done[slips].all():
+            break
+    force, change, pressure_slope = law.resistance(slip, pressed)
+    with np.errstate(invalid="ignore"):
+        steep = np.where(np.isinf(change), 1.0, change / (change + stiffness))
+    force = np.where(slips, np.where(np.isinf(change), np.maximum(trial - stiffness * slip, 0.0), force), trial)
+    return ReturnedForces(force=force, slips=slips, steep=steep, pressure_slope=pressure_slope * (1.0 - steep))

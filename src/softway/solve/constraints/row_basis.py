@@ -1,0 +1,77 @@
+"""Coefficients of contact rows along the contact directions: unit rows or linear combinations."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.arrays import Array, IntArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class UnitRows:
+    """Rows that are directions themselves: row i is the direction ``index[i]`` of ``count``, or none if that is -1."""
+
+    index: IntArray
+    count: int
+
+    @property
+    def used(self) -> IntArray:
+        """Directions (k,) that the rows use."""
+        return self.index[self.index >= 0]
+
+    def from_basis(self, values: Array) -> Array:
+        """Values (m,) of the rows from those of the directions (b,)."""
+        return np.where(self.index >= 0, values[self.index], 0.0) if len(values) else np.zeros(len(self.index))
+
+    def spread(self, amounts: Array) -> Array:
+        """Forces (b,) along the directions from those of the rows (m,)."""
+        out = np.zeros(self.count)
+        own = self.index >= 0
+        out[self.index[own]] = amounts[own]
+        return out
+
+    def subset(self, which: IntArray) -> "UnitRows":
+        """Subset of the rows."""
+        return UnitRows(self.index[which], self.count)
+
+    def folded(self, compliance: Array) -> Array:
+        """Compliance (m, m) of the rows from that of the used directions (k, k)."""
+        own = self.index >= 0
+        if own.all():
+            return compliance
+        out = np.zeros((len(own), len(own)))
+        out[np.ix_(own, own)] = compliance
+        return out
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CombinedRows:
+    """Rows with coefficients C (m, b) along the directions."""
+
+    matrix: sp.csr_array
+
+    @property
+    def used(self) -> IntArray:
+        """Directions (k,) that the rows use."""
+        return np.unique(self.matrix.indices)
+
+    def from_basis(self, values: Array) -> Array:
+        """Values (m,) of the rows from those of the directions (b,)."""
+        return np.asarray(self.matrix @ values)
+
+    def spread(self, amounts: Array) -> Array:
+        """Forces (b,) along the directions from those of the rows (m,)."""
+        return np.asarray(self.matrix.T @ amounts)
+
+    def subset(self, which: IntArray) -> "CombinedRows":
+        """Subset of the rows."""
+        return CombinedRows(sp.csr_array(self.matrix[which]))
+
+    def folded(self, compliance: Array) -> Array:
+        """Compliance (m, m) of the rows from that of the used directions (k, k)."""
+        inner = self.matrix[:, self.used]
+        return np.asarray((inner @ compliance) @ inner.T)
+
+
+RowCoefficients = UnitRows | CombinedRows

@@ -1,0 +1,1 @@
+"""Equations of a slab: residual, operator and energy balance."""

@@ -1,0 +1,160 @@
+"""Equations of one slab (time step): momentum of the nodes with inertia, equilibrium of the massless nodes.
+
+    M (q - v0 - J) + h (f_mean + a (f1 - f0) - load) - known impulses = G^T p        nodes with inertia
+    h mu2 (f1 - load) = G^T p                                                        massless nodes
+
+They are composed of three parts: the mean force ``f_mean``, averaged by the virtual time function or along the chord
+(``mean_force.py``); its closure, by default with the scalar ``a`` that closes the energy balance (``closure.py``); and
+the contact rows G with their conditions (``slab_contact.py``).  ``J`` are the unbalanced jumps of the Paper rule.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray
+from softway.contact.contact_rows import ContactRows
+from softway.contact.slab_motion.trajectory import Trajectory
+from softway.model.model import Model
+from softway.model.time_weight import TimeWeight, moments
+from softway.solve.constraints.compliance import FrozenOperator, RowBasis, row_basis
+from softway.solve.constraints.normal_active_set import RowConditions
+from softway.solve.constraints.row_basis import RowCoefficients
+from softway.solve.equations.closure import Closure, Unclosed
+from softway.solve.equations.energy_balance import EndForces
+from softway.solve.equations.mean_force import MeanForce, first_weight
+from softway.solve.equations.slab_contact import SlabContact
+from softway.solve.equations.slab_matrix import SlabMatrix
+from softway.solve.equations.slab_values import Evaluation, SlabStart
+from softway.tolerances import KEEP_FACETS_AFTER
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SlabEquations:
+    """Residual, operator and contact rows of one slab.
+
+    Parameters
+    ----------
+    model, start, weight, path
+        Model, values at t0, virtual time function, and trajectory of the nodes.
+    average
+        Average of the internal force over the slab.
+    closure
+        Completion of the mean force that closes the energy balance.
+    contact
+        Contact rows with their conditions.
+    given
+        (n, d) values of q on supported components.
+    unbalanced
+        (n, d) velocity jumps excluded from the momentum equation.
+    impulses
+        (n, d) known contact impulses [N s].
+    """
+
+    model: Model
+    start: SlabStart
+    weight: TimeWeight
+    path: Trajectory
+    average: MeanForce
+    contact: SlabContact
+    closure: Closure = Unclosed()
+    given: Array | float = 0.0
+    unbalanced: Array | float = 0.0
+    impulses: Array | float = 0.0
+
+    def evaluate(self, q: Array, impulse: Array) -> Evaluation:
+        """Evaluate the residual and its ingredients at q (n, d) with the contact impulses (m,) [N s]."""
+        model, start, h = self.model, self.start, self.path.span
+        u1 = self.path.end(q)
+        energy, force = model.energy_and_force(u1)
+        mean = self.average.mean(model, start, self.path, q, u1, force)
+        lost: Array = np.zeros(len(energy))
+        shock = model.shock_force(0.5 * (start.displacement + u1), u1 - start.displacement, h)
+        if shock is not None:
+            mean, lost = mean + shock, model.totals(shock * (u1 - start.displacement))
+        rows = self.contact.at(u1)
+        completed = self.closure.close(model, self._ends(u1, force, energy + lost, mean, rows, impulse))
+        residual = (
+            model.mass @ (q - start.velocity - self.unbalanced) + h * (completed.mean - model.load) - self.impulses
+        )
+        still = ~model.massive
+        residual[still] = h * moments(self.weight)[1] * (force - model.load)[still]
+        return Evaluation(
+            residual=residual,
+            displacement=u1,
+            force=force,
+            energy=energy,
+            mean_force=completed.mean,
+            scalar=completed.scalar,
+            missing_work=completed.missing_work,
+            clipped=completed.clipped,
+            rows=rows,
+            lost=lost + completed.lost,
+        )
+
+    def _ends(
+        self, u1: Array, force: Array, energy: Array, mean: Array, rows: ContactRows, impulse: Array
+    ) -> EndForces:
+        start, m, initial = self.start, len(rows.node), self.contact.initial
+        forces = impulse / (self.path.span * moments(self.weight)[1])
+        return EndForces(
+            u0=start.displacement,
+            u1=u1,
+            f0=start.force,
+            f1=force,
+            V0=start.energy,
+            V1=energy,
+            mean=mean,
+            v0=start.velocity,
+            rows0=initial.rows,
+            rows1=rows,
+            force0=initial.pressure,
+            force1=forces[:m],
+            shear0=initial.traction,
+            shear1=rows.shear.vectors(rows.shear.components(forces[m:])),
+        )
+
+    def conditions(self, q: Array, end: Evaluation, frozen: FrozenOperator) -> tuple[RowCoefficients, RowConditions]:
+        """Contact rows along the contact directions of an operator, with their conditions, linear at q (n, d)."""
+        return self.contact.linearised(self.model, self.path.span, q, end, frozen)
+
+    def without_closure(self) -> "SlabEquations":
+        """Equations without closure of the energy balance, for an initial guess that is not in equilibrium."""
+        return replace(self, closure=Unclosed())
+
+    def with_kept_facets_after(self, u1: Array, active: BoolArray, count: int) -> "SlabEquations":
+        """Equations after ``count`` iterations: from ``KEEP_FACETS_AFTER`` on nodes are kept on their facets.
+
+        A node that alternates between two facets would prevent convergence.
+        """
+        return self.with_kept_facets(u1, active) if count == KEEP_FACETS_AFTER else self
+
+    def with_kept_facets(self, u1: Array, active: BoolArray) -> "SlabEquations":
+        """Equations with nodes kept on their facets at ``u1`` (n, d); the same object if nothing changes."""
+        contact = self.contact.with_kept_facets(u1, active)
+        return self if contact is self.contact else replace(self, contact=contact)
+
+    def directions(self, turning: bool = False) -> RowBasis:
+        """Contact directions for any slab, in axes that may be ``turning`` with the nodes."""
+        model = self.model
+        return row_basis(self.path.rows, model.free, model.contacts.fixed and not turning, model.touchable)
+
+    def filled(self) -> Array:
+        """Values (n, d) of q on supported components, zero on the others."""
+        return np.where(self.model.free, 0.0, self.given)
+
+    @property
+    def stiffness_factor(self) -> float:
+        """Factor of the stiffness in the operator, ``h^2/2 mu2`` [s^2]."""
+        return 0.5 * self.path.span**2 * moments(self.weight)[1]
+
+    @property
+    def equivalent_span(self) -> float:
+        """Length of a slab with the default time weight that has the same operator [s]."""
+        return self.path.span * float(np.sqrt(2.0 * moments(self.weight)[1]))
+
+    @property
+    def stiffness(self) -> SlabMatrix:
+        """Matrix ``M + h^2/2 mu2 K`` on the free components."""
+        viscous_factor = first_weight(self.weight) / moments(self.weight)[1]
+        return SlabMatrix(model=self.model, stiffness_factor=self.stiffness_factor, viscous_factor=viscous_factor)

@@ -1,0 +1,31 @@
+"""Matrix of a slab: inertia and stiffness of the free components."""
+
+from dataclasses import dataclass
+
+import scipy.sparse as sp
+
+from softway.arrays import Array
+from softway.model.model import Model
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SlabMatrix:
+    """Matrix ``M + stiffness_factor K(u)`` of a model with its history variables at the start of the slab.
+
+    Parameters
+    ----------
+    model
+        Model in the slab.
+    stiffness_factor
+        Factor of the stiffness [s^2].
+    viscous_factor
+        Additional weight of the viscous stiffness between nodes with inertia.
+    """
+
+    model: Model
+    stiffness_factor: float
+    viscous_factor: float
+
+    def operator(self, u: Array, secant: bool = False) -> sp.csc_array:
+        """Matrix (f, f) at the displacement u (n, d), symmetric positive definite near equilibrium."""
+        return self.model.inertia_and_stiffness(u, self.stiffness_factor, secant, self.viscous_factor)

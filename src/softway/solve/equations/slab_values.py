@@ -1,0 +1,40 @@
+"""Values at the start of a slab, and evaluation of its equations."""
+
+from dataclasses import dataclass
+
+from softway.arrays import Array
+from softway.bodies.assembled.material_states import MaterialStates
+from softway.contact.contact_rows import ContactRows
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SlabStart:
+    """Values at t0: displacement, velocity, internal force (n, d) and stored energy (parts,); history variables of the
+    solids, and the viscous part of the force (n, d) from the mean rate of the previous slab.
+    """
+
+    displacement: Array
+    velocity: Array
+    force: Array
+    energy: Array
+    states: MaterialStates = ()
+    viscous: Array | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Evaluation:
+    """Equations evaluated at q: residual, end values and mean force (n, d); for each solid (parts,) the scalar a and
+    the relative missing work that it closes; the contact rows at the end; and the energy dissipated by bulk viscosity
+    (parts,).
+    """
+
+    residual: Array
+    displacement: Array
+    force: Array
+    energy: Array
+    mean_force: Array
+    scalar: Array
+    missing_work: Array
+    clipped: bool
+    rows: ContactRows
+    lost: Array | float = 0.0

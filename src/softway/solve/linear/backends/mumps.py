@@ -1,0 +1,164 @@
+"""Multifrontal solver MUMPS, by python-mumps, with Schur complements."""
+
+import weakref
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.linalg import lu_factor, lu_solve
+
+from softway.arrays import Array, IntArray
+from softway.solve.linear.interface import Precision, counted, finite, number_type, unfactored
+from softway.solve.linear.pattern import Pattern
+
+THREADS = 16
+"""Entry of ``icntl`` that sets the number of threads."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mumps:
+    """MUMPS: L D L^T with pivots of one or two rows; the matrix may be indefinite.
+
+    Parameters
+    ----------
+    precision
+        Precision of the factor.
+    threads
+        None for the default of the library.
+
+    References
+    ----------
+    Amestoy, Duff, L'Excellent, Koster (2001), SIAM J. Matrix Anal. Appl. 23, 15-41.
+
+    Examples
+    --------
+    >>> Mumps(threads=1).threads
+    1
+    """
+
+    precision: Precision = "double"
+    threads: int | None = None
+
+    def __post_init__(self) -> None:
+        number_type(self.precision)
+        counted(self.threads)
+
+    def analyse(self, matrix: sp.csc_array) -> "_Analysis":
+        """Order the unknowns of a sparse symmetric matrix (f, f).
+
+        Raises
+        ------
+        ImportError
+            If python-mumps is not installed.
+        NoConvergence
+            If the matrix is structurally singular.
+        """
+        analysis = _Analysis(self, Pattern.of(matrix), [])
+        analysis.idle.append(analysis.context(matrix))
+        return analysis
+
+    def factor(self, matrix: sp.csc_array) -> "_Factor":
+        """Analyse and factor a sparse symmetric matrix (f, f)."""
+        return self.analyse(matrix).factor(matrix)
+
+    def schur(self, matrix: sp.csc_array, last: IntArray) -> "Condensed":
+        """Factor a matrix (f, f) up to the unknowns ``last`` (k,), with the Schur complement for these.
+
+        Raises
+        ------
+        NoConvergence
+            If the factored part of the matrix is singular.
+        """
+        context = self._loaded(matrix)
+        try:
+            lower = context.schur(last)
+        except RuntimeError as error:
+            raise unfactored(matrix.shape[0], error) from None
+        full = np.tril(lower) + np.tril(lower, -1).T
+        complement = np.asarray(full, float)
+        return Condensed(context, complement, lu_factor(complement), np.dtype(number_type(self.precision)))
+
+    def _loaded(self, matrix: sp.csc_array) -> Any:
+        from mumps import Context
+
+        finite(matrix)
+        context = Context()
+        context.set_matrix(matrix.astype(number_type(self.precision)), symmetric=True)
+        if self.threads is not None:
+            context.mumps_instance.icntl[THREADS] = self.threads
+        return context
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Analysis:
+    """Analysed pattern; ``idle`` contains the memory of unused factors."""
+
+    solver: Mumps
+    pattern: Pattern
+    idle: list[Any]
+
+    def factor(self, matrix: sp.csc_array) -> "_Factor":
+        finite(matrix)
+        self.pattern.require(matrix)
+        context = self.context(matrix)
+        kind = np.dtype(number_type(self.solver.precision))
+        context.set_matrix(matrix.astype(kind), symmetric=True)
+        try:
+            context.factor(reuse_analysis=True)
+        except RuntimeError as error:
+            raise unfactored(matrix.shape[0], error) from None
+        factor = _Factor(context, kind, int(context.factor_stats.nonzeros) * kind.itemsize)
+        weakref.finalize(factor, self.idle.append, context).atexit = False
+        return factor
+
+    def context(self, matrix: sp.csc_array) -> Any:
+        """Analysed memory for a matrix of this pattern."""
+        if self.idle:
+            return self.idle.pop()
+        context = self.solver._loaded(matrix)
+        try:
+            context.analyze()
+        except RuntimeError as error:
+            raise unfactored(matrix.shape[0], error) from None
+        return context
+
+
+@dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
+class _Factor:
+    """Factor in the memory of MUMPS."""
+
+    context: Any
+    kind: np.dtype[Any]
+    bytes: int
+
+    def solve(self, b: Array) -> Array:
+        if not b.size:
+            return np.zeros(b.shape)
+        return np.asarray(self.context.solve(np.array(b, self.kind, order="F"), overwrite_b=True), float)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Condensed:
+    """Matrix factored up to its last unknowns.
+
+    ``complement`` (k, k) is ``A_ll - A_lr A_rr^-1 A_rl`` for the last unknowns l and the rest r: the inverse of the
+    rows and columns l of A^-1. ``dense`` is its factor.
+    """
+
+    context: Any
+    complement: Array
+    dense: tuple[Array, IntArray]
+    kind: np.dtype[Any]
+
+    def condense(self, b: Array) -> Array:
+        """``b_l - A_lr A_rr^-1 b_r`` (k,) of a right-hand side b (f,)."""
+        return np.array(self.context.schur_condense(np.array(b, self.kind)), float)
+
+    def expand(self, x: Array) -> Array:
+        """Solution (f,) with the last unknowns x (k,), for the right-hand side condensed last."""
+        return np.array(self.context.schur_expand(x), float)
+
+    def solve(self, b: Array) -> Array:
+        """Solution of A x = b (f,)."""
+        return self.expand(lu_solve(self.dense, self.condense(b)))

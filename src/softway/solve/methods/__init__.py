@@ -1,0 +1,1 @@
+"""Methods of solution of a slab: fixed point, Newton, central differences."""

@@ -1,0 +1,167 @@
+"""Fixed point with a frozen operator: every iteration is one back-substitution and a small contact problem."""
+
+import itertools
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.bodies.assembled.material_states import any_path_dependent
+from softway.errors import InputError
+from softway.solve.checks import check_accuracy
+from softway.solve.constraints.compliance import FrozenOperator
+from softway.solve.constraints.normal_active_set import without_contact
+from softway.solve.equations.slab_equations import SlabEquations
+from softway.solve.equations.slab_values import Evaluation
+from softway.solve.methods.anderson import Anderson
+from softway.solve.methods.contact_step import contact_step
+from softway.solve.methods.facet_check import check_facets
+from softway.solve.methods.iteration import Guess, Iterate, lost
+from softway.solve.methods.newton import Newton
+from softway.solve.operators import Factored, MatrixFree, Multigrid
+from softway.solve.operators.operator_refresh import refreshed
+
+POOR = 0.8
+"""Contraction per iteration above which Newton's method takes over."""
+WINDOW = 10
+"""Number of iterations over which the contraction is measured."""
+FLOWING, PACE = 5, 0.3
+"""Number of iterations and contraction without inertia, where operators do not serve many slabs."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FixedPoint:
+    """``q <- q - P r(q)`` with a frozen operator P and contact on its compliance, accelerated by Anderson mixing.
+
+    The mixing restarts if the contact changes, and after two successive steps without progress.  If the iterates
+    contract poorly, Newton's method takes over.
+
+    Parameters
+    ----------
+    depth
+        Number of previous iterates for the acceleration; 0 for the plain fixed point.
+    tolerance
+        Change of velocity, relative to the greatest velocity, below which an iterate is accepted.
+    limit
+        Number of iterations after which the slab is tried again with a new operator, and then rejected.
+    operator
+        Kind of operator P; by default chosen by number of unknowns, slab length, shape and memory.
+    handover
+        True if Newton's method takes over when the iterates contract poorly.
+
+    References
+    ----------
+    Anderson (1965), J. ACM 12, 547-560; Walker, Ni (2011), SIAM J. Numer. Anal. 49, 1715-1735.
+
+    Examples
+    --------
+    >>> FixedPoint(depth=0).depth
+    0
+    """
+
+    depth: int = 8
+    tolerance: float = 1e-11
+    limit: int = 60
+    operator: Factored | MatrixFree | Multigrid | Literal["auto"] = "auto"
+    handover: bool = True
+
+    def __post_init__(self) -> None:
+        if self.depth < 0:
+            raise InputError("depth", f"{self.depth} is negative", "0 for the plain fixed point, or about 8")
+        check_accuracy(self.tolerance, self.limit)
+
+    def iterate(self, system: SlabEquations, guess: Guess) -> Iterator[Iterate]:
+        """Iterates from a guess.
+
+        As in Newton's method, the first step has no scalar: the guess is no solution, and its missing work has no
+        meaning.  So one step solves a linear law on fixed rows (docs/theory/solver.md).
+        """
+        newton = Newton(tolerance=self.tolerance, limit=self.limit)
+        if self.handover and guess.memory.origin is None and _starts_flowing(system):
+            yield from newton.iterate(system, guess)
+            return
+        guess = replace(guess, memory=refreshed(system, guess.q, guess.memory, self.operator))
+        it: Iterate | None = None
+        for it in self._onward(system, guess):
+            yield it
+        if self.handover and it is not None and np.isfinite(it.change):
+            yield from newton.onward(it.system, it.guess)
+
+    def _onward(self, system: SlabEquations, guess: Guess) -> Iterator[Iterate]:
+        """Iterates while they contract well; with poor contraction nodes are first kept on their facets."""
+        window, poor = (WINDOW, POOR) if system.model.massive.any() else (FLOWING, PACE)
+        end = system.without_closure().evaluate(guess.q, guess.impulse)
+        while True:
+            changes: list[float] = []
+            for it in self._iterates(system, guess, end):
+                yield it
+                changes = [*changes[-window:], it.change]
+                if self.handover and len(changes) > window and it.change > poor**window * changes[0]:
+                    break
+            if not np.isfinite(it.change):
+                return
+            system = it.system.with_kept_facets(it.system.path.end(it.q), it.active)
+            if system is it.system:
+                return
+            guess = it.guess
+            end = system.evaluate(guess.q, guess.impulse)
+
+    def _iterates(self, system: SlabEquations, guess: Guess, end: Evaluation) -> Iterator[Iterate]:
+        q, impulse, active, memory = guess.q, guess.impulse, guess.active, guess.memory
+        frozen = memory.frozen
+        assert frozen is not None
+        keep = system.model.free
+        mixing = _Mixing(Anderson(self.depth), frozen)
+        last, stuck = np.inf, 0
+        for count in itertools.count():
+            system = system.with_kept_facets_after(end.displacement, active, count)
+            if not np.isfinite(end.residual[keep]).all():
+                yield lost(Guess(q=q, impulse=impulse, active=active, memory=memory), system)
+                return
+            step = contact_step(system, frozen, q, end, impulse, active)
+            if count == 0:
+                plain = step.rows.from_basis(without_contact(step.free, frozen, step.rows.spread(impulse)))
+            change = float(np.abs(step.q - q).max(initial=0.0))
+            sound, completed = check_facets(system, step.q, change)
+            yield Iterate(
+                q=step.q,
+                change=change,
+                impulse=step.impulse,
+                active=step.active,
+                free=plain,
+                memory=memory,
+                system=system,
+                sound=sound,
+            )
+            system = completed
+            stuck = stuck + 1 if change > 0.99 * last else 0
+            if (step.active != active).any() or stuck >= 2:
+                mixing.accelerator.restart()
+                stuck = 0
+            last, active, before, q = change, step.active, q[keep], q.copy()
+            q[keep], impulse = mixing.mixed((before, impulse), (step.q[keep], step.impulse))
+            end = system.evaluate(q, impulse)
+
+
+def _starts_flowing(system: SlabEquations) -> bool:
+    """True for path-dependent materials without inertia: no operator made at rest fits their flow."""
+    return any_path_dependent(system.model.parts) and not system.model.massive.any()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Mixing:
+    """Accelerator of the velocities, and of the impulses too if the operator solves for contact approximately."""
+
+    accelerator: Anderson
+    frozen: FrozenOperator
+
+    def mixed(self, x: tuple[Array, Array], value: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Next velocities (f,) and impulses (m,), from the arguments ``x`` of the map and its ``value``."""
+        if self.frozen.exact:
+            return self.accelerator.mix(x[0], value[0]), value[1]
+        unit = float(np.abs(self.frozen.solve_push(np.ones(self.frozen.basis.directions.shape[1]))).max(initial=0.0))
+        scale = np.concatenate([np.ones(len(x[0])), np.full(len(x[1]), unit)])
+        found = self.accelerator.mix(scale * np.concatenate(x), scale * np.concatenate(value))
+        return found[: len(x[0])], found[len(x[0]) :] / max(unit, 1e-300)

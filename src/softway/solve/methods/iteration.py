@@ -1,0 +1,167 @@
+"""Iteration of a method until its iterates converge, and further for more accurate solutions."""
+
+import logging
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray
+from softway.errors import NoConvergence
+from softway.solve.equations.slab_equations import SlabEquations
+from softway.solve.equations.slab_values import Evaluation
+from softway.solve.operators.operator_memory import OperatorMemory
+from softway.solve.stagnation import Stagnation
+
+log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Guess:
+    """Initial values of an iteration: ``q`` (n, d), multipliers ``impulse`` (m,) of the contact rows, the
+    ``active`` rows (m,), and the operator of the slab before.
+    """
+
+    q: Array
+    impulse: Array
+    active: BoolArray
+    memory: OperatorMemory
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Iterate:
+    """One iterate of a method.
+
+    ``q`` (n, d) satisfies the contact rows; ``change`` is its distance from the point of the residual; ``impulse`` (m,)
+    are the multipliers of the rows, ``active`` (m,) the rows with a multiplier; ``free`` (m,) are the normal components
+    of the first iterate without contact; ``system`` are the equations with its rows; the iterate is ``sound`` if the
+    surfaces do not overlap.
+    """
+
+    q: Array
+    change: float
+    impulse: Array
+    active: BoolArray
+    free: Array
+    memory: OperatorMemory
+    system: SlabEquations
+    sound: bool
+
+    @property
+    def guess(self) -> Guess:
+        """Iterate as initial values of another iteration."""
+        return Guess(q=self.q, impulse=self.impulse, active=self.active, memory=self.memory)
+
+
+def lost(guess: Guess, system: SlabEquations) -> Iterate:
+    """Iterate of a guess that is not admissible, with infinite change."""
+    none, at = np.zeros(len(guess.active)), guess
+    return Iterate(
+        q=at.q, change=np.inf, impulse=none, active=at.active, free=none, memory=at.memory, system=system, sound=False
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Solution:
+    """Converged slab: last iterate, its evaluation, free normal components (m,) of the first iterate, and mean ratio of
+    successive changes.
+    """
+
+    last: Iterate
+    end: Evaluation
+    predicted: Array
+    iterations: int
+    contraction: float
+
+
+LONGEST = 3
+"""Greatest number of iterations of a slab with added facets, in units of the limit."""
+FINEST = 1e-13
+"""Change, relative to the greatest velocity, below which no more accurate solution is computed."""
+PATIENCE = 12
+"""Number of iterations without halving of the change, after which no more accurate solution can be found."""
+STANDSTILL = ((6, 1e-9), (12, 1e-8))
+"""Numbers of iterations without progress after which a change is accepted, and the change relative to the greatest
+velocity: changes of mixed iterates may stagnate for as many iterations as the mixing uses, and then decrease again.
+"""
+SELF_BALANCED = 1e-12
+"""Rounding error of the velocity by balanced forces, relative to the velocity by their magnitudes."""
+
+
+def _pushed(system: SlabEquations, it: Iterate) -> float:
+    """Greatest velocity that the magnitudes of internal force and load would cause in one slab [m/s]."""
+    force = (np.abs(system.start.force) + np.abs(system.model.load))[system.model.free]
+    frozen = it.memory.frozen
+    return 0.0 if frozen is None else float(np.abs(frozen.solve(system.path.span * force)).max(initial=0.0))
+
+
+def _resolved(system: SlabEquations) -> float:
+    """Velocity that moves the nodes by a few units in the last place of their coordinates in one slab [m/s]."""
+    extent = float(np.abs(system.model.points + system.start.displacement).max())
+    return 8.0 * float(np.finfo(float).eps) * extent / system.path.span
+
+
+def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float, limit: int) -> Iterator[Solution]:
+    """Solutions of a slab, from the first iterate that changes by less than ``tolerance`` of the greatest velocity.
+
+    More accurate solutions follow on demand: the change of each is less than half of the previous one.  They end if the
+    change no longer decreases or is below ``FINEST`` of the greatest velocity.
+
+    If the change no longer decreases, the iteration has reached the rounding level of the problem.  Its iterate is
+    accepted if the change is below a fraction of the greatest velocity (``STANDSTILL``), below ``SELF_BALANCED`` of the
+    velocity that the forces alone would cause in one slab (a body at rest under load), or at the rounding level of
+    positions (bodies at rest that just touch).
+
+    Raises
+    ------
+    NoConvergence
+        If there is no solution after ``limit`` iterations on the same facets, or a value is not finite.
+    """
+    seen, closest = Stagnation(), np.inf
+    contact, begun = system.contact, 0
+    predicted: Array | None = None
+    it: Iterate | None = None
+    scale, first = 1.0, 0.0
+    for count, it in enumerate(iterates, 1):
+        if not np.isfinite(it.change):
+            failure = "the iteration left the admissible configurations (inverted cell or overflow)"
+            break
+        predicted = it.free if predicted is None else predicted
+        first = it.change if count == 1 else first
+        log.debug("iterate %d: change %.3g m/s", count, it.change)
+        if it.system.contact is not contact:
+            contact, begun, seen = it.system.contact, count - 1, Stagnation()
+        scale = max(np.abs(it.q).max(initial=0.0), np.abs(system.start.velocity).max(initial=0.0), 1e-300)
+        seen = seen.after(it.change)
+        failure = f"{count} iterations leave a relative change of {it.change / scale:.1e} (tolerance {tolerance:.0e})"
+        near = it.change <= tolerance * scale
+        if it.sound and it.change < 0.5 * closest and (near or _stagnates(system, it, seen.since, scale)):
+            closest, end = it.change, it.system.evaluate(it.q, it.impulse)
+            fell = contraction(first, it.change, count)
+            yield Solution(last=it, end=end, predicted=predicted, iterations=count, contraction=fell)
+            if not near or it.change <= FINEST * scale:
+                return
+        if closest < np.inf and seen.since >= PATIENCE:
+            return
+        if count - begun >= limit or count >= LONGEST * limit:
+            break
+    if closest == np.inf:
+        raise NoConvergence(failure)
+
+
+def _stagnates(system: SlabEquations, it: Iterate, since: int, scale: float) -> bool:
+    """True if the iteration stagnates at the rounding level, with ``since`` iterations since the change last halved."""
+    if any(since >= n and it.change <= fraction * scale for n, fraction in STANDSTILL):
+        return True
+    return since >= 4 and (it.change <= SELF_BALANCED * _pushed(system, it) or it.change <= _resolved(system))
+
+
+def contraction(first: float, last: float, count: int) -> float:
+    """Mean ratio of the changes of successive iterates; zero for one iteration.
+
+    Examples
+    --------
+    >>> round(contraction(1.0, 1e-6, 4), 9)
+    0.01
+    """
+    return float((last / first) ** (1.0 / (count - 1))) if count > 1 and first > 0.0 else 0.0

@@ -1,0 +1,172 @@
+"""Newton's method: the operator is renewed at every iterate."""
+
+import itertools
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.solve.checks import check_accuracy
+from softway.solve.constraints.compliance import FrozenOperator
+from softway.solve.constraints.normal_active_set import without_contact
+from softway.solve.equations.slab_equations import SlabEquations
+from softway.solve.equations.slab_values import Evaluation
+from softway.solve.methods.contact_step import contact_step
+from softway.solve.methods.facet_check import check_facets
+from softway.solve.methods.iteration import Guess, Iterate, lost
+from softway.solve.operators.factored import Factored
+from softway.solve.operators.operator_memory import IterationCount, OperatorMemory, OperatorOrigin
+from softway.solve.operators.operator_refresh import analyst
+
+HALVINGS = 6
+"""Greatest number of halvings of a Newton step."""
+STRETCH = 3.0
+"""Factor by which a step grows while the next correction has the same direction."""
+STRETCHES = 40
+"""Greatest number of such extensions."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Newton:
+    """``q <- q - alpha A(q)^-1 r(q)`` with contact on the compliance of the current operator.
+
+    The step is halved while the next correction by the same operator would be longer than this one (natural
+    monotonicity test).  The scalar of the Energy rule is lagged in the operator.
+
+    Parameters
+    ----------
+    tolerance
+        Change of velocity, relative to the greatest velocity, below which an iterate is accepted.
+    limit
+        Number of iterations after which the slab is rejected.
+    renew
+        Renewal of the operator: at every ``iterate``, or at the first one of a ``slab`` (modified Newton method).
+    operator
+        Settings of the factor.
+
+    References
+    ----------
+    Deuflhard (2011), Newton methods for nonlinear problems, 3.3.
+
+    Examples
+    --------
+    >>> Newton().limit
+    40
+    """
+
+    tolerance: float = 1e-11
+    limit: int = 40
+    renew: Literal["iterate", "slab"] = "iterate"
+    operator: Factored = Factored(precision="double")
+
+    def __post_init__(self) -> None:
+        check_accuracy(self.tolerance, self.limit)
+
+    def iterate(self, system: SlabEquations, guess: Guess) -> Iterator[Iterate]:
+        """Iterates from a guess.
+
+        The first step has no scalar: the massless nodes are not yet in equilibrium, and the missing work has no
+        meaning.
+        """
+        yield from self._iterates(system, guess, system.without_closure().evaluate(guess.q, guess.impulse))
+
+    def onward(self, system: SlabEquations, guess: Guess) -> Iterator[Iterate]:
+        """Iterates from the last iterate of another method."""
+        yield from self._iterates(system, guess, system.evaluate(guess.q, guess.impulse))
+
+    def _iterates(self, system: SlabEquations, guess: Guess, end: Evaluation) -> Iterator[Iterate]:
+        q, impulse, active, memory = guess.q, guess.impulse, guess.active, guess.memory
+        for count in itertools.count():
+            system = system.with_kept_facets_after(end.displacement, active, count)
+            if not np.isfinite(end.residual).all():
+                yield lost(Guess(q=q, impulse=impulse, active=active, memory=memory), system)
+                return
+            if self.renew == "iterate" or count == 0:
+                memory = self._renewed(system, memory, end)
+            frozen = memory.frozen
+            assert frozen is not None
+            found = contact_step(system, frozen, q, end, impulse, active)
+            step, active = found.q - q, found.active
+            q, end = self._line_searched(system, q, step, found.impulse, frozen)
+            change = float(np.abs(step).max(initial=0.0))
+            sound, completed = check_facets(system, q, change)
+            yield Iterate(
+                q=q,
+                change=change,
+                impulse=found.impulse,
+                active=active,
+                free=found.rows.from_basis(without_contact(found.free, frozen, found.rows.spread(impulse))),
+                memory=memory,
+                system=system,
+                sound=sound,
+            )
+            if completed is not system:
+                system, end = completed, completed.evaluate(q, found.impulse)
+            impulse = found.impulse
+
+    def _renewed(self, system: SlabEquations, memory: OperatorMemory, end: Evaluation) -> OperatorMemory:
+        """Operator memory with the operator at the end of the slab; later slabs may use it."""
+        made = self.operator.make(system.stiffness, end.displacement, memory.analysis)
+        return replace(
+            memory,
+            frozen=made.frozen(system.directions()),
+            analysis=made.analysis,
+            origin=OperatorOrigin.of(system, end.displacement, self.operator, analyst(memory, made, self.operator)),
+            span=system.equivalent_span,
+            factorisations=memory.factorisations + 1,
+            taken=IterationCount(),
+            price=made.price,
+        )
+
+    def _line_searched(
+        self, system: SlabEquations, q: Array, step: Array, impulse: Array, frozen: FrozenOperator
+    ) -> tuple[Array, Evaluation]:
+        """Next iterate by line search along the step (n, d), and its evaluation."""
+        length, fraction = float(np.linalg.norm(step)), 1.0
+        for halvings in itertools.count():
+            new = q + fraction * step
+            end = system.evaluate(new, impulse)
+            if halvings == HALVINGS or length == 0.0:
+                return new, end
+            if np.isfinite(end.residual).all():
+                left = _left(system, new, end, impulse, frozen)
+                if np.linalg.norm(left) <= max(1.0 - 0.5 * fraction, 1e-2) * length:
+                    return new, end
+                if fraction == 1.0 and _alike(left, step[system.model.free]):
+                    return self._stretched(system, q, step, impulse, frozen)
+            fraction *= 0.5
+        raise AssertionError
+
+    def _stretched(
+        self, system: SlabEquations, q: Array, step: Array, impulse: Array, frozen: FrozenOperator
+    ) -> tuple[Array, Evaluation]:
+        """Next iterate beyond the step, as far as the next correction keeps its direction.
+
+        This starts flow from rest, where a viscosity that decreases with the strain rate is far too high.
+        """
+        fraction, found = 1.0, q + step
+        best = system.evaluate(found, impulse)
+        for _ in range(STRETCHES):
+            fraction *= STRETCH
+            new = q + fraction * step
+            end = system.evaluate(new, impulse)
+            if not np.isfinite(end.residual).all():
+                break
+            if not _alike(_left(system, new, end, impulse, frozen), step[system.model.free], least=0.0):
+                break
+            found, best = new, end
+        return found, best
+
+
+def _left(system: SlabEquations, q: Array, end: Evaluation, impulse: Array, frozen: FrozenOperator) -> Array:
+    """Next correction (f,) by the same operator."""
+    rows, _ = system.conditions(q, end, frozen)
+    return frozen.solve(end.residual[system.model.free] - frozen.prolong(rows.spread(impulse)))
+
+
+def _alike(left: Array, step: Array, least: float = 0.5) -> bool:
+    """True if a correction (f,), to be subtracted, continues a step (f,) with at least a fraction of its length."""
+    progress = -float(left @ step)
+    return progress > max(least * float(step @ step), 0.9 * float(np.linalg.norm(left) * np.linalg.norm(step)))

@@ -1,1 +1,0 @@
-"""Meshes: cells, elements as tables, shapes, files, obstacles."""

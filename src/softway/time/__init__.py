@@ -1,1 +1,0 @@
-"""Time: the slab and its virtual time function."""

@@ -1,0 +1,18 @@
+"""Tolerances of accepted slabs: how far contact conditions and balances may be missed, in one place."""
+
+DEPTH = 1e-12
+"""Greatest overlap of surfaces, relative to the coordinates: rounding of positions."""
+TENSION = 1e-12
+"""Greatest tension of a contact row, relative to the greatest contact force."""
+ENERGY = 1e-9
+"""Greatest error of the energy balance of one slab that has to close, relative to the energies that take part."""
+UNSTABLE = 0.1
+"""Growth of the energy in one slab of central differences, relative to the energies that take part, that only a slab
+beyond the stability limit has."""
+MOMENTUM = 1e-9
+"""Greatest error of the momentum balance of one slab, relative to the momenta that take part."""
+FORCES = 1e-6
+"""Greatest error of the balance of forces of bodies without inertia, relative to the forces that take part: stiff
+bodies keep it up to the accuracy of positions."""
+KEEP_FACETS_AFTER = 15
+"""Number of iterations after which nodes are kept on their facets: a node between two facets would alternate."""

@@ -1,1 +1,0 @@
-"""The cases: each module computes one of them, ``compute() -> Outcome``."""

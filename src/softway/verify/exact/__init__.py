@@ -1,1 +1,0 @@
-"""Exact solutions: motions and equilibria that are known without the method."""

@@ -1,1 +1,0 @@
-"""Scenes that several cases march, and their marches as arrays."""

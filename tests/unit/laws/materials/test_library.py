@@ -1,0 +1,140 @@
+"""The materials: laws that pass, numbers that follow from their sources, names."""
+
+import re
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from softway.errors import InputError
+from softway.laws.bulk import J2, LinearElastic, LinearOrthotropic, MooneyRivlin, NeoHookean
+from softway.laws.law import Increment
+from softway.laws.materials import Material, find, names
+from softway.laws.materials.library import everything
+from softway.testing import check_law
+
+ALL = list(everything())
+PLASTIC = [m for m in ALL if m.strength is not None]
+
+
+@pytest.mark.parametrize("material", ALL, ids=lambda m: m.name)
+def test_its_elastic_laws_pass(material: Material) -> None:
+    check_law(material.elastic())
+    check_law(material.linear())
+    assert material.linear().youngs() == pytest.approx(material.elastic().youngs(), rel=1e-12)
+    assert material.linear().wave_speed(1.0) == pytest.approx(material.elastic().wave_speed(1.0), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["steel S235", "copper OFHC"])
+def test_its_plastic_law_passes(name: str) -> None:
+    check_law(find(name).plastic())
+
+
+def test_there_are_enough_and_each_has_its_source() -> None:
+    assert len(ALL) >= 14
+    assert all(m.source and m.density > 0.0 for m in ALL)
+    words = [w.casefold() for m in ALL for w in (m.name, *m.aliases)]
+    assert len(words) == len(set(words))
+    assert names() == tuple(m.name for m in ALL)
+
+
+def test_names_and_aliases() -> None:
+    assert find("STEEL s235") == find("S235") == find(" structural steel ")
+    assert find("rubber").name == "natural rubber"
+    with pytest.raises(InputError, match="did you mean 'aluminium 6061-T6'") as found:
+        find("aluminium 6061T6")
+    assert found.value.where == "material"
+
+
+def test_kinds_of_laws() -> None:
+    assert isinstance(find("glass").elastic(), NeoHookean) and isinstance(find("glass").linear(), LinearElastic)
+    assert isinstance(find("rubber").elastic(), MooneyRivlin)
+    wood = find("wood")
+    assert isinstance(wood.elastic(), LinearOrthotropic) and wood.linear().linear and not wood.elastic().linear
+    assert isinstance(find("lead").law("linear"), LinearElastic)
+    for name in ("glass", "wood", "rubber"):
+        with pytest.raises(InputError, match="no yield stress"):
+            find(name).plastic()
+
+
+@pytest.mark.parametrize("material", PLASTIC, ids=lambda m: m.name)
+def test_flow_stress_of_johnson_and_cook(material: Material) -> None:
+    """A long uniaxial pull at a rate of 10/s ends on (A + B p^n)(1 + C ln rate)."""
+    law, given = material.plastic(), material.strength
+    assert isinstance(law, J2) and given is not None
+    strain = 0.2 * np.diag([1.0, -0.5, -0.5])[None]
+    response = law.respond(Increment(stress=np.zeros((1, 3, 3)), memory=law.virgin(1), strain=strain, span=0.02))
+    p = float(response.memory["plastic_strain"][0])
+    s = response.stress[0]
+    s = s - np.trace(s) / 3.0 * np.eye(3)
+    flow = np.sqrt(1.5 * np.sum(s * s))
+    assert flow == pytest.approx((given.A + given.B * p**given.n) * (1.0 + given.C * np.log(p / 0.02)), rel=1e-9)
+
+
+def test_steel_has_the_thermal_constants_of_its_formulas() -> None:
+    """EN 1993-1-2, 3.4.1.2 and 3.4.1.3 at 20 degrees."""
+    thermal = find("S235").thermal
+    assert thermal is not None
+    assert thermal.conductivity == pytest.approx(54.0 - 3.33e-2 * 20.0, abs=0.05)
+    assert thermal.capacity == pytest.approx(425.0 + 0.773 * 20.0 - 1.69e-3 * 400.0 + 2.22e-6 * 8000.0, abs=0.5)
+
+
+def test_ice_is_the_mean_of_its_crystal() -> None:
+    """Hill's mean of c11, c12, c13, c33, c44 = 13.929, 7.082, 5.765, 15.010, 3.014 GPa (Gammon and others 1983)."""
+    c11, c12, c13, c33, c44 = 13.929, 7.082, 5.765, 15.010, 3.014
+    C = np.zeros((6, 6))
+    C[:3, :3] = [[c11, c12, c13], [c12, c11, c13], [c13, c13, c33]]
+    C[3, 3] = C[4, 4] = c44
+    C[5, 5] = 0.5 * (c11 - c12)
+    S = np.linalg.inv(C)
+    side, other = np.trace(C[:3, :3]), C[0, 1] + C[1, 2] + C[0, 2]
+    soft, mixed = np.trace(S[:3, :3]), S[0, 1] + S[1, 2] + S[0, 2]
+    bulk = 0.5 * (C[:3, :3].sum() / 9.0 + 1.0 / S[:3, :3].sum())
+    voigt = (side - other + 3.0 * np.trace(C[3:, 3:])) / 15.0
+    reuss = 15.0 / (4.0 * soft - 4.0 * mixed + 3.0 * np.trace(S[3:, 3:]))
+    shear = 0.5 * (voigt + reuss)
+    law = find("ice").elastic()
+    assert pytest.approx(9.0 * bulk * shear / (3.0 * bulk + shear), abs=0.005) == law.E / 1e9
+    assert law.nu == pytest.approx((3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear), abs=5e-4)
+
+
+def test_rubber_is_the_line_through_mooneys_plot() -> None:
+    """Tension of Treloar (1944), nominal stress in kgf/cm^2; the shear modulus of Wood is 0.43 MPa."""
+    stretch = np.array([1.12, 1.24, 1.39, 1.61, 1.89, 2.17, 2.42, 3.01])
+    stress = 9.80665e4 * np.array([1.37, 2.30, 3.23, 4.16, 5.10, 6.00, 6.90, 8.80])
+    reduced = stress / (2.0 * (stretch - stretch**-2))
+    line = np.polyfit(1.0 / stretch, reduced, 1)
+    law = find("rubber").elastic()
+    assert (law.c01, law.c10) == (pytest.approx(line[0], abs=1e3), pytest.approx(line[1], abs=1e3))
+    assert 2.0 * (law.c10 + law.c01) == pytest.approx(0.43e6, abs=0.01e6)
+
+
+def test_wood_has_the_ratios_of_the_handbook() -> None:
+    law = find("wood").linear()
+    E = law.E[0]
+    assert pytest.approx(1.1 * 13.4e9, rel=1e-12) == E
+    assert (law.E[1] / E, law.E[2] / E) == (pytest.approx(0.068, abs=5e-4), pytest.approx(0.050, abs=5e-4))
+    assert [g / E for g in law.G] == pytest.approx([0.064, 0.078, 0.007], abs=5e-4)
+    assert find("wood").density == pytest.approx(0.48 * 1.12 * 1000.0, abs=0.5)
+
+
+def test_the_page_lists_them_as_they_are() -> None:
+    page = (Path(__file__).parents[4] / "docs" / "how-to" / "materials.md").read_text(encoding="utf-8")
+    rows = {
+        line.split(" | ")[0].strip("| "): line.strip("|").split(" | ") for line in page.splitlines() if " | " in line
+    }
+    for material in ALL:
+        cells = [cell.strip() for cell in rows[material.name]]
+        assert float(cells[1]) == material.density and cells[5] == material.note
+        assert cells[4] == ("" if material.strength is None else f"{material.strength.A / 1e6:g}")
+    code = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+    exec(compile(code[0], "materials.md", "exec"), {})
+
+
+def test_every_constant_is_a_number() -> None:
+    for material in ALL:
+        for part in (material.moduli, material.strength, material.thermal):
+            for field in fields(part) if part is not None else ():
+                value = getattr(part, field.name)
+                assert value is None or np.isfinite(value).all()

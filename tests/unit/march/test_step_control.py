@@ -1,0 +1,53 @@
+"""How far bodies may approach each other in a slab, and when slabs grow again."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import softway as sw
+from softway.march.step_control import may_grow
+
+SOFT, LINEAR = sw.NeoHookean(E=1.0, nu=0.3), sw.LinearElastic(E=1.0, nu=0.3)
+
+
+def too_fast(law: object, depth: float, cells: int = 5, approach: float = 0.25) -> bool:
+    """Whether a block that would end the first slab so deep in the floor has to go on by shorter ones."""
+    block = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(cells, cells)), material=law, density=1.0,
+        velocity=sw.bodies.Uniform(value=(0.0, -1.0)), place=sw.bodies.Placement(bottom=0.1),
+    )  # fmt: skip
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
+    scene = sw.Scene(bodies={"block": block, "floor": floor}, contacts=(sw.Contact(between=("block.bottom", "floor")),))
+    step = 0.1 + depth
+    told = next(iter(sw.march(scene, until=step, step=step, control=sw.StepControl(approach=approach)))).report
+    return any("beyond the touch" in reason for reason in told.rejections)
+
+
+@pytest.mark.parametrize(("cells", "edge"), [(5, 0.2), (10, 0.1)])
+@pytest.mark.parametrize("approach", [0.25, 0.1])
+def test_the_approach_is_counted_in_edges(cells: int, edge: float, approach: float) -> None:
+    assert not too_fast(SOFT, 0.9 * approach * edge, cells, approach)
+    assert too_fast(SOFT, 1.1 * approach * edge, cells, approach)
+
+
+def test_bodies_of_small_strain_may_approach_by_a_whole_edge() -> None:
+    """Their cells cannot be crushed; more only where more is asked for."""
+    assert not too_fast(LINEAR, 0.9 * 0.2)
+    assert too_fast(LINEAR, 1.1 * 0.2)
+    assert not too_fast(LINEAR, 1.1 * 0.2, approach=1.2)
+
+
+@pytest.mark.parametrize(("jump", "grows"), [(0.29, True), (0.31, False), (-0.31, False)])
+def test_a_slab_grows_where_its_error_would_stay_small_at_twice_the_length(jump: float, grows: bool) -> None:
+    """``h^2 |a1 - a0| / 12`` with twice the length and twice the jump, against a hundredth of an edge of 0.2.
+
+    Eight times 0.1^2 / 12 times 0.3 is 0.002.
+    """
+    model = SimpleNamespace(massive=np.array([True, True, False]), edge=np.array([0.2, 0.5, 0.2]))
+    before, after = (SimpleNamespace(acceleration=np.zeros((3, 2))) for _ in range(2))
+    before.acceleration[:] = 7.0
+    after.acceleration[:] = 7.0
+    after.acceleration[0, 1] += jump
+    after.acceleration[2, 0] += 5.0  # without inertia it does not count
+    assert may_grow(model, sw.StepControl(growth=0.01), 0.1, before, after) == grows

@@ -1,0 +1,123 @@
+"""Contact directions, and the compliance along them, against dense inverses."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from hypothesis import given
+from hypothesis import strategies as st
+
+from single import single
+from softway.bodies.solid import Fixed
+from softway.contact.contact_rows import ContactRows
+from softway.contact.impact_rule import Impulse
+from softway.model.model import Model
+from softway.solve.constraints.compliance import FrozenOperator, RowBasis, frozen_operator, row_basis
+from softway.solve.constraints.normal_active_set import delassus, multipliers
+from softway.solve.linear.interface import SuperLU
+
+kinds = pytest.mark.parametrize("fixed", [True, False], ids=["rows", "components"])
+NODES = 5
+
+
+@st.composite
+def cases(draw: st.DrawFn) -> tuple[ContactRows, np.ndarray, np.random.Generator]:
+    """Rows among random nodes, some with deformable opponents, and supports."""
+    d, m = draw(st.integers(1, 3)), draw(st.integers(1, 6))
+    rng = np.random.default_rng(draw(st.integers(0, 10**6)))
+    normal = rng.normal(size=(m, d))
+    unit = normal / np.linalg.norm(normal, axis=1, keepdims=True)
+    masters = draw(st.booleans()) * sp.random_array((m, NODES), density=0.3, rng=rng).toarray()
+    rows = single(rng.integers(0, NODES, m), unit, 0.0, NODES, masters=masters)
+    free = rng.random((NODES, d)) < 0.7
+    free[0] = True
+    return rows, free, rng
+
+
+def directions(rows: ContactRows, free: np.ndarray, fixed: bool) -> RowBasis:
+    return row_basis(rows, free, fixed, np.unique(rows.gradient.tocoo().coords[1] // free.shape[1]))
+
+
+def frozen(
+    rows: ContactRows, free: np.ndarray, fixed: bool, rng: np.random.Generator
+) -> tuple[FrozenOperator, np.ndarray]:
+    """A factored operator and its dense inverse."""
+    f = int(free.sum())
+    root = rng.normal(size=(f, f + 2))
+    matrix = root @ root.T + np.eye(f)
+    return frozen_operator(sp.csc_array(matrix), directions(rows, free, fixed), SuperLU()), np.linalg.inv(matrix)
+
+
+@kinds
+@given(case=cases())
+def test_the_coefficients_lead_back_to_the_rows(fixed: bool, case) -> None:
+    rows, free, _ = case
+    found = directions(rows, free, fixed)
+    product = found.coefficients(rows, free) @ found.directions.T
+    np.testing.assert_array_equal(product.toarray(), rows.matrix(free).toarray())
+
+
+@kinds
+@given(case=cases())
+def test_answer_and_compliance(fixed: bool, case) -> None:
+    rows, free, rng = case
+    operator, inverse = frozen(rows, free, fixed, rng)
+    B = operator.basis.directions.toarray()
+    b = B.shape[1]
+    y = rng.normal(size=len(B))
+    np.testing.assert_allclose(operator.solve(y), inverse @ y, atol=1e-12)
+    np.testing.assert_allclose(operator.restrict(y), B.T @ y, atol=1e-13)
+    for _ in range(3):
+        which = np.flatnonzero(rng.random(b) < 0.5)
+        np.testing.assert_allclose(operator.compliance(which), B.T @ inverse @ B[:, which], atol=1e-12)
+        push = np.zeros(b)
+        push[which] = rng.normal(size=len(which))
+        np.testing.assert_allclose(operator.solve_push(push), inverse @ B @ push, atol=1e-11)
+
+
+@kinds
+@given(case=cases())
+def test_the_compliance_of_rows(fixed: bool, case) -> None:
+    rows, free, rng = case
+    operator, inverse = frozen(rows, free, fixed, rng)
+    G = rows.matrix(free).toarray()
+    active = operator.coefficients(rows, free)
+    np.testing.assert_allclose(delassus(operator, active), G @ inverse @ G.T, atol=1e-11)
+
+
+@kinds
+@given(case=cases())
+def test_balanced_rows_move_as_wanted(fixed: bool, case) -> None:
+    """Of independent rows exactly; the push is ``G^T force``, and what it moves along the directions is told."""
+    rows, free, rng = case
+    operator, inverse = frozen(rows, free, fixed, rng)
+    G = rows.matrix(free).toarray()
+    least = [np.linalg.svd(G[:k], compute_uv=False)[-1] if k <= G.shape[1] else 0.0 for k in range(1, len(G) + 1)]
+    index = np.arange(np.sum(np.minimum.accumulate(least) > 1e-2))
+    wanted = rng.normal(size=len(index))
+    force, push = multipliers(operator, operator.coefficients(rows, free).subset(index), wanted)
+    B = operator.basis.directions.toarray()
+    size = 1.0 + np.abs(force).max(initial=0.0)
+    np.testing.assert_allclose(B @ push.directions, G[index].T @ force, atol=1e-12 * size)
+    np.testing.assert_allclose(G[index] @ inverse @ B @ push.directions, wanted, atol=1e-7)
+    np.testing.assert_allclose(push.sensed, B.T @ inverse @ B @ push.directions, atol=1e-7)
+
+
+def test_directions_of_half_spaces_at_rest_are_their_rows_that_can_move(block: Callable[..., Model]) -> None:
+    model = block(timing=Impulse(), supports=(Fixed(on="left"),))
+    rows = model.rows(model.displacement)
+    found = row_basis(rows, model.free, model.contacts.fixed, model.touchable)
+    assert found.component is None
+    matrix = rows.matrix(model.free).toarray()
+    assert found.place.tolist().count(-1) == 1, "the corner is held"
+    np.testing.assert_array_equal(found.coefficients(rows, model.free) @ found.directions.toarray().T, matrix)
+
+
+def test_directions_of_rows_that_turn_are_the_free_components_of_their_nodes(block: Callable[..., Model]) -> None:
+    model = block(timing=Impulse(), supports=(Fixed(on="left"),))
+    found = row_basis(model.rows(model.displacement), model.free, False, model.touchable)
+    touchable = np.zeros(model.shape, bool)
+    touchable[model.touchable] = True
+    assert found.component.tolist() == np.flatnonzero(touchable[model.free]).tolist()
+    np.testing.assert_array_equal(found.directions.sum(axis=0), np.ones(len(found.component)))

@@ -1,0 +1,166 @@
+"""The return map, and Newton's method on the forces of rows with friction."""
+
+import numpy as np
+import pytest
+
+from softway.contact.friction_rows import FrictionRows
+from softway.laws.friction import Coulomb, NortonHoff, StaticKinetic, Stribeck, Tresca
+from softway.laws.friction_law import FrictionLaw
+from softway.solve.constraints.friction_conditions import (
+    FrictionProblem,
+    friction_problem,
+    friction_residual,
+    gauss_seidel,
+    linearised,
+)
+from softway.solve.constraints.friction_newton import _newton, solve_multipliers
+from softway.solve.constraints.return_map import STEEPEST, SlipConditions, return_map
+
+
+def slipping(law: FrictionLaw, count: int, k: int = 1, *, sliding: bool = False, ahead: float = 0.0) -> SlipConditions:
+    """Rows of unit area, with the slip as speed."""
+    friction = FrictionRows(laws=(law,), contact=np.zeros(count, int), area=np.ones(count))
+    return SlipConditions(
+        friction=friction,
+        shift=np.zeros((count, k)),
+        pace=1.0,
+        unit=1.0,
+        ahead=ahead,
+        before=np.zeros(count),
+        sliding=np.full(count, sliding),
+    )
+
+
+def test_coulomb_is_a_projection():
+    trial = np.array([0.5, 2.9, 3.1, 100.0])
+    found = return_map(slipping(Coulomb(mu=0.3), 4), trial, np.full(4, 10.0), np.full(4, 7.0))
+    assert found.force.tolist() == [0.5, 2.9, 3.0, 3.0]
+    assert found.slips.tolist() == [False, False, True, True]
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        NortonHoff(alpha=1.0, p=0.3),
+        NortonHoff(alpha=2.0, p=1.0),
+        NortonHoff(alpha=1.0, p=3.0),
+        Stribeck(mu_s=0.5, mu_k=0.2, v_s=0.3, viscous=0.01),
+        Tresca(shear=1.0),
+    ],
+    ids=lambda law: type(law).__name__,
+)
+def test_the_force_is_that_of_the_slip_that_is_left(law):
+    trial, pressed, stiffness = np.geomspace(0.1, 1e3, 40), np.full(40, 2.0), np.full(40, 0.7)
+    found = return_map(slipping(law, 40), trial, pressed, stiffness)
+    slip = (trial - found.force) / stiffness
+    assert (slip >= 0.0).all()
+    resisted = law.resistance(slip[found.slips], pressed[found.slips])[0]
+    assert found.force[found.slips] == pytest.approx(resisted, rel=1e-9, abs=1e-13)
+    assert (trial[~found.slips] <= law.limit(pressed[~found.slips])).all()
+
+
+def test_slopes_of_the_return_map_agree_with_differences():
+    law = slipping(NortonHoff(alpha=1.0, p=0.6), 5, ahead=0.5)
+    trial, pressed, stiffness, d = np.linspace(0.5, 3.0, 5), np.ones(5), np.full(5, 0.7), 1e-6
+    up, down = (return_map(law, trial + s, pressed, stiffness).force for s in (d, -d))
+    assert return_map(law, trial, pressed, stiffness).steep == pytest.approx((up - down) / (2 * d), rel=1e-7)
+    dry = slipping(Coulomb(mu=0.3), 5)
+    up, down = (return_map(dry, trial, pressed + s, stiffness).force for s in (d, -d))
+    assert return_map(dry, trial, pressed, stiffness).pressure_slope == pytest.approx((up - down) / (2 * d), rel=1e-7)
+
+
+def test_static_friction_holds_only_what_rests():
+    law, one = StaticKinetic(mu_s=0.4, mu_k=0.2), np.ones(1)
+    resting, moving = slipping(law, 1), slipping(law, 1, sliding=True)
+    assert return_map(resting, 0.3 * one, one, one).force == pytest.approx([0.3])
+    assert return_map(moving, 0.3 * one, one, one).force == pytest.approx([0.2])
+    assert return_map(resting, 0.5 * one, one, one).force == pytest.approx([0.2])
+
+
+def problem(seed: int, count: int, k: int, law: FrictionLaw):
+    """Rows with a random compliance that couples all of them, some pressed, some lifted, pulled along all ways."""
+    rng = np.random.default_rng(seed)
+    size = count * (1 + k)
+    root = rng.normal(size=(size, size)) / np.sqrt(size)
+    compliance = root @ root.T + 0.6 * np.eye(size)
+    free = np.concatenate([rng.normal(size=count) - 0.5, rng.normal(size=count * k)])
+    return friction_problem(compliance, free, slipping(law, count, k))
+
+
+@pytest.mark.parametrize("k", [1, 2])
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("law", [Coulomb(mu=0.4), Tresca(shear=0.3), NortonHoff(alpha=0.5, p=0.5)], ids=repr)
+def test_the_forces_obey_the_law(seed, k, law):
+    it = problem(seed, 12, k, law)
+    x, slips = solve_multipliers(it, np.zeros(12 * (1 + k)))
+    p, s = it.split(x)
+    gap, slip = it.split(it.free + it.compliance @ x)
+    touch = p > 0.0
+    assert (p >= 0.0).all()
+    assert gap.min() > -1e-13
+    assert np.abs(gap[touch]).max() < 1e-13
+    size = np.linalg.norm(s, axis=1)
+    assert (size[touch & ~slips] <= law.limit(p[touch & ~slips]) + 1e-12).all()
+    assert np.abs(slip[touch & ~slips]).max(initial=0.0) < 1e-13
+    assert np.abs(s[~touch]).max(initial=0.0) == 0.0
+    speed = np.linalg.norm(slip[slips], axis=1)
+    resisted = np.minimum(law.resistance(speed, p[slips])[0], STEEPEST * p[slips])
+    assert size[slips] == pytest.approx(resisted, abs=1e-11)
+    assert np.sum(s[slips] * slip[slips], axis=1) == pytest.approx(-size[slips] * speed, abs=1e-12)
+
+
+def test_the_linearised_conditions_agree_with_differences():
+    it = problem(3, 6, 2, NortonHoff(alpha=0.5, p=0.7))
+    x = np.abs(np.random.default_rng(4).normal(size=18)) + 0.5
+    look, d = friction_residual(it, x), 1e-7
+    columns = [
+        (friction_residual(it, x + d * e).missed - friction_residual(it, x - d * e).missed) / (2 * d)
+        for e in np.eye(18)
+    ]
+    assert linearised(it, look) == pytest.approx(np.array(columns).T, abs=1e-6)
+
+
+def test_sweeps_over_the_rows_come_to_the_same_forces():
+    it = problem(5, 8, 2, Coulomb(mu=0.3))
+    assert gauss_seidel(it, np.zeros(24), 400) == pytest.approx(solve_multipliers(it, np.zeros(24))[0], abs=1e-9)
+
+
+def dependent(seed: int, places: int, rows: int) -> FrictionProblem:
+    """Rows of which only some are independent, as where corners, edges and faces meet at one place."""
+    rng = np.random.default_rng(seed)
+    shares = rng.dirichlet(np.ones(places), rows)
+    root = rng.normal(size=(3 * places, 3 * places))
+    compliance = root @ root.T / (3 * places) + 0.05 * np.eye(3 * places)
+    way = np.zeros((3 * rows, 3 * places))
+    for k in range(3):
+        to, of = (np.arange(n) if k == 0 else n + 2 * np.arange(n) + k - 1 for n in (rows, places))
+        way[np.ix_(to, of)] = shares
+    free = way @ np.concatenate([rng.normal(size=places) - 1.0, rng.normal(size=2 * places)])
+    return friction_problem(way @ compliance @ way.T, free, slipping(Coulomb(mu=0.4), rows, 2))
+
+
+def test_rows_that_depend_on_each_other_find_forces():
+    """Newton's method alone does not settle in all of them."""
+    alone, seeds = 0, (*range(40), 120, 159, 220)
+    for seed in seeds:
+        it = dependent(seed, 4, 10)
+        alone += _newton(it, np.zeros(30))[1]
+        x, slips = solve_multipliers(it, np.zeros(30))
+        p, s = it.split(x)
+        gap, slip = it.split(it.free + it.compliance @ x)
+        size = np.linalg.norm(s, axis=1)
+        assert (p >= 0.0).all() and gap.min() > -1e-12
+        assert np.abs(p * gap).max() < 1e-12
+        assert (size <= 0.4 * p + 1e-12).all()
+        assert np.abs(slip[(p > 0.0) & ~slips]).max(initial=0.0) < 1e-12
+        assert np.sum(s[slips] * slip[slips], axis=1) == pytest.approx(
+            -size[slips] * np.linalg.norm(slip[slips], axis=1), abs=1e-12
+        )
+    assert alone < len(seeds)
+
+
+def test_the_same_row_twice_shares_the_force():
+    one = np.array([[1.0, 0.2], [0.2, 1.0]])
+    it = friction_problem(np.kron(one, np.ones((2, 2))), np.repeat([-1.0, 0.5], 2), slipping(Coulomb(mu=2.0), 2))
+    x, _ = solve_multipliers(it, np.zeros(4))
+    assert it.free + it.compliance @ x == pytest.approx(np.zeros(4), abs=1e-13)

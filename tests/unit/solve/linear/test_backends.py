@@ -1,0 +1,170 @@
+"""Which direct solver is taken, and what is particular to each."""
+
+import gc
+import logging
+import sys
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from softway.errors import InputError, NoConvergence
+from softway.solve.linear.backends import Cholmod, Mumps, Pardiso, best_solver, choice, solver_named
+from softway.solve.linear.interface import LinearSolver, SuperLU
+
+
+def lattice(side: int) -> sp.csc_array:
+    """Springs on a square lattice with a ground."""
+    chain = sp.diags_array([-1.0, 2.1, -1.0], offsets=[-1, 0, 1], shape=(side, side))
+    matrix = sp.csc_array(sp.kron(chain, sp.eye_array(side)) + sp.kron(sp.eye_array(side), chain))
+    matrix.sort_indices()
+    return matrix
+
+
+def absent(monkeypatch: pytest.MonkeyPatch, *modules: str) -> None:
+    for module in modules:
+        monkeypatch.setitem(sys.modules, module, None)
+    if "pypardiso" in modules:
+        monkeypatch.setattr("softway.solve.linear.backends.pardiso.files", lambda name: ())
+
+
+def test_the_fastest_is_taken_without_a_word(caplog: pytest.LogCaptureFixture) -> None:
+    pytest.importorskip("pypardiso", reason="pypardiso is not installed")
+    assert best_solver("single", threads=1) == Pardiso("single", 1)
+    assert not caplog.records
+
+
+@pytest.mark.parametrize(
+    ("missing", "precision", "expected"),
+    [
+        (("pypardiso", "sksparse", "sksparse.cholmod"), "double", SuperLU()),
+        (("pypardiso",), "single", SuperLU("single")),
+    ],
+)
+def test_a_missing_backend_is_named_once(
+    missing: tuple[str, ...],
+    precision: str,
+    expected: LinearSolver,
+    monkeypatch: pytest.MonkeyPatch,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    absent(monkeypatch, *missing)
+    assert best_solver(precision) == expected
+    (record,) = caplog.records
+    assert (record.name, record.levelno) == ("softway.solve.linear.interface", logging.WARNING)
+    for word in ("pardiso does not work here", "superlu is used", "pip install 'softway[pardiso]'"):
+        assert word in record.getMessage()
+
+
+def test_where_there_is_no_mkl_it_is_not_missed(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr("platform.machine", lambda: "aarch64")
+    assert best_solver("single") == SuperLU("single")
+    assert not caplog.records
+    absent(monkeypatch, "sksparse", "sksparse.cholmod")
+    assert best_solver("double") == SuperLU()
+    assert "pip install 'softway[cholmod]'" in caplog.text
+
+
+def test_a_library_without_the_solver_is_named(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    absent(monkeypatch, "sksparse", "sksparse.cholmod")
+    monkeypatch.setattr("softway.solve.linear.backends.pardiso.files", lambda name: ())
+    monkeypatch.setitem(sys.modules, "pypardiso", SimpleNamespace(ps=SimpleNamespace(libmkl={})))
+    assert solver_named("pardiso") == SuperLU()
+    assert len(caplog.records) == 1
+
+
+def test_a_backend_that_solves_wrongly_is_not_used(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    wrong = SimpleNamespace(factor=lambda matrix: SimpleNamespace(solve=lambda b: b))
+    monkeypatch.setattr(choice, "BACKENDS", {"wrong": lambda precision, threads: wrong, **choice.BACKENDS})
+    assert solver_named("wrong") != wrong
+    assert "ten equations is off by" in caplog.text
+
+
+@pytest.mark.parametrize(
+    ("wanted", "message"),
+    [
+        (lambda: solver_named("gauss"), "no solver 'gauss'"),
+        (lambda: solver_named("cholmod", "single"), "no factors in single precision"),
+        (lambda: solver_named("superlu", "half"), "precision: 'half'"),
+        (lambda: Pardiso(threads=0), "threads: 0"),
+        (lambda: Mumps("quadruple"), "precision: 'quadruple'"),
+    ],
+)
+def test_what_does_not_exist_is_refused(wanted, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        wanted()
+
+
+@pytest.mark.parametrize(
+    ("module", "solver"), [("pypardiso", Pardiso(threads=1)), ("sksparse", Cholmod()), ("mumps", Mumps(threads=1))]
+)
+def test_another_pattern_is_refused(module: str, solver: LinearSolver) -> None:
+    pytest.importorskip(module, reason=f"{module} is not installed")
+    matrix = lattice(4)
+    with pytest.raises(InputError, match="pattern"):
+        solver.analyse(matrix).factor(sp.csc_array(matrix @ matrix))
+
+
+def test_threads_belong_to_the_factor() -> None:
+    pytest.importorskip("pypardiso", reason="pypardiso is not installed")
+    matrix = lattice(40)
+    b = np.random.default_rng(0).normal(size=1600)
+    alone = {t: Pardiso("single", t).factor(matrix).solve(b) for t in (1, 2)}
+    factors = {t: Pardiso("single", t).factor(matrix) for t in (1, 2)}
+    for t in (1, 2, 1, 2):
+        np.testing.assert_array_equal(factors[t].solve(b), alone[t])
+
+
+def test_memory_is_used_again_and_given_back() -> None:
+    pytest.importorskip("pypardiso", reason="pypardiso is not installed")
+    matrix = lattice(10)
+    analysis = Pardiso(threads=1).analyse(matrix)
+    factor = analysis.factor(matrix)
+    first = factor.handle
+    del factor
+    gc.collect()
+    assert analysis.factor(matrix).handle is first
+
+
+def test_an_indefinite_matrix_is_noted(caplog: pytest.LogCaptureFixture) -> None:
+    pytest.importorskip("pypardiso", reason="pypardiso is not installed")
+    matrix = sp.csc_array(lattice(6) - 1.93 * sp.eye_array(36))
+    with caplog.at_level(logging.DEBUG, "softway"):
+        factor = Pardiso(threads=1).factor(matrix)
+    assert "L D L^T" in caplog.text
+    b = np.arange(36.0)
+    np.testing.assert_allclose(matrix @ factor.solve(b), b, atol=1e-10)
+
+
+def test_an_indefinite_matrix_has_no_cholesky_factor() -> None:
+    pytest.importorskip("sksparse", reason="sksparse is not installed")
+    with pytest.raises(NoConvergence, match="36 unknowns cannot be factored"):
+        Cholmod().factor(sp.csc_array(lattice(6) - 1.93 * sp.eye_array(36)))
+
+
+@pytest.mark.parametrize("wrong", [np.ones(35), np.ones((35, 2)), np.ones(37)])
+def test_a_right_hand_side_of_another_size_is_refused(wrong: np.ndarray) -> None:
+    pytest.importorskip("pypardiso", reason="pypardiso is not installed")
+    with pytest.raises(ValueError, match="36 unknowns"):
+        Pardiso(threads=1).factor(lattice(6)).solve(wrong)
+
+
+@pytest.mark.parametrize(("precision", "accuracy"), [("double", 1e-12), ("single", 1e-5)])
+def test_the_schur_complement_is_the_inverse_of_the_compliance(precision: str, accuracy: float) -> None:
+    pytest.importorskip("mumps", reason="mumps is not installed")
+    matrix, last = lattice(12), np.array([3, 0, 77, 143, 50])
+    condensed = Mumps(precision, threads=1).schur(matrix, last)
+    columns = SuperLU().factor(matrix).solve(np.eye(144)[:, last])
+    np.testing.assert_allclose(condensed.complement @ columns[last], np.eye(5), atol=accuracy)
+    b = np.random.default_rng(0).normal(size=144)
+    x = SuperLU().factor(matrix).solve(b)
+    np.testing.assert_allclose(condensed.condense(b), np.linalg.solve(columns[last], x[last]), rtol=10 * accuracy)
+    np.testing.assert_allclose(condensed.expand(x[last]), x, rtol=10 * accuracy, atol=accuracy)
+    np.testing.assert_allclose(condensed.solve(b), x, rtol=10 * accuracy, atol=accuracy)
