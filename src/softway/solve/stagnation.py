@@ -23,11 +23,17 @@ class Stagnation:
     ...     seen = seen.after(change)
     >>> seen
     Stagnation(best=0.4, since=2)
+    >>> seen.after(0.1, rounding=0.5)
+    Stagnation(best=0.4, since=3)
     """
 
     best: float = np.inf
     since: int = 0
 
-    def after(self, change: float) -> "Stagnation":
-        """Progress after an iterate with a change: a change below half of the best one is progress."""
-        return Stagnation(change, 0) if change < 0.5 * self.best else Stagnation(self.best, self.since + 1)
+    def after(self, change: float, rounding: float = 0.0) -> "Stagnation":
+        """Progress after an iterate with a change: a change below half of the best one is progress.
+
+        There is none below a best change of ``rounding``: there changes fall and grow by chance.
+        """
+        better = change < 0.5 * self.best and self.best > rounding
+        return Stagnation(change, 0) if better else Stagnation(self.best, self.since + 1)

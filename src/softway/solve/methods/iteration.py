@@ -117,7 +117,7 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
     NoConvergence
         If there is no solution after ``limit`` iterations on the same facets, or a value is not finite.
     """
-    seen, closest = Stagnation(), np.inf
+    seen, closest, resolved = Stagnation(), np.inf, _resolved(system)
     contact, begun = system.contact, 0
     predicted: Array | None = None
     it: Iterate | None = None
@@ -132,7 +132,7 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
         if it.system.contact is not contact:
             contact, begun, seen = it.system.contact, count - 1, Stagnation()
         scale = max(np.abs(it.q).max(initial=0.0), np.abs(system.start.velocity).max(initial=0.0), 1e-300)
-        seen = seen.after(it.change)
+        seen = seen.after(it.change, resolved)
         failure = f"{count} iterations leave a relative change of {it.change / scale:.1e} (tolerance {tolerance:.0e})"
         near = it.change <= tolerance * scale
         if it.sound and it.change < 0.5 * closest and (near or _stagnates(system, it, seen.since, scale)):
