@@ -5,6 +5,7 @@ Names that nearly every program needs are here.  The others are one dot deeper: 
 """
 
 import logging
+from typing import TYPE_CHECKING
 
 from softway import bodies as bodies
 from softway import contact as contact
@@ -28,7 +29,6 @@ from softway.march.step_control import StepControl
 from softway.meshes.mesh import Mesh
 from softway.model.model import build
 from softway.model.scene import Scene, State
-from softway.public_names import missing as __getattr__  # noqa: F401
 from softway.record.run import Run
 from softway.record.write.progress import Progress
 from softway.scenario.checks.check import check
@@ -39,6 +39,9 @@ from softway.solve.methods.central_difference import Explicit
 from softway.solve.methods.fixed_point import FixedPoint
 from softway.solve.methods.newton import Newton
 from softway.studies.sweep import sweep
+
+if not TYPE_CHECKING:  # type checkers refuse names that are not here by themselves
+    from softway.public_names import missing as __getattr__  # noqa: F401
 
 logging.getLogger(__name__).addHandler(logging.NullHandler())
 

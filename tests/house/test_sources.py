@@ -167,6 +167,8 @@ def _only_exports(node: ast.stmt) -> bool:
             return True
         case ast.Assign(targets=[ast.Name(id="__all__" | "__version__")]):
             return True
+        case ast.If(test=ast.UnaryOp(op=ast.Not(), operand=ast.Name(id="TYPE_CHECKING")), body=body, orelse=[]):
+            return all(_only_exports(inner) for inner in body)
     return ast.unparse(node) == SILENCE
 
 
