@@ -190,6 +190,10 @@ class SlabContacts:
         )
         return replace(self, surfaces=kept)
 
+    def apart(self, u: Array) -> bool:
+        """True if no surfaces overlap at the displacement ``u`` (n, d) beyond rounding."""
+        return self.overlap(u) <= DEPTH * float(np.abs(self.contacts.points + u).max())
+
     def overlap(self, u: Array) -> float:
         """Greatest overlap at the displacement ``u`` (n, d) [m]; negative if nothing touches."""
         rows = self.at(u)

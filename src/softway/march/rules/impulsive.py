@@ -10,7 +10,6 @@ from typing import cast
 import numpy as np
 
 from softway.arrays import Array
-from softway.contact.contact_set import SlabContacts
 from softway.contact.impact_rule import Paper
 from softway.contact.slab_motion.trajectory import Trajectory
 from softway.errors import InputError, NoConvergence
@@ -36,7 +35,7 @@ from softway.solve.methods.fixed_point import FixedPoint
 from softway.solve.methods.iteration import Guess, Solution, iterate
 from softway.solve.methods.newton import Newton
 from softway.solve.operators.operator_memory import OperatorMemory
-from softway.tolerances import DEPTH, KEEP_FACETS_AFTER
+from softway.tolerances import KEEP_FACETS_AFTER
 
 PASSES = 60
 """Greatest number of solutions of a slab; one that needs more is tried again with half the length."""
@@ -75,7 +74,7 @@ class Impulsive:
                 )
                 if revision is not None:
                     break
-                if facets is not pairs and not _apart(model, pairs, u1):
+                if facets is not pairs and not pairs.apart(u1):
                     raise NoConvergence("nodes kept on their facets overlap other facets")
                 work = passes, iterations + solution.iterations
                 yield _outcome(now, slab, system, current, solution, found, self, pairs.found, work), memory
@@ -118,11 +117,6 @@ def require_frictionless(model: Model) -> None:
     """Refuse friction."""
     if not model.friction.frictionless:
         raise InputError("contacts[0].friction", f"friction with {model.timing}", "the rule Energy")
-
-
-def _apart(model: Model, pairs: SlabContacts, u1: Array) -> bool:
-    """True if kept facets leave no overlap at the end displacement ``u1`` (n, d)."""
-    return pairs.overlap(u1) <= DEPTH * float(np.abs(model.points + u1).max())
 
 
 def _system(

@@ -67,12 +67,7 @@ class SlabRule(Protocol):
 
 
 class OwnRule(Protocol):
-    """User-defined contact rule, which prepares its slab rule itself."""
-
-    massless: bool
-    """True if contact nodes have no inertia."""
-    spread: int
-    """Number of cells over which the inertia of massless contact nodes is spread."""
+    """User-defined :class:`~softway.contact.impact_rule.ImpactRule`, which prepares its slab rule itself."""
 
     def slab_rule(self, model: Model, method: Method, weight: TimeWeight) -> SlabRule:
         """Prepare the rule for a model.

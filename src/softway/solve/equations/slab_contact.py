@@ -1,7 +1,7 @@
 """Contact of a slab: fixed rows, and rows that are linearised again at every iterate."""
 
 from dataclasses import dataclass, replace
-from typing import ClassVar, Protocol, Self
+from typing import Protocol, Self
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from softway.solve.constraints.normal_active_set import RowConditions
 from softway.solve.constraints.return_map import slip_conditions
 from softway.solve.constraints.row_basis import RowCoefficients
 from softway.solve.equations.slab_values import Evaluation
-from softway.tolerances import DEPTH
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -30,9 +29,6 @@ class InitialContact:
 
 class SlabContact(Protocol):
     """Contact rows of one slab with their conditions."""
-
-    fixed: ClassVar[bool]
-    """True if the rows never change during the slab."""
 
     @property
     def initial(self) -> InitialContact:
@@ -74,7 +70,7 @@ class SlabContact(Protocol):
         """
         ...
 
-    def facets_complete(self, model: Model, u1: Array) -> bool:
+    def facets_complete(self, u1: Array) -> bool:
         """True if kept facets leave no overlap with others at ``u1`` (n, d)."""
         ...
 
@@ -96,8 +92,6 @@ class FixedContact:
     live
         (k,) numbers of the rows that have conditions; None if all have.
     """
-
-    fixed: ClassVar[bool] = True
 
     rows: ContactRows
     conditions: RowConditions
@@ -132,7 +126,7 @@ class FixedContact:
         """Return this contact: no facets change."""
         return self
 
-    def facets_complete(self, model: Model, u1: Array) -> bool:
+    def facets_complete(self, u1: Array) -> bool:
         """True: no facets are kept."""
         return True
 
@@ -158,8 +152,6 @@ class TurningContact:
     initial
         Contact forces at t0.
     """
-
-    fixed: ClassVar[bool] = False
 
     pairs: SlabContacts
     facets: SlabContacts
@@ -208,9 +200,9 @@ class TurningContact:
         conditions = replace(self.conditions, slipping=slipping)
         return replace(self, facets=self.pairs.with_kept_facets(u1), kept=True, conditions=conditions)
 
-    def facets_complete(self, model: Model, u1: Array) -> bool:
+    def facets_complete(self, u1: Array) -> bool:
         """True if kept facets leave no overlap with others at ``u1`` (n, d)."""
-        return not self.kept or self.pairs.overlap(u1) <= DEPTH * float(np.abs(model.points + u1).max())
+        return not self.kept or self.pairs.apart(u1)
 
     def with_added_facets(self, u1: Array) -> "TurningContact":
         """Contact with the overlapped facets at ``u1`` (n, d) added, or with newly chosen facets."""

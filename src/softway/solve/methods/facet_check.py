@@ -18,6 +18,6 @@ def check_facets(system: SlabEquations, q: Array, change: float) -> tuple[bool, 
     if change > NEARLY * np.abs(q).max(initial=0.0):
         return False, system
     u1 = system.path.end(q)
-    if system.contact.facets_complete(system.model, u1):
+    if system.contact.facets_complete(u1):
         return True, system
     return False, replace(system, contact=system.contact.with_added_facets(u1))

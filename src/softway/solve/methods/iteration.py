@@ -135,7 +135,7 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
         seen = seen.after(it.change, resolved)
         failure = f"{count} iterations leave a relative change of {it.change / scale:.1e} (tolerance {tolerance:.0e})"
         near = it.change <= tolerance * scale
-        if it.sound and it.change < 0.5 * closest and (near or _stagnates(system, it, seen.since, scale)):
+        if it.sound and it.change < 0.5 * closest and (near or _stagnates(system, it, seen.since, (scale, resolved))):
             closest, end = it.change, it.system.evaluate(it.q, it.impulse)
             fell = contraction(first, it.change, count)
             yield Solution(last=it, end=end, predicted=predicted, iterations=count, contraction=fell)
@@ -149,11 +149,15 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
         raise NoConvergence(failure)
 
 
-def _stagnates(system: SlabEquations, it: Iterate, since: int, scale: float) -> bool:
-    """True if the iteration stagnates at the rounding level, with ``since`` iterations since the change last halved."""
+def _stagnates(system: SlabEquations, it: Iterate, since: int, speeds: tuple[float, float]) -> bool:
+    """True if the iteration stagnates at the rounding level, with ``since`` iterations since the change last halved.
+
+    ``speeds`` are the greatest velocity and that of :func:`_resolved` [m/s].
+    """
+    scale, resolved = speeds
     if any(since >= n and it.change <= fraction * scale for n, fraction in STANDSTILL):
         return True
-    return since >= 4 and (it.change <= SELF_BALANCED * _pushed(system, it) or it.change <= _resolved(system))
+    return since >= 4 and (it.change <= SELF_BALANCED * _pushed(system, it) or it.change <= resolved)
 
 
 def contraction(first: float, last: float, count: int) -> float:
