@@ -21,7 +21,7 @@ import numpy as np
 import scipy.sparse as sp
 from bench_contact import thrown
 
-from softway.model.model import build
+from softway.model.build import build
 from softway.solve.linear.backends import Mumps, solver_named
 from softway.solve.linear.interface import LinearSolver
 

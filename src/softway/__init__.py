@@ -27,7 +27,7 @@ from softway.march.march_state import MarchState
 from softway.march.results.step import Certificate, Event, Ledger, Step
 from softway.march.step_control import StepControl
 from softway.meshes.mesh import Mesh
-from softway.model.model import build
+from softway.model.build import build
 from softway.model.scene import Scene, State
 from softway.record.run import Run
 from softway.record.write.progress import Progress

@@ -11,6 +11,8 @@ UNSTABLE = 0.1
 beyond the stability limit has."""
 MOMENTUM = 1e-9
 """Greatest error of the momentum balance of one slab, relative to the momenta that take part."""
+MOTION = 1e-12
+"""Greatest distance of an initial field from the motions that the degrees of freedom describe, relative to it."""
 FORCES = 1e-6
 """Greatest error of the balance of forces of bodies without inertia, relative to the forces that take part: stiff
 bodies keep it up to the accuracy of positions."""

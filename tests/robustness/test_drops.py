@@ -14,7 +14,7 @@ from softway.contact.tangential_rows import TangentialRows
 from softway.march.audit.certificate import violation
 from softway.march.march import march
 from softway.meshes.generators.shapes import box
-from softway.model.model import build
+from softway.model.build import build
 
 
 def boxes() -> sw.Scene:

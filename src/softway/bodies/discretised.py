@@ -7,6 +7,7 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray
 from softway.bodies.bulk_viscosity import BulkViscosityForce, bulk_viscosity_force
+from softway.bodies.dof_map import DofMap, NodalDofs
 from softway.bodies.elements.quadrature import Dilating
 from softway.bodies.elements.section import Section, default_section, wave_speed
 from softway.bodies.internal_force.body_force import BodyForce
@@ -41,6 +42,8 @@ class DiscreteSolid:
         Internal force.
     density
         Mass per reference volume [kg/m^3].
+    dofs
+        Velocities of its nodes from its unknowns.
     average
         Average of the internal force over a slab.
     dilatation
@@ -54,6 +57,7 @@ class DiscreteSolid:
     rows: slice
     internal: BodyForce
     density: float
+    dofs: DofMap
     average: SlabForce
     dilatation: Dilating = "point"
     shock: BulkViscosityForce | None = None
@@ -116,6 +120,7 @@ def discretise(name: str, solid: Solid, first: int) -> DiscreteSolid:
         rows=rows,
         internal=internal,
         density=solid.density,
+        dofs=NodalDofs(free_components(solid.supports, mesh)),
         average=solid.force,
         dilatation=solid.dilatation,
         shock=shock,
@@ -129,14 +134,12 @@ def force_of(mesh: Mesh, material: Material, section: Section, dilatation: Dilat
     return elastic_force(mesh, material, section, dilatation)
 
 
-def initial(part: DiscreteSolid, solid: Solid) -> tuple[Array, Array, BoolArray]:
-    """Initial displacement [m] and velocity [m/s] (n, d), and the mask (n, d) of components without support."""
+def initial(part: DiscreteSolid, solid: Solid) -> tuple[Array, Array]:
+    """Initial displacement [m] and velocity [m/s] (n, d)."""
     with within(f"bodies.{part.name}.displacement"):
         displacement = sample(solid.displacement, part.mesh)
     with within(f"bodies.{part.name}.velocity"):
-        velocity = sample(solid.velocity, part.mesh)
-    with within(f"bodies.{part.name}"):
-        return displacement, velocity, free_components(solid.supports, part.mesh)
+        return displacement, sample(solid.velocity, part.mesh)
 
 
 def free_components(supports: tuple[Support, ...], mesh: Mesh) -> BoolArray:

@@ -6,6 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.dof_map import DofMap
 from softway.contact.tangential_rows import TangentialRows
 
 
@@ -64,18 +65,18 @@ class ContactRows:
         """Nodal field (n, d) ``G^T values`` of row values (m,)."""
         return np.asarray(self.gradient.T @ values).reshape(shape)
 
-    def matrix(self, free: BoolArray) -> sp.csr_array:
-        """Rows G (m, f) on the free components of a field; with friction, the tangential rows follow below."""
-        return sp.csr_array(self._all()[:, np.flatnonzero(free.ravel())])
+    def matrix(self, dofs: DofMap) -> sp.csr_array:
+        """Rows (m, f) on the unknowns, ``G J``; with friction, the tangential rows follow below."""
+        return dofs.rows(self._all())
 
     def _all(self) -> sp.csr_array:
         if not self.shear.count:
             return self.gradient
         return sp.vstack([self.gradient, self.shear.gradient()], format="csr")
 
-    def reachable(self, free: BoolArray) -> BoolArray:
-        """Rows (m,) with an opponent that the free components (n, d) can move."""
-        return np.asarray(self.near & (self.gradient.power(2) @ free.ravel().astype(float) > 1e-12))
+    def reachable(self, dofs: DofMap) -> BoolArray:
+        """Rows (m,) with an opponent that the unknowns can move."""
+        return np.asarray(self.near & (dofs.squares(self.gradient) > 1e-12))
 
     def motion(self, values: Array, which: BoolArray, free: BoolArray) -> Array:
         """Smallest nodal field (n, d) on the free components of slave nodes, with normal components ``values`` (m,) on

@@ -17,7 +17,8 @@ from softway.march.rules.slab_rule import Method
 from softway.march.slab_step import Stepper, stepper
 from softway.march.start.initial_state import initial_state
 from softway.march.step_control import StepControl, crushing, may_grow
-from softway.model.model import Model, build
+from softway.model.build import build
+from softway.model.model import Model
 from softway.model.scene import Scene, State
 from softway.model.time_weight import EndPeaks, TimeWeight
 from softway.solve.equations.energy_balance import SLIGHT

@@ -1,6 +1,7 @@
 """Scene, slab (time step) and virtual time functions, and the model of a scene as arrays."""
 
-from softway.model.model import build as build
+from softway.model.build import build as build
+from softway.model.build import with_dofs as with_dofs
 from softway.model.scene import AsGiven as AsGiven
 from softway.model.scene import Scene as Scene
 from softway.model.scene import State as State
@@ -18,4 +19,5 @@ __all__ = [
     "State",
     "StaticStart",
     "build",
+    "with_dofs",
 ]

@@ -1,4 +1,4 @@
-"""Model: a scene converted to arrays before the march."""
+"""Model: constant data of a march as arrays."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -8,18 +8,15 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent, during
-from softway.bodies.assembled.nodal_loads import DeadLoads, dead_load
-from softway.bodies.assembled.nodal_masses import solid_following, solid_mass
-from softway.bodies.discretised import DiscreteSolid, discretise, driven_components, initial
+from softway.bodies.assembled.nodal_loads import DeadLoads
+from softway.bodies.discretised import DiscreteSolid
+from softway.bodies.dof_map import DofMap, MatrixSum
 from softway.bodies.internal_force.material_state import MaterialState
-from softway.bodies.solid import Driven, Solid
-from softway.contact.assemble import assemble_contacts
+from softway.bodies.solid import Driven
 from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import ContactSet
 from softway.contact.friction_rows import FrictionRows
-from softway.contact.impact_rule import Energy, ImpactRule
-from softway.errors import InputError, within
-from softway.kernels.assembly.sparsity import Sum, sum_of
+from softway.contact.impact_rule import ImpactRule
 from softway.meshes.mesh import Mesh
 from softway.model.scene import Scene
 
@@ -38,8 +35,10 @@ class Model:
         (n, n) velocities of all nodes from those with inertia: massless nodes follow their neighbours.
     massive
         (n,) nodes with inertia.
-    free
-        (n, d) components without support.
+    dofs
+        Velocities of the nodes from the unknowns.
+    linked
+        (parts,) number of the group of each solid; solids that share unknowns form a group.
     load, load_before
         (n, d) dead loads of a slab [N]: mean loads on nodes with inertia; on massless nodes the loads at its end, and
         at its start.
@@ -62,7 +61,7 @@ class Model:
     floor
         (parts,) stored energy below which a body is undeformed: a uniform strain of 1e-14 [J].
     total
-        Assembly of mass plus tangent stiffness on the free components.
+        Assembly of mass plus tangent stiffness on the unknowns.
     timing
         Impact rule of the scene.
     friction
@@ -74,7 +73,8 @@ class Model:
     mass: sp.csr_array
     follow: sp.csr_array
     massive: BoolArray
-    free: BoolArray
+    dofs: DofMap
+    linked: IntArray
     load: Array
     load_before: Array
     loads: DeadLoads
@@ -87,9 +87,14 @@ class Model:
     edge: Array
     driven: tuple[tuple[Driven, BoolArray], ...]
     floor: Array
-    total: Sum
+    total: MatrixSum
     timing: ImpactRule
     friction: FrictionRows
+
+    @property
+    def free(self) -> BoolArray:
+        """Components (n, d) without support."""
+        return self.dofs.free
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -177,12 +182,12 @@ class Model:
 
     def tangent(self, u: Array) -> sp.csc_array:
         """Tangent stiffness (n d, n d) [N/m]."""
-        return _tangent(self.parts, u)
+        return assembled_tangent(self.parts, u)
 
     def inertia_and_stiffness(
         self, u: Array, factor: float, secant: bool = False, viscous_factor: float = 0.0
     ) -> sp.csc_array:
-        """``M + factor K(u)`` (f, f) on the free components, K of tangent or secant moduli.
+        """``M + factor K(u)`` (f, f) on the unknowns, K of tangent or secant moduli.
 
         ``viscous_factor`` is the additional weight of the viscous stiffness between nodes with inertia.
         """
@@ -214,82 +219,7 @@ class Model:
         return 0.5 * self.totals(v * (self.mass @ v))
 
 
-def build(scene: Scene) -> Model:
-    """Build the model of a scene: meshes, tables, mass and contacts.
-
-    Raises
-    ------
-    InputError
-        With the place in the scene: if a tag matches nothing, a body does not exist, or dimensions are mixed.
-    """
-    solids, timing, factor = _solids(scene), _timing(scene), scene.inertia.factor
-    parts = _parts(solids)
-    met = assemble_contacts(scene.contacts, scene.bodies, parts)
-    light = met.nodes if timing.massless and factor > 0.0 else np.zeros(0, int)
-    own = [light[(light >= p.rows.start) & (light < p.rows.stop)] - p.rows.start for p in parts]
-    masses = [solid_mass(p, solids[p.name], nodes, timing.spread) for p, nodes in zip(parts, own, strict=True)]
-    follow = [solid_following(p, nodes) for p, nodes in zip(parts, own, strict=True)]
-    weight = sp.csr_array(sp.block_diag(masses, format="csr"))
-    mass = sp.csr_array(factor * weight) if factor > 0.0 else sp.csr_array(weight.shape)
-    fields = [initial(p, solids[p.name]) for p in parts]
-    free = np.concatenate([movable for _, _, movable in fields])
-    weights = np.asarray(weight.sum(axis=1)).ravel()
-    displacement = np.concatenate([u for u, _, _ in fields]) * free
-    loads = dead_load(parts, weights, scene.loads, "loads")
-    inertia = sp.csc_array(sp.kron(mass, sp.eye_array(free.shape[1]), format="csc"))
-    return Model(
-        scene=scene,
-        parts=parts,
-        mass=mass,
-        follow=sp.csr_array(sp.block_diag(follow, format="csr")),
-        massive=np.asarray(mass.diagonal()) > 0.0,
-        free=free,
-        load=loads.at(0.0),
-        load_before=loads.at(0.0),
-        loads=loads,
-        weight=weights,
-        displacement=displacement,
-        velocity=np.concatenate([v for _, v, _ in fields]) * free,
-        contacts=met.contacts.cleared(displacement, [c.start == "apart" for c in scene.contacts]),
-        opponents=met.opponents,
-        touchable=met.nodes,
-        edge=np.concatenate([p.mesh.edges() for p in parts]),
-        driven=driven_components(parts, solids, free.shape),
-        floor=np.array([p.floor() for p in parts]),
-        total=sum_of(inertia, _tangent(parts, np.zeros_like(displacement)), free.ravel()),
-        timing=timing,
-        friction=met.friction,
-    )
-
-
-def _solids(scene: Scene) -> dict[str, Solid]:
-    solids = {n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}
-    if not solids:
-        raise InputError("bodies", "no Solid among them", "at least one body of kind Solid")
-    return solids
-
-
-def _parts(solids: Mapping[str, Solid]) -> tuple[DiscreteSolid, ...]:
-    parts: list[DiscreteSolid] = []
-    for name, solid in solids.items():
-        with within(f"bodies.{name}"):
-            parts.append(discretise(name, solid, parts[-1].rows.stop if parts else 0))
-    if len({p.mesh.dim for p in parts}) > 1:
-        raise InputError("bodies", "solids of different space dimension in one scene", "meshes of one dimension")
-    return tuple(parts)
-
-
-def _tangent(parts: Sequence[DiscreteSolid], u: Array) -> sp.csc_array:
+def assembled_tangent(parts: Sequence[DiscreteSolid], u: Array) -> sp.csc_array:
+    """Tangent stiffness (n d, n d) of all solids [N/m]."""
     blocks = [p.internal.tangent(u[p.rows]) for p in parts]
     return blocks[0] if len(blocks) == 1 else sp.csc_array(sp.block_diag(blocks, format="csc"))
-
-
-def _timing(scene: Scene) -> ImpactRule:
-    rules = {c.timing for c in scene.contacts}
-    if len(rules) > 1:
-        raise InputError("contacts", f"{len(rules)} different timing rules in one scene", "the same timing for all")
-    timing = rules.pop() if rules else Energy()
-    if scene.inertia.factor == 0.0 and not timing.massless:
-        problem = f"Off with the rule {type(timing).__name__}, whose contact nodes have inertia"
-        raise InputError("inertia", problem, "the timing Energy")
-    return timing

@@ -1,5 +1,7 @@
 """Stability limit of a slab (time step), from the greatest frequency of the free system and the time weight."""
 
+from collections.abc import Callable
+
 import numpy as np
 import scipy.sparse as sp
 from scipy.linalg import eigh
@@ -21,12 +23,11 @@ def greatest_frequency(model: Model, u: Array) -> float:
 
     Massless components are condensed statically.
     """
-    d = model.shape[1]
-    free = model.free.ravel()
-    heavy = np.flatnonzero(free & np.repeat(model.massive, d))
-    light = np.flatnonzero(free & ~np.repeat(model.massive, d))
-    mass = sp.csc_array(sp.kron(model.mass, sp.eye_array(d), format="csc")[heavy][:, heavy])
-    stiffness = model.tangent(u)
+    all_mass = model.dofs.matrix(sp.csc_array(sp.kron(model.mass, sp.eye_array(model.shape[1]), format="csc")))
+    inert = all_mass.diagonal() > 0.0
+    heavy, light = np.flatnonzero(inert), np.flatnonzero(~inert)
+    mass = sp.csc_array(all_mass[heavy][:, heavy])
+    stiffness = model.dofs.matrix(model.tangent(u))
     inner, cross = stiffness[heavy][:, heavy], stiffness[heavy][:, light]
     soft = suited(len(light)).factor(sp.csc_array(stiffness[light][:, light])) if len(light) else None
     if len(heavy) <= DENSE:
@@ -37,18 +38,21 @@ def greatest_frequency(model: Model, u: Array) -> float:
         y: Array = inner @ x
         return y - cross @ soft.solve(cross.T @ x) if soft is not None else y
 
-    inverse, where = mass_solver(model), model.free & model.massive[:, None]
-
-    def accelerated(x: Array) -> Array:
-        force = np.zeros(model.shape)
-        force[where] = x
-        return inverse.acceleration(force)[where]
+    inverse = _inverse_mass(model, mass)
 
     operator = LinearOperator(mass.shape, matvec=condensed, dtype=float)
-    weak = LinearOperator(mass.shape, matvec=accelerated, dtype=float)
+    weak = LinearOperator(mass.shape, matvec=inverse, dtype=float)
     start = np.random.default_rng(0).standard_normal(len(heavy))
     value = eigsh(operator, k=1, M=mass, Minv=weak, which="LA", v0=start, tol=1e-5, return_eigenvectors=False)
     return float(np.sqrt(max(value[0], 0.0)))
+
+
+def _inverse_mass(model: Model, mass: sp.csc_array) -> Callable[[Array], Array]:
+    """Accelerations from forces, both on the unknowns with inertia, for their mass matrix."""
+    if model.dofs.components is None:
+        return suited(mass.shape[0]).factor(mass).solve
+    inverse, heavy = mass_solver(model), model.dofs.only(model.massive)
+    return lambda x: heavy.unknowns(inverse.acceleration(heavy.nodes(x)))
 
 
 def stable_step(model: Model, u: Array, scheme: TimeWeight | Explicit) -> float:

@@ -6,6 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray
+from softway.bodies.dof_map import DofMap
 from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import SlabContacts
 from softway.errors import Cancel, NoConvergence, NumericsError, heed
@@ -92,14 +93,14 @@ InitialFriction = InitialSlip | NoInitialSlip
 def equilibrium(
     model: Model,
     u: Array,
-    unknown: BoolArray,
+    dofs: DofMap,
     load: Array,
     time: float = 0.0,
     limit: int = 60,
     friction: InitialFriction = NoInitialSlip(),
     cancel: Cancel | None = None,
 ) -> StaticState:
-    """Solve ``f(u) = load + G^T lambda`` on the unknown components for displacement and contact forces.
+    """Solve ``f(u) = load + G^T lambda`` on the unknowns for displacement and contact forces.
 
     Newton's method with the contact rows as inequalities on the gap; the other components keep their values.
 
@@ -107,8 +108,8 @@ def equilibrium(
     ----------
     u
         (n, d) initial guess [m].
-    unknown
-        (n, d) components to find; the stiffness among them must be regular.
+    dofs
+        Map of the unknowns; the stiffness among them must be regular.
     load
         (n, d) [N].
     friction
@@ -123,15 +124,15 @@ def equilibrium(
     Cancelled
         If ``cancel`` requests it.
     """
-    if not unknown.any():
+    if not dofs.size:
         return StaticState.apart(u, len(model.contacts.contact))
-    return _newton_iteration(model, u, unknown, load, model.contacts.rest(u, time), None, limit, friction, cancel)
+    return _newton_iteration(model, u, dofs, load, model.contacts.rest(u, time), None, limit, friction, cancel)
 
 
 def fitted(
     model: Model,
     u: Array,
-    unknown: BoolArray,
+    dofs: DofMap,
     load: Array,
     apart: Array,
     limit: int = 200,
@@ -153,14 +154,12 @@ def fitted(
         If ``cancel`` requests it.
     """
     d = model.shape[1]
-    keep = np.flatnonzero(unknown.ravel())
     stiffness = model.tangent(u)
     weight = np.repeat(np.maximum(_nodal_volume(model), 0.0), d)
-    lift = LIFT * float(stiffness.diagonal().mean() / weight.mean()) * weight
+    nodal = LIFT * float(stiffness.diagonal().mean() / weight.mean()) * weight
+    lift = dofs.matrix(sp.csc_array(sp.diags_array(nodal)))
     pairs = model.contacts.meet(apart, u, 0.0, 0.0)
-    return _newton_iteration(
-        model, u, unknown, load, pairs, sp.csc_array(sp.diags_array(lift[keep])), limit, friction, cancel
-    )
+    return _newton_iteration(model, u, dofs, load, pairs, lift, limit, friction, cancel)
 
 
 def _nodal_volume(model: Model) -> Array:
@@ -180,7 +179,7 @@ def _nodal_volume(model: Model) -> Array:
 def _newton_iteration(
     model: Model,
     u: Array,
-    unknown: BoolArray,
+    dofs: DofMap,
     load: Array,
     pairs: SlabContacts,
     lift: sp.csc_array | None,
@@ -189,23 +188,21 @@ def _newton_iteration(
     cancel: Cancel | None,
 ) -> StaticState:
     """Newton's method with the contact rows as inequalities; ``lift`` (k, k) is added to the stiffness."""
-    keep = np.flatnonzero(unknown.ravel())
     last: tuple[Array, BoolArray] | None = None
     once = model.linear and model.contacts.fixed and lift is None
     seen = Stagnation()
     rounding = rounded(model.points)
-    u = u.copy()
     for count in range(limit):
         heed(cancel, 0.0)
         pairs = pairs.with_kept_facets(u) if count == KEEP_AFTER and pairs.fixed_rows is None else pairs
         rows = pairs.at(u)
         try:
-            stiffness = model.tangent(u)[keep][:, keep]
+            stiffness = dofs.matrix(model.tangent(u))
             lifted = stiffness if lift is None else stiffness + lift
-            step, force, active = _step(model, rows, u, unknown, load, lifted, last, friction)
+            step, force, active = _step(model, rows, u, dofs, load, lifted, last, friction)
         except NoConvergence as failure:
             raise NumericsError(f"no static equilibrium at the start: {failure}", 0.0, REMEDY) from None
-        u[unknown], last = u[unknown] + step, (force, active)
+        u, last = u + dofs.nodes(step), (force, active)
         change = float(np.abs(step).max())
         if not np.isfinite(change):
             break
@@ -229,26 +226,26 @@ def _step(
     model: Model,
     rows: ContactRows,
     u: Array,
-    unknown: BoolArray,
+    dofs: DofMap,
     load: Array,
     stiffness: sp.csc_array,
     last: tuple[Array, BoolArray] | None,
     friction: InitialFriction,
 ) -> tuple[Array, Array, BoolArray]:
-    """One step of Newton's method on the unknown components, the contact forces, and the active rows."""
+    """One step of Newton's method on the unknowns, the contact forces, and the active rows."""
     extent = float(np.abs(model.points + u).max())
     slipping = friction.conditions(model, rows, u, extent)
     rows = rows.without_friction() if slipping.frictionless else rows
-    directions = row_basis(rows, unknown, model.contacts.fixed, model.touchable)
-    reachable = rows.reachable(unknown)
+    directions = row_basis(rows, dofs, model.contacts.fixed, model.touchable)
+    reachable = rows.reachable(dofs)
     target = np.where(reachable, -rows.gap(u), 0.0)
     frozen = frozen_operator(stiffness, directions, SuperLU())
-    coefficients = frozen.coefficients(rows, unknown)
+    coefficients = frozen.coefficients(rows, dofs)
     m = len(target)
     if last is None:
         last = _open(m, slipping)
     force, active = last
-    free = -frozen.solve((model.force(u) - load)[unknown] - frozen.prolong(coefficients.spread(force)))
+    free = -frozen.solve(dofs.forces(model.force(u) - load) - frozen.prolong(coefficients.spread(force)))
     conditions = RowConditions(
         target=target,
         equal=np.zeros(m, bool),

@@ -8,7 +8,8 @@ from softway.bodies.solid import Driven, Fixed, Solid, Support
 from softway.errors import InputError
 from softway.laws.bulk import LinearElastic
 from softway.meshes.generators.shapes import rectangle
-from softway.model.model import Model, build
+from softway.model.build import build
+from softway.model.model import Model
 from softway.model.scene import Scene
 
 

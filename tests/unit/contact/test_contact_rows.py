@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from single import single
+from softway.bodies.dof_map import NodalDofs
 from softway.contact.contact_rows import ContactRows
 from softway.solve.equations.energy_balance import moment
 
@@ -40,7 +41,7 @@ def test_the_normal_component_is_relative_to_the_opponent(case) -> None:
 def test_the_matrix_gives_the_normal_component_of_supported_fields(case) -> None:
     rows, free, rng = case
     field = rng.normal(size=free.shape) * free
-    np.testing.assert_allclose(rows.matrix(free) @ field[free], rows.normal_component(field), atol=1e-13)
+    np.testing.assert_allclose(rows.matrix(NodalDofs(free)) @ field[free], rows.normal_component(field), atol=1e-13)
 
 
 @given(cases())
@@ -49,7 +50,7 @@ def test_spreading_is_the_adjoint_of_the_normal_component(case) -> None:
     field, force = rng.normal(size=free.shape), rng.normal(size=len(rows.node))
     spread = rows.spread(force, free.shape)
     np.testing.assert_allclose(np.sum(spread * field), force @ rows.normal_component(field), atol=1e-13)
-    np.testing.assert_allclose(rows.matrix(free).T @ force, spread[free], atol=1e-13)
+    np.testing.assert_allclose(rows.matrix(NodalDofs(free)).T @ force, spread[free], atol=1e-13)
 
 
 @given(cases())
@@ -66,8 +67,8 @@ def test_the_gap_is_affine(case) -> None:
 def test_rows_that_can_be_moved(case) -> None:
     """Those with an opponent in reach and an entry in the matrix."""
     rows, free, _ = case
-    entries = (rows.matrix(free).toarray() ** 2).sum(axis=1) > 1e-12
-    np.testing.assert_array_equal(rows.reachable(free), entries & rows.near)
+    entries = (rows.matrix(NodalDofs(free)).toarray() ** 2).sum(axis=1) > 1e-12
+    np.testing.assert_array_equal(rows.reachable(NodalDofs(free)), entries & rows.near)
 
 
 @given(cases())
@@ -84,7 +85,7 @@ def test_a_motion_has_the_normal_components_asked_for(case) -> None:
     values, which = rng.normal(size=len(rows.node)), rng.random(len(rows.node)) < 0.7
     field = rows.motion(values, which, free)
     assert not field[~free].any()
-    movable = which & rows.reachable(free)
+    movable = which & rows.reachable(NodalDofs(free))
     alone = movable & (np.bincount(rows.node[movable], minlength=len(free))[rows.node] == 1)
     np.testing.assert_allclose(rows.normal_component(field)[alone], values[alone], atol=1e-9)
     assert not field[~np.isin(np.arange(len(free)), rows.node[movable])].any()
@@ -105,6 +106,6 @@ def test_a_pair_of_bodies_pushes_with_opposite_forces() -> None:
 def test_a_row_whose_node_is_held_is_moved_by_the_opponent() -> None:
     rows = single([0], [[1.0]], 0.1, 2, masters=[[0.0, 1.0]])
     free = np.array([[False], [True]])
-    assert rows.reachable(free).tolist() == [True]
-    assert rows.matrix(free).toarray().tolist() == [[-1.0]]
-    assert not rows.reachable(free & False).any()
+    assert rows.reachable(NodalDofs(free)).tolist() == [True]
+    assert rows.matrix(NodalDofs(free)).toarray().tolist() == [[-1.0]]
+    assert not rows.reachable(NodalDofs(free & False)).any()

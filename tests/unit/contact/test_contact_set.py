@@ -9,7 +9,8 @@ from softway.contact.contact import Contact
 from softway.contact.contact_set import ContactSet
 from softway.laws.bulk import LinearElastic
 from softway.meshes.generators.shapes import rectangle
-from softway.model.model import Model, build
+from softway.model.build import build
+from softway.model.model import Model
 from softway.model.scene import Scene
 from softway.obstacles.half_space import HalfSpace
 from softway.obstacles.primitives import Sphere

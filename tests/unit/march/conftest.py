@@ -16,7 +16,8 @@ from softway.laws.bulk import LinearElastic, NeoHookean
 from softway.march.march import march
 from softway.march.results.step import Event, Step
 from softway.meshes.generators.shapes import box, interval, rectangle
-from softway.model.model import Model, build
+from softway.model.build import build
+from softway.model.model import Model
 from softway.model.scene import AsGiven, Scene, StaticStart
 from softway.obstacles.half_space import HalfSpace
 

@@ -15,7 +15,8 @@ from softway.errors import InputError
 from softway.laws.bulk import LinearElastic, NeoHookean
 from softway.meshes.generators.recipes import Rectangle
 from softway.meshes.generators.shapes import interval, rectangle
-from softway.model.model import Model, build
+from softway.model.build import build
+from softway.model.model import Model
 from softway.model.scene import Scene
 from softway.obstacles.half_space import HalfSpace
 

@@ -10,7 +10,8 @@ from softway.contact.contact import Contact
 from softway.contact.impact_rule import Energy, ImpactRule
 from softway.laws.bulk import LinearElastic, NeoHookean
 from softway.meshes.generators.shapes import interval, rectangle
-from softway.model.model import Model, build
+from softway.model.build import build
+from softway.model.model import Model
 from softway.model.scene import Scene
 from softway.obstacles.half_space import HalfSpace
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.assembled.contact_layer import layer
+from softway.bodies.dof_map import NodalDofs
 from softway.contact.contact_rows import ContactRows
 from softway.errors import NoConvergence
 from softway.march.explicit.massless_nodes import MasslessNodes
@@ -117,11 +118,11 @@ def balanced(
 def _inner(system: SlabEquations, still: MasslessNodes, q: Array, near: Near) -> tuple[SlabEquations, MasslessNodes]:
     """Equations of the nodes near contact: all other nodes are at q (n, d), like driven supports."""
     moving = still.light & among(near.nodes, len(q))
-    conditions = replace(system.contact.conditions, unilateral=system.path.rows.reachable(moving))
+    conditions = replace(system.contact.conditions, unilateral=system.path.rows.reachable(NodalDofs(moving)))
     contact = system.contact.with_conditions(conditions)
     assert near.layer is not None
     around = MasslessNodes(light=moving, layer=near.layer).during(system.model)
-    return replace(system, model=replace(system.model, free=moving), given=q, contact=contact), around
+    return replace(system, model=replace(system.model, dofs=NodalDofs(moving)), given=q, contact=contact), around
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -151,7 +152,7 @@ class _Local:
             still = MasslessNodes(light=light, layer=inner).during(system.model)
             live = np.flatnonzero(place >= 0)
             conditions = replace(contact.conditions.subset(live), unilateral=np.ones(len(live), bool))
-            model = replace(system.model, free=light)
+            model = replace(system.model, dofs=NodalDofs(light))
             contact = replace(contact, conditions=conditions, live=live)
             system = replace(system, model=model, given=q[nodes], contact=contact)
         else:
@@ -216,7 +217,7 @@ def _prepared(
         system, still = _inner(system, still, q, near)
         factor, price = still.factored(system.model, memory.origin)
         model = system.model
-        directions = row_basis(system.path.rows, model.free, model.contacts.fixed, model.touchable)
+        directions = row_basis(system.path.rows, model.dofs, model.contacts.fixed, model.touchable)
         frozen = FrozenOperator(factor, directions).filled(memory.batches)
         memory = replace(memory, frozen=frozen, price=price)
     assert memory.frozen is not None

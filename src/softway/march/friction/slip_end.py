@@ -55,12 +55,11 @@ def _stopped(model: Model, out: SlabResult, weight: Array, span: float, ends: tu
     """
     frozen, rows = out.solution.last.memory.frozen, out.system.contact.initial.rows
     assert frozen is not None
-    moving = out.solution.last.system.model.free
-    every = frozen.coefficients(rows, moving)
+    dofs = out.solution.last.system.model.dofs
+    every = frozen.coefficients(rows, dofs)
     forces = np.concatenate([np.zeros(len(rows.node)), rows.shear.flat(weight).ravel()])
     response = frozen.solve_push(every.spread(forces))
-    field = np.zeros(model.shape)
-    field[moving] = response
+    field = dofs.nodes(response)
     moved = model.mass @ field
     inertia = float(np.sum(field * moved))
     elastic = max(float(forces @ every.from_basis(frozen.restrict(response))) - inertia, 0.0)

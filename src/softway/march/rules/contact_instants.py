@@ -57,7 +57,7 @@ def releases(
     frozen = solution.last.memory.frozen
     if not len(left) or frozen is None:
         return []
-    compliance = delassus(frozen, frozen.coefficients(rows, solution.last.system.model.free).subset(left))
+    compliance = delassus(frozen, frozen.coefficients(rows, solution.last.system.model.dofs).subset(left))
     tension = shared(compliance, rows.gap(end)[left]) * 2.0 / h / (h * moments(slab.weight)[1])
     tau = fading(now.pressure[left], -np.maximum(tension, 1e-300))
     after: Array = 0.5 * rows.normal_component(solution.last.q) - rows.tool_motion / h

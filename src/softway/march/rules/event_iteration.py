@@ -70,7 +70,7 @@ def with_new_events(
     """Add the touches and releases that the solution requires; None if there are none."""
     rows, events, end = current.rows, current.events, found.end
     gap = rows.gap(end.displacement)
-    below = ~events.closed & (gap < -rounding(model, rows, end.displacement)) & rows.reachable(model.free)
+    below = ~events.closed & (gap < -rounding(model, rows, end.displacement)) & rows.reachable(model.dofs)
     if below.any():
         return _touching(model, now, system, current, found.last.q, below, touch)
     pull = inertia.multiplier(rows, end.force, events.closed)

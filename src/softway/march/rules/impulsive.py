@@ -12,13 +12,13 @@ import numpy as np
 from softway.arrays import Array
 from softway.contact.impact_rule import Paper
 from softway.contact.slab_motion.trajectory import Trajectory
-from softway.errors import InputError, NoConvergence
+from softway.errors import NoConvergence
 from softway.march.model_state import ModelState
 from softway.march.results.friction_result import FrictionResult
 from softway.march.results.slab_result import Balances, SlabResult, contact_event, supports
 from softway.march.results.step import Event
 from softway.march.rules.event_iteration import EventIteration, with_new_events, with_new_facets, without_events
-from softway.march.rules.slab_rule import Attempt, Solutions
+from softway.march.rules.slab_rule import Attempt, Solutions, require_frictionless, require_nodal
 from softway.march.rules.split_elements import split_elements
 from softway.march.rules.touch import InelasticImpact, NodalStop, Touch, VelocityJump
 from softway.march.rules.velocity_jumps import velocity_jumps
@@ -93,7 +93,7 @@ def inelastic_impact(model: Model, method: FixedPoint | Newton, weight: TimeWeig
     InputError
         If a contact has friction.
     """
-    require_frictionless(model)
+    _require_nodes(model)
     inertia = impact_multipliers(model)
     return Impulsive(method=method, inertia=inertia, touch=InelasticImpact(inertia=inertia))
 
@@ -106,17 +106,16 @@ def nodal_stop(model: Model, method: FixedPoint | Newton, weight: TimeWeight) ->
     InputError
         If a contact has friction, or elements that cannot be split are to be split.
     """
-    require_frictionless(model)
+    _require_nodes(model)
     declared = cast(Paper, model.timing)
     split = split_elements(model) if declared.split == "triangle" else None
     touch = NodalStop(approach=declared.approach, split=split)
     return Impulsive(method=method, inertia=impact_multipliers(model), touch=touch)
 
 
-def require_frictionless(model: Model) -> None:
-    """Refuse friction."""
-    if not model.friction.frictionless:
-        raise InputError("contacts[0].friction", f"friction with {model.timing}", "the rule Energy")
+def _require_nodes(model: Model) -> None:
+    require_frictionless(model, str(model.timing))
+    require_nodal(model, str(model.timing))
 
 
 def _system(

@@ -124,7 +124,7 @@ def _contact(
     conditions = RowConditions(
         target=-2.0 * rows.gap(path.end(given)) / h if fixed else np.zeros(len(rows.node)),
         equal=path.events.closed,
-        unilateral=rows.reachable(model.free),
+        unilateral=rows.reachable(model.dofs),
         slipping=slipping(model, now, slab, rows, attempt.stick_at_any_force),
         rounding=2.0 / h * rounded(model.points + now.start.displacement),
     )

@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from softway.errors import Cancel
+from softway.errors import Cancel, InputError
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.model.model import Model
@@ -78,3 +78,28 @@ class OwnRule(Protocol):
             If the rule does not fit the model, the method or the time weight.
         """
         ...
+
+
+def require_frictionless(model: Model, rule: str) -> None:
+    """Refuse friction for a rule without it.
+
+    Raises
+    ------
+    InputError
+        If a contact has friction.
+    """
+    if not model.friction.frictionless:
+        raise InputError("contacts[0].friction", f"friction with {rule}", "the rule Energy, located = false")
+
+
+def require_nodal(model: Model, rule: str) -> None:
+    """Refuse unknowns that move several components, for a rule that treats nodes one by one.
+
+    Raises
+    ------
+    InputError
+        If the degrees of freedom are no components of nodes.
+    """
+    if model.dofs.components is None:
+        problem = f"unknowns that move several components, with {rule}"
+        raise InputError("dofs", problem, "the rule Energy, located = false, with FixedPoint or Newton")

@@ -141,7 +141,7 @@ class NodalStop:
     ) -> tuple[Array, Array]:
         """Velocity change (n, d) of only the nodes of the hit rows, and its impulses (m,)."""
         inertia = np.asarray(model.mass.sum(axis=1)).reshape(-1, 1)
-        index = np.flatnonzero(hits & rows.reachable(model.free))
+        index = np.flatnonzero(hits & rows.reachable(model.dofs))
         some = rows.gradient[index]
         if np.unique(some.tocoo().coords[1] // model.shape[1]).size <= np.unique(rows.node[index]).size:
             field = rows.motion(-approach, hits, model.free)

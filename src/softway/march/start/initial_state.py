@@ -79,12 +79,12 @@ def _resting(model: Model, cancel: Cancel | None) -> StaticState:
     fits = any(c.start == "fit" for c in model.scene.contacts)
     if fits or (isinstance(start, StaticStart) and unsupported_motions(model)):
         apart = shrunk(model, u, DEPTH * _extent(model, u))
-        rest = fitted(model, u, model.free, loads, apart, friction=NoInitialSlip() if fits else friction, cancel=cancel)
+        rest = fitted(model, u, model.dofs, loads, apart, friction=NoInitialSlip() if fits else friction, cancel=cancel)
     elif isinstance(start, StaticStart):
-        rest = equilibrium(model, u, model.free, loads, friction=friction, cancel=cancel)
+        rest = equilibrium(model, u, model.dofs, loads, friction=friction, cancel=cancel)
     if model.timing.massless and not model.massive.all():
         before = float(model.energy_and_force(rest.displacement)[0].sum())
-        light = model.free & ~model.massive[:, None]
+        light = model.dofs.only(~model.massive)
         rest = equilibrium(model, rest.displacement, light, model.load, friction=friction, cancel=cancel)
         after = float(model.energy_and_force(rest.displacement)[0].sum())
         if before != after:
@@ -103,13 +103,16 @@ def _passing(model: Model, u: Array) -> InitialSlip:
 
 
 def unsupported_motions(model: Model) -> dict[str, tuple[str, ...]]:
-    """Rigid motions of each solid that its supports leave free."""
+    """Rigid motions that the supports leave free, of each solid or of several with common unknowns, by the first."""
     found = {}
-    for part in model.parts:
-        axisymmetric = isinstance(part.internal.section, Axisymmetric)
-        motions = free_motions(part.mesh.points, ~model.free[part.rows], axisymmetric)
+    for group in np.unique(model.linked):
+        together = [p for p, of in zip(model.parts, model.linked, strict=True) if of == group]
+        axisymmetric = isinstance(together[0].internal.section, Axisymmetric)
+        points = np.concatenate([p.mesh.points for p in together])
+        supported = np.concatenate([~model.free[p.rows] for p in together])
+        motions = free_motions(points, supported, axisymmetric)
         if motions:
-            found[part.name] = motions
+            found[together[0].name] = motions
     return found
 
 

@@ -11,7 +11,8 @@ from softway.bodies.solid import Solid
 from softway.errors import InputError
 from softway.march.march import proposed
 from softway.march.start.initial_state import SOON, require_apart, require_supported
-from softway.model.model import Model, build
+from softway.model.build import build
+from softway.model.model import Model
 from softway.model.scene import StaticStart
 from softway.record.write.probes import readings
 from softway.scenario.checks.names import (

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from softway.arrays import Array, BoolArray, IntArray
+from softway.arrays import Array, IntArray
+from softway.bodies.dof_map import DofMap
 from softway.contact.contact_rows import ContactRows
 from softway.kernels.linalg.dense import Shared
 from softway.solve.constraints.column_cache import ColumnCache
@@ -24,11 +25,11 @@ class RowBasis:
     Parameters
     ----------
     directions
-        (f, b): the movable contact rows if they never change, else the components of the contact nodes.
+        (f, b): the movable contact rows if they never change, else the unknowns that move the contact nodes.
     component
-        (b,) free component of each direction; None if the directions are the rows.
+        (b,) unknown of each direction; None if the directions are the rows.
     place
-        (m,) direction of each row if directions are rows, -1 for a row that no free component moves.
+        (m,) direction of each row if directions are rows, -1 for a row that no unknown moves.
     transposed
         (b, f) transposed directions.
     """
@@ -45,10 +46,10 @@ class RowBasis:
         """Components (b,) of a field (f,) along the directions."""
         return np.asarray(self.transposed @ y) if self.component is None else y[self.component]
 
-    def coefficients(self, rows: ContactRows, free: BoolArray) -> sp.csr_array:
+    def coefficients(self, rows: ContactRows, dofs: DofMap) -> sp.csr_array:
         """Coefficients C (m, b) of the rows, ``G = C directions^T``."""
         if self.component is not None:
-            return sp.csr_array(rows.matrix(free)[:, self.component])
+            return sp.csr_array(rows.matrix(dofs)[:, self.component])
         assert self.place is not None
         own = np.flatnonzero(self.place >= 0)
         shape = (len(rows.node), self.directions.shape[1])
@@ -132,13 +133,13 @@ class FrozenOperator:
         out = np.asarray(self.basis.directions @ amounts)
         return out if self.turning is None else np.asarray(self.turning @ out)
 
-    def coefficients(self, rows: ContactRows, free: BoolArray) -> RowCoefficients:
+    def coefficients(self, rows: ContactRows, dofs: DofMap) -> RowCoefficients:
         """Coefficients C of the rows along the rotated directions: ``G = C B^T R^T``."""
         own = self.basis.component
         if own is None:
             assert self.basis.place is not None
             return UnitRows(self.basis.place, self.basis.directions.shape[1])
-        plain = self.basis.coefficients(rows, free)
+        plain = self.basis.coefficients(rows, dofs)
         return CombinedRows(plain if self.turning is None else sp.csr_array(plain @ self.turning[own][:, own]))
 
     def compliance(self, which: IntArray) -> Array:
@@ -190,19 +191,17 @@ class FrozenOperator:
                 self.solutions.add(some, new.T.astype(self.kind))
 
 
-def row_basis(rows: ContactRows, free: BoolArray, fixed: bool, nodes: IntArray) -> RowBasis:
-    """Contact directions: the rows (m,) that free components move if rows are ``fixed``, else the free components of
+def row_basis(rows: ContactRows, dofs: DofMap, fixed: bool, nodes: IntArray) -> RowBasis:
+    """Contact directions: the rows (m,) that the unknowns move if rows are ``fixed``, else the unknowns that move the
     ``nodes`` (k,).
     """
     if fixed:
-        moved = rows.reachable(free)
+        moved = rows.reachable(dofs)
         place = np.where(moved, np.cumsum(moved) - 1, -1)
-        return RowBasis(directions=sp.csc_array(rows.matrix(free)[moved].T), component=None, place=place)
-    flat = np.zeros(free.shape, bool)
-    flat[nodes] = True
-    component = np.flatnonzero(flat[free])
+        return RowBasis(directions=sp.csc_array(rows.matrix(dofs)[moved].T), component=None, place=place)
+    component = dofs.moving(nodes)
     b = len(component)
-    directions = sp.csc_array((np.ones(b), (component, np.arange(b))), shape=(int(free.sum()), b))
+    directions = sp.csc_array((np.ones(b), (component, np.arange(b))), shape=(dofs.size, b))
     return RowBasis(directions=directions, component=component)
 
 

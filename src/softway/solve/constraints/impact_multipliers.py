@@ -21,7 +21,7 @@ from softway.solve.linear.interface import SuperLU
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ImpactMultipliers:
-    """Factored mass matrix of the free components, with the contact directions."""
+    """Factored mass matrix of the unknowns, with the contact directions."""
 
     model: Model
     mass: FrozenOperator
@@ -31,7 +31,7 @@ class ImpactMultipliers:
         index, active = self._active(rows, closed)
         out = np.zeros(len(closed))
         if len(index):
-            pull = self.mass.solve((force - self.model.load)[self.model.free])
+            pull = self.mass.solve(self.model.dofs.forces(force - self.model.load))
             out[index] = multipliers(self.mass, active, active.from_basis(self.mass.restrict(pull)))[0]
         return out
 
@@ -41,19 +41,17 @@ class ImpactMultipliers:
         out, impulse = np.zeros(self.model.shape), np.zeros(len(closed))
         if len(index):
             impulse[index], push = multipliers(self.mass, active, -approach[index])
-            out[self.model.free] = self.mass.solve(self.mass.basis.directions @ push.directions)
+            out = self.model.dofs.nodes(self.mass.solve(self.mass.basis.directions @ push.directions))
         return out, impulse
 
     def _active(self, rows: ContactRows, closed: BoolArray) -> tuple[IntArray, RowCoefficients]:
         """Closed rows that can move (k,), with their coefficients along the contact directions."""
-        index = np.flatnonzero(closed & rows.reachable(self.model.free))
-        return index, self.mass.coefficients(rows, self.model.free).subset(index)
+        index = np.flatnonzero(closed & rows.reachable(self.model.dofs))
+        return index, self.mass.coefficients(rows, self.model.dofs).subset(index)
 
 
 def impact_multipliers(model: Model) -> ImpactMultipliers:
     """Factor the mass matrix of a model whose nodes all have inertia."""
-    d = model.shape[1]
-    keep = np.flatnonzero(model.free.ravel())
-    mass = sp.csc_array(sp.kron(model.mass, sp.eye_array(d), format="csc")[keep][:, keep])
-    directions = row_basis(model.rows(model.displacement), model.free, model.contacts.fixed, model.touchable)
+    mass = model.dofs.matrix(sp.csc_array(sp.kron(model.mass, sp.eye_array(model.shape[1]), format="csc")))
+    directions = row_basis(model.rows(model.displacement), model.dofs, model.contacts.fixed, model.touchable)
     return ImpactMultipliers(model=model, mass=frozen_operator(mass, directions, SuperLU()))

@@ -66,11 +66,11 @@ class EnergyClosure:
 
 
 def body_groups(model: Model, touching: BoolArray) -> IntArray:
-    """Number (parts,) of the group of each solid; the ``touching`` rows (m,) connect solids to groups.
+    """Number (parts,) of the group of each solid; shared unknowns and the ``touching`` rows (m,) connect solids.
 
     Rows with rigid tools do not connect solids.
     """
-    label = np.arange(len(model.parts))
+    label = model.linked.copy()
     if len(label) == 1:
         return label
     for contact in np.unique(model.contacts.contact[touching]):

@@ -115,7 +115,7 @@ class FixedContact:
         self, model: Model, span: float, q: Array, end: Evaluation, frozen: FrozenOperator
     ) -> tuple[RowCoefficients, RowConditions]:
         """The rows along the contact directions, with their conditions."""
-        found = frozen.coefficients(self.rows, model.free)
+        found = frozen.coefficients(self.rows, model.dofs)
         return (found if self.live is None else found.subset(self.live)), self.conditions
 
     def with_conditions(self, conditions: RowConditions) -> "FixedContact":
@@ -178,7 +178,7 @@ class TurningContact:
         fixed = np.where(model.free, 0.0, q)
         with np.errstate(invalid="ignore"):
             target = rows.normal_component(q - fixed) - 2.0 * rows.gap(end.displacement) / span
-        reachable = rows.reachable(model.free)
+        reachable = rows.reachable(model.dofs)
         conditions = RowConditions(
             target=np.where(reachable, target, 0.0),
             equal=mine.equal,
@@ -186,7 +186,7 @@ class TurningContact:
             slipping=slip_conditions(mine.slipping, rows.shear, fixed, span),
             rounding=mine.rounding,
         )
-        return frozen.coefficients(rows, model.free), conditions
+        return frozen.coefficients(rows, model.dofs), conditions
 
     def with_conditions(self, conditions: RowConditions) -> "TurningContact":
         """Contact with other conditions on its rows."""

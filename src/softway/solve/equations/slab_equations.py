@@ -137,11 +137,7 @@ class SlabEquations:
     def directions(self, turning: bool = False) -> RowBasis:
         """Contact directions for any slab, in axes that may be ``turning`` with the nodes."""
         model = self.model
-        return row_basis(self.path.rows, model.free, model.contacts.fixed and not turning, model.touchable)
-
-    def filled(self) -> Array:
-        """Values (n, d) of q on supported components, zero on the others."""
-        return np.where(self.model.free, 0.0, self.given)
+        return row_basis(self.path.rows, model.dofs, model.contacts.fixed and not turning, model.touchable)
 
     @property
     def stiffness_factor(self) -> float:
@@ -155,6 +151,6 @@ class SlabEquations:
 
     @property
     def stiffness(self) -> SlabMatrix:
-        """Matrix ``M + h^2/2 mu2 K`` on the free components."""
+        """Matrix ``M + h^2/2 mu2 K`` on the unknowns."""
         viscous_factor = first_weight(self.weight) / moments(self.weight)[1]
         return SlabMatrix(model=self.model, stiffness_factor=self.stiffness_factor, viscous_factor=viscous_factor)

@@ -1,4 +1,4 @@
-"""Matrix of a slab: inertia and stiffness of the free components."""
+"""Matrix of a slab: inertia and stiffness of the unknowns."""
 
 from dataclasses import dataclass
 

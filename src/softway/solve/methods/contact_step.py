@@ -30,11 +30,9 @@ def contact_step(
     system: SlabEquations, frozen: FrozenOperator, q: Array, end: Evaluation, impulse: Array, active: BoolArray
 ) -> ContactStep:
     """Compute ``y = q - P (r - G^T p)`` and ``y + P G^T (p_new - p)`` from the impulses p (m,) and active rows (m,)."""
-    keep = system.model.free
+    dofs = system.model.dofs
     rows, conditions = system.conditions(q, end, frozen)
-    free = q[keep] - frozen.solve(end.residual[keep] - frozen.prolong(rows.spread(impulse)))
+    free = dofs.unknowns(q) - frozen.solve(dofs.forces(end.residual) - frozen.prolong(rows.spread(impulse)))
     solve = solve_normal_contact if conditions.slipping.frictionless else solve_friction
     solved, pressed, now = solve(free, frozen, rows, conditions, active, impulse)
-    new = system.filled()
-    new[keep] = solved
-    return ContactStep(q=new, rows=rows, free=free, impulse=pressed, active=now)
+    return ContactStep(q=dofs.nodes(solved, system.given), rows=rows, free=free, impulse=pressed, active=now)

@@ -112,12 +112,12 @@ class FixedPoint:
         q, impulse, active, memory = guess.q, guess.impulse, guess.active, guess.memory
         frozen = memory.frozen
         assert frozen is not None
-        keep = system.model.free
+        dofs = system.model.dofs
         mixing = _Mixing(Anderson(self.depth), frozen)
         last, stuck = np.inf, 0
         for count in itertools.count():
             system = system.with_kept_facets_after(end.displacement, active, count)
-            if not np.isfinite(end.residual[keep]).all():
+            if not np.isfinite(dofs.forces(end.residual)).all():
                 yield lost(Guess(q=q, impulse=impulse, active=active, memory=memory), system)
                 return
             step = contact_step(system, frozen, q, end, impulse, active)
@@ -140,8 +140,9 @@ class FixedPoint:
             if (step.active != active).any() or stuck >= 2:
                 mixing.accelerator.restart()
                 stuck = 0
-            last, active, before, q = change, step.active, q[keep], q.copy()
-            q[keep], impulse = mixing.mixed((before, impulse), (step.q[keep], step.impulse))
+            last, active = change, step.active
+            mixed, impulse = mixing.mixed((dofs.unknowns(q), impulse), (dofs.unknowns(step.q), step.impulse))
+            q = dofs.nodes(mixed, system.given)
             end = system.evaluate(q, impulse)
 
 

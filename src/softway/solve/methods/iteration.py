@@ -90,7 +90,7 @@ SELF_BALANCED = 1e-12
 
 def _pushed(system: SlabEquations, it: Iterate) -> float:
     """Greatest velocity that the magnitudes of internal force and load would cause in one slab [m/s]."""
-    force = (np.abs(system.start.force) + np.abs(system.model.load))[system.model.free]
+    force = system.model.dofs.forces(np.abs(system.start.force) + np.abs(system.model.load))
     frozen = it.memory.frozen
     return 0.0 if frozen is None else float(np.abs(frozen.solve(system.path.span * force)).max(initial=0.0))
 

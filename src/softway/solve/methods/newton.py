@@ -134,7 +134,7 @@ class Newton:
                 left = _left(system, new, end, impulse, frozen)
                 if np.linalg.norm(left) <= max(1.0 - 0.5 * fraction, 1e-2) * length:
                     return new, end
-                if fraction == 1.0 and _alike(left, step[system.model.free]):
+                if fraction == 1.0 and _alike(left, system.model.dofs.unknowns(step)):
                     return self._stretched(system, q, step, impulse, frozen)
             fraction *= 0.5
         raise AssertionError
@@ -154,7 +154,7 @@ class Newton:
             end = system.evaluate(new, impulse)
             if not np.isfinite(end.residual).all():
                 break
-            if not _alike(_left(system, new, end, impulse, frozen), step[system.model.free], least=0.0):
+            if not _alike(_left(system, new, end, impulse, frozen), system.model.dofs.unknowns(step), least=0.0):
                 break
             found, best = new, end
         return found, best
@@ -163,7 +163,7 @@ class Newton:
 def _left(system: SlabEquations, q: Array, end: Evaluation, impulse: Array, frozen: FrozenOperator) -> Array:
     """Next correction (f,) by the same operator."""
     rows, _ = system.conditions(q, end, frozen)
-    return frozen.solve(end.residual[system.model.free] - frozen.prolong(rows.spread(impulse)))
+    return frozen.solve(system.model.dofs.forces(end.residual) - frozen.prolong(rows.spread(impulse)))
 
 
 def _alike(left: Array, step: Array, least: float = 0.5) -> bool:

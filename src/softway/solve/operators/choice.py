@@ -32,7 +32,7 @@ class OperatorChoice:
 def choose_operator(system: SlabEquations, memory: float | None = None) -> OperatorChoice:
     """Choose the operator for slabs like this one; ``memory`` [bytes] is by default that of the machine."""
     model = system.model
-    unknowns = int(model.free.sum())
+    unknowns = model.dofs.size
     cells = max(p.mesh.cell_dim for p in model.parts)
     factor, power = FILL[cells]
     numbers = factor * unknowns**power

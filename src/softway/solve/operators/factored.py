@@ -72,7 +72,7 @@ class Factored:
     def _precision(self, slab: SlabMatrix) -> Precision:
         if self.precision != "auto":
             return self.precision
-        return "double" if slab.model.linear or slab.model.free.sum() < MANY else "single"
+        return "double" if slab.model.linear or slab.model.dofs.size < MANY else "single"
 
 
 def suited(size: int, precision: Precision = "double", threads: int | None = None) -> LinearSolver:

@@ -45,12 +45,11 @@ class MatrixFree:
 
     def make(self, slab: SlabMatrix, u: Array, analysis: Analysis | None) -> BuiltOperator:
         """The operator of a slab at the displacement ``u`` (n, d)."""
-        model, stiffness_factor, free = slab.model, slab.stiffness_factor, slab.model.free
+        model, stiffness_factor, dofs = slab.model, slab.stiffness_factor, slab.model.dofs
 
         def times(x: Array) -> Array:
-            field = np.zeros(free.shape)
-            field[free] = x
-            return np.asarray((model.mass @ field + stiffness_factor * model.tangent_product(u, field))[free])
+            field = dofs.nodes(x)
+            return dofs.forces(model.mass @ field + stiffness_factor * model.tangent_product(u, field))
 
         local = nodal(slab, u)
         return BuiltOperator(
@@ -79,17 +78,12 @@ def nodal(slab: SlabMatrix, u: Array) -> Blocks:
     NoConvergence
         If a block is singular.
     """
-    model, free = slab.model, slab.model.free
-    n, d = free.shape
-    blocks = slab.stiffness_factor * model.tangent_blocks(u) + model.mass.diagonal()[:, None, None] * np.eye(d)
-    both = free[:, :, None] & free[:, None, :]
+    model, unit = slab.model, np.eye(slab.model.shape[1])
+    blocks = slab.stiffness_factor * model.tangent_blocks(u) + model.mass.diagonal()[:, None, None] * unit
     try:
-        inverse = np.linalg.inv(np.where(both, blocks, np.eye(d)))
+        return Blocks(model.dofs.block_inverse(blocks))
     except np.linalg.LinAlgError:
         raise NoConvergence("a node has neither inertia nor stiffness") from None
-    full = sp.bsr_array((inverse, np.arange(n), np.arange(n + 1)), shape=(n * d, n * d)).tocsr()
-    keep = np.flatnonzero(free.ravel())
-    return Blocks(sp.csr_array(full[keep][:, keep]))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

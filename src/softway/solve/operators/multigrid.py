@@ -97,4 +97,4 @@ def _motions(slab: SlabMatrix, u: Array) -> Array:
     for part in model.parts:
         here = x[part.rows]
         out[part.rows] = rigid_motions(here, names, here.mean(axis=0))[0].reshape(len(here), d, -1)
-    return np.ascontiguousarray(out[model.free])
+    return np.stack([model.dofs.unknowns(out[..., k]) for k in range(len(names))], axis=1)

@@ -14,7 +14,8 @@ from softway.march.march import march, proposed
 from softway.march.model_state import join_states, split_states
 from softway.march.start.initial_state import initial_state
 from softway.march.step_control import StepControl
-from softway.model.model import Model, build
+from softway.model.build import build
+from softway.model.model import Model
 from softway.model.scene import Scene, State
 from softway.model.time_weight import EndPeaks, TimeWeight
 from softway.solve.methods.fixed_point import FixedPoint

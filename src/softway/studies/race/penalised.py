@@ -10,7 +10,7 @@ from softway.contact.impact_rule import Impulse
 from softway.errors import Cancel, NoConvergence, NumericsError, heed
 from softway.march.model_state import join_states
 from softway.march.step_control import StepControl
-from softway.model.model import build
+from softway.model.build import build
 from softway.model.scene import Scene, State
 from softway.studies.race.penalty import Penalised, Penalty, Pressed, depths, solved
 from softway.studies.race.springs import springs, workshop

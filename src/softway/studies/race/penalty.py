@@ -190,7 +190,7 @@ def solved(rules: Penalised, now: Pressed, end: float, shop: Workshop) -> tuple[
     look, seen, change = slab.look(q), Stagnation(), np.inf
     for count in range(1, method.limit + 1):
         pressed = np.flatnonzero(look.stiffness)
-        rows = look.rows.matrix(model.free)[pressed]
+        rows = look.rows.matrix(model.dofs)[pressed]
         matrix = model.inertia_and_stiffness(slab.displaced(q), 0.25 * h**2)
         factor, shop = shop.factored(matrix, rows, 0.5 * h**2 * look.stiffness[pressed])
         step = np.zeros(model.shape)

@@ -143,8 +143,9 @@ class Workshop:
 
 def workshop(model: Model) -> Workshop:
     """Workshop of a model, still without contact entries."""
-    size = int(model.free.sum())
-    keys = _keys(model.total.indptr, model.total.indices, size)
+    size = model.dofs.size
+    matrix = model.inertia_and_stiffness(model.displacement, 1.0)
+    keys = _keys(matrix.indptr, matrix.indices, size)
     return Workshop(base=keys, keys=keys, where=np.arange(len(keys)), pattern=_pattern(keys, size), size=size)
 
 

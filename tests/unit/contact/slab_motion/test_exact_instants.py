@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from single import single
+from softway.bodies.dof_map import NodalDofs
 from softway.contact.contact_rows import ContactRows
 from softway.contact.slab_motion.exact_instants import ExactInstantMean, exact_instant_mean, lcp
 
@@ -66,7 +67,7 @@ class Case:
         flat[light] = 0.0
         inner = self.stiffness[np.ix_(light, light)]
         flexible = np.linalg.inv(inner)
-        rows = self.rows.matrix(self.free).toarray()
+        rows = self.rows.matrix(NodalDofs(self.free)).toarray()
         full = np.zeros((len(self.rows.node), flat.size))
         full[:, self.free.ravel()] = rows
         N = full[:, light]

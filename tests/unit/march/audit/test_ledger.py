@@ -15,7 +15,7 @@ from softway.march.audit.ledger import initial_ledger
 from softway.march.march import march
 from softway.march.start.initial_state import initial_state
 from softway.meshes.generators.shapes import box, rectangle
-from softway.model.model import build
+from softway.model.build import build
 from softway.model.scene import Scene, StaticStart
 
 RULES = [Energy(), Impulse(), Paper()]

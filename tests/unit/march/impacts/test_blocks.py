@@ -15,7 +15,7 @@ from softway.bodies.solid import Fixed
 from softway.contact.contact import Contact
 from softway.contact.impact_rule import Energy, ImpactRule, Impulse, Paper
 from softway.march.march import march
-from softway.model.model import build
+from softway.model.build import build
 from softway.model.scene import Scene
 
 RULES = [Energy(), Impulse(), Paper()]

@@ -13,7 +13,7 @@ from softway.contact.impact_rule import Energy, ImpactRule, Impulse
 from softway.errors import InputError, NumericsError
 from softway.march.march import march
 from softway.meshes.generators.shapes import disc
-from softway.model.model import build
+from softway.model.build import build
 from softway.model.scene import Scene
 
 RULES = [Energy(), Impulse()]

@@ -17,7 +17,7 @@ from softway.march.march import evenly, march
 from softway.march.start.initial_state import initial_state
 from softway.march.step_control import StepControl
 from softway.meshes.generators.shapes import interval
-from softway.model.model import build
+from softway.model.build import build
 from softway.model.scene import Scene, StaticStart
 from softway.model.time_weight import Collocation, EndPeaks, Momentum
 from softway.solve.methods.fixed_point import FixedPoint

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from single import single
+from softway.bodies.dof_map import NodalDofs
 from softway.bodies.solid import Fixed
 from softway.contact.contact_rows import ContactRows
 from softway.contact.impact_rule import Impulse
@@ -36,7 +37,7 @@ def cases(draw: st.DrawFn) -> tuple[ContactRows, np.ndarray, np.random.Generator
 
 
 def directions(rows: ContactRows, free: np.ndarray, fixed: bool) -> RowBasis:
-    return row_basis(rows, free, fixed, np.unique(rows.gradient.tocoo().coords[1] // free.shape[1]))
+    return row_basis(rows, NodalDofs(free), fixed, np.unique(rows.gradient.tocoo().coords[1] // free.shape[1]))
 
 
 def frozen(
@@ -54,8 +55,8 @@ def frozen(
 def test_the_coefficients_lead_back_to_the_rows(fixed: bool, case) -> None:
     rows, free, _ = case
     found = directions(rows, free, fixed)
-    product = found.coefficients(rows, free) @ found.directions.T
-    np.testing.assert_array_equal(product.toarray(), rows.matrix(free).toarray())
+    product = found.coefficients(rows, NodalDofs(free)) @ found.directions.T
+    np.testing.assert_array_equal(product.toarray(), rows.matrix(NodalDofs(free)).toarray())
 
 
 @kinds
@@ -81,8 +82,8 @@ def test_answer_and_compliance(fixed: bool, case) -> None:
 def test_the_compliance_of_rows(fixed: bool, case) -> None:
     rows, free, rng = case
     operator, inverse = frozen(rows, free, fixed, rng)
-    G = rows.matrix(free).toarray()
-    active = operator.coefficients(rows, free)
+    G = rows.matrix(NodalDofs(free)).toarray()
+    active = operator.coefficients(rows, NodalDofs(free))
     np.testing.assert_allclose(delassus(operator, active), G @ inverse @ G.T, atol=1e-11)
 
 
@@ -92,11 +93,11 @@ def test_balanced_rows_move_as_wanted(fixed: bool, case) -> None:
     """Of independent rows exactly; the push is ``G^T force``, and what it moves along the directions is told."""
     rows, free, rng = case
     operator, inverse = frozen(rows, free, fixed, rng)
-    G = rows.matrix(free).toarray()
+    G = rows.matrix(NodalDofs(free)).toarray()
     least = [np.linalg.svd(G[:k], compute_uv=False)[-1] if k <= G.shape[1] else 0.0 for k in range(1, len(G) + 1)]
     index = np.arange(np.sum(np.minimum.accumulate(least) > 1e-2))
     wanted = rng.normal(size=len(index))
-    force, push = multipliers(operator, operator.coefficients(rows, free).subset(index), wanted)
+    force, push = multipliers(operator, operator.coefficients(rows, NodalDofs(free)).subset(index), wanted)
     B = operator.basis.directions.toarray()
     size = 1.0 + np.abs(force).max(initial=0.0)
     np.testing.assert_allclose(B @ push.directions, G[index].T @ force, atol=1e-12 * size)
@@ -107,16 +108,16 @@ def test_balanced_rows_move_as_wanted(fixed: bool, case) -> None:
 def test_directions_of_half_spaces_at_rest_are_their_rows_that_can_move(block: Callable[..., Model]) -> None:
     model = block(timing=Impulse(), supports=(Fixed(on="left"),))
     rows = model.rows(model.displacement)
-    found = row_basis(rows, model.free, model.contacts.fixed, model.touchable)
+    found = row_basis(rows, model.dofs, model.contacts.fixed, model.touchable)
     assert found.component is None
-    matrix = rows.matrix(model.free).toarray()
+    matrix = rows.matrix(model.dofs).toarray()
     assert found.place.tolist().count(-1) == 1, "the corner is held"
-    np.testing.assert_array_equal(found.coefficients(rows, model.free) @ found.directions.toarray().T, matrix)
+    np.testing.assert_array_equal(found.coefficients(rows, model.dofs) @ found.directions.toarray().T, matrix)
 
 
 def test_directions_of_rows_that_turn_are_the_free_components_of_their_nodes(block: Callable[..., Model]) -> None:
     model = block(timing=Impulse(), supports=(Fixed(on="left"),))
-    found = row_basis(model.rows(model.displacement), model.free, False, model.touchable)
+    found = row_basis(model.rows(model.displacement), model.dofs, False, model.touchable)
     touchable = np.zeros(model.shape, bool)
     touchable[model.touchable] = True
     assert found.component.tolist() == np.flatnonzero(touchable[model.free]).tolist()

@@ -14,7 +14,8 @@ from softway.contact.contact_rows import ContactRows
 from softway.contact.impact_rule import Impulse
 from softway.laws.bulk import LinearElastic
 from softway.meshes.generators.shapes import rectangle
-from softway.model.model import Model, build
+from softway.model.build import build
+from softway.model.model import Model
 from softway.model.scene import Scene
 from softway.obstacles.half_space import HalfSpace
 from softway.solve.constraints.impact_multipliers import impact_multipliers
@@ -37,11 +38,11 @@ def dense(model: Model) -> tuple[np.ndarray, np.ndarray]:
     """Mass of the free components, and contact rows."""
     keep = model.free.ravel()
     mass = sp.kron(model.mass, sp.eye_array(2)).toarray()[np.ix_(keep, keep)]
-    return mass, rows(model).matrix(model.free).toarray()
+    return mass, rows(model).matrix(model.dofs).toarray()
 
 
 def reachable(model: Model) -> np.ndarray:
-    return np.abs(rows(model).matrix(model.free)).sum(axis=1) > 0.0
+    return np.abs(rows(model).matrix(model.dofs)).sum(axis=1) > 0.0
 
 
 def test_the_multiplier_leaves_no_acceleration_into_the_obstacle(model: Model) -> None:

@@ -19,7 +19,8 @@ from softway.contact.stencils import normal_component
 from softway.contact.tangential_rows import TangentialRows, tangents
 from softway.laws.bulk import NeoHookean
 from softway.meshes.generators.shapes import box, rectangle
-from softway.model.model import Model, build
+from softway.model.build import build
+from softway.model.model import Model
 from softway.model.scene import Scene
 from softway.obstacles.half_space import HalfSpace
 from softway.solve.equations import energy_balance

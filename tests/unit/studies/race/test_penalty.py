@@ -6,7 +6,7 @@ import pytest
 import softway as sw
 from softway.march.model_state import split_states
 from softway.march.start.initial_state import initial_state
-from softway.model.model import build
+from softway.model.build import build
 from softway.studies.race import Penalty
 from softway.studies.race.penalised import penalised
 from softway.studies.race.springs import springs

@@ -88,6 +88,6 @@ def equilibria(
     u, memories = model.displacement, material_states.initial_states(model.parts)
     for guess, share in path:
         now = model.during(memories, span)
-        u = equilibrium(now, u if guess is None else guess, model.free, share * model.load).displacement
+        u = equilibrium(now, u if guess is None else guess, model.dofs, share * model.load).displacement
         memories = material_states.committed(now.parts, u)
         yield u, memories

@@ -1,0 +1,154 @@
+"""Model of a scene: meshes, tables, mass, degrees of freedom and contacts."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components
+
+from softway.arrays import IntArray
+from softway.bodies.assembled.nodal_loads import dead_load
+from softway.bodies.assembled.nodal_masses import solid_following, solid_mass
+from softway.bodies.discretised import DiscreteSolid, discretise, driven_components, initial
+from softway.bodies.dof_map import DofMap, MatrixSum, joined
+from softway.bodies.solid import Solid
+from softway.contact.assemble import assemble_contacts
+from softway.contact.impact_rule import Energy, ImpactRule
+from softway.errors import InputError, within
+from softway.model.model import Model, assembled_tangent
+from softway.model.scene import Scene
+from softway.tolerances import MOTION
+
+
+def build(scene: Scene) -> Model:
+    """Build the model of a scene: meshes, tables, mass and contacts.
+
+    Raises
+    ------
+    InputError
+        With the place in the scene: if a tag matches nothing, a body does not exist, or dimensions are mixed.
+    """
+    solids, timing, factor = _solids(scene), _timing(scene), scene.inertia.factor
+    parts = _parts(solids)
+    met = assemble_contacts(scene.contacts, scene.bodies, parts)
+    light = met.nodes if timing.massless and factor > 0.0 else np.zeros(0, int)
+    own = [light[(light >= p.rows.start) & (light < p.rows.stop)] - p.rows.start for p in parts]
+    masses = [solid_mass(p, solids[p.name], nodes, timing.spread) for p, nodes in zip(parts, own, strict=True)]
+    follow = [solid_following(p, nodes) for p, nodes in zip(parts, own, strict=True)]
+    weight = sp.csr_array(sp.block_diag(masses, format="csr"))
+    mass = sp.csr_array(factor * weight) if factor > 0.0 else sp.csr_array(weight.shape)
+    fields = [initial(p, solids[p.name]) for p in parts]
+    dofs = joined([p.dofs for p in parts])
+    weights = np.asarray(weight.sum(axis=1)).ravel()
+    displacement = np.concatenate([u for u, _ in fields]) * dofs.free
+    loads = dead_load(parts, weights, scene.loads, "loads")
+    return Model(
+        scene=scene,
+        parts=parts,
+        mass=mass,
+        follow=sp.csr_array(sp.block_diag(follow, format="csr")),
+        massive=np.asarray(mass.diagonal()) > 0.0,
+        dofs=dofs,
+        linked=np.arange(len(parts)),
+        load=loads.at(0.0),
+        load_before=loads.at(0.0),
+        loads=loads,
+        weight=weights,
+        displacement=displacement,
+        velocity=np.concatenate([v for _, v in fields]) * dofs.free,
+        contacts=met.contacts.cleared(displacement, [c.start == "apart" for c in scene.contacts]),
+        opponents=met.opponents,
+        touchable=met.nodes,
+        edge=np.concatenate([p.mesh.edges() for p in parts]),
+        driven=driven_components(parts, solids, dofs.free.shape),
+        floor=np.array([p.floor() for p in parts]),
+        total=_total(mass, parts, dofs),
+        timing=timing,
+        friction=met.friction,
+    )
+
+
+def _solids(scene: Scene) -> dict[str, Solid]:
+    solids = {n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}
+    if not solids:
+        raise InputError("bodies", "no Solid among them", "at least one body of kind Solid")
+    return solids
+
+
+def _parts(solids: Mapping[str, Solid]) -> tuple[DiscreteSolid, ...]:
+    parts: list[DiscreteSolid] = []
+    for name, solid in solids.items():
+        with within(f"bodies.{name}"):
+            parts.append(discretise(name, solid, parts[-1].rows.stop if parts else 0))
+    if len({p.mesh.dim for p in parts}) > 1:
+        raise InputError("bodies", "solids of different space dimension in one scene", "meshes of one dimension")
+    return tuple(parts)
+
+
+def _total(mass: sp.csr_array, parts: Sequence[DiscreteSolid], dofs: DofMap) -> MatrixSum:
+    """Assembly of mass (n, n) plus tangent stiffness on the unknowns."""
+    inertia = sp.csc_array(sp.kron(mass, sp.eye_array(dofs.free.shape[1]), format="csc"))
+    return dofs.sum(inertia, assembled_tangent(parts, np.zeros(dofs.free.shape)))
+
+
+def _timing(scene: Scene) -> ImpactRule:
+    rules = {c.timing for c in scene.contacts}
+    if len(rules) > 1:
+        raise InputError("contacts", f"{len(rules)} different timing rules in one scene", "the same timing for all")
+    timing = rules.pop() if rules else Energy()
+    if scene.inertia.factor == 0.0 and not timing.massless:
+        problem = f"Off with the rule {type(timing).__name__}, whose contact nodes have inertia"
+        raise InputError("inertia", problem, "the timing Energy")
+    return timing
+
+
+def with_dofs(model: Model, dofs: DofMap) -> Model:
+    """Model whose nodes are moved by other unknowns: ties, rigid parts, hanging nodes (docs/theory/dof_map.md).
+
+    Solids that share an unknown form one group, whose energy balance is closed as one.
+
+    Raises
+    ------
+    InputError
+        If the map does not fit the nodes, moves driven components, moves nodes with and without inertia by the same
+        unknown, or does not contain the initial fields.
+
+    Examples
+    --------
+    Two bars whose ends are glued:
+
+    >>> import softway as sw
+    >>> from softway.bodies.dof_map import CombinedDofs
+    >>> def bar(a):
+    ...     mesh = sw.meshes.Interval(length=1.0, cells=1, origin=a)
+    ...     return sw.Solid(mesh=mesh, material=sw.LinearElastic(E=1.0, nu=0.0), density=1.0)
+    >>> model = sw.build(sw.Scene(bodies={"left": bar(0.0), "right": bar(1.0)}))
+    >>> glue = sp.csr_array(np.array([[1.0, 0, 0], [0, 1, 0], [0, 1, 0], [0, 0, 1]]))
+    >>> with_dofs(model, CombinedDofs(glue, 1)).linked.tolist()
+    [0, 0]
+    """
+    if dofs.free.shape != model.shape:
+        raise InputError("dofs", f"a map for nodes (n, d) = {dofs.free.shape}", f"a map for {model.shape}")
+    for support, where in model.driven:
+        if (dofs.free & where).any():
+            raise InputError("dofs", f"unknowns move components driven by {support}", "empty rows for them")
+    heavy = set(dofs.moving(np.flatnonzero(model.massive)).tolist())
+    mixed = heavy.intersection(dofs.moving(np.flatnonzero(~model.massive)).tolist())
+    if mixed:
+        problem = f"{len(mixed)} unknowns move contact nodes without inertia together with others"
+        raise InputError("dofs", problem, "unknowns of their own for contact nodes, or the rule Impulse")
+    for name, field in (("displacement", model.displacement), ("velocity", model.velocity)):
+        left = float(np.abs(dofs.nodes(dofs.unknowns(field)) - field).max(initial=0.0))
+        if left > MOTION * float(np.abs(field).max(initial=0.0)):
+            raise InputError("dofs", f"the initial {name} differs by {left:.3g} from any of the map", f"another {name}")
+    return replace(model, dofs=dofs, linked=_linked(model, dofs), total=_total(model.mass, model.parts, dofs))
+
+
+def _linked(model: Model, dofs: DofMap) -> IntArray:
+    """Group (parts,) of each solid; solids that share unknowns have the same."""
+    if dofs.components is not None:
+        return np.arange(len(model.parts))
+    of = np.repeat(model.part_of, model.shape[1])
+    shares = sp.csr_array((np.ones(len(of)), (of, np.arange(len(of))))) @ abs(dofs.jacobian)
+    return np.asarray(connected_components(shares @ shares.T, directed=False)[1])
