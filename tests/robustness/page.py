@@ -20,7 +20,7 @@ KNOWN = """## What is known to stop or to take long
 - Matter crushed beyond what its cells can follow, at v/c > 0.13: StVenantKirchhoff, J2 without hardening, the softer
   hypoelastic laws. Cells invert, or the nodes of a surface jump to another equilibrium.
 - A cylinder of two quadratic cells that lands on its rim and slides (436): the mean gaps of facets that lean that much
-  have no good derivative ([mortar](../theory/mortar.md)); with `NodeToSurface` it is done in 2 s.
+  have no good derivative ([mortar](../theory/contact/mortar.md)); with `NodeToSurface` it is done in 2 s.
 - A block of Maxwell matter on a roller with friction at v/c = 0.28 (344): every other slab is rejected, without an end
   in sight; the march ends by its `patience`.
 - Impulse and Paper between the corners of two bodies: a node sees one wall of a corner in one slab and the other in

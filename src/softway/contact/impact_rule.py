@@ -30,8 +30,8 @@ class Paper:
 
     Up to the instant t_c the velocity is ``kept`` or ``extrapolated`` linearly from the slab before; after it the
     normal velocity vanishes and the node is eliminated (Figs. 2 and 4).  The neighbours do not balance the jump, so the
-    rule loses the kinetic energy of the node (docs/theory/contact.md).  Between two deformable bodies the touching
-    nodes of both share the jump in proportion to their masses.
+    rule loses the kinetic energy of the node (docs/theory/contact/contact.md).  Between two deformable bodies the
+    touching nodes of both share the jump in proportion to their masses.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ class Energy:
     spread
         Number of cells over which the inertia of the contact nodes is spread, at most half the depth of the body: more
         cells make the force start more smoothly, fewer keep the inertia closer to its place
-        (docs/theory/overshoot.md).
+        (docs/theory/contact/overshoot.md).
 
     Examples
     --------

@@ -54,7 +54,7 @@ def march(
     step
         Slab length [s], shortened to divide the duration evenly; ``auto`` is the time in which a wave crosses the
         shortest edge, divided by the square root of 2: there the leading dispersion of a consistent mass and of the end
-        peaks cancel (docs/theory/time.md).
+        peaks cancel (docs/theory/time/time.md).
     weight
         Virtual time function.
     method

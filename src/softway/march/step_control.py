@@ -26,7 +26,7 @@ class StepControl:
 
     A slab that exceeds a limit is rejected and tried again at half the length.  The length doubles again, up to the
     requested one, if the motion is smooth: the displacement error by a jump of the acceleration,
-    ``h^2 |a1 - a0| / 12``, would be below ``growth`` edges at the double length (docs/theory/control.md).
+    ``h^2 |a1 - a0| / 12``, would be below ``growth`` edges at the double length (docs/theory/time/control.md).
 
     Parameters
     ----------

@@ -6,7 +6,7 @@ the scheme is stable iff
 
     mu1 >= 1/2   and   (omega h)^2 (mu1 - mu2) <= 2.
 
-Therefore for g >= 0 only peaks at the two ends are stable for every step (docs/theory/time.md).
+Therefore for g >= 0 only peaks at the two ends are stable for every step (docs/theory/time/time.md).
 """
 
 from dataclasses import dataclass

@@ -5,7 +5,8 @@ import pytest
 from inf_sup import constant
 from softway.meshes.generators.shapes import box, rectangle
 
-# cell, pressure, constant on a square of 8 x 8 (a cube of 3 x 3 x 3) cells to two digits; docs/theory/incompressible.md
+# cell, pressure, constant on a square of 8 x 8 (a cube of 3 x 3 x 3) cells to two digits;
+# docs/theory/bodies/incompressible.md
 STABLE = [
     ("quad9", "mean", 0.53),
     ("quad9", "corner", 0.46),

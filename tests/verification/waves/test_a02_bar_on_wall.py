@@ -24,9 +24,10 @@ def courant() -> dict[int, bars.Record]:
 
 
 def chain(nodes: int, spread: int) -> tuple[Array, Array]:
-    """Mass and stiffness of the heavy nodes behind a massless one at the wall, in units of the mesh (theory/overshoot).
+    """Mass and stiffness of the heavy nodes behind a massless one at the wall, in units of the mesh.
 
-    Two thirds of a cell's mass are missing; the rows and columns of the first nodes are scaled by what makes up for it.
+    Two thirds of a cell's mass are missing; the rows and columns of the first nodes are scaled by what makes up for it
+    (theory/contact/overshoot).
     """
     factor = np.where(np.arange(nodes) < spread, np.sqrt(1.0 + 2.0 / 3.0 / (spread - 1.0 / 6.0)), 1.0)
     beside = np.eye(nodes, k=1) + np.eye(nodes, k=-1)
@@ -80,7 +81,7 @@ def test_case() -> None:
 
 @pytest.mark.parametrize(("cells", "most"), [(20, 1.1), (50, 1.1), (100, 1.1)])
 def test_the_force_starts_without_overshoot(cells: int, most: float) -> None:
-    """The inertia of the contact node, spread over five cells, comes back as a force of 1 + 1/15 (theory/overshoot)."""
+    """The inertia of the contact node, spread over five cells, is a force of 1 + 1/15 (theory/contact/overshoot)."""
     march = thrown(cells)
     assert 1.0 + 1.0 / 15.0 - 0.01 <= march.force.max() <= most
     assert march.error[-1] == pytest.approx(0.0, abs=1e-12)
@@ -145,7 +146,7 @@ def test_the_end_of_the_contact_is_that_of_the_chain(cells: int, late: float, sl
 
 
 def test_the_errors_fall_with_the_mesh() -> None:
-    """The instant nearly linearly; the speed less than the 4/5 of the front (theory/overshoot)."""
+    """The instant nearly linearly; the speed less than the 4/5 of the front (theory/contact/overshoot)."""
     sizes = [1 / 20, 1 / 50, 1 / 100]
     release = [abs(thrown(n).first("release") - EXACT.release) for n in (20, 50, 100)]
     speed = [abs(thrown(n).momentum[-1] + 1.0) for n in (20, 50, 100)]

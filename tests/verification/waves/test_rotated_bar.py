@@ -1,7 +1,7 @@
 """A02 in space: the bar as a box of 50 cells, along an axis and in an oblique frame, against the bar in one dimension.
 
 Bodies in space keep the second moments of their mass, bars do not: their density behind the wall's nodes differs by
-up to 2 percent (theory/mass).  The bar is therefore also marched with the mass of the sections of the box.
+up to 2 percent (theory/bodies/mass).  The bar is therefore also marched with the mass of the sections of the box.
 """
 
 from dataclasses import dataclass, replace

@@ -6,7 +6,7 @@ at each point of an element of m dimensions; the law is evaluated at F_bar.  J =
 over the element (mean dilatation), or its averages around the corner nodes with linear interpolation (the pressure of
 the Taylor-Hood element, with a lumped pressure mass).  Nodal forces follow from the derivative of F_bar: they are the
 derivative of a stored energy, and the tangent is its exact second derivative.  In the linear theory J is the trace of
-the strain, and its average is added in place of it (docs/theory/incompressible.md).
+the strain, and its average is added in place of it (docs/theory/bodies/incompressible.md).
 
 References
 ----------

@@ -2,7 +2,7 @@
 
 A massless node has no momentum at first touch.  The missing momentum returns as a contact force above the force of the
 continuum.  With the mass spread over k layers of elements this takes the round trip of a wave through them, the force
-is ``1 + 1/(3 k)`` of the continuum's, and no energy is lost (docs/theory/overshoot.md).
+is ``1 + 1/(3 k)`` of the continuum's, and no energy is lost (docs/theory/contact/overshoot.md).
 """
 
 import logging

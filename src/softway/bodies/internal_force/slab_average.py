@@ -72,7 +72,7 @@ class EnergyMomentum:
 
     The correction is a force ``M (b x (x - centre))`` that turns every body about its centre of mass.  The vector b,
     one for each group of touching bodies, is chosen so that the internal forces and the contact forces between the
-    bodies have no resulting moment.  No quotient of small increments occurs (docs/theory/energy.md).
+    bodies have no resulting moment.  No quotient of small increments occurs (docs/theory/contact/energy.md).
 
     References
     ----------

@@ -2,7 +2,7 @@
 
 On the covered part of a facet with shape functions ``N_k >= 0``, the dual ones ``psi_j = sum_k A_jk N_k`` satisfy
 ``int psi_j N_k = delta_jk int N_k``.  They add up to one, so the multipliers transmit a uniform pressure on any covered
-part (docs/theory/mortar.md).
+part (docs/theory/contact/mortar.md).
 """
 
 from dataclasses import dataclass

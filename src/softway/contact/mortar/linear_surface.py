@@ -2,7 +2,7 @@
 
 A uniform pressure on a flat facet has the same nodal forces on the facet and on its linear replacement: a quadratic
 facet becomes linear ones over control points ``c = C x``, a four-node facet becomes four triangles about the mean of
-its corners (docs/theory/mortar.md).
+its corners (docs/theory/contact/mortar.md).
 """
 
 from collections.abc import Mapping

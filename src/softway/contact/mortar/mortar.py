@@ -1,7 +1,7 @@
 """Mortar contact of deformable bodies: gaps weighted over the overlap of the surfaces.
 
 The multiplier of a slave node is interpolated by a dual shape function; the row is divided by its weight, so that it
-is a gap in metres and its multiplier a nodal force (docs/theory/mortar.md).
+is a gap in metres and its multiplier a nodal force (docs/theory/contact/mortar.md).
 """
 
 from collections.abc import Mapping

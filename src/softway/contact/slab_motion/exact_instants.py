@@ -4,7 +4,7 @@ Along the chord of the nodes with inertia, ``u_i(s) = u_i0 + s (u_i1 - u_i0)``, 
 massless nodes is affine in s, and so is the free gap ``gamma(s)``.  On an active set A the multipliers are
 ``lambda_A(s) = -W_AA^-1 gamma_A(s)`` with the compliance ``W = N K_cc^-1 N^T``; the set changes where a multiplier or a
 gap vanishes.  Marching over these instants gives the mean multiplier without quadrature error, and the instants of
-touch and release (docs/theory/energy.md).
+touch and release (docs/theory/contact/energy.md).
 """
 
 from dataclasses import dataclass

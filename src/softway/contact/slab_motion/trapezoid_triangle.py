@@ -4,7 +4,7 @@ The element between the inner node i and the contact node c, with xi from 0 at i
 (c, t_c) to (i, t1).  Below it the velocity is bilinear on the trapezoid (i,t0) (c,t0) (c,t_c) (i,t1), above it linear
 on the triangle (c,t_c) (c,t1) (i,t1), where it is zero on the obstacle.  Stress follows from the velocity gradient
 inside the two elements; the jump across the line has no effect.  Compared with the product form the inertia is the
-same, and the mean elongation is greater by ``h v_c (1 - tau_c)^2 / 3`` (docs/theory/contact.md).
+same, and the mean elongation is greater by ``h v_c (1 - tau_c)^2 / 3`` (docs/theory/contact/contact.md).
 """
 
 from dataclasses import dataclass

@@ -19,7 +19,7 @@ class Hypoelastic:
 
     The law has no elastic potential: a closed cycle of large strain absorbs or releases energy, and leaves residual
     stress.  With the rate ``Logarithmic`` it does not, as the stress is a function of the stretch
-    (docs/theory/rates.md).  The work of the stress is recorded as stored energy.
+    (docs/theory/bodies/rates.md).  The work of the stress is recorded as stored energy.
 
     Parameters
     ----------

@@ -2,7 +2,7 @@
 
 All massless nodes follow the nodes with inertia by one correction with their frozen stiffness.  Those near contact are
 then iterated to equilibrium under the contact conditions.  The residual forces of the others act on the nodes that they
-follow, and are corrected in the next slab (docs/theory/explicit.md).
+follow, and are corrected in the next slab (docs/theory/solver/explicit.md).
 """
 
 from dataclasses import replace

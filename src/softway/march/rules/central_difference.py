@@ -3,7 +3,7 @@
     v = v0 + h/2 a0,    x1 = x0 + h v,    v1 = v + h/2 a1,    M a = load - f        nodes with inertia
     f(x1) = load + G^T p,   gap(x1) >= 0,  p >= 0                                   massless nodes
 
-Contact forces act on massless nodes only: there are no impacts (docs/theory/explicit.md).
+Contact forces act on massless nodes only: there are no impacts (docs/theory/solver/explicit.md).
 """
 
 from dataclasses import dataclass, replace

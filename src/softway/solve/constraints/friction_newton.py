@@ -6,8 +6,8 @@ Given the free solution ``y`` of A y = b, find normal and tangential multipliers
     G z >= c,  p >= 0,  p (G z - c) = 0,    s = -resistance(T z - shift, p) along the slip, or no slip within a limit.
 
 The tangential condition is the return map of a trial ``s - r (T z - shift)``.  Nothing is regularised: rows that stick
-do not move, rows that slip have the force of the law (docs/theory/friction.md).  The unknowns are the changes of the
-previous multipliers (:class:`~softway.solve.constraints.friction_conditions.FrictionProblem`).
+do not move, rows that slip have the force of the law (docs/theory/contact/friction.md).  The unknowns are the changes
+of the previous multipliers (:class:`~softway.solve.constraints.friction_conditions.FrictionProblem`).
 """
 
 from dataclasses import replace

@@ -2,7 +2,7 @@
 
 The mean force of the end peaks is completed to ``f_mean + a (f1 - f0) + M (b x (x - centre))``; the scalar a closes the
 energy balance and, for bodies of the :class:`~softway.bodies.internal_force.slab_average.EnergyMomentum` force, the
-vector b the balance of angular momentum (docs/theory/energy.md).
+vector b the balance of angular momentum (docs/theory/contact/energy.md).
 """
 
 from dataclasses import dataclass

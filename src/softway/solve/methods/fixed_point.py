@@ -76,7 +76,7 @@ class FixedPoint:
         """Iterates from a guess.
 
         As in Newton's method, the first step has no scalar: the guess is no solution, and its missing work has no
-        meaning.  So one step solves a linear law on fixed rows (docs/theory/solver.md).
+        meaning.  So one step solves a linear law on fixed rows (docs/theory/solver/solver.md).
         """
         newton = Newton(tolerance=self.tolerance, limit=self.limit)
         if self.handover and guess.memory.origin is None and _starts_flowing(system):

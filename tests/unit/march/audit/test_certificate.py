@@ -1,4 +1,4 @@
-"""What a slab may leave over, and what is too much: the limits of the table in docs/theory/control.md."""
+"""What a slab may leave over, and what is too much: the limits of the table in docs/theory/time/control.md."""
 
 from dataclasses import replace
 

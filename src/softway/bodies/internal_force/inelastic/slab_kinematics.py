@@ -2,7 +2,7 @@
 
 The deformation gradients at both ends of a slab give the strain increment in the middle of the slab, and the maps that
 push tensors forward from the start to the middle and from there to the end.  For corotational rates these maps are
-rotations, for the Truesdell rate they are the deformation itself (docs/theory/rates.md).
+rotations, for the Truesdell rate they are the deformation itself (docs/theory/bodies/rates.md).
 
 The trace of every strain increment is set to ``ln J1/J0``: a closed cycle leaves no volume change.
 """
