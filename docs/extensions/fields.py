@@ -29,7 +29,7 @@ STYLE = Config(napoleon_google_docstring=False, napoleon_use_rtype=False)
 
 def documented() -> Mapping[Any, str]:
     """What the pages of the reference document, by the names that they use."""
-    names = [name for page in sorted(PAGES.glob("*.md")) for name in NAMES.findall(page.read_text(encoding="utf-8"))]
+    names = [name for page in sorted(PAGES.rglob("*.md")) for name in NAMES.findall(page.read_text(encoding="utf-8"))]
     full = [name if name.startswith("softway.") else f"softway.{name}" for name in names]
     return {located(name): name for name in full}
 

@@ -13,7 +13,8 @@ from softway.scenario.class_index import classes
 from softway.scenario.hints.docstrings import described
 from softway.scenario.hints.type_hints import inputs
 
-PAGES = sorted((Path(__file__).parents[2] / "docs" / "reference").glob("*.md"))
+REFERENCE = Path(__file__).parents[2] / "docs" / "reference"
+PAGES = sorted(REFERENCE.rglob("*.md"))
 NAMED = re.compile(r"^\.\. auto(class|function|exception):: (\S+)\n((?:   :.*\n)*)", re.MULTILINE)
 ENTRIES = [(page.stem, *found) for page in PAGES for found in NAMED.findall(page.read_text(encoding="utf-8"))]
 
@@ -43,8 +44,9 @@ def test_what_a_page_names_is_there(page, kind, name, options):
 
 
 def test_the_index_lists_every_page():
-    index = (PAGES[0].parent / "index.md").read_text(encoding="utf-8")
-    assert set(re.findall(r"^(\w+)$", index, re.MULTILINE)) == {page.stem for page in PAGES} - {"index"}
+    index = (REFERENCE / "index.md").read_text(encoding="utf-8")
+    pages = {page.relative_to(REFERENCE).with_suffix("").as_posix() for page in PAGES}
+    assert set(re.findall(r"^([\w/]+)$", index, re.MULTILINE)) == pages - {"index"}
 
 
 @pytest.mark.parametrize("cls", classes(), ids=lambda cls: f"{cls.__module__}.{cls.__name__}")

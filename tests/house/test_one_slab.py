@@ -44,5 +44,5 @@ def test_the_calls_are_those_of_the_page(root: Path, monkeypatch: pytest.MonkeyP
     scene = sw.Scene(bodies={"block": block, "ball": ball}, contacts=(sw.Contact(between=("block.bottom", "ball")),))
     *_, last = sw.march(scene, until=0.06, step=0.02)
     assert last.ledger.contacts[scene.contacts[0].label].force_n > 0.0
-    page = (root / "docs" / "reference" / "one_slab.md").read_text(encoding="utf-8")
+    page = (root / "docs" / "reference" / "code" / "one_slab.md").read_text(encoding="utf-8")
     assert seen[-1] == CALL.findall(page)
