@@ -12,7 +12,7 @@ SHEAR, BULK, LENGTH = 1.0, 1e4, 0.3
 
 
 def parts(n: int):
-    """``A_s``, G and D of docs/decisions/0013: a cube of n^3 bricks of tet10, density one, a slab of 0.3 s."""
+    """``A_s``, G and D of decisions/solver/0013: a cube of n^3 bricks of tet10, density one, a slab of 0.3 s."""
     mesh = box((1.0, 1.0, 1.0), (n, n, n), cell="tet10")
     nodes, size = mesh.blocks["tet10"], 3 * mesh.n_nodes
     table = element("tet10", 3)
