@@ -16,7 +16,7 @@ help:
 	@echo "make test-view the page of softway view in a Chromium without a screen, which has to be there"
 	@echo "make coverage  the same, with the lines and branches that did not run"
 	@echo "make check  ruff, mypy, import-linter, house rules"
-	@echo "make bench  all measurements: docs/benchmarks.md and benchmarks/results/latest.json; BENCH=--quick for a few"
+	@echo "make bench  all measurements: docs/verification/benchmarks.md and benchmarks/results/latest.json; BENCH=--quick for a few"
 	@echo "make bench-check  a few measurements against the stored ones: fails where a ratio got worse by a fifth"
 	@echo "make bench-page   the page without the figures of code that has changed since, in a second"
 	@echo "make bench-smoke  every figure with the smallest meshes, in a minute or two: whether all of them still run"
@@ -91,7 +91,7 @@ kills: $(TEST)/ready
 manual: $(TEST)/ready
 	mkdir -p docs/_build
 	$(TEST)/bin/softway verify --jobs $(JOBS) --json docs/_build/verification.json --out docs/_build/verification.html || test $$? -eq 1
-	$(TEST)/bin/python docs/manual.py docs/_build/verification.json docs/verification/manual.md
+	$(TEST)/bin/python docs/scripts/manual.py docs/_build/verification.json docs/verification/manual.md
 
 fuzz: $(TEST)/ready
 	$(TEST)/bin/python tests/robustness/fuzz.py 10000 --out docs/verification/robustness/fuzz.json

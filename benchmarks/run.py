@@ -1,10 +1,10 @@
 """Everything that is measured: ``python benchmarks/run.py [--quick | --full | --smoke] [--only GROUP ...] [--check]``.
 
-The figures go to ``benchmarks/results/latest.json`` and ``docs/benchmarks.md``, with the date and the commit of the
-measured code.  ``--only`` replaces those of some groups.  ``--check`` writes nothing: it compares with the stored
-figures, and fails where a ratio got worse by more than a fifth, twice in a row.  ``--smoke`` computes every figure with
-the smallest meshes and writes nothing.  ``--page`` measures nothing: it writes the page again, without the figures of
-code that has changed since.  Peers are named with their interpreters, ``--peer NGSolve=python3``, or in the
+The figures go to ``benchmarks/results/latest.json`` and ``docs/verification/benchmarks.md``, with the date and the
+commit of the measured code.  ``--only`` replaces those of some groups.  ``--check`` writes nothing: it compares with
+the stored figures, and fails where a ratio got worse by more than a fifth, twice in a row.  ``--smoke`` computes every
+figure with the smallest meshes and writes nothing.  ``--page`` measures nothing: it writes the page again, without the
+figures of code that has changed since.  Peers are named with their interpreters, ``--peer NGSolve=python3``, or in the
 environment, ``SOFTWAY_PEERS="NGSolve=python3 GetFEM=python3"``; without one, the stored time stands in, marked.
 """
 
@@ -24,7 +24,8 @@ from machine import described
 from table import page
 
 ROOT = Path(__file__).parents[1]
-RESULTS, PAGE = ROOT / "benchmarks" / "results" / "latest.json", ROOT / "docs" / "benchmarks.md"
+RESULTS = ROOT / "benchmarks" / "results" / "latest.json"
+PAGE = ROOT / "docs" / "verification" / "benchmarks.md"
 
 Group = Callable[[Asked], Iterator[Figure]]
 GROUPS: dict[str, Group] = {

@@ -4,7 +4,7 @@ import sys
 from importlib.metadata import version as installed
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent / "extensions"))
+sys.path.insert(0, str(Path(__file__).parent / "web" / "extensions"))
 
 project = "softway"
 author = "the softway developers"
@@ -22,7 +22,7 @@ extensions = [
     "written",
 ]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
-exclude_patterns = ["_build", "extensions"]
+exclude_patterns = ["_build", "scripts", "web"]
 nitpicky = True
 nitpick_ignore_regex = [  # names of types that are no part of the reference
     ("py:class", r"(numpy|np|sp|collections|pyvista|pathlib|typing)\..*|Path|Callable|Iterator|Mapping|Sequence|Any"),
@@ -59,5 +59,5 @@ html_theme = "furo"
 html_title = f"softway {release}"
 html_show_sourcelink = False
 html_copy_source = False
-html_static_path = ["static"]
+html_static_path = ["web/static"]
 html_css_files = ["softway.css"]

@@ -16,7 +16,7 @@ from softway.apps.cli import main
 ROOT = Path(__file__).parents[2]
 ELSEWHERE = {"own_law.md"}
 """Pages that a test of their own runs: tests/examples/test_own_law.py."""
-GALLERY = ROOT / "docs" / "gallery.md"
+GALLERY = ROOT / "docs" / "tutorials" / "gallery.md"
 PAGES = [
     ROOT / "README.md",
     ROOT / "CONTRIBUTING.md",

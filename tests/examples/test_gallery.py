@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-GALLERY = Path(__file__).parents[2] / "docs" / "gallery.py"
-EXAMPLES = sorted((GALLERY.parents[1] / "examples" / "gallery").glob("*.py"))
+DOCS = Path(__file__).parents[2] / "docs"
+EXAMPLES = sorted((DOCS.parent / "examples" / "gallery").glob("*.py"))
 LARGEST = 80_000
 
 
@@ -24,16 +24,16 @@ def loaded(file):
 
 @pytest.fixture(scope="module")
 def gallery():
-    yield from loaded(GALLERY)
+    yield from loaded(DOCS / "scripts" / "gallery.py")
 
 
 @pytest.fixture(scope="module")
 def pictures():
-    yield from loaded(GALLERY.parent / "extensions" / "pictures.py")
+    yield from loaded(DOCS / "web" / "extensions" / "pictures.py")
 
 
 def test_the_page_is_the_one_of_the_files(gallery):
-    assert gallery.PAGE.read_text(encoding="utf-8") == gallery.page(), "python docs/gallery.py writes it"
+    assert gallery.PAGE.read_text(encoding="utf-8") == gallery.page(), "python docs/scripts/gallery.py writes it"
 
 
 def test_each_has_a_small_picture_and_a_sentence(gallery):
@@ -49,7 +49,7 @@ def test_no_picture_is_left_over(gallery):
 
 
 def test_a_picture_becomes_small(gallery, tmp_path):
-    gallery.shrink(GALLERY.parent / "pictures" / "bracket.png", tmp_path / "small" / "bracket.png")
+    gallery.shrink(DOCS / "pictures" / "bracket.png", tmp_path / "small" / "bracket.png")
     assert (tmp_path / "small" / "bracket.png").stat().st_size < LARGEST
 
 

@@ -7,7 +7,8 @@ from pathlib import Path
 from softway.apps.verify import chosen, examined
 from softway.apps.verify.report import in_json
 
-SCRIPT = Path(__file__).parents[4] / "docs" / "manual.py"
+DOCS = Path(__file__).parents[4] / "docs"
+SCRIPT = DOCS / "scripts" / "manual.py"
 
 
 def test_the_page(tmp_path: Path) -> None:
@@ -29,7 +30,7 @@ def test_figures_of_others_are_in_it() -> None:
 
 def test_every_line_of_the_suite_is_in_the_manual() -> None:
     """The page under version control was written after the last case was added; `make manual` renews it."""
-    page = (SCRIPT.parent / "verification" / "manual.md").read_text(encoding="utf-8")
+    page = (DOCS / "verification" / "manual.md").read_text(encoding="utf-8")
     headings = [line.split()[1] for line in page.splitlines() if line.startswith("## ")]
     known = [case.id for case in chosen()]
     assert headings == [name for name in known if name in headings]

@@ -22,7 +22,7 @@ from sphinx.ext.napoleon import Config, NumpyDocstring
 from softway.scenario.hints.docstrings import described
 from softway.scenario.hints.type_hints import Hint, hints, inputs, members, required
 
-PAGES = Path(__file__).parents[1] / "reference"
+PAGES = Path(__file__).parents[2] / "reference"
 NAMES = re.compile(r"^\.\. auto(?:class|function|exception):: (\S+)$", re.MULTILINE)
 STYLE = Config(napoleon_google_docstring=False, napoleon_use_rtype=False)
 

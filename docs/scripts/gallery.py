@@ -1,7 +1,8 @@
-"""The gallery of scenarios and examples: ``python docs/gallery.py`` writes ``docs/gallery.md``.
+"""The gallery of scenarios and examples: ``python docs/scripts/gallery.py`` writes ``docs/tutorials/gallery.md``.
 
-``python docs/gallery.py NAME PICTURE.png`` shrinks a large picture, for example of ``softway plot``, to the picture of
-an entry; it needs Pillow, which comes with matplotlib.  The text of each entry is the first sentence of its file.
+``python docs/scripts/gallery.py NAME PICTURE.png`` shrinks a large picture, for example of ``softway plot``, to the
+picture of an entry; it needs Pillow, which comes with matplotlib.  The text of each entry is the first sentence of its
+file.
 """
 
 import re
@@ -13,15 +14,15 @@ from pathlib import Path
 
 from PIL import Image
 
-DOCS = Path(__file__).resolve().parent
+DOCS = Path(__file__).resolve().parents[1]
 ROOT = DOCS.parent
-PAGE, PICTURES = DOCS / "gallery.md", DOCS / "pictures" / "gallery"
+PAGE, PICTURES = DOCS / "tutorials" / "gallery.md", DOCS / "pictures" / "gallery"
 WIDTH, COLOURS = 560, 256
 HEAD = """# Scenarios and programs
 
 All scenarios and programs of the checkout, with the commands that run them. `softway plot` draws
-a run, `softway view` shows it in the browser. Shorter programs with results are the {doc}`examples <examples/index>`.
-`python docs/gallery.py` writes this page.
+a run, `softway view` shows it in the browser. Shorter programs with results are the {doc}`examples </examples/index>`.
+`python docs/scripts/gallery.py` writes this page.
 """
 
 
@@ -69,9 +70,9 @@ def section(entry: Entry) -> str:
     picture, source = entry.picture.relative_to(DOCS), entry.file.relative_to(ROOT)
     return f"""## {entry.title}
 
-{entry.sentence} [{source}](../{source})
+{entry.sentence} [{source}](../../{source})
 
-![{entry.title}]({picture.as_posix()})
+![{entry.title}](../{picture.as_posix()})
 
 ```sh
 {entry.commands}

@@ -1,6 +1,7 @@
-"""The page of the verification manual from the table of the suite: ``python docs/manual.py TABLE.json PAGE.md``.
+"""The page of the verification manual from the table of the suite.
 
-The table is what ``softway verify --json TABLE.json`` writes; ``make manual`` does both.
+``python docs/scripts/manual.py TABLE.json PAGE.md`` writes it.  The table is what ``softway verify --json TABLE.json``
+writes; ``make manual`` does both.
 """
 
 import json
