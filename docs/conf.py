@@ -52,6 +52,7 @@ sphinx_gallery_conf = {
     "doc_module": ("softway",),
     "capture_repr": (),
     "reset_modules": ("matplotlib", "pictures.plain"),
+    "subsection_order": [f"../examples/gallery/{name}" for name in ("impacts", "methods", "contact", "materials")],
     "within_subsection_order": "pictures.Order",
 }
 

@@ -8,7 +8,7 @@ import pytest
 
 pytestmark = pytest.mark.slow
 
-EXAMPLES = sorted((Path(__file__).parents[2] / "examples" / "gallery").glob("*.py"))
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples" / "gallery").rglob("*.py"))
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)

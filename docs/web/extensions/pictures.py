@@ -9,8 +9,10 @@ import matplotlib.pyplot as plt
 from softway.record.view.style import CYCLE, STYLE
 
 ORDER = (
-    "bar_on_wall", "cradle", "hundred_bounces", "time_functions", "finer_meshes", "fixed_point_and_newton",
-    "ball_on_plane", "two_discs", "press_fit", "wavy_tool", "sliding_block", "spin", "upsetting", "own_law",
+    "bar_on_wall", "cradle", "hundred_bounces", "ball_on_plane", "two_discs",
+    "time_functions", "finer_meshes", "fixed_point_and_newton",
+    "press_fit", "wavy_tool", "sliding_block", "spin",
+    "upsetting", "own_law",
 )  # fmt: skip
 
 
