@@ -15,13 +15,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from time import perf_counter
 
-from apart import Failed
-from figures import Figure, read, regressions, unmatched, written
-from fingerprint import Origin, origin, prints
 from groups import accuracy, cube, methods, parts
 from groups.asked import Asked
-from machine import described
-from table import page
+from processes.apart import Failed
+from record.figures import Figure, read, regressions, unmatched, written
+from record.fingerprint import Origin, origin, prints
+from record.machine import described
+from record.table import page
 
 ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "benchmarks" / "results" / "latest.json"

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from apart import Absent, alone
-from figures import Figure, speedup
-from force import WIDE, WINDOW, apart
+from processes.apart import Absent, alone
+from record.figures import Figure, speedup
 
 from groups import peers
 from groups.asked import Asked
+from groups.force import WIDE, WINDOW, apart
 
 ENOUGH = 5.0
 """Error of the force that counts as the same accuracy [%]."""

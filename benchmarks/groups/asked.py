@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TypeVar
 
-from figures import Figure
+from record.figures import Figure
 
 T = TypeVar("T")
 CELLS = {"3k": 9, "30k": 20, "100k": 31, "300k": 46}

@@ -7,8 +7,8 @@ from statistics import median
 from typing import Any
 
 import numpy as np
-from apart import alone
-from figures import Figure
+from processes.apart import alone
+from record.figures import Figure
 
 from groups import peers
 from groups.asked import Asked

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from statistics import mean
 from typing import Any
 
-from apart import alone
-from figures import Figure, speedup
+from processes.apart import alone
+from record.figures import Figure, speedup
 
 from groups.asked import Asked
 

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from apart import alone
-from figures import Figure, speedup
+from processes.apart import alone
+from record.figures import Figure, speedup
 
 from groups.asked import Asked
 

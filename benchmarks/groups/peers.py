@@ -2,13 +2,15 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from statistics import mean, median
 
-from apart import HERE, Absent, environment, line
-from figures import STORED, Figure, speedup
+from processes.apart import Absent, environment, line
+from record.figures import STORED, Figure, speedup
 
 from groups.asked import Asked
 
+PEERS = Path(__file__).resolve().parents[1] / "peers"
 IMPLICIT = ("NGSolve", "GetFEM", "CalculiX", "NGSolve expert", "GetFEM expert")
 """Peers as their tutorials write them, and as experts set them."""
 SAMPLE, NEAR = 5, 0.005
@@ -35,7 +37,7 @@ def found(asked: Asked, peer: str, threads: int, **options: float | str) -> dict
     if code not in asked.peers:
         raise Absent(f"no interpreter for {code}")
     words = [w for k, v in options.items() for w in (f"--{k}", v if isinstance(v, str) else f"{v:.12g}")]
-    script = str(HERE / "peers" / f"{code.lower()}_{form or 'cube'}.py")
+    script = str(PEERS / f"{code.lower()}_{form or 'cube'}.py")
     return line([asked.peers[code], script, "--threads", str(threads), *words], environment(threads))
 
 

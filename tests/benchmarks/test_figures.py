@@ -9,17 +9,17 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 
 import run
-from apart import Failed, alone
-from figures import KEYS, STORED, Figure, read, regressions, speedup, unmatched, written
-from fingerprint import Origin, fingerprint, origin, prints
-from force import apart, means
 from groups.asked import Asked
+from groups.force import apart, means
 from groups.methods import spread
 from groups.peers import Time, against, sampled, whole
 from groups.peers import figures as shown
-from machine import described
+from processes.apart import Failed, alone
+from record.figures import KEYS, STORED, Figure, read, regressions, speedup, unmatched, written
+from record.fingerprint import Origin, fingerprint, origin, prints
+from record.machine import described
+from record.table import page
 from run import GROUPS, NOTES, changed, group_of, peers_of, rendered
-from table import page
 
 FAST = speedup("drop/3k", 2.0, 20.0, "s", ">= 10")
 SLOPE = Figure(name="scaling/cost", value=1.2, ratio=1.2, target="<= 1.35")

@@ -5,8 +5,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 
-from figures import read
-from fingerprint import BENCHES, CODE, COMMON, MARCH, ROOT
+from record.figures import read
+from record.fingerprint import BENCHES, CODE, COMMON, MARCH, ROOT
 from run import GROUPS, PAGE, RESULTS, rendered
 
 

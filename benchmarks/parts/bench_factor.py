@@ -1,10 +1,10 @@
 """What a direct solver costs: cubes of growing size, every backend, precision and number of threads.
 
-``python benchmarks/bench_factor.py [--cells N ...] [--backends NAME ...] [--threads N ...] [--out FILE.json]`` prints a
-table and may write the same numbers.  The matrix is the operator M + h^2/4 K of a neo-Hookean cube at the first slab
-length of its flight towards a floor.  A solve reads the factor twice, so ``GB/s`` is twice its size over the time, and
-``share`` that over the bandwidth of reading a long array.  The last lines compare the Schur complement of the unknowns
-that may touch the floor with the columns of the compliance that replace it.
+``python benchmarks/parts/bench_factor.py [--cells N ...] [--backends NAME ...] [--threads N ...] [--out FILE.json]``
+prints a table and may write the same numbers.  The matrix is the operator M + h^2/4 K of a neo-Hookean cube at the
+first slab length of its flight towards a floor.  A solve reads the factor twice, so ``GB/s`` is twice its size over the
+time, and ``share`` that over the bandwidth of reading a long array.  The last lines compare the Schur complement of the
+unknowns that may touch the floor with the columns of the compliance that replace it.
 """
 
 import argparse

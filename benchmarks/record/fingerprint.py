@@ -12,7 +12,7 @@ from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 MARCH = tuple(
     f"src/softway/{part}"
     for part in (
@@ -32,20 +32,20 @@ PARTS, METHODS = "benchmarks/groups/parts.py", "benchmarks/groups/methods.py"
 BENCHES = {
     "start": (METHODS,),
     "drop": THROWN,
-    "accuracy": (*THROWN, "benchmarks/groups/accuracy.py", "benchmarks/force.py"),
+    "accuracy": (*THROWN, "benchmarks/groups/accuracy.py", "benchmarks/groups/force.py"),
     "threads": THROWN[::3],
     "explicit": THROWN,
     "newton": (METHODS,),
     "incompressible": (METHODS,),
-    "kernels": (PARTS, "benchmarks/bench_kernels.py", "benchmarks/fused.cpp"),
-    "history": (PARTS, "benchmarks/bench_history.py"),
-    "factor": (PARTS, "benchmarks/bench_factor.py"),
-    "contact": (PARTS, "benchmarks/bench_contact.py"),
-    "slab": (PARTS, "benchmarks/bench_slab.py"),
+    "kernels": (PARTS, "benchmarks/parts/bench_kernels.py", "benchmarks/parts/fused.cpp"),
+    "history": (PARTS, "benchmarks/parts/bench_history.py"),
+    "factor": (PARTS, "benchmarks/parts/bench_factor.py"),
+    "contact": (PARTS, "benchmarks/parts/bench_contact.py"),
+    "slab": (PARTS, "benchmarks/parts/bench_slab.py"),
     "large": THROWN[::3],
 }
 """What measures it, by group."""
-COMMON = ("benchmarks/alone.py", "benchmarks/problems.py", "benchmarks/apart.py")
+COMMON = ("benchmarks/processes/alone.py", "benchmarks/processes/problems.py", "benchmarks/processes/apart.py")
 """What measures every group."""
 
 

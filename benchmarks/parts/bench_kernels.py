@@ -1,6 +1,6 @@
 """What the kernels of the internal force cost: cells per second for NumPy, the fused kernels and a plain loop in C++.
 
-``python benchmarks/bench_kernels.py [--out FILE.json] [--cells 100000]`` prints a table and may write the same
+``python benchmarks/parts/bench_kernels.py [--out FILE.json] [--cells 100000]`` prints a table and may write the same
 numbers.  The law is neo-Hookean.  The loop in C++ (``fused.cpp``) is compiled here by ``g++ -O3 -march=native
 -fopenmp``, and left out where there is no such compiler; it computes the force alone, without the care for small
 strains.  Rates are the best of many calls, the rivals taking turns, so that they compare even on a busy machine.

@@ -1,7 +1,7 @@
 """What a slab costs: time per slab and iterations, with and without contact, for bars and solids of growing size.
 
-``python benchmarks/bench_slab.py [--out FILE.json]`` prints a table and may write the same numbers.  Times are the
-median over the slabs of one march; the first slab, which builds the tables and the factor, is given apart.  They
+``python benchmarks/parts/bench_slab.py [--out FILE.json]`` prints a table and may write the same numbers.  Times are
+the median over the slabs of one march; the first slab, which builds the tables and the factor, is given apart.  They
 compare two states of the code on one machine.
 """
 

@@ -1,9 +1,9 @@
 """What contact costs: slabs of a thrown cube while it touches a floor against slabs of its flight afterwards.
 
-``python benchmarks/bench_contact.py [--cells N ...] [--out FILE.json]`` marches each cube through its impact and for as
-long again in flight, in which it vibrates as strongly.  ``median`` and ``mean`` are ratios of times per slab, contact
-over flight, iterations included; the mean also holds factors and compliance columns.  ``search`` is the share of the
-time of the contact slabs spent on who may touch whom.
+``python benchmarks/parts/bench_contact.py [--cells N ...] [--out FILE.json]`` marches each cube through its impact and
+for as long again in flight, in which it vibrates as strongly.  ``median`` and ``mean`` are ratios of times per slab,
+contact over flight, iterations included; the mean also holds factors and compliance columns.  ``search`` is the share
+of the time of the contact slabs spent on who may touch whom.
 """
 
 import argparse

@@ -1,6 +1,6 @@
 """What laws with a history cost: cells per second of their internal force and memory, beside the neo-Hookean law.
 
-``python benchmarks/bench_history.py [--out FILE.json] [--cells 100000]`` prints a table and may write the same
+``python benchmarks/parts/bench_history.py [--out FILE.json] [--cells 100000]`` prints a table and may write the same
 numbers.  The bodies are given noise of 1 % of an edge, then another slab of as much; with a low yield stress all their
 points flow, with a high one none.  Rates are the best of many calls, the laws taking turns, by the time of the
 processor for one thread and of the clock for more, so that they compare even on a busy machine.

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import asdict
 from hashlib import sha256
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,8 @@ from softway.bodies.elements.section import Volume
 from softway.bodies.inertia.mass_redistribution import redistribute_mass
 from softway.meshes.generators.shapes import box
 from softway.solve.methods.central_difference import Explicit
+
+sys.path.append(str(Path(__file__).parents[1] / "parts"))
 
 FIXED, NEWTON = sw.FixedPoint(tolerance=1e-8), sw.Newton(tolerance=1e-8)
 METHODS = {"fixed": FIXED, "Newton": NEWTON}

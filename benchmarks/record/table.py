@@ -4,8 +4,8 @@ from collections.abc import Iterable, Mapping
 from itertools import groupby
 from pathlib import Path
 
-from figures import Figure
-from fingerprint import Origin
+from record.figures import Figure
+from record.fingerprint import Origin
 
 HEAD = (Path(__file__).parent / "compared.md").read_text(encoding="utf-8")
 """What is compared, and what is not."""

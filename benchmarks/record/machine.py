@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from figures import Figure
+from record.figures import Figure
 
 PACKAGES = ("softway", "numpy", "scipy", "numba", "llvmlite", "pypardiso", "mkl", "scikit-sparse", "python-mumps")
 

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from math import isfinite
 from pathlib import Path
 
-from fingerprint import Origin
+from record.fingerprint import Origin
 
 KEYS = ("name", "value", "unit", "baseline", "ratio", "target", "pass")
 SLACK = 0.2

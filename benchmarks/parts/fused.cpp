@@ -1,5 +1,5 @@
-// The neo-Hookean internal force as a plain loop over the cells, for benchmarks/bench_kernels.py: what a compiler makes
-// of straightforward code.  Threads sum into vectors of their own, which are added afterwards.
+// The neo-Hookean internal force as a plain loop over the cells, for benchmarks/parts/bench_kernels.py: what a
+// compiler makes of straightforward code.  Threads sum into vectors of their own, which are added afterwards.
 #include <cmath>
 #include <cstdint>
 #include <omp.h>

@@ -1,7 +1,7 @@
 """Hundreds of bounces of a cube and a ball between two planes: the energy they keep, and what they cost.
 
-``python benchmarks/bounces.py [--bounces N] [--cells N ...] [--out FILE.json]`` prints a table and may write the same
-numbers.  ``dE`` is the greatest departure of the energy from that at the start, relative to it; ``TV`` the total
+``python benchmarks/parts/bounces.py [--bounces N] [--cells N ...] [--out FILE.json]`` prints a table and may write the
+same numbers.  ``dE`` is the greatest departure of the energy from that at the start, relative to it; ``TV`` the total
 variation of the force of the first bounce over twice its maximum; ``a`` the greatest scalar of the Energy rule.
 """
 
@@ -16,7 +16,7 @@ from time import perf_counter
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "verification" / "tools"))
+sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "verification" / "tools"))
 
 from bouncing import ball, between_planes, bounced, cube, step_of
 

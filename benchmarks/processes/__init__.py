@@ -1,0 +1,1 @@
+"""Problems that are measured in processes of their own."""
