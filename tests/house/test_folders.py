@@ -9,14 +9,19 @@ from pathlib import Path
 from sources import Source, read_sources
 
 ENTRIES = 12
-"""Greatest number of modules and folders in a folder."""
+"""Greatest number of modules, pages and folders in a folder."""
+TOPS = ("src", "tests", "docs", "benchmarks", "examples")
 LISTS = {"src/softway", "tests/unit"}
 """Folders that list the layers of the package."""
+MADE = {"docs/_build", "docs/examples"}
+"""Folders that ``make docs`` writes."""
+WRITTEN = {".py", ".md"}
+"""Modules and pages; folders without any hold data, pictures for example, named after what they belong to."""
 
 
-def entries(folder: Path) -> list[str]:
-    """Modules, folders and data of a folder, without what Python and its tools put there."""
-    names = (p.name for p in folder.iterdir())
+def entries(root: Path, folder: Path) -> list[str]:
+    """Modules, pages, folders and data of a folder, without what Python, its tools and make put there."""
+    names = (p.name for p in folder.iterdir() if p.relative_to(root).as_posix() not in MADE)
     return sorted(n for n in names if not n.startswith((".", "__")) and n not in ("conftest.py", "py.typed"))
 
 
@@ -24,10 +29,11 @@ def crowded(root: Path, top: str) -> Iterator[str]:
     """Folders below ``top`` with too many entries."""
     for folder in (root / top, *(p for p in (root / top).rglob("*") if p.is_dir())):
         name = folder.relative_to(root).as_posix()
-        hidden = any(part.startswith(("__", ".")) for part in folder.parts)
-        data = not any(folder.rglob("*.py"))
-        if not hidden and not data and name not in LISTS and len(entries(folder)) > ENTRIES:
-            yield f"{name}: {len(entries(folder))} entries, at most {ENTRIES}"
+        hidden = any(part.startswith(("__", ".")) for part in folder.relative_to(root).parts)
+        made = any(name == place or name.startswith(f"{place}/") for place in MADE)
+        data = not any(p.suffix in WRITTEN for p in folder.rglob("*"))
+        if not (hidden or made or data) and name not in LISTS and len(entries(root, folder)) > ENTRIES:
+            yield f"{name}: {len(entries(root, folder))} entries, at most {ENTRIES}"
 
 
 def shadowing(root: Path) -> Iterator[str]:
@@ -77,7 +83,7 @@ def test_nothing_is_imported_in_circles(sources: tuple[Source, ...]) -> None:
 
 
 def test_no_folder_is_crowded(root: Path) -> None:
-    assert not (wrong := [line for top in ("src", "tests") for line in crowded(root, top)]), "\n".join(wrong)
+    assert not (wrong := [line for top in TOPS for line in crowded(root, top)]), "\n".join(wrong)
 
 
 def test_no_module_hides_one_of_python(root: Path) -> None:
@@ -92,6 +98,15 @@ def test_what_they_find(tmp_path: Path) -> None:
     (folder / "time.py").touch()
     assert list(crowded(tmp_path, "src")) == [f"src/package: {ENTRIES + 2} entries, at most {ENTRIES}"]
     assert list(shadowing(tmp_path)) == ["src/package/time.py"]
+
+
+def test_pages_count_and_pictures_do_not(tmp_path: Path) -> None:
+    for name, suffix in {"theory": "md", "pictures": "png", "examples/contact": "md"}.items():
+        folder = tmp_path / "docs" / name
+        folder.mkdir(parents=True)
+        for number in range(ENTRIES + 1):
+            (folder / f"p{number}.{suffix}").touch()
+    assert list(crowded(tmp_path, "docs")) == [f"docs/theory: {ENTRIES + 1} entries, at most {ENTRIES}"]
 
 
 def test_circles_are_found(tmp_path: Path) -> None:
