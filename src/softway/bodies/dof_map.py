@@ -2,7 +2,7 @@
 
 The unknowns of a solid are the components of its nodes that have no support: J picks them.  Where some components
 depend on others (ties, hanging nodes, rigid parts), J has their coefficients.  Contact, friction and the slab see the
-nodes only; forces on the nodes become those on the unknowns by ``J^T`` (docs/theory/dof_map.md).
+nodes only; forces on the nodes become those on the unknowns by ``J^T`` (docs/theory/solver/dof_map.md).
 """
 
 from collections.abc import Sequence

@@ -104,7 +104,7 @@ def _timing(scene: Scene) -> ImpactRule:
 
 
 def with_dofs(model: Model, dofs: DofMap) -> Model:
-    """Model whose nodes are moved by other unknowns: ties, rigid parts, hanging nodes (docs/theory/dof_map.md).
+    """Model whose nodes are moved by other unknowns: ties, rigid parts, hanging nodes (docs/theory/solver/dof_map.md).
 
     Solids that share an unknown form one group, whose energy balance is closed as one.
 
