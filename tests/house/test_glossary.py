@@ -18,7 +18,6 @@ ROW = re.compile(r"^\| (?P<term>.+?) \| (?P<meaning>.+) \| (?P<places>`.+`) \|$"
 PLACE = re.compile(r"`((?:\w+/)*\w+\.py): (\w+(?:\.\w+)?)`")
 NAMESAKES: Mapping[str, frozenset[str]] = {
     "Event": frozenset({"apps/verify/exact/semidiscrete.py", "apps/verify/scenes/bars.py"}),
-    "Motion": frozenset({"apps/verify/exact/bar.py", "apps/verify/exact/semidiscrete.py"}),
     "Probe": frozenset({"record/write/probes.py"}),
 }
 """Modules that may have a class with the name of one in the glossary: the references of the verification cases, which

@@ -197,6 +197,25 @@ def prints(source: Source) -> Iterable[str]:
             yield f"line {node.lineno}: print"
 
 
+REDUCTIONS = {"max", "min", "sum", "any", "all", "vdot", "norm"}
+NODAL = re.compile(r"\b(displacement|velocity|acceleration|massive|mass|free|points|residual|moving|q|step|u0|u1)\b")
+ROWS = re.compile(r"\.(active|near)\b")
+BY_SOLID = {"model.kinetic(before.start.velocity).sum()", "model.energy_and_force(rest.displacement)[0].sum()"}
+
+
+def nodal_reductions(source: Source) -> Iterable[str]:
+    """Sums and greatest values over nodes or unknowns beside ``VectorSpace``, in the slab and the march."""
+    if not source.name.startswith(("softway.march", "softway.solve.equations", "softway.solve.methods")):
+        return
+    for node in ast.walk(source.tree):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in REDUCTIONS:
+            of, text = ast.unparse(node.func.value), ast.unparse(node)
+            rowwise = any(k.arg == "axis" and ast.unparse(k.value) != "0" for k in node.keywords)
+            nodal = NODAL.search(text) and not ROWS.search(text)
+            if not rowwise and "space" not in of and text not in BY_SOLID and nodal:
+                yield f"line {node.lineno}: {text}"
+
+
 RULES: tuple[Finder, ...] = (
     long_modules,
     long_functions,
@@ -211,6 +230,7 @@ RULES: tuple[Finder, ...] = (
     busy_packages,
     unlisted_exports,
     prints,
+    nodal_reductions,
 )
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array, IntArray
+from softway.bodies.assembled.vector_space import VectorSpace
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact, DualMortar, NodeToSurface
@@ -45,7 +46,7 @@ class ContactAssembly:
 
 
 def assemble_contacts(
-    contacts: Sequence[Contact], bodies: Mapping[str, Solid | Tool], parts: Sequence[DiscreteSolid]
+    contacts: Sequence[Contact], bodies: Mapping[str, Solid | Tool], parts: Sequence[DiscreteSolid], space: VectorSpace
 ) -> ContactAssembly:
     """Assemble the contact methods and friction laws of the declared contacts.
 
@@ -82,6 +83,7 @@ def assemble_contacts(
         watchers=tuple(watchers),
         watched=tuple(watched),
         rough=not all(c.friction.frictionless for c in contacts),
+        space=space,
     )
     return ContactAssembly(
         contacts=contact_set.with_fixed_rows(),

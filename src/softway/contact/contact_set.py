@@ -9,6 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
+from softway.bodies.assembled.vector_space import LocalSpace, VectorSpace
 from softway.contact.contact_rows import ContactRows
 from softway.contact.node_to_surface.edge_to_edge import EdgeContact
 from softway.contact.node_to_surface.kept_facets import KeptEdges, keep_facets
@@ -75,6 +76,8 @@ class ContactSet:
     clearance
         (m,) offsets of the gaps [m]: negative where the linear surfaces in place of curved facets overlap at the start
         although the curved surfaces do not; None without such overlaps.
+    space
+        Gathers the positions of surfaces for the search.
     """
 
     methods: tuple[NodeToTool | SurfacePair, ...]
@@ -87,6 +90,7 @@ class ContactSet:
     fixed_rows: ContactRows | None = None
     rough: bool = False
     clearance: Array | None = None
+    space: VectorSpace = LocalSpace(())
 
     @property
     def node(self) -> IntArray:
@@ -112,7 +116,7 @@ class ContactSet:
         """Search the contacts of a slab between two times, from displacement ``u0`` to about ``u1`` (n, d)."""
         if self.fixed_rows is not None:
             return SlabContacts(contacts=self, surfaces=(), watching=(), node=self.node, fixed_rows=self.fixed_rows)
-        x0, x1 = self.points + u0, self.points + u1
+        x0, x1 = self.space.gather(self.points + u0), self.space.gather(self.points + u1)
         found = tuple(
             m.during(start, end) if isinstance(m, NodeToTool) else m.meet(x0, x1, self.reach) for m in self.methods
         )
@@ -133,7 +137,7 @@ class ContactSet:
         """
         if not self.watchers:
             return self
-        pairs, least = self.rest(u, 0.0), -DEPTH * float(np.abs(self.points + u).max())
+        pairs, least = self.rest(u, 0.0), -DEPTH * self.space.greatest(self.points + u)
         gap = pairs.at(u).gap(u)
         deep = np.array(apart, bool)[self.contact] & (gap < least)
         if deep.any():
@@ -192,7 +196,7 @@ class SlabContacts:
 
     def apart(self, u: Array) -> bool:
         """True if no surfaces overlap at the displacement ``u`` (n, d) beyond rounding."""
-        return self.overlap(u) <= DEPTH * float(np.abs(self.contacts.points + u).max())
+        return self.overlap(u) <= DEPTH * self.contacts.space.greatest(self.contacts.points + u)
 
     def overlap(self, u: Array) -> float:
         """Greatest overlap at the displacement ``u`` (n, d) [m]; negative if nothing touches."""

@@ -11,7 +11,6 @@ from softway.errors import InputError, TooFast
 from softway.kernels.geometry.shortest_edge import shortest
 from softway.march.model_state import ModelState
 from softway.model.model import Model
-from softway.solve.constraints.normal_active_set import greatest
 from softway.solve.methods.central_difference import Explicit
 
 CRAWL = 1e-2
@@ -89,10 +88,10 @@ def may_grow(model: Model, control: StepControl, length: float, before: ModelSta
     moving = model.massive
     jump = after.acceleration - before.acceleration
     factor, allowed = 8.0 * length**2 / 12.0, control.growth * model.edge
-    if factor * greatest(jump) <= allowed.min():
+    if factor * model.space.greatest(jump) <= model.space.least(allowed):
         return True
     error = factor * np.abs(jump)
-    return bool((error[moving] <= allowed[moving, None]).all())
+    return model.space.every(error[moving] <= allowed[moving, None])
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -10,6 +10,7 @@ from scipy.sparse.csgraph import connected_components
 from softway.arrays import IntArray
 from softway.bodies.assembled.nodal_loads import dead_load
 from softway.bodies.assembled.nodal_masses import solid_following, solid_mass
+from softway.bodies.assembled.vector_space import LocalSpace
 from softway.bodies.discretised import DiscreteSolid, discretise, driven_components, initial
 from softway.bodies.dof_map import DofMap, MatrixSum, joined
 from softway.bodies.solid import Solid
@@ -31,7 +32,7 @@ def build(scene: Scene) -> Model:
     """
     solids, timing, factor = _solids(scene), _timing(scene), scene.inertia.factor
     parts = _parts(solids)
-    met = assemble_contacts(scene.contacts, scene.bodies, parts)
+    met = assemble_contacts(scene.contacts, scene.bodies, parts, LocalSpace(tuple(p.rows for p in parts)))
     light = met.nodes if timing.massless and factor > 0.0 else np.zeros(0, int)
     own = [light[(light >= p.rows.start) & (light < p.rows.stop)] - p.rows.start for p in parts]
     masses = [solid_mass(p, solids[p.name], nodes, timing.spread) for p, nodes in zip(parts, own, strict=True)]
@@ -66,6 +67,7 @@ def build(scene: Scene) -> Model:
         total=_total(mass, parts, dofs),
         timing=timing,
         friction=met.friction,
+        space=met.contacts.space,
     )
 
 
@@ -139,8 +141,8 @@ def with_dofs(model: Model, dofs: DofMap) -> Model:
         problem = f"{len(mixed)} unknowns move contact nodes without inertia together with others"
         raise InputError("dofs", problem, "unknowns of their own for contact nodes, or the rule Impulse")
     for name, field in (("displacement", model.displacement), ("velocity", model.velocity)):
-        left = float(np.abs(dofs.nodes(dofs.unknowns(field)) - field).max(initial=0.0))
-        if left > MOTION * float(np.abs(field).max(initial=0.0)):
+        left = model.space.greatest(dofs.nodes(dofs.unknowns(field)) - field)
+        if left > MOTION * model.space.greatest(field):
             raise InputError("dofs", f"the initial {name} differs by {left:.3g} from any of the map", f"another {name}")
     return replace(model, dofs=dofs, linked=_linked(model, dofs), total=_total(model.mass, model.parts, dofs))
 

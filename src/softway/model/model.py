@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent, during
 from softway.bodies.assembled.nodal_loads import DeadLoads
+from softway.bodies.assembled.vector_space import VectorSpace
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.dof_map import DofMap, MatrixSum
 from softway.bodies.internal_force.material_state import MaterialState
@@ -66,6 +67,8 @@ class Model:
         Impact rule of the scene.
     friction
         Friction laws of the contact rows.
+    space
+        Sums, inner products and greatest values of nodal fields.
     """
 
     scene: Scene
@@ -90,6 +93,7 @@ class Model:
     total: MatrixSum
     timing: ImpactRule
     friction: FrictionRows
+    space: VectorSpace
 
     @property
     def free(self) -> BoolArray:
@@ -163,9 +167,14 @@ class Model:
         """Field over all nodes from the fields of the solids."""
         return np.concatenate([fields[p.name] for p in self.parts])
 
-    def totals(self, density: Array) -> Array:
-        """Sums (parts,) of a nodal quantity (n, ...) over each solid."""
-        return np.array([density[p.rows].sum() for p in self.parts])
+    def extent(self, u: Array) -> float:
+        """Greatest coordinate [m] at the displacement ``u`` (n, d), the scale of rounding."""
+        return self.space.greatest(self.points + u)
+
+    @property
+    def inert(self) -> bool:
+        """True if a node has inertia."""
+        return self.space.some(self.massive)
 
     def nodal(self, values: Array) -> Array:
         """Values (parts,) of the solids on their nodes, (n, 1)."""
@@ -216,7 +225,7 @@ class Model:
 
     def kinetic(self, v: Array) -> Array:
         """Kinetic energy of each solid (parts,) [J]."""
-        return 0.5 * self.totals(v * (self.mass @ v))
+        return 0.5 * self.space.totals(v * (self.mass @ v))
 
 
 def assembled_tangent(parts: Sequence[DiscreteSolid], u: Array) -> sp.csc_array:

@@ -156,7 +156,7 @@ def fitted(
     d = model.shape[1]
     stiffness = model.tangent(u)
     weight = np.repeat(np.maximum(_nodal_volume(model), 0.0), d)
-    nodal = LIFT * float(stiffness.diagonal().mean() / weight.mean()) * weight
+    nodal = LIFT * (model.space.mean(stiffness.diagonal()) / model.space.mean(weight)) * weight
     lift = dofs.matrix(sp.csc_array(sp.diags_array(nodal)))
     pairs = model.contacts.meet(apart, u, 0.0, 0.0)
     return _newton_iteration(model, u, dofs, load, pairs, lift, limit, friction, cancel)
@@ -191,7 +191,7 @@ def _newton_iteration(
     last: tuple[Array, BoolArray] | None = None
     once = model.linear and model.contacts.fixed and lift is None
     seen = Stagnation()
-    rounding = rounded(model.points)
+    rounding = rounded(model.space.greatest(model.points))
     for count in range(limit):
         heed(cancel, 0.0)
         pairs = pairs.with_kept_facets(u) if count == KEEP_AFTER and pairs.fixed_rows is None else pairs
@@ -203,10 +203,10 @@ def _newton_iteration(
         except NoConvergence as failure:
             raise NumericsError(f"no static equilibrium at the start: {failure}", 0.0, REMEDY) from None
         u, last = u + dofs.nodes(step), (force, active)
-        change = float(np.abs(step).max())
+        change = model.space.greatest(step)
         if not np.isfinite(change):
             break
-        size = max(float(np.abs(u).max()), float(np.abs(rows.offset[rows.near]).max(initial=0.0)))
+        size = max(model.space.greatest(u), float(np.abs(rows.offset[rows.near]).max(initial=0.0)))
         seen = seen.after(change)
         if once or change <= max(1e-13 * size, rounding) or (seen.since >= 2 and change <= WANDERING * size):
             return _rest(u, rows, force, active)
@@ -233,7 +233,7 @@ def _step(
     friction: InitialFriction,
 ) -> tuple[Array, Array, BoolArray]:
     """One step of Newton's method on the unknowns, the contact forces, and the active rows."""
-    extent = float(np.abs(model.points + u).max())
+    extent = model.extent(u)
     slipping = friction.conditions(model, rows, u, extent)
     rows = rows.without_friction() if slipping.frictionless else rows
     directions = row_basis(rows, dofs, model.contacts.fixed, model.touchable)
@@ -251,7 +251,7 @@ def _step(
         equal=np.zeros(m, bool),
         unilateral=reachable,
         slipping=slipping,
-        rounding=rounded(model.points),
+        rounding=rounded(model.space.greatest(model.points)),
     )
     solve = solve_normal_contact if slipping.frictionless else solve_friction
     return solve(free, frozen, coefficients, conditions, active, force)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import softway as sw
+from softway.bodies.assembled.vector_space import LocalSpace
 from softway.march.step_control import may_grow
 
 SOFT, LINEAR = sw.NeoHookean(E=1.0, nu=0.3), sw.LinearElastic(E=1.0, nu=0.3)
@@ -44,7 +45,7 @@ def test_a_slab_grows_where_its_error_would_stay_small_at_twice_the_length(jump:
 
     Eight times 0.1^2 / 12 times 0.3 is 0.002.
     """
-    model = SimpleNamespace(massive=np.array([True, True, False]), edge=np.array([0.2, 0.5, 0.2]))
+    model = SimpleNamespace(space=LocalSpace(()), massive=np.array([True, True, False]), edge=np.array([0.2, 0.5, 0.2]))
     before, after = (SimpleNamespace(acceleration=np.zeros((3, 2))) for _ in range(2))
     before.acceleration[:] = 7.0
     after.acceleration[:] = 7.0

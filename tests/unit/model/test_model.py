@@ -56,7 +56,7 @@ def test_nodes_of_all_solids_are_in_one_order(model: Model) -> None:
     assert set(model.meshes) == {"a", "b"}
     field = np.random.default_rng(0).normal(size=model.shape)
     np.testing.assert_array_equal(model.join(model.split(field)), field)
-    np.testing.assert_allclose(model.totals(field), [field[:15].sum(), field[15:].sum()], atol=1e-14)
+    np.testing.assert_allclose(model.space.totals(field), [field[:15].sum(), field[15:].sum()], atol=1e-14)
 
 
 def test_energy_force_and_tangent_are_those_of_the_solids(model: Model) -> None:
@@ -78,7 +78,7 @@ def test_energy_force_and_tangent_are_those_of_the_solids(model: Model) -> None:
 def test_only_contact_nodes_of_the_energy_rule_lose_their_mass(model: Model) -> None:
     bottom = 15 + model.meshes["b"].nodes("bottom")
     assert np.flatnonzero(~model.massive).tolist() == bottom.tolist()
-    assert model.totals(np.asarray(model.mass.sum(axis=1))) == pytest.approx([6.0, 10.0])
+    assert model.space.totals(np.asarray(model.mass.sum(axis=1))) == pytest.approx([6.0, 10.0])
     plain = nodal_mass(model.meshes["a"], 3.0, PlaneStrain(), square().mass)
     np.testing.assert_array_equal(model.mass[:15, :15].toarray(), plain.toarray())
     for timing in (Impulse(), Paper()):

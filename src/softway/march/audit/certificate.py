@@ -52,7 +52,7 @@ def violation(
     kept = (found.min_gap, found.min_force, found.power_residual, found.momentum_error, found.energy_error)
     if np.isnan(kept).any() or not np.isfinite(kept[1:]).all():
         return "a gap, a force or a balance is not a number"
-    if found.min_gap < 0.0 and found.min_gap < -DEPTH * _extent(model, after):
+    if found.min_gap < 0.0 and found.min_gap < -DEPTH * model.extent(after.start.displacement):
         return f"a node ends {-found.min_gap:.3g} m inside its opponent"
     if found.min_force < -TENSION * float(np.abs(after.pressure).max(initial=0.0)):
         return f"a contact row is in tension: {-found.min_force:.3g} N"
@@ -72,7 +72,7 @@ def _energetic(
         return None
     level += float(model.kinetic(before.start.velocity).sum())
     moved = np.abs(after.start.displacement - before.start.displacement).max(axis=1)
-    if error <= (growth + ENERGY) * level + rest + float(np.sum(_blurred(model, after) * moved)):
+    if error <= (growth + ENERGY) * level + rest + model.space.total(_blurred(model, after) * moved):
         return None
     if closes:
         return f"the energy balance misses {found.energy_error:.3g} J of {level:.3g} J"
@@ -85,13 +85,13 @@ def _pushing(
     """Message on the momentum balance; its scale is at least the total momentum."""
     if not out.required.momentum:
         return None
-    accuracy = MOMENTUM if model.massive.any() else FORCES
+    accuracy = MOMENTUM if model.inert else FORCES
     closes = out.required.energy == "closed"
     if not closes and found.momentum_error <= accuracy * float(np.abs(ledger.momentum).sum()):
         return None
     scale = _participating(model, before, out, after)
-    most = accuracy * scale + float(np.sqrt(2.0 * model.mass.sum() * model.floor.sum()))
-    most += (after.time - before.time) * float(_blurred(model, after).sum())
+    most = accuracy * scale + float(np.sqrt(2.0 * model.space.total(model.mass.sum(axis=1)) * model.floor.sum()))
+    most += (after.time - before.time) * model.space.total(_blurred(model, after))
     if found.momentum_error > most:
         return f"the momentum balance misses {found.momentum_error:.3g} of {scale:.3g} kg m/s"
     unrest = float(np.abs(_unrest(out, after)).max()) if closes else 0.0
@@ -110,7 +110,7 @@ def _unrest(out: SlabResult, after: ModelState) -> Array:
     if out.rows.shear.count:
         force = force - out.rows.shear.spread(after.traction)
     here = model.free & ~model.massive[:, None]
-    return np.asarray(out.system.path.span * np.where(here, force, 0.0).sum(axis=0))
+    return np.asarray(out.system.path.span * model.space.sums(np.where(here, force, 0.0)))
 
 
 def _blurred(model: Model, after: ModelState) -> Array:
@@ -121,20 +121,16 @@ def _blurred(model: Model, after: ModelState) -> Array:
     """
     stiffness = model.floor / UNSTRAINED**2 / [p.mesh.n_nodes for p in model.parts]
     spring = stiffness[model.part_of] / model.edge**2
-    return PLACES * _extent(model, after) * np.where(model.massive, 0.0, spring)
-
-
-def _extent(model: Model, after: ModelState) -> float:
-    """Greatest coordinate [m]."""
-    return float(np.abs(model.points + after.start.displacement).max())
+    return PLACES * model.extent(after.start.displacement) * np.where(model.massive, 0.0, spring)
 
 
 def balance(model: Model, before: ModelState, out: SlabResult, after: ModelState) -> Array:
     """Change of momentum (d,) less the impulses of loads, contact and supports [kg m/s]."""
     keep = np.ones(model.shape[1])
     keep[0] = not any(isinstance(p.internal.section, Axisymmetric) for p in model.parts)
-    gained = (model.mass @ np.ones(len(model.massive))) @ (after.start.velocity - before.start.velocity)
-    pushed = sum(resultant(part) for part in _given(out))
+    space = model.space
+    gained = space.products(model.mass @ np.ones(len(model.massive)), after.start.velocity - before.start.velocity)
+    pushed = sum(resultant(space, part) for part in _given(out))
     return np.asarray((gained - (after.time - before.time) * pushed) * keep)
 
 
@@ -145,6 +141,7 @@ def _given(out: SlabResult) -> tuple[Array, Array, Array]:
 
 def _participating(model: Model, before: ModelState, out: SlabResult, after: ModelState) -> float:
     """Scale of the momentum balance [kg m/s]."""
-    own = np.abs(model.mass @ before.start.velocity).sum() + np.abs(model.mass @ after.start.velocity).sum()
-    inner = INTERNAL * (after.time - before.time) * (np.abs(before.start.force).sum() + np.abs(after.start.force).sum())
-    return float(own + (after.time - before.time) * np.abs(sum(_given(out))).sum() + inner)
+    total, span = model.space.total, after.time - before.time
+    own = sum(total(np.abs(model.mass @ state.start.velocity)) for state in (before, after))
+    inner = INTERNAL * span * sum(total(np.abs(state.start.force)) for state in (before, after))
+    return own + span * total(np.abs(sum(_given(out)))) + inner

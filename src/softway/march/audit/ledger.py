@@ -6,13 +6,14 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray
 from softway.bodies.assembled import material_states
+from softway.bodies.assembled.vector_space import VectorSpace
 from softway.bodies.elements.section import Axisymmetric
 from softway.march.march_state import EnergyAccount
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.results.step import ContactLedger, Ledger
 from softway.model.model import Model
-from softway.solve.equations.energy_balance import moment
+from softway.solve.equations.spin_balance import moment
 
 
 def initial_ledger(model: Model, now: ModelState) -> Ledger:
@@ -30,36 +31,32 @@ def initial_ledger(model: Model, now: ModelState) -> Ledger:
         for k, name in enumerate(rows.labels)
     }
     return Ledger(
-        energy_kinetic=_kinetic(now.start.velocity, momenta),
+        energy_kinetic=0.5 * model.space.dot(now.start.velocity, momenta),
         energy_strain=float(now.start.energy.sum()),
         work_external=0.0,
         dissipation=0.0,
         energy_error=0.0,
-        momentum=momentum(momenta),
+        momentum=momentum(model.space, momenta),
         spin=spin(model, now.start.displacement, momenta),
         contacts=contacts,
     )
 
 
-def _kinetic(v: Array, momenta: Array) -> float:
-    return 0.5 * float(np.vdot(v, momenta))
-
-
-def resultant(field: Array) -> Array:
+def resultant(space: VectorSpace, field: Array) -> Array:
     """Sum (d,) of a nodal field (n, d).
 
     Examples
     --------
-    >>> resultant(np.array([[1.0, 0.0], [2.0, 3.0]]))
+    >>> resultant(LocalSpace(()), np.array([[1.0, 0.0], [2.0, 3.0]]))
     array([3., 3.])
     """
-    return np.ones(len(field)) @ field
+    return space.products(np.ones(len(field)), field)
 
 
-def momentum(momenta: Array) -> Array:
+def momentum(space: VectorSpace, momenta: Array) -> Array:
     """Linear momentum (3,) of nodal momenta (n, d) [kg m/s]."""
     out = np.zeros(3)
-    out[: momenta.shape[1]] = resultant(momenta)
+    out[: momenta.shape[1]] = resultant(space, momenta)
     return out
 
 
@@ -69,7 +66,7 @@ def spin(model: Model, u: Array, momenta: Array) -> Array:
     """
     out = np.zeros(3)
     round_ = any(isinstance(p.internal.section, Axisymmetric) for p in model.parts)
-    found = moment(model.points + u, momenta)
+    found = moment(model.space, model.points + u, momenta)
     if len(found) and not round_:
         out[3 - len(found) :] = found
     return out
@@ -94,13 +91,13 @@ def audit(model: Model, last: EnergyAccount, before: ModelState, out: SlabResult
     """Ledger after a slab, continuing the energy account."""
     moved = after.start.displacement - before.start.displacement
     load = out.system.model.slab_load(out.solution.end.scalar)
-    work = last.work_external + float(np.vdot(load, moved)) + out.work
+    work = last.work_external + model.space.dot(load, moved) + out.work
     lost = last.dissipation + out.dissipation + float(np.sum(out.solution.end.lost))
     lost += material_states.dissipated_energy(model.parts, after.start.states) - material_states.dissipated_energy(
         model.parts, before.start.states
     )
     momenta = model.mass @ after.start.velocity
-    kinetic = _kinetic(after.start.velocity, momenta)
+    kinetic = 0.5 * model.space.dot(after.start.velocity, momenta)
     strain = float(after.start.energy.sum())
     return Ledger(
         energy_kinetic=kinetic,
@@ -108,7 +105,7 @@ def audit(model: Model, last: EnergyAccount, before: ModelState, out: SlabResult
         work_external=work,
         dissipation=lost,
         energy_error=kinetic + strain - last.energy_start - work + lost,
-        momentum=momentum(momenta),
+        momentum=momentum(model.space, momenta),
         spin=spin(model, after.start.displacement, momenta),
         contacts=_contacts(model, before, out, after),
     )

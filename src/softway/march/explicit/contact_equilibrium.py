@@ -10,10 +10,10 @@ from dataclasses import replace
 import numpy as np
 
 from softway.arrays import Array, BoolArray
+from softway.bodies.assembled.vector_space import VectorSpace
 from softway.errors import NoConvergence
 from softway.march.explicit.contact_patch import among, balanced, chosen_nodes, iterate, touched_nodes
 from softway.march.explicit.massless_nodes import MasslessNodes, pushed_nodes
-from softway.solve.constraints.normal_active_set import greatest
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.methods.central_difference import Explicit
 from softway.solve.methods.iteration import Iterate
@@ -59,12 +59,13 @@ def solve_contact_nodes(
     return balanced(system, still, (q, u1), first, (near, memory), free, method)
 
 
-def watched_nodes(memory: OperatorMemory, still: MasslessNodes, missing: Array) -> OperatorMemory:
+def watched_nodes(space: VectorSpace, memory: OperatorMemory, still: MasslessNodes, missing: Array) -> OperatorMemory:
     """Operator memory with the fraction of the residual forces after one correction; ``missing`` (f,) is left [N]."""
     skin = memory.skin
     if skin is None or skin.before == 0.0:
         return memory
-    return replace(memory, skin=replace(skin, remaining=_beyond(missing, still, memory.near) / skin.before, before=0.0))
+    remaining = _beyond(space, missing, still, memory.near) / skin.before
+    return replace(memory, skin=replace(skin, remaining=remaining, before=0.0))
 
 
 def _followed(
@@ -84,28 +85,28 @@ def _followed(
         skin = Skin(origin=OperatorOrigin.of(system, u1))
         memory = replace(memory, factorisations=memory.factorisations + 1)
     factor = skin.factor or still.factored(model, skin.origin, crude=True)[0]
-    initial = system.contact.initial
+    initial, space = system.contact.initial, model.space
     outer = pushed_nodes(still, model.load, initial.rows, initial.pressure, initial.traction)
-    allowed, least = SLIGHT * greatest(system.start.force), 0.5 * h * method.tolerance * greatest(q)
+    allowed, least = SLIGHT * space.greatest(system.start.force), 0.5 * h * method.tolerance * space.greatest(q)
     ratio, before, total = skin.remaining, 0.0, np.zeros(len(still.where))
     for count in range(CORRECTIONS):
         missing = still.restrict(still.layer.force(u1)) - outer
-        if not np.isfinite(missing).all():
+        if not space.every(np.isfinite(missing)):
             raise NoConvergence("the massless nodes have no equilibrium: a cell is inverted")
-        most = _beyond(missing, still, near)
+        most = _beyond(space, missing, still, near)
         ratio = most / before if count and before > 0.0 else ratio
         back = -factor.solve(missing)
         u1, total, before = still.moved(u1, back), total + back, most
-        if ratio * most <= allowed or greatest(back) <= least:
+        if ratio * most <= allowed or space.greatest(back) <= least:
             break
     once = count == 0
     skin = replace(skin, factor=factor, remaining=ratio, before=before if once else 0.0, worn=not once and ratio > WORN)
     return still.moved(q, 2.0 / h * total), u1, replace(memory, skin=skin)
 
 
-def _beyond(missing: Array, still: MasslessNodes, near: Near | None) -> float:
+def _beyond(space: VectorSpace, missing: Array, still: MasslessNodes, near: Near | None) -> float:
     """Greatest of the forces (f,) on the massless components, except at nodes near contact."""
     if near is not None:
         n, d = still.light.shape
         missing = missing[~among(near.nodes, n).ravel()[still.where // d]]
-    return greatest(missing)
+    return space.greatest(missing)

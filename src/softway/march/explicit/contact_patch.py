@@ -11,7 +11,6 @@ from softway.contact.contact_rows import ContactRows
 from softway.errors import NoConvergence
 from softway.march.explicit.massless_nodes import MasslessNodes
 from softway.solve.constraints.compliance import FrozenOperator, row_basis
-from softway.solve.constraints.normal_active_set import greatest
 from softway.solve.equations.slab_contact import FixedContact
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.equations.slab_values import Evaluation
@@ -88,9 +87,9 @@ def balanced(
     NoConvergence
         If the iteration does not converge.
     """
-    (q_all, u1), near = guess, chosen[0]
+    (q_all, u1), near, space = guess, chosen[0], system.model.space
     memory = _prepared(system, still, q_all, chosen)
-    frozen, scale = memory.frozen, max(greatest(q_all), 1e-300)
+    frozen, scale = memory.frozen, max(space.greatest(q_all), 1e-300)
     assert frozen is not None
     local = _Local.of(system, still, guess, near, frozen)
     live = local.live
@@ -99,10 +98,10 @@ def balanced(
     for count in range(1, method.limit + 1):
         end = local.evaluate(q)
         local = replace(local, system=local.system.with_kept_facets_after(end.displacement, active, count))
-        if not np.isfinite(end.residual).all():
+        if not space.every(np.isfinite(end.residual)):
             break
         step = contact_step(local.system, frozen, q, end, impulse, active)
-        before, change = change, float(np.abs(step.q - q).max(initial=0.0))
+        before, change = change, space.greatest(step.q - q)
         same = local.partial and bool((step.active == active).all())
         q, impulse, active = step.q, step.impulse, step.active
         if change <= method.tolerance * scale or (same and _left(before, change) <= method.tolerance * scale):

@@ -61,10 +61,10 @@ def _stopped(model: Model, out: SlabResult, weight: Array, span: float, ends: tu
     response = frozen.solve_push(every.spread(forces))
     field = dofs.nodes(response)
     moved = model.mass @ field
-    inertia = float(np.sum(field * moved))
+    inertia = model.space.total(field * moved)
     elastic = max(float(forces @ every.from_basis(frozen.restrict(response))) - inertia, 0.0)
     tool = float(np.sum(weight * rows.shear.moved)) / span
-    before, after = (float(np.sum(moved * v)) - tool for v in ends)
+    before, after = (model.space.total(moved * v) - tool for v in ends)
     if not before > 0.0 > after or (before - after) ** 2 <= STIFF * 0.25 * span**2 * inertia * elastic:
         return 1.0
     return before / (before - after)

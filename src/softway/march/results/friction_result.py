@@ -69,7 +69,7 @@ def slipping(model: Model, now: ModelState, slab: Slab, rows: ContactRows, stick
         shift=np.zeros(shear.tangents.shape[:2]),
         pace=0.5,
         unit=1.0 / (h * moments(slab.weight)[1]),
-        ahead=AHEAD if model.massive.any() else 0.0,
+        ahead=AHEAD if model.inert else 0.0,
         before=np.where(rows.near, np.linalg.norm(shear.slip(h * now.start.velocity), axis=1) / h, 0.0),
         sliding=now.sliding,
         stick_at_any_force=stick,

@@ -97,7 +97,7 @@ class SlabResult:
 
 def supports(model: Model, now: ModelState, end: Evaluation, velocity: Array, push: Array, span: float) -> Array:
     """Mean force (n, d) of the supports on the nodes [N]; ``push`` (n, d) is that of contact."""
-    if model.free.all():
+    if model.space.every(model.free):
         return np.zeros(model.shape)
     inertia = model.mass @ ((velocity - now.start.velocity) / span)
     return np.where(model.free, 0.0, inertia + end.mean_force - model.slab_load(end.scalar) - push)

@@ -106,7 +106,7 @@ class CentralDifference:
         opening *= 0.5
         end = replace(end, mean_force=opening)
         if shock is not None:
-            lost = model.totals(shock * (end.displacement - start.displacement))
+            lost = model.space.totals(shock * (end.displacement - start.displacement))
             end = replace(end, mean_force=end.mean_force + shock, lost=lost)
         solution = Solution(last=it, end=end, predicted=it.free, iterations=count, contraction=0.0)
         slope += self.inertia.acceleration(push - closing)
@@ -115,7 +115,7 @@ class CentralDifference:
         velocity = self.reached(it.q, slope)
         out = slab_result(HOW, model, now, slab, system, solution, pairs.found, velocity)
         required = Balances(energy="bounded" if out.required.energy == "closed" else out.required.energy)
-        yield replace(out, required=required), watched_nodes(it.memory, self.still, left)
+        yield replace(out, required=required), watched_nodes(model.space, it.memory, self.still, left)
 
 
 def central_difference(model: Model, method: Explicit, weight: TimeWeight) -> CentralDifference:
@@ -139,7 +139,7 @@ def central_difference(model: Model, method: Explicit, weight: TimeWeight) -> Ce
         still=still,
         followed=FollowedNodes.of(model, still),
         light=np.flatnonzero(light),
-        supported=None if model.free.all() else ~model.free,
+        supported=None if model.space.every(model.free) else ~model.free,
     )
 
 

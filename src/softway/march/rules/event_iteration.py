@@ -49,7 +49,7 @@ class EventIteration:
 def without_events(model: Model, now: ModelState, pairs: SlabContacts, rows: ContactRows) -> EventIteration:
     """Contact events without touches; closed rows without contact at the start (node slid off a facet) are released."""
     first, u0 = pairs.start(now.start.displacement), now.start.displacement
-    extent = float(np.abs(model.points + u0).max())
+    extent = model.extent(u0)
     gone = now.closed & ~(rows.near & first.near & (first.gap(u0) <= APART * extent))
     events = contact_events(now.closed & ~gone)
     events = replace(events, release=np.where(gone, 0.0, events.release))
@@ -74,7 +74,7 @@ def with_new_events(
     if below.any():
         return _touching(model, now, system, current, found.last.q, below, touch)
     pull = inertia.multiplier(rows, end.force, events.closed)
-    floor = 1e-11 * max(float(np.abs(end.force).max(initial=0.0)), float(np.abs(pull).max(initial=0.0)))
+    floor = 1e-11 * max(model.space.greatest(end.force), float(np.abs(pull).max(initial=0.0)))
     tense = events.closed & ~current.may_not_release & (pull < -floor)
     if tense.any():
         return _releasing(model, system, current, found.last.q, tense, pull, inertia)
@@ -100,8 +100,8 @@ def with_new_facets(
 
 def rounding(model: Model, rows: ContactRows, u: Array) -> float:
     """Rounding error of gaps [m]: a few units in the last place of the coordinates."""
-    extent = max(float(np.abs(p.mesh.points).max()) for p in model.parts)
-    return 4e-16 * (extent + float(np.abs(u).max(initial=0.0)) + float(np.abs(rows.offset[rows.near]).max(initial=0.0)))
+    greatest = model.space.greatest
+    return 4e-16 * (greatest(model.points) + greatest(u) + float(np.abs(rows.offset[rows.near]).max(initial=0.0)))
 
 
 def _touching(

@@ -189,7 +189,7 @@ def _outcome(
         force=through / h,
         push=push,
         support=support,
-        work=float(through @ rows.tool_motion) / h + float(np.sum(support * moved)),
+        work=float(through @ rows.tool_motion) / h + model.space.total(support * moved),
         dissipation=rule.touch.loss(model, rows, events, found, (now.start.velocity, q), h),
         events=_events(now, slab, system, current, solution, found),
         pairs=pairs,

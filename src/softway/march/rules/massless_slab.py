@@ -67,7 +67,7 @@ def require_end_points(model: Model, weight: TimeWeight) -> None:
     InputError
         If there are massless nodes and the weight is not the default.
     """
-    if weight != EndPeaks() and not model.massive.all():
+    if weight != EndPeaks() and not model.space.every(model.massive):
         raise InputError(
             "time.weight",
             f"{weight} with the Energy rule, whose contact nodes are in equilibrium at the slab's ends",
@@ -126,7 +126,7 @@ def _contact(
         equal=path.events.closed,
         unilateral=rows.reachable(model.dofs),
         slipping=slipping(model, now, slab, rows, attempt.stick_at_any_force),
-        rounding=2.0 / h * rounded(model.points + now.start.displacement),
+        rounding=2.0 / h * rounded(model.extent(now.start.displacement)),
     )
     if fixed:
         return FixedContact(rows=rows, conditions=conditions, initial=initial)
@@ -159,13 +159,13 @@ def slab_result(
         solution=solution,
         rows=rows,
         velocity=velocity,
-        acceleration=(velocity - now.start.velocity) * (model.massive.any() / h),  # without inertia, speed may jump
+        acceleration=(velocity - now.start.velocity) * (model.inert / h),  # without inertia, speed may jump
         closed=pressure > 0.0,
         pressure=pressure,
         force=normal.rows,
         push=push,
         support=support,
-        work=tools + (float(np.sum(support * moved)) if model.driven else 0.0),
+        work=tools + (model.space.total(support * moved) if model.driven else 0.0),
         dissipation=friction.dissipation,
         events=_ordered(events, slab),
         pairs=pairs,
@@ -185,4 +185,4 @@ def _energy(model: Model, slab: Slab) -> Literal["closed", "bounded", "free"]:
     """Requirement on the energy balance of a slab."""
     if slab.weight != EndPeaks():
         return "free"
-    return "closed" if model.massive.any() else "bounded"
+    return "closed" if model.inert else "bounded"

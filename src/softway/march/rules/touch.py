@@ -169,5 +169,5 @@ class NodalStop:
             stopped = (events.closed & ~np.isfinite(events.touch)) | (events.touch < jump.instant)
             normal = np.where(jump.hits, jump.speed + tool, np.where(stopped, tool, rows.normal_component(at)))
             at = at + rows.motion(normal - rows.normal_component(at), events.kinked, model.free)
-            total += float(jump.impulse @ tool - np.sum((at + 0.5 * jump.field) * (model.mass @ jump.field)))
+            total += float(jump.impulse @ tool) - model.space.total((at + 0.5 * jump.field) * (model.mass @ jump.field))
         return total

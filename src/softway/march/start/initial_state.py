@@ -78,11 +78,11 @@ def _resting(model: Model, cancel: Cancel | None) -> StaticState:
         loads = dead_load(model.parts, model.weight, start.loads, "start.loads").at(0.0) if start.loads else model.load
     fits = any(c.start == "fit" for c in model.scene.contacts)
     if fits or (isinstance(start, StaticStart) and unsupported_motions(model)):
-        apart = shrunk(model, u, DEPTH * _extent(model, u))
+        apart = shrunk(model, u, DEPTH * model.extent(u))
         rest = fitted(model, u, model.dofs, loads, apart, friction=NoInitialSlip() if fits else friction, cancel=cancel)
     elif isinstance(start, StaticStart):
         rest = equilibrium(model, u, model.dofs, loads, friction=friction, cancel=cancel)
-    if model.timing.massless and not model.massive.all():
+    if model.timing.massless and not model.space.every(model.massive):
         before = float(model.energy_and_force(rest.displacement)[0].sum())
         light = model.dofs.only(~model.massive)
         rest = equilibrium(model, rest.displacement, light, model.load, friction=friction, cancel=cancel)
@@ -97,7 +97,7 @@ def _passing(model: Model, u: Array) -> InitialSlip:
     shear = model.contacts.meet(u, u, 0.0, SOON).at(u).shear
     velocity = model.velocity + model.prescribed(0.0)
     passing = shear.slip(SOON * velocity) / SOON
-    most = max(float(np.abs(velocity).max()), float(np.abs(shear.moved).max(initial=0.0)) / SOON)
+    most = max(model.space.greatest(velocity), float(np.abs(shear.moved).max(initial=0.0)) / SOON)
     moves = np.linalg.norm(passing, axis=1) > TOGETHER * most
     return InitialSlip(reference=u, velocity=np.where(moves[:, None], passing, 0.0))
 
@@ -135,7 +135,7 @@ def require_supported(model: Model) -> None:
 
 def require_apart(model: Model, u: Array) -> None:
     """Refuse a start inside an opponent; the message names both bodies, depth and position."""
-    found = deepest(model, u, DEPTH * _extent(model, u))
+    found = deepest(model, u, DEPTH * model.extent(u))
     if found is None:
         return
     place, depth = ", ".join(f"{x:.6g}" for x in found.place), f"{found.depth:.6g} m"
@@ -145,8 +145,3 @@ def require_apart(model: Model, u: Array) -> None:
         f"{found.body!r} starts {depth} inside {found.other!r}: node {found.node} at ({place}) m",
         f'{move}, or start = "fit" for a press fit',
     )
-
-
-def _extent(model: Model, u: Array) -> float:
-    """Greatest coordinate [m], the scale of rounding."""
-    return max(float(np.abs(p.mesh.points + u[p.rows]).max()) for p in model.parts)

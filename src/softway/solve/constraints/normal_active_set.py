@@ -60,15 +60,15 @@ def greatest(values: Array) -> float:
     return max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))
 
 
-def rounded(x: Array) -> float:
-    """Rounding error of differences of positions x (n, d): a few units in the last place of the greatest.
+def rounded(extent: float) -> float:
+    """Rounding error of differences of positions: a few units in the last place of the greatest coordinate ``extent``.
 
     Examples
     --------
-    >>> rounded(np.array([[0.5, -1.0]])) == 2.0**-50
+    >>> rounded(1.0) == 2.0**-50
     True
     """
-    return 4.0 * float(np.finfo(float).eps) * greatest(x)
+    return 4.0 * float(np.finfo(float).eps) * extent
 
 
 def solve_normal_contact(

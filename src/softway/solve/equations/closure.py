@@ -6,7 +6,8 @@ from typing import Protocol
 import numpy as np
 
 from softway.model.model import Model
-from softway.solve.equations.energy_balance import EndForces, EnergyClosure, close_energy, end_force_closure
+from softway.solve.equations.end_forces import EndForces
+from softway.solve.equations.energy_balance import EnergyClosure, close_energy, end_force_closure
 
 
 class Closure(Protocol):

@@ -13,6 +13,8 @@ from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.internal_force.slab_average import EnergyMomentum
 from softway.contact.contact_rows import ContactRows
 from softway.model.model import Model
+from softway.solve.equations.end_forces import EndForces
+from softway.solve.equations.spin_balance import middle, moment, spin_balance
 
 SUMS = 2e-15
 """Rounding error of sums of works and energies, relative to their magnitudes."""
@@ -24,32 +26,6 @@ WEIGHING = 2.0
 """Greatest scalar without inertia, where it only weights the works at the two ends."""
 SLIGHT = 1e-2
 """Residual, relative to the work of the internal forces, that is closed along the motion if the scalar is bounded."""
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class EndForces:
-    """Data of a slab for its balances.
-
-    ``u0``, ``u1``, ``f0``, ``f1`` (n, d) displacement and internal force at both ends, ``V0``, ``V1`` (parts,) stored
-    energy, ``mean`` (n, d) the mean force to complete, ``v0`` (n, d) velocity at the start; ``rows0``, ``rows1`` and
-    ``force0``, ``force1`` (m,) contact rows and normal forces at both ends, ``shear0``, ``shear1`` (m, d) tangential
-    forces where there is friction.
-    """
-
-    u0: Array
-    u1: Array
-    f0: Array
-    f1: Array
-    V0: Array
-    V1: Array
-    mean: Array
-    v0: Array
-    rows0: ContactRows
-    rows1: ContactRows
-    force0: Array
-    force1: Array
-    shear0: Array
-    shear1: Array
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -90,7 +66,7 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
     num, den, level = _energies(model, ends, moving)
     num, den, level, floor = (np.asarray(np.bincount(label, weights=v), float) for v in (num, den, level, model.floor))
     members = [label == g for g in range(len(num))]
-    spins = [_spin(model, ends, m) if _closes_spin(model, m) else None for m in members]
+    spins = [spin_balance(model, ends, m) if _closes_spin(model, m) else None for m in members]
     for g, spin in enumerate(spins):
         if spin is not None:
             num[g] += spin.work(moving) @ spin.solve(spin.torque)
@@ -98,15 +74,15 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
     real = np.abs(num) > SUMS * level + floor + np.bincount(label, weights=_blurred(model, ends))
     with np.errstate(divide="ignore", invalid="ignore"):
         wanted = np.where(real & (den != 0.0), num / den, 0.0)
-    bound = BOUND if model.massive.any() else WEIGHING
+    bound = BOUND if model.inert else WEIGHING
     a = np.clip(wanted, -bound, bound)
     mean = ends.mean + model.nodal(a[label]) * (ends.f1 - ends.f0)
     for g, spin in enumerate(spins):
         if spin is not None:
             mean += spin.force(-spin.solve(spin.torque + a[g] * spin.slope))
-    work = np.bincount(label, weights=model.totals(np.abs(ends.mean * moving)))
+    work = np.bincount(label, weights=model.space.totals(np.abs(ends.mean * moving)))
     missing = np.where(real, np.abs(num) / np.maximum(work, 1e-300), 0.0)
-    rest = np.where(np.abs(wanted) > bound, num - a * den, 0.0) * model.massive.any()
+    rest = np.where(np.abs(wanted) > bound, num - a * den, 0.0) * model.inert
     great = (np.abs(rest) > np.maximum(SLIGHT * work, TINY * level)) & (not fallback)
     for g in np.flatnonzero(np.where(great, 0.0, rest)).tolist():
         mean += rest[g] * _along_motion(model, ends, moving, members[g])
@@ -121,7 +97,7 @@ def end_force_closure(model: Model, ends: EndForces) -> EnergyClosure:
             ends.force1 > 0.0, ends.force1 * (ends.rows1.normal_component(du) - ends.rows1.tool_motion), 0.0
         )
     gaps = np.bincount(model.part_of[ends.rows1.node], weights=change, minlength=len(model.parts))
-    work = model.totals(np.where(model.massive[:, None], ends.mean, ends.f1) * du)
+    work = model.space.totals(np.where(model.massive[:, None], ends.mean, ends.f1) * du)
     lost = work - gaps - (ends.V1 - ends.V0)
     half = np.full(len(lost), 0.5)
     return EnergyClosure(mean=ends.mean, scalar=half, missing_work=0.0 * half, clipped=False, lost=lost)
@@ -130,25 +106,25 @@ def end_force_closure(model: Model, ends: EndForces) -> EnergyClosure:
 def _energies(model: Model, ends: EndForces, moving: Array) -> tuple[Array, Array, Array]:
     """Missing work, its derivative with respect to the scalar a, and the rounding level (parts,)."""
     du = ends.u1 - ends.u0
-    work = model.totals(ends.mean * moving)
-    still = model.totals(0.5 * (model.load_before + model.load) * (du - moving))
+    work = model.space.totals(ends.mean * moving)
+    still = model.space.totals(0.5 * (model.load_before + model.load) * (du - moving))
     slave, n = model.part_of[ends.rows0.node], len(model.parts)
     with np.errstate(invalid="ignore"):
         d0 = np.where(ends.force0 > 0.0, ends.force0 * ends.rows0.tool_motion, 0.0)
         d1 = np.where(ends.force1 > 0.0, ends.force1 * ends.rows1.tool_motion, 0.0)
     driven = np.bincount(slave, weights=0.5 * (d0 + d1), minlength=n)
     num = ends.V1 - ends.V0 - work - still - driven
-    den = model.totals((ends.f1 - ends.f0) * moving) + np.bincount(slave, weights=d1 - d0, minlength=n)
-    den = den + model.totals((model.load - model.load_before) * (du - moving))
+    den = model.space.totals((ends.f1 - ends.f0) * moving) + np.bincount(slave, weights=d1 - d0, minlength=n)
+    den = den + model.space.totals((model.load - model.load_before) * (du - moving))
     if ends.rows0.shear.count:
         num, den = _rough(model, ends, moving)
     elif model.driven:
         loads = (model.load_before, model.load)
-        r0, r1 = (_support_forces(model, f - q, rows, p) for (f, rows, p), q in zip(_both(ends), loads, strict=True))
-        num = num - model.totals(0.5 * (r0 + r1) * du)
-        den = den + model.totals((r1 - r0) * du)
+        r0, r1 = (_support_forces(model, f - q, rows, p) for (f, rows, p), q in zip(ends.both, loads, strict=True))
+        num = num - model.space.totals(0.5 * (r0 + r1) * du)
+        den = den + model.space.totals((r1 - r0) * du)
     level = np.abs(ends.V1) + np.abs(ends.V0) + model.kinetic(ends.v0)
-    level += model.totals(np.abs(ends.mean * moving)) + model.totals(np.abs(model.load * du))
+    level += model.space.totals(np.abs(ends.mean * moving)) + model.space.totals(np.abs(model.load * du))
     level += np.bincount(slave, weights=np.abs(d0) + np.abs(d1), minlength=n)
     return num, den, level
 
@@ -168,22 +144,18 @@ def _rough(model: Model, ends: EndForces, moving: Array) -> tuple[Array, Array]:
             change = np.where(force > 0.0, force * (rows.normal_component(du) - rows.tool_motion), 0.0)
         gaps.append(np.bincount(slave, weights=change, minlength=n))
     still = du - moving
-    work = model.totals(ends.mean * moving + 0.5 * (ends.f0 + ends.f1) * still)
-    return ends.V1 - ends.V0 - work + 0.5 * (gaps[0] + gaps[1]), model.totals((ends.f1 - ends.f0) * du) - (
+    work = model.space.totals(ends.mean * moving + 0.5 * (ends.f0 + ends.f1) * still)
+    return ends.V1 - ends.V0 - work + 0.5 * (gaps[0] + gaps[1]), model.space.totals((ends.f1 - ends.f0) * du) - (
         gaps[1] - gaps[0]
     )
 
 
 def _blurred(model: Model, ends: EndForces) -> Array:
     """Rounding error (parts,) of the energy balance: work of the contact forces over the rounding of positions [J]."""
-    extent = float(np.abs(model.points + ends.u1).max())
+    extent = model.extent(ends.u1)
     slave = model.part_of[ends.rows0.node]
     force = np.bincount(slave, weights=np.abs(ends.force0) + np.abs(ends.force1), minlength=len(model.parts))
     return np.asarray(4.0 * np.finfo(float).eps * extent * force)
-
-
-def _both(ends: EndForces) -> tuple[tuple[Array, ContactRows, Array], tuple[Array, ContactRows, Array]]:
-    return (ends.f0, ends.rows0, ends.force0), (ends.f1, ends.rows1, ends.force1)
 
 
 def _support_forces(model: Model, force: Array, rows: ContactRows, push: Array) -> Array:
@@ -197,104 +169,25 @@ def _along_motion(model: Model, ends: EndForces, moving: Array, members: BoolArr
 
     They have no resultant, and on unsupported bodies no moment.
     """
-    weight = np.asarray(model.mass.sum(axis=1)).reshape(-1, 1) * model.free
+    space, weight = model.space, np.asarray(model.mass.sum(axis=1)).reshape(-1, 1) * model.free
     out = np.zeros_like(moving)
     for rows in (p.rows for p, here in zip(model.parts, members, strict=True) if here):
-        mean = (weight[rows] * moving[rows]).sum(axis=0) / np.maximum(weight[rows].sum(axis=0), 1e-300)
+        mean = space.sums(weight[rows] * moving[rows]) / np.maximum(space.sums(weight[rows]), 1e-300)
         out[rows] = moving[rows] - mean
     out = model.mass @ (out * model.free)
     if _unsupported(model, members):
-        spin = _spin(model, ends, members)
-        out -= spin.force(spin.solve(moment(_middle(model, ends, members), out)))
-    done = float(np.sum(out * moving))
+        spin = spin_balance(model, ends, members)
+        out -= spin.force(spin.solve(moment(space, middle(model, ends, members), out)))
+    done = space.total(out * moving)
     return np.asarray(out / done if done > 0.0 else np.zeros_like(out))
 
 
 def _unsupported(model: Model, members: BoolArray) -> bool:
     """True if no body of a group has supports."""
-    return all(model.free[p.rows].all() for p, here in zip(model.parts, members, strict=True) if here)
+    return all(model.space.every(model.free[p.rows]) for p, here in zip(model.parts, members, strict=True) if here)
 
 
 def _closes_spin(model: Model, members: BoolArray) -> bool:
     """True if the balance of spin of a group is closed."""
     forces = [p.average for p, here in zip(model.parts, members, strict=True) if here]
     return all(isinstance(f, EnergyMomentum) for f in forces) and _unsupported(model, members)
-
-
-def _middle(model: Model, ends: EndForces, members: BoolArray) -> Array:
-    """Positions (n, d) in the middle of the slab, relative to the mean of the nodes of a group."""
-    here = members[model.part_of]
-    x = model.points + 0.5 * (ends.u0 + ends.u1)
-    return np.asarray(x - x[here].mean(axis=0))
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class _Spin:
-    """Rotations (k) of one group: force fields (k, n, d), inertia (k, k), torque (k,) and its derivative to a (k,)."""
-
-    fields: Array
-    inertia: Array
-    torque: Array
-    slope: Array
-
-    def solve(self, torque: Array) -> Array:
-        """Vector b (k,) for a torque."""
-        return np.asarray(np.linalg.lstsq(self.inertia, torque, rcond=1e-12)[0]) if len(torque) else torque
-
-    def work(self, moving: Array) -> Array:
-        """Work (k,) of the unit fields."""
-        return np.einsum("kni,ni->k", self.fields, moving)
-
-    def force(self, b: Array) -> Array:
-        """Force field (n, d) of a vector b (k,)."""
-        return np.einsum("k,kni->ni", b, self.fields)
-
-
-def _spin(model: Model, ends: EndForces, members: BoolArray) -> _Spin:
-    """Rotations of the bodies of a group."""
-    here, x = members[model.part_of], _middle(model, ends, members)
-    arm = np.zeros_like(x)
-    weight = np.asarray(model.mass.sum(axis=1)).reshape(-1, 1)
-    for part in (p for p, inside in zip(model.parts, members, strict=True) if inside):
-        rows = part.rows
-        arm[rows] = x[rows] - (weight[rows] * x[rows]).sum(axis=0) / weight[rows].sum()
-    fields = np.array([model.mass @ f for f in _turned(arm)]).reshape(-1, *arm.shape)
-    inner = here & model.massive
-    rigid = model.opponents[model.contacts.contact, 1] < 0
-    tools = [rows.spread(np.where(rigid & rows.near, p, 0.0), model.shape) for _, rows, p in _both(ends)]
-    for k, (at, force) in enumerate(((ends.rows0, ends.shear0), (ends.rows1, ends.shear1))):
-        if at.shear.count:
-            tools[k] = tools[k] + at.shear.spread(np.where((rigid & at.near)[:, None], force, 0.0))
-    tools[0], tools[1] = tools[0] + model.load_before, tools[1] + model.load
-    outer = (here & ~model.massive)[:, None] * (0.5 * (tools[0] + tools[1]))
-    torque = moment(x, np.where(inner[:, None], ends.mean, outer))
-    change = np.where(inner[:, None], ends.f1 - ends.f0, (here & ~model.massive)[:, None] * (tools[1] - tools[0]))
-    return _Spin(
-        fields=fields,
-        inertia=np.array([moment(x, f) for f in fields]).reshape(len(fields), len(fields)).T,
-        torque=torque,
-        slope=moment(x, change),
-    )
-
-
-def _turned(arm: Array) -> Array:
-    """Fields (k, n, d) ``e_k x arm`` of the unit rotations: none in 1D, one in the plane, three in space."""
-    n, d = arm.shape
-    if d == 1:
-        return np.zeros((0, n, d))
-    if d == 2:
-        return np.stack([np.column_stack([-arm[:, 1], arm[:, 0]])])
-    return np.stack([np.cross(e, arm) for e in np.eye(3)])
-
-
-def moment(x: Array, force: Array) -> Array:
-    """Moment (k,) of forces (n, d) at positions (n, d): none in 1D, one in the plane, three in space.
-
-    Examples
-    --------
-    >>> moment(np.array([[1.0, 0.0]]), np.array([[0.0, 2.0]]))
-    array([2.])
-    """
-    both = x.T @ force
-    pairs = ((), ((0, 1),), ((1, 2), (2, 0), (0, 1)))[x.shape[1] - 1]
-    return np.array([both[i, j] - both[j, i] for i, j in pairs])

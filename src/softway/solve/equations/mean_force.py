@@ -39,7 +39,7 @@ class WeightedMean:
             if average is not None:
                 out[part.rows] = average
         before = start.viscous
-        viscous = None if before is None or not model.massive.any() else viscous_force(model.parts, u1)
+        viscous = None if before is None or not model.inert else viscous_force(model.parts, u1)
         if before is not None and viscous is not None:
             out = out + first_weight(self.weight) * (viscous - before)
         return self._passed_on(model, start, out, force) if viscous is not None or any(chords) else out

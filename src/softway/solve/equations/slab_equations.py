@@ -21,7 +21,7 @@ from softway.solve.constraints.compliance import FrozenOperator, RowBasis, row_b
 from softway.solve.constraints.normal_active_set import RowConditions
 from softway.solve.constraints.row_basis import RowCoefficients
 from softway.solve.equations.closure import Closure, Unclosed
-from softway.solve.equations.energy_balance import EndForces
+from softway.solve.equations.end_forces import EndForces
 from softway.solve.equations.mean_force import MeanForce, first_weight
 from softway.solve.equations.slab_contact import SlabContact
 from softway.solve.equations.slab_matrix import SlabMatrix
@@ -71,7 +71,7 @@ class SlabEquations:
         lost: Array = np.zeros(len(energy))
         shock = model.shock_force(0.5 * (start.displacement + u1), u1 - start.displacement, h)
         if shock is not None:
-            mean, lost = mean + shock, model.totals(shock * (u1 - start.displacement))
+            mean, lost = mean + shock, model.space.totals(shock * (u1 - start.displacement))
         rows = self.contact.at(u1)
         completed = self.closure.close(model, self._ends(u1, force, energy + lost, mean, rows, impulse))
         residual = (

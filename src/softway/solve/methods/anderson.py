@@ -3,7 +3,9 @@
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.assembled.vector_space import LocalSpace, VectorSpace
 
+ONE = LocalSpace(())
 INDEPENDENT = 1e-13
 """Least eigenvalue of the Gram matrix of unit residual differences that is used."""
 
@@ -18,6 +20,8 @@ class Anderson:
     ----------
     depth
         Number of differences kept; with 0 the value of the map is returned unchanged.
+    space
+        Inner products of arguments.
 
     References
     ----------
@@ -34,10 +38,10 @@ class Anderson:
     True
     """
 
-    __slots__ = ("count", "depth", "gram", "last", "residuals", "values")
+    __slots__ = ("count", "depth", "gram", "last", "residuals", "space", "values")
 
-    def __init__(self, depth: int) -> None:
-        self.depth, self.count = depth, 0
+    def __init__(self, depth: int, space: VectorSpace = ONE) -> None:
+        self.depth, self.count, self.space = depth, 0, space
         self.residuals = self.values = np.empty((depth, 0))
         self.gram = np.empty((depth, depth))
         self.last: tuple[Array, Array] | None = None
@@ -67,7 +71,7 @@ class Anderson:
         self.residuals[k], self.values[k] = residual, value
         self.count += 1
         kept = min(self.count, self.depth)
-        self.gram[k, :kept] = self.gram[:kept, k] = self.residuals[:kept] @ residual
+        self.gram[k, :kept] = self.gram[:kept, k] = self.space.products(self.residuals[:kept].T, residual)
 
     def _weights(self, residual: Array, kept: int) -> Array:
         """Weights (kept,) of the differences that minimise the residual."""
@@ -75,5 +79,5 @@ class Anderson:
         unit = self.gram[:kept, :kept] / np.outer(length, length)
         value, vector = np.linalg.eigh(unit)
         independent = value > INDEPENDENT * kept
-        projected = vector.T @ (self.residuals[:kept] @ residual / length)
+        projected = vector.T @ (self.space.products(self.residuals[:kept].T, residual) / length)
         return np.asarray((vector[:, independent] @ (projected[independent] / value[independent])) / length)

@@ -2,8 +2,6 @@
 
 from dataclasses import replace
 
-import numpy as np
-
 from softway.arrays import Array
 from softway.solve.equations.slab_equations import SlabEquations
 
@@ -15,7 +13,7 @@ def check_facets(system: SlabEquations, q: Array, change: float) -> tuple[bool, 
     """Check whether an iterate is free of overlap; return the equations to continue with, with missing facets added."""
     if not system.contact.kept:
         return True, system
-    if change > NEARLY * np.abs(q).max(initial=0.0):
+    if change > NEARLY * system.model.space.greatest(q):
         return False, system
     u1 = system.path.end(q)
     if system.contact.facets_complete(u1):

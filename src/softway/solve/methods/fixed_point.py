@@ -9,6 +9,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.bodies.assembled.material_states import any_path_dependent
+from softway.bodies.assembled.vector_space import VectorSpace
 from softway.errors import InputError
 from softway.solve.checks import check_accuracy
 from softway.solve.constraints.compliance import FrozenOperator
@@ -91,7 +92,7 @@ class FixedPoint:
 
     def _onward(self, system: SlabEquations, guess: Guess) -> Iterator[Iterate]:
         """Iterates while they contract well; with poor contraction nodes are first kept on their facets."""
-        window, poor = (WINDOW, POOR) if system.model.massive.any() else (FLOWING, PACE)
+        window, poor = (WINDOW, POOR) if system.model.inert else (FLOWING, PACE)
         end = system.without_closure().evaluate(guess.q, guess.impulse)
         while True:
             changes: list[float] = []
@@ -112,18 +113,18 @@ class FixedPoint:
         q, impulse, active, memory = guess.q, guess.impulse, guess.active, guess.memory
         frozen = memory.frozen
         assert frozen is not None
-        dofs = system.model.dofs
-        mixing = _Mixing(Anderson(self.depth), frozen)
+        dofs, space = system.model.dofs, system.model.space
+        mixing = _Mixing(Anderson(self.depth, space), frozen, space)
         last, stuck = np.inf, 0
         for count in itertools.count():
             system = system.with_kept_facets_after(end.displacement, active, count)
-            if not np.isfinite(dofs.forces(end.residual)).all():
+            if not space.every(np.isfinite(dofs.forces(end.residual))):
                 yield lost(Guess(q=q, impulse=impulse, active=active, memory=memory), system)
                 return
             step = contact_step(system, frozen, q, end, impulse, active)
             if count == 0:
                 plain = step.rows.from_basis(without_contact(step.free, frozen, step.rows.spread(impulse)))
-            change = float(np.abs(step.q - q).max(initial=0.0))
+            change = space.greatest(step.q - q)
             sound, completed = check_facets(system, step.q, change)
             yield Iterate(
                 q=step.q,
@@ -148,7 +149,7 @@ class FixedPoint:
 
 def _starts_flowing(system: SlabEquations) -> bool:
     """True for path-dependent materials without inertia: no operator made at rest fits their flow."""
-    return any_path_dependent(system.model.parts) and not system.model.massive.any()
+    return any_path_dependent(system.model.parts) and not system.model.inert
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -157,12 +158,13 @@ class _Mixing:
 
     accelerator: Anderson
     frozen: FrozenOperator
+    space: VectorSpace
 
     def mixed(self, x: tuple[Array, Array], value: tuple[Array, Array]) -> tuple[Array, Array]:
         """Next velocities (f,) and impulses (m,), from the arguments ``x`` of the map and its ``value``."""
         if self.frozen.exact:
             return self.accelerator.mix(x[0], value[0]), value[1]
-        unit = float(np.abs(self.frozen.solve_push(np.ones(self.frozen.basis.directions.shape[1]))).max(initial=0.0))
+        unit = self.space.greatest(self.frozen.solve_push(np.ones(self.frozen.basis.directions.shape[1])))
         scale = np.concatenate([np.ones(len(x[0])), np.full(len(x[1]), unit)])
         found = self.accelerator.mix(scale * np.concatenate(x), scale * np.concatenate(value))
         return found[: len(x[0])], found[len(x[0]) :] / max(unit, 1e-300)

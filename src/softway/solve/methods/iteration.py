@@ -92,12 +92,12 @@ def _pushed(system: SlabEquations, it: Iterate) -> float:
     """Greatest velocity that the magnitudes of internal force and load would cause in one slab [m/s]."""
     force = system.model.dofs.forces(np.abs(system.start.force) + np.abs(system.model.load))
     frozen = it.memory.frozen
-    return 0.0 if frozen is None else float(np.abs(frozen.solve(system.path.span * force)).max(initial=0.0))
+    return 0.0 if frozen is None else system.model.space.greatest(frozen.solve(system.path.span * force))
 
 
 def _resolved(system: SlabEquations) -> float:
     """Velocity that moves the nodes by a few units in the last place of their coordinates in one slab [m/s]."""
-    extent = float(np.abs(system.model.points + system.start.displacement).max())
+    extent = system.model.extent(system.start.displacement)
     return 8.0 * float(np.finfo(float).eps) * extent / system.path.span
 
 
@@ -118,7 +118,7 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
         If there is no solution after ``limit`` iterations on the same facets, or a value is not finite.
     """
     seen, closest, resolved = Stagnation(), np.inf, _resolved(system)
-    contact, begun = system.contact, 0
+    contact, begun, space = system.contact, 0, system.model.space
     predicted: Array | None = None
     it: Iterate | None = None
     scale, first = 1.0, 0.0
@@ -131,7 +131,7 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
         log.debug("iterate %d: change %.3g m/s", count, it.change)
         if it.system.contact is not contact:
             contact, begun, seen = it.system.contact, count - 1, Stagnation()
-        scale = max(np.abs(it.q).max(initial=0.0), np.abs(system.start.velocity).max(initial=0.0), 1e-300)
+        scale = max(space.greatest(it.q, system.start.velocity), 1e-300)
         seen = seen.after(it.change, resolved)
         failure = f"{count} iterations leave a relative change of {it.change / scale:.1e} (tolerance {tolerance:.0e})"
         near = it.change <= tolerance * scale

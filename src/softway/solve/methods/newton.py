@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.assembled.vector_space import VectorSpace
 from softway.solve.checks import check_accuracy
 from softway.solve.constraints.compliance import FrozenOperator
 from softway.solve.constraints.normal_active_set import without_contact
@@ -78,9 +79,10 @@ class Newton:
 
     def _iterates(self, system: SlabEquations, guess: Guess, end: Evaluation) -> Iterator[Iterate]:
         q, impulse, active, memory = guess.q, guess.impulse, guess.active, guess.memory
+        space = system.model.space
         for count in itertools.count():
             system = system.with_kept_facets_after(end.displacement, active, count)
-            if not np.isfinite(end.residual).all():
+            if not space.every(np.isfinite(end.residual)):
                 yield lost(Guess(q=q, impulse=impulse, active=active, memory=memory), system)
                 return
             if self.renew == "iterate" or count == 0:
@@ -90,7 +92,7 @@ class Newton:
             found = contact_step(system, frozen, q, end, impulse, active)
             step, active = found.q - q, found.active
             q, end = self._line_searched(system, q, step, found.impulse, frozen)
-            change = float(np.abs(step).max(initial=0.0))
+            change = space.greatest(step)
             sound, completed = check_facets(system, q, change)
             yield Iterate(
                 q=q,
@@ -124,17 +126,18 @@ class Newton:
         self, system: SlabEquations, q: Array, step: Array, impulse: Array, frozen: FrozenOperator
     ) -> tuple[Array, Evaluation]:
         """Next iterate by line search along the step (n, d), and its evaluation."""
-        length, fraction = float(np.linalg.norm(step)), 1.0
+        space, unknowns = system.model.space, system.model.dofs.unknowns(step)
+        length, fraction = space.norm(step), 1.0
         for halvings in itertools.count():
             new = q + fraction * step
             end = system.evaluate(new, impulse)
             if halvings == HALVINGS or length == 0.0:
                 return new, end
-            if np.isfinite(end.residual).all():
+            if space.every(np.isfinite(end.residual)):
                 left = _left(system, new, end, impulse, frozen)
-                if np.linalg.norm(left) <= max(1.0 - 0.5 * fraction, 1e-2) * length:
+                if space.norm(left) <= max(1.0 - 0.5 * fraction, 1e-2) * length:
                     return new, end
-                if fraction == 1.0 and _alike(left, system.model.dofs.unknowns(step)):
+                if fraction == 1.0 and _alike(space, left, unknowns):
                     return self._stretched(system, q, step, impulse, frozen)
             fraction *= 0.5
         raise AssertionError
@@ -146,15 +149,15 @@ class Newton:
 
         This starts flow from rest, where a viscosity that decreases with the strain rate is far too high.
         """
-        fraction, found = 1.0, q + step
+        fraction, found, space = 1.0, q + step, system.model.space
         best = system.evaluate(found, impulse)
         for _ in range(STRETCHES):
             fraction *= STRETCH
             new = q + fraction * step
             end = system.evaluate(new, impulse)
-            if not np.isfinite(end.residual).all():
+            if not space.every(np.isfinite(end.residual)):
                 break
-            if not _alike(_left(system, new, end, impulse, frozen), system.model.dofs.unknowns(step), least=0.0):
+            if not _alike(space, _left(system, new, end, impulse, frozen), system.model.dofs.unknowns(step), least=0.0):
                 break
             found, best = new, end
         return found, best
@@ -166,7 +169,7 @@ def _left(system: SlabEquations, q: Array, end: Evaluation, impulse: Array, froz
     return frozen.solve(system.model.dofs.forces(end.residual) - frozen.prolong(rows.spread(impulse)))
 
 
-def _alike(left: Array, step: Array, least: float = 0.5) -> bool:
+def _alike(space: VectorSpace, left: Array, step: Array, least: float = 0.5) -> bool:
     """True if a correction (f,), to be subtracted, continues a step (f,) with at least a fraction of its length."""
-    progress = -float(left @ step)
-    return progress > max(least * float(step @ step), 0.9 * float(np.linalg.norm(left) * np.linalg.norm(step)))
+    progress = -space.dot(left, step)
+    return progress > max(least * space.dot(step, step), 0.9 * space.norm(left) * space.norm(step))

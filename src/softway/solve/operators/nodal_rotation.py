@@ -11,6 +11,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array
+from softway.bodies.assembled.vector_space import VectorSpace
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.dof_map import DofMap
 from softway.bodies.elements.section import Axisymmetric
@@ -33,7 +34,9 @@ class NodalRotation:
         H = np.stack([slope @ u for slope in self.slopes], axis=-1)
         return np.asarray(H + np.eye(u.shape[1]))
 
-    def since(self, reference: Array, u: Array, dofs: DofMap, small: float = SMALL) -> sp.csr_array | None:
+    def since(
+        self, space: VectorSpace, reference: Array, u: Array, dofs: DofMap, small: float = SMALL
+    ) -> sp.csr_array | None:
         """Block-diagonal R (f, f) of the nodes from ``reference`` (n, d) to ``u`` (n, d).
 
         None if the root mean square of ``R - I`` is below ``small``, or if unknowns move several components.  Nodes
@@ -43,11 +46,11 @@ class NodalRotation:
         if dofs.components is None:
             return None
         before, now = self.gradient(reference), self.gradient(u)
-        if np.sqrt(np.mean((now - before) ** 2) * d) < small:
+        if np.sqrt(space.mean((now - before) ** 2) * d) < small:
             return None
         R = rotation(now @ np.linalg.inv(before))
         R[~dofs.free.all(axis=1) | ~np.isfinite(R).all(axis=(1, 2))] = np.eye(d)
-        if np.sqrt(np.mean((R - np.eye(d)) ** 2) * d) < small:
+        if np.sqrt(space.mean((R - np.eye(d)) ** 2) * d) < small:
             return None
         full = sp.bsr_array((R, np.arange(n), np.arange(n + 1)), shape=(n * d, n * d)).tocsr()
         return sp.csr_array(full[dofs.components][:, dofs.components])

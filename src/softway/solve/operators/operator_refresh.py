@@ -82,7 +82,7 @@ def _turned(system: SlabEquations, memory: OperatorMemory) -> OperatorMemory:
     assert frozen is not None and memory.origin is not None
     fixed = frozen.basis.component is None and frozen.basis.directions.shape[1] > 0
     limit = WORTH if fixed else SMALL
-    R = measure.since(memory.origin.at, system.start.displacement, system.model.dofs, limit)
+    R = measure.since(system.model.space, memory.origin.at, system.start.displacement, system.model.dofs, limit)
     if R is not None and frozen.basis.component is None:
         frozen = FrozenOperator(frozen.factor, system.directions(turning=True), local=frozen.local, kind=frozen.kind)
     return replace(memory, frozen=frozen.turned(R), turning=measure)

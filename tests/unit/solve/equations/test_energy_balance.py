@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from hypothesis import given
 from hypothesis import strategies as st
 
+from softway.bodies.assembled.vector_space import LocalSpace
 from softway.bodies.internal_force.slab_average import EnergyMomentum, SlabForce, Weighted
 from softway.bodies.setup.loads import Gravity, Traction
 from softway.bodies.setup.placement import Placement
@@ -24,13 +25,17 @@ from softway.model.model import Model
 from softway.model.scene import Scene
 from softway.obstacles.half_space import HalfSpace
 from softway.solve.equations import energy_balance
-from softway.solve.equations.energy_balance import BOUND, EndForces, EnergyClosure, body_groups, close_energy, moment
+from softway.solve.equations.end_forces import EndForces
+from softway.solve.equations.energy_balance import BOUND, EnergyClosure, body_groups, close_energy
+from softway.solve.equations.spin_balance import moment
 
 NAMES = "abcd"
 MEET = NodeToSurface(nodes="both")
 dims = pytest.mark.parametrize("dim", [2, 3])
 forces = pytest.mark.parametrize("force", [Weighted(), EnergyMomentum()], ids=lambda f: type(f).__name__)
 seeds = st.integers(0, 10**6)
+
+WHOLE = LocalSpace(())
 
 
 @cache
@@ -104,14 +109,14 @@ def gained(model: Model, e: EndForces, found: EnergyClosure) -> np.ndarray:
     du, heavy = e.u1 - e.u0, model.massive[:, None]
     old, new = shares(model, e, found)
     push = e.rows0.spread(old, model.shape) + e.rows1.spread(new, model.shape)
-    kinetic = model.totals((model.load - found.mean) * du * heavy)
-    support = model.totals(np.where(heavy | model.free, 0.0, found.mean - model.load - push) * du)
+    kinetic = model.space.totals((model.load - found.mean) * du * heavy)
+    support = model.space.totals(np.where(heavy | model.free, 0.0, found.mean - model.load - push) * du)
     tools = np.bincount(
         model.part_of[e.rows0.node],
         weights=old * e.rows0.tool_motion + new * e.rows1.tool_motion,
         minlength=len(model.parts),
     )
-    return kinetic + e.V1 - e.V0 - model.totals(model.load * du) - support - tools
+    return kinetic + e.V1 - e.V0 - model.space.totals(model.load * du) - support - tools
 
 
 def test_bodies_in_touch_are_one_group() -> None:
@@ -205,10 +210,10 @@ def test_a_convex_energy_and_gaps_without_curvature_bound_the_scalar(
     f0, f1 = (
         np.where(light, model.load + rows.spread(p, model.shape), rng.normal(size=model.shape)) for p in (push0, push1)
     )
-    concave = np.maximum(-model.totals((f1 - f0) * du * light), 0.0)
-    stiffness = (concave * (1.0 + rng.random()) + 1e-3) / model.totals(du**2 * ~light)
+    concave = np.maximum(-model.space.totals((f1 - f0) * du * light), 0.0)
+    stiffness = (concave * (1.0 + rng.random()) + 1e-3) / model.space.totals(du**2 * ~light)
     f1 = np.where(light, f1, f0 + model.nodal(stiffness) * du)
-    low, high = (model.totals(f * du) for f in (f0, f1))
+    low, high = (model.space.totals(f * du) for f in (f0, f1))
     stored = e.V0 + low + rng.random(len(low)) * (high - low)
     e = replace(e, rows0=rows, rows1=rows, force0=push0, force1=push1, f0=f0, f1=f1, mean=0.5 * (f0 + f1), V1=stored)
     found = close_energy(model, e, fallback=False)
@@ -231,7 +236,7 @@ def test_internal_forces_and_pairs_have_no_moment(dim: int, seed: int) -> None:
     x = model.points + 0.5 * (e.u0 + e.u1)
     for g in range(3):
         here = label[model.part_of] == g
-        assert moment((x - x[here].mean(axis=0))[here], total[here]) == pytest.approx(0.0, abs=1e-15)
+        assert moment(WHOLE, (x - x[here].mean(axis=0))[here], total[here]) == pytest.approx(0.0, abs=1e-15)
 
 
 @forces
@@ -291,7 +296,7 @@ def test_moments() -> None:
     rng = np.random.default_rng(0)
     x, f = rng.normal(size=(2, 7, 3))
     expected = sum(np.cross(a, b) for a, b in zip(x, f, strict=True))
-    np.testing.assert_allclose(moment(x, f), expected, atol=1e-14)
+    np.testing.assert_allclose(moment(WHOLE, x, f), expected, atol=1e-14)
     flat = [1.0, 1.0, 0.0]
-    np.testing.assert_allclose(moment(x[:, :2], f[:, :2]), moment(x * flat, f * flat)[2:], atol=1e-14)
-    assert moment(x[:, :1], f[:, :1]).shape == (0,)
+    np.testing.assert_allclose(moment(WHOLE, x[:, :2], f[:, :2]), moment(WHOLE, x * flat, f * flat)[2:], atol=1e-14)
+    assert moment(WHOLE, x[:, :1], f[:, :1]).shape == (0,)

@@ -55,7 +55,7 @@ def test_nodes_turn_with_their_body(beam: Model) -> None:
     Q = Rotation.from_rotvec([0.3, -0.4, 1.1]).as_matrix()
     F = Q @ np.diag([1.2, 0.9, 1.0])
     u = beam.points @ (F - np.eye(3)).T + 0.7
-    R = nodal_rotation(beam.parts).since(np.zeros(beam.shape), u, beam.dofs)
+    R = nodal_rotation(beam.parts).since(beam.space, np.zeros(beam.shape), u, beam.dofs)
     assert R is not None
     np.testing.assert_allclose(R.toarray(), np.kron(np.eye(len(u)), Q), atol=1e-12)
 
@@ -66,7 +66,7 @@ def test_a_turned_factor_is_the_factor_of_the_turned_body(beam: Model) -> None:
     u = 0.02 * rng.normal(size=beam.shape)
     turned = (beam.points + u) @ Q.T - beam.points
     K0, K1 = (beam.inertia_and_stiffness(x, 0.3).toarray() for x in (u, turned))
-    R = nodal_rotation(beam.parts).since(u, turned, beam.dofs).toarray()
+    R = nodal_rotation(beam.parts).since(beam.space, u, turned, beam.dofs).toarray()
     np.testing.assert_allclose(R @ K0 @ R.T, K1, atol=1e-13)
 
 
@@ -75,9 +75,9 @@ def test_supported_nodes_and_small_rotations_do_not_turn(beam: Model) -> None:
     free[0] = False
     Q = Rotation.from_rotvec([0.0, 0.0, 1.0]).as_matrix()
     u = beam.points @ (Q - np.eye(3)).T
-    R = nodal_rotation(beam.parts).since(np.zeros(beam.shape), u, NodalDofs(free))
+    R = nodal_rotation(beam.parts).since(beam.space, np.zeros(beam.shape), u, NodalDofs(free))
     assert R.shape == (beam.free.size - 3, beam.free.size - 3)
-    assert nodal_rotation(beam.parts).since(np.zeros(beam.shape), 0.01 * u, NodalDofs(free)) is None
+    assert nodal_rotation(beam.parts).since(beam.space, np.zeros(beam.shape), 0.01 * u, NodalDofs(free)) is None
 
 
 @pytest.fixture

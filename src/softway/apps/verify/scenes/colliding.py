@@ -132,7 +132,7 @@ def collided(scene: sw.Scene, until: float, step: float | None = None) -> Collis
     steps = tuple(sw.march(model, until=until, step="auto" if step is None else step))
     u, v = (model.join(f) for f in (steps[-1].after.displacement, steps[-1].after.velocity))
     mass = np.asarray(model.mass.sum(axis=1))
-    total = model.totals(mass)
+    total = model.space.totals(mass)
     centres = np.array([mass[p.rows] @ v[p.rows] for p in model.parts]) / total[:, None]
     energies = model.kinetic(v) + model.energy_and_force(u)[0]
     start, first = model.kinetic(model.velocity).sum(), mass @ model.velocity
