@@ -122,7 +122,7 @@ def continue_run(
     """
     with _stored(run.path):
         recorders = _opened(run.path, opening, {} if found is None else found.marks)
-        slabs, time = (0, 0.0) if found is None else (found.standing.slabs, found.standing.state.time)
+        slabs, time = (0, 0.0) if found is None else (found.march_state.slabs, found.march_state.state.time)
         record = provenance.resume(run.path, run.provenance, slabs, time)
         (run.path / summary.FILE).unlink(missing_ok=True)
     keeper = CheckpointWriter(run.path, plan, recorders, 0.0 if found is None else found.wall)

@@ -120,7 +120,7 @@ def resume(
         checked = given if isinstance(given, Checked) else check(given)
         provenance.require_same(stopped.path, stopped.provenance, _texts(checked.scenario))
         opening, found = _opening(checked, cancel), last(stopped.path)
-        steps = _steps(checked, opening.initial if found is None else found.standing, cancel)
+        steps = _steps(checked, opening.initial if found is None else found.march_state, cancel)
         return continue_run(steps, opening, stopped, found, plan=checked.scenario.output.checkpoints, progress=progress)
 
 

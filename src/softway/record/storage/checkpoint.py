@@ -23,7 +23,7 @@ from softway.units import Second
 
 LOG = logging.getLogger(__name__)
 FOLDER = "checkpoints"
-FORMAT = "softway checkpoint 1"
+FORMAT = "softway checkpoint 2"
 RARE = 100.0
 """Minimum time between checkpoints, as a multiple of the time that the last one took to write."""
 
@@ -62,7 +62,7 @@ class Checkpoints:
 class Checkpoint:
     """State of a run: the state of the march, the length of each record, and the wall-clock time so far [s]."""
 
-    standing: MarchState
+    march_state: MarchState
     marks: Mapping[str, int]
     wall: float
 
@@ -81,13 +81,13 @@ def save(folder: Path, checkpoint: Checkpoint, keep: int) -> Path:
     """
     place = folder / FOLDER
     place.mkdir(exist_ok=True)
-    text, arrays = packed(checkpoint.standing)
-    about = json.dumps({"standing": text, "marks": dict(checkpoint.marks), "wall": checkpoint.wall})
+    text, arrays = packed(checkpoint.march_state)
+    about = json.dumps({"march_state": text, "marks": dict(checkpoint.marks), "wall": checkpoint.wall})
     body = io.BytesIO()
     np.savez(body, allow_pickle=False, about=np.frombuffer(about.encode(), np.uint8), **arrays)
     content = body.getvalue()
     head = f"{FORMAT} {hashlib.sha256(content).hexdigest()}\n".encode()
-    file = place / f"slab-{checkpoint.standing.slabs:09d}"
+    file = place / f"slab-{checkpoint.march_state.slabs:09d}"
     replaced(file, head + content, sync=True)
     for old in listed(folder)[keep:]:
         old.unlink(missing_ok=True)
@@ -126,7 +126,7 @@ def read(file: Path) -> Checkpoint:
     with np.load(io.BytesIO(content), allow_pickle=False) as stored:
         arrays = {name: stored[name] for name in stored.files}
     about = json.loads(arrays.pop("about").tobytes())
-    return Checkpoint(standing=unpacked(about["standing"], arrays), marks=about["marks"], wall=about["wall"])
+    return Checkpoint(march_state=unpacked(about["march_state"], arrays), marks=about["marks"], wall=about["wall"])
 
 
 def forget(folder: Path) -> None:

@@ -38,7 +38,7 @@ class CheckpointWriter:
         """Wall-clock time of the run so far [s]."""
         return self.before + clock.perf_counter() - self.begun
 
-    def took(self, standing: MarchState) -> None:
+    def took(self, march_state: MarchState) -> None:
         """Take the state of the march after its last step was recorded, and write a checkpoint if one is due.
 
         Raises
@@ -46,7 +46,7 @@ class CheckpointWriter:
         OSError
             If a checkpoint cannot be written.
         """
-        self._latest = standing, {name: recorder.mark for name, recorder in self.recorders.items()}
+        self._latest = march_state, {name: recorder.mark for name, recorder in self.recorders.items()}
         if clock.perf_counter() >= self.due:
             self.write()
 
@@ -60,12 +60,12 @@ class CheckpointWriter:
         """
         if self._latest is None or not self.plan.keep:
             return
-        standing, marks = self._latest
-        if standing.slabs == self._saved:
+        march_state, marks = self._latest
+        if march_state.slabs == self._saved:
             return
         start = clock.perf_counter()
         for recorder in self.recorders.values():
             recorder.sync()
-        save(self.folder, Checkpoint(standing=standing, marks=marks, wall=self.wall), self.plan.keep)
-        self._saved, now = standing.slabs, clock.perf_counter()
+        save(self.folder, Checkpoint(march_state=march_state, marks=marks, wall=self.wall), self.plan.keep)
+        self._saved, now = march_state.slabs, clock.perf_counter()
         self.due = now + max(self.plan.every, RARE * (now - start)) if self.plan.every else now

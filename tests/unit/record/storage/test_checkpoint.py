@@ -19,13 +19,13 @@ def checkpoints() -> list[Checkpoint]:
         velocity=sw.bodies.Uniform(value=0.5),
     )
     steps = sw.march(sw.Scene(bodies={"bar": bar}), until=0.5, step=0.1)
-    return [Checkpoint(standing=s.march_state, marks={"history.csv": 10 * k}, wall=0.5) for k, s in enumerate(steps)]
+    return [Checkpoint(march_state=s.march_state, marks={"history.csv": 10 * k}, wall=0.5) for k, s in enumerate(steps)]
 
 
 def test_what_is_read_is_what_was_written(checkpoints, tmp_path):
     found = read(save(tmp_path, checkpoints[0], 2))
     assert found.marks == {"history.csv": 0} and found.wall == 0.5
-    one, other = found.standing, checkpoints[0].standing
+    one, other = found.march_state, checkpoints[0].march_state
     assert one.settings == other.settings and one.account == other.account and one.pace == other.pace
     assert (one.state.start.displacement == other.state.start.displacement).all()
 
@@ -35,7 +35,7 @@ def test_the_last_ones_are_kept(checkpoints, tmp_path):
     for point in checkpoints:
         save(tmp_path, point, 2)
     assert [p.name for p in listed(tmp_path)] == ["slab-000000005", "slab-000000004"]
-    assert last(tmp_path).standing.slabs == 5
+    assert last(tmp_path).march_state.slabs == 5
     forget(tmp_path)
     assert not list(tmp_path.iterdir())
 
@@ -54,7 +54,7 @@ def test_a_damaged_one_is_named_and_the_one_before_used(checkpoints, tmp_path, c
     }  # fmt: skip
     file.write_bytes(bytes(harmed[harm]))
     with caplog.at_level(logging.WARNING):
-        assert last(tmp_path).standing.slabs == 1
+        assert last(tmp_path).march_state.slabs == 1
     assert file.name in caplog.text and "damaged" in caplog.text
     with pytest.raises(Damaged):
         read(file)
@@ -73,7 +73,7 @@ def test_without_room_the_one_before_stays(checkpoints, tmp_path):
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
         signal.signal(signal.SIGXFSZ, handler)
     assert [p.name for p in (tmp_path / "checkpoints").iterdir()] == ["slab-000000001"]
-    assert last(tmp_path).standing.slabs == 1
+    assert last(tmp_path).march_state.slabs == 1
 
 
 def test_wrong_plans_name_their_place():
