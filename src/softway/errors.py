@@ -121,11 +121,11 @@ class Unbalanced(Exception):
 
 
 class Halts(Exception):
-    """End of the slip between two bodies after a ``share`` of the slab; the march ends the slab there."""
+    """End of the slip between two bodies after a ``fraction`` of the slab; the march ends the slab there."""
 
-    def __init__(self, share: float) -> None:
-        self.share = share
-        super().__init__(f"slip ends after {share:.6g} of the slab")
+    def __init__(self, fraction: float) -> None:
+        self.fraction = fraction
+        super().__init__(f"slip ends after {fraction:.6g} of the slab")
 
 
 class TooFast(Exception):

@@ -80,7 +80,7 @@ def accept_slab(rules: Stepper, march_state: MarchState, length: float, memory: 
             found = _tried(rules, march_state, slab, memory, attempt)
             return replace(found, rejections=tuple(reasons), halted=halted)
         except Halts as stop:
-            length, halted = stop.share * length, True
+            length, halted = stop.fraction * length, True
             continue
         except (TooFast, Unbalanced) as failure:
             length = 0.5 * length
