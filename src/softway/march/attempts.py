@@ -61,18 +61,16 @@ def accept_slab(rules: Stepper, march_state: MarchState, length: float, memory: 
         If no slab was accepted.
     """
     now, until, settings = march_state.state, march_state.settings.until, march_state.settings
-    least, crawls = (
-        settings.control.least * march_state.pace.span,
-        march_state.pace.recent_rejections > settings.control.patience,
-    )
+    history = march_state.step_history
+    least, crawls = settings.control.least * history.span, history.recent_rejections > settings.control.patience
     reasons: list[str] = []
     halted = False
-    unbalanced = PATIENCE if march_state.pace.energy_along_motion else 0
+    unbalanced = PATIENCE if history.energy_along_motion else 0
     fresh = memory.origin is None
     while length > least and not (crawls and reasons):
         heed(rules.cancel, now.time)
         end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
-        slab = Slab(start=now.time, end=end, weight=DAMPED if march_state.pace.halted else settings.weight)
+        slab = Slab(start=now.time, end=end, weight=DAMPED if history.halted else settings.weight)
         try:
             attempt = Attempt(
                 approach=settings.control.approach, energy_along_motion=unbalanced >= PATIENCE, cancel=rules.cancel
@@ -99,10 +97,10 @@ def recent_rejections(before: StepHistory, span: float, rejections: int) -> floa
 
     Examples
     --------
-    >>> pace, found = StepHistory(span=1.0, length=1.0), []
+    >>> history, found = StepHistory(span=1.0, length=1.0), []
     >>> for span, rejections in [(0.5, 3), (0.009, 2), (0.009, 2), (0.009, 0), (0.02, 1)]:
-    ...     pace = replace(pace, recent_rejections=recent_rejections(pace, span, rejections))
-    ...     found.append(pace.recent_rejections)
+    ...     history = replace(history, recent_rejections=recent_rejections(history, span, rejections))
+    ...     found.append(history.recent_rejections)
     >>> found
     [0.0, 2.0, 4.0, 3.75, 0.0]
     """
@@ -114,7 +112,7 @@ def _reason(march_state: MarchState, reasons: list[str], crawls: bool) -> str:
     if not reasons:
         return "no time step was accepted: bodies come to rest again and again"
     if crawls:
-        count = march_state.pace.recent_rejections + len(reasons)
+        count = march_state.step_history.recent_rejections + len(reasons)
         return f"{count:.0f} rejections among slabs shorter than {CRAWL:g} of the step; last: {reasons[-1]}"
     return f"no time step was accepted after {len(reasons)} cutbacks; last: {reasons[-1]}"
 

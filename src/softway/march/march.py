@@ -93,7 +93,7 @@ def march(
     prepared = stepper(model, method, weight, cancel)
     stepping = method if isinstance(method, Explicit) else weight
     if not march_state.slabs and not (isinstance(stepping, Explicit) and step == "auto"):  # auto is stable
-        require_stable(model, march_state.state.start.displacement, stepping, march_state.pace.span)
+        require_stable(model, march_state.state.start.displacement, stepping, march_state.step_history.span)
     return _steps(prepared, march_state)
 
 
@@ -110,7 +110,7 @@ def _begun(model: Model, settings: Settings, state: State | MarchState | None, c
         settings=settings,
         state=now,
         account=open_account(initial_ledger(model, now)),
-        pace=StepHistory(span=span, length=span),
+        step_history=StepHistory(span=span, length=span),
     )
 
 
@@ -155,13 +155,13 @@ def evenly(duration: float, step: float) -> float:
 
 
 def _steps(rules: Stepper, march_state: MarchState) -> Iterator[Step]:
-    model, settings, span = rules.model, march_state.settings, march_state.pace.span
+    model, settings, span = rules.model, march_state.settings, march_state.step_history.span
     until, least = settings.until, settings.control.least * span
     memory, before = march_state.memory, split_states(model, march_state.state)
     watch = crushing(model, rules.method)
     while march_state.state.time < until - 1e-9 * span:
         time = march_state.state.time
-        length = min(march_state.pace.length, until - time)
+        length = min(march_state.step_history.length, until - time)
         length = until - time if until - time - length < least else length
         found = accept_slab(rules, march_state, length, memory)
         if memory.choice is None and found.memory.choice is not None:
@@ -172,12 +172,12 @@ def _steps(rules: Stepper, march_state: MarchState) -> Iterator[Step]:
             settings=settings,
             state=found.after,
             account=update_account(march_state.account, found.ledger),
-            pace=StepHistory(
+            step_history=StepHistory(
                 span=span,
                 length=following,
                 energy_along_motion=found.energy_along_motion,
                 halted=found.halted,
-                recent_rejections=recent_rejections(march_state.pace, found.slab.span, len(found.rejections)),
+                recent_rejections=recent_rejections(march_state.step_history, found.slab.span, len(found.rejections)),
             ),
             memory=found.memory.bare(),
             slabs=march_state.slabs + 1,

@@ -73,7 +73,7 @@ class MarchState:
         Settings of the march; with other settings the step history and the operator start anew.
     state
         Displacement, velocity, forces and history variables.
-    account, pace
+    account, step_history
         Energy account and step history.
     memory
         Origin and statistics of the operator.
@@ -84,14 +84,14 @@ class MarchState:
     settings: Settings
     state: ModelState
     account: EnergyAccount
-    pace: StepHistory
+    step_history: StepHistory
     memory: OperatorMemory = OperatorMemory()
     slabs: int = 0
 
     def asked(self, settings: Settings, span: float) -> "MarchState":
         """Initial march state for other ``settings`` and slab length ``span`` [s]."""
         return replace(
-            self, settings=settings, pace=StepHistory(span=span, length=span), memory=OperatorMemory(), slabs=0
+            self, settings=settings, step_history=StepHistory(span=span, length=span), memory=OperatorMemory(), slabs=0
         )
 
     def fitting(self, model: Model) -> "MarchState":

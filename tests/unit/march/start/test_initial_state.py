@@ -278,4 +278,4 @@ def test_a_march_that_crawls_ends_with_the_reason(shop) -> None:
         list(march(falling, until=1.0, step=0.5, method=few, control=StepControl(patience=30)))
     assert "a smaller step" in why.value.remedy
     steps = list(islice(march(falling, until=1.0, step=0.5, method=few), 100))
-    assert len(steps) == 100 and steps[-1].march_state.pace.recent_rejections > 30
+    assert len(steps) == 100 and steps[-1].march_state.step_history.recent_rejections > 30

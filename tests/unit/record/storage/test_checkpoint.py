@@ -26,7 +26,7 @@ def test_what_is_read_is_what_was_written(checkpoints, tmp_path):
     found = read(save(tmp_path, checkpoints[0], 2))
     assert found.marks == {"history.csv": 0} and found.wall == 0.5
     one, other = found.march_state, checkpoints[0].march_state
-    assert one.settings == other.settings and one.account == other.account and one.pace == other.pace
+    assert one.settings == other.settings and one.account == other.account and one.step_history == other.step_history
     assert (one.state.start.displacement == other.state.start.displacement).all()
 
 
