@@ -47,7 +47,7 @@ class AcceptedSlab:
     halted: bool = False
 
 
-def accept_slab(rules: Stepper, march_state: MarchState, length: float, memory: OperatorMemory) -> AcceptedSlab:
+def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory: OperatorMemory) -> AcceptedSlab:
     """Find the next accepted slab, with cutbacks of its length to one half.
 
     A slab that fails with an old operator is first tried again with a new one.  If the scalar cannot close the energy
@@ -68,14 +68,14 @@ def accept_slab(rules: Stepper, march_state: MarchState, length: float, memory: 
     unbalanced = PATIENCE if history.energy_along_motion else 0
     fresh = memory.origin is None
     while length > least and not (crawls and reasons):
-        heed(rules.cancel, now.time)
+        heed(stepper.cancel, now.time)
         end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
         slab = Slab(start=now.time, end=end, weight=DAMPED if history.halted else settings.weight)
         try:
             attempt = Attempt(
-                approach=settings.control.approach, energy_along_motion=unbalanced >= PATIENCE, cancel=rules.cancel
+                approach=settings.control.approach, energy_along_motion=unbalanced >= PATIENCE, cancel=stepper.cancel
             )
-            found = _tried(rules, march_state, slab, memory, attempt)
+            found = _tried(stepper, march_state, slab, memory, attempt)
             return replace(found, rejections=tuple(reasons), halted=halted)
         except Halts as stop:
             length, halted = stop.fraction * length, True
@@ -89,7 +89,7 @@ def accept_slab(rules: Stepper, march_state: MarchState, length: float, memory: 
             length = 0.5 * length if fresh else length
             fresh, memory = True, memory.failed()
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
-    raise NumericsError(_reason(march_state, reasons, crawls), now.time, _remedy(rules))
+    raise NumericsError(_reason(march_state, reasons, crawls), now.time, _remedy(stepper))
 
 
 def recent_rejections(before: StepHistory, span: float, rejections: int) -> float:
@@ -117,18 +117,18 @@ def _reason(march_state: MarchState, reasons: list[str], crawls: bool) -> str:
     return f"no time step was accepted after {len(reasons)} cutbacks; last: {reasons[-1]}"
 
 
-def _remedy(rules: Stepper) -> str:
+def _remedy(stepper: Stepper) -> str:
     """Possible remedies if no time step was accepted."""
     found = ["a smaller step", "a finer mesh where the cells are crushed"]
-    if isinstance(rules.method, Newton):
+    if isinstance(stepper.method, Newton):
         found.append("the method FixedPoint, which converges more often than Newton alone")
-    if rules.model.contacts.watchers:  # mean gaps
+    if stepper.model.contacts.watchers:  # mean gaps
         found.append("the method NodeToSurface for coarse facets in contact")
     return ", or ".join(found)
 
 
 def _tried(
-    rules: Stepper, march_state: MarchState, slab: Slab, memory: OperatorMemory, attempt: Attempt
+    stepper: Stepper, march_state: MarchState, slab: Slab, memory: OperatorMemory, attempt: Attempt
 ) -> AcceptedSlab:
     """Solve and audit one slab: the first solution with a valid certificate.
 
@@ -137,12 +137,12 @@ def _tried(
     NoConvergence, Halts
         If there is none, or a body comes to rest inside the slab.
     """
-    model, now = rules.model, march_state.state
+    model, now = stepper.model, march_state.state
     broken: str | None = "no solution"
-    for after, out, new in advance(rules, now, slab, memory, attempt):
+    for after, out, new in advance(stepper, now, slab, memory, attempt):
         if slab.weight != DAMPED:
             slip_end(model, now, out, slab.span)
-            slip_start(model, now, out, partial(_stuck, rules, now, slab, new, attempt))
+            slip_start(model, now, out, partial(_stuck, stepper, now, slab, new, attempt))
         ledger = audit(model, march_state.account, now, out, after)
         certificate = certify(model, out, after, march_state.account, ledger, balance(model, now, out, after))
         broken = violation(model, now, out, after, ledger, certificate)
@@ -162,6 +162,6 @@ def _tried(
     raise NoConvergence(f"certificate: {broken}")
 
 
-def _stuck(rules: Stepper, now: ModelState, slab: Slab, memory: OperatorMemory, attempt: Attempt) -> SlabResult:
+def _stuck(stepper: Stepper, now: ModelState, slab: Slab, memory: OperatorMemory, attempt: Attempt) -> SlabResult:
     """Slab with sticking at any force of all rows at rest."""
-    return next(advance(rules, now, slab, memory, replace(attempt, stick_at_any_force=True)))[1]
+    return next(advance(stepper, now, slab, memory, replace(attempt, stick_at_any_force=True)))[1]

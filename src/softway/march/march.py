@@ -154,16 +154,16 @@ def evenly(duration: float, step: float) -> float:
     return float(duration / np.ceil(duration / step - 1e-9))
 
 
-def _steps(rules: Stepper, march_state: MarchState) -> Iterator[Step]:
-    model, settings, span = rules.model, march_state.settings, march_state.step_history.span
+def _steps(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
+    model, settings, span = stepper.model, march_state.settings, march_state.step_history.span
     until, least = settings.until, settings.control.least * span
     memory, before = march_state.memory, split_states(model, march_state.state)
-    watch = crushing(model, rules.method)
+    watch = crushing(model, stepper.method)
     while march_state.state.time < until - 1e-9 * span:
         time = march_state.state.time
         length = min(march_state.step_history.length, until - time)
         length = until - time if until - time - length < least else length
-        found = accept_slab(rules, march_state, length, memory)
+        found = accept_slab(stepper, march_state, length, memory)
         if memory.choice is None and found.memory.choice is not None:
             log.info("operator %s: %s", found.memory.choice.operator, found.memory.choice.reason)
         following = _next(model, settings.control, span, march_state.state, found)
