@@ -56,7 +56,7 @@ class FacetProjection:
         """Centres (k, d) of the facets of a subset of the pairs."""
         return np.asarray(self.x[self.pairs.masters[which]].mean(axis=1))
 
-    def faces(self, one: IntArray, two: IntArray) -> BoolArray:
+    def mutually_facing(self, one: IntArray, two: IntArray) -> BoolArray:
         """True where the facets of pairs ``one`` and ``two`` face the centres of each other."""
         forth = dot(self.feet.normal[one], self.centre(two) - self.foot(one)) > 0.0
         back = dot(self.feet.normal[two], self.centre(one) - self.foot(two)) > 0.0

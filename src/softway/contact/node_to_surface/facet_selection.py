@@ -106,7 +106,7 @@ def _further(seen: FacetProjection, before: IntArray, start: Array, extended: Bo
         turned = (other >= 0) & (dot(seen.feet.normal[pair], seen.feet.normal[other]) < PARALLEL)
         pair, other, joined = pair[turned], other[turned], joined[turned]
         close = np.abs(dot(seen.beyond[pair], seen.feet.offset[pair])) <= HINGE * seen.size[pair]
-        facing = seen.faces(pair, other)
+        facing = seen.mutually_facing(pair, other)
         joined = (joined | (close & seen.hinged(pair, other)))[facing]
         pair = pair[facing]
     pair = pair[joined | seen.came_over(pair, start)]
