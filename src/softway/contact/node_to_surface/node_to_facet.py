@@ -17,7 +17,7 @@ from softway.meshes.cells import CELLS
 
 INSIDE = 0.1
 """Depth at the start of a slab, as a fraction of the facet size, up to which a slave inside a body is pushed out."""
-LOOKING = -0.2
+FACING = -0.2
 """Product of the normals of a facet and of the surface around a slave below which they face each other."""
 SWELLING = 0.3
 """Distance, relative to its width, by which a quadratic facet may extend beyond the box of its nodes."""
@@ -107,8 +107,8 @@ class NodeToFacet:
         """True for facets (p,) that the surface around their slave faces."""
         if self.own is None or self.side.dim == 1:
             return np.ones(len(seen.size), bool)
-        looks = self.own.looks(seen.x)[np.searchsorted(self.own.nodes, seen.pairs.node)]
-        return np.asarray(np.einsum("pkd,pd->pk", looks, seen.feet.normal).min(axis=1) <= LOOKING)
+        normals = self.own.adjacent_facet_normals(seen.x)[np.searchsorted(self.own.nodes, seen.pairs.node)]
+        return np.asarray(np.einsum("pkd,pd->pk", normals, seen.feet.normal).min(axis=1) <= FACING)
 
 
 def _in_front(seen: FacetProjection) -> BoolArray:

@@ -117,7 +117,7 @@ class ContactSurface:
                 np.add.at(total, np.searchsorted(self.nodes, found[:, k]), angle[:, None] * normal)
         return _unit(total)
 
-    def looks(self, x: Array) -> Array:
+    def adjacent_facet_normals(self, x: Array) -> Array:
         """Outward normals (k, l, d) of the facets around each node.
 
         Entries beyond the number of facets of a node contain its nodal normal, at least one.  ``x`` (n, d) are the
