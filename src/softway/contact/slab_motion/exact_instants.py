@@ -15,7 +15,7 @@ import scipy.sparse as sp
 from softway.arrays import Array, BoolArray, IntArray
 from softway.contact.contact_rows import ContactRows
 from softway.kernels.linalg.active_set import exchanged, most_sweeps
-from softway.kernels.linalg.dense import shared
+from softway.kernels.linalg.dense import solve_dense
 
 AFTER = 1e-10
 """Fraction of a slab after an instant at which the new active set is determined."""
@@ -102,8 +102,8 @@ class ExactInstantMean:
             index = np.flatnonzero(active)
             push = np.zeros(len(first)), np.zeros(len(first))
             inner = w[np.ix_(index, index)]
-            push[0][index] = shared(inner, -first[index])
-            push[1][index] = shared(inner, -slope[index])
+            push[0][index] = solve_dense(inner, -first[index])
+            push[1][index] = solve_dense(inner, -slope[index])
             value = np.where(active, push[0], first + w @ push[0])
             rate = np.where(active, push[1], slope + w @ push[1])
             with np.errstate(divide="ignore", invalid="ignore"):
@@ -133,7 +133,7 @@ def lcp(compliance: Array, gap: Array) -> BoolArray:
     for sweep in range(most_sweeps(len(gap))):
         index = np.flatnonzero(active)
         force = np.zeros(len(gap))
-        force[index] = shared(compliance[np.ix_(index, index)], -gap[index])
+        force[index] = solve_dense(compliance[np.ix_(index, index)], -gap[index])
         wrong = (active & (force < 0.0)) | (~active & (gap + compliance @ force < -floor) & movable)
         if not wrong.any():
             break

@@ -13,8 +13,8 @@ LIFT = 1e-11
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Shared:
-    """Factored dense symmetric matrix (k, k); see :func:`shared`."""
+class DenseFactor:
+    """Factored dense symmetric matrix (k, k); see :func:`solve_dense`."""
 
     matrix: Array
     factor: Array
@@ -30,7 +30,7 @@ class Shared:
         return x
 
 
-def factored(matrix: Array) -> Shared:
+def factored(matrix: Array) -> DenseFactor:
     """Factor a dense symmetric matrix whose rows may be linearly dependent.
 
     ``LIFT`` times the greatest diagonal entry is added to the diagonal, which separates dependent rows.  The matrix
@@ -42,22 +42,22 @@ def factored(matrix: Array) -> Shared:
         If the matrix remains singular.
     """
     if not len(matrix):
-        return Shared(matrix, matrix, np.zeros(0, int))
+        return DenseFactor(matrix, matrix, np.zeros(0, int))
     lifted = matrix + LIFT * np.abs(np.diag(matrix)).max() * np.eye(len(matrix))
     factor, pivots, failed = dgetrf(lifted)
     if failed:
         raise NoConvergence(f"the compliance of {len(matrix)} contact rows is singular")
-    return Shared(matrix, factor, pivots)
+    return DenseFactor(matrix, factor, pivots)
 
 
-def shared(matrix: Array, b: Array) -> Array:
+def solve_dense(matrix: Array, b: Array) -> Array:
     """Solution of a dense symmetric system.
 
     Redundant rows share the force.  Consistent systems are satisfied up to rounding.
 
     Examples
     --------
-    >>> shared(np.ones((2, 2)), np.ones(2)).round(12)
+    >>> solve_dense(np.ones((2, 2)), np.ones(2)).round(12)
     array([0.5, 0.5])
     """
     return factored(matrix).solve(b)

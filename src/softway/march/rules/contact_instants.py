@@ -5,7 +5,7 @@ import numpy as np
 from softway.arrays import Array, BoolArray
 from softway.contact.contact_rows import ContactRows
 from softway.kernels.geometry.event_times import fading
-from softway.kernels.linalg.dense import shared
+from softway.kernels.linalg.dense import solve_dense
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import contact_event
 from softway.march.results.step import Event
@@ -58,7 +58,7 @@ def releases(
     if not len(left) or frozen is None:
         return []
     compliance = delassus(frozen, frozen.coefficients(rows, solution.last.system.model.dofs).subset(left))
-    tension = shared(compliance, rows.gap(end)[left]) * 2.0 / h / (h * moments(slab.weight)[1])
+    tension = solve_dense(compliance, rows.gap(end)[left]) * 2.0 / h / (h * moments(slab.weight)[1])
     tau = fading(now.pressure[left], -np.maximum(tension, 1e-300))
     after: Array = 0.5 * rows.normal_component(solution.last.q) - rows.tool_motion / h
     return [

@@ -10,7 +10,7 @@ from softway.arrays import Array, BoolArray
 from softway.contact.contact_rows import ContactRows
 from softway.contact.slab_motion.trajectory import ContactEvents
 from softway.contact.slab_motion.trapezoid_triangle import TrapezoidTriangle
-from softway.kernels.linalg.dense import shared
+from softway.kernels.linalg.dense import solve_dense
 from softway.march.model_state import ModelState
 from softway.model.model import Model
 from softway.model.time_weight import TimeWeight
@@ -148,7 +148,7 @@ class NodalStop:
             return field, rows.normal_forces(inertia * field, hits, model.free)
         mobility = np.where(model.free & (inertia > 0.0), 1.0 / np.where(inertia > 0.0, inertia, 1.0), 0.0).ravel()
         impulse = np.zeros(len(hits))
-        impulse[index] = shared((some @ sparse.diags_array(mobility) @ some.T).toarray(), -approach[index])
+        impulse[index] = solve_dense((some @ sparse.diags_array(mobility) @ some.T).toarray(), -approach[index])
         return mobility.reshape(model.shape) * rows.spread(impulse, model.shape), impulse
 
     def loss(

@@ -9,7 +9,7 @@ import scipy.sparse as sp
 from softway.arrays import Array, IntArray
 from softway.bodies.dof_map import DofMap
 from softway.contact.contact_rows import ContactRows
-from softway.kernels.linalg.dense import Shared
+from softway.kernels.linalg.dense import DenseFactor
 from softway.solve.constraints.column_cache import ColumnCache
 from softway.solve.constraints.row_basis import CombinedRows, RowCoefficients, UnitRows
 from softway.solve.linear.interface import Factor, LinearSolver
@@ -94,7 +94,7 @@ class FrozenOperator:
     scale: float = 1.0
     table: ColumnCache = field(default_factory=ColumnCache)
     solutions: ColumnCache = field(default_factory=ColumnCache)
-    factored_sets: dict[bytes, Shared] = field(default_factory=dict)
+    factored_sets: dict[bytes, DenseFactor] = field(default_factory=dict)
 
     def filled(self, batches: tuple[IntArray, ...]) -> "FrozenOperator":
         """Operator with columns computed in these batches."""

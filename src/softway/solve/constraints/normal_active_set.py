@@ -14,7 +14,7 @@ import numpy as np
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import NoConvergence
 from softway.kernels.linalg.active_set import exchanged, most_sweeps
-from softway.kernels.linalg.dense import Shared, factored
+from softway.kernels.linalg.dense import DenseFactor, factored
 from softway.solve.constraints.compliance import FrozenOperator
 from softway.solve.constraints.return_map import NO_SLIP, SlipConditions
 from softway.solve.constraints.row_basis import CombinedRows, RowCoefficients
@@ -142,7 +142,7 @@ def delassus(frozen: FrozenOperator, active: RowCoefficients) -> Array:
     return active.folded(frozen.compliance(used)[used])
 
 
-def _factored_compliance(frozen: FrozenOperator, active: RowCoefficients) -> Shared:
+def _factored_compliance(frozen: FrozenOperator, active: RowCoefficients) -> DenseFactor:
     """Factored compliance of the active rows (k,), unscaled; kept for all slabs if directions are rows."""
     plain = frozen.scaled(1.0)
     if isinstance(active, CombinedRows):
