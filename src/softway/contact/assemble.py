@@ -59,8 +59,8 @@ def assemble_contacts(
     methods: list[NodeToTool | SurfacePair] = []
     number, opponents, nodes = [np.zeros(0, int)], [], [np.zeros(0, int)]
     sizes = [0.0]
-    watchers: list[SurfacePair] = []
-    watched: list[int] = []
+    overlap_methods: list[SurfacePair] = []
+    overlap_contact: list[int] = []
     for k, contact in enumerate(contacts):
         _check_shape(contact, bodies, points)
         with within(f"contacts[{k}]"):
@@ -68,8 +68,8 @@ def assemble_contacts(
         methods += found
         if any(isinstance(m, Mortar) for m in found):
             fine, coarse = surfaces
-            watchers += [_on(fine.side.nodes, fine, coarse), _on(coarse.side.nodes, coarse, fine)]
-            watched += [k, k]
+            overlap_methods += [_on(fine.side.nodes, fine, coarse), _on(coarse.side.nodes, coarse, fine)]
+            overlap_contact += [k, k]
         number.append(np.full(sum(len(m.node) for m in found), k))
         opponents.append(pair)
         nodes.append(touched)
@@ -80,8 +80,8 @@ def assemble_contacts(
         points=points,
         reach=REACH * max(sizes),
         labels=_labels(contacts),
-        watchers=tuple(watchers),
-        watched=tuple(watched),
+        overlap_methods=tuple(overlap_methods),
+        overlap_contact=tuple(overlap_contact),
         rough=not all(c.friction.frictionless for c in contacts),
         space=space,
     )

@@ -64,11 +64,11 @@ class ContactSet:
         Distance beyond the predicted motion within which surfaces are paired [m].
     labels
         Names of the contacts.
-    watchers
+    overlap_methods
         Nodes of either surface against the facets of the other, for contacts whose methods use mean gaps only: they
         measure the overlap of the surfaces and transmit no force.
-    watched
-        Number of the contact of each watcher.
+    overlap_contact
+        Number of the contact of each overlap method.
     fixed_rows
         Contact rows that are linear and never change: resting half-spaces without friction; None for other contacts.
     rough
@@ -85,8 +85,8 @@ class ContactSet:
     points: Array
     reach: float
     labels: tuple[str, ...]
-    watchers: tuple[SurfacePair, ...] = ()
-    watched: tuple[int, ...] = ()
+    overlap_methods: tuple[SurfacePair, ...] = ()
+    overlap_contact: tuple[int, ...] = ()
     fixed_rows: ContactRows | None = None
     rough: bool = False
     clearance: Array | None = None
@@ -115,13 +115,15 @@ class ContactSet:
     def meet(self, u0: Array, u1: Array, start: float, end: float) -> "SlabContacts":
         """Search the contacts of a slab between two times, from displacement ``u0`` to about ``u1`` (n, d)."""
         if self.fixed_rows is not None:
-            return SlabContacts(contacts=self, surfaces=(), watching=(), node=self.node, fixed_rows=self.fixed_rows)
+            return SlabContacts(
+                contacts=self, surfaces=(), overlap_surfaces=(), node=self.node, fixed_rows=self.fixed_rows
+            )
         x0, x1 = self.space.gather(self.points + u0), self.space.gather(self.points + u1)
         found = tuple(
             m.during(start, end) if isinstance(m, NodeToTool) else m.meet(x0, x1, self.reach) for m in self.methods
         )
-        watching = tuple(w.meet(x0, x1, self.reach) for w in self.watchers)
-        return SlabContacts(contacts=self, surfaces=found, watching=watching, node=self.node, fixed_rows=None)
+        overlap = tuple(m.meet(x0, x1, self.reach) for m in self.overlap_methods)
+        return SlabContacts(contacts=self, surfaces=found, overlap_surfaces=overlap, node=self.node, fixed_rows=None)
 
     def with_fixed_rows(self) -> "ContactSet":
         """Contacts with their rows computed in advance if these never change."""
@@ -135,14 +137,14 @@ class ContactSet:
 
         This holds for contacts that start ``apart`` (c,) and have no node that overlaps a facet.
         """
-        if not self.watchers:
+        if not self.overlap_methods:
             return self
         pairs, least = self.rest(u, 0.0), -DEPTH * self.space.greatest(self.points + u)
         gap = pairs.at(u).gap(u)
         deep = np.array(apart, bool)[self.contact] & (gap < least)
         if deep.any():
-            watched = pairs.watch(u)
-            deep &= np.isin(self.contact, np.setdiff1d(self.watched, watched.contact[watched.gap(u) < least]))
+            rows = pairs.overlap_rows(u)
+            deep &= np.isin(self.contact, np.setdiff1d(self.overlap_contact, rows.contact[rows.gap(u) < least]))
         if not deep.any():
             return self
         log.info("%d contact rows overlap at the start, by at most %.3g m: offset", deep.sum(), -gap[deep].min())
@@ -155,11 +157,23 @@ class ContactSet:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SlabContacts:
-    """Contacts found for one slab; ``fixed_rows`` are the rows if they never change."""
+    """Contacts found for one slab.
+
+    Parameters
+    ----------
+    contacts
+        Contacts of the model.
+    surfaces, overlap_surfaces
+        Surfaces that may come into contact, by the methods and by the overlap methods of ``contacts``.
+    node
+        Slave node (m,) of each row.
+    fixed_rows
+        The rows if they never change.
+    """
 
     contacts: ContactSet
     surfaces: tuple[PairedSurfaces, ...]
-    watching: tuple[PairedSurfaces, ...]
+    overlap_surfaces: tuple[PairedSurfaces, ...]
     node: IntArray
     fixed_rows: ContactRows | None
 
@@ -203,17 +217,17 @@ class SlabContacts:
         rows = self.at(u)
         return -float(rows.gap(u)[rows.near].min(initial=np.inf))
 
-    def watch(self, u: Array) -> ContactRows:
+    def overlap_rows(self, u: Array) -> ContactRows:
         """Rows that detect every overlap of nodes with facets, at the displacement ``u`` (n, d)."""
-        if not self.watching:
+        if not self.overlap_surfaces:
             return self.at(u)
         contacts = self.contacts
         tools = [m for m in self.surfaces if isinstance(m, ToolContact)]
         numbers = [contacts.contact[i] for i in self._tool_rows()]
-        nodes = [w.node for w in contacts.watchers]
-        numbers += [np.full(len(n), k) for n, k in zip(nodes, contacts.watched, strict=True)]
+        nodes = [m.node for m in contacts.overlap_methods]
+        numbers += [np.full(len(n), k) for n, k in zip(nodes, contacts.overlap_contact, strict=True)]
         nodes = [m.node for m in tools] + nodes
-        return self._rows((*tools, *self.watching), u, np.concatenate(nodes), np.concatenate(numbers))
+        return self._rows((*tools, *self.overlap_surfaces), u, np.concatenate(nodes), np.concatenate(numbers))
 
     def _tool_rows(self) -> list[slice]:
         """Rows of the methods for contact with tools."""

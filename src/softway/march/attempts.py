@@ -122,7 +122,7 @@ def _remedy(stepper: Stepper) -> str:
     found = ["a smaller step", "a finer mesh where the cells are crushed"]
     if isinstance(stepper.method, Newton):
         found.append("the method FixedPoint, which converges more often than Newton alone")
-    if stepper.model.contacts.watchers:  # mean gaps
+    if stepper.model.contacts.overlap_methods:  # mean gaps
         found.append("the method NodeToSurface for coarse facets in contact")
     return ", or ".join(found)
 

@@ -73,7 +73,7 @@ def require_slow(model: Model, pairs: SlabContacts, coasting: Array, limit: floa
     TooFast
         With the contact and the overlap.
     """
-    rows = pairs.watch(coasting)
+    rows = pairs.overlap_rows(coasting)
     edges = np.where(rows.near, -rows.gap(coasting), -np.inf) / model.edge[rows.node]
     crushable = np.array([not p.internal.linear for p in model.parts])[model.part_of[rows.node]]
     depth = edges * np.where(crushable, 1.0, min(limit / SMALL_STRAIN, 1.0))
