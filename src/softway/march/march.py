@@ -158,7 +158,7 @@ def _steps(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
     model, settings, span = stepper.model, march_state.settings, march_state.step_history.span
     until, least = settings.until, settings.control.least * span
     memory, before = march_state.memory, split_states(model, march_state.state)
-    watch = crushing(model, stepper.method)
+    cells = crushing(model, stepper.method)
     while march_state.state.time < until - 1e-9 * span:
         time = march_state.state.time
         length = min(march_state.step_history.length, until - time)
@@ -167,7 +167,7 @@ def _steps(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
         if memory.choice is None and found.memory.choice is not None:
             log.info("operator %s: %s", found.memory.choice.operator, found.memory.choice.reason)
         following = _next(model, settings.control, span, march_state.state, found)
-        following = min(following, span * watch.shortest_ratio(found.after.start.displacement))
+        following = min(following, span * cells.shortest_ratio(found.after.start.displacement))
         march_state = MarchState(
             settings=settings,
             state=found.after,

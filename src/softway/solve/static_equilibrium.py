@@ -70,7 +70,7 @@ class InitialSlip:
         return SlipConditions(
             friction=model.friction.at(u),
             shift=-rows.shear.flat(passed),
-            pace=1.0 / time if most > 0.0 else 0.0,
+            speed_factor=1.0 / time if most > 0.0 else 0.0,
             unit=1.0,
             ahead=0.0,
             before=np.zeros(len(rows.node)),

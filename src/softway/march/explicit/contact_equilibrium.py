@@ -59,7 +59,7 @@ def solve_contact_nodes(
     return balanced(system, still, (q, u1), first, (near, memory), free, method)
 
 
-def watched_nodes(space: VectorSpace, memory: OperatorMemory, still: MasslessNodes, missing: Array) -> OperatorMemory:
+def with_remaining(space: VectorSpace, memory: OperatorMemory, still: MasslessNodes, missing: Array) -> OperatorMemory:
     """Operator memory with the fraction of the residual forces after one correction; ``missing`` (f,) is left [N]."""
     skin = memory.skin
     if skin is None or skin.before == 0.0:

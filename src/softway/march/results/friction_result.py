@@ -67,7 +67,7 @@ def slipping(model: Model, now: ModelState, slab: Slab, rows: ContactRows, stick
     return SlipConditions(
         friction=model.friction.at(now.start.displacement + 0.5 * h * now.start.velocity),
         shift=np.zeros(shear.tangents.shape[:2]),
-        pace=0.5,
+        speed_factor=0.5,
         unit=1.0 / (h * moments(slab.weight)[1]),
         ahead=AHEAD if model.inert else 0.0,
         before=np.where(rows.near, np.linalg.norm(shear.slip(h * now.start.velocity), axis=1) / h, 0.0),

@@ -15,7 +15,7 @@ from softway.bodies.assembled.contact_layer import layer
 from softway.contact.contact_rows import ContactRows
 from softway.contact.impact_rule import Energy
 from softway.errors import InputError
-from softway.march.explicit.contact_equilibrium import solve_contact_nodes, watched_nodes
+from softway.march.explicit.contact_equilibrium import solve_contact_nodes, with_remaining
 from softway.march.explicit.massless_nodes import FollowedNodes, MasslessNodes, handed_forces, pushed_nodes
 from softway.march.model_state import ModelState
 from softway.march.results.friction_result import first_impulses
@@ -115,7 +115,7 @@ class CentralDifference:
         velocity = self.reached(it.q, slope)
         out = slab_result(HOW, model, now, slab, system, solution, pairs.found, velocity)
         required = Balances(energy="bounded" if out.required.energy == "closed" else out.required.energy)
-        yield replace(out, required=required), watched_nodes(model.space, it.memory, self.still, left)
+        yield replace(out, required=required), with_remaining(model.space, it.memory, self.still, left)
 
 
 def central_difference(model: Model, method: Explicit, weight: TimeWeight) -> CentralDifference:

@@ -18,9 +18,9 @@ STEEPEST = 1e3
 class SlipConditions:
     """Conditions of one slab on the slip of contact rows, in the units of the multipliers.
 
-    The slip of a row is ``y = T z - shift``, its mean speed ``pace |y|``.  A law that depends on the speed takes the
-    one at the end of the slab, ``(1 + ahead) pace |y| - ahead before``, extrapolated from the mean speed ``before`` of
-    the previous slab.
+    The slip of a row is ``y = T z - shift``, its mean speed ``speed_factor |y|``.  A law that depends on the speed
+    takes the one at the end of the slab, ``(1 + ahead) speed_factor |y| - ahead before``, extrapolated from the mean
+    speed ``before`` of the previous slab.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ class SlipConditions:
         Friction laws.
     shift
         (m, k) shift of the slip.
-    pace
+    speed_factor
         Speed per unit of the slip y.
     unit
         Force per unit of the multipliers.
@@ -43,7 +43,7 @@ class SlipConditions:
 
     friction: FrictionRows
     shift: Array
-    pace: float
+    speed_factor: float
     unit: float
     ahead: float
     before: Array
@@ -87,10 +87,10 @@ class SlipConditions:
 
     def resistance(self, slip: Array, pressed: Array) -> tuple[Array, Array, Array]:
         """Multiplier (m,) of slips ``|y|`` (m,), with its derivatives with respect to slip and normal multiplier."""
-        late = (1.0 + self.ahead) * self.pace * slip - self.ahead * self.before
+        late = (1.0 + self.ahead) * self.speed_factor * slip - self.ahead * self.before
         value, slope, pressure_slope = self.friction.resistance(np.maximum(late, 0.0), self.unit * pressed)
         with np.errstate(invalid="ignore"):
-            change = np.where(late >= 0.0, slope * ((1.0 + self.ahead) * self.pace / self.unit), 0.0)
+            change = np.where(late >= 0.0, slope * ((1.0 + self.ahead) * self.speed_factor / self.unit), 0.0)
         change, value = np.nan_to_num(change, nan=0.0, posinf=np.inf, neginf=-np.inf), value / self.unit
         lifted = value > STEEPEST * pressed
         if not lifted.any():
@@ -105,7 +105,7 @@ class SlipConditions:
 NO_SLIP = SlipConditions(
     friction=FrictionRows(laws=(), contact=np.zeros(0, int), area=np.zeros(0)),
     shift=np.zeros((0, 0)),
-    pace=0.0,
+    speed_factor=0.0,
     unit=1.0,
     ahead=0.0,
     before=np.zeros(0),

@@ -23,7 +23,7 @@ def slipping(law: FrictionLaw, count: int, k: int = 1, *, sliding: bool = False,
     return SlipConditions(
         friction=friction,
         shift=np.zeros((count, k)),
-        pace=1.0,
+        speed_factor=1.0,
         unit=1.0,
         ahead=ahead,
         before=np.zeros(count),

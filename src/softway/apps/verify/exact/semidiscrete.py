@@ -172,7 +172,7 @@ def solve(
     while t < until:
         motion = modes(mesh, t, u, v, held=held)
         phases.append((t, held, motion))
-        found = _first(*_watched(mesh, motion, gap, side, held), t, until, _sampling(mesh))
+        found = _first(*_event_function(mesh, motion, gap, side, held), t, until, _sampling(mesh))
         if found is None:
             break
         t = found
@@ -212,7 +212,7 @@ def _balance(mesh: Mesh, motion: Modes) -> tuple[Array, float]:
 Scalar = Callable[[float | Array], Array]
 
 
-def _watched(mesh: Mesh, motion: Modes, gap: float, side: float, held: bool) -> tuple[Scalar, Scalar]:
+def _event_function(mesh: Mesh, motion: Modes, gap: float, side: float, held: bool) -> tuple[Scalar, Scalar]:
     """Function whose upward zero crossing is the next event, and its rate."""
     if not held:
         return (lambda t: side * motion(t)[0][..., -1] - gap), (lambda t: side * motion(t)[1][..., -1])
