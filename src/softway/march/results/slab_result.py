@@ -1,5 +1,6 @@
 """Result of a contact rule for one slab (time step): solution and contact events, as arrays."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -134,3 +135,8 @@ def contact_event(
         velocity_after=speeds[1],
         impulse=impulse,
     )
+
+
+def ordered_events(events: Sequence[Event], slab: Slab) -> tuple[Event, ...]:
+    """Events of a slab in the order of time, up to 1e-9 of the slab, contact and node; equal ones keep their order."""
+    return tuple(sorted(events, key=lambda e: (round((e.time - slab.start) / slab.span, 9), e.contact, e.node)))

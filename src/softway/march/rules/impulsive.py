@@ -15,7 +15,7 @@ from softway.contact.slab_motion.trajectory import Trajectory
 from softway.errors import NoConvergence
 from softway.march.model_state import ModelState
 from softway.march.results.friction_result import FrictionResult
-from softway.march.results.slab_result import Balances, SlabResult, contact_event, supports
+from softway.march.results.slab_result import Balances, SlabResult, contact_event, ordered_events, supports
 from softway.march.results.step import Event
 from softway.march.rules.event_iteration import EventIteration, with_new_events, with_new_facets, without_events
 from softway.march.rules.slab_rule import Attempt, Solutions, require_frictionless, require_nodal
@@ -233,6 +233,7 @@ def _events(
     solution: Solution,
     found: tuple[VelocityJump, ...],
 ) -> tuple[Event, ...]:
+    """Touches and releases in order; of a node that touches and releases at one instant the touch comes first."""
     model, events, end = system.model, current.events, solution.end.displacement
     after: Array = current.rows.normal_component(solution.last.q) - current.rows.tool_motion / slab.span
     out = [
@@ -257,6 +258,4 @@ def _events(
         )
         for r in np.flatnonzero(np.isfinite(events.release))
     ]
-    return tuple(
-        sorted(out, key=lambda e: (round((e.time - slab.start) / slab.span, 9), e.contact, e.node, e.kind == "release"))
-    )
+    return ordered_events(out, slab)

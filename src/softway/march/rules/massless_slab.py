@@ -12,7 +12,7 @@ from softway.errors import InputError
 from softway.march.friction.stick_slip_events import stick_slip_events
 from softway.march.model_state import ModelState
 from softway.march.results.friction_result import friction_result, slipping
-from softway.march.results.slab_result import Balances, SlabResult, supports
+from softway.march.results.slab_result import Balances, SlabResult, ordered_events, supports
 from softway.march.results.step import Event
 from softway.march.rules.slab_rule import Attempt
 from softway.model.model import Model
@@ -167,18 +167,13 @@ def slab_result(
         support=support,
         work=tools + (model.space.total(support * moved) if model.driven else 0.0),
         dissipation=friction.dissipation,
-        events=_ordered(events, slab),
+        events=ordered_events(events, slab),
         pairs=pairs,
         iterations=solution.iterations,
         required=Balances(energy=_energy(model, slab)),
         handed_on=rows if model.contacts.paired else None,
         friction=friction,
     )
-
-
-def _ordered(events: list[Event], slab: Slab) -> tuple[Event, ...]:
-    """Events in the order of time, contact and node."""
-    return tuple(sorted(events, key=lambda e: (round((e.time - slab.start) / slab.span, 9), e.contact, e.node)))
 
 
 def _energy(model: Model, slab: Slab) -> Literal["closed", "bounded", "free"]:
