@@ -3,11 +3,9 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
 from softway.arrays import Array
-from softway.kernels.linalg import tensors
-from softway.laws.elasticity.elastic_constants import checked, dilatational_speed, lame
+from softway.laws.elasticity import hooke
+from softway.laws.elasticity.elastic_constants import checked, dilatational_speed
 from softway.laws.strain_measures import Green
 from softway.units import Pascal, Pure
 
@@ -28,6 +26,7 @@ class StVenantKirchhoff:
 
     Examples
     --------
+    >>> import numpy as np
     >>> round(float(StVenantKirchhoff(E=2.0).stress(np.diag([0.1, 0.0, 0.0]))[0, 0]), 12)
     0.2
     """
@@ -42,17 +41,15 @@ class StVenantKirchhoff:
 
     def energy(self, E: Array) -> Array:
         """Energy per reference volume (...,) [J/m^3] of Green's strain E (..., 3, 3)."""
-        bulk_part, shear = lame(self.E, self.nu)
-        return 0.5 * bulk_part * tensors.trace(E) ** 2 + shear * tensors.double_dot(E, E)
+        return hooke.energy(E, self.E, self.nu)
 
     def stress(self, E: Array) -> Array:
         """Second Piola-Kirchhoff stress ``lambda tr(E) I + 2 mu E``, (..., 3, 3) [Pa]."""
-        bulk_part, shear = lame(self.E, self.nu)
-        return (bulk_part * tensors.trace(E))[..., None, None] * tensors.IDENTITY + 2.0 * shear * E
+        return hooke.stress(E, self.E, self.nu)
 
     def tangent(self, E: Array) -> Array:
         """Constant moduli, (..., 3, 3, 3, 3) [Pa]."""
-        return np.broadcast_to(tensors.isotropic(*lame(self.E, self.nu)), (*E.shape, 3, 3))
+        return hooke.moduli(E.shape, self.E, self.nu)
 
     def wave_speed(self, density: float) -> float:
         """Speed of dilatational waves in the undeformed volume [m/s]."""

@@ -1,1 +1,1 @@
-"""Building blocks of elastic laws: constants, volume change, stress-free directions."""
+"""Building blocks of elastic laws: constants, Hooke's law, volume change, stress-free directions."""
