@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from math import inf
 
 
 class SoftwayError(Exception):
@@ -110,6 +111,21 @@ def real(value: object, where: str) -> None:
     if not known:
         remedy = "a number in SI units; text with a unit is accepted only in a scenario file"
         raise InputError(where, f"{value!r:.60} is not a number", remedy)
+
+
+def positive(**values: float) -> None:
+    """Raise :class:`InputError` for a value that is not positive and finite; the error has its name as the place.
+
+    Examples
+    --------
+    >>> positive(area=-1.0)
+    Traceback (most recent call last):
+    softway.errors.InputError: area: -1 is not positive
+      try: a positive number
+    """
+    for name, value in values.items():
+        if not 0.0 < value < inf:
+            raise InputError(name, f"{value:g} is not positive", "a positive number")
 
 
 class NoConvergence(Exception):

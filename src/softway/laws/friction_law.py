@@ -55,16 +55,3 @@ def at_least_zero(**values: float) -> None:
             raise InputError(name, f"{value:g} is negative", "zero or more")
         if not np.isfinite(value):
             raise InputError(name, f"{value:g} is not finite", "a finite number")
-
-
-def positive(**values: float) -> None:
-    """Raise an error for parameters that are not positive numbers.
-
-    Raises
-    ------
-    InputError
-        If a parameter is not positive and finite; the error names it.
-    """
-    for name, value in values.items():
-        if not 0.0 < value < np.inf:
-            raise InputError(name, f"{value:g} is not positive", "a positive number")

@@ -7,7 +7,7 @@ import numpy as np
 from softway.arrays import Array, IntArray
 from softway.bodies.discretised import DiscreteSolid
 from softway.contact.contact_set import SlabContacts
-from softway.errors import InputError, TooFast
+from softway.errors import TooFast, positive
 from softway.kernels.geometry.shortest_edge import shortest
 from softway.march.model_state import ModelState
 from softway.model.model import Model
@@ -60,9 +60,9 @@ class StepControl:
     patience: int = 300
 
     def __post_init__(self) -> None:
-        for name in ("approach", "scalar", "growth", "least", "patience"):
-            if not 0.0 < getattr(self, name) < np.inf:
-                raise InputError(name, f"{getattr(self, name):g} is not positive", "a positive number")
+        positive(
+            approach=self.approach, scalar=self.scalar, growth=self.growth, least=self.least, patience=self.patience
+        )
 
 
 def require_slow(model: Model, pairs: SlabContacts, coasting: Array, limit: float) -> None:

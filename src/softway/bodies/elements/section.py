@@ -11,7 +11,7 @@ from math import pi, sqrt
 import numpy as np
 
 from softway.arrays import Array
-from softway.errors import InputError
+from softway.errors import InputError, positive
 from softway.laws.elasticity.elastic_constants import wave_modulus
 from softway.laws.elasticity.free_faces import condensed
 from softway.laws.law import Material, initial_moduli
@@ -37,11 +37,11 @@ class Bar:
     area: SquareMetre = 1.0
 
     def __post_init__(self) -> None:
-        _positive("area", self.area)
+        positive(area=self.area)
 
     def measure(self, points: Array) -> Array:
         """Cross-section [m^2] at reference points (..., d), (...,)."""
-        return np.full(points.shape[:-1], self.area)
+        return _uniform(self.area, points)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,11 +62,11 @@ class PlaneStrain:
     thickness: Metre = 1.0
 
     def __post_init__(self) -> None:
-        _positive("thickness", self.thickness)
+        positive(thickness=self.thickness)
 
     def measure(self, points: Array) -> Array:
         """Thickness [m] at reference points (..., 2), (...,)."""
-        return np.full(points.shape[:-1], self.thickness)
+        return _uniform(self.thickness, points)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,11 +87,11 @@ class PlaneStress:
     thickness: Metre = 1.0
 
     def __post_init__(self) -> None:
-        _positive("thickness", self.thickness)
+        positive(thickness=self.thickness)
 
     def measure(self, points: Array) -> Array:
         """Thickness [m] at reference points (..., 2), (...,)."""
-        return np.full(points.shape[:-1], self.thickness)
+        return _uniform(self.thickness, points)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -123,7 +123,7 @@ class Volume:
 
     def measure(self, points: Array) -> Array:
         """Ones (...,) at reference points (..., 3)."""
-        return np.ones(points.shape[:-1])
+        return _uniform(1.0, points)
 
 
 Section = Bar | PlaneStrain | PlaneStress | Axisymmetric | Volume
@@ -227,6 +227,6 @@ def wave_speed(material: Material, density: float, section: Section) -> float:
     return sqrt(wave_modulus(moduli) / density)
 
 
-def _positive(where: str, value: float) -> None:
-    if not 0.0 < value < np.inf:
-        raise InputError(where, f"{value:g} is not positive", "a positive number")
+def _uniform(value: float, points: Array) -> Array:
+    """The same value at all points (..., d), (...,)."""
+    return np.full(points.shape[:-1], value)

@@ -6,7 +6,8 @@ from typing import ClassVar
 import numpy as np
 
 from softway.arrays import Array
-from softway.laws.friction_law import at_least_zero, positive
+from softway.errors import positive
+from softway.laws.friction_law import at_least_zero
 from softway.units import MetrePerSecond, Pascal, Pure
 
 

@@ -6,8 +6,8 @@ from typing import ClassVar
 import numpy as np
 
 from softway.arrays import Array
-from softway.errors import InputError
-from softway.laws.friction_law import at_least_zero, positive
+from softway.errors import InputError, positive
+from softway.laws.friction_law import at_least_zero
 from softway.units import MetrePerSecond, Pure
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import SlabContacts
-from softway.errors import InputError, NoConvergence
+from softway.errors import NoConvergence, positive
 from softway.march.step_control import StepControl
 from softway.model.model import Model
 from softway.solve.stagnation import Stagnation
@@ -56,9 +56,7 @@ class Penalty:
     limit: int = 40
 
     def __post_init__(self) -> None:
-        for name in ("stiffness", "tolerance", "limit"):
-            if not 0.0 < getattr(self, name) < np.inf:
-                raise InputError(name, f"{getattr(self, name):g} is not positive", "a positive number")
+        positive(stiffness=self.stiffness, tolerance=self.tolerance, limit=self.limit)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
