@@ -17,6 +17,7 @@ from softway.contact.node_to_surface.edge_to_edge import EdgeToEdge
 from softway.contact.node_to_surface.node_to_facet import NodeToFacet
 from softway.contact.node_to_surface.node_to_tool import NodeToTool
 from softway.contact.surfaces.boundary import ContactSurface, Edges, outward
+from softway.contact.tangential_rows import TangentialRows
 from softway.errors import InputError, within
 
 REACH = 1.0
@@ -74,15 +75,17 @@ def assemble_contacts(
         opponents.append(pair)
         nodes.append(touched)
         sizes += [s.edge for s in surfaces]
+    row_contact = np.concatenate(number)
+    frictionless = all(c.friction.frictionless for c in contacts)
     contact_set = ContactSet(
         methods=tuple(methods),
-        contact=np.concatenate(number),
+        contact=row_contact,
         points=points,
         reach=REACH * max(sizes),
         labels=_labels(contacts),
         overlap_methods=tuple(overlap_methods),
         overlap_contact=tuple(overlap_contact),
-        rough=not all(c.friction.frictionless for c in contacts),
+        frictionless_rows=TangentialRows.none(len(row_contact), *points.shape) if frictionless else None,
         space=space,
     )
     return ContactAssembly(

@@ -50,6 +50,8 @@ class ContactRows:
 
     def without_friction(self) -> "ContactRows":
         """Contact rows without tangential directions."""
+        if not self.shear.count:
+            return self
         m, n = self.shear.weights.shape
         return replace(self, shear=TangentialRows.none(m, n, self.normal.shape[1]))
 

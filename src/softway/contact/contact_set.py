@@ -64,6 +64,9 @@ class ContactSet:
         Distance beyond the predicted motion within which surfaces are paired [m].
     labels
         Names of the contacts.
+    frictionless_rows
+        Tangential parts of the rows if no contact has friction, without directions; None with friction, where they
+        depend on the positions.
     overlap_methods
         Nodes of either surface against the facets of the other, for contacts whose methods use mean gaps only: they
         measure the overlap of the surfaces and transmit no force.
@@ -71,8 +74,6 @@ class ContactSet:
         Number of the contact of each overlap method.
     fixed_rows
         Contact rows that are linear and never change: resting half-spaces without friction; None for other contacts.
-    rough
-        True if a contact has friction; its rows then have :class:`~softway.contact.tangential_rows.TangentialRows`.
     clearance
         (m,) offsets of the gaps [m]: negative where the linear surfaces in place of curved facets overlap at the start
         although the curved surfaces do not; None without such overlaps.
@@ -85,10 +86,10 @@ class ContactSet:
     points: Array
     reach: float
     labels: tuple[str, ...]
+    frictionless_rows: TangentialRows | None
     overlap_methods: tuple[SurfacePair, ...] = ()
     overlap_contact: tuple[int, ...] = ()
     fixed_rows: ContactRows | None = None
-    rough: bool = False
     clearance: Array | None = None
     space: VectorSpace = LocalSpace(())
 
@@ -127,7 +128,7 @@ class ContactSet:
 
     def with_fixed_rows(self) -> "ContactSet":
         """Contacts with their rows computed in advance if these never change."""
-        if self.rough or not all(isinstance(m, NodeToTool) and m.fixed for m in self.methods):
+        if self.frictionless_rows is None or not all(isinstance(m, NodeToTool) and m.fixed for m in self.methods):
             return self
         still = np.zeros_like(self.points)
         return replace(self, fixed_rows=self.rest(still, 0.0).at(still))
@@ -193,7 +194,8 @@ class SlabContacts:
         """Contact rows at the end of the slab, exact in value and derivative at the displacement ``u`` (n, d)."""
         if self.fixed_rows is not None:
             return self.fixed_rows
-        rows, clearance = self._rows(self.surfaces, u, self.node, self.contacts.contact), self.contacts.clearance
+        contacts, clearance = self.contacts, self.contacts.clearance
+        rows = self._rows(self.surfaces, u, self.node, contacts.contact, contacts.frictionless_rows)
         return rows if clearance is None else replace(rows, offset=rows.offset - clearance)
 
     def with_kept_facets(self, u: Array, before: "SlabContacts | None" = None) -> "SlabContacts":
@@ -218,7 +220,9 @@ class SlabContacts:
         return -float(rows.gap(u)[rows.near].min(initial=np.inf))
 
     def overlap_rows(self, u: Array) -> ContactRows:
-        """Rows that detect every overlap of nodes with facets, at the displacement ``u`` (n, d)."""
+        """Rows that detect every overlap of nodes with facets, at the displacement ``u`` (n, d); without friction where
+        they are not the contact rows.
+        """
         if not self.overlap_surfaces:
             return self.at(u)
         contacts = self.contacts
@@ -226,8 +230,9 @@ class SlabContacts:
         numbers = [contacts.contact[i] for i in self._tool_rows()]
         nodes = [m.node for m in contacts.overlap_methods]
         numbers += [np.full(len(n), k) for n, k in zip(nodes, contacts.overlap_contact, strict=True)]
-        nodes = [m.node for m in tools] + nodes
-        return self._rows((*tools, *self.overlap_surfaces), u, np.concatenate(nodes), np.concatenate(numbers))
+        node = np.concatenate([m.node for m in tools] + nodes)
+        surfaces, frictionless = (*tools, *self.overlap_surfaces), TangentialRows.none(len(node), *u.shape)
+        return self._rows(surfaces, u, node, np.concatenate(numbers), frictionless)
 
     def _tool_rows(self) -> list[slice]:
         """Rows of the methods for contact with tools."""
@@ -238,7 +243,14 @@ class SlabContacts:
             if isinstance(m, NodeToTool)
         ]
 
-    def _rows(self, surfaces: tuple[PairedSurfaces, ...], u: Array, node: IntArray, contact: IntArray) -> ContactRows:
+    def _rows(
+        self,
+        surfaces: tuple[PairedSurfaces, ...],
+        u: Array,
+        node: IntArray,
+        contact: IntArray,
+        frictionless: TangentialRows | None,
+    ) -> ContactRows:
         x = self.contacts.points + u
         found = [m.at(x) for m in surfaces]
         d = x.shape[1]
@@ -257,9 +269,7 @@ class SlabContacts:
             offset=gap - gradient @ u.ravel(),
             tool_motion=np.concatenate([np.zeros(0), *tool_motion]),
             labels=self.contacts.labels,
-            shear=_shear(surfaces, found, x, normal)
-            if self.contacts.rough
-            else TangentialRows.none(len(gap), *x.shape),
+            shear=_shear(surfaces, found, x, normal) if frictionless is None else frictionless,
         )
 
 

@@ -8,6 +8,7 @@ from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact
 from softway.contact.contact_set import ContactSet
 from softway.laws.bulk import LinearElastic
+from softway.laws.friction import Coulomb
 from softway.meshes.generators.shapes import rectangle
 from softway.model.build import build
 from softway.model.model import Model
@@ -114,3 +115,25 @@ def test_the_normal_motion_of_a_curved_tool_is_that_beside_the_node() -> None:
     rows = model.contacts.meet(u, u, 0.0, 0.5).at(u)
     np.testing.assert_allclose(rows.tool_motion, rows.normal @ [0.0, 0.1], atol=1e-15)
     assert np.ptp(rows.tool_motion) > 0.0
+
+
+def test_frictionless_rows_have_the_same_tangential_parts_everywhere() -> None:
+    model = scene(ball=RISING)
+    contacts = model.contacts
+    pairs, shear = contacts.meet(model.displacement, model.displacement, 0.0, 0.5), contacts.frictionless_rows
+    assert shear is not None and shear.count == 0
+    for u in (field(model, 0), field(model, 1)):
+        rows = pairs.at(u)
+        assert rows.shear is shear and rows.without_friction() is rows
+        assert rows.shear.weights.shape == (len(rows.node), model.shape[0])
+
+
+def test_friction_has_tangential_parts_that_turn_with_the_surface() -> None:
+    solid = Solid(mesh=rectangle((1.0, 1.0), (3, 3)), material=LinearElastic(E=1.0), density=1.0)
+    contact = Contact(between=("square.top", "ball"), friction=Coulomb(mu=0.1))
+    model = build(Scene(bodies={"square": solid, "ball": Tool(shape=BALL)}, contacts=(contact,)))
+    u = field(model, 0)
+    rows = model.rows(u)
+    assert model.contacts.frictionless_rows is None and rows.shear.count == len(rows.node)
+    np.testing.assert_allclose(np.einsum("mkd,md->mk", rows.shear.tangents, rows.normal), 0.0, atol=1e-15)
+    assert rows.without_friction().shear.count == 0
