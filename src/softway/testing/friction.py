@@ -33,7 +33,7 @@ def _slips() -> tuple[Array, Array]:
 
 def _shapes(law: FrictionLaw) -> float:
     (speed, pressure), worst = _slips(), 0.0
-    answers = dict(zip(("resistance", "slope", "share"), law.resistance(speed, pressure), strict=True))
+    answers = dict(zip(("resistance", "slope", "pressure slope"), law.resistance(speed, pressure), strict=True))
     one = (*law.resistance(speed[1, 2], pressure[1, 2]), law.limit(pressure[1, 2]))
     answers["limit"] = law.limit(pressure)
     for (name, found), single in zip(answers.items(), one, strict=True):
@@ -75,10 +75,10 @@ def _to_the_speed(law: FrictionLaw) -> float:
 
 def _to_the_pressure(law: FrictionLaw) -> float:
     speed, pressure = _slips()
-    value, _, share = law.resistance(speed, pressure)
+    value, _, slope = law.resistance(speed, pressure)
     up, down = (law.resistance(speed, pressure * (1.0 + d))[0] for d in (STEP, -STEP))
     told = "the derivative with respect to the pressure is wrong"
-    return close((up - down) / (2.0 * STEP), share * pressure, 1e-6, law, told, float(np.abs(value).max()))
+    return close((up - down) / (2.0 * STEP), slope * pressure, 1e-6, law, told, float(np.abs(value).max()))
 
 
 FRICTION_LAW = (

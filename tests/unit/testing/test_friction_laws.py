@@ -26,12 +26,12 @@ class Altered:
         sign = -1.0 if self.mistake == "drives" else 1.0
         value = sign * self.mu * pressure * (1.0 + speed)
         slope = sign * self.mu * pressure * (2.0 if self.mistake == "speed" else 1.0)
-        share = sign * self.mu * (1.0 + speed) * (2.0 if self.mistake == "pressure" else 1.0)
+        pressure_slope = sign * self.mu * (1.0 + speed) * (2.0 if self.mistake == "pressure" else 1.0)
         if self.mistake == "shape":
-            return value, slope, share[..., None]
+            return value, slope, pressure_slope[..., None]
         if self.mistake == "infinite":
-            return value + np.where(speed > 0.0, 0.0, np.inf), slope, share
-        return value, slope, share
+            return value + np.where(speed > 0.0, 0.0, np.inf), slope, pressure_slope
+        return value, slope, pressure_slope
 
 
 @pytest.mark.parametrize(
@@ -41,7 +41,7 @@ class Altered:
         ("weak", "the resistance to slip exceeds the limit at rest"),
         ("speed", "the derivative with respect to the speed is wrong"),
         ("pressure", "the derivative with respect to the pressure is wrong"),
-        ("shape", "share of speeds .3, 4. has shape"),
+        ("shape", "pressure slope of speeds .3, 4. has shape"),
         ("infinite", "the resistance at rest is not finite"),
     ],
 )
