@@ -90,7 +90,7 @@ def test_no_module_hides_one_of_python(root: Path) -> None:
     assert not (wrong := list(shadowing(root))), "\n".join(wrong)
 
 
-def test_what_they_find(tmp_path: Path) -> None:
+def test_the_rules_find_what_they_forbid(tmp_path: Path) -> None:
     folder = tmp_path / "src" / "package"
     folder.mkdir(parents=True)
     for number in range(ENTRIES + 1):

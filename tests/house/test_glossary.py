@@ -125,7 +125,7 @@ BAD = """
 """
 
 
-def test_what_they_find(tmp_path: Path) -> None:
+def test_the_rules_find_what_they_forbid(tmp_path: Path) -> None:
     folder = tmp_path / "softway"
     folder.mkdir()
     (folder / "model.py").write_text("class Slab:\n    span: float\n")

@@ -28,11 +28,11 @@ def test_the_calls_are_those_of_the_page(root: Path, monkeypatch: pytest.MonkeyP
     seen: list[list[tuple[str, str]]] = []
     solved = normal_active_set.multipliers
 
-    def watched(frozen, active, wanted):
+    def recorded(frozen, active, wanted):
         seen.append([*chain(), ("solve/constraints/normal_active_set.py", solved.__name__)])
         return solved(frozen, active, wanted)
 
-    monkeypatch.setattr(normal_active_set, "multipliers", watched)
+    monkeypatch.setattr(normal_active_set, "multipliers", recorded)
     block = sw.Solid(
         mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(2, 2)),
         material=sw.NeoHookean(E=100.0, nu=0.3),

@@ -76,7 +76,7 @@ def test_no_example_shows_a_last_bit(sources: tuple[Source, ...]) -> None:
     assert not (wrong := [line for source in sources for line in shown(source)]), "\n".join(wrong)
 
 
-def test_what_they_find(tmp_path: Path) -> None:
+def test_the_rules_find_what_they_forbid(tmp_path: Path) -> None:
     path = tmp_path / "test_a.py"
     path.write_text(
         '''"""A.\n\n>>> [0.1].tolist()\n[0.1]\n>>> [0.5].tolist()\n[0.5]\n"""\n'''

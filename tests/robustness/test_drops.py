@@ -104,7 +104,7 @@ def test_rows_whose_slaves_slide_on_each_other_move_together():
     assert not field[2:].any()
 
 
-def test_what_is_not_a_number_breaks_the_certificate():
+def test_nan_violates_the_certificate():
     good = next(march(boxes(), until=0.1, step=0.1)).certificate
     for name in ("min_gap", "min_force", "power_residual", "momentum_error", "energy_error"):
         bad = replace(good, **{name: float("nan")})

@@ -24,7 +24,7 @@ def fronts(solver: object, shock: sw.bodies.BulkViscosity | None) -> tuple[sw.St
 
 
 @pytest.mark.parametrize("solver", [sw.FixedPoint(), sw.Explicit()], ids=["implicit", "explicit"])
-def test_a_front_rings_less_and_the_ledger_knows_the_loss(solver):
+def test_a_front_oscillates_less_and_the_loss_is_dissipation(solver):
     plain, rough = fronts(solver, None)
     damped, smooth = fronts(solver, sw.bodies.BulkViscosity())
     assert smooth[60:95].std() < 0.1 * rough[60:95].std()

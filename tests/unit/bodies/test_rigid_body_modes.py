@@ -9,7 +9,7 @@ CUBE = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 
 
-def held(points, where, components):
+def supported(points, where, components):
     fixed = np.zeros(points.shape, bool)
     for c in components:
         fixed[where, "xyz".index(c)] = True
@@ -33,18 +33,19 @@ def test_a_free_body_has_them_all():
     ],
 )
 def test_of_a_cube(where, components, free):
-    assert free_motions(CUBE, held(CUBE, where, components)) == free
+    assert free_motions(CUBE, supported(CUBE, where, components)) == free
 
 
 def test_a_hinge_along_a_diagonal_is_a_combination():
     along = (CUBE[:, 2] == 7.0) & (CUBE[:, 0] == CUBE[:, 1])
-    assert free_motions(CUBE, held(CUBE, along, "xyz")) == ("a motion made of rotation about x and rotation about y",)
+    free = free_motions(CUBE, supported(CUBE, along, "xyz"))
+    assert free == ("a motion made of rotation about x and rotation about y",)
 
 
 def test_of_a_body_of_revolution():
     none = np.zeros((4, 2), bool)
     assert free_motions(SQUARE, none, axisymmetric=True) == ("translation along y",)
-    assert free_motions(SQUARE, held(SQUARE, [0], "y"), axisymmetric=True) == ()
+    assert free_motions(SQUARE, supported(SQUARE, [0], "y"), axisymmetric=True) == ()
 
 
 def test_a_straight_bar_in_space_does_not_turn_about_itself():

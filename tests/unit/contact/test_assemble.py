@@ -8,7 +8,7 @@ import softway as sw
 NODES, MORTAR = sw.contact.NodeToSurface(), sw.contact.DualMortar()
 
 
-def standing(cells: tuple[int, int], height: float, method: object, angle: float = 0.0, first: str = "low") -> sw.Scene:
+def stacked(cells: tuple[int, int], height: float, method: object, angle: float = 0.0, first: str = "low") -> sw.Scene:
     """A square block over another one, so many cells to a side each; the upper one may be turned."""
     place = sw.bodies.Placement(
         rotations=(sw.bodies.Rotation(angle=angle),) if angle else (), translation=(0.93, 0.0), bottom=2.0 + height
@@ -29,7 +29,7 @@ def standing(cells: tuple[int, int], height: float, method: object, angle: float
 @pytest.mark.parametrize("fine", ["low", "high"])
 def test_the_finer_surface_is_the_slave_whichever_comes_first(fine: str, method: object, first: str) -> None:
     """Edges of 0.2 against 0.25; every node of the finer side has rows, of the other one its four sharp corners."""
-    model = sw.build(standing((10, 4) if fine == "low" else (8, 5), 0.1, method, first=first))
+    model = sw.build(stacked((10, 4) if fine == "low" else (8, 5), 0.1, method, first=first))
     parts = {p.name: p for p in model.parts}
     nodes = {name: np.unique(p.mesh.nodes("surface")) + p.rows.start for name, p in parts.items()}
     coarse = nodes["high" if fine == "low" else "low"]
@@ -42,7 +42,7 @@ def test_the_finer_surface_is_the_slave_whichever_comes_first(fine: str, method:
 def test_a_corner_that_points_at_a_face_is_not_overlooked(cells: tuple[int, int], method: object) -> None:
     """A block stands on its corner over the middle of a face, where mean gaps would be far greater."""
     height = 1e-3
-    model = sw.build(standing(cells, height, method, angle=0.25 * np.pi))
+    model = sw.build(stacked(cells, height, method, angle=0.25 * np.pi))
     rows = model.rows(model.displacement)
     gap = rows.gap(model.displacement)
     assert gap[rows.near].min() == pytest.approx(height, abs=1e-12)

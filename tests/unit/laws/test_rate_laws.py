@@ -204,13 +204,13 @@ def test_kelvin_creeps() -> None:
     exact = pull / SHEAR * (1.0 - np.exp(-SHEAR * until / eta))
     errors = []
     for steps in (100, 200):
-        h, gamma, held = until / steps, 0.0, law.virgin(1)
+        h, gamma, memory = until / steps, 0.0, law.virgin(1)
         for _ in range(steps):
-            step = (pull - held["elastic_stress"][0, 0, 1]) / (SHEAR + eta / h)  # what keeps the stress
-            given = Increment(stress=np.zeros((1, 3, 3)), memory=held, strain=0.5 * step * SLIP[None], span=h)
+            step = (pull - memory["elastic_stress"][0, 0, 1]) / (SHEAR + eta / h)  # what keeps the stress
+            given = Increment(stress=np.zeros((1, 3, 3)), memory=memory, strain=0.5 * step * SLIP[None], span=h)
             response = law.respond(given)
             assert response.stress[0, 0, 1] == pytest.approx(pull, rel=1e-12)
-            gamma, held = gamma + step, response.memory
+            gamma, memory = gamma + step, response.memory
         errors.append(abs(gamma - exact))
     assert errors[0] / errors[1] == pytest.approx(2.0, rel=0.05)
     assert errors[1] < 5e-3 * exact

@@ -30,7 +30,7 @@ def test_ratio_of_a_bar_in_space_is_stretch_times_lateral_stretches() -> None:
     assert Green().ratio(derivative, direction, E) == pytest.approx(expected, rel=1e-15)
 
 
-def test_green_forbids_inverted_matter_and_small_does_not() -> None:
+def test_inversion_is_inadmissible_for_green_and_admissible_for_small() -> None:
     inverted = np.diag([-1.5, 0.0])
     assert not Green().admissible(inverted, np.eye(2))
     assert Small().admissible(inverted, np.eye(2))

@@ -50,7 +50,7 @@ class Motion:
 
     @property
     def energy_error(self) -> float:
-        """Greatest error of the ledger, relative to the greatest energy."""
+        """Greatest error of the energy balance, relative to the greatest energy."""
         return max(abs(s.ledger.energy_error) for s in self.steps) / self.energy_scale
 
     @property

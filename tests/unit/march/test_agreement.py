@@ -53,7 +53,7 @@ def test_two_runs_are_equal_to_the_last_bit(fall, plain, rule: ImpactRule) -> No
 
 
 @rules
-def test_a_march_can_be_taken_up_from_any_state(shop, fall, plain, rule: ImpactRule) -> None:
+def test_a_march_can_be_continued_from_any_state(shop, fall, plain, rule: ImpactRule) -> None:
     whole = plain(rule)
     for k in (5, 14, 24):
         rest = fall(rule, state=whole.steps[k].after)
@@ -93,7 +93,7 @@ def test_one_factor_serves_the_whole_march(plain) -> None:
 
 
 @rules
-def test_a_failed_try_leaves_no_trace_but_its_reason(
+def test_a_failed_attempt_changes_nothing_but_the_rejections(
     shop, fall, plain, rule: ImpactRule, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     kept = plain(rule)

@@ -1,4 +1,4 @@
-"""Where a march stands: from after any slab another march goes on with the same bits, whatever carries it."""
+"""March state: from any slab on another march continues with the same bits, whatever carries it."""
 
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
@@ -149,8 +149,8 @@ def test_steps_hold_no_factor() -> None:
         assert step.march_state.memory.frozen is None and step.march_state.memory.analysis is None
 
 
-def test_a_march_may_be_asked_for_more() -> None:
-    """To a later end and with other slabs it goes on from the same situation, and its books go on too."""
+def test_a_march_continues_to_a_later_end_with_other_slabs() -> None:
+    """To a later end and with other slabs it continues from the same state, and so do the sums of its ledger."""
     scene, asked = CASES["fixed point, linear"]
     whole = list(sw.march(scene, **asked))
     longer = list(sw.march(scene, until=3.0, step=0.04, state=whole[-1].march_state))

@@ -157,7 +157,7 @@ def test_an_unknown_option_is_answered_with_the_help_of_its_verb(capsys):
 
 
 @pytest.mark.parametrize(("mesh", "told"), [("hello", "damaged"), (INVERTED.replace("2 1 0 0", "2 nan 0 0"), "node 1")])
-def test_a_mesh_that_is_none_says_why(mesh, told, scenario, capsys):
+def test_an_unreadable_mesh_is_refused_with_the_reason(mesh, told, scenario, capsys):
     (scenario.parent / "bad.msh").write_text(mesh)
     assert main(["check", str(scenario), "--set", "bodies.block.mesh={kind='MeshFile', path='bad.msh'}"]) == 2
     assert told in " ".join(capsys.readouterr().err.split())

@@ -46,7 +46,7 @@ def test_contact_holds_and_the_energy_balance_is_closed(name, runs):
 
 
 @pytest.mark.parametrize("name", COARSE)
-def test_what_touches_comes_from_outside(name, runs):
+def test_nodes_approach_before_they_touch(name, runs):
     events = runs[name].events
     touches = np.array([kind == "touch" for kind in events["kind"]])
     assert (events["normal_velocity_before"][touches] <= 1e-12).all()

@@ -57,7 +57,7 @@ def test_nodes_of_both_sides_pass_in_the_plane():
 
 @pytest.mark.parametrize("mu", [0.0, 0.3])
 @pytest.mark.parametrize("dim", [2, 3])
-def test_what_is_left_is_rounding_of_places(dim, mu):
+def test_the_remaining_error_is_the_rounding_of_coordinates(dim, mu):
     """A few units in the last place of coordinates near 1, over the shortest edges, times E over the pressure.
 
     The upper block is held by contact alone: the digits that its free motions cost must not be lost.

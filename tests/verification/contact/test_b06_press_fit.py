@@ -56,7 +56,7 @@ def test_they_stay_at_rest(fitted):
     assert steps[-1].ledger.contacts["fit"].force_n == pytest.approx(fitted.start.pressure.sum(), rel=1e-9)
 
 
-def test_what_polygons_on_one_circle_miss():
+def test_the_pressure_error_of_polygons_on_one_circle():
     """32 and 40 facets on the circle: the mean radius of a polygon is short by two thirds of its sagitta, and what one
     lacks more than the other is missing of the interference.  The pressure is uneven by 120 MPa, whatever the
     interference: it is four times the pressure of the case, where part of the nodes would be open.

@@ -42,9 +42,9 @@ def pressed(request: pytest.FixtureRequest) -> Pressed:
         "upper": sw.bodies.Placement(translation=(0.0, 1.0 - APPROACH)),
         "lower": sw.bodies.Placement(rotations=(sw.bodies.Rotation(angle=np.pi),)),
     }
-    held = (sw.Fixed(on="diameter"),)
+    supports = (sw.Fixed(on="diameter"),)
     bodies = {
-        name: sw.Solid(mesh=mesh, material=ELASTIC, density=1.0, supports=held, place=places[name])
+        name: sw.Solid(mesh=mesh, material=ELASTIC, density=1.0, supports=supports, place=places[name])
         for name, mesh in meshes.items()
     }
     contact = sw.Contact(between=("upper.boundary", "lower.boundary"), name="pair", method=request.param, start="fit")

@@ -23,11 +23,11 @@ def test_pressures_bear_the_load():
     assert LINE.mean * 2.0 * b == pytest.approx(LINE.load, rel=1e-14)
 
 
-@pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
-def test_a_strip_under_the_pressure_follows_the_cylinder(share):
+@pytest.mark.parametrize("fraction", [0.1, 0.5, 0.9])
+def test_a_strip_under_the_pressure_follows_the_cylinder(fraction):
     """The slope of a half-plane, -2/(pi E*) times the principal value of int p(s)/(x - s) ds, is -x/R."""
     b = LINE.half_width
-    x = share * b
+    x = fraction * b
     value = -quad(LINE.pressure, -b, b, weight="cauchy", wvar=x, epsabs=1e-12)[0]
     assert 2.0 / (pi * LINE.modulus) * value == pytest.approx(x / LINE.radius, rel=1e-6)
 

@@ -22,7 +22,7 @@ def test_the_whole_curve() -> None:
     assert abs(press.radius("outer", "platen") - table[-1, 3]) < 1e-3
 
 
-def test_the_ledger_closes_and_friction_takes_its_part() -> None:
+def test_the_energy_balance_closes_with_the_work_of_friction() -> None:
     """All work is dissipated: what the volume stores is the share 1/bulk."""
     press = upset()
     assert press.ledger_error < 1e-8

@@ -39,7 +39,7 @@ def test_ten_bounces(body, speed, courant):
         (sw.contact.Impulse(), sw.bodies.Consistent(), sqrt(3.0) / 24.0 * tanh(4.0 * acosh(2.0))),
     ],
 )
-def test_a_flat_touch_costs_the_layer_that_stops(rule, mass, part, courant):
+def test_a_flat_touch_loses_the_energy_of_the_layer_that_stops(rule, mass, part, courant):
     """All nodes of a face of N^2 elements touch at once: 1/(2 N) of the energy with lumped mass, the share of half a
     layer; with consistent mass and a balanced jump that of a bar of N elements.
     """
@@ -59,7 +59,7 @@ def test_a_flat_touch_by_the_paper_rule_with_consistent_mass():
 
 
 @pytest.mark.parametrize("rule", [sw.contact.Paper(), sw.contact.Impulse()])
-def test_the_touch_of_one_node_costs_its_share(rule):
+def test_the_touch_of_one_node_loses_its_kinetic_energy(rule):
     """The pole of a ball: its lumped mass, or the mass that the consistent matrix sets against its jump."""
     mass = sw.bodies.Lumped() if rule == sw.contact.Paper() else sw.bodies.Consistent()
     scene = between_planes(BODIES["ball"], 0.1, timing=rule, mass=mass)

@@ -1,5 +1,5 @@
-"""D07: Cook's membrane: quadratic cells bend, and cells with a mean dilatation do not lock where matter keeps its
-volume.
+"""D07: Cook's membrane: quadratic cells bend, and cells with a mean dilatation do not lock where the
+material is nearly incompressible.
 """
 
 import pytest
@@ -25,7 +25,7 @@ def test_bending() -> None:
         assert raised("a", n)[0] == pytest.approx(REFERENCE["a"]["uy_mid"], rel=missed)
 
 
-def test_matter_that_keeps_its_volume() -> None:
+def test_nearly_incompressible_material_with_mean_dilatation() -> None:
     middle, corner = raised("b", 16, dilatation="mean")
     assert corner == pytest.approx(REFERENCE["b"]["uy_corner"], rel=0.0205)
     assert middle == pytest.approx(REFERENCE["b"]["uy_mid"], rel=0.015)
@@ -38,7 +38,7 @@ def test_plain_cells_lock() -> None:
 
 
 @pytest.mark.parametrize("cell", ["quad9", "tri6"])
-def test_matter_whose_volume_cannot_change(cell: str) -> None:
+def test_incompressible_material(cell: str) -> None:
     """Cells of second order with a pressure of first order."""
     middle, corner = raised("c", 10, cell, "corner")
     assert middle == pytest.approx(REFERENCE["c"]["uy_mid"], rel=5e-3)

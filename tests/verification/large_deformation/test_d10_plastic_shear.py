@@ -1,4 +1,4 @@
-"""D10: simple shear of Jaumann's elastic, perfectly plastic matter: no oscillation, a steady state in closed form.
+"""D10: simple shear of Jaumann's elastic, perfectly plastic material: no oscillation, a steady state in closed form.
 
 Radial return is of first order in the slab: the direction of flow is the one in its middle, turned by half its spin.
 """

@@ -23,7 +23,7 @@ def test_the_page(tmp_path: Path) -> None:
     assert "* A01, stability limit of const weighting: the cause is not known" in text
 
 
-def test_figures_of_others_are_in_it() -> None:
+def test_figures_of_other_programs_are_in_it() -> None:
     script = runpy.run_path(str(SCRIPT))
     assert "| Akantu 5.0.7, explicit tetrahedra, 252 steps | 1.7 |" in script["_others"](chosen(["peers"])[0])
 

@@ -78,7 +78,7 @@ def test_plain_cells_lock() -> None:
     assert corner_of_cook("quad4", 16, 0.4999, "mean") == pytest.approx(7.77, rel=0.025)
 
 
-def test_matter_that_keeps_its_volume_asks_for_means() -> None:
+def test_incompressible_material_needs_the_mean_dilatation() -> None:
     mesh = sw.meshes.Rectangle(size=(1.0, 1.0), cells=(1, 1))
     with pytest.raises(InputError, match=r"material\.nu: nu = 0\.5 with the volume change"):
         sw.Solid(mesh=mesh, material=sw.NeoHookean(E=1.0, nu=0.5), density=1.0)

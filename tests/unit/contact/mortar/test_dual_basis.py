@@ -31,23 +31,23 @@ PARTS = {
 
 @pytest.mark.parametrize("cell", ["bar2", "tri3"])
 def test_the_functions_are_dual_on_the_covered_part(cell: str) -> None:
-    mass, share = covered(cell, PARTS[cell])
-    assert share < 1.0
+    mass, fraction = covered(cell, PARTS[cell])
+    assert fraction < 1.0
     made = dual_basis(mass, np.array([DUAL]))
     products = made.coefficients @ mass
     assert np.allclose(products, made.own, atol=1e-14)
     assert np.array_equal(made.own[0], np.diag(mass[0].sum(axis=1)))
 
 
-@pytest.mark.parametrize("share", [1.0, 0.5, DUAL, 0.05, 2.0 * MEAN, MEAN, 1e-6])
+@pytest.mark.parametrize("fraction", [1.0, 0.5, DUAL, 0.05, 2.0 * MEAN, MEAN, 1e-6])
 @pytest.mark.parametrize("cell", ["bar2", "tri3"])
-def test_the_functions_add_up_to_one(cell: str, share: float) -> None:
+def test_the_functions_add_up_to_one(cell: str, fraction: float) -> None:
     part = np.concatenate(
-        [np.full((1, PARTS[cell].shape[1]), 0.3 * (1.0 - share)), share * np.eye(PARTS[cell].shape[1])]
+        [np.full((1, PARTS[cell].shape[1]), 0.3 * (1.0 - fraction)), fraction * np.eye(PARTS[cell].shape[1])]
     )
     mass, _ = covered(cell, part)
-    made = dual_basis(mass, np.array([share]))
-    rounding = 1e-15 * (1.0 if share <= MEAN else np.linalg.cond(mass[0]))
+    made = dual_basis(mass, np.array([fraction]))
+    rounding = 1e-15 * (1.0 if fraction <= MEAN else np.linalg.cond(mass[0]))
     assert np.allclose(made.coefficients.sum(axis=1), 1.0, atol=rounding)
     assert np.allclose(made.own.sum(axis=2), mass.sum(axis=2), rtol=1e-14)
     assert (made.own >= 0.0).all()

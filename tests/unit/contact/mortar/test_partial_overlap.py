@@ -1,4 +1,4 @@
-"""Surfaces that end above facets of the other, facets that look away, and bodies out of reach or deep in each other."""
+"""Surfaces that end above facets of the other, facets that face away, and bodies out of reach or deep in each other."""
 
 import numpy as np
 import pytest
@@ -56,7 +56,7 @@ def test_uniform_pressure_on_the_covered_part(edge: float) -> None:
 
 @pytest.mark.parametrize("kind", ["bar2", "bar3"])
 def test_rows_fade_in_when_a_plate_slides_over_an_edge(kind: str) -> None:
-    """Nothing jumps while the covered share grows from nothing, and no weight is large."""
+    """Nothing jumps while the covered fraction grows from nothing, and no weight is large."""
     edges = np.concatenate([np.geomspace(1e-8, 1e-3, 20), np.linspace(1e-3, 1.1, 200)])
     found = [at(*table_and_plate(edge, 0.05, kind)) for edge in edges]
     gaps = np.array([rows.gap for rows in found])
@@ -104,7 +104,7 @@ def stacked(sizes: tuple[float, float], thickness: float, dim: int) -> tuple[np.
 
 
 @pytest.mark.parametrize("dim", [2, 3])
-def test_only_faces_that_look_at_each_other_take_part(dim: int) -> None:
+def test_only_facets_that_face_each_other_have_rows(dim: int) -> None:
     """Thin plates with their whole surfaces: far sides are not behind anything, edges have the normal of the face."""
     x, mortar, below = stacked((1.0, 1.0), 0.15, dim)
     for reach in (0.1, 0.5):  # the far sides, turned to each other at a depth of 0.31, are within the second
@@ -118,7 +118,7 @@ def test_only_faces_that_look_at_each_other_take_part(dim: int) -> None:
 
 @pytest.mark.parametrize(("depth", "seen"), [(0.1, True), (0.19, True), (0.21, False), (0.4, False)])
 @pytest.mark.parametrize("dim", [2, 3])
-def test_an_overlap_at_the_start_is_led_out_unless_it_is_as_deep_as_a_body(dim: int, depth: float, seen: bool) -> None:
+def test_an_initial_overlap_has_rows_unless_it_is_as_deep_as_a_body(dim: int, depth: float, seen: bool) -> None:
     """Up to a fifth of the longest edge: beyond that the face of a plate would see the far face of one behind it."""
     x, mortar, below = stacked((1.0, 1.0), 0.8, dim)
     x[below.n_nodes :, -1] -= 0.01 + depth

@@ -58,7 +58,7 @@ def test_the_crossing_edges_of_two_blocks_are_found(cell: str, height: float) ->
     assert rows.weights[found][:, [edges.node[found[0]]]].toarray() > 0.0
 
 
-def test_no_node_sees_the_touch_of_two_edges() -> None:
+def test_rows_of_nodes_miss_the_touch_of_two_edges() -> None:
     x0, _, (high, low) = crossed(0.2)
     x1 = crossed(-0.05)[0]
     for slaves, side in ((high, low), (low, high)):
@@ -99,7 +99,7 @@ def test_rows_are_the_derivatives_of_the_gaps() -> None:
     assert np.einsum("md,md->m", rows.normal, rows.weights @ way)[found] == pytest.approx(quotient, abs=1e-8)
 
 
-def test_gaps_do_not_see_rigid_motions() -> None:
+def test_gaps_are_invariant_under_rigid_motions() -> None:
     x0, edges, _ = crossed(0.2)
     x1 = crossed(-0.03)[0]
     turn = rotation(0, 0.7) @ rotation(1, -1.1) @ rotation(2, 2.3)

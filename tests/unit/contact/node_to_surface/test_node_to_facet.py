@@ -53,12 +53,12 @@ def rough(kind: str, seed: int) -> tuple[np.ndarray, np.ndarray, NodeToFacet]:
     return x0, x, nodes
 
 
-@pytest.mark.parametrize("held", [False, True])
+@pytest.mark.parametrize("kept", [False, True])
 @pytest.mark.parametrize("kind", SOLIDS)
-def test_rows_are_the_derivatives_of_the_gaps(kind: str, held: bool) -> None:
+def test_rows_are_the_derivatives_of_the_gaps(kind: str, kept: bool) -> None:
     x0, x, nodes = rough(kind, seed=1)
     pairing = nodes.meet(x0, x, 0.3)
-    pairing = pairing.with_kept_facets(x) if held else pairing
+    pairing = pairing.with_kept_facets(x) if kept else pairing
     rows = pairing.at(x)
     near = np.abs(rows.gap) < 0.3
     way = np.random.default_rng(2).normal(size=x.shape)
@@ -74,12 +74,12 @@ def test_rows_are_the_derivatives_of_the_gaps(kind: str, held: bool) -> None:
     assert np.count_nonzero(error > 1e-7) <= 3
 
 
-@pytest.mark.parametrize("held", [False, True])
+@pytest.mark.parametrize("kept", [False, True])
 @pytest.mark.parametrize("kind", SOLIDS)
-def test_forces_along_the_rows_have_no_resultant_and_no_moment(kind: str, held: bool) -> None:
+def test_forces_along_the_rows_have_no_resultant_and_no_moment(kind: str, kept: bool) -> None:
     x0, x, nodes = rough(kind, seed=3)
     pairing = nodes.meet(x0, x, 0.3)
-    rows = (pairing.with_kept_facets(x) if held else pairing).at(x)
+    rows = (pairing.with_kept_facets(x) if kept else pairing).at(x)
     near = np.abs(rows.gap) < 0.3
     assert np.abs(rows.weights.sum(axis=1)).max() < 1e-14
     lever = (rows.weights @ x)[near]
@@ -88,7 +88,7 @@ def test_forces_along_the_rows_have_no_resultant_and_no_moment(kind: str, held: 
 
 
 @pytest.mark.parametrize("kind", SOLIDS)
-def test_gaps_do_not_see_rigid_motions(kind: str) -> None:
+def test_gaps_are_invariant_under_rigid_motions(kind: str) -> None:
     x0, x, nodes = rough(kind, seed=4)
     dim = x.shape[1]
     turn = np.linalg.qr(np.random.default_rng(5).normal(size=(dim, dim)))[0]
@@ -129,7 +129,7 @@ def test_distance_from_a_ball_converges(make, cell: str, order: int) -> None:
 
 
 def test_ends_of_bars() -> None:
-    """Two bars on a line; each end of the first sees the nearest end of the second that looks at it."""
+    """Two bars on a line; each end of the first sees the nearest end of the second that faces it."""
     one, two = interval(1.0, 2), interval(0.5, 1)
     x = np.concatenate([one.points, two.points + 1.25])
     points = two.boundary()["point1"]
@@ -189,7 +189,7 @@ def test_a_plate_cannot_be_crossed_near_its_rim() -> None:
     assert rows.normal[0].tolist() == pytest.approx([0.0, 0.0, 1.0], abs=1e-14)
 
 
-def test_slanted_ways_through_a_curved_wall_are_seen() -> None:
+def test_slanted_paths_through_a_curved_wall_are_found() -> None:
     """The wall of a tube is crossed along chords over several facets."""
     flat = rectangle((2.0 * np.pi, 0.02), (48, 1), cell="quad9")
     radius, angle = 1.0 + flat.points[:, 1], -flat.points[:, 0]
@@ -206,7 +206,7 @@ def test_slanted_ways_through_a_curved_wall_are_seen() -> None:
         assert crossing(mesh, start, end).gap.reshape(300, 2).min(axis=1).max() < -0.1
 
 
-def test_a_slave_that_slides_over_an_edge_is_not_let_fall_before_the_slab_ends() -> None:
+def test_a_slave_that_slides_over_an_edge_keeps_its_row_until_the_slab_ends() -> None:
     mesh = rectangle((1.0, 1.0), (4, 4))
     over, beside = np.array([[1.002, 1.0 - 1e-4]]), np.array([[1.001, 0.9]])
     rows = crossing(mesh, np.array([[0.999, 1.0]]), over)
@@ -263,7 +263,7 @@ def corner(dim: int, angle: float = 0.5 * np.pi) -> Mesh:
 
 @pytest.mark.parametrize("dim", [2, 3])
 @pytest.mark.parametrize("depth", [0.1, 1e-6, 0.0, -1e-9, -1e-7, -1e-4, -1e-2])
-def test_a_node_in_a_corner_sees_both_walls(dim: int, depth: float) -> None:
+def test_a_node_in_a_corner_has_rows_of_both_walls(dim: int, depth: float) -> None:
     """The walls rise at 45 degrees; behind both of them the slave comes out over one after the other."""
     mesh = corner(dim)
     x0, nodes = contact(mesh, np.full((1, dim), 0.5))
@@ -324,25 +324,25 @@ def test_a_convex_edge_is_one_condition(kind: str) -> None:
     assert np.isinf(rows.gap[1:]).all()
 
 
-def test_held_rows_go_on_beyond_the_edge() -> None:
+def test_kept_facets_continue_beyond_their_edge() -> None:
     mesh = rectangle((1.0, 1.0), (2, 2))
     x, nodes = contact(mesh, np.array([[0.9, 1.1]]))
-    held = nodes.meet(x, x, 0.5).with_kept_facets(x)
+    kept = nodes.meet(x, x, 0.5).with_kept_facets(x)
     x[-1] = (1.7, 0.8)
-    rows = held.at(x)
+    rows = kept.at(x)
     assert rows.gap[0] == pytest.approx(-0.2, abs=1e-15)
     assert rows.normal[0].tolist() == pytest.approx([0.0, 1.0], abs=1e-15)
     assert (rows.weights @ x)[0] == pytest.approx([0.0, -0.2], abs=1e-14)
 
 
-def test_beyond_a_convex_edge_the_facet_in_front_is_held() -> None:
+def test_beyond_a_convex_edge_the_facet_in_front_is_kept() -> None:
     mesh = rectangle((1.0, 1.0), (2, 2))
     x, nodes = contact(mesh, np.array([[1.3, 1.1]]))
     pairing = nodes.meet(x, x, 0.5)
     assert pairing.at(x).gap[0] == pytest.approx(np.sqrt(0.1), abs=1e-15)
-    held = pairing.with_kept_facets(x)
-    assert held.at(x).gap[0] == pytest.approx(0.3, abs=1e-15)
-    assert held.at(x).normal[0].tolist() == pytest.approx([1.0, 0.0], abs=1e-15)
+    kept = pairing.with_kept_facets(x)
+    assert kept.at(x).gap[0] == pytest.approx(0.3, abs=1e-15)
+    assert kept.at(x).normal[0].tolist() == pytest.approx([1.0, 0.0], abs=1e-15)
 
 
 def test_a_slave_is_no_candidate_of_its_own_facets() -> None:
@@ -373,7 +373,7 @@ def test_without_anything_near_all_rows_are_out_of_reach() -> None:
     assert rows.weights.nnz == 0
 
 
-def test_a_slave_that_begins_slightly_inside_is_led_out_where_it_is() -> None:
+def test_a_slave_that_begins_slightly_inside_is_pushed_out_by_the_nearest_facet() -> None:
     mesh = box((1.0, 1.0, 1.0), (4, 4, 4))
     rng = np.random.default_rng(9)
     inside = rng.random((100, 3))
@@ -414,9 +414,9 @@ def led_back(rows: Stencils, x: np.ndarray, target: np.ndarray) -> np.ndarray:
     return y
 
 
-@pytest.mark.parametrize("held", [False, True])
+@pytest.mark.parametrize("kept", [False, True])
 @pytest.mark.parametrize("body", ["block", "disc", "ball", "box seen from inside"])
-def test_iterations_on_the_linear_conditions_do_not_chatter(body: str, held: bool) -> None:
+def test_iterations_on_the_linear_conditions_do_not_chatter(body: str, kept: bool) -> None:
     """Slaves are drawn to targets inside the body, some over edges and into corners; three iterations settle them."""
     rng = np.random.default_rng(10)
     mesh = {"disc": disc(1.0, 16), "ball": ball(1.0, 8)}.get(body) or box((1.0, 1.0, 1.0), (3, 3, 3))
@@ -433,7 +433,7 @@ def test_iterations_on_the_linear_conditions_do_not_chatter(body: str, held: boo
     number = np.arange(mesh.n_nodes, mesh.n_nodes + len(start))
     x0, x = np.concatenate([mesh.points, start]), np.concatenate([mesh.points, target])
     pairing = NodeToFacet(slaves=number, side=side).meet(x0, x, 0.5)
-    now = pairing.with_kept_facets(x) if held else pairing
+    now = pairing.with_kept_facets(x) if kept else pairing
     moves = []
     for _ in range(4):
         after = led_back(now.at(x), x[number], target)
@@ -441,7 +441,7 @@ def test_iterations_on_the_linear_conditions_do_not_chatter(body: str, held: boo
         x[number] = after
     assert moves[0] > 0.05
     assert max(moves[2:]) < 1e-12
-    if not held:
+    if not kept:
         assert pairing.at(x).gap.min() > -1e-12
 
 
@@ -464,8 +464,8 @@ def test_of_three_plates_the_one_that_is_hit_first_counts_for_a_slave_over_the_l
 def test_the_lower_corner_of_a_block_on_another_one_does_not_touch_the_walls_of_that_one(own: bool) -> None:
     """Blocks of the same width but for a hair.  The corner sinks in by far more than this hair.
 
-    It looks down, to the side and between; against the top it looks, the wall is square to its bottom and looks the
-    same way as its side.  A slave on its own may look at the wall, which is nearer.
+    Its facets face down and to the side: they face the top of the lower block.  The wall of that block is orthogonal
+    to the bottom and has the normal of the side.  A slave without a surface may touch the wall, which is nearer.
     """
     below, above = rectangle((1.0, 1.0), (2, 2)), rectangle((0.9999, 1.0), (2, 2), origin=(0.0, 1.0))
     x0 = np.concatenate([below.points, above.points])

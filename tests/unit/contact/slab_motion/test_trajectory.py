@@ -70,9 +70,9 @@ def test_the_mean_is_the_integral_of_the_motion(motion: tuple[Trajectory, np.nda
 def test_a_node_stays_on_the_obstacle_between_touch_and_release(motion: tuple[Trajectory, np.ndarray]) -> None:
     path, q = motion
     way = path.events
-    held = np.flatnonzero(way.kinked)
+    kinked = np.flatnonzero(way.kinked)
     begin, end = np.nan_to_num(way.touch), np.nan_to_num(way.release, nan=1.0)
-    for r in held:
+    for r in kinked:
         for t in np.linspace(begin[r] + 1e-9, end[r], 5):
             assert path.rows.gap(path.at(t, q))[r] + path.rows.tool_motion[r] * (1.0 - t) == pytest.approx(
                 0.0, abs=1e-12

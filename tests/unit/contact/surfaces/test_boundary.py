@@ -25,7 +25,7 @@ def test_facets_of_different_dimensions_are_refused() -> None:
 
 
 @pytest.mark.parametrize("cell", ["bar2", "bar3"])
-def test_ends_of_a_bar_look_outward(cell: str) -> None:
+def test_ends_of_a_bar_have_outward_normals(cell: str) -> None:
     mesh = interval(2.0, 3, cell=cell)
     points = mesh.boundary()["point1"]
     side = ContactSurface(facets={"point1": points}, ends=outward(mesh.blocks[cell], points))

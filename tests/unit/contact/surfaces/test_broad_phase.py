@@ -19,7 +19,7 @@ def _met(x0: np.ndarray, x1: np.ndarray, points: np.ndarray, facets: np.ndarray,
 
 @pytest.mark.parametrize("dim", [1, 2, 3])
 @pytest.mark.parametrize("speed", [0.0, 0.1, 3.0])
-def test_nothing_is_missed(dim: int, speed: float) -> None:
+def test_every_pair_within_reach_is_found(dim: int, speed: float) -> None:
     rng = np.random.default_rng(dim)
     x0 = rng.random((150, dim))
     points, facets = np.arange(60), rng.integers(60, 90, size=(40, 1)) + rng.integers(0, 60, size=(40, dim))
@@ -30,7 +30,7 @@ def test_nothing_is_missed(dim: int, speed: float) -> None:
     assert (np.diff(i * 40 + j) > 0).all()
 
 
-def test_what_flies_together_does_not_meet() -> None:
+def test_bodies_with_equal_velocities_have_no_pairs() -> None:
     x0 = np.array([[0.0, 0.0], [1.0, 1.0], [2.0, 1.0], [0.0, 3.0]])
     x1 = x0 + np.array([100.0, 50.0])
     i, j = near(sweep(x0, x1, np.array([[0], [3]])), sweep(x0, x1, np.array([[1, 2]])), 0.5)

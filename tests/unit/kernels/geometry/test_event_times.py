@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from softway.kernels.geometry.event_times import crossing, fading
 
 number = st.floats(-3.0, 3.0).map(lambda x: round(x, 6))
-share = st.floats(0.0, 1.0)
+fraction = st.floats(0.0, 1.0)
 
 
 def first(gap: float, slope: float, curvature: float) -> float:
@@ -33,12 +33,12 @@ def test_a_crossing_is_the_first_zero_of_the_gap(start: float, slope: float, cur
         assert slope + curvature * tau <= np.sqrt(2.0 * small * (1.0 + abs(curvature))) or tau == 0.0
 
 
-@given(a=share, b=st.floats(1.1, 3.0), bend=st.floats(0.1, 5.0))
+@given(a=fraction, b=st.floats(1.1, 3.0), bend=st.floats(0.1, 5.0))
 def test_the_earlier_of_two_roots_is_taken(a: float, b: float, bend: float) -> None:
     assert first(bend * a * b, -bend * (a + b), 2.0 * bend) == pytest.approx(a, abs=1e-12)
 
 
-@given(a=share, b=st.floats(-3.0, -0.1), bend=st.floats(0.1, 5.0))
+@given(a=fraction, b=st.floats(-3.0, -0.1), bend=st.floats(0.1, 5.0))
 def test_a_gap_that_opens_and_closes_again(a: float, b: float, bend: float) -> None:
     assert first(-bend * a * b, bend * (a + b), -2.0 * bend) == pytest.approx(a, abs=1e-12)
 

@@ -20,7 +20,7 @@ def test_values_and_axes_make_the_tensor_again():
     assert np.all(np.abs(again - TENSORS) <= 4e-15 * np.abs(TENSORS).max(axis=(1, 2))[:, None, None])
 
 
-def test_what_is_no_number_stays_none_and_spoils_no_other():
+def test_nan_stays_nan_and_changes_no_other_tensor():
     T = TENSORS.copy()
     T[1, 0, 0] = np.nan
     values, axes = principal(T)

@@ -31,7 +31,7 @@ def changed(slab: tuple, **numbers: float) -> str:
     return violation(*slab[:-1], replace(slab[-1], **numbers)) or ""
 
 
-def test_what_a_march_leaves_over_holds(slabs) -> None:
+def test_residuals_of_a_march_satisfy_the_certificate(slabs) -> None:
     assert not any(changed(slab) for slab in slabs)
 
 
@@ -67,7 +67,7 @@ def test_a_momentum_is_too_much_beyond_1e_9_of_those_that_take_part(slabs) -> No
 
 
 @pytest.mark.parametrize("name", ["min_gap", "min_force", "power_residual", "momentum_error", "energy_error"])
-def test_what_is_not_a_number_never_holds(slabs, name: str) -> None:
+def test_nan_violates_the_certificate(slabs, name: str) -> None:
     assert "not a number" in changed(slabs[0], **{name: float("nan")})
     if name != "min_gap":  # nothing in reach
         assert "not a number" in changed(slabs[0], **{name: float("inf")})

@@ -64,7 +64,7 @@ def test_work_of_loads_is_accumulated(shop) -> None:
     assert motion.energy_error <= 1e-12
 
 
-def test_a_ledger_taken_up_again_counts_from_there(shop) -> None:
+def test_the_ledger_of_a_continued_march_counts_from_its_start(shop) -> None:
     model = shop.move(shop.block(), shop.floor, until=0.1).model
     whole = list(march(model, until=1.0, step=0.05))
     rest = list(march(model, until=1.0, step=0.05, state=whole[9].after))

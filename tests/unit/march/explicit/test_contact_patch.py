@@ -117,6 +117,6 @@ def test_a_layer_alone_has_the_same_forces() -> None:
     np.testing.assert_array_equal(np.flatnonzero(around), np.sort(nodes))
 
 
-def test_a_failed_slab_keeps_nothing(bounce: list[sw.Step]) -> None:
+def test_a_failed_slab_drops_the_nodes_near_the_touch(bounce: list[sw.Step]) -> None:
     memory = replace(bounce[50].march_state.memory, stale=False).failed()
     assert memory.stale and memory.skin is None and memory.near is None

@@ -20,7 +20,7 @@ def bar(law: object, speed: float) -> sw.Scene:
     return sw.Scene(bodies={"bar": solid, "wall": wall}, contacts=(sw.Contact(between=("bar.right", "wall")),))
 
 
-def test_the_share_is_that_of_the_shortest_edge() -> None:
+def test_the_ratio_is_that_of_the_shortest_edges() -> None:
     model = sw.build(bar(sw.NeoHookean(E=1.0), 0.0))
     u = np.zeros(model.shape)
     u[5:] = -0.04

@@ -36,7 +36,7 @@ def scene(above: int, below: int) -> sw.Scene:
 
 
 @pytest.mark.parametrize(("above", "below"), [(3, 3), (3, 4)])
-def test_flush_blocks_rub(above, below):
+def test_flush_blocks_slide_with_friction(above, below):
     steps = list(sw.march(scene(above, below), until=0.06, step=5e-3))
     assert len(steps) <= 14
     assert steps[-1].ledger.contacts["above-below"].force_t > 100.0

@@ -36,7 +36,7 @@ def sliding(
     up = np.eye(dim)[1] if dim == 2 else np.eye(3)[2]
     way = np.array(along[:dim]) / np.linalg.norm(along[:dim])
     down = tuple(-GRAVITY * up)
-    held = tuple(GRAVITY * (pull * way - up))
+    initial_load = tuple(GRAVITY * (pull * way - up))
     return sw.Scene(
         bodies={
             "block": sw.Solid(
@@ -48,8 +48,8 @@ def sliding(
             "floor": sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0,) * dim, normal=tuple(up)), motion=motion),
         },
         contacts=(sw.Contact(between=("block.bottom", "floor"), name="floor", friction=friction),),
-        loads=(sw.Gravity(acceleration=held if slope else down),),
-        start=sw.model.StaticStart(loads=(sw.Gravity(acceleration=held),)),
+        loads=(sw.Gravity(acceleration=initial_load if slope else down),),
+        start=sw.model.StaticStart(loads=(sw.Gravity(acceleration=initial_load),)),
     )
 
 

@@ -18,9 +18,9 @@ def block(law: object, speed: float, belt: float = 0.0, E: float = 1e9) -> sw.Sc
     )  # fmt: skip
     motion = sw.bodies.Translation(velocity=(belt, 0.0)) if belt else sw.bodies.Still()
     floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)), motion=motion)
-    held = sw.Gravity(acceleration=(slip * GRAVITY, -GRAVITY))
+    initial_load = sw.Gravity(acceleration=(slip * GRAVITY, -GRAVITY))
     contact = sw.Contact(between=("block.bottom", "floor"), name="floor", friction=law)
-    start = sw.model.StaticStart(loads=(held,))
+    start = sw.model.StaticStart(loads=(initial_load,))
     return sw.Scene(bodies={"block": solid, "floor": floor}, contacts=(contact,), loads=(DOWN,), start=start)
 
 

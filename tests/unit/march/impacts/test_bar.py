@@ -53,26 +53,28 @@ def test_the_energy_rule_keeps_the_energy(shop, rule: ImpactRule, mass: MassRule
 
 
 @pytest.mark.parametrize("cells", [2, 3, 8])
-@pytest.mark.parametrize(("mass", "share"), [(Consistent(), 2 / 3), (Lumped(), 1 / 2)], ids=["consistent", "lumped"])
+@pytest.mark.parametrize(("mass", "fraction"), [(Consistent(), 2 / 3), (Lumped(), 1 / 2)], ids=["consistent", "lumped"])
 @pytest.mark.parametrize("rule", LOSSY[1:], ids=named)
-def test_what_the_literal_rule_loses(shop, rule: ImpactRule, mass: MassRule, share: float, cells: int) -> None:
+def test_the_energy_loss_of_the_literal_rule(
+    shop, rule: ImpactRule, mass: MassRule, fraction: float, cells: int
+) -> None:
     """2 / (3 N) of the kinetic energy with consistent mass, 1 / (2 N) lumped."""
     motion = throw(shop, rule, cells=cells, mass=mass, until=0.2)
-    assert motion.last.ledger.dissipation / 0.5 == pytest.approx(share / cells, rel=1e-9)
+    assert motion.last.ledger.dissipation / 0.5 == pytest.approx(fraction / cells, rel=1e-9)
 
 
 @pytest.mark.parametrize(
-    ("mass", "cells", "share"), [(Consistent(), 2, 1 / 7), (Lumped(), 2, 1 / 4), (Lumped(), 5, 1 / 10)], ids=str
+    ("mass", "cells", "fraction"), [(Consistent(), 2, 1 / 7), (Lumped(), 2, 1 / 4), (Lumped(), 5, 1 / 10)], ids=str
 )
-def test_what_the_balanced_jump_loses(shop, mass: MassRule, cells: int, share: float) -> None:
+def test_the_energy_loss_of_the_balanced_jump(shop, mass: MassRule, cells: int, fraction: float) -> None:
     motion = throw(shop, Impulse(), cells=cells, mass=mass, until=0.2)
-    assert motion.last.ledger.dissipation / 0.5 == pytest.approx(share, rel=1e-9)
+    assert motion.last.ledger.dissipation / 0.5 == pytest.approx(fraction, rel=1e-9)
     (event,) = motion.events
     assert event.impulse * 1.0 / 2.0 == pytest.approx(motion.last.ledger.dissipation, rel=1e-9)
 
 
 @lossy
-def test_the_ledger_closes_as_the_slab_shrinks(shop, rule: ImpactRule) -> None:
+def test_the_energy_error_vanishes_with_the_slab_length(shop, rule: ImpactRule) -> None:
     coarse, fine = (throw(shop, rule, gap=0.103, step=h, until=2.2).energy_error for h in (0.04, 0.01))
     assert coarse < 1e-2
     assert fine < coarse / 4.0, "first order at least"

@@ -67,7 +67,7 @@ def test_a_wall_that_hits_a_bar_is_a_bar_that_hits_a_wall(shop, rule: ImpactRule
 
 @rules
 @pytest.mark.parametrize("velocity", [-0.5, 0.3, 1.0])
-def test_any_frame_will_do(shop, rule: ImpactRule, velocity: float) -> None:
+def test_the_motion_is_the_same_in_every_inertial_frame(shop, rule: ImpactRule, velocity: float) -> None:
     options = {"timing": rule, "tag": "right", "until": 2.5, "step": 0.04}
     one = shop.move(shop.bar(v=0.6, material=shop.neo), wall(1.05), **options)
     other = shop.move(shop.bar(v=0.6 - velocity, material=shop.neo), wall(1.05, -velocity), **options)

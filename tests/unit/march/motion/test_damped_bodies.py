@@ -1,4 +1,4 @@
-"""Damped matter in motion: what the mean rate of a slab makes acts from its start."""
+"""Damped bodies in motion: what the mean rate of a slab makes acts from its start."""
 
 import numpy as np
 import pytest

@@ -146,7 +146,7 @@ def test_a_press(shop) -> None:
 
 
 @rules
-def test_a_march_with_a_driven_support_can_be_taken_up(shop, rule: ImpactRule) -> None:
+def test_a_march_with_a_driven_support_can_be_continued(shop, rule: ImpactRule) -> None:
     solid = shop.bar(v=0.0, supports=(RAMP,))
     wall = {"wall": shop.plane(-0.01, 1.0)}
     whole = shop.move(solid, wall, timing=rule, tag="left", until=1.0)

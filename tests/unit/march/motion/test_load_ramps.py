@@ -19,7 +19,7 @@ def block(**more: object) -> sw.Solid:
     )
 
 
-def test_a_pulse_gives_its_impulse_and_the_ledger_closes() -> None:
+def test_a_pulse_gives_its_impulse_and_the_energy_balance_closes() -> None:
     loads = (sw.Traction(on="b.top", value=(0.02, 0.01), ramp=PULSE), sw.Gravity(acceleration=(0.0, 0.01)))
     scene = sw.Scene(bodies={"b": block()}, loads=loads)
     *_, last = sw.march(scene, until=1.1, step=0.07)

@@ -1,4 +1,4 @@
-"""Bodies with a history in the march: the ledger closes, states restart, methods agree."""
+"""Bodies with a history in the march: the energy balance closes, states restart, methods agree."""
 
 from dataclasses import replace
 
@@ -50,7 +50,7 @@ def marched(scene: sw.Scene, until: float = 2.0, **given: object) -> list[Step]:
 
 
 @pytest.mark.parametrize("name", LAWS)
-def test_the_ledger_closes(name: str) -> None:
+def test_the_energy_balance_closes(name: str) -> None:
     """Through impact and release: what is stored, dissipated and left in the motion is what there was."""
     steps = marched(thrown(LAWS[name]))
     first = steps[0].ledger
@@ -66,7 +66,7 @@ def test_the_ledger_closes(name: str) -> None:
 
 
 def test_a_march_goes_on_from_a_state_bit_by_bit() -> None:
-    """From a state in the middle of flow, with all that the matter remembers; Newton's method needs nothing else."""
+    """From a state in the middle of flow, with all history variables; Newton's method needs nothing else."""
     for name in ("kinematic", "Kelvin"):
         scene = thrown(LAWS[name])
         whole = marched(scene, 0.8, step=0.1, method=sw.Newton())

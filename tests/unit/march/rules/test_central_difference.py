@@ -104,14 +104,14 @@ def test_two_bars_swap_their_velocities() -> None:
     assert last.ledger.momentum[0] == pytest.approx(1.0, abs=1e-12)
 
 
-def test_driven_supports_move_as_told() -> None:
+def test_driven_supports_follow_their_motion() -> None:
     bar = thrown(10, velocity=sw.bodies.Uniform(), supports=(sw.Driven(on="left", velocity=0.5),))
     *_, last = sw.march(sw.Scene(bodies={"bar": bar}), until=1.0, method=Explicit())
     assert last.after.displacement["bar"][0, 0] == pytest.approx(0.5, rel=1e-12)
     assert last.ledger.energy_error == pytest.approx(0.0, abs=0.01 * last.ledger.work_external)
 
 
-def test_the_slab_is_a_share_of_the_stability_limit() -> None:
+def test_the_slab_is_a_fraction_of_the_stability_limit() -> None:
     """Lumped bars of equal cells: the limit is the time in which a wave crosses a cell."""
     free = sw.Scene(bodies={"bar": thrown(10)})
     step = next(sw.march(free, until=10.0, method=Explicit(safety=0.5)))

@@ -53,7 +53,7 @@ def test_a_fiftieth_of_an_edge_is_no_overlap_where_facets_may_be_curved(cell: st
 @pytest.mark.parametrize(("dim", "depth"), [(1, 0.3), (1, 0.08), (2, 0.08)])
 def test_a_press_fit_may_be_about_as_deep_as_the_cells(dim: int, depth: float) -> None:
     """Two bars of one metre and ten cells, each held at its far end, overlap: each gives way by the half."""
-    law, held = sw.LinearElastic(E=2.0, nu=0.0), {"one": "left", "two": "right"}
+    law, supported = sw.LinearElastic(E=2.0, nu=0.0), {"one": "left", "two": "right"}
     bars = {
         name: sw.Solid(
             mesh=sw.meshes.Interval(length=1.0, cells=10)
@@ -64,7 +64,7 @@ def test_a_press_fit_may_be_about_as_deep_as_the_cells(dim: int, depth: float) -
             supports=(sw.Fixed(on=end),),
             place=sw.bodies.Placement(translation=(0.0 if name == "one" else 1.0 - depth,) + (0.0,) * (dim - 1)),
         )
-        for name, end in held.items()
+        for name, end in supported.items()
     }
     contact = sw.Contact(between=("one.right", "two.left"), name="fit", start="fit")
     step = next(iter(sw.march(sw.Scene(bodies=bars, contacts=(contact,)), until=0.01, step=0.01)))

@@ -78,13 +78,13 @@ def test_the_fine_part_has_equal_cells(cells: int) -> None:
 
 
 def test_cells_grow_in_proportion_to_the_distance() -> None:
-    """Along the axis the spacing is the same share of the distance, until the map bends it at the size of the disc."""
+    """Along the axis the spacing is proportional to the distance, until the map bends it at the size of the disc."""
     mesh = graded_disc(1.0, 1e-4, 8, part="quarter")
     height = np.sort(mesh.points[mesh.nodes("axis"), 1]) + 1.0
-    share = np.diff(height) / (0.5 * (height[1:] + height[:-1]))
+    ratio = np.diff(height) / (0.5 * (height[1:] + height[:-1]))
     away = (height[1:] > 3e-4) & (height[1:] < 0.1)
-    assert np.ptp(share[away]) < 0.12 * share[away].mean()
-    assert share[away].mean() == pytest.approx(np.pi / 32, rel=0.1)
+    assert np.ptp(ratio[away]) < 0.12 * ratio[away].mean()
+    assert ratio[away].mean() == pytest.approx(np.pi / 32, rel=0.1)
 
 
 @pytest.mark.parametrize("part", ["whole", "lower"])

@@ -32,7 +32,7 @@ def test_a_damaged_file_is_named(whole, tmp_path, capsys, name, left):
     assert code == 2 or name == "summary.json"
 
 
-def test_numbers_that_are_none_are_named(whole, tmp_path, capsys):
+def test_files_with_unreadable_numbers_are_named(whole, tmp_path, capsys):
     folder = tmp_path / "run"
     shutil.copytree(whole, folder)
     file = folder / "history.csv"

@@ -48,7 +48,7 @@ def left(guarded: JournaledFile) -> None:
     guarded.guard.close()
 
 
-def test_every_write_may_be_the_last(tmp_path):
+def test_a_file_is_restored_after_a_kill_in_any_write(tmp_path):
     """A change of an HDF5 file is cut in each of its writes in turn: what was there before comes back whole."""
     written(tmp_path / "whole", [1.0, 2.0, 3.0])
     before, torn = (tmp_path / "whole").read_bytes(), 0

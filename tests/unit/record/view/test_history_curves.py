@@ -32,6 +32,6 @@ def test_gaps_of_rounding_are_no_distance(axis):
     assert axis.get_ylabel() == "gap [nm]" and axis.get_ylim() == (-1.0, 1.0)
 
 
-def test_a_force_that_is_nothing_lies_on_the_axis(axis):
+def test_a_zero_force_lies_on_the_axis(axis):
     forces(axis, TIME, table(**{"contact.a.force_n": np.zeros(5)}), ("a",))
     assert axis.get_ylim() == (0.0, 1.0)

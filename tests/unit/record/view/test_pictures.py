@@ -160,7 +160,7 @@ def test_an_enlarged_body_keeps_its_gap_to_a_round_obstacle():
     assert placed.factor > 10.0 and abs(drawn - real) < 0.02
 
 
-def test_what_has_lost_its_shape_shows_none():
+def test_strongly_deformed_bodies_are_not_enlarged():
     cells, frame = two_squares(gap=0.5, squeeze=0.9)
     placed = body_placement(cells, frame, {})
     assert placed.factor == 1.0 and not placed.shaped.any() and (placed.points == frame.points).all()

@@ -1,4 +1,4 @@
-"""What frames hold beside the motion: what matter remembers, pressure and traction of contact."""
+"""What frames hold beside the motion: history variables, pressure and traction of contact."""
 
 import numpy as np
 import pytest

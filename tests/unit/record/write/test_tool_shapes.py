@@ -149,7 +149,7 @@ def test_other_obstacles_of_a_bar_are_drawn_where_they_cut_its_line(bar, tmp_pat
     np.testing.assert_allclose(found[1][:, 0], -0.2, atol=1e-12)
 
 
-def test_a_function_that_is_lost_is_said(volume, tmp_path):
+def test_a_tool_whose_function_is_lost_is_named(volume, tmp_path):
     pytest.importorskip("matplotlib")
     run = With(volume, Tool(shape=SignedDistance(function=lambda x: x[:, 2], dim=3))).run(tmp_path / "run")
     assert run.fields.cells.lost == ("floor",) and not run.fields.cells.tools

@@ -66,7 +66,7 @@ def test_progress_says_how_far_a_run_is(whole, tmp_path):
     assert walls == sorted(walls) and seen[-1].left == 0.0 and seen[4].left == pytest.approx(3.0 * seen[4].wall)
 
 
-def test_a_resumed_run_goes_on_counting_and_judges_its_own_pace(tmp_path):
+def test_a_resumed_run_continues_the_count_and_measures_its_own_pace(tmp_path):
     with pytest.raises(sw.Cancelled):
         sw.run(SCENARIO, tmp_path / "run", cancel=after(30))
     done, seen = sw.Run(tmp_path / "run").summary["slabs"], []
@@ -76,7 +76,7 @@ def test_a_resumed_run_goes_on_counting_and_judges_its_own_pace(tmp_path):
     assert first.pace == pytest.approx(0.1 / first.wall)
 
 
-def test_the_pace_is_that_of_late(monkeypatch):
+def test_the_pace_is_that_of_the_last_half_minute(monkeypatch):
     now, seen = [0.0], []
     monkeypatch.setattr("softway.record.write.progress.clock.perf_counter", lambda: now[0])
     meter = Meter(seen.append, until=100.0, start=0.0)
@@ -129,13 +129,13 @@ def test_a_cancelled_run_is_resumed_with_the_same_bits(whole, tmp_path, asks):
     assert differences(run.path, whole) == []
 
 
-def test_it_is_asked_at_every_iteration():
+def test_cancel_is_called_at_every_iteration():
     asked = []
     steps = list(sw.march(SCENE, until=2.0, step=0.1, cancel=lambda: bool(asked.append(0))))
     assert len(asked) >= sum(s.report.iterations for s in steps) > len(steps)
 
 
-def test_a_march_that_was_called_off_goes_on_from_its_last_step():
+def test_a_cancelled_march_continues_from_its_last_step():
     model, going = sw.build(SCENE), []
     plain = list(sw.march(model, until=2.0, step=0.1))
     with pytest.raises(sw.Cancelled):
@@ -186,7 +186,7 @@ def test_a_slow_slab_is_left_after_the_iterate_that_is_being_computed():
     assert max(len(law.calls) - at for at, (law, _) in enumerate(found, 1)) <= 2
 
 
-def test_a_static_start_can_be_called_off():
+def test_a_static_start_can_be_cancelled():
     """A body under gravity on the ground: the first equilibrium takes steps."""
     law = sw.NeoHookean(E=100.0, nu=0.3)
     block = sw.Solid(mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(2, 2)), material=law, density=1.0,
@@ -199,7 +199,7 @@ def test_a_static_start_can_be_called_off():
         next(sw.march(model, until=1.0, cancel=after(2)))
 
 
-def test_the_log_is_a_tree_that_says_nothing_by_itself(caplog):
+def test_the_log_is_silent_until_it_is_configured(caplog):
     """INFO has the operator and rejected slabs, DEBUG every iterate; the host says where it goes."""
     code = (
         "import logging, softway as sw, sys; sys.stderr.write(str(logging.getLogger('softway').level)); "

@@ -24,7 +24,7 @@ def file(tmp_path, monkeypatch):
     return tmp_path / "bar.toml"
 
 
-def test_a_sweep_is_called_off_in_the_middle_of_a_run_and_goes_on(file):
+def test_a_sweep_cancelled_during_a_run_is_continued(file):
     """From another thread, while the second of three runs, a long one, is going on; its folder is in order."""
     off, seen, raised = threading.Event(), [], []
     values, changes = {"time.end": ["0.1 s", "2000 s", "0.2 s"]}, ("output.checkpoints.every=0 s",)
@@ -61,14 +61,14 @@ def test_workers_of_dask_are_left_to_what_they_have_begun(file):
     assert 1 <= len(seen) < 3
 
 
-def test_the_suite_is_called_off():
+def test_the_suite_is_cancelled():
     seen = []
     with pytest.raises(sw.Cancelled, match="1 left"):
         verified(chosen(("A01", "A02")), watch=seen.append, cancel=lambda: bool(seen))
     assert len(seen) == 1
 
 
-def test_nobody_is_left_behind():
+def test_no_worker_process_remains():
     before = time.perf_counter()
     with pytest.raises(sw.Cancelled, match="2 left"):
         list(answers([30.0, 30.0], time.sleep, 2, cancel=lambda: time.perf_counter() - before > 0.5))

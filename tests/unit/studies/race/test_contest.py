@@ -35,7 +35,7 @@ def results(scene):
 
 
 @pytest.mark.parametrize("method", ["accelerated", "newton", "penalty"])
-def test_a_contest_is_called_off(scene, method):
+def test_a_contest_is_cancelled(scene, method):
     reached: list[float] = []
     with pytest.raises(sw.Cancelled):
         contest(
@@ -60,7 +60,7 @@ def test_the_slabs_are_the_same_for_all(results):
         assert result.cpu > 0.0 and result.wall > 0.0 and result.first > 0.0 and result.usual > 0.0
 
 
-def test_conditions_hold_and_springs_give_way(results):
+def test_multipliers_allow_no_penetration_and_a_penalty_does(results):
     *ours, penalty = results
     assert max(r.penetration for r in ours) < 1e-12 and max(r.drift for r in ours) < 1e-9
     assert penalty.penetration > 1e-4 and min(r.least_force for r in results) >= 0.0
@@ -108,7 +108,7 @@ def test_folders_that_cannot_be_written_are_named(results, tmp_path):
 
 
 @pytest.mark.parametrize("change", [{"methods": ("fast",)}, {"slabs": 0}, {"until": -1.0}])
-def test_wrong_wishes_are_refused(scene, change):
+def test_wrong_arguments_are_refused(scene, change):
     with pytest.raises(sw.InputError):
         contest(scene, **{"until": 1.0, "step": 0.1, **change})
 

@@ -21,7 +21,7 @@ def test_long_work_says_what_it_is(monkeypatch, patience, told):
     assert ("building meshes, after" in screen.getvalue()) == told
 
 
-def test_a_file_is_told_nothing(monkeypatch):
+def test_no_progress_is_written_to_a_file(monkeypatch):
     monkeypatch.setattr(progress, "PATIENCE", 0.0)
     screen = StringIO()
     with progress.waiting(Console(file=screen), "building meshes"):

@@ -37,7 +37,7 @@ def deformed(size: float, k: int = 20) -> Array:
 
 @pytest.mark.parametrize("rate", RATES)
 def test_a_rigid_rotation_is_no_strain(rate) -> None:
-    """Of any angle below half a turn, of a body as it is deformed; tensors of the matter turn with it."""
+    """Of any angle below half a turn, of a body as it is deformed; tensors of the material turn with it."""
     F0, Q = deformed(0.3), turns(np.linspace(0.0, 0.97 * np.pi, 20))
     found = slab_deformation(rate, F0, Q @ F0)
     assert np.abs(found.strain).max() < 1e-13
@@ -55,7 +55,7 @@ def test_the_trace_is_the_change_of_volume(rate) -> None:
 
 
 @pytest.mark.parametrize("rate", RATES)
-def test_the_way_back_takes_back(rate) -> None:
+def test_the_reverse_deformation_has_the_inverse_map(rate) -> None:
     """The strain of the way back, carried, is minus that of the way; maps of corotational rates are rotations."""
     F0, F1 = deformed(0.2), deformed(0.2)
     there, back = slab_deformation(rate, F0, F1), slab_deformation(rate, F1, F0)
@@ -68,7 +68,7 @@ def test_the_way_back_takes_back(rate) -> None:
 
 
 @pytest.mark.parametrize("rate", RATES)
-def test_what_a_frame_sees_does_not_matter(rate) -> None:
+def test_strain_and_maps_are_objective(rate) -> None:
     """Both ends turned by one rotation: strain and maps turn."""
     F0, F1, Q = deformed(0.2), deformed(0.2), turns(np.full(1, 2.0))[0]
     plain, turned = slab_deformation(rate, F0, F1), slab_deformation(rate, Q @ F0, Q @ F1)
@@ -87,7 +87,7 @@ def test_a_stretch_in_fixed_axes_is_its_logarithm() -> None:
     assert np.abs(np.diag(middle.strain) - exact).max() < np.abs(exact).max() ** 3 / 6.0
 
 
-def test_half_a_turn_twice_is_the_turn() -> None:
+def test_the_square_of_the_half_rotation_is_the_rotation() -> None:
     """Cayley's map of the skew part, for any size of it."""
     w = RANDOM.normal(size=(30, 3, 3)) * 10.0 ** RANDOM.uniform(-6, 2, (30, 1, 1))
     w = 0.5 * (w - np.swapaxes(w, 1, 2))
@@ -120,8 +120,8 @@ def test_the_logarithmic_spin() -> None:
         np.testing.assert_allclose(rate - spin @ h + h @ spin, D, rtol=0.0, atol=1e-8)
 
 
-def test_turned_inside_out() -> None:
-    """Inverted matter has no logarithm of its volume: nan, quietly."""
+def test_inverted_elements_have_no_logarithmic_strain() -> None:
+    """The volume ratio is negative: nan, without a warning."""
     found = slab_deformation(Jaumann(), np.eye(3)[None], np.diag([-1.0, 1.0, 1.0])[None] + 1e-3)
     assert np.isnan(found.strain).any()
 
