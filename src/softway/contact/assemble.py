@@ -60,8 +60,7 @@ def assemble_contacts(
     methods: list[NodeToTool | SurfacePair] = []
     number, opponents, nodes = [np.zeros(0, int)], [], [np.zeros(0, int)]
     sizes = [0.0]
-    overlap_methods: list[SurfacePair] = []
-    overlap_contact: list[int] = []
+    overlap: list[tuple[SurfacePair, int]] = []
     for k, contact in enumerate(contacts):
         _check_shape(contact, bodies, points)
         with within(f"contacts[{k}]"):
@@ -69,8 +68,7 @@ def assemble_contacts(
         methods += found
         if any(isinstance(m, Mortar) for m in found):
             fine, coarse = surfaces
-            overlap_methods += [_on(fine.side.nodes, fine, coarse), _on(coarse.side.nodes, coarse, fine)]
-            overlap_contact += [k, k]
+            overlap += [(_on(one.side.nodes, one, other), k) for one, other in ((fine, coarse), (coarse, fine))]
         number.append(np.full(sum(len(m.node) for m in found), k))
         opponents.append(pair)
         nodes.append(touched)
@@ -83,8 +81,8 @@ def assemble_contacts(
         points=points,
         reach=REACH * max(sizes),
         labels=_labels(contacts),
-        overlap_methods=tuple(overlap_methods),
-        overlap_contact=tuple(overlap_contact),
+        overlap_methods=tuple(method for method, _ in overlap),
+        overlap_contact=tuple(k for _, k in overlap),
         frictionless_rows=TangentialRows.none(len(row_contact), *points.shape) if frictionless else None,
         space=space,
     )
