@@ -106,7 +106,8 @@ class MarchState:
         start, closed = self.state.start, self.state.closed
         pasts = [m is not None for m in start.states]
         complete = len(pasts) in (0, len(model.parts))
-        if start.displacement.shape != ours or len(closed) != rows or not complete:
+        fitting = len(start.fields) == len(model.companions)
+        if start.displacement.shape != ours or len(closed) != rows or not complete or not fitting:
             found = f"{start.displacement.shape} nodal values and {len(closed)} contact rows"
             raise InputError("state", f"of another scene: {found}", f"one of {ours} and {rows}")
         return self

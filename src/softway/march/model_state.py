@@ -58,11 +58,15 @@ def join_states(model: Model, state: State) -> ModelState:
     """
     ours = {p.name: (p.mesh.n_nodes, p.mesh.dim) for p in model.parts}
     theirs = {name: u.shape for name, u in state.displacement.items()}
+    named = {c.field.name for c in model.companions}
+    if named != set(state.fields):
+        raise InputError("state", f"fields {sorted(state.fields)}", f"a state with the fields {sorted(named)}")
     if ours != theirs or set(state.closed) != set(model.contacts.labels):
         raise InputError("state", f"bodies {theirs} and contacts {sorted(state.closed)}", f"a state of {ours}")
     u = model.join(state.displacement)
     states = tuple(state.memory.get(p.name) for p in model.parts)
     energy, force, viscous = material_states.stored_force(model.parts, states, u)
+    fields = tuple(c.at(model.join(state.fields[c.field.name]), u) for c in model.companions)
     labels, count = model.contacts.labels, len(model.contacts.contact)
     rough = not model.friction.frictionless
     return ModelState(
@@ -70,10 +74,11 @@ def join_states(model: Model, state: State) -> ModelState:
         start=SlabStart(
             displacement=u,
             velocity=model.join(state.velocity),
-            force=force,
-            energy=energy,
+            force=sum((f.force for f in fields), force),
+            energy=sum((f.energy for f in fields), energy),
             states=states,
             viscous=viscous,
+            fields=fields,
         ),
         acceleration=model.join(state.acceleration),
         closed=np.concatenate([state.closed[n] for n in labels]) if labels else np.zeros(0, bool),
@@ -86,7 +91,12 @@ def join_states(model: Model, state: State) -> ModelState:
 def split_states(model: Model, state: ModelState) -> State:
     """Split a state by bodies and contacts, with read-only arrays."""
     rows = model.contacts
-    for array in (state.start.displacement, state.start.velocity, state.acceleration):
+    for array in (
+        state.start.displacement,
+        state.start.velocity,
+        state.acceleration,
+        *(f.values for f in state.start.fields),
+    ):
         array.flags.writeable = False
     state.closed.flags.writeable = False
     state.pressure.flags.writeable = False
@@ -101,6 +111,7 @@ def split_states(model: Model, state: ModelState) -> State:
         memory={p.name: m for p, m in zip(model.parts, state.start.states, strict=False) if m is not None},
         traction=_by_contact(model, state.traction),
         sliding=_by_contact(model, state.sliding),
+        fields={c.field.name: model.split(f.values) for c, f in zip(model.companions, state.start.fields, strict=True)},
     )
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from softway.arrays import Array
 from softway.bodies.assembled import material_states
 from softway.errors import Cancel, Unbalanced
 from softway.march.model_state import ModelState
@@ -78,11 +79,13 @@ def _committed(out: SlabResult) -> SlabStart:
     """Initial values of the next slab."""
     model, end = out.system.model, out.solution.end
     states = material_states.committed(model.parts, end.displacement)
+    of_fields: Array | float = sum(f.energy for f in end.fields)
     return SlabStart(
         displacement=end.displacement,
         velocity=out.velocity,
         force=end.force,
-        energy=material_states.stored_energy(model.parts, states, end.energy),
+        energy=material_states.stored_energy(model.parts, states, end.energy - of_fields) + of_fields,
         states=states,
         viscous=material_states.stored_viscous_force(model.parts, states),
+        fields=end.fields,
     )

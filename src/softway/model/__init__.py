@@ -2,6 +2,7 @@
 
 from softway.model.build import build as build
 from softway.model.build import with_dofs as with_dofs
+from softway.model.build import with_field as with_field
 from softway.model.scene import AsGiven as AsGiven
 from softway.model.scene import Scene as Scene
 from softway.model.scene import State as State
@@ -20,4 +21,5 @@ __all__ = [
     "StaticStart",
     "build",
     "with_dofs",
+    "with_field",
 ]

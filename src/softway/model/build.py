@@ -17,8 +17,9 @@ from softway.bodies.solid import Solid
 from softway.contact.assemble import assemble_contacts
 from softway.contact.impact_rule import Energy, ImpactRule
 from softway.errors import InputError, within
+from softway.model.field import FieldEquations
 from softway.model.model import Model, assembled_tangent
-from softway.model.scene import Scene
+from softway.model.scene import Scene, StaticStart
 from softway.tolerances import MOTION
 
 
@@ -154,3 +155,22 @@ def _linked(model: Model, dofs: DofMap) -> IntArray:
     of = np.repeat(model.part_of, model.shape[1])
     shares = sp.csr_array((np.ones(len(of)), (of, np.arange(len(of))))) @ abs(dofs.jacobian)
     return np.asarray(connected_components(shares @ shares.T, directed=False)[1])
+
+
+def with_field(model: Model, equations: FieldEquations) -> Model:
+    """Model with a companion field, which is solved together with the displacement (docs/theory/solver/fields.md).
+
+    Raises
+    ------
+    InputError
+        If there is a field of this name, the initial values do not fit, or the march starts in static equilibrium,
+        which knows no companion fields.
+    """
+    new, shape = equations.field, equations.initial().shape
+    if new.name in {f.name for f in model.fields} or new.name in ("velocity", "contact_force"):
+        raise InputError(f"fields.{new.name}", "a second field of this name", "another name")
+    if shape != (model.shape[0], new.components):
+        raise InputError(f"fields.{new.name}", f"initial values {shape}", f"{(model.shape[0], new.components)}")
+    if isinstance(model.scene.start, StaticStart):
+        raise InputError("start", f"StaticStart with the field {new.name}", 'start = "AsGiven"')
+    return replace(model, companions=(*model.companions, equations))

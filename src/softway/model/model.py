@@ -19,6 +19,7 @@ from softway.contact.contact_set import ContactSet
 from softway.contact.friction_rows import FrictionRows
 from softway.contact.impact_rule import ImpactRule
 from softway.meshes.mesh import Mesh
+from softway.model.field import Field, FieldEquations
 from softway.model.scene import Scene
 
 
@@ -69,6 +70,8 @@ class Model:
         Friction laws of the contact rows.
     space
         Sums, inner products and greatest values of nodal fields.
+    companions
+        Equations of the fields that are solved together with the displacement.
     """
 
     scene: Scene
@@ -94,11 +97,18 @@ class Model:
     timing: ImpactRule
     friction: FrictionRows
     space: VectorSpace
+    companions: tuple[FieldEquations, ...] = ()
 
     @property
     def free(self) -> BoolArray:
         """Components (n, d) without support."""
         return self.dofs.free
+
+    @property
+    def fields(self) -> tuple[Field, ...]:
+        """Displacement and companion fields."""
+        displacement = Field(name="displacement", unit="m", components=self.shape[1])
+        return (displacement, *(c.field for c in self.companions))
 
     @property
     def shape(self) -> tuple[int, int]:

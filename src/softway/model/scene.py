@@ -84,6 +84,8 @@ class State:
     traction, sliding
         Contact name -> (c, d) tangential force of the obstacle on the node of each row [N], and (c,) rows that slip;
         both empty without friction.
+    fields
+        Companion field -> body name -> (n, components).
     """
 
     time: float
@@ -95,3 +97,4 @@ class State:
     memory: Mapping[str, MaterialState] = field(default_factory=dict)
     traction: Mapping[str, Array] = field(default_factory=dict)
     sliding: Mapping[str, BoolArray] = field(default_factory=dict)
+    fields: Mapping[str, Mapping[str, Array]] = field(default_factory=dict)

@@ -163,6 +163,7 @@ def _opening(checked: Checked, cancel: Cancel | None) -> RunStart:
         until=given.time.end,
         fields_every=_every(given),
         readings=readings(given.output.probes, model.meshes),
+        fields=model.fields,
     )
 
 

@@ -22,7 +22,7 @@ from softway.march.results.friction_result import first_impulses
 from softway.march.results.slab_result import Balances
 from softway.march.rules.equilibrated import EndForceContact
 from softway.march.rules.massless_slab import equations, slab_result
-from softway.march.rules.slab_rule import Attempt, Solutions, require_nodal
+from softway.march.rules.slab_rule import Attempt, Solutions, require_motion_alone, require_nodal
 from softway.march.step_control import require_slow
 from softway.model.model import Model
 from softway.model.slab import Slab
@@ -131,6 +131,7 @@ def central_difference(model: Model, method: Explicit, weight: TimeWeight) -> Ce
     if not isinstance(model.timing, Energy) or model.timing.located:
         raise InputError("solver", "Explicit with contact nodes that have inertia", "the timing Energy")
     require_nodal(model, "Explicit")
+    require_motion_alone(model, "Explicit")
     light = ~model.massive
     still = MasslessNodes(light=model.free & light[:, None], layer=layer(model.parts, light))
     return CentralDifference(

@@ -12,7 +12,7 @@ from softway.march.results.slab_result import contact_event
 from softway.march.results.step import Event
 from softway.march.rules.equilibrated import Equilibrated
 from softway.march.rules.massless_slab import ContactForces, require_end_points
-from softway.march.rules.slab_rule import Attempt, require_frictionless, require_nodal
+from softway.march.rules.slab_rule import Attempt, require_frictionless, require_motion_alone, require_nodal
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import TimeWeight
@@ -74,6 +74,7 @@ def exact_instants(model: Model, method: FixedPoint | Newton, weight: TimeWeight
     require_end_points(model, weight)
     require_frictionless(model, "the located Energy rule")
     require_nodal(model, "the located Energy rule")
+    require_motion_alone(model, "the located Energy rule")
     if not (model.linear and model.contacts.fixed):
         raise InputError(
             "contacts[0].timing.located",

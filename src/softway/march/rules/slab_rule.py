@@ -103,3 +103,18 @@ def require_nodal(model: Model, rule: str) -> None:
     if model.dofs.components is None:
         problem = f"unknowns that move several components, with {rule}"
         raise InputError("dofs", problem, "the rule Energy, located = false, with FixedPoint or Newton")
+
+
+def require_motion_alone(model: Model, rule: str) -> None:
+    """Refuse companion fields, for a rule that evaluates the forces of solids only.
+
+    Raises
+    ------
+    InputError
+        If the model has companion fields.
+    """
+    if model.companions:
+        names = ", ".join(c.field.name for c in model.companions)
+        raise InputError(
+            "fields", f"{names} with {rule}", "the rule Energy, located = false, with FixedPoint or Newton"
+        )

@@ -48,15 +48,17 @@ def initial_state(model: Model, span: float = 1.0, cancel: Cancel | None = None)
     u, pressure = rest.displacement, rest.pressure
     energy, force = model.energy_and_force(u)
     states = material_states.committed(model.parts, u)
+    fields = tuple(c.at(c.initial(), u) for c in model.companions)
     return ModelState(
         time=0.0,
         start=SlabStart(
             displacement=u,
             velocity=model.velocity + model.prescribed(0.0),
-            force=force,
-            energy=material_states.stored_energy(model.parts, states, energy),
+            force=sum((f.force for f in fields), force),
+            energy=sum((f.energy for f in fields), material_states.stored_energy(model.parts, states, energy)),
             states=states,
             viscous=material_states.stored_viscous_force(model.parts, states),
+            fields=fields,
         ),
         acceleration=np.zeros(model.shape),
         closed=pressure > 0.0,

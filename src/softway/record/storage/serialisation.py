@@ -19,6 +19,7 @@ from softway.contact.tangential_rows import TangentialRows
 from softway.march.march_state import EnergyAccount, MarchState, Settings, StepHistory
 from softway.march.model_state import ModelState
 from softway.march.step_control import StepControl
+from softway.model.field import FieldState
 from softway.model.time_weight import Collocation, EndPeaks, Momentum
 from softway.solve.equations.slab_values import SlabStart
 from softway.solve.methods.central_difference import Explicit
@@ -38,6 +39,7 @@ KINDS: Mapping[str, type] = MappingProxyType(
                 Settings,
                 ModelState,
                 SlabStart,
+                FieldState,
                 MaterialState,
                 EnergyAccount,
                 StepHistory,

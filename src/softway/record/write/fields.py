@@ -101,7 +101,8 @@ def open_fields(folder: Path, opening: RunStart, mark: int | None = None) -> Fra
             failing.callback(file.close)
             if mark is None:
                 first = _frame(cells, opening, opening.initial)
-                _write_cells(file, cells, opening.scene, first)
+                units = {f.name: f.unit for f in opening.fields}
+                _write_cells(file, cells, opening.scene, first, units)
                 _append(file, cells.reference, first, opening.initial.time)
             else:
                 _cut(path, file, mark)
@@ -165,6 +166,7 @@ def _frame(cells: Layout, opening: RunStart, state: State) -> dict[str, dict[str
             "displacement": cells.nodal(state.displacement),
             "velocity": cells.nodal(state.velocity),
             "contact_force": force,
+            **{name: np.concatenate([values[body] for body in cells.names]) for name, values in state.fields.items()},
         },
         "CellData": {**_past(cells, opening, state), "stress": components(stress), "von_mises": von_mises(stress)},
     }
@@ -191,7 +193,9 @@ def _past(cells: Layout, opening: RunStart, state: State) -> dict[str, Array]:
     }
 
 
-def _write_cells(file: h5py.File, cells: Layout, scene: Scene, first: Mapping[str, Mapping[str, Array]]) -> None:
+def _write_cells(
+    file: h5py.File, cells: Layout, scene: Scene, first: Mapping[str, Mapping[str, Array]], units: Mapping[str, str]
+) -> None:
     """Write the constant data, and create empty series for the data that change from frame to frame."""
     n, e = len(cells.reference), len(cells.types)
     root = file.create_group("VTKHDF")
@@ -208,7 +212,7 @@ def _write_cells(file: h5py.File, cells: Layout, scene: Scene, first: Mapping[st
         _series(steps, name, (), 1, dtype=np.int64)
     for name in ("CellOffsets", "ConnectivityIdOffsets"):
         _series(steps, name, (1,), 1, dtype=np.int64)
-    units = {**MORE, **POINT_DATA, **CELL_DATA}
+    units = {**MORE, **POINT_DATA, **CELL_DATA, **units}
     for group, rows in (("PointData", n), ("CellData", e)):
         for name, data in first[group].items():
             _series(root.require_group(group), name, data.shape[1:], rows, units.get(name, ""))

@@ -8,6 +8,7 @@ from typing import Protocol
 from softway.arrays import Array, IntArray
 from softway.march.results.step import Ledger, Step
 from softway.meshes.mesh import Mesh
+from softway.model.field import Field
 from softway.model.scene import Scene, State
 from softway.record.write.probes import Reading
 
@@ -38,6 +39,8 @@ class RunStart:
         Time between two frames of the fields [s].
     readings
         Resolved probes.
+    fields
+        Displacement and companion fields.
     """
 
     scene: Scene
@@ -51,6 +54,7 @@ class RunStart:
     readings: tuple[Reading, ...] = ()
     remembered: Mapping[str, Callable[[State], Mapping[str, Array]]] = field(default_factory=dict)
     spread: Callable[[State, Array], Array] | None = None
+    fields: tuple[Field, ...] = ()
 
 
 class Recorder(Protocol):

@@ -56,7 +56,7 @@ class WeightedMean:
         out = np.zeros_like(force)
         for t, wi in zip(tau, w, strict=True):
             if t == 0.0:
-                out += wi * start.force
+                out += wi * start.force_of_solids
             elif t == 1.0:
                 out += wi * force
             else:
@@ -70,7 +70,7 @@ class WeightedMean:
         along the chord would add a force of its own.
         """
         first = first_weight(self.weight)
-        ends = first * start.force + (1.0 - first) * force
+        ends = first * start.force_of_solids + (1.0 - first) * force
         excess = (mean - ends) * ~model.massive[:, None]
         return np.asarray(mean - excess + model.follow.T @ excess)
 

@@ -15,6 +15,7 @@ import numpy as np
 from softway.arrays import Array, BoolArray
 from softway.contact.contact_rows import ContactRows
 from softway.contact.slab_motion.trajectory import Trajectory
+from softway.model.field import FieldSlab, FieldSolution
 from softway.model.model import Model
 from softway.model.time_weight import TimeWeight, moments
 from softway.solve.constraints.compliance import FrozenOperator, RowBasis, row_basis
@@ -72,6 +73,10 @@ class SlabEquations:
         shock = model.shock_force(0.5 * (start.displacement + u1), u1 - start.displacement, h)
         if shock is not None:
             mean, lost = mean + shock, model.space.totals(shock * (u1 - start.displacement))
+        coupled = self._coupled(u1)
+        for found in coupled:
+            energy, force = energy + found.end.energy, force + found.end.force
+            mean, lost = mean + found.mean_force, lost + found.lost
         rows = self.contact.at(u1)
         completed = self.closure.close(model, self._ends(u1, force, energy + lost, mean, rows, impulse))
         residual = (
@@ -90,7 +95,14 @@ class SlabEquations:
             clipped=completed.clipped,
             rows=rows,
             lost=lost + completed.lost,
+            fields=tuple(found.end for found in coupled),
         )
+
+    def _coupled(self, u1: Array) -> list[FieldSolution]:
+        """Companion fields, solved for the displacement ``u1`` (n, d) at the end."""
+        start = self.start
+        slabs = (FieldSlab(span=self.path.span, start=f, u0=start.displacement, u1=u1) for f in start.fields)
+        return [c.solve(slab) for c, slab in zip(self.model.companions, slabs, strict=True)]
 
     def _ends(
         self, u1: Array, force: Array, energy: Array, mean: Array, rows: ContactRows, impulse: Array

@@ -5,12 +5,13 @@ from dataclasses import dataclass
 from softway.arrays import Array
 from softway.bodies.assembled.material_states import MaterialStates
 from softway.contact.contact_rows import ContactRows
+from softway.model.field import FieldState
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SlabStart:
     """Values at t0: displacement, velocity, internal force (n, d) and stored energy (parts,); history variables of the
-    solids, and the viscous part of the force (n, d) from the mean rate of the previous slab.
+    solids, the viscous part of the force (n, d) from the mean rate of the previous slab, and the companion fields.
     """
 
     displacement: Array
@@ -19,13 +20,19 @@ class SlabStart:
     energy: Array
     states: MaterialStates = ()
     viscous: Array | None = None
+    fields: tuple[FieldState, ...] = ()
+
+    @property
+    def force_of_solids(self) -> Array:
+        """Internal force (n, d) without the parts of companion fields [N]."""
+        return sum((-f.force for f in self.fields), self.force)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Evaluation:
     """Equations evaluated at q: residual, end values and mean force (n, d); for each solid (parts,) the scalar a and
-    the relative missing work that it closes; the contact rows at the end; and the energy dissipated by bulk viscosity
-    (parts,).
+    the relative missing work that it closes; the contact rows at the end; the energy dissipated by bulk viscosity or
+    given to companion fields (parts,), and these fields at the end.
     """
 
     residual: Array
@@ -38,3 +45,4 @@ class Evaluation:
     clipped: bool
     rows: ContactRows
     lost: Array | float = 0.0
+    fields: tuple[FieldState, ...] = ()

@@ -3,12 +3,14 @@
 import subprocess
 import sys
 import textwrap
+from dataclasses import replace
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 
+from softway.model.field import Field
 from softway.record.read.frames import Fields
 from softway.record.write.fields import open_fields
 from softway.record.write.grid_layout import components, von_mises
@@ -149,3 +151,23 @@ def test_von_mises_of_shear():
     stress[0, 0, 1] = stress[0, 1, 0] = 2.0
     assert von_mises(stress)[0] == pytest.approx(2.0 * np.sqrt(3.0), rel=1e-15)
     assert components(stress).tolist() == [[0.0, 0.0, 0.0, 2.0, 0.0, 0.0]]
+
+
+def test_companion_fields_are_written_with_their_units(fake, tmp_path):
+    opening = fake.opening()
+    n = fake.mesh.n_nodes
+    heat = np.linspace(1.0, 2.0, n)[:, None]
+    fields = (
+        Field(name="displacement", unit="m", components=fake.mesh.dim),
+        Field(name="heat", unit="J", components=1),
+    )
+    start = replace(opening.initial, fields={"heat": {"part": heat}})
+    recorder = open_fields(tmp_path, replace(opening, initial=start, fields=fields))
+    for step in fake.steps():
+        recorder.take(replace(step, after=replace(step.after, fields={"heat": {"part": heat + step.after.time}})))
+    recorder.close()
+    with h5py.File(tmp_path / "fields.vtkhdf") as file:
+        found = file["VTKHDF/PointData/heat"]
+        assert found.attrs["unit"] == "J" and file["VTKHDF/PointData/displacement"].attrs["unit"] == "m"
+        np.testing.assert_array_equal(found[:n], heat)
+        np.testing.assert_allclose(found[-n:], heat + 1.0, atol=1e-14)

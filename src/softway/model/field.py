@@ -1,0 +1,104 @@
+"""Fields of a model: the displacement, and companion fields with equations of their own (docs/theory/solver/fields.md).
+
+A companion field (temperature, concentration, damage, ...) has values at the nodes.  It is solved for the end of the
+slab at every evaluation of the equations of motion, so that motion and field meet in one fixed point, and returns a
+force and an energy to the motion.
+"""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from softway.arrays import Array
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Field:
+    """A quantity with values (n, components) at the nodes.
+
+    Examples
+    --------
+    >>> Field(name="temperature", unit="K", components=1).name
+    'temperature'
+    """
+
+    name: str
+    unit: str
+    components: int
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FieldState:
+    """Companion field at one instant.
+
+    Parameters
+    ----------
+    values
+        (n, components).
+    energy
+        (parts,) energy that the field adds to the stored energy of each solid [J].
+    force
+        (n, d) internal force that the field adds [N].
+    """
+
+    values: Array
+    energy: Array
+    force: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FieldSlab:
+    """One slab as a companion field sees it: length [s], state at the start, displacements (n, d) at both ends [m]."""
+
+    span: float
+    start: FieldState
+    u0: Array
+    u1: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FieldSolution:
+    """Companion field in one slab.
+
+    Parameters
+    ----------
+    end
+        State at the end.
+    mean_force
+        (n, d) mean over the slab of the internal force that the field adds [N].
+    lost
+        (parts,) energy that motion and stored energy give to the field [J].
+    """
+
+    end: FieldState
+    mean_force: Array
+    lost: Array
+
+
+class FieldEquations(Protocol):
+    """Equations of a companion field on the nodes of a model, with an operator and a time weight of their own."""
+
+    @property
+    def field(self) -> Field:
+        """The field."""
+        ...
+
+    def initial(self) -> Array:
+        """Initial values (n, components)."""
+        ...
+
+    def at(self, values: Array, u: Array) -> FieldState:
+        """State with the ``values`` (n, components) at the displacement ``u`` (n, d)."""
+        ...
+
+    def solve(self, slab: FieldSlab) -> FieldSolution:
+        """Solve the field for the end of a slab.
+
+        For each solid the work of the mean force along ``u1 - u0`` is ``energy1 - energy0 + lost``, to the order of the
+        time weight; the energy closure of the slab adds the rest.
+
+        Raises
+        ------
+        NoConvergence
+            If there is no solution; the slab is then cut back.
+        """
+        ...
