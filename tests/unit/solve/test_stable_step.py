@@ -8,11 +8,18 @@ import pytest
 import scipy.sparse as sp
 from scipy.linalg import eigh
 
+from softway.bodies.bulk_viscosity import BulkViscosity
 from softway.bodies.inertia.mass_matrix import Consistent, Lumped
+from softway.bodies.solid import Solid
 from softway.errors import InputError
+from softway.laws.bulk import LinearElastic
+from softway.meshes.generators.shapes import interval
+from softway.model.build import build
 from softway.model.model import Model
+from softway.model.scene import Scene
 from softway.model.time_weight import Collocation, EndPeaks, Momentum
 from softway.solve import stable_step as stability
+from softway.solve.methods.central_difference import Explicit
 from softway.solve.stable_step import greatest_frequency, require_stable, stable_step
 
 
@@ -52,6 +59,27 @@ def test_the_step_of_a_bar_is_the_courant_number_of_the_weight(bar: Callable[...
     assert stable_step(model, model.displacement, Momentum()) == pytest.approx(0.1, rel=1e-12)
     assert stable_step(model, model.displacement, Collocation()) == pytest.approx(0.1 * sqrt(2 / 3), rel=1e-12)
     assert stable_step(model, model.displacement, EndPeaks()) == inf
+
+
+def test_the_most_viscous_body_shortens_the_step_of_central_differences() -> None:
+    """By ``sqrt(1 + b^2) - b`` with its linear bulk viscosity b; two lumped bars of equal cells (Belytschko et al.)."""
+    bars = {
+        f"bar {b}": Solid(
+            mesh=interval(1.0, 10), material=LinearElastic(E=1.0), density=1.0, mass=Lumped(),
+            shock=BulkViscosity(linear=b),
+        )
+        for b in (0.1, 0.75, 0.2)
+    }  # fmt: skip
+    model = build(Scene(bodies=bars))
+    assert stable_step(model, model.displacement, Explicit()) == pytest.approx(0.1 * (1.25 - 0.75), rel=1e-12)
+
+
+def test_beyond_the_limit_of_central_differences_the_fixed_point_is_the_remedy(bar: Callable[..., Model]) -> None:
+    model = bar(10, mass=Lumped())
+    require_stable(model, model.displacement, Explicit(), 0.1)
+    with pytest.raises(InputError, match="limit 0.1 s of Explicit") as error:
+        require_stable(model, model.displacement, Explicit(), 0.101)
+    assert "FixedPoint" in error.value.remedy
 
 
 def test_a_step_beyond_the_limit_is_refused_by_its_number(bar: Callable[..., Model]) -> None:

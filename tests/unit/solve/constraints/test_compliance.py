@@ -105,6 +105,19 @@ def test_balanced_rows_move_as_wanted(fixed: bool, case) -> None:
     np.testing.assert_allclose(push.sensed, B.T @ inverse @ B @ push.directions, atol=1e-7)
 
 
+@kinds
+def test_rows_that_change_keep_no_forces_of_others(fixed: bool) -> None:
+    """One operator balances one pair of rows after another, as in slabs where other nodes touch."""
+    rng = np.random.default_rng(3)
+    rows = single(np.arange(4), np.ones((4, 1)), 0.0, NODES)
+    operator, inverse = frozen(rows, np.ones((NODES, 1), bool), fixed, rng)
+    G = rows.matrix(NodalDofs(np.ones((NODES, 1), bool))).toarray()
+    every = operator.coefficients(rows, NodalDofs(np.ones((NODES, 1), bool)))
+    for index in ([0, 1], [0, 2], [2, 3], [0, 1]):
+        force, _ = multipliers(operator, every.subset(np.array(index)), np.array([1.0, -2.0]))
+        np.testing.assert_allclose((G @ inverse @ G.T)[np.ix_(index, index)] @ force, [1.0, -2.0], rtol=1e-10)
+
+
 def test_directions_of_half_spaces_at_rest_are_their_rows_that_can_move(block: Callable[..., Model]) -> None:
     model = block(timing=Impulse(), supports=(Fixed(on="left"),))
     rows = model.rows(model.displacement)

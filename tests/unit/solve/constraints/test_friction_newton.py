@@ -1,5 +1,10 @@
 """The return map, and Newton's method on the forces of rows with friction."""
 
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import count
+from typing import ClassVar
+
 import numpy as np
 import pytest
 
@@ -164,3 +169,30 @@ def test_the_same_row_twice_shares_the_force():
     it = friction_problem(np.kron(one, np.ones((2, 2))), np.repeat([-1.0, 0.5], 2), slipping(Coulomb(mu=2.0), 2))
     x, _ = solve_multipliers(it, np.zeros(4))
     assert it.free + it.compliance @ x == pytest.approx(np.zeros(4), abs=1e-13)
+
+
+@dataclass(frozen=True)
+class Counted:
+    """A law of friction that is asked a limited number of times."""
+
+    law: FrictionLaw
+    calls: Iterator[int]
+    frictionless: ClassVar[bool] = False
+
+    def limit(self, pressure: np.ndarray) -> np.ndarray:
+        assert next(self.calls) < 1000, "no end"
+        return self.law.limit(pressure)
+
+    def resistance(self, speed: np.ndarray, pressure: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        return self.law.resistance(speed, pressure)
+
+
+def test_a_row_that_is_released_does_not_stick_again_when_its_neighbour_follows():
+    """Two pressed rows of a nearly rigid body carry a pull of 0.7: one breaks away, and the other cannot hold alone."""
+    compliance = np.kron(np.diag([0.0, 1.0]), np.full((2, 2), 50.0)) + np.eye(4)
+    pull = np.array([0.45, 0.25])
+    free = -compliance @ [1.0, 1.0, *pull]
+    law = Counted(StaticKinetic(mu_s=0.4, mu_k=0.1), count())
+    x, slips = solve_multipliers(friction_problem(compliance, free, slipping(law, 2)), np.array([1.0, 1.0, 0.0, 0.0]))
+    assert slips.tolist() == [True, True]
+    assert x == pytest.approx([1.0, 1.0, 0.1, 0.1], rel=1e-12)

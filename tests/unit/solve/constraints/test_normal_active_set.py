@@ -112,6 +112,17 @@ def test_of_two_parallel_obstacles_the_nearer_holds(offset: float) -> None:
     assert force.sum() == pytest.approx(1.0 + offset)
 
 
+def test_a_row_that_misses_its_target_by_rounding_stays_without_force() -> None:
+    """As where blocks are flush: of two rows that say the same up to rounding one is enough, whichever it is."""
+    for first in (0, 1):
+        mine = np.arange(2) == first
+        target, every = np.where(mine, 0.0, 1e-13), np.ones(2, bool)
+        rows = RowConditions(target=target, equal=~every, unilateral=every, rounding=1e-12)
+        z, force, active = problem(np.eye(1), np.ones((2, 1)), rows, np.array([-1.0]), mine).solve()
+        assert active.tolist() == mine.tolist() == (force > 0.0).tolist()
+        assert z[0] == pytest.approx(0.0, abs=1e-15)
+
+
 def test_three_obstacles_around_one_node() -> None:
     """A plane corner with a third plane through its edge: two rows would do."""
     G = np.array([[1.0, 0.0], [0.0, 1.0], [np.sqrt(0.5), np.sqrt(0.5)]])

@@ -2,17 +2,21 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from itertools import count
+from itertools import count, islice
 
 import numpy as np
 import pytest
 
-from softway.bodies.solid import Fixed, Tool
+from softway.bodies.setup.initial_fields import Affine
+from softway.bodies.solid import Fixed, Solid, Tool
 from softway.contact.impact_rule import Impulse
 from softway.contact.slab_motion.trajectory import Trajectory, contact_events
-from softway.errors import InputError, NoConvergence
-from softway.laws.bulk import LinearElastic
+from softway.errors import Cancelled, InputError, NoConvergence
+from softway.laws.bulk import LinearElastic, NeoHookean
+from softway.march.march import march
+from softway.meshes.generators.shapes import rectangle
 from softway.model.model import Model
+from softway.model.scene import Scene
 from softway.model.time_weight import EndPeaks
 from softway.obstacles.primitives import Sphere
 from softway.solve.constraints.normal_active_set import RowConditions
@@ -21,6 +25,8 @@ from softway.solve.equations.mean_force import WeightedMean
 from softway.solve.equations.slab_contact import FixedContact, InitialContact, TurningContact
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.equations.slab_values import SlabStart
+from softway.solve.methods.anderson import Anderson
+from softway.solve.methods.cancellable import cancellable
 from softway.solve.methods.fixed_point import FixedPoint
 from softway.solve.methods.iteration import Guess, Iterate, Solution, iterate, lost
 from softway.solve.methods.newton import Newton
@@ -156,6 +162,16 @@ def test_newton_takes_fewer_iterations_and_anderson_no_more_than_plain(block: Ca
     assert taken == sorted(taken)
 
 
+def test_newton_shortens_steps_that_would_invert_cells() -> None:
+    """A stretch and shear of a nearly incompressible block, in one slab of the time in which a wave crosses it."""
+    solid = Solid(
+        mesh=rectangle((1.0, 1.0), (3, 3)), material=NeoHookean(E=1.0, nu=0.45), density=1.0,
+        supports=(Fixed(on="bottom"),), velocity=Affine(gradient=((0.0, 0.6), (0.0, 0.4))),
+    )  # fmt: skip
+    (step,) = march(Scene(bodies={"block": solid}), until=1.0, step=1.0, method=Newton())
+    assert not step.report.rejections and step.report.iterations < 20
+
+
 def test_the_answer_does_not_depend_on_the_first_guess(block: Callable[..., Model]) -> None:
     system = slab(block())
     far = system.start.velocity + 0.3 * np.random.default_rng(5).normal(size=system.model.shape)
@@ -206,6 +222,30 @@ def test_an_iteration_at_the_rounding_level_is_accepted(block: Callable[..., Mod
         taken(5e-8, tolerance=1e-10)
     with pytest.raises(NoConvergence):
         next(iterate(system, stuck(5e-8), 1e-11, 60))
+
+
+def test_a_method_may_be_cancelled_after_any_iterate(block: Callable[..., Model]) -> None:
+    system = slab(block())
+    none = np.zeros(len(system.contact.conditions.target))
+    guess = Guess(q=system.start.velocity, impulse=none, active=none > 0.0, memory=OperatorMemory())
+    for last in (0, 1, 3):
+        calls = count()
+        taken = cancellable(FixedPoint(), lambda calls=calls, last=last: next(calls) > last, 0.25).iterate(
+            system, guess
+        )
+        assert len(list(islice(taken, last + 1))) == last + 1
+        with pytest.raises(Cancelled, match=r"in the slab at t = 0\.25 s"):
+            next(taken)
+
+
+def test_values_that_add_nothing_do_not_disturb_the_mixing() -> None:
+    """A linear map of two unknowns is solved by three values; the differences of all later ones depend on these."""
+    matrix = np.array([[0.5, 0.2], [0.0, -0.9]])
+    for depth in (2, 3, 8):
+        mixing, x = Anderson(depth), np.zeros(2)
+        for k in range(20):
+            x = mixing.mix(x, matrix @ x + 1.0)
+            assert k < 2 or x == pytest.approx(np.linalg.solve(np.eye(2) - matrix, np.ones(2)), rel=1e-12)
 
 
 def test_a_lost_iterate_has_an_infinite_change(block: Callable[..., Model]) -> None:

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
 from scipy.spatial.transform import Rotation
 
 import softway as sw
@@ -12,7 +13,9 @@ from softway.bodies.dof_map import NodalDofs
 from softway.model.build import build
 from softway.model.model import Model
 from softway.solve.equations.slab_equations import SlabEquations
+from softway.solve.equations.slab_matrix import SlabMatrix
 from softway.solve.operators import Factored, MatrixFree, Multigrid, choose_operator
+from softway.solve.operators.matrix_free import Blocks, Gradients
 from softway.solve.operators.nodal_rotation import nodal_rotation
 from softway.solve.operators.operator_memory import OperatorMemory
 
@@ -77,6 +80,10 @@ def test_supported_nodes_and_small_rotations_do_not_turn(beam: Model) -> None:
     u = beam.points @ (Q - np.eye(3)).T
     R = nodal_rotation(beam.parts).since(beam.space, np.zeros(beam.shape), u, NodalDofs(free))
     assert R.shape == (beam.free.size - 3, beam.free.size - 3)
+    np.testing.assert_allclose((R.T @ R).toarray(), np.eye(R.shape[0]), atol=1e-12)
+    free[:, 0] = False
+    R = nodal_rotation(beam.parts).since(beam.space, np.zeros(beam.shape), u, NodalDofs(free))
+    assert R is None, "nodes that slide along supports keep their directions"
     assert nodal_rotation(beam.parts).since(beam.space, np.zeros(beam.shape), 0.01 * u, NodalDofs(free)) is None
 
 
@@ -124,6 +131,45 @@ def test_the_choice_of_the_operator_and_its_reason(slab: Callable[..., SlabEquat
     assert "memory" in small.reason
     long = choose_operator(slab(200.0), little)
     assert isinstance(long.operator, MatrixFree | Multigrid)
+
+
+def test_products_are_preferred_where_they_cost_less_than_a_solution_with_the_factor(
+    slab: Callable[..., SlabEquations], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A factor of so few unknowns is cheap; dearer ones are left out in short slabs of compact bodies."""
+    assert isinstance(choose_operator(slab(0.1), 1e12).operator, Factored)
+    monkeypatch.setattr("softway.solve.operators.choice.STREAM", 1.0)
+    chosen = choose_operator(slab(0.1), 1e12)
+    assert isinstance(chosen.operator, MatrixFree) and "cost less than a solution" in chosen.reason
+    assert isinstance(choose_operator(slab(200.0), 1e12).operator, Factored)
+
+
+def test_a_linear_body_of_many_unknowns_has_a_factor_in_double_precision() -> None:
+    """One solution then solves a slab; large deformations take several, by a factor in single precision."""
+    mesh = sw.meshes.Rectangle(size=(1.0, 1.0), cells=(32, 32))
+    for law, kind in ((sw.LinearElastic(E=1.0, nu=0.3), np.float64), (sw.NeoHookean(E=1.0, nu=0.3), np.float32)):
+        model = build(sw.Scene(bodies={"b": sw.Solid(mesh=mesh, material=law, density=1.0)}))
+        matrix = SlabMatrix(model=model, stiffness_factor=0.01, viscous_factor=0.0)
+        assert Factored().make(matrix, model.displacement, None).kind is kind
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-6])
+def test_gradients_end_at_their_tolerance(tolerance: float) -> None:
+    """The residual, relative to the right side, in the norm of the preconditioner."""
+    rng = np.random.default_rng(2)
+    root = rng.normal(size=(60, 80))
+    matrix, b = root @ root.T, rng.normal(size=60)
+    jacobi = Blocks(sp.csr_array(np.diag(1.0 / np.diag(matrix))))
+    left = b - matrix @ Gradients(lambda x: matrix @ x, jacobi, tolerance, 500).solve(b)
+    assert left @ jacobi.solve(left) <= tolerance**2 * (b @ jacobi.solve(b))
+
+
+def test_gradients_end_before_a_direction_of_negative_curvature() -> None:
+    """At the start, or after the steps that decrease the energy ``x A x / 2 - b x``."""
+    matrix = np.diag([1.0, -1.0])
+    gradients = Gradients(lambda x: matrix @ x, Blocks(sp.csr_array(np.eye(2))), 1e-12, 500)
+    assert gradients.solve(np.array([1.0, 2.0])).tolist() == [0.0, 0.0]
+    assert gradients.solve(np.array([1.0, 0.5])) == pytest.approx(5.0 / 3.0 * np.array([1.0, 0.5]), rel=1e-12)
 
 
 def test_multigrid_is_chosen_for_long_slabs_without_memory(slab: Callable[..., SlabEquations]) -> None:
