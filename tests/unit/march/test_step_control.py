@@ -39,6 +39,29 @@ def test_bodies_of_small_strain_may_approach_by_a_whole_edge() -> None:
     assert not too_fast(LINEAR, 1.1 * 0.2, approach=1.2)
 
 
+def test_a_rejection_names_the_contact_that_closes_too_fast() -> None:
+    """A block between a roof that is far away, declared first, and a floor that is near."""
+    block = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(2, 2)), material=SOFT, density=1.0,
+        velocity=sw.bodies.Uniform(value=(0.0, -1.0)), place=sw.bodies.Placement(bottom=0.1),
+    )  # fmt: skip
+    tools = {
+        "roof": sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 9.0), normal=(0.0, -1.0))),
+        "floor": sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0))),
+    }
+    contacts = (sw.Contact(between=("block.top", "roof")), sw.Contact(between=("block.bottom", "floor")))
+    scene = sw.Scene(bodies={"block": block, **tools}, contacts=contacts)
+    told = next(iter(sw.march(scene, until=0.5, step=0.5))).report.rejections
+    assert "in block.bottom-floor a node approaches by 0.8 edges" in told[0]
+
+
+@pytest.mark.parametrize("value", [0.0, -1.0, np.inf, np.nan])
+@pytest.mark.parametrize("name", ["approach", "scalar", "growth", "least", "patience"])
+def test_limits_that_are_not_positive_are_refused(name: str, value: float) -> None:
+    with pytest.raises(sw.InputError, match=name):
+        sw.StepControl(**{name: value})
+
+
 @pytest.mark.parametrize(("jump", "grows"), [(0.29, True), (0.31, False), (-0.31, False)])
 def test_a_slab_grows_where_its_error_would_stay_small_at_twice_the_length(jump: float, grows: bool) -> None:
     """``h^2 |a1 - a0| / 12`` with twice the length and twice the jump, against a hundredth of an edge of 0.2.

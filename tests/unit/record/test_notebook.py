@@ -2,6 +2,7 @@
 
 import base64
 import re
+from dataclasses import replace
 from html import unescape
 
 import pytest
@@ -36,6 +37,29 @@ def test_a_step_is_a_table(square):
     step = next(s for s in square.steps() if s.events)
     shown = text(step._repr_html_())
     assert "touch of node 0" in shown and "part.surface-floor" in shown and "Slab from 0.35 s to 0.4 s" in shown
+
+
+def test_a_step_shows_eight_events_and_the_number_of_the_others(square):
+    step = next(s for s in square.steps() if s.events)
+    event = step.events[0]
+    for count, more in ((8, ""), (9, "and 1 more"), (20, "and 12 more")):
+        shown = text(replace(step, events=(event,) * count)._repr_html_())
+        assert shown.count("touch of node") == 8
+        assert ("more" in shown) == bool(more) and more in shown
+
+
+def test_the_numbers_of_a_certificate_have_their_units(square):
+    shown = text(next(square.steps()).certificate._repr_html_())
+    lines = {
+        "min gap": "m",
+        "min force": "N",
+        "complementarity": "J",
+        "power residual": "J",
+        "momentum error": "kg m/s",
+        "energy error": "J",
+    }
+    for name, unit in lines.items():
+        assert re.search(rf"{name}\s+\S+ {unit}\s", shown), name
 
 
 def test_a_scenario_is_a_table(pytestconfig):

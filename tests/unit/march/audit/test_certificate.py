@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from softway.contact.impact_rule import Impulse, Paper
 from softway.march import attempts
 from softway.march.audit.certificate import violation
 
 
-@pytest.fixture(scope="module")
-def slabs(shop) -> list[tuple]:
+def judged_slabs(shop, **options: object) -> list[tuple]:
     """What the certificates of a block that falls on a floor were judged by, where it is pushed."""
     judged = []
 
@@ -20,10 +20,15 @@ def slabs(shop) -> list[tuple]:
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(attempts, "violation", listening)
-        shop.move(shop.block((0.03, -0.1)), shop.floor, until=1.0)
+        shop.move(shop.block((0.03, -0.1)), shop.floor, until=1.0, **options)
     pushed = [slab for slab in judged if slab[3].pressure.max() > 0.0]
     assert len(pushed) > 5
     return pushed
+
+
+@pytest.fixture(scope="module")
+def slabs(shop) -> list[tuple]:
+    return judged_slabs(shop)
 
 
 def changed(slab: tuple, **numbers: float) -> str:
@@ -64,6 +69,14 @@ def test_a_momentum_is_too_much_beyond_1e_9_of_those_that_take_part(slabs) -> No
         own = np.linalg.norm(slab[4].momentum)
         assert not changed(slab, momentum_error=1e-9 * own)
         assert "the momentum balance" in changed(slab, momentum_error=2e-9)
+
+
+def test_of_nodes_with_inertia_the_momentum_is_judged_unless_the_rule_resets_velocities(shop) -> None:
+    """And never the energy, whose error is of the order of the slab."""
+    for slab in judged_slabs(shop, timing=Impulse()):
+        assert "the momentum balance" in changed(slab, momentum_error=2e-9) and not changed(slab, energy_error=1.0)
+    for slab in judged_slabs(shop, timing=Paper()):
+        assert not changed(slab, momentum_error=1.0, energy_error=1.0)
 
 
 @pytest.mark.parametrize("name", ["min_gap", "min_force", "power_residual", "momentum_error", "energy_error"])

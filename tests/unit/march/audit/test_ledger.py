@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from softway.bodies.internal_force.slab_average import EnergyMomentum
+from softway.bodies.prescribed_motion import Translation
 from softway.bodies.setup.initial_fields import Affine, Uniform
 from softway.bodies.setup.loads import Gravity, Traction
 from softway.bodies.setup.placement import Placement
-from softway.bodies.solid import Fixed
+from softway.bodies.solid import Fixed, Tool
 from softway.contact.contact import Contact
 from softway.contact.impact_rule import Energy, ImpactRule, Impulse, Paper
 from softway.laws.friction import Coulomb
@@ -17,6 +18,7 @@ from softway.march.start.initial_state import initial_state
 from softway.meshes.generators.shapes import box, rectangle
 from softway.model.build import build
 from softway.model.scene import Scene, StaticStart
+from softway.obstacles.half_space import HalfSpace
 
 RULES = [Energy(), Impulse(), Paper()]
 rules = pytest.mark.parametrize("rule", RULES, ids=lambda r: type(r).__name__)
@@ -106,6 +108,26 @@ def test_events_lie_in_their_slab_and_on_the_obstacle(shop, rule: ImpactRule) ->
     for node in {n for n, _ in kinds}:
         mine = [k for n, k in kinds if n == node]
         assert mine == ["touch", "release"] * (len(mine) // 2) + ["touch"] * (len(mine) % 2)
+
+
+@rules
+def test_an_event_names_the_node_in_its_body(shop, rule: ImpactRule) -> None:
+    """The second body of the scene hits the first one, which rests on its right."""
+    bodies = {"struck": shop.bar(3, 0.0, place=Placement(translation=(1.1,))), "thrown": shop.bar(4, 1.0)}
+    contact = Contact(between=("thrown.right", "struck.left"), timing=rule)
+    steps = march(Scene(bodies=bodies, contacts=(contact,)), until=0.2, step=0.05)
+    (event,) = (e for s in steps for e in s.events)
+    assert (event.kind, event.contact, event.node) == ("touch", "thrown.right-struck.left", 4)
+    assert event.position == pytest.approx([1.1], abs=1e-12)
+
+
+@rules
+def test_an_event_lies_on_a_tool_where_that_is_at_its_instant(shop, rule: ImpactRule) -> None:
+    wall = Tool(shape=HalfSpace(point=1.1, normal=-1.0), motion=Translation(velocity=(-0.5,)))
+    motion = shop.move(shop.bar(v=0.3), {"wall": wall}, timing=rule, tag="right", until=0.3, step=0.06)
+    (event,) = motion.events
+    assert event.time == pytest.approx(0.1 / 0.8, abs=1e-9)
+    assert event.position == pytest.approx([1.1 - 0.5 * event.time], abs=1e-12)
 
 
 @rules

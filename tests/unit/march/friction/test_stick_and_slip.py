@@ -1,9 +1,13 @@
 """Instants at which a stiff block on a rough floor comes to rest or breaks away, against those of a point mass."""
 
+from dataclasses import replace
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
 import softway as sw
+from softway.laws.friction import NortonHoff
 
 GRAVITY = 9.81
 DOWN = sw.Gravity(acceleration=(0.0, -GRAVITY))
@@ -46,6 +50,43 @@ def test_friction_stops_a_block_that_swings_within_a_slab_and_lets_a_slower_one_
     swing, stop = 4.0 * 0.1 / np.sqrt(0.5 * E / 1000.0), 0.1 / (0.3 * GRAVITY)
     assert (swing < 0.01) == stopped
     assert (min(abs(s.after.time - stop) for s in steps) < 1e-6 * stop) == stopped
+
+
+def test_a_pulled_block_tends_to_the_speed_of_viscous_friction_with_an_error_of_second_order() -> None:
+    """A traction ``c v`` on a bottom of 0.1 m and a mass of 10 kg (per metre): ``v' = 5 - c v / 100``, from rest."""
+    c, until, errors = 500.0, 0.2, []
+    pull = sw.Gravity(acceleration=(5.0, -GRAVITY))
+    scene = replace(
+        block(NortonHoff(alpha=1.0, p=1.0, K=c), 0.0), loads=(pull,), start=sw.model.StaticStart(loads=(DOWN,))
+    )
+    for step in (0.02, 0.01):
+        *_, last = sw.march(scene, until=until, step=step)
+        errors.append(abs(last.ledger.momentum[0] / 10.0 - (1.0 - np.exp(-0.01 * c * until))))
+    assert errors[0] < 1e-3 and np.log2(errors[0] / errors[1]) > 1.8
+
+
+def test_supports_that_drive_the_nodes_in_contact_work_against_friction() -> None:
+    """They set the bottom of a resting block in motion along the floor: from then on it slips at their speed."""
+    speed, begun = 0.1, 0.02
+    scene = block(sw.Coulomb(mu=0.3), 0.0, E=1e7)
+    driven = sw.Driven(on="bottom", components="x", velocity=(0.0, speed), times=(0.0, begun))
+    scene = replace(scene, bodies={**scene.bodies, "block": replace(scene.bodies["block"], supports=(driven,))})
+    steps = [s for s in sw.march(scene, until=0.06, step=0.01) if s.slab.start > begun - 1e-9]
+    for before, step in pairwise(steps):
+        rubbed = step.ledger.contacts["floor"]
+        assert rubbed.force_t == pytest.approx(0.3 * rubbed.force_n, rel=1e-9) and rubbed.force_n > 50.0
+        lost = step.ledger.dissipation - before.ledger.dissipation
+        assert lost == pytest.approx(rubbed.force_t * speed * step.slab.span, rel=1e-9)
+
+
+def test_a_block_that_rests_at_the_start_holds_up_to_its_static_friction() -> None:
+    """It is pulled by more than the friction of its slip: the rows stick, and carry the pull."""
+    rough, pull = sw.laws.StaticKinetic(mu_s=0.5, mu_k=0.1), 0.15 * GRAVITY
+    held = sw.Gravity(acceleration=(pull, -GRAVITY))
+    scene = replace(block(rough, 0.0), loads=(held,), start=sw.model.StaticStart(loads=(held,)))
+    *_, last = sw.march(scene, until=0.02, step=0.01)
+    assert last.ledger.momentum[0] == pytest.approx(0.0, abs=1e-9)
+    assert last.ledger.contacts["floor"].force_t == pytest.approx(10.0 * pull, rel=1e-9)
 
 
 def test_a_block_breaks_away_when_the_pull_reaches_static_friction() -> None:

@@ -125,6 +125,19 @@ def test_chord_averages_need_no_scalar(shop, force: SlabForce) -> None:
     assert max(abs(s.report.scalars["body"]) for s in motion.steps) <= 1e-5
 
 
+@pytest.mark.parametrize("force", FORCES, ids=str)
+def test_a_vibrating_body_with_nodes_without_inertia_keeps_its_momentum(shop, force: SlabForce) -> None:
+    """Its candidates of contact are far from the floor, and pass on what an average along the chord gives them.
+
+    Ten slabs, each with an error of momentum of the order of the tolerance of 1e-11.
+    """
+    flow = Affine(value=(0.1, -0.2), gradient=((0.3, 0.2), (-0.1, -0.2)))
+    motion = shop.move(shop.block(velocity=flow, force=force, height=9.0), shop.floor, until=1.0, step=0.1)
+    assert not motion.model.massive.all() and not any(s.report.rejections for s in motion.steps)
+    start = motion.steps[0].ledger.momentum
+    assert max(np.abs(s.ledger.momentum - start).max() for s in motion.steps) < 1e-10 * np.abs(start).max()
+
+
 @pytest.mark.parametrize(("weight", "order"), [(EndPeaks(), 2), (Momentum(), 2), (Collocation(), 2)], ids=str)
 def test_order_in_time_of_a_nonlinear_body(shop, weight: TimeWeight, order: int) -> None:
     flow = Affine(gradient=((0.3, 0.1), (0.0, -0.2)))

@@ -46,6 +46,36 @@ def test_it_presses_on_nodes_without_inertia() -> None:
     assert push == pytest.approx(pull + steps[-1].ledger.momentum[1], rel=1e-4)  # ends count by the scalar
 
 
+def test_central_differences_take_it_on_nodes_without_inertia() -> None:
+    """The momentum to rounding: in half of each slab acts the force at its start, in the other half that at its end."""
+    roof = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 9.0), normal=(0.0, -1.0)))
+    scene = sw.Scene(
+        bodies={"b": block(mass=sw.bodies.Lumped()), "roof": roof},
+        contacts=(sw.Contact(between=("b.top", "roof")),),
+        loads=(sw.Traction(on="b.top", value=(0.02, 0.01), ramp=PULSE),),
+    )
+    steps = list(sw.march(scene, until=1.1, step=0.05, method=sw.Explicit()))
+    times = np.array([0.0, *(s.slab.end for s in steps)])
+    impulse = np.trapezoid(np.interp(times, PULSE.times, PULSE.factors), times)
+    np.testing.assert_allclose(steps[-1].ledger.momentum[:2], [0.02 * impulse, 0.01 * impulse], rtol=1e-12)
+    assert not any(s.report.rejections for s in steps)
+
+
+@pytest.mark.parametrize("method", [sw.FixedPoint(), sw.Explicit()], ids=["implicit", "explicit"])
+def test_supports_of_nodes_without_inertia_carry_it(method: object) -> None:
+    """The load acts on a fixed side whose nodes are candidates of a contact: it goes into the support, all of it."""
+    roof = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 9.0), normal=(0.0, -1.0)))
+    scene = sw.Scene(
+        bodies={"b": block(mass=sw.bodies.Lumped(), supports=(sw.Fixed(on="top"),)), "roof": roof},
+        contacts=(sw.Contact(between=("b.top", "roof")),),
+        loads=(sw.Traction(on="b.top", value=(0.02, 0.01), ramp=PULSE),),
+    )
+    for s in sw.march(scene, until=1.1, step=0.05, method=method):
+        pull = np.interp((s.slab.start, s.slab.end), PULSE.times, PULSE.factors).mean()
+        np.testing.assert_allclose(s.reactions["b"].sum(axis=0), [-0.02 * pull, -0.01 * pull], atol=1e-16)
+        assert not s.report.rejections and s.certificate.momentum_error < 1e-16
+
+
 def test_load_control_without_inertia() -> None:
     """A plastic bar is pulled beyond its yield stress by a dead load, and let go: its strain is the plastic one.
 

@@ -1,5 +1,8 @@
 """Central differences with contact nodes in equilibrium: exact solutions, order, contact conditions, limits."""
 
+from dataclasses import replace
+from itertools import islice
+
 import numpy as np
 import pytest
 
@@ -120,12 +123,52 @@ def test_the_slab_is_a_fraction_of_the_stability_limit() -> None:
         sw.march(free, until=10.0, step=0.105, method=Explicit())
 
 
+def test_a_load_on_the_node_in_contact_goes_into_the_wall() -> None:
+    """A bar at rest at the wall, pressed there by a traction on the end that touches: nothing is deformed or moves."""
+    bar = thrown(10, velocity=sw.bodies.Uniform(), place=sw.bodies.Placement(translation=0.25))
+    contact, load = sw.Contact(between=("bar.right", "wall")), sw.Traction(on="bar.right", value=0.01)
+    scene = sw.Scene(bodies={"bar": bar, **WALL}, contacts=(contact,), loads=(load,))
+    *_, last = sw.march(scene, until=1.0, method=Explicit())
+    assert last.ledger.contacts["bar.right-wall"].force_n == pytest.approx(0.01, rel=1e-12)
+    np.testing.assert_allclose(last.after.displacement["bar"], 0.0, atol=1e-15)
+
+
+def test_the_velocity_of_nodes_without_inertia_is_the_mean_of_the_slab() -> None:
+    """Of a block in flight that vibrates: they follow the others, by at least one correction a slab."""
+    block = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(4, 4)), material=sw.NeoHookean(E=1.0, nu=0.3), density=1.0,
+        velocity=sw.bodies.Affine(gradient=((0.2, 0.1), (-0.1, -0.3))), mass=sw.bodies.Lumped(),
+    )  # fmt: skip
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -9.0), normal=(0.0, 1.0)))
+    contact = sw.Contact(between=("block.bottom", "floor"))
+    model = sw.build(sw.Scene(bodies={"block": block, "floor": floor}, contacts=(contact,)))
+    for step in sw.march(model, until=0.5, method=Explicit()):
+        moved = step.after.displacement["block"] - step.before.displacement["block"]
+        mean = (moved / step.slab.span)[~model.massive]
+        np.testing.assert_allclose(step.after.velocity["block"][~model.massive], mean, atol=1e-12)
+
+
+def test_a_slab_beyond_the_stability_limit_of_crushed_cells_is_tried_again() -> None:
+    """The limit at rest is too long for a bar between supports whose left half has less than a third of its length."""
+    held = (sw.Fixed(on="left"), sw.Fixed(on="right"))
+    model = sw.build(sw.Scene(bodies={"bar": thrown(10, material=sw.NeoHookean(E=1.0, nu=0.3), supports=held)}))
+    rest = next(sw.march(model, until=0.01, method=Explicit())).before
+    u = np.interp(np.linspace(0.0, 1.0, 11), (0.0, 0.5, 1.0), (0.0, -0.35, 0.0))
+    u[1:5] += 1e-3 * np.array([1.0, -1.0, 1.0, -1.0])
+    state = replace(rest, displacement={"bar": u[:, None]})
+    steps = list(islice(sw.march(model, until=1.0, method=Explicit(), state=state), 10))
+    assert any("beyond the stability limit" in reason for reason in steps[0].report.rejections)
+    energy = steps[0].ledger.energy_kinetic + steps[0].ledger.energy_strain
+    assert max(abs(s.ledger.energy_error) for s in steps) < 0.1 * energy
+
+
 @pytest.mark.parametrize(
     ("options", "where"),
     [
         ({"weight": sw.model.Momentum()}, "time.weight"),
         ({"timing": sw.contact.Impulse()}, "solver"),
         ({"timing": sw.contact.Paper()}, "solver"),
+        ({"timing": sw.contact.Energy(located=True)}, "solver"),
     ],
 )
 def test_what_does_not_go_with_it_is_refused(options: dict[str, object], where: str) -> None:

@@ -1,0 +1,120 @@
+"""Attempts at a slab: what is tried after a failure, what the next slab inherits, and when a march ends."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from typing import Any, ClassVar
+
+import pytest
+
+import softway as sw
+from softway.errors import Halts, NoConvergence, Unbalanced
+from softway.march.rules.equilibrated import equilibrated
+from softway.march.rules.slab_rule import Attempt, Method, SlabRule
+from softway.model.model import Model
+from softway.model.time_weight import TimeWeight
+from softway.solve.operators.operator_memory import OperatorMemory
+
+STEP = 0.125
+Failure = Callable[[int], Exception | None]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Failing:
+    """The rule Energy, but for ``failure`` of attempts by their number; it notes the attempts."""
+
+    massless: ClassVar[bool] = True
+
+    spread: int = 5
+    failure: Failure
+    attempts: list[Attempt] = field(default_factory=list, compare=False)
+
+    def slab_rule(self, model: Model, method: Method, weight: TimeWeight) -> SlabRule:
+        return Failed(rule=equilibrated(model, method, weight), declared=self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Failed:
+    """Slabs of another rule, with failures."""
+
+    rule: SlabRule
+    declared: Failing
+
+    def solve(self, model: Model, now: Any, slab: Any, memory: OperatorMemory, attempt: Attempt) -> Iterator[Any]:
+        self.declared.attempts.append(attempt)
+        failure = self.declared.failure(len(self.declared.attempts))
+        if failure is not None:
+            raise failure
+        yield from self.rule.solve(model, now, slab, memory, attempt)
+
+
+def flight(rule: Failing, until: float = 0.5, **options: Any) -> list[sw.Step]:
+    """A block that flies along a floor, in four slabs if none fails."""
+    block = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(2, 4)),
+        material=sw.NeoHookean(E=1.0, nu=0.3),
+        density=1.0,
+        velocity=sw.bodies.Uniform(value=(1.0, 0.0)),
+        place=sw.bodies.Placement(bottom=1.0),
+    )
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
+    contact = sw.Contact(between=("block.bottom", "floor"), timing=rule)
+    scene = sw.Scene(bodies={"block": block, "floor": floor}, contacts=(contact,))
+    return list(sw.march(scene, until=until, step=STEP, **options))
+
+
+def spans(steps: list[sw.Step]) -> list[float]:
+    return [step.slab.span / STEP for step in steps]
+
+
+def test_a_slab_that_fails_with_an_old_operator_keeps_its_length_and_gets_a_new_one() -> None:
+    steps = flight(Failing(failure=lambda k: NoConvergence("once") if k == 3 else None))
+    assert spans(steps) == [1.0] * 4
+    assert [len(step.report.rejections) for step in steps] == [0, 0, 1, 0]
+    assert [step.report.factorisations for step in steps] == [1, 1, 2, 2]
+
+
+def test_a_slab_that_fails_with_a_new_operator_is_halved() -> None:
+    """The first one has a new operator in any case, the third one at its second attempt."""
+    first = flight(Failing(failure=lambda k: NoConvergence("once") if k == 1 else None))
+    assert spans(first)[0] == 0.5 and len(first[0].report.rejections) == 1
+    third = flight(Failing(failure=lambda k: NoConvergence("twice") if k in (3, 4) else None))
+    assert spans(third)[:3] == [1.0, 1.0, 0.5] and len(third[2].report.rejections) == 2
+
+
+def test_what_the_scalar_cannot_close_at_half_the_length_is_closed_along_the_motion() -> None:
+    """In this slab; the next one needs it no more, because its scalar is far from the bound."""
+    rule = Failing(failure=lambda k: Unbalanced("twice") if k == 2 else None)
+    steps = flight(rule)
+    assert [a.energy_along_motion for a in rule.attempts[:4]] == [False, False, True, False]
+    assert spans(steps)[:2] == [1.0, 0.5]
+
+
+def test_a_slab_ends_where_a_body_comes_to_rest_and_the_next_one_is_damped() -> None:
+    """The one after it has the weight and the length of the march again."""
+    steps = flight(Failing(failure=lambda k: Halts(0.25) if k == 2 else None))
+    assert spans(steps)[:2] == pytest.approx([1.0, 0.25], rel=1e-12)
+    weights = [step.slab.weight.theta for step in steps]
+    assert weights[:4] == [0.5, 0.5, 1.0, 0.5] and spans(steps)[2:4] == pytest.approx([0.5**0.5, 1.0], rel=1e-12)
+    assert not any(step.report.rejections for step in steps)
+
+
+def test_a_march_that_crawls_ends_when_its_patience_is_used_up() -> None:
+    """A rejection is tried again before, and ends the march after too many in slabs that are far too short."""
+    begun = flight(Failing(failure=lambda k: None))[1].march_state
+    patience = begun.settings.control.patience
+
+    def going_on(rejections: float) -> list[sw.Step]:
+        state = replace(begun, step_history=replace(begun.step_history, recent_rejections=rejections))
+        return flight(Failing(failure=lambda k: NoConvergence("once") if k == 1 else None), state=state)
+
+    assert [len(step.report.rejections) for step in going_on(patience)] == [1, 0]
+    with pytest.raises(sw.NumericsError, match="301 rejections among slabs shorter than 0.01 of the step; last: h"):
+        going_on(patience + 0.25)
+
+
+@pytest.mark.parametrize(("method", "named"), [(sw.Newton(), True), (sw.FixedPoint(), False)], ids=["newton", "fixed"])
+def test_the_fixed_point_is_a_remedy_where_newton_alone_fails(method: Method, named: bool) -> None:
+    rule = Failing(failure=lambda k: NoConvergence("always"))
+    with pytest.raises(sw.NumericsError, match="after 5 cutbacks; last: h = 0.00781 s: always") as failed:
+        flight(rule, method=method, control=sw.StepControl(least=0.05))
+    assert ("FixedPoint" in failed.value.remedy) == named
