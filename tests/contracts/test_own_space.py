@@ -70,7 +70,7 @@ class Halves:
 
 def in_halves(model: Model) -> tuple[Model, Halves]:
     """The model with its sums in two parts."""
-    space = Halves(LocalSpace(tuple(p.rows for p in model.parts)))
+    space = Halves(LocalSpace(tuple(p.nodes for p in model.parts)))
     return replace(model, space=space, contacts=replace(model.contacts, space=space)), space
 
 

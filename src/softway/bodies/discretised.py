@@ -36,7 +36,7 @@ class DiscreteSolid:
         Name of the solid in the scene.
     mesh
         Mesh, placed in the scene.
-    rows
+    nodes
         Nodes of the solid among the nodes of the model.
     internal
         Internal force.
@@ -54,7 +54,7 @@ class DiscreteSolid:
 
     name: str
     mesh: Mesh
-    rows: slice
+    nodes: slice
     internal: BodyForce
     density: float
     dofs: DofMap
@@ -111,13 +111,13 @@ def discretise(name: str, solid: Solid, first: int) -> DiscreteSolid:
         )
         raise InputError("dilatation", problem, "'corner'")
     internal = force_of(mesh, solid.material, section, solid.dilatation)
-    rows = slice(first, first + mesh.n_nodes)
+    nodes = slice(first, first + mesh.n_nodes)
     with within("shock"):
         shock = bulk_viscosity_force(solid.shock, mesh, solid.density, internal)
     return DiscreteSolid(
         name=name,
         mesh=mesh,
-        rows=rows,
+        nodes=nodes,
         internal=internal,
         density=solid.density,
         dofs=NodalDofs(free_components(solid.supports, mesh)),
@@ -188,6 +188,6 @@ def driven_components(
             if isinstance(support, Driven):
                 with within(f"bodies.{part.name}.supports[{k}]"):
                     where = np.zeros(shape, bool)
-                    where[part.rows] = supported_components(support, part.mesh)
+                    where[part.nodes] = supported_components(support, part.mesh)
                 found.append((support, where))
     return tuple(found)

@@ -172,7 +172,7 @@ def _methods(
         if contact.method is not None and not isinstance(contact.method, NodeToSurface):
             raise InputError("method", f"{contact.method} against a tool", "NodeToSurface, or nothing")
         with within("between"):
-            nodes = one.mesh.nodes(contact.tag) + one.rows.start
+            nodes = one.mesh.nodes(contact.tag) + one.nodes.start
         return [NodeToTool(node=nodes, tool=tool)], (names.index(one.name), -1), nodes, []
     other = _part(parts, contact.opponent, "between")
     if other is one:
@@ -217,7 +217,7 @@ def _surface(part: DiscreteSolid, tag: str, points: Array) -> _Surface:
         facets = part.mesh.facets_on(tag)
         if not facets:
             raise InputError("", f"tag {tag!r} of {part.name!r} contains no whole facet", "a tag that covers a surface")
-    first = part.rows.start
+    first = part.nodes.start
     dim = points.shape[1]
     bars = np.concatenate([c[:, :2] for c in part.mesh.blocks.values()])
     ends = outward(bars, facets["point1"]) if "point1" in facets else np.zeros(0)

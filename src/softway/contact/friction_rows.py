@@ -112,7 +112,7 @@ def surfaces_of(contact: Contact, parts: Sequence[DiscreteSolid]) -> tuple[Decla
     """Declared surfaces of a contact."""
     return tuple(
         DeclaredSurface(
-            nodes=part.rows, points=part.mesh.points, section=part.internal.section, facets=part.mesh.facets_on(tag)
+            nodes=part.nodes, points=part.mesh.points, section=part.internal.section, facets=part.mesh.facets_on(tag)
         )
         for name, tag in ((contact.body, contact.tag), (contact.opponent, contact.opponent_tag))
         for part in parts

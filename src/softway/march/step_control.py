@@ -102,7 +102,7 @@ class Crushing:
 
     def shortest_ratio(self, u: Array) -> float:
         """Ratio of the shortest present to the shortest initial edge at the displacement u (n, d); at most 1."""
-        ratios = [shortest(p.mesh.points, u[p.rows], ends) / first for p, ends, first in self.edges]
+        ratios = [shortest(p.mesh.points, u[p.nodes], ends) / first for p, ends, first in self.edges]
         return min([1.0, *ratios])
 
 

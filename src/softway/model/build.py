@@ -33,9 +33,9 @@ def build(scene: Scene) -> Model:
     """
     solids, timing, factor = _solids(scene), _timing(scene), scene.inertia.factor
     parts = _parts(solids)
-    met = assemble_contacts(scene.contacts, scene.bodies, parts, LocalSpace(tuple(p.rows for p in parts)))
+    met = assemble_contacts(scene.contacts, scene.bodies, parts, LocalSpace(tuple(p.nodes for p in parts)))
     light = met.nodes if timing.massless and factor > 0.0 else np.zeros(0, int)
-    own = [light[(light >= p.rows.start) & (light < p.rows.stop)] - p.rows.start for p in parts]
+    own = [light[(light >= p.nodes.start) & (light < p.nodes.stop)] - p.nodes.start for p in parts]
     masses = [solid_mass(p, solids[p.name], nodes, timing.spread) for p, nodes in zip(parts, own, strict=True)]
     follow = [solid_following(p, nodes) for p, nodes in zip(parts, own, strict=True)]
     weight = sp.csr_array(sp.block_diag(masses, format="csr"))
@@ -83,7 +83,7 @@ def _parts(solids: Mapping[str, Solid]) -> tuple[DiscreteSolid, ...]:
     parts: list[DiscreteSolid] = []
     for name, solid in solids.items():
         with within(f"bodies.{name}"):
-            parts.append(discretise(name, solid, parts[-1].rows.stop if parts else 0))
+            parts.append(discretise(name, solid, parts[-1].nodes.stop if parts else 0))
     if len({p.mesh.dim for p in parts}) > 1:
         raise InputError("bodies", "solids of different space dimension in one scene", "meshes of one dimension")
     return tuple(parts)

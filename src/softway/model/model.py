@@ -171,7 +171,7 @@ class Model:
 
     def split(self, field: Array) -> dict[str, Array]:
         """Field of each solid by name."""
-        return {p.name: field[p.rows] for p in self.parts}
+        return {p.name: field[p.nodes] for p in self.parts}
 
     def join(self, fields: Mapping[str, Array]) -> Array:
         """Field over all nodes from the fields of the solids."""
@@ -192,12 +192,12 @@ class Model:
 
     def energy_and_force(self, u: Array) -> tuple[Array, Array]:
         """Stored energy of each solid (parts,) [J] and internal force (n, d) [N]."""
-        energy, force = zip(*(p.internal.energy_and_force(u[p.rows]) for p in self.parts), strict=True)
+        energy, force = zip(*(p.internal.energy_and_force(u[p.nodes]) for p in self.parts), strict=True)
         return np.array(energy), np.concatenate(force)
 
     def force(self, u: Array) -> Array:
         """Internal force (n, d) [N]."""
-        return np.concatenate([p.internal.force(u[p.rows]) for p in self.parts])
+        return np.concatenate([p.internal.force(u[p.nodes]) for p in self.parts])
 
     def tangent(self, u: Array) -> sp.csc_array:
         """Tangent stiffness (n d, n d) [N/m]."""
@@ -210,16 +210,16 @@ class Model:
 
         ``viscous_factor`` is the additional weight of the viscous stiffness between nodes with inertia.
         """
-        values = [p.stiffness(u[p.rows], secant, viscous_factor, self.massive[p.rows]) for p in self.parts]
+        values = [p.stiffness(u[p.nodes], secant, viscous_factor, self.massive[p.nodes]) for p in self.parts]
         return self.total.of(np.concatenate(values), factor)
 
     def tangent_product(self, u: Array, w: Array) -> Array:
         """Product (n, d) of the tangent stiffness with a field (n, d) [N]."""
-        return np.concatenate([p.internal.tangent_product(u[p.rows], w[p.rows]) for p in self.parts])
+        return np.concatenate([p.internal.tangent_product(u[p.nodes], w[p.nodes]) for p in self.parts])
 
     def tangent_blocks(self, u: Array) -> Array:
         """Diagonal blocks (n, d, d) of the tangent stiffness [N/m]."""
-        return np.concatenate([p.internal.tangent_diagonal_blocks(u[p.rows]) for p in self.parts])
+        return np.concatenate([p.internal.tangent_diagonal_blocks(u[p.nodes]) for p in self.parts])
 
     def shock_force(self, middle: Array, change: Array, span: float) -> Array | None:
         """Force (n, d) of the bulk viscosities [N] in a slab, see
@@ -229,7 +229,7 @@ class Model:
         """
         if all(p.shock is None for p in self.parts):
             return None
-        out = np.concatenate([p.shock_force(middle[p.rows], change[p.rows], span) for p in self.parts])
+        out = np.concatenate([p.shock_force(middle[p.nodes], change[p.nodes], span) for p in self.parts])
         own = out * self.massive[:, None]
         return np.asarray(own + self.follow.T @ (out - own))
 
@@ -240,5 +240,5 @@ class Model:
 
 def assembled_tangent(parts: Sequence[DiscreteSolid], u: Array) -> sp.csc_array:
     """Tangent stiffness (n d, n d) of all solids [N/m]."""
-    blocks = [p.internal.tangent(u[p.rows]) for p in parts]
+    blocks = [p.internal.tangent(u[p.nodes]) for p in parts]
     return blocks[0] if len(blocks) == 1 else sp.csc_array(sp.block_diag(blocks, format="csc"))

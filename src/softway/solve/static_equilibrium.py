@@ -171,7 +171,7 @@ def _nodal_volume(model: Model) -> Array:
         for cells, table in zip(part.mesh.blocks.values(), internal.sampling.rows, strict=True):
             e, q = table.shape[:2]
             volume = internal.sampling.volume[start : start + e * q].reshape(e, q).sum(axis=1) / cells.shape[1]
-            np.add.at(found, cells + part.rows.start, volume[:, None])
+            np.add.at(found, cells + part.nodes.start, volume[:, None])
             start += e * q
     return found
 

@@ -48,7 +48,7 @@ def test_a_wrong_table_is_refused(velocity: object, times: tuple[float, ...], wh
 
 def test_only_the_named_components_are_moved() -> None:
     built = model(Driven(on="right", components="y", velocity=(0.0, 2.0), times=(0.0, 1.0)), Fixed(on="left"))
-    rows, mesh = built.parts[1].rows, built.meshes["block"]
+    rows, mesh = built.parts[1].nodes, built.meshes["block"]
     right, left = mesh.nodes("right") + rows.start, mesh.nodes("left") + rows.start
     assert built.free[right].tolist() == [[True, False]] * 3
     assert not built.free[left].any()
@@ -63,7 +63,7 @@ def test_only_the_named_components_are_moved() -> None:
 def test_of_two_supports_the_later_moves_a_component() -> None:
     slow, fast = (Driven(on=tag, velocity=v) for tag, v in (("right", 1.0), ("top", 2.0)))
     mesh = model().meshes["block"]
-    corner = np.intersect1d(mesh.nodes("right"), mesh.nodes("top")) + model().parts[1].rows.start
+    corner = np.intersect1d(mesh.nodes("right"), mesh.nodes("top")) + model().parts[1].nodes.start
     for supports, v in (((slow, fast), 2.0), ((fast, slow), 1.0)):
         assert model(*supports).prescribed(0.0)[corner].tolist() == [[v, v]]
 

@@ -31,7 +31,7 @@ def test_the_finer_surface_is_the_slave_whichever_comes_first(fine: str, method:
     """Edges of 0.2 against 0.25; every node of the finer side has rows, of the other one its four sharp corners."""
     model = sw.build(stacked((10, 4) if fine == "low" else (8, 5), 0.1, method, first=first))
     parts = {p.name: p for p in model.parts}
-    nodes = {name: np.unique(p.mesh.nodes("surface")) + p.rows.start for name, p in parts.items()}
+    nodes = {name: np.unique(p.mesh.nodes("surface")) + p.nodes.start for name, p in parts.items()}
     coarse = nodes["high" if fine == "low" else "low"]
     assert set(nodes[fine]) <= set(model.contacts.node)
     assert len(set(coarse) & set(model.contacts.node)) == 4
@@ -48,5 +48,5 @@ def test_a_corner_that_points_at_a_face_is_not_overlooked(cells: tuple[int, int]
     assert gap[rows.near].min() == pytest.approx(height, abs=1e-12)
     nearest = np.argmin(gap)
     part = next(p for p in model.parts if p.name == "high")
-    tip = part.rows.start + np.argmin(model.points[part.rows, 1])
+    tip = part.nodes.start + np.argmin(model.points[part.nodes, 1])
     assert rows.node[nearest] == tip

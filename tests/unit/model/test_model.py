@@ -52,7 +52,7 @@ def model() -> Model:
 
 def test_nodes_of_all_solids_are_in_one_order(model: Model) -> None:
     assert model.shape == (30, 2)
-    assert [(p.name, p.rows) for p in model.parts] == [("a", slice(0, 15)), ("b", slice(15, 30))]
+    assert [(p.name, p.nodes) for p in model.parts] == [("a", slice(0, 15)), ("b", slice(15, 30))]
     assert set(model.meshes) == {"a", "b"}
     field = np.random.default_rng(0).normal(size=model.shape)
     np.testing.assert_array_equal(model.join(model.split(field)), field)
@@ -64,9 +64,9 @@ def test_energy_force_and_tangent_are_those_of_the_solids(model: Model) -> None:
     energy, force = model.energy_and_force(u)
     np.testing.assert_array_equal(force, model.force(u))
     for k, part in enumerate(model.parts):
-        assert energy[k] == part.internal.energy(u[part.rows])
-        np.testing.assert_array_equal(force[part.rows], part.internal.force(u[part.rows]))
-        np.testing.assert_array_equal(model.stress(part.name, u[part.rows]), part.internal.stress(u[part.rows]))
+        assert energy[k] == part.internal.energy(u[part.nodes])
+        np.testing.assert_array_equal(force[part.nodes], part.internal.force(u[part.nodes]))
+        np.testing.assert_array_equal(model.stress(part.name, u[part.nodes]), part.internal.stress(u[part.nodes]))
     tangent, w = model.tangent(u), 1e-6 * np.random.default_rng(2).normal(size=model.shape)
     change = (model.force(u + w) - model.force(u - w)).ravel() / 2
     np.testing.assert_allclose(tangent @ w.ravel(), change, atol=1e-14)

@@ -52,7 +52,7 @@ def pressed(request: pytest.FixtureRequest) -> Pressed:
     step = next(iter(sw.march(model, until=1e-3, step=1e-3)))
     rows = model.rows(model.join(step.before.displacement))
     push = rows.spread(step.before.pressure["pair"], model.shape)
-    upper, lower = (push[p.rows] for p in model.parts)
+    upper, lower = (push[p.nodes] for p in model.parts)
     nodes = meshes["upper"].nodes("boundary")
     whole = footprint(meshes["upper"], sw.bodies.PlaneStrain(), upper[nodes, 1])
     return Pressed(upper=upper, lower=lower, foot=whole)

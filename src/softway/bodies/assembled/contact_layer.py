@@ -89,7 +89,7 @@ class Layer:
 
 def layer(parts: Sequence[DiscreteSolid], chosen: BoolArray) -> Layer:
     """Build the :class:`Layer` around the ``chosen`` nodes (n,) of some solids."""
-    pieces = [_piece(k, part, chosen[part.rows]) for k, part in enumerate(parts)]
+    pieces = [_piece(k, part, chosen[part.nodes]) for k, part in enumerate(parts)]
     return Layer(pieces=tuple(piece for piece in pieces if piece is not None))
 
 
@@ -106,7 +106,7 @@ def _piece(number: int, part: DiscreteSolid, own: BoolArray) -> Piece | None:
     old = part.internal
     return Piece(
         part=number,
-        nodes=nodes + part.rows.start,
+        nodes=nodes + part.nodes.start,
         own=nodes,
         points=_points(old, list(kept.values())),
         cells=tuple(mesh.blocks.values()),

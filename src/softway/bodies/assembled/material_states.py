@@ -29,7 +29,7 @@ def during(parts: Sequence[DiscreteSolid], states: MaterialStates, span: float) 
 
 def committed(parts: Sequence[DiscreteSolid], u: Array) -> MaterialStates:
     """Material states at the end of the slab, at the displacement u (n, d)."""
-    return tuple(p.internal.committed(u[p.rows]) for p in parts) if any_path_dependent(parts) else ()
+    return tuple(p.internal.committed(u[p.nodes]) for p in parts) if any_path_dependent(parts) else ()
 
 
 def stored_energy(parts: Sequence[DiscreteSolid], states: MaterialStates, energy: Array) -> Array:
@@ -45,7 +45,7 @@ def dissipated_energy(parts: Sequence[DiscreteSolid], states: MaterialStates) ->
 
 def viscous_force(parts: Sequence[DiscreteSolid], u: Array) -> Array | None:
     """Part (n, d) of the internal force due to the mean rate of the slab [N]; None without viscosity."""
-    return _joined(parts, [p.internal.viscous_force(u[p.rows]) for p in parts])
+    return _joined(parts, [p.internal.viscous_force(u[p.nodes]) for p in parts])
 
 
 def stored_viscous_force(parts: Sequence[DiscreteSolid], states: MaterialStates) -> Array | None:
@@ -57,7 +57,7 @@ def stored_viscous_force(parts: Sequence[DiscreteSolid], states: MaterialStates)
 def stored_force(parts: Sequence[DiscreteSolid], states: MaterialStates, u: Array) -> tuple[Array, Array, Array | None]:
     """Stored energy (parts,) [J], force (n, d) and its viscous part [N] in the material states, at u (n, d)."""
     pairs = zip(parts, _given(parts, states), strict=True)
-    energy, force, viscous = zip(*(p.internal.stored_force(s, u[p.rows]) for p, s in pairs), strict=True)
+    energy, force, viscous = zip(*(p.internal.stored_force(s, u[p.nodes]) for p, s in pairs), strict=True)
     return np.array(energy), np.concatenate(force), _joined(parts, viscous)
 
 

@@ -55,7 +55,7 @@ def dead_load(parts: Sequence[DiscreteSolid], weight: Array, loads: Sequence[Loa
                     out += weight[:, None] * item.vector(shape[1])
                 case Traction():
                     part = _solid(parts, item.body, "on")
-                    out[part.rows] += traction_force(part.mesh, part.internal.section, item.tag, item.value)
+                    out[part.nodes] += traction_force(part.mesh, part.internal.section, item.tag, item.value)
         fields.append((item.ramp, out))
     return DeadLoads(fields=tuple(fields), shape=shape)
 

@@ -129,7 +129,7 @@ def contact_event(
         time=time,
         contact=rows.labels[contact],
         kind=kind,
-        node=node - part.rows.start,
+        node=node - part.nodes.start,
         position=place,
         velocity_before=speeds[0],
         velocity_after=speeds[1],

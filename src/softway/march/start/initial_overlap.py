@@ -55,7 +55,7 @@ def shrunk(model: Model, u: Array, rounding: float) -> Array:
     first = {int(model.opponents[k][0]) for k, c in enumerate(model.scene.contacts) if c.start == "fit"}
     for part in (model.parts[i] for i in sorted(first)):
         nodes = _candidates(model, part)
-        out[nodes] -= 1.1 * found.depth * _outward(part, (model.points + u)[part.rows])[nodes - part.rows.start]
+        out[nodes] -= 1.1 * found.depth * _outward(part, (model.points + u)[part.nodes])[nodes - part.nodes.start]
     return out
 
 
@@ -84,7 +84,7 @@ def _in_body(model: Model, u: Array, k: int, a: int, b: int, rounding: float) ->
     inner, outer = model.parts[a], model.parts[b]
     nodes = _candidates(model, inner)
     x = model.points + u
-    gap = _distance(outer, x[outer.rows], x[nodes])
+    gap = _distance(outer, x[outer.nodes], x[nodes])
     slack = rounding + (CHORD * model.edge[nodes] if _curved(outer) else 0.0)
     depth = np.where(gap < -slack, -gap, 0.0)
     if not depth.any():
@@ -95,7 +95,7 @@ def _in_body(model: Model, u: Array, k: int, a: int, b: int, rounding: float) ->
 
 def _candidates(model: Model, part: DiscreteSolid) -> IntArray:
     """Contact nodes (k,) of a solid."""
-    found: IntArray = model.touchable[(model.touchable >= part.rows.start) & (model.touchable < part.rows.stop)]
+    found: IntArray = model.touchable[(model.touchable >= part.nodes.start) & (model.touchable < part.nodes.stop)]
     return found
 
 
@@ -119,4 +119,4 @@ def _curved(part: DiscreteSolid) -> bool:
 def _named(model: Model, u: Array, k: int, node: int, depth: float, other: str) -> Overlap:
     part = model.parts[model.part_of[node]]
     place = tuple(float(v) for v in model.points[node] + u[node])
-    return Overlap(contact=k, depth=depth, body=part.name, other=other, node=node - part.rows.start, place=place)
+    return Overlap(contact=k, depth=depth, body=part.name, other=other, node=node - part.nodes.start, place=place)

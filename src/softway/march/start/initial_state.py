@@ -111,7 +111,7 @@ def unsupported_motions(model: Model) -> dict[str, tuple[str, ...]]:
         together = [p for p, of in zip(model.parts, model.linked, strict=True) if of == group]
         axisymmetric = isinstance(together[0].internal.section, Axisymmetric)
         points = np.concatenate([p.mesh.points for p in together])
-        supported = np.concatenate([~model.free[p.rows] for p in together])
+        supported = np.concatenate([~model.free[p.nodes] for p in together])
         motions = free_motions(points, supported, axisymmetric)
         if motions:
             found[together[0].name] = motions

@@ -147,7 +147,7 @@ def _nearest(model: Model, number: int) -> tuple[Array, Array, Array]:
     contact = model.scene.contacts[number]
     parts = [model.parts[k] for k in model.opponents[number]]
     tags = contact.tag, contact.opponent_tag
-    one, other = (p.mesh.nodes(tag) + p.rows.start for p, tag in zip(parts, tags, strict=True))
+    one, other = (p.mesh.nodes(tag) + p.nodes.start for p, tag in zip(parts, tags, strict=True))
     x = model.points + model.displacement
     distance, found = cKDTree(x[other]).query(x[one])
     least = int(np.argmin(distance))

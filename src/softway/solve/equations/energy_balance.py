@@ -171,7 +171,7 @@ def _along_motion(model: Model, ends: EndForces, moving: Array, members: BoolArr
     """
     space, weight = model.space, np.asarray(model.mass.sum(axis=1)).reshape(-1, 1) * model.free
     out = np.zeros_like(moving)
-    for rows in (p.rows for p, here in zip(model.parts, members, strict=True) if here):
+    for rows in (p.nodes for p, here in zip(model.parts, members, strict=True) if here):
         mean = space.sums(weight[rows] * moving[rows]) / np.maximum(space.sums(weight[rows]), 1e-300)
         out[rows] = moving[rows] - mean
     out = model.mass @ (out * model.free)
@@ -184,7 +184,7 @@ def _along_motion(model: Model, ends: EndForces, moving: Array, members: BoolArr
 
 def _unsupported(model: Model, members: BoolArray) -> bool:
     """True if no body of a group has supports."""
-    return all(model.space.every(model.free[p.rows]) for p, here in zip(model.parts, members, strict=True) if here)
+    return all(model.space.every(model.free[p.nodes]) for p, here in zip(model.parts, members, strict=True) if here)
 
 
 def _closes_spin(model: Model, members: BoolArray) -> bool:

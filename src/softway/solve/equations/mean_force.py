@@ -35,9 +35,9 @@ class WeightedMean:
         u0, chords = start.displacement, [_chord(p.average) for p in model.parts]
         out = np.empty_like(force) if all(chords) else self._weighted(model, start, path, q, force)
         for part in model.parts:
-            average = part.internal.slab_average(part.average, u0[part.rows], u1[part.rows])
+            average = part.internal.slab_average(part.average, u0[part.nodes], u1[part.nodes])
             if average is not None:
-                out[part.rows] = average
+                out[part.nodes] = average
         before = start.viscous
         viscous = None if before is None or not model.inert else viscous_force(model.parts, u1)
         if before is not None and viscous is not None:

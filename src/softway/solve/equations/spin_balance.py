@@ -46,7 +46,7 @@ def spin_balance(model: Model, ends: EndForces, members: BoolArray) -> SpinBalan
     arm = np.zeros_like(x)
     weight = np.asarray(model.mass.sum(axis=1)).reshape(-1, 1)
     for part in (p for p, inside in zip(model.parts, members, strict=True) if inside):
-        rows = part.rows
+        rows = part.nodes
         arm[rows] = x[rows] - model.space.sums(weight[rows] * x[rows]) / model.space.total(weight[rows])
     fields = np.array([model.mass @ f for f in _turned(arm)]).reshape(-1, *arm.shape)
     inner = here & model.massive

@@ -95,6 +95,6 @@ def _motions(slab: SlabMatrix, u: Array) -> Array:
     out = np.zeros((*model.shape, len(names)))
     x = model.points + u
     for part in model.parts:
-        here = x[part.rows]
-        out[part.rows] = rigid_motions(here, names, here.mean(axis=0))[0].reshape(len(here), d, -1)
+        here = x[part.nodes]
+        out[part.nodes] = rigid_motions(here, names, here.mean(axis=0))[0].reshape(len(here), d, -1)
     return np.stack([model.dofs.unknowns(out[..., k]) for k in range(len(names))], axis=1)

@@ -28,9 +28,9 @@ def springs(model: Model, factor: float) -> Array:
     out = np.zeros(len(node))
     for k, contact in enumerate(model.scene.contacts):
         for part, tag in _sides(model, contact.body, contact.tag, contact.opponent, contact.opponent_tag):
-            inside = (node >= part.rows.start) & (node < part.rows.stop)
+            inside = (node >= part.nodes.start) & (node < part.nodes.stop)
             here = np.flatnonzero((model.contacts.contact == k) & inside)
-            area = _areas(part, tag)[node[here] - part.rows.start]
+            area = _areas(part, tag)[node[here] - part.nodes.start]
             area = np.maximum(area, LEAST * area.mean()) if len(area) else area
             modulus = part.density * wave_speed(part.internal.material, part.density, part.internal.section) ** 2
             out[here] = factor * modulus * area / model.edge[node[here]]

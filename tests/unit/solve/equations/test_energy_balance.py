@@ -250,7 +250,7 @@ def test_the_completion_has_no_resultant_and_leaves_nodes_without_inertia_in_equ
     for fallback in (True, False):
         found = close_energy(model, e, fallback)
         more = found.mean - e.mean - model.nodal(found.scalar) * (e.f1 - e.f0)
-        np.testing.assert_allclose([more[p.rows].sum(axis=0) for p in model.parts], 0.0, atol=1e-15)
+        np.testing.assert_allclose([more[p.nodes].sum(axis=0) for p in model.parts], 0.0, atol=1e-15)
         np.testing.assert_allclose(more[~model.massive], 0.0, atol=1e-17)
         assert np.abs(found.scalar).max() <= BOUND
 
@@ -267,7 +267,7 @@ def test_a_scalar_beyond_its_bound_is_told_unless_the_motion_may_close_the_balan
     assert np.abs(cut.scalar[0]) == BOUND == np.abs(along.scalar[0])
     assert abs(gained(model, odd, cut)[0]) > 0.01
     np.testing.assert_allclose(gained(model, odd, along), 0.0, atol=1e-15)
-    np.testing.assert_array_equal(cut.mean[model.parts[1].rows], along.mean[model.parts[1].rows])
+    np.testing.assert_array_equal(cut.mean[model.parts[1].nodes], along.mean[model.parts[1].nodes])
 
 
 def test_a_body_that_is_not_deformed_needs_no_scalar() -> None:
@@ -288,7 +288,7 @@ def test_closing_along_the_motion_gives_bodies_with_supports_no_resultant(seed: 
     found = close_energy(model, replace(e, V1=e.V1 + [0.3, 0.0, 0.0, 0.0]), fallback=True)
     more = found.mean - e.mean - model.nodal(found.scalar) * (e.f1 - e.f0)
     assert np.abs(more).max() > 0.01
-    left = [more[p.rows].sum(axis=0) for p in model.parts]
+    left = [more[p.nodes].sum(axis=0) for p in model.parts]
     np.testing.assert_allclose(left, 0.0, atol=1e-13 * float(np.abs(more).max()))
 
 

@@ -24,7 +24,7 @@ def above_a_slope() -> tuple[Model, np.ndarray, np.ndarray]:
     u0 = np.zeros(model.shape)
     u0[np.abs(model.points - [1.0, 1.0]).max(axis=1) < 1e-9, 1] = 0.3
     u1 = u0.copy()
-    u1[model.parts[0].rows, 0] += 0.4
+    u1[model.parts[0].nodes, 0] += 0.4
     return model, u0, u1
 
 

@@ -133,7 +133,7 @@ def collided(scene: sw.Scene, until: float, step: float | None = None) -> Collis
     u, v = (model.join(f) for f in (steps[-1].after.displacement, steps[-1].after.velocity))
     mass = np.asarray(model.mass.sum(axis=1))
     total = model.space.totals(mass)
-    centres = np.array([mass[p.rows] @ v[p.rows] for p in model.parts]) / total[:, None]
+    centres = np.array([mass[p.nodes] @ v[p.nodes] for p in model.parts]) / total[:, None]
     energies = model.kinetic(v) + model.energy_and_force(u)[0]
     start, first = model.kinetic(model.velocity).sum(), mass @ model.velocity
     momenta = np.array([s.ledger.momentum[: model.shape[1]] for s in steps])

@@ -100,7 +100,7 @@ def pressed(
         stress=np.concatenate([model.stress(n, own[n]) for n in meshes]) / pressure,
         settlement=-own["upper"][meshes["upper"].nodes("high"), 1] / pressure,
         force=float(force.sum()),
-        sides=np.array([push[p.rows].sum(axis=0) for p in model.parts]),
+        sides=np.array([push[p.nodes].sum(axis=0) for p in model.parts]),
     )
 
 

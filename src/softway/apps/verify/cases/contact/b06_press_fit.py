@@ -90,7 +90,7 @@ class Fitted:
         nodes = part.mesh.nodes(SIDES[name])
         x = part.mesh.points[nodes]
         length = traction_force(part.mesh, sw.bodies.PlaneStress(), SIDES[name], (1.0, 0.0))[nodes, 0]
-        return (field[part.rows][nodes] * x).sum(axis=1) / np.hypot(*x.T), length
+        return (field[part.nodes][nodes] * x).sum(axis=1) / np.hypot(*x.T), length
 
     def force(self, name: str) -> tuple[Array, Array]:
         """Nodal forces (k,) on a ring, and the nodal lengths (k,)."""
@@ -111,7 +111,7 @@ class Fitted:
         """Radii of the cell centres, with radial and hoop stress."""
         part = next(p for p in self.model.parts if p.name == name)
         middle = part.mesh.points[next(iter(part.mesh.blocks.values()))].mean(axis=1)
-        stress = self.model.stress(name, self.start.start.displacement[part.rows])[:, :2, :2]
+        stress = self.model.stress(name, self.start.start.displacement[part.nodes])[:, :2, :2]
         along = middle / np.hypot(*middle.T)[:, None]
         radial = np.einsum("ci,cij,cj->c", along, stress, along)
         return np.hypot(*middle.T), radial, np.trace(stress, axis1=1, axis2=2) - radial

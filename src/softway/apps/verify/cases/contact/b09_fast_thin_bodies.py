@@ -41,7 +41,7 @@ class Shot:
         """Velocities (2, d) of the centres of mass at the end."""
         mass = np.asarray(self.model.mass.sum(axis=1))
         v = self.model.join(self.steps[-1].after.velocity)
-        return np.array([mass[p.rows] @ v[p.rows] / mass[p.rows].sum() for p in self.model.parts])
+        return np.array([mass[p.nodes] @ v[p.nodes] / mass[p.nodes].sum() for p in self.model.parts])
 
     def places(self, step: Step) -> list[tuple[sw.Mesh, Array]]:
         """Mesh and positions of both bodies at the end of a slab."""
