@@ -74,7 +74,7 @@ class FixedPoint:
         check_accuracy(self.tolerance, self.limit)
 
     def iterate(self, system: SlabEquations, guess: Guess) -> Iterator[Iterate]:
-        """Iterates from a guess.
+        """Iterates from a guess; where they contract poorly, first with nodes kept on their facets, then by Newton.
 
         As in Newton's method, the first step has no scalar: the guess is no solution, and its missing work has no
         meaning.  So one step solves a linear law on fixed rows (docs/theory/solver/solver.md).
@@ -84,16 +84,8 @@ class FixedPoint:
             yield from newton.iterate(system, guess)
             return
         guess = replace(guess, memory=refreshed(system, guess.q, guess.memory, self.operator))
-        it: Iterate | None = None
-        for it in self._onward(system, guess):
-            yield it
-        if self.handover and it is not None and np.isfinite(it.change):
-            yield from newton.onward(it.system, it.guess)
-
-    def _onward(self, system: SlabEquations, guess: Guess) -> Iterator[Iterate]:
-        """Iterates while they contract well; with poor contraction nodes are first kept on their facets."""
-        window, poor = (WINDOW, POOR) if system.model.inert else (FLOWING, PACE)
         end = system.without_closure().evaluate(guess.q, guess.impulse)
+        window, poor = (WINDOW, POOR) if system.model.inert else (FLOWING, PACE)
         while True:
             changes: list[float] = []
             for it in self._iterates(system, guess, end):
@@ -103,10 +95,10 @@ class FixedPoint:
                     break
             if not np.isfinite(it.change):
                 return
-            system = it.system.with_kept_facets(it.system.path.end(it.q), it.active)
+            system, guess = it.system.with_kept_facets(it.system.path.end(it.q), it.active), it.guess
             if system is it.system:
+                yield from newton.onward(system, guess)
                 return
-            guess = it.guess
             end = system.evaluate(guess.q, guess.impulse)
 
     def _iterates(self, system: SlabEquations, guess: Guess, end: Evaluation) -> Iterator[Iterate]:
