@@ -18,6 +18,9 @@ from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.equations.slab_values import Evaluation
 from softway.solve.methods.iteration import Solution
 
+EnergyBalance = Literal["closed", "bounded", "free"]
+"""Requirement on the energy balance of a slab."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Balances:
@@ -32,7 +35,7 @@ class Balances:
         True if the momentum balance closes.
     """
 
-    energy: Literal["closed", "bounded", "free"] = "free"
+    energy: EnergyBalance = "free"
     momentum: bool = True
 
 

@@ -19,14 +19,17 @@ from softway.march.explicit.contact_equilibrium import solve_contact_nodes, with
 from softway.march.explicit.massless_nodes import FollowedNodes, MasslessNodes, handed_forces, pushed_nodes
 from softway.march.model_state import ModelState
 from softway.march.results.friction_result import first_impulses
-from softway.march.results.slab_result import Balances
+from softway.march.results.slab_result import EnergyBalance
+from softway.march.results.step import Event
 from softway.march.rules.equilibrated import EndForceContact
-from softway.march.rules.massless_slab import equations, slab_result
+from softway.march.rules.massless_slab import ContactForces, equations, slab_result
 from softway.march.rules.slab_rule import Attempt, Solutions, require_motion_alone, require_nodal
 from softway.march.step_control import require_slow
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks, TimeWeight, moments
+from softway.solve.equations.closure import Closure, Unclosed
+from softway.solve.equations.mean_force import MeanForce
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.equations.slab_values import Evaluation
 from softway.solve.linear.mass_solver import MassSolver, mass_solver
@@ -34,8 +37,36 @@ from softway.solve.methods.central_difference import Explicit
 from softway.solve.methods.iteration import Iterate, Solution
 from softway.solve.operators.operator_memory import OperatorMemory
 
-HOW = EndForceContact()
-"""Contact forces and instants of a slab, without a closure of the energy balance."""
+
+@dataclass(frozen=True, slots=True)
+class OpenEndForces:
+    """Contact forces at the ends of the slab, without a closure of the energy balance."""
+
+    ends: EndForceContact = EndForceContact()
+
+    def average(self, slab: Slab) -> MeanForce:
+        """Mean by the virtual time function."""
+        return self.ends.average(slab)
+
+    def closure(self, model: Model, now: ModelState, slab: Slab, attempt: Attempt) -> Closure:
+        """No closure."""
+        return Unclosed()
+
+    def energy_balance(self, model: Model, slab: Slab) -> EnergyBalance:
+        """Bounded in a stable slab."""
+        return "free" if self.ends.energy_balance(model, slab) == "free" else "bounded"
+
+    def forces(
+        self, model: Model, now: ModelState, system: SlabEquations, solution: Solution, pressure: Array
+    ) -> ContactForces:
+        """Forces at both ends."""
+        return self.ends.forces(model, now, system, solution, pressure)
+
+    def events(
+        self, model: Model, now: ModelState, slab: Slab, system: SlabEquations, solution: Solution, closed: BoolArray
+    ) -> list[Event]:
+        """Touches and releases at the roots of gap and reaction."""
+        return self.ends.events(model, now, slab, system, solution, closed)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -48,6 +79,7 @@ class CentralDifference:
     followed: FollowedNodes
     light: IntArray
     supported: BoolArray | None
+    contact: OpenEndForces = OpenEndForces()
 
     def sloped(self, force: Array, before: Array) -> Array:
         """Slope (n, d) of the velocity by a force (n, d).
@@ -97,7 +129,7 @@ class CentralDifference:
         coasting += start.displacement
         pairs = model.contacts.meet(start.displacement, coasting, slab.start, slab.end)
         require_slow(model, pairs, coasting, attempt.approach)
-        system = equations(HOW, model, now, slab, pairs, attempt).without_closure()
+        system = equations(self.contact, model, now, slab, pairs, attempt)
         guess, first = self.guessed(system, moving, coasting), first_impulses(now, slab, system.path.rows)
         it, u1, count = solve_contact_nodes(system, self.still, guess, first, memory, self.method)
         end = _evaluated(system, it, u1)
@@ -113,9 +145,8 @@ class CentralDifference:
         slope *= 0.5 * h
         slope += start.velocity
         velocity = self.reached(it.q, slope)
-        out = slab_result(HOW, model, now, slab, system, solution, pairs.found, velocity)
-        required = Balances(energy="bounded" if out.required.energy == "closed" else out.required.energy)
-        yield replace(out, required=required), with_remaining(model.space, it.memory, self.still, left)
+        out = slab_result(self.contact, model, now, slab, system, solution, pairs.found, velocity)
+        yield out, with_remaining(model.space, it.memory, self.still, left)
 
 
 def central_difference(model: Model, method: Explicit, weight: TimeWeight) -> CentralDifference:

@@ -7,11 +7,13 @@ import numpy as np
 from softway.arrays import Array, BoolArray
 from softway.march.model_state import ModelState
 from softway.march.results.friction_result import first_impulses
+from softway.march.results.slab_result import EnergyBalance
 from softway.march.results.step import Event
 from softway.march.rules.contact_instants import releases, touches
 from softway.march.rules.massless_slab import (
     ContactForces,
     MasslessContact,
+    closed_energy_balance,
     equations,
     require_end_points,
     slab_result,
@@ -70,6 +72,10 @@ class EndForceContact:
         if slab.weight == EndPeaks():
             return EnergyScalar(attempt.energy_along_motion)
         return Unclosed() if model.friction.frictionless else EndForcesOnly()
+
+    def energy_balance(self, model: Model, slab: Slab) -> EnergyBalance:
+        """Closed with inertia and the default time weight."""
+        return closed_energy_balance(model, slab)
 
     def forces(
         self, model: Model, now: ModelState, system: SlabEquations, solution: Solution, pressure: Array

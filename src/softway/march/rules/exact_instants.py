@@ -8,10 +8,10 @@ from softway.arrays import Array, BoolArray
 from softway.contact.slab_motion.exact_instants import ExactInstantMean, exact_instant_mean
 from softway.errors import InputError
 from softway.march.model_state import ModelState
-from softway.march.results.slab_result import contact_event
+from softway.march.results.slab_result import EnergyBalance, contact_event
 from softway.march.results.step import Event
 from softway.march.rules.equilibrated import Equilibrated
-from softway.march.rules.massless_slab import ContactForces, require_end_points
+from softway.march.rules.massless_slab import ContactForces, closed_energy_balance, require_end_points
 from softway.march.rules.slab_rule import Attempt, require_frictionless, require_motion_alone, require_nodal
 from softway.model.model import Model
 from softway.model.slab import Slab
@@ -37,6 +37,10 @@ class ExactInstantContact:
     def closure(self, model: Model, now: ModelState, slab: Slab, attempt: Attempt) -> Closure:
         """No closure: the exact mean satisfies the balance."""
         return Unclosed()
+
+    def energy_balance(self, model: Model, slab: Slab) -> EnergyBalance:
+        """Closed with inertia and the default time weight."""
+        return closed_energy_balance(model, slab)
 
     def forces(
         self, model: Model, now: ModelState, system: SlabEquations, solution: Solution, pressure: Array

@@ -1,7 +1,7 @@
 """Slab (time step) with massless contact nodes: its equations, and the result from their solution."""
 
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Protocol
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from softway.errors import InputError
 from softway.march.friction.stick_slip_events import stick_slip_events
 from softway.march.model_state import ModelState
 from softway.march.results.friction_result import friction_result, slipping
-from softway.march.results.slab_result import Balances, SlabResult, ordered_events, supports
+from softway.march.results.slab_result import Balances, EnergyBalance, SlabResult, ordered_events, supports
 from softway.march.results.step import Event
 from softway.march.rules.slab_rule import Attempt
 from softway.model.model import Model
@@ -36,7 +36,7 @@ class ContactForces:
 
 
 class MasslessContact(Protocol):
-    """Treatment of massless contact nodes in a slab: mean force, closure, contact forces, and contact events."""
+    """Treatment of massless contact nodes in a slab: mean force, closure, contact forces and events."""
 
     def average(self, slab: Slab) -> MeanForce:
         """Average of the internal force over a slab."""
@@ -44,6 +44,10 @@ class MasslessContact(Protocol):
 
     def closure(self, model: Model, now: ModelState, slab: Slab, attempt: Attempt) -> Closure:
         """Closure of the energy balance of a slab."""
+        ...
+
+    def energy_balance(self, model: Model, slab: Slab) -> EnergyBalance:
+        """Requirement on the energy balance of a slab."""
         ...
 
     def forces(
@@ -170,14 +174,14 @@ def slab_result(
         events=ordered_events(events, slab),
         pairs=pairs,
         iterations=solution.iterations,
-        required=Balances(energy=_energy(model, slab)),
+        required=Balances(energy=how.energy_balance(model, slab)),
         handed_on=rows if model.contacts.paired else None,
         friction=friction,
     )
 
 
-def _energy(model: Model, slab: Slab) -> Literal["closed", "bounded", "free"]:
-    """Requirement on the energy balance of a slab."""
+def closed_energy_balance(model: Model, slab: Slab) -> EnergyBalance:
+    """Requirement on the energy balance of a slab whose mean force or closure keeps the energy."""
     if slab.weight != EndPeaks():
         return "free"
     return "closed" if model.inert else "bounded"
