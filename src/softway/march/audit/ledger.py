@@ -47,6 +47,7 @@ def resultant(space: VectorSpace, field: Array) -> Array:
 
     Examples
     --------
+    >>> from softway.bodies.assembled.vector_space import LocalSpace
     >>> resultant(LocalSpace(()), np.array([[1.0, 0.0], [2.0, 3.0]]))
     array([3., 3.])
     """

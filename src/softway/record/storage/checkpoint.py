@@ -23,7 +23,8 @@ from softway.units import Second
 
 LOG = logging.getLogger(__name__)
 FOLDER = "checkpoints"
-FORMAT = "softway checkpoint 2"
+FAMILY = "softway checkpoint"
+FORMAT = f"{FAMILY} 2"
 RARE = 100.0
 """Minimum time between checkpoints, as a multiple of the time that the last one took to write."""
 
@@ -115,12 +116,15 @@ def read(file: Path) -> Checkpoint:
     Raises
     ------
     Damaged
-        If the file cannot be read or its checksum is wrong.
+        If the file cannot be read, is of another version, or its checksum is wrong.
     """
     try:
         head, _, content = file.read_bytes().partition(b"\n")
     except OSError as error:
         raise Damaged(f"cannot be read: {error.strerror}") from None
+    kind = head.rpartition(b" ")[0]
+    if kind != FORMAT.encode() and kind.startswith(FAMILY.encode()):
+        raise Damaged(f"is of another version of softway ({kind.decode(errors='replace')!r}, here {FORMAT!r})")
     if head != f"{FORMAT} {hashlib.sha256(content).hexdigest()}".encode():
         raise Damaged("is damaged: its checksum is wrong")
     with np.load(io.BytesIO(content), allow_pickle=False) as stored:

@@ -83,6 +83,7 @@ def moment(space: VectorSpace, x: Array, force: Array) -> Array:
 
     Examples
     --------
+    >>> from softway.bodies.assembled.vector_space import LocalSpace
     >>> moment(LocalSpace(()), np.array([[1.0, 0.0]]), np.array([[0.0, 2.0]]))
     array([2.])
     """

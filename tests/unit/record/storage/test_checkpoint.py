@@ -7,7 +7,7 @@ import signal
 import pytest
 
 import softway as sw
-from softway.record.storage.checkpoint import Checkpoint, Damaged, forget, last, listed, read, save
+from softway.record.storage.checkpoint import FORMAT, Checkpoint, Damaged, forget, last, listed, read, save
 
 
 @pytest.fixture
@@ -57,6 +57,14 @@ def test_a_damaged_one_is_named_and_the_one_before_used(checkpoints, tmp_path, c
         assert last(tmp_path).march_state.slabs == 1
     assert file.name in caplog.text and "damaged" in caplog.text
     with pytest.raises(Damaged):
+        read(file)
+
+
+def test_one_of_another_version_is_called_so(checkpoints, tmp_path):
+    save(tmp_path, checkpoints[0], 2)
+    file = listed(tmp_path)[0]
+    file.write_bytes(file.read_bytes().replace(FORMAT.encode(), b"softway checkpoint 1", 1))
+    with pytest.raises(Damaged, match="another version of softway .'softway checkpoint 1'"):
         read(file)
 
 
