@@ -57,6 +57,8 @@ class TangentialRows:
 
     def vectors(self, components: Array) -> Array:
         """Vectors (m, d) of tangential components (m, k)."""
+        if not self.count:
+            return np.zeros((len(components), self.tangents.shape[2]))
         return np.einsum("mkd,mk->md", self.tangents, components)
 
     def tangential(self, field: Array) -> Array:

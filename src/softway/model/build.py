@@ -35,10 +35,7 @@ def build(scene: Scene) -> Model:
     parts = _parts(solids)
     met = assemble_contacts(scene.contacts, scene.bodies, parts, LocalSpace(tuple(p.nodes for p in parts)))
     light = met.nodes if timing.massless and factor > 0.0 else np.zeros(0, int)
-    own = [light[(light >= p.nodes.start) & (light < p.nodes.stop)] - p.nodes.start for p in parts]
-    masses = [solid_mass(p, solids[p.name], nodes, timing.spread) for p, nodes in zip(parts, own, strict=True)]
-    follow = [solid_following(p, nodes) for p, nodes in zip(parts, own, strict=True)]
-    weight = sp.csr_array(sp.block_diag(masses, format="csr"))
+    weight, follow = _inertia(parts, solids, light, timing.spread)
     mass = sp.csr_array(factor * weight) if factor > 0.0 else sp.csr_array(weight.shape)
     fields = [initial(p, solids[p.name]) for p in parts]
     dofs = joined([p.dofs for p in parts])
@@ -49,8 +46,10 @@ def build(scene: Scene) -> Model:
         scene=scene,
         parts=parts,
         mass=mass,
-        follow=sp.csr_array(sp.block_diag(follow, format="csr")),
+        follow=follow,
         massive=np.asarray(mass.diagonal()) > 0.0,
+        inert=factor > 0.0,
+        part_of=np.repeat(np.arange(len(parts)), [p.mesh.n_nodes for p in parts]),
         dofs=dofs,
         linked=np.arange(len(parts)),
         load=loads.at(0.0),
@@ -70,6 +69,17 @@ def build(scene: Scene) -> Model:
         friction=met.friction,
         space=met.contacts.space,
     )
+
+
+def _inertia(
+    parts: Sequence[DiscreteSolid], solids: Mapping[str, Solid], light: IntArray, spread: int
+) -> tuple[sp.csr_array, sp.csr_array]:
+    """Mass (n, n) with massless nodes ``light`` (k,), and velocities (n, n) of all nodes from the others."""
+    own = [light[(light >= p.nodes.start) & (light < p.nodes.stop)] - p.nodes.start for p in parts]
+    masses = [solid_mass(p, solids[p.name], nodes, spread) for p, nodes in zip(parts, own, strict=True)]
+    follow = [solid_following(p, nodes) for p, nodes in zip(parts, own, strict=True)]
+    mass, following = (sp.csr_array(sp.block_diag(blocks, format="csr")) for blocks in (masses, follow))
+    return mass, following
 
 
 def _solids(scene: Scene) -> dict[str, Solid]:

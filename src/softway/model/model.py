@@ -37,6 +37,10 @@ class Model:
         (n, n) velocities of all nodes from those with inertia: massless nodes follow their neighbours.
     massive
         (n,) nodes with inertia.
+    inert
+        True if a node has inertia.
+    part_of
+        (n,) number of the solid of each node.
     dofs
         Velocities of the nodes from the unknowns.
     linked
@@ -79,6 +83,8 @@ class Model:
     mass: sp.csr_array
     follow: sp.csr_array
     massive: BoolArray
+    inert: bool
+    part_of: IntArray
     dofs: DofMap
     linked: IntArray
     load: Array
@@ -119,11 +125,6 @@ class Model:
     def points(self) -> Array:
         """Reference positions (n, d) [m]."""
         return self.contacts.points
-
-    @property
-    def part_of(self) -> IntArray:
-        """Number (n,) of the solid of each node."""
-        return np.repeat(np.arange(len(self.parts)), [p.mesh.n_nodes for p in self.parts])
 
     def rows(self, u: Array, time: float = 0.0) -> ContactRows:
         """Contact rows of the bodies at rest at the displacement ``u`` (n, d)."""
@@ -180,11 +181,6 @@ class Model:
     def extent(self, u: Array) -> float:
         """Greatest coordinate [m] at the displacement ``u`` (n, d), the scale of rounding."""
         return self.space.greatest(self.points + u)
-
-    @property
-    def inert(self) -> bool:
-        """True if a node has inertia."""
-        return self.space.some(self.massive)
 
     def nodal(self, values: Array) -> Array:
         """Values (parts,) of the solids on their nodes, (n, 1)."""

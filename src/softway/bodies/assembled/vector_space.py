@@ -83,7 +83,8 @@ class LocalSpace:
 
     def greatest(self, *fields: Array) -> float:
         """Greatest magnitude of all values."""
-        return max(max(float(f.max(initial=0.0)), -float(f.min(initial=0.0))) for f in fields)
+        found = [float(np.abs(f).max(initial=0.0)) for f in fields]
+        return found[0] if len(found) == 1 else max(found)
 
     def least(self, field: Array) -> float:
         """Least value."""

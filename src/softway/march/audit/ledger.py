@@ -132,4 +132,6 @@ def _contacts(model: Model, before: ModelState, out: SlabResult, after: ModelSta
 
 def _resultant(shear: Array, which: BoolArray) -> float:
     """Magnitude of the sum of the tangential forces (m, d) of the rows ``which`` (m,) [N]."""
+    if not shear.any():
+        return 0.0
     return float(np.linalg.norm(shear[which].sum(axis=0)))
