@@ -31,7 +31,7 @@ class Cells:
     tools
         Rigid obstacles by name.
     lost
-        Names of the obstacles that depend on a function that cannot be imported.
+        Names of the obstacles that are not stored as data: a picture never runs code of a file.
     dimension
         Dimension d of space.
     reference
@@ -200,7 +200,7 @@ class Fields:
 
 
 def _tool(data: Mapping[str, Any]) -> Tool | None:
-    """Tool from its description; None if a function in it cannot be imported."""
+    """Tool from its description; None if it is not plain data."""
     try:
         made: Tool = recovered(data)
     except InputError:

@@ -25,7 +25,7 @@ from softway.model.scene import Scene, State
 from softway.record.storage.journal import JournaledFile, undone
 from softway.record.write.grid_layout import Layout, components, layout, von_mises
 from softway.record.write.recorder import RunStart
-from softway.record.write.tool_shapes import described
+from softway.record.write.tool_shapes import stored
 
 FILE = "fields.vtkhdf"
 POINT_DATA = {"displacement": "m", "velocity": "m/s", "contact_force": "N"}
@@ -222,7 +222,9 @@ def _write_cells(
     file.attrs["bodies"] = json.dumps(list(cells.names))
     file.attrs["dimension"] = cells.dimension
     file["reference"] = cells.reference
-    file["tools"] = json.dumps({name: described(body) for name, body in scene.bodies.items() if isinstance(body, Tool)})
+    points = cells.reference[:, : cells.dimension]
+    tools = {name: stored(body, points) for name, body in scene.bodies.items() if isinstance(body, Tool)}
+    file["tools"] = json.dumps(tools)
     steps.attrs["NSteps"] = np.int64(0)
 
 

@@ -1,9 +1,11 @@
 """Rigid tools in a run folder: described, recovered, drawn where they stand."""
 
 import json
+import subprocess
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import h5py
 import meshio
 import numpy as np
 import pytest
@@ -21,6 +23,7 @@ from softway.record.storage.run_folder import RunFolder
 from softway.record.view.bodies.bodies import bodies
 from softway.record.view.pictures import picture
 from softway.record.view.plots.paths import paths
+from softway.record.write.sampled_distance import sampled
 from softway.record.write.tool_shapes import described, recovered
 
 PYRAMID = np.array([[-1.0, -1.0, -0.1], [2.0, -1.0, -0.1], [2.0, 2.0, -0.1], [-1.0, 2.0, -0.1], [0.5, 0.5, -1.0]])
@@ -85,7 +88,9 @@ def plane(bar):
 
 
 @pytest.mark.parametrize("motion", MOTIONS, ids=lambda m: type(m).__name__)
-@pytest.mark.parametrize("shape", SOLID, ids=lambda s: type(s).__name__)
+@pytest.mark.parametrize(
+    "shape", [s for s in SOLID if not isinstance(s, SignedDistance)], ids=lambda s: type(s).__name__
+)
 def test_a_description_gives_the_tool_back(shape, motion):
     tool = Tool(shape=shape, motion=motion)
     again = recovered(json.loads(json.dumps(described(tool))))
@@ -149,8 +154,64 @@ def test_other_obstacles_of_a_bar_are_drawn_where_they_cut_its_line(bar, tmp_pat
     np.testing.assert_allclose(found[1][:, 0], -0.2, atol=1e-12)
 
 
-def test_a_tool_whose_function_is_lost_is_named(volume, tmp_path):
+@dataclass(frozen=True)
+class Ridge:
+    """A shape outside of the package: below the roof z = -|y| / 2 - 0.2."""
+
+    dim: int = 3
+
+    def gap(self, x):
+        return (x[..., 2] + 0.2 + 0.5 * np.abs(x[..., 1])) / np.sqrt(1.25)
+
+    def normal_at(self, x):
+        return np.stack([0.0 * x[..., 0], 0.5 * np.sign(x[..., 1]), 1.0 + 0.0 * x[..., 2]], axis=-1) / np.sqrt(1.25)
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        SignedDistance(function=lambda x: x[:, 2] + 0.2, dim=3),
+        Cavity(of=SignedDistance(function=level, dim=3)),
+        Ridge(),
+    ],
+    ids=["lambda", "cavity", "own"],
+)
+def test_a_shape_that_is_no_data_is_stored_by_its_gaps(shape, volume, tmp_path):
     pytest.importorskip("matplotlib")
-    run = With(volume, Tool(shape=SignedDistance(function=lambda x: x[:, 2], dim=3))).run(tmp_path / "run")
+    run = With(volume, Tool(shape=shape)).run(tmp_path / "run")
+    kept = run.fields.cells.tools["floor"]
+    x = np.random.default_rng(0).uniform(-1.0, 2.0, (200, 3))
+    spacing = (1.0 + 2.0 * np.sqrt(3.0)) / 40.0
+    np.testing.assert_allclose(kept.shape.gap(x), shape.gap(x), atol=0.3 * spacing)
+    away = np.abs(x[:, 1]) > 2.0 * spacing
+    np.testing.assert_allclose(kept.shape.normal_at(x)[away], shape.normal_at(x)[away], atol=1e-6)
+    assert picture(run).save(tmp_path / "bodies.png").stat().st_size > 10_000
+
+
+def test_far_places_of_a_stored_shape_stay_far():
+    shape = sampled(Sphere(centre=(0.0, 0.0), radius=1.0), np.array([[-2.0, -2.0], [2.0, 2.0]]))
+    assert shape.gap(np.array([5.0, 0.0])) == pytest.approx(4.0, abs=1e-3)
+    assert shape.normal_at(np.array([[5.0, 0.0]]))[0] == pytest.approx([1.0, 0.0], abs=1e-2)
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        {"kind": "SignedDistance", "function": "subprocess:getoutput", "dim": 3, "gradient": None, "step": 1e-6},
+        {"kind": "builtins:eval"},
+        {"kind": "Sphere", "centre": [0.0, 0.0], "radius": 1.0, "function": "os:system"},
+        {"kind": "Sphere"},
+        {},
+    ],
+    ids=["function", "kind", "more", "less", "none"],
+)
+def test_a_file_runs_no_code(shape, volume, tmp_path, monkeypatch):
+    """A run folder that was sent may hold anything: what is no data of ours is named and not drawn."""
+    pytest.importorskip("matplotlib")
+    run = With(volume, Tool(shape=Sphere(centre=(0.5, 0.5, -0.7), radius=0.7))).run(tmp_path / "run")
+    with h5py.File(tmp_path / "run" / "fields.vtkhdf", "r+") as file:
+        del file["tools"]
+        file["tools"] = json.dumps({"floor": {"kind": "Tool", "shape": shape, "motion": {"kind": "Still"}}})
+    monkeypatch.setattr(subprocess, "getoutput", lambda *given: pytest.fail("code of the file was run"))
     assert run.fields.cells.lost == ("floor",) and not run.fields.cells.tools
     assert "Not drawn: floor." in bodies(run).get_supxlabel()
