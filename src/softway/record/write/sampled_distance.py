@@ -59,8 +59,8 @@ class SampledDistance:
     def normal_at(self, x: Array) -> Array:
         """Unit normals (..., d) at points (..., d), from differences over a grid spacing."""
         step = (np.asarray(self.high) - np.asarray(self.low)) / (np.array(self.values.shape) - 1.0)
-        arms = 0.5 * np.diag(step)
-        slope = [(self.gap(x + arm) - self.gap(x - arm)) / np.max(arm * 2.0) for arm in arms]
+        arms = zip(0.5 * np.diag(step), step, strict=True)
+        slope = [(self.gap(x + arm) - self.gap(x - arm)) / width for arm, width in arms]
         return unit_vectors(np.stack(slope, axis=-1))
 
 

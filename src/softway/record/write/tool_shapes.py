@@ -25,9 +25,8 @@ def stored(tool: Tool, points: Array) -> dict[str, Any]:
     A shape that is no plain data (a function, or a class outside of softway) is stored by its gaps at the points of a
     grid, which reaches beyond the bodies by their size.
     """
-    shape = tool.shape if _plain(tool.shape) else sampled(tool.shape, _around(points))
-    others = {f.name: described(getattr(tool, f.name)) for f in fields(tool) if f.init and f.name != "shape"}
-    return {"kind": "Tool", "shape": described(shape), **others}
+    found: dict[str, Any] = described(tool)
+    return found if _plain(tool.shape) else {**found, "shape": described(sampled(tool.shape, _around(points)))}
 
 
 def _plain(shape: Any) -> bool:
