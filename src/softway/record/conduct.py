@@ -9,6 +9,7 @@ from types import MappingProxyType
 
 from softway.errors import Cancelled, NumericsError, StorageError
 from softway.march.results.step import Step
+from softway.record.audit.watch import watcher
 from softway.record.read import summary
 from softway.record.run import Run
 from softway.record.storage import checkpoint, provenance
@@ -63,6 +64,7 @@ def record_run(
     NumericsError, Cancelled, KeyboardInterrupt, StorageError, and any exception of ``progress``
         After the records have been closed; a named folder stays, with the reason in ``provenance.json``.
     """
+    steps = watcher(opening).watched(steps) if opening.audit else steps
     first, early = _first(steps)
     given = texts or {}
 
@@ -127,6 +129,10 @@ def continue_run(
         (run.path / summary.FILE).unlink(missing_ok=True)
     keeper = CheckpointWriter(run.path, plan, recorders, 0.0 if found is None else found.wall)
     meter = None if progress is None else Meter(progress, opening.until, time, slabs)
+    if opening.audit:
+        audit = watcher(opening)
+        audit.past(run.history)
+        steps = audit.watched(steps)
     return _carried_on(steps, run, keeper, record, meter)
 
 
@@ -216,7 +222,9 @@ def _finish(run: Run, keeper: CheckpointWriter, record: Mapping[str, object], st
             keeper.write()
     numbers = summary.summarise(run.history, run.events)
     with storing():
-        provenance.save_json(run.path / summary.FILE, {**numbers, "wall_time": keeper.wall, "stop_reason": stop.reason})
+        status = summary.status(stop.reason, numbers)
+        ended = {"wall_time": keeper.wall, "stop_reason": stop.reason, "status": status}
+        provenance.save_json(run.path / summary.FILE, {**numbers, **ended})
         provenance.end(run.path, record, stop)
         if stop is DONE:
             checkpoint.forget(run.path)

@@ -6,17 +6,17 @@ from typing import Any
 
 from softway.errors import InputError
 from softway.html_tables import table
+from softway.record.read.findings import sentences
 from softway.record.read.records import Records
-from softway.record.storage.provenance import Stop
 from softway.record.view.options import PictureOptions
 from softway.record.view.pictures import picture
 
 SMALL = PictureOptions(dpi=75)
 
 
-def shown(run: Records, found: Mapping[str, Any], stop: Stop) -> str:
-    """Table and picture of a run with its summary ``found`` and the reason of its stop, as HTML."""
-    rows: dict[str, object] = {"folder": run.path, "state": f"{stop.reason} {stop.message}".strip()}
+def shown(run: Records, found: Mapping[str, Any], status: str, message: str) -> str:
+    """Table and picture of a run with its summary ``found``, its status and the message of its stop, as HTML."""
+    rows: dict[str, object] = {"folder": run.path, "state": f"{status} {message}".strip()}
     if found["slabs"]:
         relative = found["energy_error_relative"]
         rows |= {
@@ -24,6 +24,8 @@ def shown(run: Records, found: Mapping[str, Any], stop: Stop) -> str:
             "energy error": "-" if relative is None else f"{relative:.1e} of the largest energy",
             "deepest penetration": f"{found['penetration_worst']:.2g} m",
         }
+    if found.get("findings"):
+        rows["findings"] = "\n".join(sentences(found["findings"]))
     events = run.events["kind"]
     kinds = {str(kind): int((events == kind).sum()) for kind in dict.fromkeys(events)}
     rows["events"] = ", ".join(f"{count} {kind}" for kind, count in kinds.items()) or "none"

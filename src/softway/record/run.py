@@ -10,7 +10,7 @@ from softway.errors import InputError
 from softway.record.read import summary
 from softway.record.read.frames import Fields
 from softway.record.storage import provenance, table
-from softway.record.storage.provenance import Stop
+from softway.record.storage.provenance import RUNNING, Stop
 from softway.record.storage.table import Table
 from softway.record.write import events, fields, history
 from softway.record.write.history_columns import COLUMNS
@@ -54,7 +54,7 @@ class Run:
 
     @property
     def events(self) -> Table:
-        """Contact events with one row per touch, release, stick or slip of a node."""
+        """Events with one row per touch, release, stick or slip of a node, and per finding of the audit."""
         return table.read(self.path / events.FILE, events.COLUMNS)
 
     @property
@@ -105,11 +105,17 @@ class Run:
 
         return picture(self, what, PictureOptions(field=colour, times=tuple(times)))
 
+    @property
+    def status(self) -> str:
+        """Reason of the stop: ``done, with findings`` if the audit of a completed run found something."""
+        reason = self.stop.reason
+        return reason if reason == RUNNING.reason else summary.status(reason, self.summary)
+
     def _repr_html_(self) -> str:
         """Table and picture for notebooks; there is no picture before the first frame."""
         from softway.record.notebook import shown
 
-        return shown(self, self.summary, self.stop)
+        return shown(self, self.summary, self.status, self.stop.message)
 
     @property
     def stop(self) -> Stop:

@@ -104,6 +104,9 @@ class Output:
         Further columns of the history.
     checkpoints
         Schedule of the checkpoints from which a stopped run can be resumed.
+    audit
+        True if the overlaps of all surfaces, inverted cells and the balances are looked at, independently of the
+        contact, at the stored frames (at most every tenth slab) and at the end; findings are among the events.
 
     Examples
     --------
@@ -114,6 +117,7 @@ class Output:
     fields_every: Second | Literal["auto"] = "auto"
     probes: tuple[Probe, ...] = ()
     checkpoints: Checkpoints = Checkpoints()
+    audit: bool = True
 
     def __post_init__(self) -> None:
         if self.fields_every != "auto":

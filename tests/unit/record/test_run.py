@@ -128,6 +128,6 @@ def test_no_run_folder(tmp_path):
 def test_a_scene_without_contacts_and_nothing_yet():
     columns = [(c.name, c.unit) for c in (*COLUMNS, *CERTIFICATE)]
     head = ",".join(f"{name} [{unit}]" for name, unit in columns) + "\n"
-    assert summarise(Table({}), Table({})) == {"slabs": 0, "contacts": {}}
+    assert summarise(Table({}), Table({})) == {"slabs": 0, "contacts": {}, "findings": []}
     found = summarise(parse(head + ",".join("0" * len(columns)) + "\n"), Table({}))
     assert found["energy_error_relative"] is None and found["contacts"] == {} and json.dumps(found)

@@ -1,7 +1,7 @@
-"""Commands new, check, run, show, explain and race; the other commands are in the neighbouring modules.
+"""Commands new, check, run, explain and race; the other commands are in the neighbouring modules.
 
 Exit codes: 0 done, 1 a law failed a check or a case missed its reference, 2 wrong input, 3 numerics or storage failed,
-130 interrupted.
+4 findings of the audit under --strict, 130 interrupted.
 """
 
 import sys
@@ -25,11 +25,11 @@ from softway.apps.cli.output.tables import ranking, scales, summary
 from softway.apps.cli.plot import plot
 from softway.apps.cli.resume import resume
 from softway.apps.cli.schema import schema
+from softway.apps.cli.show import audit, audited, show
 from softway.apps.cli.sweep import sweep
 from softway.apps.cli.verify import verify
 from softway.apps.cli.view import view
 from softway.errors import InputError, NumericsError, StorageError
-from softway.record.run import Run
 from softway.scenario.files import dumps
 from softway.scenario.run import run as execute
 from softway.scenario.text.templates import templates
@@ -54,6 +54,8 @@ app = App(
     version=_version,
     suppress_keyboard_interrupt=False,
 )
+app.command(audit)
+app.command(show)
 app.command(check_law)
 app.command(materials)
 app.command(verify)
@@ -132,8 +134,9 @@ def run(
     quiet: Quiet = False,
     verbose: Verbose = False,
     overwrite: Annotated[bool, Parameter(negative=())] = False,
+    strict: Annotated[bool, Parameter(negative=())] = False,
     allow_python: AllowPython = False,
-) -> None:
+) -> int:
     """Compute a scenario.
 
     Parameters
@@ -150,6 +153,8 @@ def run(
         Report automatic choices and rejected slabs (time steps).
     overwrite
         Replace an earlier run in the same folder.
+    strict
+        Exit with code 4 if the audit of the run found overlaps, inverted cells or balances that miss.
     allow_python
         Allow module:name in the scenario to run code of installed modules, not only of modules next to the file.
     """
@@ -167,18 +172,7 @@ def run(
             Console(stderr=True).print(f"resume with: softway resume {name}", soft_wrap=True)
         raise
     summary(done, console)
-
-
-@app.command
-def show(folder: Path, /) -> None:
-    """Show the summary of a run, also of one that is still running or was interrupted.
-
-    Parameters
-    ----------
-    folder
-        Run folder.
-    """
-    summary(Run(folder), Console())
+    return audited(done, strict=strict, quiet=quiet)
 
 
 @app.command

@@ -9,7 +9,7 @@ from typing import Any
 from trame.app import asynchronous, get_server
 
 from softway.apps.viewer.layout import lay_out
-from softway.apps.viewer.shown import described, events_of, pictures_of
+from softway.apps.viewer.shown import described, events_of, findings_of, pictures_of
 from softway.apps.viewer.solids import Solids, dress, solids, stage
 from softway.errors import InputError
 from softway.record.run import Run
@@ -91,7 +91,7 @@ class Page:
         while True:
             await asyncio.sleep(PERIOD)
             with suppress(InputError, OSError, ValueError):  # a file that is being written: the next update reads it
-                last, reason = len(self.run.fields) - 1, self.run.stop.reason
+                last, reason = len(self.run.fields) - 1, self.run.status
                 if last > int(state.last) or reason != state.status:
                     with state:
                         self._refresh(last, reason)
@@ -101,7 +101,8 @@ class Page:
     def _refresh(self, last: int, reason: str) -> None:
         state = self.server.state
         at_end = int(state.frame) == int(state.last)
-        state.update({"last": last, "status": reason, "events": events_of(self.run), **pictures_of(self.run)})
+        told = {"status": reason, "findings": findings_of(self.run)}
+        state.update({"last": last, "events": events_of(self.run), **told, **pictures_of(self.run)})
         self.stages.clear()
         self.colours(state.colour)
         state.frame = last if at_end else state.frame
@@ -128,7 +129,8 @@ def page(run: Run, live: bool = False) -> Page:
             "last": last,
             "enlarged": True,
             "playing": False,
-            "status": run.stop.reason,
+            "status": run.status,
+            "findings": findings_of(run),
             "panel": "curves",
             "events": events_of(run),
             **pictures_of(run),

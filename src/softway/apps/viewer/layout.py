@@ -56,6 +56,7 @@ def _head(page: Any) -> None:
     with html.Div(classes="head"):
         html.Div("{{ heading }}", style="font-weight:600; font-size:17px", id="heading")
         v3.VChip("{{ status }}", size="small", color=("status === 'done' ? 'green' : 'orange'",), id="status")
+        html.Div("{{ findings.join('; ') }}", v_show=("findings.length",), style="color:#b3261e", id="findings")
         v3.VSpacer()
         v3.VSwitch(
             v_model=("enlarged",),

@@ -3,6 +3,7 @@
 import base64
 from typing import Any
 
+from softway.record.read.findings import gathered, sentences, stored
 from softway.record.run import Run
 from softway.record.view.bodies.bodies import Stage, instant
 from softway.record.view.plots.panels import Drawing, curves, world
@@ -50,6 +51,11 @@ def events_of(run: Run) -> list[dict[str, Any]]:
         }
         for row in range(min(len(table["time"]), MOST))
     ]
+
+
+def findings_of(run: Run) -> list[str]:
+    """Sentences on the findings of the audit so far."""
+    return sentences(gathered(stored(run.events)))
 
 
 def _data(drawing: Drawing) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
+from math import nan
 
 import numpy as np
 
@@ -14,14 +15,15 @@ from softway.model.slab import Slab
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Event:
-    """Contact event inside a slab: touch, release, start of sticking or start of slip of a contact node.
+    """Event inside a slab: touch, release, start of sticking or start of slip of a contact node, or a finding.
 
     Parameters
     ----------
     time
         Instant inside the slab [s].
     contact, kind, node
-        Contact label; ``touch``, ``release``, ``stick`` or ``slip``; node number in its body.
+        Contact label; ``touch``, ``release``, ``stick`` or ``slip``; node number in its body. A finding of the audit
+        has the names of the bodies for the label and a kind of :data:`softway.record.read.findings.KINDS`.
     position
         (d,) position of the node [m].
     velocity_before, velocity_after
@@ -29,6 +31,10 @@ class Event:
         speed [m/s].
     impulse
         Normal impulse of the velocity jump [N s]; zero at a release.
+    depth
+        Depth of an overlap that the audit found [m].
+    finding
+        Sentence of the audit; empty for a contact event.
     """
 
     time: float
@@ -39,6 +45,8 @@ class Event:
     velocity_before: float
     velocity_after: float
     impulse: float
+    depth: float = 0.0
+    finding: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -109,7 +117,7 @@ class Certificate:
     Parameters
     ----------
     min_gap
-        Least gap at the end [m].
+        Least gap of the contact rows at the end [m]: of nodes, and for mortar contact the weighted mean around nodes.
     min_force
         Least normal force at the end [N].
     complementarity
@@ -118,6 +126,9 @@ class Certificate:
         Sum of F_n v_n dt over the slab, eq. (3.9) [J].
     momentum_error, energy_error
         Errors of the balances of this slab [kg m/s], [J].
+    gap_nodes, gap_between
+        Gap of the nodes and gap between nodes of all surfaces, from the geometry at the end [m]: minus the deepest
+        overlap, zero where nothing overlaps; not a number in slabs that were not audited.
     """
 
     min_gap: float
@@ -126,10 +137,12 @@ class Certificate:
     power_residual: float
     momentum_error: float
     energy_error: float
+    gap_nodes: float = nan
+    gap_between: float = nan
 
     def _repr_html_(self) -> str:
         """A table for notebooks."""
-        units = ("m", "N", "J", "J", "kg m/s", "J")
+        units = ("m", "N", "J", "J", "kg m/s", "J", "m", "m")
         numbers = zip(fields(self), units, strict=True)
         return table("Certificate", {f.name.replace("_", " "): f"{getattr(self, f.name):.3g} {u}" for f, u in numbers})
 

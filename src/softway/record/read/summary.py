@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from softway.record.read.findings import gathered, stored
 from softway.record.storage.table import Table
 
 FILE = "summary.json"
@@ -21,6 +22,8 @@ UNITS: Mapping[str, str] = MappingProxyType(
         "dissipation": "J",
         "work_external": "J",
         "penetration_worst": "m",
+        "penetration_nodes": "m",
+        "penetration_between": "m",
         "power_residual_worst": "J",
         "wall_time": "s",
         "min_gap": "m",
@@ -43,10 +46,12 @@ def summarise(history: Table, events: Table) -> dict[str, Any]:
     """Summarise a finished or unfinished run in a few numbers.
 
     ``energy_error_worst`` is the largest ``|energy_error|`` [J]; ``energy_error_relative`` is its ratio to the largest
-    sum of kinetic and strain energy; ``penetration_worst`` is the largest penetration at the end of a slab [m].
+    sum of kinetic and strain energy; ``penetration_worst`` is the largest penetration of a contact row at the end of a
+    slab [m]. ``penetration_nodes`` and ``penetration_between`` are the deepest overlaps of any two surfaces, at nodes
+    and between them, in the slabs that were audited [m]; ``findings`` are those of the audit.
     """
     if history.rows == 0:
-        return {"slabs": 0, "contacts": {}}
+        return {"slabs": 0, "contacts": {}, "findings": []}
     worst = float(np.abs(history["energy_error"]).max())
     scale = float((history["energy_kinetic"] + history["energy_strain"]).max())
     contacts = {label: _contact(label, history, events) for label in contacts_of(history)}
@@ -60,10 +65,31 @@ def summarise(history: Table, events: Table) -> dict[str, Any]:
         "work_external": float(history["work_external"][-1]),
         "penetration_worst": max((c["penetration_worst"] for c in contacts.values()), default=0.0),
         "power_residual_worst": max((c["power_residual_worst"] for c in contacts.values()), default=0.0),
+        "penetration_nodes": _deepest("certificate.gap_nodes", history),
+        "penetration_between": _deepest("certificate.gap_between", history),
         "certificate": _certificate(history),
         "contacts": contacts,
+        "findings": gathered(stored(events)),
         "units": {"time": "s", "energy": "J", "penetration": "m", "impulse": "N s", "force": "N"},
     }
+
+
+def status(reason: str, found: Mapping[str, Any]) -> str:
+    """Reason of the stop of a run with the summary ``found``: ``done, with findings`` if its audit found something.
+
+    Examples
+    --------
+    >>> status("done", {"findings": []}), status("done", {"findings": [{"kind": "overlap"}]})
+    ('done', 'done, with findings')
+    """
+    return f"{reason}, with findings" if found.get("findings") else reason
+
+
+def _deepest(name: str, history: Table) -> float | None:
+    """Deepest overlap that the audit has seen [m]; None if nothing was audited."""
+    gap = history[name] if name in history else np.zeros(0)
+    seen = gap[~np.isnan(gap)]
+    return float(max(0.0, -seen.min())) if len(seen) else None
 
 
 def _certificate(history: Table) -> dict[str, float | None]:

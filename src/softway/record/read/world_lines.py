@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from softway.arrays import Array, IntArray
+from softway.record.read.findings import KINDS
 from softway.record.read.records import Records
 
 
@@ -15,7 +16,8 @@ def kinks(run: Records) -> Mapping[int, Array]:
     node was closest to the place of the event is taken.
     """
     events, fields = run.events, run.fields
-    cells, times, node = fields.cells, fields.times, np.asarray(events["node"], int)
+    rows = np.flatnonzero(~np.isin(events["kind"], KINDS))
+    cells, times, node = fields.cells, fields.times, np.asarray(events["node"], int)[rows]
     starts = [
         int(cells.connectivity[cells.offsets[np.flatnonzero(cells.body == b)[0]] :].min())
         for b in range(len(cells.bodies))
@@ -25,7 +27,7 @@ def kinks(run: Records) -> Mapping[int, Array]:
     numbers = np.unique(np.array([n for each in members for n in each], int))
     track = np.array([frame.points[numbers] for frame in fields])
     found: dict[int, list[Array]] = {}
-    for row, near in enumerate(members):
+    for row, near in zip(rows, members, strict=True):
         time, place = events["time"][row], np.array([events[c][row] for c in "xyz"])
         paths = [track[:, np.searchsorted(numbers, n)] for n in near]
         then = [[np.interp(time, times, path[:, i]) for i in range(3)] for path in paths]

@@ -72,7 +72,9 @@ def _ends(column: NDArray[Any]) -> tuple[object, ...]:
     """First, last, least and greatest value of a column."""
     if not len(column) or column.dtype.kind not in "if":
         return (*column[:1].tolist(), *column[-1:].tolist(), "", "")
-    return tuple(x.item() for x in (column[0], column[-1], np.nanmin(column), np.nanmax(column)))
+    known = column[~np.isnan(column)] if column.dtype.kind == "f" else column
+    ends = (known.min(), known.max()) if len(known) else (column[0], column[0])
+    return tuple(x.item() for x in (column[0], column[-1], *ends))
 
 
 def header(columns: Sequence[tuple[str, str]]) -> list[str]:

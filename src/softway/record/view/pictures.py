@@ -6,12 +6,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from softway.errors import InputError
+from softway.record.read.findings import gathered, sentences, stored
 from softway.record.read.records import Records
 from softway.record.view.bodies.bodies import bodies
 from softway.record.view.options import STANDARD, PictureOptions
 from softway.record.view.plots.history import history
 from softway.record.view.plots.paths import paths
-from softway.record.view.style import styled
+from softway.record.view.style import RED, styled
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -88,4 +89,8 @@ def picture(run: Records, what: str = "bodies", look: PictureOptions = STANDARD)
     if run.history.rows == 0 or not len(run.fields):
         raise InputError(str(run.path), "nothing has been recorded yet", "a run with recorded steps")
     with styled():
-        return Picture((history if what == "history" else paths if is_bars(run) else bodies)(run, look), look.dpi)
+        figure = (history if what == "history" else paths if is_bars(run) else bodies)(run, look)
+        found = sentences(gathered(stored(run.events)))
+        if found:
+            figure.supxlabel("\n".join(found), x=0.01, ha="left", fontsize=8, color=RED)
+        return Picture(figure, look.dpi)

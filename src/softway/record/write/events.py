@@ -1,4 +1,4 @@
-"""events.csv: one line for each contact event of a node: touch, release, stick or slip."""
+"""events.csv: one line for each contact event of a node (touch, release, stick or slip) and each finding."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,6 +23,9 @@ COLUMNS = (
     ("normal_velocity_after", "m/s"),
     ("impulse", "N s"),
 )
+"""Columns of every run."""
+EXTRA = (("depth", "m"), ("finding", table.TEXT))
+"""Columns of the findings of the audit; files of earlier versions lack them."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,8 +39,10 @@ class Events:
         for event in sorted(step.events, key=lambda e: e.time):
             place = np.zeros(3)
             place[: len(event.position)] = event.position
-            numbers = [float(x) for x in (*place, event.velocity_before, event.velocity_after, event.impulse)]
-            self.lines.write([float(event.time), event.contact, event.kind, int(event.node), *numbers])
+            numbers = [
+                float(x) for x in (*place, event.velocity_before, event.velocity_after, event.impulse, event.depth)
+            ]
+            self.lines.write([float(event.time), event.contact, event.kind, int(event.node), *numbers, event.finding])
 
     @property
     def mark(self) -> int:
@@ -57,5 +62,5 @@ def open_events(folder: Path, opening: RunStart, mark: int | None = None) -> Eve
     """Create ``events.csv`` with its header, or continue the existing file."""
     rows = table.lines(folder / FILE, mark)
     if mark is None:
-        rows.write(table.header(COLUMNS))
+        rows.write(table.header((*COLUMNS, *EXTRA)))
     return Events(rows)

@@ -10,7 +10,6 @@ import json
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from math import floor
 from pathlib import Path
 from typing import Any
 
@@ -55,9 +54,7 @@ class Frames:
 
     def take(self, step: Step) -> None:
         """Write a frame if one is due at the end of the slab."""
-        every, until = self.opening.fields_every, self.opening.until
-        due = floor(step.after.time / every + 1e-9) > floor(step.before.time / every + 1e-9)
-        if due or step.after.time >= until * (1.0 - 1e-12):
+        if self.opening.frame_due(step.before.time, step.after.time):
             with _changing(self.guarded):
                 _append(
                     self.file, self.layout.reference, _frame(self.layout, self.opening, step.after), step.after.time

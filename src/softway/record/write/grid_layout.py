@@ -55,6 +55,17 @@ class Layout:
     touching: Mapping[str, IntArray]
     dimension: int
 
+    def by_type(self) -> tuple[dict[str, IntArray], dict[str, IntArray]]:
+        """Cell name -> (e, a) nodes of the cells, and (e,) the numbers of their solids."""
+        named = {name: np.flatnonzero(self.types == kind) for name, kind in VTK.items() if (self.types == kind).any()}
+        nodes = {name: self._nodes(mine) for name, mine in named.items()}
+        return nodes, {name: self.body[mine] for name, mine in named.items()}
+
+    def _nodes(self, mine: IntArray) -> IntArray:
+        """Nodes (e, a) of cells of one type."""
+        width = int(self.offsets[mine[0] + 1] - self.offsets[mine[0]])
+        return self.connectivity[self.offsets[mine][:, None] + np.arange(width)]
+
     def nodal(self, fields: Mapping[str, Array]) -> Array:
         """Vector field (n, 3) on the grid from the fields of the solids (n, d)."""
         out = np.zeros((len(self.reference), 3))

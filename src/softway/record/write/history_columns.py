@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import nan
 
 from softway.march.results.step import Ledger, Step
 from softway.record.storage import table
@@ -85,7 +86,10 @@ CERTIFICATE = (
     of_certificate("momentum_error", "kg m/s"),
     of_certificate("energy_error", "J"),
 )
-EXTRA: tuple[Column, ...] = ()
+EXTRA: tuple[Column, ...] = (
+    Column("certificate.gap_nodes", "m", lambda step: float(step.certificate.gap_nodes), lambda start: nan),
+    Column("certificate.gap_between", "m", lambda step: float(step.certificate.gap_between), lambda start: nan),
+)
 """Columns after those of the certificate; files of earlier versions lack them."""
 
 

@@ -2,10 +2,12 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from math import floor
 from pathlib import Path
 from typing import Protocol
 
 from softway.arrays import Array, IntArray
+from softway.march.audit.balances import Balances
 from softway.march.results.step import Ledger, Step
 from softway.meshes.mesh import Mesh
 from softway.model.field import Field
@@ -41,6 +43,10 @@ class RunStart:
         Resolved probes.
     fields
         Displacement and companion fields.
+    audit
+        True if the geometry and the balances are audited at stored frames.
+    balances
+        Function from a state to its balances, computed again from its fields.
     """
 
     scene: Scene
@@ -55,6 +61,17 @@ class RunStart:
     remembered: Mapping[str, Callable[[State], Mapping[str, Array]]] = field(default_factory=dict)
     spread: Callable[[State, Array], Array] | None = None
     fields: tuple[Field, ...] = ()
+    audit: bool = False
+    balances: Callable[[State], Balances] | None = None
+
+    def frame_due(self, before: float, after: float) -> bool:
+        """True if a slab between two times [s] passes an instant at which a frame is stored, or reaches the end."""
+        passed = floor(after / self.fields_every + 1e-9) > floor(before / self.fields_every + 1e-9)
+        return passed or self.ended(after)
+
+    def ended(self, time: float) -> bool:
+        """True at the end of the march, up to rounding."""
+        return time >= self.until * (1.0 - 1e-12)
 
 
 class Recorder(Protocol):

@@ -1,12 +1,13 @@
 """Tables on the terminal: the scales of a scenario, the summary of a run, the ranking of a race."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from typing import Any
 
 from rich.console import Console
 from rich.table import Table as Grid
 
+from softway.record.read.findings import sentences
 from softway.record.read.summary import UNITS as NUMBERS
 from softway.record.run import Run
 from softway.record.storage.table import RATIO
@@ -85,8 +86,15 @@ def summary(run: Run, console: Console) -> None:
     _columns({f"contact {n}": c for n, c in found["contacts"].items()}, console)
     if found.get("certificate"):
         _columns({"certificate (worst slab)": found["certificate"]}, console)
-    console.print(f"{stop.reason}{': ' if stop.message else ''}{stop.message}", markup=False, soft_wrap=True)
+    findings(found.get("findings", ()), console)
+    console.print(f"{run.status}{': ' if stop.message else ''}{stop.message}", markup=False, soft_wrap=True)
     console.print(f"records: {run.path}", markup=False, soft_wrap=True, highlight=False)
+
+
+def findings(found: Sequence[Mapping[str, Any]], console: Console) -> None:
+    """Print the findings of an audit, one line each."""
+    for sentence in sentences(found):
+        console.print(f"finding: {sentence}", markup=False, soft_wrap=True, highlight=False)
 
 
 def ranking(found: Mapping[str, Any], console: Console) -> None:

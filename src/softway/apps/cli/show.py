@@ -1,0 +1,78 @@
+"""Commands show and audit: the summary of a run, and its geometry, looked at independently of its contact."""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+from rich.console import Console
+from rich.progress import Progress
+
+from softway.apps.cli.output.tables import findings, summary
+from softway.record.audit.auditor import Depths
+from softway.record.audit.folder import frames_audited
+from softway.record.read.findings import gathered
+from softway.record.run import Run
+
+FINDINGS = 4
+"""Exit code of a run with findings under --strict."""
+
+
+def show(folder: Path, /) -> None:
+    """Show the summary of a run, also of one that is still running or was interrupted.
+
+    Parameters
+    ----------
+    folder
+        Run folder.
+    """
+    summary(Run(folder), Console())
+
+
+def audited(done: Run, *, strict: bool, quiet: bool) -> int:
+    """Exit code of a completed run; the findings of a ``quiet`` one are printed to the error output."""
+    found = done.summary["findings"]
+    if found:
+        errors = Console(stderr=True)
+        count = f"{len(found)} finding{'s' if len(found) > 1 else ''}"
+        errors.print(f"[bold yellow]warning[/] done, with {count} of the audit", highlight=False)
+        if quiet:
+            findings(found, errors)
+    return FINDINGS if strict and found else 0
+
+
+def audit(
+    folder: Path,
+    /,
+    *,
+    strict: Annotated[bool, Parameter(negative=())] = False,
+    quiet: Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())] = False,
+) -> int:
+    """Look for overlaps and inverted cells in all stored frames of a run, independently of its contact.
+
+    Every body is compared with every other one, with all tools and with itself, whether they are in contact or not, at
+    the nodes and between them. A run does the same while it is computed, at most at every tenth slab (time step).
+
+    Parameters
+    ----------
+    folder
+        Run folder.
+    strict
+        Exit with code 4 if there is a finding.
+    quiet
+        Print the findings only.
+    """
+    run, console = Run(folder), Console(quiet=quiet)
+    fields = run.fields
+    for name in fields.cells.lost:
+        Console(stderr=True).print(f"'{name}' is not stored as data: it is left out", highlight=False)
+    found: list[Depths] = []
+    with Progress(console=console, transient=True) as display:
+        task = display.add_task("frames", total=max(len(fields) - 1, 0))
+        for depths in frames_audited(fields):
+            found.append(depths)
+            display.advance(task)
+    told: list[dict[str, Any]] = gathered([event for depths in found for event in depths.findings])
+    nodes, between = (max((getattr(d, name) for d in found), default=0.0) for name in ("nodes", "between"))
+    console.print(f"{len(found)} frames audited; deepest overlap at nodes {nodes:.3g} m, between nodes {between:.3g} m")
+    findings(told, Console())
+    return FINDINGS if strict and told else 0

@@ -1,0 +1,139 @@
+"""Auditor of a run: it looks at the deformed bodies as a user sees them, and knows nothing of contact rows."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray
+from softway.bodies.solid import Tool
+from softway.march.results.step import Event
+from softway.record.audit.geometry.inverted import inverted
+from softway.record.audit.geometry.overlap import overlaps
+from softway.record.audit.geometry.solids import Solids
+from softway.record.audit.geometry.tools import behind, sunk
+from softway.record.read.findings import BETWEEN, INVERTED, OVERLAP, finding
+
+VISIBLE = 1e-3
+"""Depth of an overlap, relative to the largest side of the smaller body, from which it is a finding: one pixel in a
+picture a thousand pixels wide."""
+THIN = 1e-2
+"""Depth relative to the shortest line of the boundary, from which it is a finding in thin and finely meshed bodies."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Depths:
+    """Deepest overlap of all bodies and tools at one instant.
+
+    Parameters
+    ----------
+    nodes, between
+        Deepest overlap at the nodes and between them [m]; zero where nothing overlaps.
+    findings
+        Findings, one for each pair, kind and body.
+    """
+
+    nodes: float
+    between: float
+    findings: tuple[Event, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Overlap:
+    """Deepest place of a body in another one: a ``node`` or near it, at ``place`` (d,), with its ``depth`` [m]."""
+
+    own: str
+    other: str
+    node: int
+    at_node: bool
+    place: Array
+    depth: float
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Auditor:
+    """Geometric audit of the bodies of a run.
+
+    Parameters
+    ----------
+    solids
+        Deformable bodies.
+    tools
+        Rigid tools by name.
+    """
+
+    solids: Solids
+    tools: Mapping[str, Tool]
+
+    @cached_property
+    def _behind(self) -> dict[str, BoolArray]:
+        """Nodes (n,) behind each tool that is an open surface."""
+        return {name: behind(self.solids, tool.at(0.0)) for name, tool in self.tools.items()}
+
+    def look(self, time: float, x: Array) -> Depths:
+        """Overlaps and inverted cells at a time [s] with the nodes at x (n, d) [m]."""
+        found = [*self._bodies(x), *self._tools(time, x)]
+        nodes = max((f.depth for f in found if f.at_node), default=0.0)
+        between = max((f.depth for f in found), default=0.0)
+        seen = (self._told(time, f) for f in found if f.depth > self._limit(f))
+        return Depths(nodes=nodes, between=between, findings=(*seen, *self._inverted(time, x)))
+
+    def _limit(self, found: Overlap) -> float:
+        """Depth from which an overlap is a finding [m]."""
+        names = self.solids.names
+        bodies = [names.index(name) for name in (found.own, found.other) if name in names]
+        return float(min(VISIBLE * self.solids.extents[bodies].min(), THIN * self.solids.shortest[bodies].min()))
+
+    def _bodies(self, x: Array) -> Iterator[Overlap]:
+        """Deepest overlap of each pair of bodies, at nodes and between them."""
+        inside = overlaps(self.solids, x)
+        node = inside.ends[:, 0]
+        first, at_node = self.solids.owner[node], inside.ends[:, 0] == inside.ends[:, 1]
+        pairs = np.sort(np.stack([first, inside.body], axis=1), axis=1)
+        for a, b in np.unique(pairs, axis=0):
+            for kind in (True, False):
+                which = np.flatnonzero((pairs == (a, b)).all(axis=1) & (at_node == kind))
+                if len(which):
+                    k = which[np.argmax(inside.depth[which])]
+                    own, other = self.solids.names[first[k]], self.solids.names[inside.body[k]]
+                    yield Overlap(own, other, int(node[k]), kind, inside.place[k], float(inside.depth[k]))
+
+    def _tools(self, time: float, x: Array) -> Iterator[Overlap]:
+        """Deepest overlap of each body with each tool, at nodes and between them."""
+        for name, tool in self.tools.items():
+            for s in sunk(self.solids, x, tool.at(time), self._behind[name]):
+                yield Overlap(self.solids.names[s.body], name, s.node, s.at_node, s.place, s.depth)
+
+    def _told(self, time: float, found: Overlap) -> Event:
+        """Finding of an overlap."""
+        node = self._number(found.own, found.node)
+        where = (
+            f"node {node} of '{found.own}'" if found.at_node else f"the boundary of '{found.own}' near its node {node}"
+        )
+        what = "the same body" if found.other == found.own else f"'{found.other}'"
+        return finding(
+            time,
+            OVERLAP if found.at_node else BETWEEN,
+            sorted((found.own, found.other), key=self._order),
+            f"{where} is {found.depth:.3g} m inside {what}",
+            node=node,
+            place=found.place,
+            depth=found.depth,
+        )
+
+    def _inverted(self, time: float, x: Array) -> Iterator[Event]:
+        """Worst inverted cell of each body."""
+        for body, nodes, ratio in inverted(self.solids, x):
+            name, place = self.solids.names[body], x[nodes].mean(axis=0)
+            node = self._number(name, int(nodes[0]))
+            text = f"a cell of '{name}' at its node {node} is inverted: its volume is {ratio:.3g} of that at rest"
+            yield finding(time, INVERTED, (name,), text, node=node, place=place)
+
+    def _order(self, name: str) -> int:
+        """Place of a name: bodies in their order, then tools."""
+        return [*self.solids.names, *self.tools].index(name)
+
+    def _number(self, body: str, node: int) -> int:
+        """Number in its body of a node."""
+        return node - int(self.solids.first[self.solids.names.index(body)])

@@ -1,0 +1,172 @@
+"""Deformable bodies as the audit sees them: cells, boundary facets, and the flat pieces of the boundary."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray, IntArray
+from softway.meshes.cells import CELLS, FACETS, FLAT
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Block:
+    """Cells of one type.
+
+    Parameters
+    ----------
+    cell
+        Name of the cell.
+    nodes
+        (e, a) nodes of each cell.
+    body
+        (e,) number of its body.
+    outer
+        (e, faces) true for the faces on the boundary of the body, in the order of ``FACETS``.
+    """
+
+    cell: str
+    nodes: IntArray
+    body: IntArray
+    outer: BoolArray
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Solids:
+    """All deformable bodies in one numbering of the nodes, with cells that fill the space.
+
+    Parameters
+    ----------
+    names
+        Names of the bodies.
+    reference
+        (n, d) reference coordinates [m].
+    owner
+        (n,) number of the body of each node.
+    first
+        (bodies,) first node of each body.
+    blocks
+        Cells by type.
+    facets
+        Facet name -> (f, b) nodes of the boundary facets.
+    """
+
+    names: tuple[str, ...]
+    reference: Array
+    owner: IntArray
+    first: IntArray
+    blocks: tuple[Block, ...]
+    facets: Mapping[str, IntArray]
+
+    @cached_property
+    def surface(self) -> IntArray:
+        """Nodes (s,) of the boundary, and of bars in the plane or in space."""
+        inside = np.zeros(len(self.reference), dtype=bool)
+        for block in self.blocks:
+            inside[block.nodes] = True
+        for facets in self.facets.values():
+            inside[facets] = False
+        return np.flatnonzero(~inside)
+
+    @cached_property
+    def flat(self) -> IntArray:
+        """Corners (k, d) of the flat pieces between the nodes of the boundary: segments or triangles."""
+        pieces = [facets[:, piece] for name, facets in self.facets.items() for piece in FLAT.get(name, ((0,),))]
+        return np.concatenate(pieces) if pieces else np.zeros((0, self.dim), np.int64)
+
+    @cached_property
+    def lines(self) -> IntArray:
+        """Ends (k, 2) of the lines of the boundary: the edges of its flat pieces, each once."""
+        flat = self.flat
+        if self.dim < 2:
+            return np.zeros((0, 2), np.int64)
+        ring = flat if self.dim == 2 else np.concatenate([flat[:, [0, 1]], flat[:, [1, 2]], flat[:, [2, 0]]])
+        return np.unique(np.sort(ring, axis=1), axis=0)
+
+    @cached_property
+    def extents(self) -> Array:
+        """Largest side (bodies,) of the box around each body at rest [m]."""
+        low, high = boxes(self.reference, self.owner, len(self.names))
+        return np.asarray((high - low).max(axis=1))
+
+    @cached_property
+    def shortest(self) -> Array:
+        """Length (bodies,) of the shortest line of the boundary of each body at rest [m]."""
+        ends = self.reference[self.lines]
+        out = np.full(len(self.names), np.inf)
+        np.minimum.at(out, self.owner[self.lines[:, 0]], np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
+        return out
+
+    @property
+    def dim(self) -> int:
+        """Dimension d of space."""
+        return int(self.reference.shape[1])
+
+
+def solids(
+    names: Sequence[str], reference: Array, blocks: Mapping[str, IntArray], bodies: Mapping[str, IntArray]
+) -> Solids:
+    """Bodies from their cells.
+
+    Parameters
+    ----------
+    names
+        Names of the bodies.
+    reference
+        (n, d) reference coordinates [m]; the nodes of a body are consecutive.
+    blocks, bodies
+        Cell name -> (e, a) nodes of the cells, and (e,) the numbers of their bodies. Cells that do not fill the space
+        (bars in the plane) have no inside and are left out.
+    """
+    dim = reference.shape[1]
+    owner = np.zeros(len(reference), np.int64)
+    for name, nodes in blocks.items():
+        owner[nodes] = bodies[name][:, None]
+    filling = {name: nodes for name, nodes in blocks.items() if CELLS[name].dim == dim}
+    outer = _outer(filling)
+    facets: dict[str, list[IntArray]] = {}
+    for name, nodes in filling.items():
+        for k, (facet, local) in enumerate(FACETS[name]):
+            facets.setdefault(facet, []).append(nodes[outer[name][:, k]][:, local])
+    return Solids(
+        names=tuple(names),
+        reference=reference,
+        owner=owner,
+        first=np.searchsorted(owner, np.arange(len(names))),
+        blocks=tuple(Block(cell=c, nodes=nodes, body=bodies[c], outer=outer[c]) for c, nodes in filling.items()),
+        facets={name: np.concatenate(found) for name, found in facets.items()},
+    )
+
+
+def boxes(points: Array, owner: IntArray, count: int) -> tuple[Array, Array]:
+    """Least and greatest coordinates (count, d), (count, d) of the points (n, d) of each owner (n,).
+
+    Examples
+    --------
+    >>> low, high = boxes(np.array([[0.0], [2.0], [5.0]]), np.array([0, 0, 1]), 2)
+    >>> low[:, 0].tolist(), high[:, 0].tolist()
+    ([0.0, 5.0], [2.0, 5.0])
+    """
+    low = np.full((count, points.shape[1]), np.inf)
+    high = -low
+    np.minimum.at(low, owner, points)
+    np.maximum.at(high, owner, points)
+    return low, high
+
+
+def _outer(blocks: Mapping[str, IntArray]) -> dict[str, BoolArray]:
+    """Faces (e, faces) of the cells of each block that no second cell shares."""
+    width = max((CELLS[facet].corners for name in blocks for facet, _ in FACETS[name]), default=1)
+    keys, spans, start = [], {}, 0
+    for name, nodes in blocks.items():
+        for facet, local in FACETS[name]:
+            corners = np.sort(nodes[:, list(local)[: CELLS[facet].corners]], axis=1)
+            keys.append(np.pad(corners, ((0, 0), (width - corners.shape[1], 0)), constant_values=-1))
+        spans[name] = slice(start, start + len(nodes) * len(FACETS[name]))
+        start = spans[name].stop
+    if not keys:
+        return {}
+    _, number, count = np.unique(np.concatenate(keys), axis=0, return_inverse=True, return_counts=True)
+    single = count[number.ravel()] == 1
+    return {name: single[spans[name]].reshape(len(FACETS[name]), -1).T for name in blocks}

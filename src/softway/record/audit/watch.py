@@ -1,0 +1,120 @@
+"""Audit of a march: its slabs with the findings at the stored frames and at the end."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.bodies.solid import Tool
+from softway.march.results.step import Event, Step
+from softway.model.scene import State
+from softway.record.audit.auditor import Auditor
+from softway.record.audit.geometry.solids import solids
+from softway.record.read.findings import DISSIPATION, ENERGY, MOMENTUM, finding
+from softway.record.storage.table import Table
+from softway.record.write.grid_layout import layout
+from softway.record.write.recorder import RunStart
+
+APART = 10
+"""Least number of slabs between two audits: with it they take a few percent of the time of a run."""
+GIVEN_BACK = 1e-12
+"""Dissipation of a slab, relative to the energies, below whose negative it is a finding."""
+MISSED = 1e-2
+"""Error of the energy balance since the start, relative to the energies that took part, above which it is a finding."""
+AGREED = 1e-9
+"""Difference of energies and momenta to those computed again from the fields, relative to them."""
+
+
+class Watcher:
+    """Audit of the slabs of one march, which it takes in order.
+
+    Parameters
+    ----------
+    auditor
+        Geometric audit.
+    positions
+        Positions (n, d) of the nodes of all bodies in a state [m].
+    opening
+        Start of the run: when frames are stored, and the balances of a state.
+    """
+
+    __slots__ = ("_audited", "_dissipation", "_energy", "_slabs", "auditor", "opening", "positions")
+
+    def __init__(self, auditor: Auditor, positions: Callable[[State], Array], opening: RunStart) -> None:
+        self.auditor, self.positions, self.opening = auditor, positions, opening
+        self._slabs = self._audited = 0
+        self._dissipation = 0.0
+        self._energy = opening.ledger.energy_kinetic + opening.ledger.energy_strain
+
+    def past(self, history: Table) -> None:
+        """Take up the history of the part of the run that was computed before it is resumed."""
+        times = history["time"]
+        for before, after in zip(times[:-1], times[1:], strict=True):
+            self._counted(before, after)
+        self._dissipation = float(history["dissipation"][-1])
+        self._energy = float((history["energy_kinetic"] + history["energy_strain"]).max())
+
+    def watched(self, steps: Iterator[Step]) -> Iterator[Step]:
+        """Steps with the findings among their events, and the gaps that were seen in their certificates."""
+        for step in steps:
+            found = list(self._given_back(step))
+            seen = step.certificate
+            if self._counted(step.before.time, step.after.time):
+                depths = self.auditor.look(step.after.time, self.positions(step.after))
+                seen = replace(seen, gap_nodes=0.0 - depths.nodes, gap_between=0.0 - depths.between)
+                found += [*depths.findings, *self._balanced(step)]
+            yield replace(step, certificate=seen, events=(*step.events, *found))
+
+    def _counted(self, before: float, after: float) -> bool:
+        """Count a slab between two times; true if it is audited."""
+        self._slabs += 1
+        if not (
+            self.opening.ended(after)
+            or (self.opening.frame_due(before, after) and self._slabs - self._audited >= APART)
+        ):
+            return False
+        self._audited = self._slabs
+        return True
+
+    def _given_back(self, step: Step) -> Iterator[Event]:
+        """Finding on a slab that gave dissipated energy back."""
+        gained = step.ledger.dissipation - self._dissipation
+        self._dissipation = step.ledger.dissipation
+        self._energy = max(self._energy, step.ledger.energy_kinetic + step.ledger.energy_strain)
+        if gained < -GIVEN_BACK * (self._energy + abs(self._dissipation)):
+            text = f"friction and material gave {-gained:.3g} J back in the slab of {step.slab.span:.3g} s"
+            yield finding(step.after.time, DISSIPATION, ("all",), text)
+
+    def _balanced(self, step: Step) -> Iterator[Event]:
+        """Findings on balances that miss, and on energies and momenta that do not agree with the fields."""
+        ledger, time = step.ledger, step.after.time
+        scale = self._energy + abs(ledger.work_external)
+        if abs(ledger.energy_error) > MISSED * scale:
+            text = f"the energy balance misses {ledger.energy_error:.3g} J of {scale:.3g} J since the start"
+            yield finding(time, ENERGY, ("all",), text)
+        if self.opening.balances is None:
+            return
+        again = self.opening.balances(step.after)
+        pairs: Mapping[str, tuple[float, float]] = {
+            "kinetic": (again.kinetic, ledger.energy_kinetic),
+            "strain": (again.strain, ledger.energy_strain),
+        }
+        for name, (found, given) in pairs.items():
+            if not abs(found - given) <= AGREED * scale:
+                text = f"the {name} energy of the fields is {found:.9g} J, that of the ledger {given:.9g} J"
+                yield finding(time, ENERGY, ("all",), text)
+        missed = float(np.abs(again.momentum - ledger.momentum).max())
+        if not missed <= AGREED * again.moving:
+            text = f"the momentum of the fields and that of the ledger differ by {missed:.3g} kg m/s"
+            yield finding(time, MOMENTUM, ("all",), text)
+
+
+def watcher(opening: RunStart) -> Watcher:
+    """Audit of a run from its start."""
+    cells = layout(opening.meshes, {})
+    blocks, bodies = cells.by_type()
+    reference = cells.reference[:, : cells.dimension]
+    tools = {name: body for name, body in opening.scene.bodies.items() if isinstance(body, Tool)}
+    auditor = Auditor(solids=solids(cells.names, reference, blocks, bodies), tools=tools)
+    return Watcher(auditor, lambda state: reference + cells.nodal(state.displacement)[:, : cells.dimension], opening)
