@@ -2,7 +2,7 @@
 
 ``python docs/scripts/gallery.py NAME PICTURE.png`` shrinks a large picture, for example of ``softway plot``, to the
 picture of an entry; it needs Pillow, which comes with matplotlib.  The text of each entry is the first sentence of its
-file.
+file, and the one that begins with "The audit finds".
 """
 
 import re
@@ -56,8 +56,10 @@ def entries() -> Iterator[Entry]:
 
 
 def _first(text: str) -> str:
-    """First sentence of a text."""
-    return text.strip().partition(". ")[0].rstrip(".") + "."
+    """First sentence of a text, and the one on the findings of the audit."""
+    first, *others = text.strip().split(". ")
+    told = [one for one in others if one.startswith("The audit finds")]
+    return " ".join(one.rstrip(".") + "." for one in (first, *told))
 
 
 def page() -> str:
