@@ -134,9 +134,7 @@ def test_a_plane_is_checked_at_the_nodes_of_linear_cells_and_between_those_of_qu
     floor = PlacedShape(shape=HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)), pose=Still().at(0.0))
     body = together(recipes.Rectangle(size=(1.0, 1.0), cells=(1, 1), cell="quad9").build())
     x = body.reference.copy()
-    x[:, 1] += 0.1 - 0.4 * x[:, 0] * (
-        1.0 - x[:, 0]
-    )  # the lower edge is a parabola that touches
+    x[:, 1] += 0.1 - 0.4 * x[:, 0] * (1.0 - x[:, 0])  # the lower edge is a parabola that touches
     assert not [f for f in sunk(body, x, floor, behind(body, floor)) if f.depth > 1e-12]
     x[:, 1] -= 0.02
     (node, *between) = sunk(body, x, floor, behind(body, floor))
