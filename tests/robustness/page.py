@@ -76,21 +76,27 @@ def drops(found: list[dict[str, Any]]) -> str:
     ends = collections.Counter(d["end"] for d in found)
     text = f"""## Random drops
 
-{len(found)} drops of random bodies (bars, rectangles, discs, rings, boxes, balls, cylinders, the bracket; all cells;
-ten laws) on random obstacles (half space, ball, block, roller, torus, STL, another body), at v/c up to 0.3, tilted,
-with and without friction and gravity, by the three contact rules and two solvers; `tests/robustness/inputs/drops.py`
-makes the scenario of each number. Every accepted slab is looked at: depth over the size of the displacements, tension
-over force, and error of the energy balance over energy. The rules Impulse and Paper give no promise on energy. *Slow*
-is more than five minutes of processor time.
+{len(found)} drops of random bodies (bars, rectangles, discs, rings, thin and open rings that fold, boxes, balls,
+cylinders, the bracket; all cells; ten laws) on random obstacles (half space, ball, block, roller, torus, STL, another
+body), two or three deformable bodies in a third of them, friction in half, at v/c up to 0.3, tilted, with and without
+gravity, by the three contact rules and two solvers; `tests/robustness/inputs/drops.py` makes the scenario of each
+number. Every accepted slab is looked at: depth over the size of the displacements, tension over force, error of the energy
+balance over energy, and the energy that friction and matter give back in a slab. The
+[audit](../theory/contact/audit.md) looks at the stored frames; each of its findings has to be an event of the run. The
+rules Impulse and Paper give no promise on energy. *Slow* is more than five minutes of processor time.
 
 """
     rows = []
     for rule in ("Energy", "Impulse", "Paper"):
         mine = [d for d in found if d["rule"] == rule]
         counts = collections.Counter(d["end"] for d in mine)
-        worst = [max((d[k] for d in mine), default=0.0) for k in ("depth", "tension", "energy")]
+        worst = [max((d.get(k, 0.0) for d in mine), default=0.0) for k in ("depth", "tension", "energy", "given_back")]
         rows.append([rule, len(mine), *(counts[e] for e in ENDS), *(f"{w:.1e}" for w in worst)])
-    out = text + table(["rule", "drops", *ENDS, "depth", "tension", "energy"], rows)
+    out = text + table(["rule", "drops", *ENDS, "depth", "tension", "energy", "given back"], rows)
+    kinds = collections.Counter(kind for d in found for kind in d.get("findings", "").split(", ") if kind)
+    if kinds:
+        told = ", ".join(f"{kind} in {count}" for kind, count in sorted(kinds.items()))
+        out += f"\nThe audit found something in {sum(bool(d.get('findings')) for d in found)} drops: {told}.\n"
     stopped = [d for d in found if d["end"] not in ("done", "refused")]
     if stopped:
         out += f"\nThe {len(stopped)} that did not finish:\n\n"

@@ -13,6 +13,7 @@ import numpy as np
 
 from inputs.drops import Drop, drop
 from softway.errors import InputError, NumericsError
+from softway.record.audit.folder import frames_audited
 from softway.record.run import Run
 from softway.record.write.progress import Progress
 from softway.scenario.checks.check import Checked, check
@@ -59,11 +60,12 @@ def judged(given: Drop, units: Units) -> dict[str, Any]:
     watch, begun = Watch(), process_time()
     signal.signal(signal.SIGVTALRM, _stop)
     signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
-    end, why = "done", ""
+    end, why, seen = "done", "", {"findings": "", "given_back": 0.0}
     try:
         checked: Checked = check(loads(given.text, folder=ROOT, units=units))
         with tempfile.TemporaryDirectory() as place:
-            why = _unrecorded(run(checked, Path(place) / "run", progress=watch))
+            done = run(checked, Path(place) / "run", progress=watch)
+            why, seen = _unrecorded(done) or _unsaid(done), _seen(done)
             end = "defect" if why else "done"
     except NumericsError as error:
         crawls = "crawls: " if "rejections among" in error.what else ""
@@ -77,14 +79,35 @@ def judged(given: Drop, units: Units) -> dict[str, Any]:
     finally:
         signal.setitimer(signal.ITIMER_VIRTUAL, 0)
     told = {"number": given.number, "end": end, "why": why, "slabs": watch.slabs, "rejections": watch.rejections}
-    return {**told, "seconds": round(process_time() - begun, 2), **watch.worst, **given.traits}
+    return {**told, "seconds": round(process_time() - begun, 2), **watch.worst, **seen, **given.traits}
 
 
 def _unrecorded(done: Run) -> str:
     """What in the records is not a number; empty where all is."""
     history = done.history
-    bad = [name for name in history if not np.isfinite(history[name][1:]).all() and "gap" not in name]
+    bad = [name for name in history if "gap" not in name and not np.isfinite(history[name][1:]).all()]
     return f"not a number in {', '.join(bad)}" if bad else ""
+
+
+def _unsaid(done: Run) -> str:
+    """A finding of the audit of the stored frames that is no event of the run; empty if there is none."""
+    events, history = done.events, done.history
+    audited = history["time"][~np.isnan(history["certificate.gap_nodes"])]
+    said = set(zip(events["time"], events["kind"], events["contact"], strict=True))
+    for depths in frames_audited(done.fields):
+        for event in depths.findings:
+            if event.time in audited and (event.time, event.kind, event.contact) not in said:
+                return f"unsaid: {event.finding} at {event.time:g} s"
+    return ""
+
+
+def _seen(done: Run) -> dict[str, Any]:
+    """Kinds of the findings, and the greatest dissipation that a slab gave back, relative to the energy."""
+    history = done.history
+    kinds = dict.fromkeys(one["kind"] for one in done.summary["findings"])
+    energy = float((history["energy_kinetic"] + history["energy_strain"]).max())
+    given_back = float(np.maximum(-np.diff(history["dissipation"]), 0.0).max(initial=0.0))
+    return {"findings": ", ".join(kinds), "given_back": given_back / (energy + 1e-300)}
 
 
 def _stop(*_: object) -> None:
@@ -99,7 +122,7 @@ def fall(number: int) -> dict[str, Any]:
 def _dead(number: int, how: Complaint) -> dict[str, Any]:
     """What is told of a drop whose process died."""
     told = {"number": number, "end": "defect", "why": how.text, "slabs": 0, "rejections": 0, "seconds": float(SECONDS)}
-    return {**told, **Watch().worst, **drop(number).traits}
+    return {**told, **Watch().worst, "findings": "", "given_back": 0.0, **drop(number).traits}
 
 
 def main() -> None:

@@ -1,4 +1,8 @@
-"""Random drops: a body of random shape, cells and law falls on a random obstacle; its scenario, by its number."""
+"""Random drops: bodies of random shape, cells and law fall on a random obstacle; their scenario, by its number.
+
+Friction acts in half of the drops; two or three bodies are deformable in a third; some are hollow or open rings that
+fold.
+"""
 
 from dataclasses import dataclass
 from math import degrees, log10
@@ -38,9 +42,10 @@ def drop(number: int) -> Drop:
     rng = np.random.default_rng([2026, number])
     dim = int(rng.choice([1, 2, 2, 2, 3, 3]))
     part = dim == 3 and rng.random() < 0.03
-    rule = str(rng.choice(["Energy", "Energy", "Energy", "Impulse", "Paper"]))
+    rubs = dim > 1 and rng.random() < 0.6
+    rule = "Energy" if rubs else str(rng.choice(["Energy", "Energy", "Impulse", "Paper"]))
     solver = "FixedPoint" if part else str(rng.choice(["FixedPoint", "Newton"]))
-    rubs = dim > 1 and rule == "Energy" and rng.random() < 0.5
+    bodies = 1 if dim == 1 or part else int(rng.choice([1, 1, 1, 2, 3]))
     size, modulus, density = (
         0.08 if part else 10.0 ** rng.uniform(-3, 0),
         10.0 ** rng.uniform(6, 11),
@@ -50,11 +55,13 @@ def drop(number: int) -> Drop:
     mach = rng.uniform(0.05, 0.3) if rng.random() < 0.5 else 10.0 ** rng.uniform(-4, log10(0.3))
     speed = mach * float(np.sqrt(modulus / density))
     name, cell, mesh, cells = _mesh(rng, dim, size, part)
-    obstacle, other = _obstacle(rng, dim, size, density, material)
+    obstacle, other = _obstacle(rng, dim, size, density, material, bodies)
     mass = rng.choice(['{ kind = "Consistent" }', '{ kind = "Lumped" }'])
     force = '\nforce = "EnergyMomentum"' if law in ("NeoHookean", "StVenantKirchhoff") and rng.random() < 0.4 else ""
     gap = size * 10.0 ** rng.uniform(-4, -1.3) + (1.4 * size if obstacle == "STL" else 0.0)
-    end = min(gap, 0.05 * size) / speed + rng.uniform(1.0, 3.0) * 2.0 * size / float(np.sqrt(modulus / density))
+    end = min(gap, 0.05 * size) / speed * (1.0 if bodies < 3 else 4.0) + rng.uniform(1.0, 3.0) * 2.0 * size / float(
+        np.sqrt(modulus / density)
+    )
     step = f'"{end / (10 if part else max(20, cells * rng.integers(3, 9))):.6g} s"'
     body = f"""[bodies.body]
 kind = "Solid"
@@ -65,11 +72,23 @@ mass = {mass}
 velocity = {_velocity(rng, dim, speed)}{force}
 {_place(rng, dim, gap, size)}"""
     friction = _friction(rng) if rubs else None
-    contact = f"""[[contacts]]
-name = "drop"
-between = ["body", "{"other.top" if obstacle == "body" else "other"}"]
-timing = "{rule}"
-""" + (f"friction = {friction[1]}\n" if friction else "")
+    third = bodies == 3
+    if third:
+        body += f"""
+[bodies.third]
+kind = "Solid"
+mesh = {_mesh(rng, dim, size, part)[2]}
+material = {material}
+density = "{density:.6g} kg/m^3"
+velocity = {_velocity(rng, dim, 3.0 * speed)}
+{_place(rng, dim, 2.5 * size + gap, size)}"""
+    pairs = [("drop", "body", "other.top" if obstacle == "body" else "other")]
+    pairs += [("above", "third", "body"), ("beside", "third", "other")] if third else []
+    contact = "\n".join(
+        f'[[contacts]]\nname = "{label}"\nbetween = ["{one}", "{two}"]\ntiming = "{rule}"\n'
+        + (f"friction = {friction[1]}\n" if friction else "")
+        for label, one, two in pairs
+    )
     weight = f"acceleration = {_vector(dim, -9.81, 'm/s^2')}"
     gravity = f'[[loads]]\nkind = "Gravity"\n{weight}\n' if rng.random() < 0.5 else ""
     text = f"""title = "Drop {number}"
@@ -88,8 +107,8 @@ step = {step}
 kind = "{solver}"
 """
     traits = {
-        "space": f"{dim}D", "body": name, "cells": cell, "law": law, "obstacle": obstacle, "rule": rule,
-        "solver": solver, "friction": friction[0] if friction else "none", "speed": f"{mach:.2g}",
+        "space": f"{dim}D", "bodies": str(bodies), "body": name, "cells": cell, "law": law, "obstacle": obstacle,
+        "rule": rule,        "solver": solver, "friction": friction[0] if friction else "none", "speed": f"{mach:.2g}",
     }  # fmt: skip
     return Drop(number=number, text=text, traits=traits)
 
@@ -127,15 +146,19 @@ def _mesh(rng: Rng, dim: int, size: float, part: bool) -> tuple[str, str, str, i
         return "bar", cell, f'{{ kind = "Interval", length = "{size:.6g} m", cells = {cells}, cell = "{cell}" }}', cells
     if dim == 2:
         cell = str(rng.choice(["tri3", "quad4", "tri6", "quad9"]))
-        name = str(rng.choice(["Rectangle", "Disc", "Ring"]))
+        name = str(rng.choice(["Rectangle", "Disc", "Ring", "Hollow", "Open"]))
         wide = size * rng.uniform(0.2, 2.0)
         what = {
             "Rectangle": f'size = ["{wide:.6g} m", "{size:.6g} m"], cells = [{few + 1}, {few + 1}], '
             f'origin = ["{-0.5 * wide:.6g} m", 0]',
             "Disc": f'radius = "{size / 2:.6g} m", cells = {2 * few}',
             "Ring": f'inner = "{0.3 * size:.6g} m", outer = "{0.5 * size:.6g} m", cells = [{few}, {8 * few}]',
+            "Hollow": f'inner = "{0.43 * size:.6g} m", outer = "{0.5 * size:.6g} m", cells = [2, 24]',
+            "Open": f'inner = "{0.4 * size:.6g} m", outer = "{0.5 * size:.6g} m", cells = [2, 20], angle = "330 deg", '
+            f'start = "{rng.uniform(0.0, 360.0):.4g} deg"',
         }[name]
-        return name, cell, f'{{ kind = "{name}", {what}, cell = "{cell}" }}', 2 * few
+        kind = "Ring" if name in ("Hollow", "Open") else name
+        return name, cell, f'{{ kind = "{kind}", {what}, cell = "{cell}" }}', 2 * few
     cell = str(rng.choice(["tet4", "hex8", "hex8", "tet10", "hex27"]))
     high = cell in ("tet10", "hex27")
     name = "Bracket" if part else str(rng.choice(["Box", "Ball", "Cylinder"]))
@@ -153,8 +176,11 @@ def _mesh(rng: Rng, dim: int, size: float, part: bool) -> tuple[str, str, str, i
     return name, cell, f'{{ kind = "{name}", {what}, cell = "{cell}" }}', 2 * few
 
 
-def _obstacle(rng: Rng, dim: int, size: float, density: float, material: str) -> tuple[str, str]:
-    """Name and text of what the body falls on; its highest place is about zero, under the body."""
+def _obstacle(rng: Rng, dim: int, size: float, density: float, material: str, bodies: int) -> tuple[str, str]:
+    """Name and text of what the body falls on; its highest place is about zero, under the body.
+
+    It is a tool if only one body is deformable, and a body if two are.
+    """
     r = size * rng.uniform(0.3, 3.0)
     low = f'"{-r:.6g} m"'
     if dim == 1:
@@ -162,8 +188,8 @@ def _obstacle(rng: Rng, dim: int, size: float, density: float, material: str) ->
     deep = f'["0 m", {low}]' if dim == 2 else f'["0 m", "0 m", {low}]'
     wide = ", ".join([f'"{-2 * size:.6g} m"'] * (dim - 1))
     plus = ", ".join([f'"{2 * size:.6g} m"'] * (dim - 1))
-    kinds = ["half space", "ball", "block", "body", "body"] + (["roller", "torus", "STL"] if dim == 3 else [])
-    name = str(rng.choice(kinds))
+    kinds = ["half space", "ball", "block"] + (["roller", "torus", "STL"] if dim == 3 else [])
+    name = "body" if bodies == 2 else str(rng.choice(kinds))
     if name == "body":
         support = rng.choice(["", '\nsupports = [{ on = "bottom" }]'])
         few = int(rng.integers(1, 4))
