@@ -1,6 +1,7 @@
 """Tables of shape functions and quadrature; the only module that uses basix.
 
-The shape functions are Lagrange polynomials on equispaced nodes in VTK order, see :mod:`softway.meshes.cells`. The
+The shape functions are Lagrange polynomials on equispaced nodes in VTK order, see :mod:`softway.meshes.cells`. Those of
+a serendipity cell are combinations of the functions of the cell with all nodes (docs/theory/bodies/mass.md). The
 quadrature is the default of basix: Gauss-Jacobi on bars, squares and cubes, Xiao-Gimbutas on triangles and tetrahedra.
 """
 
@@ -12,7 +13,7 @@ import numpy as np
 
 from softway.arrays import Array, IntArray
 from softway.errors import InputError
-from softway.meshes.cells import CELLS, FACETS
+from softway.meshes.cells import CELLS, FACETS, SERENDIPITY
 
 __all__ = ["CELLS", "FACETS", "Element", "element", "exact_degree", "permutation", "stiffness_degree", "tabulate"]
 
@@ -55,6 +56,19 @@ def _family(cell: str) -> basix.CellType:
     if cell not in FACETS:
         raise InputError("cell", f"unknown cell {cell!r}", f"one of: {', '.join(FACETS)}")
     return _BASIX[name]
+
+
+def completion(cell: str) -> Array:
+    """Shape functions (b, a) of a serendipity cell at the b nodes of the cell with all nodes.
+
+    Examples
+    --------
+    >>> completion("quad8")[8].tolist()
+    [-0.25, -0.25, -0.25, -0.25, 0.5, 0.5, 0.5, 0.5]
+    """
+    it, full = CELLS[cell], CELLS[SERENDIPITY[cell]]
+    own, there = (np.prod(nodes[:, None] ** it.powers, axis=2) for nodes in (it.nodes, full.nodes))
+    return np.rint(4.0 * there @ np.linalg.inv(own)) / 4.0  # multiples of a quarter
 
 
 @cache
@@ -118,8 +132,10 @@ def tabulate(cell: str, points: Array) -> tuple[Array, Array]:
     >>> N.round(12).tolist(), dN[..., 0].round(12).tolist()
     ([[0.75, 0.25]], [[-1.0, 1.0]])
     """
-    made, order = _lagrange(cell)
+    made, order = _lagrange(SERENDIPITY.get(cell, cell))
     table = np.asarray(made.tabulate(1, np.ascontiguousarray(points, dtype=float)), dtype=float)[:, :, list(order), 0]
+    if cell in SERENDIPITY:
+        table = table @ completion(cell)
     table = np.where(np.abs(table) < 1e-14, 0.0, table)
     return np.ascontiguousarray(table[0]), np.ascontiguousarray(np.moveaxis(table[1:], 0, 2))
 
@@ -139,7 +155,7 @@ def element(cell: str, degree: int | None = None) -> Element:
     Parameters
     ----------
     cell
-        ``bar2 bar3 tri3 tri6 quad4 quad9 tet4 tet10 hex8 hex27``.
+        ``bar2 bar3 tri3 tri6 quad4 quad8 quad9 tet4 tet10 hex8 hex20 hex27``.
     degree
         Degree of quadrature; by default enough for exact mass and stiffness of the undistorted cell.
 

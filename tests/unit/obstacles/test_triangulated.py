@@ -271,10 +271,10 @@ def test_the_scale_is_the_length_unit_of_the_file(tmp_path):
     assert Surface(file=file, scale=1e-3, smooth=True).facets.smooth
 
 
-@pytest.mark.parametrize("cell", ["quad4", "tri3", "tri6", "quad9"])
+@pytest.mark.parametrize("cell", ["quad4", "tri3", "tri6", "quad8", "quad9"])
 def test_the_boundary_of_a_plane_mesh_is_taken(tmp_path, cell):
     mesh = rectangle((1.0, 1.0), (3, 2), origin=(-0.5, -0.4), cell=cell)
-    names = {"quad4": "quad", "tri3": "triangle", "tri6": "triangle6", "quad9": "quad9"}
+    names = {"quad4": "quad", "tri3": "triangle", "tri6": "triangle6", "quad8": "quad8", "quad9": "quad9"}
     points = np.pad(mesh.points, ((0, 0), (0, 1)))
     file = written(tmp_path / "a.msh", points, [(names[cell], mesh.blocks[cell])], file_format="gmsh22", binary=False)
     x = np.random.default_rng(0).uniform(-1.0, 1.0, (200, 2))
@@ -282,7 +282,14 @@ def test_the_boundary_of_a_plane_mesh_is_taken(tmp_path, cell):
 
 
 @pytest.mark.parametrize(
-    ("cell", "name"), [("hex8", "hexahedron"), ("tet4", "tetra"), ("tet10", "tetra10"), ("hex27", "hexahedron27")]
+    ("cell", "name"),
+    [
+        ("hex8", "hexahedron"),
+        ("tet4", "tetra"),
+        ("tet10", "tetra10"),
+        ("hex20", "hexahedron20"),
+        ("hex27", "hexahedron27"),
+    ],
 )
 def test_the_boundary_of_a_solid_mesh_is_taken(tmp_path, cell, name):
     mesh = box((1.0, 1.0, 0.5), (2, 2, 1), origin=(-0.5, -0.4, -0.3), cell=cell)

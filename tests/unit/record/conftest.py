@@ -114,8 +114,10 @@ MESHES: dict[str, Callable[[], Mesh]] = {
     "bar2": lambda: shapes.interval(1.0, 4),
     "bar3": lambda: shapes.interval(1.0, 4, cell="bar3", direction=(0.0, 1.0), dim=2),
     "tri6": lambda: shapes.rectangle((1.0, 1.0), (2, 2), cell="tri6"),
+    "quad8": lambda: shapes.rectangle((1.0, 1.0), (2, 2), cell="quad8"),
     "quad9": lambda: shapes.rectangle((1.0, 1.0), (2, 2), cell="quad9"),
     "tet10": lambda: shapes.box((1.0, 1.0, 1.0), (2, 2, 2), cell="tet10"),
+    "hex20": lambda: shapes.box((1.0, 1.0, 1.0), (2, 2, 2), cell="hex20"),
     "hex27": lambda: shapes.box((1.0, 1.0, 1.0), (2, 2, 2), cell="hex27"),
 }
 

@@ -54,7 +54,7 @@ class ContactSurface:
     ----------
     facets
         Kind -> (f, b) nodes in the numbering of the model, turned outward: ``point1`` in one dimension, ``bar2`` or
-        ``bar3`` in two, ``tri3``, ``tri6``, ``quad4`` or ``quad9`` in three.
+        ``bar3`` in two, ``tri3``, ``tri6``, ``quad4``, ``quad8`` or ``quad9`` in three.
     ends
         (f,) outward directions +1 or -1 of the facets ``point1``, see :func:`outward`; empty for the others.
     nodes

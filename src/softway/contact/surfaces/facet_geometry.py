@@ -6,7 +6,6 @@ from the nearest node.  If the foot is outside the facet, the closest point of i
 
 from dataclasses import dataclass
 from functools import cache
-from itertools import product
 
 import numpy as np
 
@@ -67,13 +66,10 @@ def kind_of(name: str) -> FacetKind:
     [[0.375, -0.125, 0.75]]
     """
     cell = CELLS[name]
-    every = product(range(cell.order + 1), repeat=cell.dim)
-    powers = np.array([p for p in every if not cell.simplex or sum(p) <= cell.order], dtype=np.int64)
-    powers = powers.reshape(len(cell.nodes), cell.dim)
-    coefficients = np.linalg.inv(_table(cell.nodes, powers, (0,) * cell.dim))
+    coefficients = np.linalg.inv(_table(cell.nodes, cell.powers, (0,) * cell.dim))
     edges = [[*pair, _middle(cell.nodes, pair)] if cell.order == 2 else pair for pair in cell.edges]
     return FacetKind(
-        powers=powers,
+        powers=cell.powers,
         coefficients=np.where(np.abs(coefficients) < 1e-13, 0.0, coefficients),
         edge="bar3" if cell.order == 2 else "bar2",
         edges=np.array(edges, dtype=np.int64).reshape(len(cell.edges), cell.order + 1),
@@ -90,7 +86,7 @@ def on_facets(kind: str, x: Array, nodes: Array) -> Array:
     Parameters
     ----------
     kind
-        ``point1 bar2 bar3 tri3 tri6 quad4 quad9``.
+        ``point1 bar2 bar3 tri3 tri6 quad4 quad8 quad9``.
     x
         (p, d) points [m].
     nodes

@@ -113,7 +113,7 @@ def _distance(part: DiscreteSolid, corners: Array, x: Array) -> Array:
 
 
 def _curved(part: DiscreteSolid) -> bool:
-    return any(name in ("bar3", "tri6", "quad9", "quad4") for name in part.mesh.boundary())
+    return any(len(FLAT.get(name, ())) > 1 for name in part.mesh.boundary())
 
 
 def _named(model: Model, u: Array, k: int, node: int, depth: float, other: str) -> Overlap:

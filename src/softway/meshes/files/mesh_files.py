@@ -21,10 +21,12 @@ NAMES = {
     "triangle": "tri3",
     "triangle6": "tri6",
     "quad": "quad4",
+    "quad8": "quad8",
     "quad9": "quad9",
     "tetra": "tet4",
     "tetra10": "tet10",
     "hexahedron": "hex8",
+    "hexahedron20": "hex20",
     "hexahedron27": "hex27",
 }
 """Name of a cell in meshio -> name here; both use the node order of VTK."""

@@ -35,7 +35,8 @@ def grid(*coordinates: Sequence[float], cell: str | None = None) -> Mesh:
     coordinates
         Increasing coordinates along x and y, or along x, y and z [m].
     cell
-        Type of cell: ``tri3 tri6 quad4 quad9``, or ``tet4 tet10 hex8 hex27``; ``quad4`` or ``hex8`` by default.
+        Type of cell: ``tri3 tri6 quad4 quad8 quad9``, or ``tet4 tet10 hex8 hex20 hex27``; by default ``quad4`` or
+        ``hex8``.
 
     Examples
     --------
@@ -104,7 +105,7 @@ def ring(
     centre
         Centre of the ring [m].
     cell
-        Type of cell: ``tri3 tri6 quad4 quad9``; nodes of quadratic cells lie on the circles.
+        Type of cell: ``tri3 tri6 quad4 quad8 quad9``; nodes of quadratic cells lie on the circles.
 
     Examples
     --------
@@ -162,7 +163,7 @@ def graded_disc(
     centre
         Centre of the disc [m].
     cell
-        Type of cell: ``quad4`` or ``quad9``.
+        Type of cell: ``quad4``, ``quad8`` or ``quad9``.
 
     Examples
     --------
@@ -178,8 +179,8 @@ def graded_disc(
         raise InputError("focus", f"{focus:g} m on a disc of radius {radius:g} m", "a positive length up to the radius")
     if not isinstance(cells, int | np.integer) or cells < 2:
         raise InputError("cells", f"{cells} is not a number of cells", "a whole number, 2 or more")
-    if cell not in ("quad4", "quad9"):
-        raise InputError("cell", f"{cell!r} is not available here", "quad4 or quad9")
+    if cell not in ("quad4", "quad8", "quad9"):
+        raise InputError("cell", f"{cell!r} is not available here", "quad4, quad8 or quad9")
     require_few(cells, cells)
     edge = tan(0.5 * focus / radius)
     order = CELLS[cell].order

@@ -8,7 +8,7 @@ diagonals towards the centre.
 import numpy as np
 
 from softway.arrays import Array, IntArray
-from softway.meshes.cells import CELLS
+from softway.meshes.cells import CELLS, FACETS
 from softway.meshes.generators.lattice import (
     boundary_edges,
     kuhn_cells,
@@ -94,7 +94,8 @@ def rounded_simplices(
 
 
 def extruded(points: Array, cells: IntArray, flat: str, height: float, layers: int) -> tuple[Array, IntArray]:
-    """Extrude plane cells along z: tri3 to tet4 (three for each prism), quad4 to hex8, quad9 to hex27.
+    """Extrude plane cells along z: tri3 to tet4 (three for each prism), quad4 to hex8, quad8 to hex20,
+    quad9 to hex27.
 
     Prisms are split along the order of the node numbers, so that neighbours agree on the diagonals.
 
@@ -114,7 +115,8 @@ def extruded(points: Array, cells: IntArray, flat: str, height: float, layers: i
         base = prism.transpose(2, 0, 1).reshape(-1, 4)
         base = upright(solid[base], base)
     else:
-        local = CELLS["hex8" if order == 1 else "hex27"].nodes
+        local = CELLS[next(cell for cell, facets in FACETS.items() if facets[0][0] == flat)].nodes
         places = np.abs(local[:, None, :2] - CELLS[flat].nodes[None]).sum(axis=2).argmin(axis=1)
         base = cells[:, places] + count * np.rint(order * local[:, 2]).astype(np.int64)
-    return solid, (lift[:, None, None] + base[None]).reshape(-1, base.shape[1])
+    kept, nodes = np.unique((lift[:, None, None] + base[None]).reshape(-1, base.shape[1]), return_inverse=True)
+    return solid[kept], nodes.reshape(-1, base.shape[1])

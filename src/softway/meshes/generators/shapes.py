@@ -10,7 +10,7 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError
-from softway.meshes.cells import CELLS
+from softway.meshes.cells import CELLS, FACETS
 from softway.meshes.generators.lattice import (
     SIMPLEX,
     kuhn_cells,
@@ -24,8 +24,8 @@ from softway.meshes.mesh import Mesh
 
 KINDS = {
     1: ("bar2", "bar3"),
-    2: ("tri3", "tri6", "quad4", "quad9"),
-    3: ("tet4", "tet10", "hex8", "hex27"),
+    2: ("tri3", "tri6", "quad4", "quad8", "quad9"),
+    3: ("tet4", "tet10", "hex8", "hex20", "hex27"),
 }
 """Topological dimension -> available cells."""
 
@@ -89,7 +89,7 @@ def rectangle(
     origin
         Corner with the lowest coordinates [m]; zero by default.
     cell
-        Type of cell: ``tri3 tri6 quad4 quad9``.
+        Type of cell: ``tri3 tri6 quad4 quad8 quad9``.
 
     Examples
     --------
@@ -118,7 +118,7 @@ def box(
     origin
         Corner with the lowest coordinates [m]; zero by default.
     cell
-        Type of cell: ``tet4 tet10 hex8 hex27``.
+        Type of cell: ``tet4 tet10 hex8 hex20 hex27``.
 
     Examples
     --------
@@ -141,7 +141,7 @@ def disc(radius: float, cells: int, *, centre: Sequence[float] | None = None, ce
     centre
         [m]; zero by default.
     cell
-        Type of cell: ``tri3 tri6 quad4 quad9``.
+        Type of cell: ``tri3 tri6 quad4 quad8 quad9``.
 
     Examples
     --------
@@ -166,7 +166,7 @@ def ball(radius: float, cells: int, *, centre: Sequence[float] | None = None, ce
     centre
         Centre of the ball [m]; zero by default.
     cell
-        Type of cell: ``tet4 tet10 hex8 hex27``.
+        Type of cell: ``tet4 tet10 hex8 hex20 hex27``.
 
     Examples
     --------
@@ -195,7 +195,7 @@ def cylinder(
     origin
         Centre of the bottom [m]; zero by default.
     cell
-        Type of cell: ``tet4 tet10 hex8 hex27``.
+        Type of cell: ``tet4 tet10 hex8 hex20 hex27``.
 
     Examples
     --------
@@ -204,7 +204,7 @@ def cylinder(
     (24, 17, 24)
     """
     _check(cell, 3, (radius, height), cells, ("radius", "height"))
-    flat = {"tet4": "tri3", "tet10": "tri3", "hex8": "quad4", "hex27": "quad9"}[cell]
+    flat = "tri3" if CELLS[cell].simplex else FACETS[cell][0][0]
     points, nodes = extruded(*_ball(2, radius, cells[0], flat), flat, height, cells[1])
     if cell == "tet10":
         points, nodes = rounded_simplices(points, nodes, _far(points[:, :2], radius), radius, axes=2)

@@ -112,10 +112,16 @@ def _quad9(x: Array, y: Array) -> Array:
     return np.stack([a[i] * b[j] for i, j in pairs], axis=-1)
 
 
+def _quad8(x: Array, y: Array) -> Array:
+    full, bubble = _quad9(x, y)[..., :8], _quad9(x, y)[..., 8:]
+    return full + bubble * np.repeat([-0.25, 0.5], 4)
+
+
 SHAPES: Mapping[str, Callable[[Array, Array], Array]] = {
     "tri3": _tri3,
     "tri6": _tri6,
     "quad4": _quad4,
+    "quad8": _quad8,
     "quad9": _quad9,
 }
 

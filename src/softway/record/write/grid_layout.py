@@ -14,10 +14,12 @@ VTK = {
     "tri3": 5,
     "tri6": 22,
     "quad4": 9,
+    "quad8": 23,
     "quad9": 28,
     "tet4": 10,
     "tet10": 24,
     "hex8": 12,
+    "hex20": 25,
     "hex27": 29,
 }
 """VTK cell type of each element; the node orders agree."""

@@ -9,11 +9,11 @@ from softway.arrays import Array
 from softway.bodies.elements.section import Section, default_section, wave_speed
 from softway.bodies.inertia.mass_matrix import Lumped
 from softway.bodies.solid import Solid
+from softway.meshes.cells import CELLS
 from softway.meshes.mesh import Mesh
 from softway.model.time_weight import Momentum, limit
 
 _FREQUENCY = {("linear", False): 12.0, ("linear", True): 4.0, ("quadratic", False): 60.0, ("quadratic", True): 24.0}
-_QUADRATIC = {"bar3", "tri6", "quad9", "tet10", "hex27"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,7 +82,7 @@ def body_scales(solid: Solid, mesh: Mesh, free: int) -> BodyScales:
     speed = wave_speed(solid.material, solid.density, section_of(solid, mesh))
     length = float(np.ptp(mesh.points, axis=0).max())
     edge = mesh.edge()
-    order = "quadratic" if _QUADRATIC & set(mesh.blocks) else "linear"
+    order = "quadratic" if any(CELLS[name].order == 2 for name in mesh.blocks) else "linear"
     highest = sqrt(_FREQUENCY[order, isinstance(solid.mass, Lumped)] * mesh.cell_dim) * speed / edge
     return BodyScales(
         nodes=mesh.n_nodes,

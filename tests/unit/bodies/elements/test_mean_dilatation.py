@@ -67,7 +67,7 @@ def corner_of_cook(cell: str, n: int, nu: float, dilatation: str) -> float:
 
 
 @pytest.mark.parametrize("nu", [0.4999, 0.5])
-@pytest.mark.parametrize("cell", ["tri6", "quad9"])
+@pytest.mark.parametrize("cell", ["tri6", "quad8", "quad9"])
 def test_taylor_and_hoods_cells_do_not_lock(cell: str, nu: float) -> None:
     assert corner_of_cook(cell, 8, nu, "corner") == pytest.approx(7.77, rel=0.02)
     assert corner_of_cook(cell, 16, nu, "corner") == pytest.approx(7.77, rel=0.01)

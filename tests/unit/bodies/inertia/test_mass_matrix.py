@@ -74,6 +74,7 @@ def test_axisymmetric_ring(cell: str, rule) -> None:  # type: ignore[no-untyped-
     ("cell", "diagonal"),
     [
         ("bar3", (1 / 6, 1 / 6, 2 / 3)),
+        ("quad8", (3 / 76,) * 4 + (16 / 76,) * 4),
         ("quad9", (1 / 36,) * 4 + (1 / 9,) * 4 + (4 / 9,)),
         ("tri6", (3 / 57,) * 3 + (16 / 57,) * 3),
         ("tet10", (1 / 36,) * 4 + (4 / 27,) * 6),
@@ -97,7 +98,7 @@ def test_consistent_quad4() -> None:
 
 
 @pytest.mark.parametrize("rule", RULES)
-@pytest.mark.parametrize("cell", ["tet10", "hex27", "hex8"])
+@pytest.mark.parametrize("cell", ["tet10", "hex20", "hex27", "hex8"])
 def test_round_bodies_lose_all_inertia_on_their_surface(cell: str, rule) -> None:  # type: ignore[no-untyped-def]
     for mesh in (ball(0.5, 4, centre=(1.0, 2.0, 3.0), cell=cell), cylinder(0.5, 1.0, (4, 4), cell=cell)):
         plain = nodal_mass(mesh, 1.0, Volume(), Consistent())
@@ -177,7 +178,7 @@ def test_where_one_cell_is_too_much_the_moments_of_inertia_change(caplog: pytest
 
 @pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize("cells", [1, 2, 5])
-@pytest.mark.parametrize("cell", ["tri3", "tri6", "quad4", "quad9"])
+@pytest.mark.parametrize("cell", ["tri3", "tri6", "quad4", "quad8", "quad9"])
 def test_positive_definite_on_distorted_meshes(cell: str, cells: int, rule) -> None:  # type: ignore[no-untyped-def]
     """A congruence of the matrix of a positive density: never less than that density."""
     mesh = rectangle((1.0, 1.0), (12, 12), cell=cell)

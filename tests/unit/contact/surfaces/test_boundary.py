@@ -34,7 +34,8 @@ def test_ends_of_a_bar_have_outward_normals(cell: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("make", "cell"), [(disc, "quad4"), (disc, "quad9"), (ball, "hex8"), (ball, "hex27"), (ball, "tet10")]
+    ("make", "cell"),
+    [(disc, "quad4"), (disc, "quad9"), (ball, "hex8"), (ball, "hex20"), (ball, "hex27"), (ball, "tet10")],
 )
 def test_nodal_normals_of_a_ball_are_radial(make, cell: str) -> None:
     errors = []
@@ -47,7 +48,7 @@ def test_nodal_normals_of_a_ball_are_radial(make, cell: str) -> None:
     assert errors[0] > 1.9 * errors[1] or errors[0] < 1e-12
 
 
-@pytest.mark.parametrize("cell", ["hex8", "hex27", "tet4", "tet10"])
+@pytest.mark.parametrize("cell", ["hex8", "hex20", "hex27", "tet4", "tet10"])
 def test_nodal_normals_of_a_box_corner_are_the_diagonal(cell: str) -> None:
     mesh = box((1.0, 1.0, 1.0), (2, 2, 2), cell=cell)
     side = ContactSurface(facets=mesh.boundary())
@@ -58,7 +59,7 @@ def test_nodal_normals_of_a_box_corner_are_the_diagonal(cell: str) -> None:
     assert normals[middle] == pytest.approx(np.array([1.0, 0.0, 0.0]), abs=1e-13)
 
 
-@pytest.mark.parametrize("cell", ["hex8", "hex27", "tet4", "tet10"])
+@pytest.mark.parametrize("cell", ["hex8", "hex20", "hex27", "tet4", "tet10"])
 def test_sharp_edges_of_a_box(cell: str) -> None:
     mesh = box((1.0, 2.0, 3.0), (1, 2, 3), cell=cell)
     edges = ContactSurface(facets=mesh.boundary()).sharp_edges(mesh.points)

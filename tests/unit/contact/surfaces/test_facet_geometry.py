@@ -7,7 +7,7 @@ from softway.contact.surfaces.facet_geometry import continued, kind_of, nearest,
 from softway.meshes.cells import CELLS
 from softway.meshes.element import tabulate
 
-KINDS = ("bar2", "bar3", "tri3", "tri6", "quad4", "quad9")
+KINDS = ("bar2", "bar3", "tri3", "tri6", "quad4", "quad8", "quad9")
 NONE = np.zeros(0)
 
 

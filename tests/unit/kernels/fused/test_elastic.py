@@ -29,8 +29,8 @@ from softway.testing.elements import irregular_patch
 
 LAWS = [LinearElastic(E=2.0, nu=0.3), StVenantKirchhoff(E=2.0, nu=0.3), NeoHookean(E=2.0, nu=0.45)]
 SOFT = LAWS[2]
-FLAT = ["tri3", "tri6", "quad4", "quad9"]
-SOLID = ["tet4", "tet10", "hex8", "hex27"]
+FLAT = ["tri3", "tri6", "quad4", "quad8", "quad9"]
+SOLID = ["tet4", "tet10", "hex8", "hex20", "hex27"]
 BODIES: list[tuple[str, Section]] = [
     *product(FLAT, [PlaneStrain(thickness=0.5), Axisymmetric()]),
     *product(SOLID, [Volume()]),

@@ -8,7 +8,7 @@ from softway.meshes.cells import CELLS
 from softway.meshes.element import element
 
 
-@pytest.mark.parametrize("cell", ["tri3", "tri6", "quad4", "quad9", "tet4", "tet10", "hex8", "hex27"])
+@pytest.mark.parametrize("cell", ["tri3", "tri6", "quad4", "quad8", "quad9", "tet4", "tet10", "hex8", "hex20", "hex27"])
 def test_gradients_of_an_affine_field_are_constant(cell: str) -> None:
     table = element(cell)
     dim = table.dN.shape[-1]

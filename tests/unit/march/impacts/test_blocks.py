@@ -42,7 +42,7 @@ def test_a_block_on_the_floor(shop, rule: ImpactRule, angle: float) -> None:
 
 
 @rules
-@pytest.mark.parametrize("cell", ["tri3", "quad9", "tri6"])
+@pytest.mark.parametrize("cell", ["tri3", "quad8", "quad9", "tri6"])
 def test_other_cells(shop, rule: ImpactRule, cell: str) -> None:
     """The literal rule needs nodes of positive mass: the row sums at the corners of a consistent tri6 are zero."""
     mass = Lumped() if isinstance(rule, Paper) else Consistent()

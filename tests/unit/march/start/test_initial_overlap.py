@@ -43,7 +43,13 @@ def test_a_corner_inside_a_face_is_found_whichever_body_comes_first(first: str) 
 
 @pytest.mark.parametrize(
     ("cell", "depth", "refused"),
-    [("quad4", 0.001, True), ("quad9", 0.004, False), ("quad9", 0.006, True), ("tri6", 0.006, True)],
+    [
+        ("quad4", 0.001, True),
+        ("quad8", 0.006, True),
+        ("quad9", 0.004, False),
+        ("quad9", 0.006, True),
+        ("tri6", 0.006, True),
+    ],
 )
 def test_a_fiftieth_of_an_edge_is_no_overlap_where_facets_may_be_curved(cell: str, depth: float, refused: bool) -> None:
     """Of the edges of the block with the corner, 0.25: flat pieces stand for curved facets there."""

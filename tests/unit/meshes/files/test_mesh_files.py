@@ -45,18 +45,21 @@ def test_gmsh_round_trip(tmp_path: Path, cell: str) -> None:
     assert mesh.nodes("body").tolist() == made.nodes("all").tolist()
 
 
-@pytest.mark.parametrize("cell", ["tri3", "tri6", "quad4", "tet4", "tet10", "hex8"])
+@pytest.mark.parametrize("cell", ["tri3", "tri6", "quad4", "quad8", "tet4", "tet10", "hex8", "hex20"])
 def test_abaqus_round_trip(tmp_path: Path, cell: str) -> None:
     made = disc(1.0, 4, cell=cell) if cell in KINDS[2] else box((2.0, 1.0, 1.0), (2, 1, 1), cell=cell)
     tag = next(iter(made.tags))
-    kinds = {"tri3": "CPE3", "tri6": "CAX6", "quad4": "CPE4", "tet4": "C3D4", "tet10": "C3D10", "hex8": "C3D8"}
+    kinds = {"tri3": "CPE3", "tri6": "CAX6", "quad4": "CPE4", "quad8": "CPS8R"}
+    kinds |= {"tet4": "C3D4", "tet10": "C3D10", "hex8": "C3D8", "hex20": "C3D20R"}
     lines = ["*NODE"]
     lines += [
         f"{k + 1}, " + ", ".join(repr(float(v)) for v in row)
         for k, row in enumerate(np.pad(made.points, ((0, 0), (0, 3 - made.dim))))
     ]
     lines += [f"*ELEMENT, TYPE={kinds[cell]}, ELSET=Body"]
-    lines += [f"{k + 1}, " + ", ".join(str(a + 1) for a in row) for k, row in enumerate(made.blocks[cell])]
+    for k, row in enumerate(made.blocks[cell]):
+        numbers = [str(n) for n in (k + 1, *(row + 1))]
+        lines += [", ".join(numbers[i : i + 16]) + "," * (i + 16 < len(numbers)) for i in range(0, len(numbers), 16)]
     lines += ["*NSET, NSET=Some", ", ".join(str(a + 1) for a in made.nodes(tag)[:8]), "*ELSET, ELSET=First", "1,"]
     (tmp_path / "a.inp").write_text("\n".join(lines) + "\n")
     mesh = read_mesh(tmp_path / "a.inp")
@@ -65,6 +68,36 @@ def test_abaqus_round_trip(tmp_path: Path, cell: str) -> None:
     assert mesh.nodes("Some").tolist() == made.nodes(tag)[:8].tolist()
     assert mesh.nodes("Body").tolist() == made.nodes("all").tolist()
     assert mesh.nodes("First").tolist() == sorted(made.blocks[cell][0].tolist())
+
+
+# Ends of the edges of a hexahedron in the order of the middle nodes 9 to 20, as the manuals number the corners.
+GMSH_EDGES = "12 14 15 23 26 34 37 48 56 58 67 78"
+ABAQUS_EDGES = "12 23 34 41 56 67 78 85 15 26 37 48"
+
+
+@pytest.mark.parametrize(("ending", "edges"), [("msh", GMSH_EDGES), ("inp", ABAQUS_EDGES)])
+def test_the_middle_nodes_of_a_hexahedron_are_found_in_the_order_of_each_format(
+    tmp_path: Path, ending: str, edges: str
+) -> None:
+    corners = np.array([1.0, 2.0, 3.0]) * CELLS["hex8"].nodes
+    points = [*corners, *(corners[[int(end) - 1 for end in edge]].mean(axis=0) for edge in edges.split())]
+    places = [" ".join(map(str, [k, *x])) for k, x in enumerate(points, start=1)]
+    nodes = " ".join(map(str, range(1, 21)))
+    if ending == "msh":
+        lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", "20", *places, "$EndNodes"]
+        lines += ["$Elements", "1", f"1 17 2 1 1 {nodes}", "$EndElements"]
+    else:
+        places = [line.replace(" ", ", ") for line in places]
+        lines = [
+            "*NODE",
+            *places,
+            "*ELEMENT, TYPE=C3D20",
+            ", ".join(["1", *nodes.split()[:15]]) + ",",
+            "16,17,18,19,20",
+        ]
+    (tmp_path / f"a.{ending}").write_text("\n".join(lines) + "\n")
+    mesh = read_mesh(tmp_path / f"a.{ending}")
+    assert mesh.points[mesh.blocks["hex20"][0]].tolist() == (np.array([1.0, 2.0, 3.0]) * CELLS["hex20"].nodes).tolist()
 
 
 def test_deck_written_by_gmsh_style_tools(tmp_path: Path) -> None:

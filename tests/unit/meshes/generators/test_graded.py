@@ -18,7 +18,7 @@ from softway.scenario.scenario import Scenario, Time
 
 PARTS = {"whole": 1.0, "lower": 0.5, "right": 0.5, "quarter": 0.25}
 """Share of the disc."""
-SQUARES = ("quad4", "quad9")
+SQUARES = ("quad4", "quad8", "quad9")
 
 
 def area(mesh: Mesh) -> float:

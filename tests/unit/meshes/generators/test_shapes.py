@@ -20,7 +20,7 @@ def moments(mesh: Mesh) -> tuple[float, Array]:
         x = mesh.points[cells]
         weight = table.weights * np.linalg.det(np.einsum("eai,qar->eqir", x, table.dN))
         volume += weight.sum()
-        first += np.einsum("eq,qa,eai->i", weight, table.N, x)
+        first += np.einsum("eq,eqi->i", weight, np.einsum("qa,eai->eqi", table.N, x))
     return volume, first / volume
 
 
@@ -75,7 +75,8 @@ def test_volume_centroid_and_closed_boundary(shape: str, cell: str) -> None:
     if shape in ("rectangle", "box"):
         assert abs(volume - exact) < 1e-13
     else:
-        assert abs(volume / exact - 1.0) < (0.3 if CELLS[cell].order == 1 else 5e-3)
+        coarse = {"hex20": 2e-2}.get(cell, 5e-3)  # a facet without a middle node is flatter than the ball
+        assert abs(volume / exact - 1.0) < (0.3 if CELLS[cell].order == 1 else coarse)
 
 
 @pytest.mark.parametrize(("shape", "cell"), [c for c in CASES if c[0] not in ("rectangle", "box")])

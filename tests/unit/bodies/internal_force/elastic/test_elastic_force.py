@@ -20,8 +20,8 @@ from softway.testing.elements import irregular_patch
 
 LAWS = [LinearElastic(E=2.0, nu=0.3), StVenantKirchhoff(E=2.0, nu=0.3), NeoHookean(E=2.0, nu=0.3)]
 FINITE = LAWS[1:]
-FLAT = ["tri3", "tri6", "quad4", "quad9"]
-SOLID = ["tet4", "tet10", "hex8", "hex27"]
+FLAT = ["tri3", "tri6", "quad4", "quad8", "quad9"]
+SOLID = ["tet4", "tet10", "hex8", "hex20", "hex27"]
 BODIES: list[tuple[str, Section]] = [
     *product(["bar2", "bar3", "bar2 in 2D", "bar3 in 3D"], [Bar(area=0.7)]),
     *product(FLAT, [PlaneStrain(thickness=0.5), PlaneStress(thickness=0.5), Axisymmetric()]),
@@ -232,7 +232,9 @@ def test_homogeneous_stretch_of_a_full_cylinder(law: StoredEnergy, cell: str) ->
     assert np.allclose(body.stress(u), sigma, atol=1e-13)
 
 
-@pytest.mark.parametrize(("cell", "order"), [("quad4", 2.0), ("tri3", 2.0), ("quad9", 4.0), ("tri6", 4.0)])
+@pytest.mark.parametrize(
+    ("cell", "order"), [("quad4", 2.0), ("tri3", 2.0), ("quad8", 4.0), ("quad9", 4.0), ("tri6", 4.0)]
+)
 def test_thick_walled_tube_converges_to_lame(cell: str, order: float) -> None:
     """Inner pressure, ends held: u(a) of Lame (1852); the compliance converges at twice the order of the element."""
     law, a, b, length, p = LinearElastic(E=2.0, nu=0.3), 1.0, 2.0, 0.5, 0.1
