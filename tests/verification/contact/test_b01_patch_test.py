@@ -33,6 +33,15 @@ def test_the_stress_is_uniform(dim):
     assert patch.settlement == pytest.approx(np.full(len(patch.settlement), exact.settlement), rel=1e-9)
 
 
+@pytest.mark.parametrize(("dim", "cell"), [(2, "quad8"), (2, "quad9"), (3, "hex20")])
+def test_the_stress_is_uniform_in_quadratic_cells(dim, cell):
+    """Uniform pressure pulls at the corners of eight-node facets; what is left is rounding here, too."""
+    patch = pressed(dim, cell=cell)
+    assert patch.missed <= 1e-9
+    assert patch.unbalanced <= 1e-12
+    assert patch.force == pytest.approx(1.0, abs=1e-9)
+
+
 @pytest.mark.parametrize(
     ("method", "tilted"), [(sw.contact.DualMortar(), 1e-9), (sw.contact.NodeToSurface(), 1e-5)], ids=["mortar", "nodes"]
 )

@@ -2,19 +2,25 @@
 
 A uniform pressure on a flat facet has the same nodal forces on the facet and on its linear replacement: a quadratic
 facet becomes linear ones over control points ``c = C x``, a four-node facet becomes four triangles about the mean of
-its corners (docs/theory/contact/mortar.md).
+its corners. An eight-node facet is a nine-node one whose ninth node follows the others; the ninth test function is
+divided among the mid-nodes (docs/theory/contact/mortar.md).
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError
+from softway.meshes.element import completion
 
-_EDGES = {"bar3": ((0, 1),), "tri6": ((0, 1), (1, 2), (2, 0)), "quad9": ((0, 1), (1, 2), (2, 3), (3, 0))}
+Rows = TypeVar("Rows", sp.csr_array, Array)
+
+_SIDES = ((0, 1), (1, 2), (2, 3), (3, 0))
+_EDGES = {"bar3": ((0, 1),), "tri6": ((0, 1), (1, 2), (2, 0)), "quad8": _SIDES, "quad9": _SIDES}
 _BARS = ((0, 2), (2, 1))
 _TRIANGLES = ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5))
 _ABOUT_CENTRE = ((8, 0, 4), (8, 4, 1), (8, 1, 5), (8, 5, 2), (8, 2, 6), (8, 6, 3), (8, 3, 7), (8, 7, 0))
@@ -24,9 +30,10 @@ LINEAR = {
     "tri3": ("tri3", ((0, 1, 2),)),
     "tri6": ("tri3", _TRIANGLES),
     "quad4": ("quad4", ((0, 1, 2, 3),)),
+    "quad8": ("tri3", _ABOUT_CENTRE),
     "quad9": ("tri3", _ABOUT_CENTRE),
 }
-"""Kind of facet -> kind of the linear facets over its control points, and their local node numbers."""
+"""Kind of facet -> kind of the linear facets over its control points, and their local numbers; 8 is the centre."""
 
 
 def control(cell: str) -> Array:
@@ -70,27 +77,34 @@ class LinearSurface:
     node
         (m,) model nodes, ascending; each has a control point.
     control
-        (m, m) control points from the nodes.
+        (c, m) control points from the nodes: those of the nodes, then the centres of eight-node facets.
+    sharing
+        (m, c) shares of the nodes in the test functions of the control points; None if c = m: the identity.
     facets
         Kind -> (f, b) control points of the linear facets, ``bar2``, ``tri3`` or ``quad4``.
     spread
-        (v, m) vertices from the control points: the control points, then the centres of four-node facets.
+        (v, c) vertices from the control points: the control points, then the centres of four-node facets.
     corner
         (p, k) vertices of the simplices, facet after facet in the order of ``facets``.
     """
 
     node: IntArray
     control: sp.csr_array
+    sharing: sp.csr_array | None
     facets: Mapping[str, IntArray]
     spread: sp.csr_array
     corner: IntArray
 
     def onto(self, nodes: int) -> sp.csr_array:
-        """Control points (m, n) from all n nodes of a model."""
+        """Control points (c, n) from all n nodes of a model."""
         pick = sp.csr_array(
             (np.ones(len(self.node)), self.node, np.arange(len(self.node) + 1)), (len(self.node), nodes)
         )
         return sp.csr_array(self.control @ pick)
+
+    def nodal(self, rows: Rows) -> Rows:
+        """Rows (m, k) of the nodes from the rows (c, k) of the control points."""
+        return rows if self.sharing is None else self.sharing @ rows
 
 
 def linear_surface(facets: Mapping[str, IntArray]) -> LinearSurface:
@@ -112,13 +126,27 @@ def linear_surface(facets: Mapping[str, IntArray]) -> LinearSurface:
             )
     node = np.unique(np.concatenate([cells.ravel() for cells in facets.values()]))
     local = {cell: np.searchsorted(node, cells) for cell, cells in facets.items()}
+    controls, sharing = _controls(local, len(node)), None
+    if "quad8" in local:
+        local["quad8"], middles, sharing = _with_centres(local["quad8"], len(node))
+        controls = sp.csr_array(sp.vstack([controls, middles]))
     linear: dict[str, list[IntArray]] = {}
     for cell, cells in local.items():
         kind, parts = LINEAR[cell]
         linear.setdefault(kind, []).append(cells[:, np.array(parts)].reshape(-1, len(parts[0])))
     joined = {kind: np.concatenate(parts) for kind, parts in linear.items()}
-    spread, corner = _simplices(joined, len(node))
-    return LinearSurface(node=node, control=_controls(local, len(node)), facets=joined, spread=spread, corner=corner)
+    spread, corner = _simplices(joined, controls.shape[0])
+    return LinearSurface(node=node, control=controls, sharing=sharing, facets=joined, spread=spread, corner=corner)
+
+
+def _with_centres(cells: IntArray, m: int) -> tuple[IntArray, sp.csr_array, sp.csr_array]:
+    """Eight-node facets (f, 8) among m nodes with centres: nodes (f, 9), control points (f, m), sharing (m, m + f)."""
+    f = len(cells)
+    weights = np.tile(control("quad9")[8] @ completion("quad8"), f)
+    middles = sp.csr_array((weights, cells.ravel(), 8 * np.arange(f + 1)), (f, m))
+    quarters = (np.full(4 * f, 0.25), (cells[:, 4:].ravel(), np.repeat(np.arange(f), 4)))
+    sharing = sp.csr_array(sp.hstack([sp.eye_array(m), sp.csr_array(quarters, (m, f))]))
+    return np.column_stack([cells, m + np.arange(f)]), middles, sharing
 
 
 def _controls(local: Mapping[str, IntArray], m: int) -> sp.csr_array:

@@ -73,12 +73,12 @@ class Mortar:
         )
 
     def _vertex_weights(self, pairs: FacetPairs) -> sp.csr_array:
-        """Weights (m, p) of the slave simplices that may touch for the control points."""
+        """Weights (m, p) of the slave simplices that may touch for the nodes."""
         p, k = self.slave.corner.shape
         taking_part = np.unique(pairs.slave)
         column, row = np.repeat(taking_part, k), self.slave.corner[taking_part].ravel()
         incidence = sp.csr_array((np.full(len(row), 1.0 / k), (row, column)), (self.slave.spread.shape[0], p))
-        return sp.csr_array(self.slave.spread.T @ incidence)
+        return self.slave.nodal(sp.csr_array(self.slave.spread.T @ incidence))
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -90,13 +90,13 @@ class MortarContact:
     slave, master
         The surfaces.
     control
-        (m, n) control points of the slave from the nodes of the model.
+        (c, n) control points of the slave from the nodes of the model.
     lift
         (v, n) vertices of the master from the nodes of the model.
     pairs
         Simplices that may touch.
     vertex_weights
-        (m, p) weights of the slave simplices that may touch for the control points.
+        (m, p) weights of the slave simplices that may touch for the nodes.
     """
 
     slave: LinearSurface
@@ -127,20 +127,22 @@ class MortarContact:
         i, j = self.pairs.slave[common.pair], self.pairs.master[common.pair]
         size = np.sqrt(np.sum(areas**2, axis=0))
         functions = gap_weights(self.slave, points, size, common.mass(i, len(size)))
-        cross = functions.integrals(i, common.cross, self.master.corner.T[:, j], self.lift.shape[0])
-        total, covered = cross.sum(axis=1), functions.own.sum(axis=1)
+        nodal = self.slave.nodal
+        own = nodal(functions.own)
+        cross = nodal(functions.integrals(i, common.cross, self.master.corner.T[:, j], self.lift.shape[0]))
+        total, covered = cross.sum(axis=1), own.sum(axis=1)
         met = (total > 0.0) & (covered > 0.0)
-        weights = _over(functions.own @ self.control, covered, met) - _over(cross @ self.lift, total, met)
+        weights = _over(own @ self.control, covered, met) - _over(cross @ self.lift, total, met)
         square = np.take(unit(areas), i, axis=1)
         facing = _seen(square, master, j)
-        normal = np.where(met[:, None], unit(functions.means(i, common.cross, facing), axis=1), normal)
+        normal = np.where(met[:, None], unit(nodal(functions.means(i, common.cross, facing)), axis=1), normal)
         turn = _turning(slave, master, facing, common, (i, j))
         parts = (
             functions.integrals(i, common.own * n + turn * p, self.slave.corner.T[:, i], len(slave_nodes)) @ to_slave
             - functions.integrals(i, common.cross * n, self.master.corner.T[:, j], self.lift.shape[0]) @ self.lift
             for n, p in zip(facing, square, strict=True)
         )
-        slopes = interleaved([_over(sp.csr_array(p), total, met) for p in parts])
+        slopes = interleaved([_over(nodal(sp.csr_array(p)), total, met) for p in parts])
         gap = np.where(met, slopes @ x.ravel(), np.inf)
         return Stencils(gap=gap, normal=normal, weights=weights, slopes=slopes)
 

@@ -8,7 +8,7 @@ from softway.contact.stencils import Stencils
 from softway.meshes.generators.shapes import box
 
 Surface = tuple[np.ndarray, dict[str, np.ndarray]]
-SOLIDS = {"tri3": "tet4", "tri6": "tet10", "quad4": "hex8", "quad9": "hex27"}
+SOLIDS = {"tri3": "tet4", "tri6": "tet10", "quad4": "hex8", "quad8": "hex20", "quad9": "hex27"}
 
 
 def arc(kind: str, cells: int, radius: float, ends: tuple[float, float], sign: float) -> Surface:
@@ -83,7 +83,8 @@ def test_concentric_arcs(slave: str, master: str, gap: float, inner: bool) -> No
 
 
 @pytest.mark.parametrize(
-    ("slave", "master"), [("quad4", "quad4"), ("tri3", "quad9"), ("tri6", "tri3"), ("quad9", "tri6")]
+    ("slave", "master"),
+    [("quad4", "quad4"), ("tri3", "quad9"), ("tri6", "tri3"), ("quad8", "quad4"), ("quad9", "quad8")],
 )
 def test_concentric_caps(slave: str, master: str) -> None:
     gaps, moments = [], []

@@ -7,14 +7,21 @@ import pytest
 
 from softway.contact.mortar.mortar import Mortar
 from softway.errors import InputError
-from softway.meshes.cells import CELLS
+from softway.meshes.cells import CELLS, linear
 from softway.meshes.element import element, tabulate
 from softway.meshes.generators.shapes import box, rectangle
 from softway.meshes.mesh import Mesh
 
-SOLIDS = {"bar2": "quad4", "bar3": "quad9", "tri3": "tet4", "tri6": "tet10", "quad4": "hex8", "quad9": "hex27"}
-LINEAR = {"quad9": "quad4", "tet10": "tet4", "hex27": "hex8"}
-PLANE, SPACE = ("bar2", "bar3"), ("tri3", "tri6", "quad4", "quad9")
+SOLIDS = {
+    "bar2": "quad4",
+    "bar3": "quad9",
+    "tri3": "tet4",
+    "tri6": "tet10",
+    "quad4": "hex8",
+    "quad8": "hex20",
+    "quad9": "hex27",
+}
+PLANE, SPACE = ("bar2", "bar3"), ("tri3", "tri6", "quad4", "quad8", "quad9")
 KINDS = [*product(PLANE, PLANE), *product(SPACE, SPACE)]
 
 
@@ -30,7 +37,7 @@ def block(kind: str, cells: int, low: float, seed: int) -> Mesh:
     inner = (columns > 1e-9) & (columns < 1.0 - 1e-9)
     x[:, :-1] += (inner * rng.uniform(-0.2, 0.2, columns.shape) / cells)[column]
     nodes, corners = mesh.blocks[cell], CELLS[cell].corners
-    x[nodes] = tabulate(LINEAR.get(cell, cell), CELLS[cell].nodes)[0] @ x[nodes[:, :corners]]  # edges stay straight
+    x[nodes] = tabulate(linear(cell), CELLS[cell].nodes)[0] @ x[nodes[:, :corners]]  # edges stay straight
     return Mesh(points=x, blocks=mesh.blocks, tags=mesh.tags)
 
 
@@ -75,7 +82,8 @@ def test_uniform_pressure_passes_an_interface_of_irregular_meshes(slave: str, ma
 
 
 @pytest.mark.parametrize(
-    ("slave", "master"), [("bar2", "bar3"), ("quad4", "quad9"), ("tri6", "quad4"), ("quad9", "tri3")]
+    ("slave", "master"),
+    [("bar2", "bar3"), ("quad4", "quad9"), ("tri6", "quad4"), ("quad8", "tri6"), ("quad9", "quad8")],
 )
 def test_linear_fields_are_continuous_over_the_interface(slave: str, master: str) -> None:
     x, mortar = pair(block(master, 4, 0.0, 4), block(slave, 3, 0.5, 5))

@@ -13,6 +13,8 @@ import softway as sw
 from softway.apps.verify.case import Outcome
 from softway.arrays import Array
 from softway.march.start.initial_state import initial_state
+from softway.meshes.cells import CELLS, linear
+from softway.meshes.element import tabulate
 from softway.record.view.plots.curves import Curve, Panel
 
 YOUNGS, POISSON = 1e3, 0.3
@@ -20,19 +22,22 @@ Method = sw.contact.DualMortar | sw.contact.NodeToSurface
 HEIGHT = 0.5
 
 
-def irregular(dim: Literal[2, 3], cells: int, layers: int, seed: int) -> sw.Mesh:
-    """Block [0, 1] x [0, 0.5] (x [0, 1]) with randomly moved nodes; sides and edges keep their shape.
+def irregular(dim: Literal[2, 3], cells: int, layers: int, seed: int, cell: str) -> sw.Mesh:
+    """Block [0, 1] x [0, 0.5] (x [0, 1]) with randomly moved corners of its cells; sides and edges stay straight.
 
     Tags: ``low`` and ``high``, and the nodes ``corner`` and ``end`` of the lower side, which support it in its plane.
     """
     if dim == 2:
-        even = sw.meshes.Rectangle(size=(1.0, HEIGHT), cells=(cells, layers)).build()
+        even = sw.meshes.Rectangle(size=(1.0, HEIGHT), cells=(cells, layers), cell=cell).build()
     else:
-        even = sw.meshes.Box(size=(1.0, HEIGHT, 1.0), cells=(cells, layers, cells)).build()
+        even = sw.meshes.Box(size=(1.0, HEIGHT, 1.0), cells=(cells, layers, cells), cell=cell).build()
     x = even.points
     low, high = x.min(axis=0), x.max(axis=0)
     shift = np.random.default_rng(seed).uniform(-0.15, 0.15, x.shape) / cells
-    mesh = sw.Mesh(points=x + np.where((x == low) | (x == high), 0.0, shift), blocks=even.blocks)
+    sides, corners = (x == low) | (x == high), even.blocks[cell][:, : CELLS[cell].corners]
+    points, middles = x + np.where(sides, 0.0, shift), even.blocks[cell][:, CELLS[cell].corners :]
+    points[middles] = tabulate(linear(cell), CELLS[cell].nodes[CELLS[cell].corners :])[0] @ points[corners]
+    mesh = sw.Mesh(points=np.where(sides, x, points), blocks=even.blocks)
     mesh = mesh.with_tag("low", lambda p: p[:, 1] == 0.0).with_tag("high", lambda p: p[:, 1] == HEIGHT)
     mesh = mesh.with_tag("corner", lambda p: (p == low).all(axis=1))
     return mesh.with_tag("end", lambda p: (p == np.eye(dim)[0]).all(axis=1))
@@ -62,14 +67,11 @@ class Pressed:
         return float(np.abs(self.sides.sum(axis=0)).max())
 
 
-@cache
-def pressed(
-    dim: Literal[2, 3], *, ratio: float = 1.0, pressure: float = 1.0, method: Method | None = None, mu: float = 0.0
-) -> Pressed:
-    """Solve the patch; ``ratio`` is the modulus of the upper block / lower block, ``mu`` the friction coefficient."""
+def blocks(dim: Literal[2, 3], ratio: float, cell: str) -> dict[str, sw.Solid]:
+    """Both blocks; ``ratio`` is the modulus of the upper block / lower block, ``cell`` the type of their cells."""
     plane = "x" if dim == 2 else "xz"
     held = [sw.Fixed(on="corner", components=plane), *([sw.Fixed(on="end", components="z")] if dim == 3 else [])]
-    meshes = {"lower": irregular(dim, 4, 2, seed=1), "upper": irregular(dim, 7, 3, seed=2)}
+    meshes = {"lower": irregular(dim, 4, 2, seed=1, cell=cell), "upper": irregular(dim, 7, 3, seed=2, cell=cell)}
     lower = sw.Solid(
         mesh=meshes["lower"],
         material=sw.LinearElastic(E=YOUNGS, nu=POISSON),
@@ -83,10 +85,28 @@ def pressed(
         supports=tuple(held),
         place=sw.bodies.Placement(translation=(0.0, HEIGHT, 0.0)[:dim]),
     )
+    return {"lower": lower, "upper": upper}
+
+
+@cache
+def pressed(
+    dim: Literal[2, 3],
+    *,
+    ratio: float = 1.0,
+    pressure: float = 1.0,
+    method: Method | None = None,
+    mu: float = 0.0,
+    cell: str = "",
+) -> Pressed:
+    """Solve the patch; ``ratio`` is the modulus of the upper block / lower block, ``mu`` the friction coefficient.
+
+    ``cell`` is the type of the cells: squares or cubes, by default linear.
+    """
+    bodies = blocks(dim, ratio, cell or ("quad4" if dim == 2 else "hex8"))
     friction = sw.Coulomb(mu=mu) if mu else sw.laws.Frictionless()
     contact = sw.Contact(between=("lower.high", "upper.low"), name="middle", method=method, friction=friction)
     scene = sw.Scene(
-        bodies={"lower": lower, "upper": upper},
+        bodies=bodies,
         contacts=(contact,),
         loads=(sw.Traction(on="upper.high", value=(0.0, -pressure, 0.0)[:dim]),),
         start=sw.model.StaticStart(),
@@ -97,8 +117,8 @@ def pressed(
     push = model.rows(u).spread(force, model.shape)
     own = model.split(u)
     return Pressed(
-        stress=np.concatenate([model.stress(n, own[n]) for n in meshes]) / pressure,
-        settlement=-own["upper"][meshes["upper"].nodes("high"), 1] / pressure,
+        stress=np.concatenate([model.stress(n, own[n]) for n in bodies]) / pressure,
+        settlement=-own["upper"][model.meshes["upper"].nodes("high"), 1] / pressure,
         force=float(force.sum()),
         sides=np.array([push[p.nodes].sum(axis=0) for p in model.parts]),
     )
