@@ -19,10 +19,12 @@ INSIDE = 0.1
 """Depth at the start of a slab, as a fraction of the facet size, up to which a slave inside a body is pushed out."""
 FACING = -0.2
 """Product of the normals of a facet and of the surface around a slave below which they face each other."""
-SWELLING = 0.3
-"""Distance, relative to its width, by which a quadratic facet may extend beyond the box of its nodes."""
-LEBESGUE = 5.0 / 3.0
-"""Greatest motion of a point of a quadratic facet, relative to that of its nodes."""
+SWELLING = {"quad8": 1.0}
+"""Distance, relative to its width, by which a facet may extend beyond the box of its nodes: 0.3 of other quadratic
+facets, zero of linear ones."""
+LEBESGUE = {"quad8": 3.0}
+"""Greatest motion of a point of a facet, relative to that of its nodes: 5/3 on other quadratic facets, 1 on linear
+ones."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -80,8 +82,9 @@ class NodeToFacet:
         reach
             Distance by which the motion may differ from the expected one [m], greater than zero.
         """
-        curved = max(CELLS[kind].order for kind in self.side.facets) > 1
-        swelling = SWELLING if curved else 0.0
+        kinds = [(kind, CELLS[kind].order > 1) for kind in self.side.facets]
+        swelling = max(SWELLING.get(kind, 0.3 if curved else 0.0) for kind, curved in kinds)
+        magnified = max(LEBESGUE.get(kind, 5.0 / 3.0 if curved else 1.0) for kind, curved in kinds)
         facets = sweep(x0, x1, self.side.table, swelling)
         slave, facet = near(sweep(x0, x1, self.slaves[:, None]), facets, reach)
         own = (self.side.table.T[:, facet] == self.slaves[slave]).any(axis=0)
@@ -92,7 +95,7 @@ class NodeToFacet:
         seen = project(pairs, x0, size)
         apart = [(x1 - x0)[nodes] - (x1 - x0)[pairs.node] for nodes in pairs.masters.T]
         travel = np.sqrt(reduce(np.maximum, [dot(shift, shift) for shift in apart]))
-        close = seen.distance <= (LEBESGUE if curved else 1.0) * travel + reach
+        close = seen.distance <= magnified * travel + reach
         keep = close & _in_front(seen) & self._in_view(seen)
         return NodeFacetContact(
             pairs=pairs.subset(keep),

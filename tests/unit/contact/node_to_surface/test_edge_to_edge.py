@@ -42,7 +42,7 @@ def crossed(
     return x, EdgeToEdge(first=high.sharp_edges(x), second=low.sharp_edges(x)), (high, low)
 
 
-@pytest.mark.parametrize("cell", ["hex8", "tet4", "hex27", "tet10"])
+@pytest.mark.parametrize("cell", ["hex8", "tet4", "hex20", "hex27", "tet10"])
 @pytest.mark.parametrize("height", [0.1, 1e-9, 0.0, -1e-9, -0.05])
 def test_the_crossing_edges_of_two_blocks_are_found(cell: str, height: float) -> None:
     x0, edges, _ = crossed(0.2, cell)

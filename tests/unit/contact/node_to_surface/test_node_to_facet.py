@@ -15,6 +15,7 @@ SOLIDS = {
     "tri3": ("tet4", 3),
     "tri6": ("tet10", 3),
     "quad4": ("hex8", 3),
+    "quad8": ("hex20", 3),
     "quad9": ("hex27", 3),
 }
 
@@ -47,7 +48,9 @@ def rough(kind: str, seed: int) -> tuple[np.ndarray, np.ndarray, NodeToFacet]:
     slaves = 3.2 * rng.random((400, dim)) - 0.1
     slaves[:, -1] = 3.2 + 0.3 * rng.random(400)
     x0, nodes = contact(mesh, slaves, "top")
-    x0[: mesh.n_nodes] += (0.02 if kind in ("bar3", "tri6", "quad9") else 0.04) * rng.normal(size=mesh.points.shape)
+    x0[: mesh.n_nodes] += (0.02 if kind in ("bar3", "tri6", "quad8", "quad9") else 0.04) * rng.normal(
+        size=mesh.points.shape
+    )
     x = x0 + 0.02 * rng.normal(size=x0.shape)
     x[mesh.n_nodes :, -1] -= 0.3
     return x0, x, nodes
@@ -106,10 +109,12 @@ def test_gaps_are_invariant_under_rigid_motions(kind: str) -> None:
     ("make", "cell", "order"),
     [
         (disc, "quad4", 2),
+        (disc, "quad8", 4),
         (disc, "quad9", 4),
         (ball, "tet4", 2),
         (ball, "hex8", 2),
         (ball, "tet10", 3),
+        (ball, "hex20", 3),
         (ball, "hex27", 3),
     ],
 )
