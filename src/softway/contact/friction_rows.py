@@ -8,7 +8,7 @@ import numpy as np
 from softway.arrays import Array, IntArray
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.elements.section import Section
-from softway.bodies.setup.loads import facets_measure
+from softway.bodies.setup.loads import facet_measures, facets_measure
 from softway.contact.contact import Contact
 from softway.laws.friction_law import FrictionLaw
 
@@ -31,6 +31,23 @@ def nodal_areas(surfaces: Sequence[DeclaredSurface], u: Array) -> Array:
     out = np.zeros(len(u))
     for it in surfaces:
         out[it.nodes] += facets_measure(it.points + u[it.nodes], it.section, it.facets)
+    return out
+
+
+def row_areas(surfaces: Sequence[DeclaredSurface], u: Array) -> Array:
+    """Surface area (n,) of the contact rows of each node at the displacement u (n, d) [m^2], nowhere negative.
+
+    A corner of an eight-node facet has a negative area as a node; as a row it takes a quarter of the area of both
+    mid-nodes beside it (docs/theory/contact/mortar.md).
+    """
+    out = nodal_areas(surfaces, u)
+    for it in surfaces:
+        cells = it.facets.get("quad8", np.zeros((0, 8), dtype=np.int64))
+        given = 0.25 * facet_measures((it.points + u[it.nodes])[cells], it.section, "quad8")[:, 4:]
+        own = out[it.nodes]
+        for ends in (cells[:, :4], np.roll(cells[:, :4], -1, axis=1)):
+            np.add.at(own, ends, given)
+            np.add.at(own, cells[:, 4:], -given)
     return out
 
 
@@ -80,7 +97,7 @@ class FrictionRows:
         """Friction with the areas of the rows at the displacement u (n, d) [m]."""
         area = np.zeros(len(self.contact))
         for patch in self.patches:
-            area[patch.rows] = nodal_areas(patch.surfaces, u)[patch.node]
+            area[patch.rows] = row_areas(patch.surfaces, u)[patch.node]
         return replace(self, area=np.maximum(area, POINT * float(area.max(initial=0.0))) if area.any() else area + 1.0)
 
     def subset(self, which: IntArray) -> "FrictionRows":

@@ -107,11 +107,11 @@ def facets_measure(points: Array, section: Section, facets: Mapping[str, IntArra
     """Integrals (n,) [m^2] as :func:`traction_measure`, over ``facets`` (f, b) of nodes at ``points`` (n, d)."""
     measure = np.zeros(len(points))
     for name, nodes in facets.items():
-        np.add.at(measure, nodes, _facet_measure(points[nodes], section, name))
+        np.add.at(measure, nodes, facet_measures(points[nodes], section, name))
     return measure
 
 
-def _facet_measure(x: Array, section: Section, name: str) -> Array:
+def facet_measures(x: Array, section: Section, name: str) -> Array:
     """Integrals (f, b) of the shape functions over facets at x (f, b, d), times thickness, circumference or area."""
     if name == "point1":
         return np.asarray(section.measure(x))

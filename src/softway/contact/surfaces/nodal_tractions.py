@@ -15,7 +15,8 @@ from softway.contact.friction_rows import POINT, DeclaredSurface, nodal_areas, s
 class TractionMap:
     """Declared ``surfaces`` of each contact, for nodal tractions.
 
-    A node without own area, such as a corner of a quadratic triangle, gets total force over total area of its facets.
+    A node without own area, such as a corner of a quadratic triangle, gets total force over total area of its facets;
+    so does a corner of an eight-node facet, whose own area is negative.
     """
 
     surfaces: tuple[tuple[DeclaredSurface, ...], ...]
@@ -24,7 +25,8 @@ class TractionMap:
         """Force per present area (n, k) [Pa] of nodal forces (n, k) [N] at the displacement u (n, d) [m]."""
         area = np.zeros(len(u))
         for surfaces in self.surfaces:
-            area = np.maximum(area, nodal_areas(surfaces, u))
+            other = nodal_areas(surfaces, u)
+            area = np.where(np.abs(other) > np.abs(area), other, area)
         bare = area <= POINT * float(area.max(initial=0.0))
         own = force / np.where(bare, 1.0, area)[:, None]
         total = self._over_facets(np.column_stack([force, area]))

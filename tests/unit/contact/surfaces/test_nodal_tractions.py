@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import softway as sw
+from softway.bodies.setup.loads import traction_force
 from softway.contact.surfaces.nodal_tractions import TractionMap, traction_map
 
 FLOOR = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
@@ -28,3 +29,17 @@ def test_a_surface_of_several_contacts_has_its_area_once(tags: tuple[str, ...]) 
     force = np.zeros((len(x), 1))
     force[inner] = 3.0 * 2.0 / 4.0
     assert found.at(x * [1.0, 0.0], force)[inner, 0] == pytest.approx(np.full(3, 3.0), rel=1e-12)
+
+
+def test_a_uniform_pressure_on_eight_node_facets_is_found_at_every_node() -> None:
+    """Corners carry forces against the pressure."""
+    mesh = sw.meshes.Box(size=(1.0, 1.0, 1.0), cells=(3, 3, 3), cell="hex20").build()
+    solid = sw.Solid(mesh=mesh, material=sw.LinearElastic(E=1.0), density=1.0)
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0, 0.0), normal=(0.0, 0.0, 1.0)))
+    contacts = (sw.Contact(between=("cube.bottom", "floor")),)
+    model = sw.build(sw.Scene(bodies={"cube": solid, "floor": floor}, contacts=contacts))
+    bottom = mesh.nodes("bottom")
+    force = traction_force(mesh, sw.bodies.Volume(), "bottom", (0.0, 0.0, 3.0))[:, 2:]
+    assert force[bottom].min() < 0.0
+    found = traction_map(contacts, model.parts).at(np.zeros_like(mesh.points), force)
+    assert found[bottom, 0] == pytest.approx(np.full(len(bottom), 3.0), rel=1e-12)
