@@ -7,7 +7,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from softway.arrays import IntArray
+from softway.arrays import Array, IntArray
 from softway.bodies.assembled.nodal_loads import dead_load
 from softway.bodies.assembled.nodal_masses import solid_following, solid_mass
 from softway.bodies.assembled.vector_space import LocalSpace
@@ -15,7 +15,7 @@ from softway.bodies.discretised import DiscreteSolid, discretise, driven_compone
 from softway.bodies.dof_map import DofMap, MatrixSum, joined
 from softway.bodies.solid import Solid
 from softway.contact.assemble import assemble_contacts
-from softway.contact.impact_rule import Energy, ImpactRule
+from softway.contact.impact_rule import Energy, ImpactRule, Paper
 from softway.errors import InputError, within
 from softway.model.field import FieldEquations
 from softway.model.model import Model, assembled_tangent
@@ -40,6 +40,7 @@ def build(scene: Scene) -> Model:
     fields = [initial(p, solids[p.name]) for p in parts]
     dofs = joined([p.dofs for p in parts])
     weights = np.asarray(weight.sum(axis=1)).ravel()
+    _require_positive(timing, parts, weights, met.nodes)
     displacement = np.concatenate([u for u, _ in fields]) * dofs.free
     loads = dead_load(parts, weights, scene.loads, "loads")
     return Model(
@@ -80,6 +81,19 @@ def _inertia(
     follow = [solid_following(p, nodes) for p, nodes in zip(parts, own, strict=True)]
     mass, following = (sp.csr_array(sp.block_diag(blocks, format="csr")) for blocks in (masses, follow))
     return mass, following
+
+
+def _require_positive(timing: ImpactRule, parts: Sequence[DiscreteSolid], weights: Array, nodes: IntArray) -> None:
+    """Refuse contact nodes with a negative row sum of the mass: their literal stop (Paper) would gain energy."""
+    for part in parts if isinstance(timing, Paper) else ():
+        own = weights[nodes[(nodes >= part.nodes.start) & (nodes < part.nodes.stop)]]
+        negative = int(np.count_nonzero(own < -1e-9 * weights.max()))
+        if negative:
+            problem = (
+                f"the rule Paper with {negative} contact nodes whose row of the consistent mass has a negative sum, "
+                f"corners of {', '.join(part.mesh.blocks)}"
+            )
+            raise InputError(f"bodies.{part.name}.mass", problem, "Lumped, or the timing Energy or Impulse")
 
 
 def _solids(scene: Scene) -> dict[str, Solid]:
