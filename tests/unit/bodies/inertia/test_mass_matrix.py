@@ -5,13 +5,17 @@ import logging
 
 import numpy as np
 import pytest
+from scipy import sparse
 from scipy.linalg import eigh
+from scipy.sparse.linalg import eigsh
 
 from softway.arrays import Array
 from softway.bodies.elements.section import Axisymmetric, Bar, PlaneStrain, PlaneStress, Section, Volume
-from softway.bodies.inertia.mass_matrix import Consistent, Lumped, nodal_mass
+from softway.bodies.inertia.mass_matrix import Consistent, Lumped, MassRule, nodal_mass
 from softway.bodies.inertia.mass_redistribution import redistribute_mass
+from softway.bodies.internal_force.elastic.elastic_force import elastic_force
 from softway.errors import InputError
+from softway.laws.bulk import LinearElastic
 from softway.meshes.generators.shapes import KINDS, ball, box, cylinder, disc, interval, rectangle
 from softway.meshes.mesh import Mesh
 
@@ -225,3 +229,36 @@ def test_what_has_no_inertia_left_is_refused() -> None:
         with pytest.raises(InputError) as caught:
             nodal_mass(mesh, density, PlaneStrain(), Consistent())
         assert caught.value.where == "density"
+
+
+def frequency_error(cell: str, cells: int, rule: MassRule) -> float:
+    """Relative error of the square of a frequency: a unit cube or square between slippery walls.
+
+    The wave is u = grad prod cos(pi x_i): it has no shear, and omega^2 = pi^2 d c^2, c the speed of pressure waves.
+    """
+    solid = cell.startswith(("hex", "tet"))
+    mesh = box((1.0,) * 3, (cells,) * 3, cell=cell) if solid else rectangle((1.0,) * 2, (cells,) * 2, cell=cell)
+    section, law = Volume() if solid else PlaneStrain(), LinearElastic(E=1.0, nu=0.3)
+    x, exact = mesh.points, np.pi**2 * mesh.dim * 0.7 / (1.3 * 0.4)
+    free = np.flatnonzero((x > 1e-9) & (x < 1.0 - 1e-9))
+    stiffness = elastic_force(mesh, law, section).tangent(np.zeros_like(x)).tocsc()[free][:, free]
+    mass = sparse.kron(nodal_mass(mesh, 1.0, section, rule), sparse.eye_array(mesh.dim)).tocsc()[free][:, free]
+    wave = [np.sin(np.pi * x[:, i]) * np.prod(np.cos(np.pi * np.delete(x, i, axis=1)), axis=1) for i in range(mesh.dim)]
+    found, modes = eigsh(stiffness, k=6, M=mass, sigma=1.0001 * exact, v0=np.ones(len(free)))
+    return float(found[np.abs(modes.T @ (mass @ np.stack(wave, axis=1).ravel()[free])).argmax()] / exact - 1.0)
+
+
+@pytest.mark.parametrize(
+    ("cell", "rule", "order"),
+    [("quad8", Consistent(), 4.0), ("quad8", Lumped(), 2.0), ("quad9", Consistent(), 4.0), ("quad9", Lumped(), 4.0)],
+)
+def test_frequencies_converge(cell: str, rule: MassRule, order: float) -> None:
+    """Scaled diagonals are a quadrature rule of Lobatto on quad9, and of a lower order without the middle node."""
+    coarse, fine = (frequency_error(cell, n, rule) for n in (4, 8))
+    assert np.log2(coarse / fine) == pytest.approx(order, abs=0.2)
+
+
+def test_consistent_hex20_has_the_frequency_of_hex27() -> None:
+    coarse, fine = (frequency_error("hex20", n, Consistent()) for n in (2, 4))
+    assert coarse / fine > 2.0**4
+    assert 0.0 < fine < 3e-4
