@@ -9,7 +9,7 @@ from softway.meshes.element import element, tabulate
 from softway.meshes.mesh import Mesh
 
 
-def constant(mesh: Mesh, pressure: str) -> float:
+def constant(mesh: Mesh, pressure: str, *, without: int = 0) -> float:
     """``beta``: least of ``sup (p, div u)/(|p| |grad u|)`` over pressures without mean.
 
     Parameters
@@ -19,6 +19,8 @@ def constant(mesh: Mesh, pressure: str) -> float:
     pressure
         ``mean``: one number for each cell; ``corner``: linear between the corners.  ``bubble``: as ``corner``, with a
         displacement in the middle of each triangle or tetrahedron besides (MINI).
+    without
+        Number of the lowest modes that are left out.
     """
     (cell, nodes), (n, d) = next(iter(mesh.blocks.items())), mesh.points.shape
     table = element(cell, 6)
@@ -41,7 +43,7 @@ def constant(mesh: Mesh, pressure: str) -> float:
     L = np.linalg.cholesky(W[used][:, used])
     half = np.linalg.solve(L, np.linalg.solve(L, S[used][:, used]).T)
     values = np.linalg.eigvalsh(0.5 * (half + half.T))
-    return float(np.sqrt(max(values[1], 0.0)))  # the first belongs to the constant
+    return float(np.sqrt(max(values[1 + without], 0.0)))  # the first belongs to the constant
 
 
 def _pressures(cell, points, nodes, n, pressure):
