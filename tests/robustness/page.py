@@ -80,8 +80,8 @@ def drops(found: list[dict[str, Any]]) -> str:
 cylinders, the bracket; all cells; ten laws) on random obstacles (half space, ball, block, roller, torus, STL, another
 body), two or three deformable bodies in a third of them, friction in half, at v/c up to 0.3, tilted, with and without
 gravity, by the three contact rules and two solvers; `tests/robustness/inputs/drops.py` makes the scenario of each
-number. Every accepted slab is looked at: depth over the size of the displacements, tension over force, error of the energy
-balance over energy, and the energy that friction and matter give back in a slab. The
+number. Every accepted slab is looked at: depth over the size of the displacements, tension over force, error of the
+energy balance over energy, and the energy that friction and matter give back in a slab. The
 [audit](../theory/contact/audit.md) looks at the stored frames; each of its findings has to be an event of the run. The
 rules Impulse and Paper give no promise on energy. *Slow* is more than five minutes of processor time.
 
