@@ -10,7 +10,7 @@ from softway.arrays import Array
 from softway.bodies.discretised import DiscreteSolid
 from softway.contact.surfaces.nodal_tractions import TractionMap, traction_map
 from softway.errors import Cancel, InputError
-from softway.march.audit.balances import balances
+from softway.march.audit.balances import balances, contact_forces
 from softway.march.audit.ledger import initial_ledger as audit
 from softway.march.march import march, proposed
 from softway.march.march_state import MarchState
@@ -167,6 +167,7 @@ def _opening(checked: Checked, cancel: Cancel | None) -> RunStart:
         fields=model.fields,
         audit=given.output.audit,
         balances=partial(balances, model),
+        pushed=partial(contact_forces, model),
     )
 
 

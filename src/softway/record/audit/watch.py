@@ -25,6 +25,9 @@ MISSED = 1e-2
 AGREED = 1e-9
 """Difference of energies and momenta to those computed again from the fields, relative to them."""
 
+UNPUSHED = 1e-6
+"""Force that no contact explains, relative to the forces on the nodes of a body, above which it is a finding."""
+
 
 class Watcher:
     """Audit of the slabs of one march, which it takes in order.
@@ -63,7 +66,7 @@ class Watcher:
             if self._counted(step.before.time, step.after.time):
                 depths = self.auditor.look(step.after.time, self.positions(step.after))
                 seen = replace(seen, gap_nodes=0.0 - depths.nodes, gap_between=0.0 - depths.between)
-                found += [*depths.findings, *self._balanced(step)]
+                found += [*depths.findings, *self._balanced(step), *self._pushed(step)]
             yield replace(step, certificate=seen, events=(*step.events, *found))
 
     def _counted(self, before: float, after: float) -> bool:
@@ -108,6 +111,21 @@ class Watcher:
         if not missed <= AGREED * again.moving:
             text = f"the momentum of the fields and that of the ledger differ by {missed:.3g} kg m/s"
             yield finding(time, MOMENTUM, ("all",), text)
+
+    def _pushed(self, step: Step) -> Iterator[Event]:
+        """Findings on bodies whose change of momentum is more than all their contacts give.
+
+        The resultant of normal forces is no larger than their sum, whatever their directions are.
+        """
+        if self.opening.pushed is None:
+            return
+        contacts = [(c.label, {name.partition(".")[0] for name in c.between}) for c in self.opening.scene.contacts]
+        for body, needed in self.opening.pushed(step).items():
+            mine = [step.ledger.contacts[label] for label, bodies in contacts if body in bodies]
+            given, force = sum(c.force_n + c.force_t for c in mine), float(np.linalg.norm(needed.resultant))
+            if not force <= given + UNPUSHED * needed.scale:
+                text = f"'{body}' is pushed by {force:.6g} N, its contacts give at most {given:.6g} N"
+                yield finding(step.after.time, MOMENTUM, (body,), text)
 
 
 def watcher(opening: RunStart) -> Watcher:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Protocol
 
 from softway.arrays import Array, IntArray
-from softway.march.audit.balances import Balances
+from softway.march.audit.balances import Balances, Pushed
 from softway.march.results.step import Ledger, Step
 from softway.meshes.mesh import Mesh
 from softway.model.field import Field
@@ -47,6 +47,8 @@ class RunStart:
         True if the geometry and the balances are audited at stored frames.
     balances
         Function from a state to its balances, computed again from its fields.
+    pushed
+        Function from a step to the contact forces that the change of momentum of each body needs.
     """
 
     scene: Scene
@@ -63,6 +65,7 @@ class RunStart:
     fields: tuple[Field, ...] = ()
     audit: bool = False
     balances: Callable[[State], Balances] | None = None
+    pushed: Callable[[Step], Mapping[str, Pushed]] | None = None
 
     def frame_due(self, before: float, after: float) -> bool:
         """True if a slab between two times [s] passes an instant at which a frame is stored, or reaches the end."""

@@ -162,6 +162,24 @@ def test_a_ledger_that_is_wrong(change, words: str) -> None:
     assert not list(made_wrong(checked, lambda ledger: {}))
 
 
+def test_a_body_that_changes_its_momentum_without_a_cause() -> None:
+    checked = check(loads(THROUGH))
+    opening = _opening(checked, None)
+
+    def kicked() -> Iterator[Step]:
+        for k, step in enumerate(_steps(checked, opening.initial, None), 1):
+            moved = {name: v + 1e-3 * (k == 20) for name, v in step.after.velocity.items()}
+            momentum = step.ledger.momentum + 1e-3 * 4000.0 * np.array([k == 20, k == 20, 0])
+            ledger = replace(step.ledger, momentum=momentum)
+            yield replace(step, after=replace(step.after, velocity=moved), ledger=ledger) if k == 20 else step
+
+    seen = [
+        e for s in itertools.islice(watcher(opening).watched(kicked()), 25) for e in s.events if e.kind == "momentum"
+    ]
+    assert [e.contact for e in seen] == ["block", "other"] and all(e.time == pytest.approx(0.4) for e in seen)
+    assert "its contacts give at most 0 N" in seen[0].finding
+
+
 HOLLOW = """
 title = "Hollow rubber ball that folds on a floor, plane strain"
 [bodies.ball]
