@@ -28,6 +28,9 @@ AGREED = 1e-9
 UNPUSHED = 1e-6
 """Force that no contact explains, relative to the forces on the nodes of a body, above which it is a finding."""
 
+TURNED = 0.1
+"""Excess of the resultant over the sum of the row forces that turning normals of mean gaps may explain."""
+
 
 class Watcher:
     """Audit of the slabs of one march, which it takes in order.
@@ -123,7 +126,7 @@ class Watcher:
         for body, needed in self.opening.pushed(step).items():
             mine = [step.ledger.contacts[label] for label, bodies in contacts if body in bodies]
             given, force = sum(c.force_n + c.force_t for c in mine), float(np.linalg.norm(needed.resultant))
-            if not force <= given + UNPUSHED * needed.scale:
+            if not force <= (1.0 + TURNED) * given + UNPUSHED * needed.scale:
                 text = f"'{body}' is pushed by {force:.6g} N, its contacts give at most {given:.6g} N"
                 yield finding(step.after.time, MOMENTUM, (body,), text)
 
