@@ -60,9 +60,6 @@ class Halves:
     def every(self, mask: np.ndarray) -> bool:
         return all(self.local.every(*part) for part in self._halves("every", mask))
 
-    def some(self, mask: np.ndarray) -> bool:
-        return any(self.local.some(*part) for part in self._halves("some", mask))
-
     def gather(self, field: np.ndarray) -> np.ndarray:
         one, other = self._halves("gather", field)
         return np.concatenate([*one, *other])

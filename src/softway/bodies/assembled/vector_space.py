@@ -59,10 +59,6 @@ class VectorSpace(Protocol):
         """True if all values are true."""
         ...
 
-    def some(self, mask: BoolArray) -> bool:
-        """True if a value is true."""
-        ...
-
     def gather(self, field: Array) -> Array:
         """Field over the nodes of all processes, for the search of contacts."""
         ...
@@ -125,10 +121,6 @@ class LocalSpace:
     def every(self, mask: BoolArray) -> bool:
         """True if all values are true."""
         return bool(mask.all())
-
-    def some(self, mask: BoolArray) -> bool:
-        """True if a value is true."""
-        return bool(mask.any())
 
     def gather(self, field: Array) -> Array:
         """The field itself."""
