@@ -12,6 +12,7 @@ from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError
 from softway.meshes.cells import CELLS, FACETS
 from softway.meshes.element import element
+from softway.meshes.topology import check_topology
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 
@@ -57,6 +58,7 @@ class Mesh:
             _check_cells(points, name, cells)
         for name, value in (("points", points), ("blocks", blocks), ("tags", tags)):
             object.__setattr__(self, name, value)
+        check_topology(points, blocks, self.edge())
 
     @property
     def dim(self) -> int:

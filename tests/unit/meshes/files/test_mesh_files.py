@@ -102,16 +102,16 @@ def test_the_middle_nodes_of_a_hexahedron_are_found_in_the_order_of_each_format(
 
 def test_deck_written_by_gmsh_style_tools(tmp_path: Path) -> None:
     """Surface elements beside the volume, an included file, blocks that share a set, sets by range."""
-    points = "*Node\n1, 0,0,0\n2, 1,0,0\n3, 0,1,0\n4, 0,0,1\n5, 1,1,1\n"
+    points = "*Node\n1, 0,0,0\n2, 1,0,0\n3, 0,1,0\n4, 0,0,1\n5, 1,1,1\n6, 0,0,-1\n"
     (tmp_path / "more.inp").write_text("*Element, type=CPS3, elset=Face\n10, 1,3,2\n11, 1,2,4\n")
     deck = "*ELEMENT, type=C3D4\n1, 1,2,3,4\n*ELEMENT, type=c3d4t, ELSET=Both\n2, 2,5,3,4\n"
     deck += "*Element, type=C3D4, ELSET=Both\n3, 2,5,3,4\n"
-    deck = deck.replace("3, 2,5,3,4\n", "3, 1,2,3,4\n") + "*NSET, NSET=Line, GENERATE\n1, 5, 2\n*STEP\n*END STEP\n"
+    deck = deck.replace("3, 2,5,3,4\n", "3, 1,3,2,6\n") + "*NSET, NSET=Line, GENERATE\n1, 5, 2\n*STEP\n*END STEP\n"
     (tmp_path / "a.inp").write_text(points + "*INCLUDE, INPUT=more.inp\n" + deck)
     mesh = read_mesh(tmp_path / "a.inp")
     assert list(mesh.blocks) == ["tet4"] and mesh.n_cells == 3
     assert mesh.nodes("Face").tolist() == [0, 1, 2, 3]
-    assert mesh.nodes("Both").tolist() == [0, 1, 2, 3, 4]
+    assert mesh.nodes("Both").tolist() == [0, 1, 2, 3, 4, 5]
     assert mesh.nodes("Line").tolist() == [0, 2, 4]
 
 
@@ -152,6 +152,15 @@ def test_unknown_and_inverted_cells_are_refused(tmp_path: Path) -> None:
     )
     with pytest.raises(InputError, match="'wedge'"):
         read_mesh(tmp_path / "b.msh")
+
+
+def test_file_that_lists_a_corner_cell_twice_is_refused(tmp_path: Path) -> None:
+    """Facets that occur twice would be no boundary: the corner would sink into the floor."""
+    mesh = box((1.0, 1.0, 1.0), (3, 3, 3))
+    raw = meshio.Mesh(mesh.points, [("hexahedron", mesh.blocks["hex8"][[*range(27), 0]])])
+    meshio.write(tmp_path / "a.msh", raw, file_format="gmsh22", binary=False)
+    with pytest.raises(InputError, match="cell number 27 has the corners of cell number 0"):
+        read_mesh(tmp_path / "a.msh")
 
 
 def test_the_shipped_bracket() -> None:
