@@ -1,7 +1,8 @@
-"""Exceptions of softway. Each one names the place, the problem and a remedy."""
+"""Exceptions of softway, and notes on a scenario. Each one names the place, the problem and a remedy."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from math import inf
 
 
@@ -30,6 +31,38 @@ class InputError(SoftwayError):
         """Return this error with ``prefix`` put before its path."""
         path = f"{prefix}.{self.where}" if self.where else prefix
         return InputError(path, self.problem, self.remedy)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Note:
+    """Remark on a scenario that is computed, although its results may be wrong.
+
+    Parameters
+    ----------
+    where
+        Path in the scenario, such as ``bodies.bar.mesh``.
+    problem
+        Description of the doubt, with numbers.
+    remedy
+        Text or value to write instead.
+
+    Examples
+    --------
+    >>> print(Note(where="mesh", problem="2 parts that share no node").within("bodies.bar"))
+    bodies.bar.mesh: 2 parts that share no node
+    """
+
+    where: str
+    problem: str
+    remedy: str = ""
+
+    def __str__(self) -> str:
+        """Text of the note, with its remedy in a second line."""
+        return f"{self.where}: {self.problem}" + (f"\n  try: {self.remedy}" if self.remedy else "")
+
+    def within(self, prefix: str) -> "Note":
+        """Return this note with ``prefix`` put before its path."""
+        return Note(where=f"{prefix}.{self.where}", problem=self.problem, remedy=self.remedy)
 
 
 class NumericsError(SoftwayError):

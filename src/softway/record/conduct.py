@@ -2,12 +2,12 @@
 
 import logging
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
 from pathlib import Path
 from types import MappingProxyType
 
-from softway.errors import Cancelled, NumericsError, StorageError
+from softway.errors import Cancelled, Note, NumericsError, StorageError
 from softway.march.results.step import Step
 from softway.record.audit.watch import watcher
 from softway.record.read import summary
@@ -37,6 +37,7 @@ def record_run(
     *,
     title: str = "",
     texts: Mapping[str, str] | None = None,
+    notes: Sequence[Note] = (),
     plan: Checkpoints = NO_CHECKPOINTS,
     progress: Watch | None = None,
 ) -> Run:
@@ -52,6 +53,8 @@ def record_run(
         Folder to create.
     title, texts
         Title, and texts of further files by name: the resolved scenario and the modules that it needs.
+    notes
+        Notes on the scenario, which the summary repeats.
     plan
         Schedule of the checkpoints; a temporary folder has none.
     progress
@@ -71,7 +74,7 @@ def record_run(
     def fill(folder: Path) -> None:
         for name, text in given.items():
             (folder / name).write_text(text, encoding="utf-8")
-        provenance.begin(folder, title, given)
+        provenance.begin(folder, title, given, notes)
 
     with _stored(place.out):
         folder = place.make(fill)
@@ -222,8 +225,8 @@ def _finish(run: Run, keeper: CheckpointWriter, record: Mapping[str, object], st
             keeper.write()
     numbers = summary.summarise(run.history, run.events)
     with storing():
-        status = summary.status(stop.reason, numbers)
-        ended = {"wall_time": keeper.wall, "stop_reason": stop.reason, "status": status}
+        notes, status = record.get("notes", []), summary.status(stop.reason, numbers)
+        ended = {"wall_time": keeper.wall, "notes": notes, "stop_reason": stop.reason, "status": status}
         provenance.save_json(run.path / summary.FILE, {**numbers, **ended})
         provenance.end(run.path, record, stop)
         if stop is DONE:

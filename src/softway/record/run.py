@@ -69,11 +69,11 @@ class Run:
 
     @property
     def summary(self) -> Mapping[str, Any]:
-        """Summary of the run in a few numbers; computed from the history while the run has not ended."""
+        """Summary of the run in a few numbers, with the notes on its scenario; computed while the run has not ended."""
         written = self.path / summary.FILE
         if written.is_file():
             return _notes(written, "delete this file: its numbers are computed again from history.csv")
-        return summary.summarise(self.history, self.events)
+        return {**summary.summarise(self.history, self.events), "notes": self.provenance.get("notes", [])}
 
     @property
     def scenario(self) -> str:

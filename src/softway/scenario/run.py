@@ -78,7 +78,8 @@ def run(
     given, opening = checked.scenario, _opening(checked, cancel)
     steps = _steps(checked, opening.initial, cancel)
     plan = given.output.checkpoints
-    return record_run(steps, opening, place, title=given.title, texts=_texts(given), plan=plan, progress=progress)
+    texts, notes = _texts(given), checked.notes
+    return record_run(steps, opening, place, title=given.title, texts=texts, notes=notes, plan=plan, progress=progress)
 
 
 def resume(

@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import logging
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from softway.meshes.cells import CELLS, FACETS, FLAT
 from softway.meshes.files.abaqus_deck import plain_deck
 from softway.meshes.mesh import Mesh
 
+LOG = logging.getLogger(__name__)
 NAMES = {
     "line": "bar2",
     "line3": "bar3",
@@ -206,6 +208,8 @@ def _node_sets(raw: meshio.Mesh) -> dict[str, IntArray]:
 def _compact(points: Array, blocks: Mapping[str, IntArray], tags: Mapping[str, IntArray]) -> Mesh:
     """Make a mesh without the points that belong to no cell."""
     used = np.unique(np.concatenate([cells.ravel() for cells in blocks.values()]))
+    if len(used) < len(points):
+        LOG.info("%d of %d points belong to no cell: dropped", len(points) - len(used), len(points))
     number = np.full(len(points), -1, dtype=np.int64)
     number[used] = np.arange(len(used))
     kept = {name: number[nodes][number[nodes] >= 0] for name, nodes in tags.items()}

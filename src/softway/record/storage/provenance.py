@@ -6,14 +6,14 @@ import logging
 import os
 import platform
 import subprocess
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from softway.errors import InputError
+from softway.errors import InputError, Note
 from softway.record.storage.atomic_file import replaced
 
 LOG = logging.getLogger(__name__)
@@ -41,12 +41,16 @@ class Stop:
 RUNNING, DONE, INTERRUPTED, CANCELLED = Stop("running"), Stop("done"), Stop("interrupted"), Stop("cancelled")
 
 
-def begin(folder: Path, title: str, texts: Mapping[str, str]) -> Mapping[str, Any]:
-    """Write the file at the start of a run with the input ``texts`` by name; return the record for :func:`end`."""
+def begin(folder: Path, title: str, texts: Mapping[str, str], notes: Sequence[Note] = ()) -> Mapping[str, Any]:
+    """Write the file at the start of a run with the input ``texts`` by name and the ``notes`` on it.
+
+    Returns the record for :func:`end`.
+    """
     record = {
         "title": title,
         **_surroundings(),
         "input": digest(texts),
+        "notes": [asdict(note) for note in notes],
         "start": _now(),
         "stop": None,
         "stop_reason": RUNNING.reason,

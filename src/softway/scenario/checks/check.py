@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 
 from softway.arrays import Array
 from softway.bodies.solid import Solid
-from softway.errors import InputError
+from softway.errors import InputError, Note
 from softway.march.march import proposed
 from softway.march.start.initial_state import SOON, require_apart, require_supported
 from softway.model.build import build
@@ -24,6 +24,7 @@ from softway.scenario.checks.names import (
     check_solid,
     mesh_of,
 )
+from softway.scenario.checks.notes import mesh_notes
 from softway.scenario.checks.scales import (
     BodyScales,
     ContactScales,
@@ -55,6 +56,8 @@ class Checked:
         Scales of the bodies by name and of the contacts by label.
     step, slabs
         Length of a time step (slab) [s], resolved if it is automatic, and number of slabs.
+    notes
+        Notes on parts of the scenario that are computed, although their results may be wrong.
     """
 
     scenario: Scenario
@@ -63,6 +66,7 @@ class Checked:
     contacts: Mapping[str, ContactScales]
     step: float
     slabs: int
+    notes: tuple[Note, ...] = ()
 
 
 def check(scenario: Scenario) -> Checked:
@@ -88,6 +92,7 @@ def check(scenario: Scenario) -> Checked:
                 f"bodies.{name}.mesh", "an edge has the length zero", "a mesh without coincident nodes in a cell"
             )
     fixed = {n: check_solid(s, f"bodies.{n}") for n, s in solids.items()}
+    notes = mesh_notes(solids)
     check_loads(scenario.loads, "loads", solids)
     check_contacts(scene.contacts)
     bodies = {n: body_scales(s, mesh_of(s), int((~fixed[n]).sum())) for n, s in solids.items()}
@@ -100,6 +105,20 @@ def check(scenario: Scenario) -> Checked:
     require_apart(model, model.displacement)
     contacts = {c.label: _contact(model, k, bodies) for k, c in enumerate(scene.contacts)}
     require_supported(model)
+    step, slabs = _slabs(scenario, model)
+    return Checked(
+        scenario=scenario,
+        model=model,
+        bodies=bodies,
+        contacts=contacts,
+        step=step,
+        slabs=slabs,
+        notes=notes,
+    )
+
+
+def _slabs(scenario: Scenario, model: Model) -> tuple[float, int]:
+    """Length of a slab [s], resolved if it is automatic, and number of slabs; refuses unstable and too many ones."""
     time = scenario.time
     if time.step != "auto" and time.step > time.end:
         raise InputError("time.step", f"{time.step:g} s is longer than time.end = {time.end:g} s", "a shorter step")
@@ -111,7 +130,7 @@ def check(scenario: Scenario) -> Checked:
     slabs = int(np.ceil(time.end / step * (1.0 - 1e-12)))
     if slabs > MOST:
         raise InputError("time.end", f"needs {slabs:.3g} slabs of {step:.3g} s", "an earlier end, or longer slabs")
-    return Checked(scenario=scenario, model=model, bodies=bodies, contacts=contacts, step=step, slabs=slabs)
+    return step, slabs
 
 
 def _require_scenario(scenario: object) -> None:

@@ -1,12 +1,14 @@
 """Tables on the terminal: the scales of a scenario, the summary of a run, the ranking of a race."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from typing import Any
 
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table as Grid
 
+from softway.errors import Note
 from softway.record.read.findings import sentences
 from softway.record.read.summary import UNITS as NUMBERS
 from softway.record.run import Run
@@ -65,7 +67,7 @@ COLUMNS = 6
 
 
 def scales(checked: Any, console: Console, most: int | None = None) -> None:
-    """Print the scales of a scenario: sizes, speeds, times and number of slabs, at most ``most``."""
+    """Print the scales of a scenario, its number of slabs, at most ``most``, and the notes on it."""
     title = checked.scenario.title
     if title:
         console.print(title, style="bold", markup=False)
@@ -74,10 +76,11 @@ def scales(checked: Any, console: Console, most: int | None = None) -> None:
     end = checked.scenario.time.end
     some = f"{most} of " if most is not None and most < checked.slabs else ""
     console.print(f"{some}{checked.slabs} slabs of {checked.step:.6g} s until {end:.6g} s\n", markup=False)
+    _notes(checked.notes, console)
 
 
 def summary(run: Run, console: Console) -> None:
-    """Print the numbers of a run and the reason why it stopped."""
+    """Print the numbers of a run, the notes on its scenario, and the reason why it stopped."""
     found, stop, title = run.summary, run.stop, run.provenance.get("title", "")
     if title:
         console.print(title, style="bold", markup=False)
@@ -86,6 +89,7 @@ def summary(run: Run, console: Console) -> None:
     _columns({f"contact {n}": c for n, c in found["contacts"].items()}, console)
     if found.get("certificate"):
         _columns({"certificate (worst slab)": found["certificate"]}, console)
+    _notes((Note(**note) for note in found.get("notes", ())), console)
     findings(found.get("findings", ()), console)
     console.print(f"{run.status}{': ' if stop.message else ''}{stop.message}", markup=False, soft_wrap=True)
     console.print(f"records: {run.path}", markup=False, soft_wrap=True, highlight=False)
@@ -95,6 +99,11 @@ def findings(found: Sequence[Mapping[str, Any]], console: Console) -> None:
     """Print the findings of an audit, one line each."""
     for sentence in sentences(found):
         console.print(f"finding: {sentence}", markup=False, soft_wrap=True, highlight=False)
+
+
+def _notes(notes: Iterable[Note], console: Console) -> None:
+    for note in notes:
+        console.print("[bold yellow]note[/]", escape(str(note)), soft_wrap=True, highlight=False)
 
 
 def ranking(found: Mapping[str, Any], console: Console) -> None:
