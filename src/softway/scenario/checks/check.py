@@ -24,7 +24,7 @@ from softway.scenario.checks.names import (
     check_solid,
     mesh_of,
 )
-from softway.scenario.checks.notes import mesh_notes
+from softway.scenario.checks.notes import contact_notes, mesh_notes
 from softway.scenario.checks.scales import (
     BodyScales,
     ContactScales,
@@ -103,6 +103,7 @@ def check(scenario: Scenario) -> Checked:
         check_loads(scenario.start.loads, "start.loads", solids)
     model = build(scene)
     require_apart(model, model.displacement)
+    notes = (*notes, *contact_notes(model))
     contacts = {c.label: _contact(model, k, bodies) for k, c in enumerate(scene.contacts)}
     require_supported(model)
     step, slabs = _slabs(scenario, model)

@@ -1,11 +1,20 @@
-"""Notes on a scenario: meshes that are computed, although their results may be wrong."""
+"""Notes on a scenario: meshes and contacts that are computed, although their results may be wrong."""
 
 from collections.abc import Mapping
 
 from softway.bodies.solid import Solid
+from softway.contact.contact import NodeToSurface
+from softway.contact.surfaces.boundary import ContactSurface
+from softway.contact.surfaces.sagitta import CurvedSurface, Misfit, curved_surface, misfit
 from softway.errors import Note, within
 from softway.meshes.examination import examined
+from softway.model.model import Model
 from softway.scenario.checks.names import mesh_of
+
+SHARE = 0.1
+"""Distance of facets from the smooth surface, relative to the gap or interference, beyond which it is noted."""
+ROUNDING = 1e-6
+"""Distance of facets from the smooth surface, relative to the shortest edge, below which it is rounding."""
 
 
 def mesh_notes(solids: Mapping[str, Solid]) -> tuple[Note, ...]:
@@ -21,3 +30,40 @@ def mesh_notes(solids: Mapping[str, Solid]) -> tuple[Note, ...]:
         with within(f"bodies.{name}.mesh"):
             notes += [note.within(f"bodies.{name}") for note in examined(mesh_of(solid))]
     return tuple(notes)
+
+
+def contact_notes(model: Model) -> tuple[Note, ...]:
+    """Notes on contacts of curved surfaces whose facets stand off the curve as far as the gap or interference is."""
+    notes = []
+    for k, contact in enumerate(model.scene.contacts):
+        one, other = model.opponents[k]
+        if other < 0 or model.shape[1] == 1:
+            continue
+        mortar = contact.timing.massless and not isinstance(contact.method, NodeToSurface)
+        tags = (one, contact.tag), (other, contact.opponent_tag)
+        first, second = (_curved(model, int(part), tag, mortar) for part, tag in tags)
+        fit = contact.start == "fit"
+        found = misfit(first, second, fit)
+        least = ROUNDING * min(float(model.edge[model.parts[part].nodes].min()) for part in (one, other))
+        if found is not None and found.off > max(least, SHARE * abs(found.gap)):
+            notes.append(_off(k, contact.between, found, fit))
+    return tuple(notes)
+
+
+def _curved(model: Model, number: int, tag: str, mortar: bool) -> CurvedSurface:
+    """Curvature of a surface of a solid at the initial displacement."""
+    part = model.parts[number]
+    facets = {name: nodes + part.nodes.start for name, nodes in part.mesh.facets_on(tag).items()}
+    return curved_surface(ContactSurface(facets=facets), model.points + model.displacement, mortar)
+
+
+def _off(k: int, between: tuple[str, str], found: Misfit, fit: bool) -> Note:
+    """Note on facets that stand off the curve through their nodes."""
+    share = f" ({found.off / abs(found.gap):.0%} of it)" if found.gap else ""
+    what = f"the interference is {-found.gap:.3g} m" if fit else f"the gap is {found.gap:.3g} m"
+    problem = (
+        f"the facets of {between[0]!r} and {between[1]!r} stand up to {found.off:.3g} m off the curves through their "
+        f"nodes, and {what}{share}: pressures may be wrong by this share, and more from node to node"
+    )
+    remedy = "the same nodes along both surfaces, or shorter edges: half the edge leaves a quarter of the distance"
+    return Note(where=f"contacts[{k}].between", problem=problem, remedy=remedy)

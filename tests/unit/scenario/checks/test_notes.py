@@ -1,4 +1,4 @@
-"""Notes of a check: said for meshes in doubt, and repeated by the summary."""
+"""Notes of a check: said for meshes and contacts in doubt, silent for the others, and repeated by the summary."""
 
 import json
 from pathlib import Path
@@ -8,12 +8,67 @@ import pytest
 
 import softway as sw
 from softway.apps.cli.commands import main
+from softway.apps.verify.cases.contact.b06_press_fit import EXACT, SIDES, Fitted, rings
 from softway.meshes.generators.shapes import rectangle
 
 TWO_PARTS = sw.Mesh(
     points=np.concatenate([rectangle((1.0, 1.0), (2, 2)).points + [x, 0.0] for x in (0.0, 1.0)]),
     blocks={"quad4": np.concatenate([rectangle((1.0, 1.0), (2, 2)).blocks["quad4"] + k for k in (0, 9)])},
 )
+
+
+def checked(facets: tuple[int, int], cell: str = "quad4", method: object = None) -> tuple[str, ...]:
+    """Notes on the press fit of B06 with these numbers of facets, as text."""
+    law = sw.LinearElastic(E=210e9, nu=0.3)
+    supports = (sw.Fixed(on="start", components="y"), sw.Fixed(on="end", components="x"))
+    bodies = {
+        name: sw.Solid(mesh=mesh, material=law, density=7850.0, section=sw.bodies.PlaneStress(), supports=supports)
+        for name, mesh in zip(SIDES, rings(facets, cell), strict=True)
+    }
+    contact = sw.Contact(between=("inner.outer", "outer.inner"), name="fit", start="fit", method=method)
+    found = sw.check(sw.Scenario(bodies=bodies, contacts=(contact,), time=sw.Time(end=1e-6)))
+    return tuple(str(note) for note in found.notes)
+
+
+def error(facets: tuple[int, int]) -> float:
+    """Greater error of the mean pressure of both rings, relative to Lame."""
+    found = Fitted.of(rings(facets))
+    means = []
+    for ring in SIDES:
+        force, length = found.force(ring)
+        means.append(force.sum() / length.sum())
+    return max(abs(p / EXACT.pressure - 1.0) for p in means)
+
+
+def test_press_fit_whose_facets_do_not_match_is_noted_with_the_numbers() -> None:
+    """The pressure is wrong by a fifth and more, with a clean certificate; each remedy leads to the right pressure."""
+    (note,) = checked((40, 32))
+    assert note.startswith("contacts[0].between: the facets of 'inner.outer' and 'outer.inner' stand up to 5.")
+    assert "the interference is 1e-05 m (58% of it)" in note
+    assert error((40, 32)) > 0.15
+    assert checked((32, 32)) == () and error((32, 32)) < 0.005  # the same nodes along both surfaces
+    assert checked((160, 128)) == () and error((160, 128)) < 0.3 * error((40, 32))  # shorter edges
+
+
+def test_quadratic_facets_are_noted_where_mortar_replaces_them() -> None:
+    (note,) = checked((40, 32), "quad9")
+    assert "(19% of it)" in note
+    assert checked((80, 64), "quad9") == ()
+    assert checked((40, 32), "quad9", sw.contact.NodeToSurface()) == ()
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-3])
+def test_flat_contact_has_no_notes(gap: float) -> None:
+    blocks = {
+        name: sw.Solid(
+            mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(n, n), origin=(0.0, y)),
+            material=sw.LinearElastic(E=1.0),
+            density=1.0,
+        )
+        for name, n, y in (("lower", 4, 0.0), ("upper", 3, 1.0 + gap))
+    }
+    contact = sw.Contact(between=("upper.bottom", "lower.top"))
+    assert sw.check(sw.Scenario(bodies=blocks, contacts=(contact,), time=sw.Time(end=1.0))).notes == ()
 
 
 def test_notes_stand_in_provenance_and_summary_of_a_run(tmp_path: Path) -> None:
