@@ -24,7 +24,7 @@ from softway.scenario.checks.names import (
     check_solid,
     mesh_of,
 )
-from softway.scenario.checks.notes import contact_notes, mesh_notes
+from softway.scenario.checks.notes import body_notes, contact_notes
 from softway.scenario.checks.scales import (
     BodyScales,
     ContactScales,
@@ -92,7 +92,7 @@ def check(scenario: Scenario) -> Checked:
                 f"bodies.{name}.mesh", "an edge has the length zero", "a mesh without coincident nodes in a cell"
             )
     fixed = {n: check_solid(s, f"bodies.{n}") for n, s in solids.items()}
-    notes = mesh_notes(solids)
+    notes = body_notes(solids, fixed)
     check_loads(scenario.loads, "loads", solids)
     check_contacts(scene.contacts)
     bodies = {n: body_scales(s, mesh_of(s), int((~fixed[n]).sum())) for n, s in solids.items()}

@@ -1,7 +1,8 @@
-"""Notes on a scenario: meshes and contacts that are computed, although their results may be wrong."""
+"""Notes on a scenario: meshes, cells and contacts that are computed, although their results may be wrong."""
 
 from collections.abc import Mapping
 
+from softway.arrays import BoolArray
 from softway.bodies.solid import Solid
 from softway.contact.contact import NodeToSurface
 from softway.contact.surfaces.boundary import ContactSurface
@@ -9,6 +10,7 @@ from softway.contact.surfaces.sagitta import CurvedSurface, Misfit, curved_surfa
 from softway.errors import Note, within
 from softway.meshes.examination import examined
 from softway.model.model import Model
+from softway.scenario.checks.locking import locking_notes
 from softway.scenario.checks.names import mesh_of
 
 SHARE = 0.1
@@ -17,8 +19,8 @@ ROUNDING = 1e-6
 """Distance of facets from the smooth surface, relative to the shortest edge, below which it is rounding."""
 
 
-def mesh_notes(solids: Mapping[str, Solid]) -> tuple[Note, ...]:
-    """Notes on the meshes of the solids by name.
+def body_notes(solids: Mapping[str, Solid], fixed: Mapping[str, BoolArray]) -> tuple[Note, ...]:
+    """Notes on the meshes and cells of the solids by name, whose components ``fixed`` (n, d) are supported.
 
     Raises
     ------
@@ -28,7 +30,8 @@ def mesh_notes(solids: Mapping[str, Solid]) -> tuple[Note, ...]:
     notes: list[Note] = []
     for name, solid in solids.items():
         with within(f"bodies.{name}.mesh"):
-            notes += [note.within(f"bodies.{name}") for note in examined(mesh_of(solid))]
+            found = examined(mesh_of(solid))
+        notes += [note.within(f"bodies.{name}") for note in (*found, *locking_notes(solid, fixed[name]))]
     return tuple(notes)
 
 
