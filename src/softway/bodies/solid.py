@@ -103,7 +103,7 @@ class Solid:
     mass
         Consistent or lumped mass; contact by :class:`~softway.contact.impact_rule.Energy` redistributes it.
     velocity, displacement
-        Initial fields.
+        Initial fields.  Driven supports keep the displacement; under fixed ones it has to be zero.
     supports
         Fixed and driven nodes.
     force

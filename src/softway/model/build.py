@@ -7,13 +7,13 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from softway.arrays import Array, IntArray
+from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.assembled.nodal_loads import dead_load
 from softway.bodies.assembled.nodal_masses import solid_following, solid_mass
 from softway.bodies.assembled.vector_space import LocalSpace
-from softway.bodies.discretised import DiscreteSolid, discretise, driven_components, initial
+from softway.bodies.discretised import DiscreteSolid, discretise, driven_components, initial, supported_components
 from softway.bodies.dof_map import DofMap, MatrixSum, joined
-from softway.bodies.solid import Solid
+from softway.bodies.solid import Driven, Solid
 from softway.contact.assemble import assemble_contacts
 from softway.contact.impact_rule import Energy, ImpactRule, Paper
 from softway.errors import InputError, within
@@ -41,7 +41,8 @@ def build(scene: Scene) -> Model:
     dofs = joined([p.dofs for p in parts])
     weights = np.asarray(weight.sum(axis=1)).ravel()
     _require_positive(timing, parts, weights, met.nodes)
-    displacement = np.concatenate([u for u, _ in fields]) * dofs.free
+    driven = driven_components(parts, solids, dofs.free.shape)
+    displacement = _displacement(parts, solids, [u for u, _ in fields], driven)
     loads = dead_load(parts, weights, scene.loads, "loads")
     return Model(
         scene=scene,
@@ -63,13 +64,44 @@ def build(scene: Scene) -> Model:
         opponents=met.opponents,
         touchable=met.nodes,
         edge=np.concatenate([p.mesh.edges() for p in parts]),
-        driven=driven_components(parts, solids, dofs.free.shape),
+        driven=driven,
         floor=np.array([p.floor() for p in parts]),
         total=_total(mass, parts, dofs),
         timing=timing,
         friction=met.friction,
         space=met.contacts.space,
     )
+
+
+def _displacement(
+    parts: Sequence[DiscreteSolid],
+    solids: Mapping[str, Solid],
+    fields: Sequence[Array],
+    driven: Sequence[tuple[Driven, BoolArray]],
+) -> Array:
+    """Initial displacement (n, d) from those of the parts; driven components keep theirs, fixed ones are zero.
+
+    Raises
+    ------
+    InputError
+        If a Fixed support holds a component whose initial displacement is not zero, beyond rounding.
+    """
+    out = np.concatenate(fields)
+    moved = np.logical_or.reduce([where for _, where in driven], initial=False) | np.zeros(out.shape, bool)
+    for part, field in zip(parts, fields, strict=True):
+        for k, support in enumerate(solids[part.name].supports):
+            if isinstance(support, Driven):
+                continue
+            held = supported_components(support, part.mesh) & ~moved[part.nodes]
+            wrong = held & (np.abs(field) > MOTION * np.abs(field).max())
+            if wrong.any():
+                node, axis = (int(i) for i in np.argwhere(wrong)[0])
+                value, count = f"{field[node, axis]:.6g} m along {'xyz'[axis]}", int(wrong.any(axis=1).sum())
+                problem = f"{value} at node {node}, which supports[{k}] on {support.on!r} holds at zero; {count} in all"
+                remedy = f'a field that is zero on {support.on!r}, or a support of kind = "Driven" with velocity = 0'
+                raise InputError(f"bodies.{part.name}.displacement", problem, remedy)
+            out[part.nodes][held] = 0.0
+    return out
 
 
 def _inertia(

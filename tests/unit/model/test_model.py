@@ -115,8 +115,11 @@ def test_a_node_may_face_several_obstacles() -> None:
 
 def test_supports_hold_components() -> None:
     supports = (Fixed(on="left"), Fixed(on="bottom", components="y"))
+    x, y = rectangle((2.0, 1.0), (4, 2)).points.T
     flow = Affine(value=(1.0, 2.0), gradient=((0.5, 0.0), (0.0, 0.5)))
-    model = build(Scene(bodies={"a": square(supports=supports, velocity=flow, displacement=Uniform(value=(0.1, 0.2)))}))
+    model = build(
+        Scene(bodies={"a": square(supports=supports, velocity=flow, displacement=0.1 * np.stack([x, x * y], axis=1))})
+    )
     mesh = model.meshes["a"]
     assert not model.free[mesh.nodes("left")].any()
     inner = np.setdiff1d(mesh.nodes("bottom"), mesh.nodes("left"))
