@@ -9,6 +9,7 @@ from softway.bodies.assembled import material_states
 from softway.bodies.assembled.nodal_loads import dead_load
 from softway.bodies.elements.section import Axisymmetric
 from softway.bodies.rigid_body_modes import free_motions
+from softway.contact.contact import NodeToSurface
 from softway.errors import Cancel, InputError
 from softway.march.model_state import ModelState
 from softway.march.start.initial_overlap import deepest, shrunk
@@ -29,6 +30,9 @@ log = logging.getLogger(__name__)
 
 SOON = 1e-6
 """Time interval from which the initial velocity of a driven tool is computed [s]."""
+DEEPEST = 0.85
+"""Greatest depth of a press fit between solids, relative to the distance within which surfaces are paired; of nodes and
+facets, relative to the shortest edge at the deepest node: deeper ones may be paired with the wrong facets."""
 TOGETHER = 1e-7
 """Relative velocity of surfaces at the start, relative to the greatest speed, that is rounding."""
 
@@ -73,6 +77,7 @@ def _resting(model: Model, cancel: Cancel | None) -> StaticState:
     u, count = model.displacement, len(model.contacts.contact)
     rest = StaticState.apart(u, count)
     require_apart(model, u)
+    require_shallow(model, u)
     friction: InitialFriction = NoInitialSlip() if model.friction.frictionless else _passing(model, u)
     start, loads = model.scene.start, model.load
     require_supported(model)
@@ -147,3 +152,23 @@ def require_apart(model: Model, u: Array) -> None:
         f"{found.body!r} starts {depth} inside {found.other!r}: node {found.node} at ({place}) m",
         f'{move}, or start = "fit" for a press fit',
     )
+
+
+def require_shallow(model: Model, u: Array) -> None:
+    """Refuse a press fit of two solids in the plane or in space that is about as deep as their cells, or deeper."""
+    found = deepest(model, u, DEPTH * model.extent(u), "fit")
+    if found is None or model.shape[1] == 1 or model.opponents[found.contact][1] < 0:
+        return
+    x, names = model.points + u, [p.name for p in model.parts]
+    other = model.parts[names.index(found.other)].nodes
+    opposite = other.start + int(((x[other] - np.array(found.place)) ** 2).sum(axis=1).argmin())
+    node = model.parts[names.index(found.body)].nodes.start + found.node
+    by_nodes = isinstance(model.scene.contacts[found.contact].method, NodeToSurface)
+    edge = float(min(model.edge[node], model.edge[opposite])) if by_nodes else model.contacts.reach
+    if found.depth > DEEPEST * edge:
+        raise InputError(
+            f"contacts[{found.contact}].start",
+            f"'fit' with {found.body!r} {found.depth:.6g} m inside {found.other!r}, in cells of {edge:.6g} m",
+            f"cells of {found.depth / DEEPEST:.3g} m or more at the contact, or bodies that start apart and are "
+            'pressed together by supports of kind = "Driven"',
+        )

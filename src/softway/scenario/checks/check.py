@@ -10,7 +10,7 @@ from softway.arrays import Array
 from softway.bodies.solid import Solid
 from softway.errors import InputError, Note
 from softway.march.march import proposed
-from softway.march.start.initial_state import SOON, require_apart, require_supported
+from softway.march.start.initial_state import SOON, require_apart, require_shallow, require_supported
 from softway.model.build import build
 from softway.model.model import Model
 from softway.model.scene import StaticStart
@@ -103,6 +103,7 @@ def check(scenario: Scenario) -> Checked:
         check_loads(scenario.start.loads, "start.loads", solids)
     model = build(scene)
     require_apart(model, model.displacement)
+    require_shallow(model, model.displacement)
     notes = (*notes, *contact_notes(model))
     contacts = {c.label: _contact(model, k, bodies) for k, c in enumerate(scene.contacts)}
     require_supported(model)
