@@ -39,8 +39,7 @@ def build(scene: Scene) -> Model:
     mass = sp.csr_array(factor * weight) if factor > 0.0 else sp.csr_array(weight.shape)
     fields = [initial(p, solids[p.name]) for p in parts]
     dofs = joined([p.dofs for p in parts])
-    weights = np.asarray(weight.sum(axis=1)).ravel()
-    _require_positive(timing, parts, weights, met.nodes)
+    weights = _row_sums(weight, timing, parts, met.nodes)
     driven = driven_components(parts, solids, dofs.free.shape)
     displacement = _displacement(parts, solids, [u for u, _ in fields], driven)
     loads = dead_load(parts, weights, scene.loads, "loads")
@@ -115,8 +114,12 @@ def _inertia(
     return mass, following
 
 
-def _require_positive(timing: ImpactRule, parts: Sequence[DiscreteSolid], weights: Array, nodes: IntArray) -> None:
-    """Refuse contact nodes with a negative row sum of the mass: their literal stop (Paper) would gain energy."""
+def _row_sums(weight: sp.csr_array, timing: ImpactRule, parts: Sequence[DiscreteSolid], nodes: IntArray) -> Array:
+    """Row sums (n,) of the mass [kg].
+
+    Refuses contact ``nodes`` with a negative one for the rule Paper: their literal stop would gain energy.
+    """
+    weights = np.asarray(weight.sum(axis=1)).ravel()
     for part in parts if isinstance(timing, Paper) else ():
         own = weights[nodes[(nodes >= part.nodes.start) & (nodes < part.nodes.stop)]]
         negative = int(np.count_nonzero(own < -1e-9 * weights.max()))
@@ -126,6 +129,7 @@ def _require_positive(timing: ImpactRule, parts: Sequence[DiscreteSolid], weight
                 f"corners of {', '.join(part.mesh.blocks)}"
             )
             raise InputError(f"bodies.{part.name}.mass", problem, "Lumped, or the timing Energy or Impulse")
+    return weights
 
 
 def _solids(scene: Scene) -> dict[str, Solid]:

@@ -104,7 +104,6 @@ def check(scenario: Scenario) -> Checked:
     model = build(scene)
     require_apart(model, model.displacement)
     require_shallow(model, model.displacement)
-    notes = (*notes, *contact_notes(model))
     contacts = {c.label: _contact(model, k, bodies) for k, c in enumerate(scene.contacts)}
     require_supported(model)
     step, slabs = _slabs(scenario, model)
@@ -115,7 +114,7 @@ def check(scenario: Scenario) -> Checked:
         contacts=contacts,
         step=step,
         slabs=slabs,
-        notes=notes,
+        notes=(*notes, *contact_notes(model)),
     )
 
 
