@@ -81,12 +81,15 @@ class Mesh:
         return sum(len(cells) for cells in self.blocks.values())
 
     def nodes(self, tag: str) -> IntArray:
-        """Sorted node numbers of a tag."""
+        """Sorted node numbers of a tag; capitals and small letters differ only if another tag has the same letters."""
         found = self.tags.get(tag)
         if found is None and tag == "all":
             found = np.arange(self.n_nodes)
         if found is None and tag == "surface":
             found = np.unique(np.concatenate([facets.ravel() for facets in self.boundary().values()]))
+        same = [name for name in self.tags if name.casefold() == tag.casefold()]
+        if found is None and len(same) == 1:
+            found = self.tags[same[0]]
         if found is None or len(found) == 0:
             known = list(dict.fromkeys([*sorted(self.tags), "all", "surface"]))
             near = difflib.get_close_matches(tag, known, n=1)

@@ -1,19 +1,22 @@
-"""Readers of mesh files; the only module that uses meshio."""
+"""Readers of mesh files; the only module that uses meshio, for all formats but input decks."""
 
 import contextlib
 import io
 import logging
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import meshio
 import numpy as np
+from numpy.typing import NDArray
 
 from softway.arrays import Array, IntArray
 from softway.errors import InputError
 from softway.meshes.cells import CELLS, FACETS, FLAT
-from softway.meshes.files.abaqus_deck import plain_deck
+from softway.meshes.files.abaqus.assembly import deck_mesh
+from softway.meshes.files.abaqus.left_out import LeftOut
+from softway.meshes.files.abaqus.lexer import is_file, is_folder
 from softway.meshes.mesh import Mesh
 
 LOG = logging.getLogger(__name__)
@@ -33,7 +36,7 @@ NAMES = {
 }
 """Name of a cell in meshio -> name here; both use the node order of VTK."""
 
-_READERS = {".msh": "gmsh", ".inp": "abaqus"}
+_READERS = {".msh": "gmsh"}
 _SURFACES = {".stl": "stl", ".obj": "obj", ".ply": "ply", ".msh": "gmsh", ".vtu": "vtu"}
 _BODIES = (".msh", ".vtu")
 """Formats whose plane cells form a body in the plane; in other formats they form a surface in space."""
@@ -54,12 +57,30 @@ _DIMS = {
 }
 
 
-def read_mesh(path: str | Path, scale: float = 1.0, *, cells: Sequence[str] | None = None) -> Mesh:
+@dataclass(frozen=True, slots=True, eq=False)
+class FileMesh:
+    """Mesh of a file.
+
+    Parameters
+    ----------
+    mesh
+        Mesh of the wanted cells.
+    left_out
+        Cards of an input deck that the mesh does not hold.
+    """
+
+    mesh: Mesh
+    left_out: tuple[LeftOut, ...] = ()
+
+
+def read_mesh(
+    path: str | Path, scale: float = 1.0, *, cells: Sequence[str] | None = None, only: Sequence[str] = ()
+) -> Mesh:
     """Read a Gmsh ``.msh`` or an Abaqus/CalculiX ``.inp`` file.
 
-    Physical groups of any dimension, node sets and element sets become tags, which hold the nodes of the named
-    entities. Cells of lower dimension are used for tags only. Points without a cell are dropped, as is the constant
-    third coordinate of a plane mesh.
+    Physical groups of any dimension, node sets, surfaces, element sets and instances become tags, which hold the nodes
+    of the named entities. Cells of lower dimension are used for tags only. Points without a cell are dropped, as is the
+    constant third coordinate of a plane mesh.
 
     Parameters
     ----------
@@ -69,12 +90,35 @@ def read_mesh(path: str | Path, scale: float = 1.0, *, cells: Sequence[str] | No
         Length unit of the file [m].
     cells
         Names of the cells to keep; by default all cells of the highest dimension.
+    only
+        Names of the physical groups, or of the instances, parts or element sets of a deck, to keep; by default all.
+
+    Raises
+    ------
+    InputError
+        For a file that cannot be read, with the line if it is an input deck.
     """
-    raw, sets = _read(Path(path), _READERS)
+    return read_file(path, scale, cells=cells, only=only).mesh
+
+
+def read_file(
+    path: str | Path, scale: float = 1.0, *, cells: Sequence[str] | None = None, only: Sequence[str] = ()
+) -> FileMesh:
+    """Read a mesh file as :func:`read_mesh` does, and list what of a deck the mesh does not hold."""
+    file = Path(path)
+    _require_file(file, (*_READERS, ".inp"))
+    if file.suffix.lower() == ".inp":
+        deck = deck_mesh(file, cells, only)
+        return FileMesh(_mesh(deck.points * scale, deck.blocks, deck.tags), deck.left_out)
+    raw = _read(file, _READERS)
     dim = max((_dim(block.type) for block in raw.cells), default=0)
-    blocks = _blocks(raw, dim, cells)
-    tags = _groups(raw) if Path(path).suffix.lower() == ".msh" else {**_element_sets(raw, sets), **_node_sets(raw)}
-    points = np.asarray(raw.points, dtype=float) * scale
+    blocks = _blocks(raw, dim, cells, only)
+    return FileMesh(_mesh(np.asarray(raw.points, dtype=float) * scale, blocks, _groups(raw)))
+
+
+def _mesh(points: Array, blocks: Mapping[str, IntArray], tags: Mapping[str, IntArray]) -> Mesh:
+    """Mesh without unused points, and without the constant third coordinate of plane cells."""
+    dim = max(CELLS[name].dim for name in blocks)
     if dim == 2 and points.shape[1] == 3 and np.ptp(points[:, 2]) <= 1e-12 * np.ptp(points, axis=0).max():
         points = points[:, :2]
     return _compact(points, blocks, tags)
@@ -100,7 +144,8 @@ def read_facets(path: str | Path, scale: float = 1.0) -> tuple[Array, IntArray]:
         (f, d) numbers of the points, triangles in space and segments in the plane.
     """
     path = Path(path)
-    raw, _ = _read(path, _SURFACES)
+    _require_file(path, tuple(_SURFACES))
+    raw = _read(path, _SURFACES)
     dim = max((_dim(block.type) for block in raw.cells), default=0)
     if dim == 0:
         raise InputError("path", f"{path.name} has no facets", "a file with triangles, or with lines in a plane")
@@ -120,29 +165,31 @@ def read_facets(path: str | Path, scale: float = 1.0) -> tuple[Array, IntArray]:
     return points, np.concatenate(pieces)
 
 
-def _read(path: Path, readers: Mapping[str, str]) -> tuple[meshio.Mesh, list[str | None]]:
-    """Mesh of meshio, and the set names of the element blocks in a deck; errors of meshio become input errors."""
-    known = ", ".join(readers)
-    if not path.is_file():
+def _require_file(path: Path, known: Sequence[str]) -> None:
+    """Refuse what is no file, a file of another format, and one that is empty or too large."""
+    if not is_file(path):
         raise InputError(
             "path",
-            f"{'a folder' if path.is_dir() else 'no such file'}: {path}",
-            f"the path of a {' or '.join(readers)} file, relative to the scenario",
+            f"{'a folder' if is_folder(path) else 'no such file'}: {str(path):.300}",
+            f"the path of a {' or '.join(known)} file, relative to the scenario",
         )
-    if path.suffix.lower() not in readers:
-        raise InputError("path", f"{path.name} has the ending {path.suffix!r}", f"one of: {known}")
+    if path.suffix.lower() not in known:
+        raise InputError("path", f"{path.name} has the ending {path.suffix!r}", f"one of: {', '.join(known)}")
     size = path.stat().st_size
     if not 0 < size <= LARGEST:
         raise InputError("path", f"{path.name} has {size} bytes", f"a mesh file of up to {LARGEST:.0e} bytes")
+
+
+def _read(path: Path, readers: Mapping[str, str]) -> meshio.Mesh:
+    """Mesh of meshio, whose errors become input errors."""
     reader = readers[path.suffix.lower()]
     with path.open("rb") as opened:
         if reader == "ply" and PLY_ENDS not in opened.read(HEAD):  # meshio would search without end
             raise InputError("path", f"{path.name} has no {PLY_ENDS.decode()}", "save the mesh again")
-    text, sets = plain_deck(path) if reader == "abaqus" else ("", [])
     try:
         hushed = contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO())
         with hushed[0], hushed[1], np.errstate(over="ignore"):
-            return meshio.read(io.StringIO(text) if text else path, file_format=reader), sets
+            return meshio.read(path, file_format=reader)
     except (Exception, SystemExit) as error:  # meshio raises many kinds on a damaged file, and exits on some
         told = "it is damaged, or of another format" if isinstance(error, SystemExit) else str(error)
         raise InputError(
@@ -155,10 +202,10 @@ def _dim(name: str) -> int:
     return next((dim for stem, dim in _DIMS.items() if name.rstrip("0123456789") == stem), 0)
 
 
-def _blocks(raw: meshio.Mesh, dim: int, wanted: Sequence[str] | None) -> dict[str, IntArray]:
-    """Wanted cells, or all cells of the highest dimension, by name."""
+def _blocks(raw: meshio.Mesh, dim: int, wanted: Sequence[str] | None, only: Sequence[str] = ()) -> dict[str, IntArray]:
+    """Wanted cells, or all cells of the highest dimension, by name; with ``only`` those of some physical groups."""
     parts: dict[str, list[IntArray]] = {}
-    for block in raw.cells:
+    for block, groups in zip(raw.cells, _names(raw), strict=True):
         name = NAMES.get(block.type)
         if name is None and _dim(block.type) == dim and dim > 0 and wanted is None:
             raise InputError(
@@ -166,7 +213,12 @@ def _blocks(raw: meshio.Mesh, dim: int, wanted: Sequence[str] | None) -> dict[st
             )
         if name is None or (wanted is None and CELLS[name].dim != dim) or (wanted is not None and name not in wanted):
             continue
-        parts.setdefault(name, []).append(np.asarray(block.data, dtype=np.int64))
+        kept = np.isin(groups, list(only)) if only else np.ones(len(block.data), dtype=bool)
+        if kept.any():
+            parts.setdefault(name, []).append(np.asarray(block.data, dtype=np.int64)[kept])
+    if not parts and only:
+        known = ", ".join(sorted({group for groups in _names(raw) for group in groups if group})) or "no groups"
+        raise InputError("only", f"no cells in the groups {', '.join(only)}", f"one of: {known}")
     if not parts:
         found = sorted({block.type for block in raw.cells})
         raise InputError(
@@ -175,34 +227,25 @@ def _blocks(raw: meshio.Mesh, dim: int, wanted: Sequence[str] | None) -> dict[st
     return {name: np.concatenate(part) for name, part in parts.items()}
 
 
+def _names(raw: meshio.Mesh) -> list[NDArray[np.str_]]:
+    """Name of the physical group of each cell, by block; its number without a name, empty without a group."""
+    numbers = raw.cell_data.get("gmsh:physical", [np.zeros(len(block.data), dtype=int) for block in raw.cells])
+    names = {(int(value[1]), int(value[0])): name for name, value in raw.field_data.items()}
+    found = []
+    for block, marks in zip(raw.cells, numbers, strict=True):
+        known = {int(m): names.get((_dim(block.type), int(m)), str(int(m))) if m else "" for m in np.unique(marks)}
+        found.append(np.array([known[int(mark)] for mark in marks], dtype=np.str_))
+    return found
+
+
 def _groups(raw: meshio.Mesh) -> dict[str, IntArray]:
     """Nodes of the physical groups of Gmsh; the number of a group replaces a missing name."""
-    numbers = raw.cell_data.get("gmsh:physical", [])
-    names = {(int(value[1]), int(value[0])): name for name, value in raw.field_data.items()}
     parts: dict[str, list[IntArray]] = {}
-    for block, marks in zip(raw.cells, numbers, strict=False):
-        dim = _dim(block.type)
-        for mark in np.unique(marks):
-            if mark != 0:
-                name = names.get((dim, int(mark)), str(int(mark)))
-                parts.setdefault(name, []).append(np.asarray(block.data)[np.asarray(marks) == mark].ravel())
+    for block, groups in zip(raw.cells, _names(raw), strict=True):
+        for name in dict.fromkeys(groups.tolist()):
+            if name:
+                parts.setdefault(name, []).append(np.asarray(block.data)[groups == name].ravel())
     return {name: np.concatenate(part).astype(np.int64) for name, part in parts.items()}
-
-
-def _element_sets(raw: meshio.Mesh, names: Sequence[str | None]) -> dict[str, IntArray]:
-    """Element sets as node sets, with the names of the element blocks in the deck."""
-    found: dict[str, list[IntArray]] = {}
-    for name, parts in raw.cell_sets.items():
-        called = names[int(name.removeprefix("block "))] if name.startswith("block ") else name
-        for block, part in zip(raw.cells, parts, strict=False):
-            if called is not None and part is not None and len(part):
-                found.setdefault(called, []).append(np.asarray(block.data, dtype=np.int64)[np.asarray(part)].ravel())
-    return {name: np.concatenate(nodes) for name, nodes in found.items()}
-
-
-def _node_sets(raw: meshio.Mesh) -> dict[str, IntArray]:
-    sets: Mapping[str, Any] = raw.point_sets
-    return {name: np.asarray(nodes, dtype=np.int64) for name, nodes in sets.items() if len(nodes)}
 
 
 def _compact(points: Array, blocks: Mapping[str, IntArray], tags: Mapping[str, IntArray]) -> Mesh:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Annotated
 
 from softway.errors import InputError
-from softway.meshes.files.mesh_files import read_mesh
+from softway.meshes.files.mesh_files import FileMesh, read_file
 from softway.meshes.generators import graded, shapes
 from softway.meshes.mesh import Mesh
 from softway.units import Metre, Pure
@@ -231,17 +231,26 @@ class MeshFile:
         Length unit of the file: m, dm, cm, mm, um, nm, km, in, ft.
     cells
         Names of the cells to keep; by default all cells of the highest dimension.
+    only
+        Name, or names, of the parts of the file that form the body: physical groups of a ``.msh`` file; instances,
+        parts or element sets of a deck. By default all.
     """
 
     path: str | Path
     unit: str = "m"
     cells: tuple[str, ...] | None = None
+    only: str | tuple[str, ...] = ()
 
     def build(self) -> Mesh:
         """Build the mesh."""
+        return self.read().mesh
+
+    def read(self) -> FileMesh:
+        """Build the mesh, and list what of a deck it does not hold."""
         if self.unit not in UNITS:
             raise InputError("unit", f"{self.unit!r} is not a length unit of mesh files", f"one of: {', '.join(UNITS)}")
-        return read_mesh(Path(self.path), scale=UNITS[self.unit], cells=self.cells)
+        only = (self.only,) if isinstance(self.only, str) else self.only
+        return read_file(Path(self.path), scale=UNITS[self.unit], cells=self.cells, only=only)
 
 
 MeshSource = Interval | Rectangle | Box | Disc | Cylinder | Ball | Grid | Ring | GradedDisc | MeshFile

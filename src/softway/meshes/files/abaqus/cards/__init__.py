@@ -1,0 +1,1 @@
+"""Cards of an input deck that give nodes, elements, sets and surfaces."""
