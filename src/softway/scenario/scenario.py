@@ -13,6 +13,9 @@ from softway.contact.contact import Contact
 from softway.errors import InputError, real
 from softway.html_tables import table as html_table
 from softway.march.step_control import StepControl
+from softway.meshes.files.abaqus.left_out import LeftOut
+from softway.meshes.files.mesh_files import FileMesh
+from softway.meshes.generators.recipes import MeshFile, MeshSource
 from softway.meshes.mesh import Mesh
 from softway.model.scene import AsGiven, Scene, StaticStart
 from softway.model.time_weight import EndPeaks, TimeWeight
@@ -207,19 +210,33 @@ def built(scenario: Scenario) -> Scene:
     InputError
         For a missing mesh file, an inverted cell or an impossible size, with the path of the mesh.
     """
-    bodies = {}
+    return built_and_left_out(scenario)[0]
+
+
+def built_and_left_out(scenario: Scenario) -> tuple[Scene, dict[str, tuple[LeftOut, ...]]]:
+    """Scene with all meshes built and placed, and the cards of mesh files that the meshes do not hold, by body."""
+    bodies: dict[str, Solid | Tool] = {}
+    left_out: dict[str, tuple[LeftOut, ...]] = {}
     for name, body in scenario.bodies.items():
-        bodies[name] = _built(body, f"bodies.{name}") if isinstance(body, Solid) else body
-    return replace(scenario.scene, bodies=bodies)
+        bodies[name] = body
+        if isinstance(body, Solid):
+            bodies[name], cards = _built(body, f"bodies.{name}")
+            left_out |= {name: cards} if cards else {}
+    return replace(scenario.scene, bodies=bodies), left_out
 
 
-def _built(solid: Solid, where: str) -> Solid:
-    """Solid with a built mesh instead of the recipe."""
+def _built(solid: Solid, where: str) -> tuple[Solid, tuple[LeftOut, ...]]:
+    """Solid with a built mesh instead of the recipe, and the cards that the mesh does not hold."""
     try:
-        mesh = solid.mesh if isinstance(solid.mesh, Mesh) else solid.mesh.build()
+        read = solid.mesh.read() if isinstance(solid.mesh, MeshFile) else FileMesh(_mesh(solid.mesh))
     except InputError as error:
         raise error.within(f"{where}.mesh") from None
     try:
-        return replace(solid, mesh=solid.place.applied(mesh), place=Placement())
+        return replace(solid, mesh=solid.place.applied(read.mesh), place=Placement()), read.left_out
     except InputError as error:
         raise error.within(f"{where}.place") from None
+
+
+def _mesh(mesh: MeshSource | Mesh) -> Mesh:
+    """Mesh, or the one of a recipe."""
+    return mesh if isinstance(mesh, Mesh) else mesh.build()

@@ -32,7 +32,7 @@ from softway.apps.cli.view import view
 from softway.errors import InputError, NumericsError, StorageError
 from softway.scenario.files import dumps
 from softway.scenario.run import run as execute
-from softway.scenario.text.templates import templates
+from softway.scenario.text.templates import headline, templates
 from softway.studies.race.contest import contest, entrants
 from softway.studies.race.report import FILE as RACE
 from softway.studies.race.report import record
@@ -68,6 +68,7 @@ app.command(sweep)
 Set = Annotated[tuple[str, ...], Parameter(name="--set", negative=())]
 Quiet = Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())]
 AllowPython = Annotated[bool, Parameter(negative=())]
+Strict = Annotated[bool, Parameter(negative=())]
 
 
 @app.command
@@ -91,7 +92,7 @@ def new(
     console, known = Console(), templates()
     if list_ or name is None:
         for key, text in known.items():
-            console.print(f"[bold]{escape(key)}[/]  {escape(_headline(text))}")
+            console.print(f"[bold]{escape(key)}[/]  {escape(headline(text))}")
         return
     if name not in known:
         raise InputError("NAME", f"no template '{name}'", f"one of {', '.join(known)}")
@@ -106,7 +107,9 @@ def new(
 
 
 @app.command
-def check(file: Path, /, *, set_: Set = (), quiet: Quiet = False, allow_python: AllowPython = False) -> None:
+def check(
+    file: Path, /, *, set_: Set = (), quiet: Quiet = False, strict: Strict = False, allow_python: AllowPython = False
+) -> None:
     """Check a scenario without computing it, and show its scales.
 
     Parameters
@@ -117,11 +120,13 @@ def check(file: Path, /, *, set_: Set = (), quiet: Quiet = False, allow_python: 
         Change a value of the scenario: path=value; can be repeated.
     quiet
         Print errors only.
+    strict
+        Refuse a mesh file with cards that are not honoured, such as materials and loads of an input deck.
     allow_python
         Allow module:name in the scenario to run code of installed modules, not only of modules next to the file.
     """
     console = Console(quiet=quiet)
-    scales(examined(file, set_, console, allow_python=allow_python), console)
+    scales(examined(file, set_, console, allow_python=allow_python, strict=strict), console)
 
 
 @app.command
@@ -134,7 +139,7 @@ def run(
     quiet: Quiet = False,
     verbose: Verbose = False,
     overwrite: Annotated[bool, Parameter(negative=())] = False,
-    strict: Annotated[bool, Parameter(negative=())] = False,
+    strict: Strict = False,
     allow_python: AllowPython = False,
 ) -> int:
     """Compute a scenario.
@@ -154,13 +159,14 @@ def run(
     overwrite
         Replace an earlier run in the same folder.
     strict
-        Exit with code 4 if the audit of the run found overlaps, inverted cells or balances that miss.
+        Refuse a mesh file with cards that are not honoured, such as materials and loads of an input deck, and exit with
+        code 4 if the audit of the run found overlaps, inverted cells or balances that miss.
     allow_python
         Allow module:name in the scenario to run code of installed modules, not only of modules next to the file.
     """
     listen(verbose)
     folder, console = out or free(Path("runs") / file.stem), Console(quiet=quiet)
-    checked = examined(file, set_, console, allow_python=allow_python)
+    checked = examined(file, set_, console, allow_python=allow_python, strict=strict)
     scales(checked, console)
     try:
         with progress_of(checked, console) as progress:
@@ -281,9 +287,3 @@ def _failed(console: Console, error: Exception, code: int) -> int:
         told += f"\n  try: {' '.join(('softway', *(error.command_chain or ()), '--help'))}"
     console.print(f"[bold red]error[/] {escape(told)}", soft_wrap=True, highlight=False)
     return code
-
-
-def _headline(text: str) -> str:
-    """First comment of a template, or its title."""
-    first = next((line for line in text.splitlines() if line.startswith(("#", "title"))), "")
-    return first.lstrip("# ").removeprefix("title").strip(' ="')

@@ -1,7 +1,7 @@
 """Check of a scenario before the computation, and the scales of its bodies and contacts."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -11,6 +11,7 @@ from softway.bodies.solid import Solid
 from softway.errors import InputError, Note
 from softway.march.march import proposed
 from softway.march.start.initial_state import SOON, require_apart, require_shallow, require_supported
+from softway.meshes.files.abaqus.left_out import LeftOut
 from softway.model.build import build
 from softway.model.model import Model
 from softway.model.scene import StaticStart
@@ -24,7 +25,7 @@ from softway.scenario.checks.names import (
     check_solid,
     mesh_of,
 )
-from softway.scenario.checks.notes import body_notes, contact_notes
+from softway.scenario.checks.notes import body_notes, contact_notes, file_notes
 from softway.scenario.checks.scales import (
     BodyScales,
     ContactScales,
@@ -32,7 +33,7 @@ from softway.scenario.checks.scales import (
     contact_duration,
 )
 from softway.scenario.checks.value_types import require
-from softway.scenario.scenario import Scenario, built
+from softway.scenario.scenario import Scenario, built_and_left_out
 from softway.solve.methods.central_difference import Explicit
 from softway.solve.stable_step import require_stable
 
@@ -58,6 +59,8 @@ class Checked:
         Length of a time step (slab) [s], resolved if it is automatic, and number of slabs.
     notes
         Notes on parts of the scenario that are computed, although their results may be wrong.
+    left_out
+        Cards of the mesh files that are not honoured, by body.
     """
 
     scenario: Scenario
@@ -67,6 +70,7 @@ class Checked:
     step: float
     slabs: int
     notes: tuple[Note, ...] = ()
+    left_out: Mapping[str, tuple[LeftOut, ...]] = field(default_factory=dict)
 
 
 def check(scenario: Scenario) -> Checked:
@@ -81,7 +85,7 @@ def check(scenario: Scenario) -> Checked:
     for name, body in scenario.bodies.items():
         if isinstance(body, Solid):
             check_density(body.density, f"bodies.{name}.density")
-    scene = built(scenario)
+    scene, left_out = built_and_left_out(scenario)
     solids = {n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}
     if not solids:
         raise InputError("bodies", f"no Solid among {list(scene.bodies)}", 'at least one body of kind = "Solid"')
@@ -92,7 +96,7 @@ def check(scenario: Scenario) -> Checked:
                 f"bodies.{name}.mesh", "an edge has the length zero", "a mesh without coincident nodes in a cell"
             )
     fixed = {n: check_solid(s, f"bodies.{n}") for n, s in solids.items()}
-    notes = body_notes(solids, fixed)
+    notes = (*file_notes(left_out), *body_notes(solids, fixed))
     check_loads(scenario.loads, "loads", solids)
     check_contacts(scene.contacts)
     bodies = {n: body_scales(s, mesh_of(s), int((~fixed[n]).sum())) for n, s in solids.items()}
@@ -115,6 +119,7 @@ def check(scenario: Scenario) -> Checked:
         step=step,
         slabs=slabs,
         notes=(*notes, *contact_notes(model)),
+        left_out=left_out,
     )
 
 

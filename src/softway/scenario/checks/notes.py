@@ -1,6 +1,6 @@
 """Notes on a scenario: meshes, cells and contacts that are computed, although their results may be wrong."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from softway.arrays import BoolArray
 from softway.bodies.solid import Solid
@@ -9,6 +9,7 @@ from softway.contact.surfaces.boundary import ContactSurface
 from softway.contact.surfaces.sagitta import CurvedSurface, Misfit, curved_surface, misfit
 from softway.errors import Note, within
 from softway.meshes.examination import examined
+from softway.meshes.files.abaqus.left_out import LeftOut
 from softway.model.model import Model
 from softway.scenario.checks.locking import locking_notes
 from softway.scenario.checks.names import mesh_of
@@ -17,6 +18,31 @@ SHARE = 0.1
 """Distance of facets from the smooth surface, relative to the gap or interference, beyond which it is noted."""
 ROUNDING = 1e-6
 """Distance of facets from the smooth surface, relative to the shortest edge, below which it is rounding."""
+
+def file_notes(left_out: Mapping[str, Sequence[LeftOut]]) -> tuple[Note, ...]:
+    """Notes on the mesh files by body: one that lists the cards that are not honoured.
+
+    Headings, output requests and markers are added in one line, and make no note alone.
+
+    Examples
+    --------
+    >>> fixed = LeftOut(card="*BOUNDARY", count=1, lines=("7",))
+    >>> head = LeftOut(card="*HEADING", count=1, lines=("1",), matters=False)
+    >>> print(file_notes({"bar": (fixed, head)})[0].problem)
+    its file has cards that are not honoured:
+        *BOUNDARY (1; line 7)
+        without meaning for the mesh: *HEADING
+    """
+    notes = []
+    for name, cards in left_out.items():
+        lines = [str(card) for card in cards if card.matters]
+        quiet = ", ".join(f"{c.card} ({c.count})" if c.count > 1 else c.card for c in cards if not c.matters)
+        if lines:
+            lines += [f"without meaning for the mesh: {quiet}"] if quiet else []
+            problem = "\n    ".join(["its file has cards that are not honoured:", *lines])
+            remedy = "say in the scenario what they mean, such as material, supports and loads; --strict refuses them"
+            notes.append(Note(where=f"bodies.{name}.mesh", problem=problem, remedy=remedy))
+    return tuple(notes)
 
 
 def body_notes(solids: Mapping[str, Solid], fixed: Mapping[str, BoolArray]) -> tuple[Note, ...]:

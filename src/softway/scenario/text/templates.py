@@ -14,3 +14,15 @@ def templates() -> Mapping[str, str]:
     """
     folder = resources.files("softway.scenario.text") / "templates"
     return {name: (folder / f"{name}.toml").read_text(encoding="utf-8") for name in ("bar", "block", "part")}
+
+
+def headline(text: str) -> str:
+    r"""First comment of a template, or its title.
+
+    Examples
+    --------
+    >>> headline("# A bar bounces.\n[bodies.bar]\n")
+    'A bar bounces.'
+    """
+    first = next((line for line in text.splitlines() if line.startswith(("#", "title"))), "")
+    return first.lstrip("# ").removeprefix("title").strip(' ="')

@@ -11,18 +11,33 @@ from softway.scenario.checks.check import Checked, check
 from softway.scenario.files import load
 
 
-def examined(file: Path, changes: Iterable[str], console: Console, *, allow_python: bool) -> Checked:
+def examined(
+    file: Path, changes: Iterable[str], console: Console, *, allow_python: bool, strict: bool = False
+) -> Checked:
     """Read and check a scenario file; return it with its meshes and scales.
 
     Raises
     ------
     InputError
-        With the path in the scenario, the value, and a remedy.
+        With the path in the scenario, the value, and a remedy; if ``strict`` also for cards of a mesh file that the
+        mesh does not hold.
     """
     with waiting(console, "reading the scenario and building the meshes"):
         scenario = load(file, changes, allow_python=allow_python)
         try:
-            return check(scenario)
+            checked = check(scenario)
         except MemoryError as error:
             problem = f"too large for the memory of this machine: {error or 'out of memory'}"
             raise InputError("bodies", problem, "fewer cells: bodies.NAME.mesh.cells") from None
+    if strict:
+        _require_all(checked)
+    return checked
+
+
+def _require_all(checked: Checked) -> None:
+    """Refuse a deck with cards that matter and that the mesh does not hold."""
+    for name, cards in checked.left_out.items():
+        lost = [str(card) for card in cards if card.matters]
+        if lost:
+            problem = "the mesh file has cards that are not honoured:\n    " + "\n    ".join(lost)
+            raise InputError(f"bodies.{name}.mesh", problem, "remove these cards from the file, or omit --strict")
