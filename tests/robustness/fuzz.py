@@ -1,5 +1,7 @@
 """Damaged inputs given to the command line: ``python tests/robustness/fuzz.py COUNT`` reports what it does with them.
 
+With ``--decks`` the inputs are decks mutated by meaning, of which nothing may be lost in silence.
+
 Each input has its own folder, a limit of time, and a process with a limit of memory.  A defect is a traceback, an exit
 code without its message, a hang, a process that dies, or a file left behind.
 """
@@ -20,6 +22,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+from inputs.decks import judged_deck
 from inputs.mutations import Damaged, damaged
 
 MEMORY = 6 << 30
@@ -79,7 +82,7 @@ def _stop(*_: object) -> None:
     raise TooLong
 
 
-def _work(first: int, count: int, results: Any) -> None:
+def _work(first: int, count: int, decks: bool, results: Any) -> None:
     """Judge some inputs, telling each before and after; in a process of its own."""
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     from softway.scenario.hints.units_text import Units
@@ -89,17 +92,18 @@ def _work(first: int, count: int, results: Any) -> None:
     for number in range(first, first + count):
         results.send((number, None, 0.0))
         begun = perf_counter()
-        results.send((number, judged(damaged(number)), perf_counter() - begun))
+        verdict = judged_deck(number) if decks else judged(damaged(number))
+        results.send((number, verdict, perf_counter() - begun))
     results.send(None)
 
 
-def verdicts(first: int, count: int) -> dict[int, tuple[str, float]]:
+def verdicts(first: int, count: int, *, decks: bool = False) -> dict[int, tuple[str, float]]:
     """Verdict and time of each input; a process that dies or hangs is replaced."""
     found: dict[int, tuple[str, float]] = {}
     context, end = mp.get_context("spawn"), first + count
     while first < end:
         here, there = context.Pipe(duplex=False)
-        worker = context.Process(target=_work, args=(first, end - first, there))
+        worker = context.Process(target=_work, args=(first, end - first, decks, there))
         worker.start()
         there.close()
         number, told = first, True
@@ -122,20 +126,25 @@ def verdicts(first: int, count: int) -> dict[int, tuple[str, float]]:
     return found
 
 
+def _family(number: int, decks: bool) -> str:
+    return "deck" if decks else damaged(number).family
+
+
 def main() -> None:
     """Judge so many inputs and write the counts as JSON."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("count", type=int, nargs="?", default=10_000)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--out", type=Path)
+    parser.add_argument("--decks", action="store_true")
     given = parser.parse_args()
-    found = verdicts(given.first, given.count)
+    found = verdicts(given.first, given.count, decks=given.decks)
     defects = {n: v for n, (v, _) in found.items() if v not in ("ok", "refused", "failed")}
     counts: dict[str, collections.Counter[str]] = collections.defaultdict(collections.Counter)
     for number, (verdict, _) in found.items():
-        counts[damaged(number).family][verdict if verdict in ("ok", "refused", "failed") else "defect"] += 1
+        counts[_family(number, given.decks)][verdict if verdict in ("ok", "refused", "failed") else "defect"] += 1
     for number, verdict in defects.items():
-        print(number, damaged(number).family, verdict)
+        print(number, _family(number, given.decks), verdict)
     slowest = max(time for _, time in found.values())
     table = {"inputs": len(found), "families": counts, "defects": len(defects), "slowest": round(slowest, 2)}
     print(json.dumps(table))

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from endurance import endured
 from fuzz import judged
+from inputs.decks import judged_deck
 from inputs.mutations import damaged
 from page import drops, endurance, fuzz
 from softway.errors import InputError
@@ -17,6 +18,12 @@ from softway.scenario.files import loads
 def test_damaged_inputs_are_told_apart_from_right_ones():
     for number in (747, 1542, *range(20)):
         assert judged(damaged(number)) in ("ok", "refused", "failed"), number
+
+
+def test_nothing_of_a_mutated_deck_is_lost_in_silence():
+    verdicts = [judged_deck(number) for number in range(120)]
+    assert not {verdict for verdict in verdicts if verdict not in ("ok", "refused")}
+    assert min(verdicts.count("ok"), verdicts.count("refused")) > 20
 
 
 @settings(max_examples=100)

@@ -8,7 +8,7 @@ import pytest
 
 from softway.errors import InputError
 from softway.meshes.element import CELLS
-from softway.meshes.files.mesh_files import NAMES, read_mesh
+from softway.meshes.files.mesh_files import NAMES, read_facets, read_mesh
 from softway.meshes.generators.shapes import KINDS, box, disc, rectangle
 from softway.meshes.mesh import Mesh
 
@@ -123,6 +123,31 @@ def test_unused_points_are_dropped_and_cells_chosen(tmp_path: Path) -> None:
     assert read_mesh(tmp_path / "a.msh", cells=("quad4",)).n_nodes == 4
     with pytest.raises(InputError, match="none of the wanted cells among quad, triangle"):
         read_mesh(tmp_path / "a.msh", cells=("hex8",))
+
+
+def test_cells_of_some_physical_groups(tmp_path: Path) -> None:
+    points = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [2, 1, 0]])
+    marks = [np.array([1, 2])]
+    raw = meshio.Mesh(
+        points,
+        [("quad", np.array([[0, 1, 2, 3], [1, 4, 5, 2]]))],
+        cell_data={"gmsh:physical": marks, "gmsh:geometrical": marks},
+        field_data={"steel": np.array([1, 2]), "rubber": np.array([2, 2])},
+    )
+    meshio.write(tmp_path / "a.msh", raw, file_format="gmsh22", binary=False)
+    mesh = read_mesh(tmp_path / "a.msh", only=("rubber",))
+    assert mesh.points[:, 0].min() == 1 and mesh.n_cells == 1
+    with pytest.raises(InputError, match="no cells in the groups glass") as caught:
+        read_mesh(tmp_path / "a.msh", only=("glass",))
+    assert caught.value.remedy == "one of: rubber, steel"
+
+
+@pytest.mark.parametrize("ending", [".msh", ".inp", ""])
+def test_a_name_that_no_file_system_admits(tmp_path: Path, ending: str) -> None:
+    with pytest.raises(InputError, match="no such file"):
+        read_mesh(tmp_path / ("x" * 300 + ending))
+    with pytest.raises(InputError, match="no such file"):
+        read_facets(tmp_path / ("x" * 300 + ".stl"))
 
 
 def test_bad_files_are_refused(tmp_path: Path) -> None:

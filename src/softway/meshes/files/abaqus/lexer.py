@@ -176,6 +176,10 @@ def _card(text: str, place: str) -> Card:
     pairs = [part.partition("=") for part in parts if part.strip()]
     options = {"".join(key.upper().split()): value.strip().strip("\"'") if sign else None for key, sign, value in pairs}
     words = name.upper().lstrip("*").split()
+    if not words:
+        raise InputError(
+            "path", f"line {place}: {text:.40} has no keyword", "a keyword such as *NODE, or ** for a comment"
+        )
     return Card(name="".join(words), title="*" + " ".join(words), options=options, place=place)
 
 

@@ -56,13 +56,14 @@ class _Tags:
         found: dict[str, IntArray] = {}
         scope = self.scope
         for key, one in scope.node_sets.items():
-            self._require(one, nodes=True)
-            _put(found, one.name, "NSET", self._nodes(key))
+            nodes = self._nodes(key)
+            self._require(one, nodes=True, empty=not len(nodes))
+            _put(found, one.name, "NSET", nodes)
         for surface in scope.surfaces.values():
             _put(found, surface.name, "SURFACE", self._surface(surface))
         for key, one in scope.element_sets.items():
-            self._require(one, nodes=False)
             members = scope.members(key, self.known, nodes=False)
+            self._require(one, nodes=False, empty=not any(members.values()))
             _put(found, one.name, "ELSET", self._of_elements(members))
         return found
 
@@ -92,6 +93,8 @@ class _Tags:
     def _surface(self, surface: Surface) -> IntArray:
         """Nodes of the faces of a surface."""
         parts = [_array(())]
+        if not surface.items:
+            self._lost(surface, "it is empty")
         for item, face in surface.items:
             members = self.scope.members(label_or_name(item), self.known, nodes=surface.nodes)
             if not members or not any(members.values()):
@@ -130,8 +133,8 @@ class _Tags:
         kind, nodes = elements[label]
         return [face for key, face in _facets(kind, nodes) if self.shared[owner][key] == 1]
 
-    def _require(self, one: NamedSet, *, nodes: bool) -> None:
-        """List the entries of a set that do not exist."""
+    def _require(self, one: NamedSet, *, nodes: bool, empty: bool) -> None:
+        """List the entries of a set that do not exist, and a set that is empty."""
         lost, title = 0, "*NSET" if nodes else "*ELSET"
         for owner, item in one.items:
             of, target = self.known.target(owner, item, nodes)
@@ -139,11 +142,9 @@ class _Tags:
                 lost += target not in self.known.sets(of, nodes)
             elif isinstance(target, int):
                 lost += target not in self.known.labels(of, nodes)
-        sources = {name for name, _ in self.scope.of_elements} if nodes else set()
-        if not one.items and one.name.upper() not in sources:
-            self.left_out.add(f"{title}, {title[1:]}={one.name:.60}", one.places, "it is empty")
-        if lost:
-            self.left_out.add(f"{title}, {title[1:]}={one.name:.60}", one.places, f"{lost} entries do not exist")
+        if lost or empty:
+            why = f"{lost} entries do not exist" if lost else "it is empty"
+            self.left_out.add(f"{title}, {title[1:]}={one.name:.60}", one.places, why)
 
     def _lost(self, surface: Surface, why: str) -> None:
         """List an entry of a surface that is not honoured."""

@@ -102,6 +102,43 @@ def test_decks_that_contradict_themselves(tmp_path, text, problem):
     assert caught.value.remedy
 
 
+CAE = f"""*Heading
+*Part, name=Plate
+{CUBE}*Nset, nset=Set-1, generate
+ 1, 8, 1
+*Elset, elset=Set-1
+ 1,
+*Elset, elset=_Surf-1_S1, internal
+ 1,
+*Surface, type=ELEMENT, name=Surf-1
+_Surf-1_S1, S1
+*Solid Section, elset=Set-1, material=Steel
+,
+*End Part
+*Part, name=Ball
+{CUBE}*End Part
+*Assembly, name=Assembly
+*Instance, name=Plate-1, part=Plate
+*End Instance
+*Instance, name=Ball-1, part=Ball
+ 0., 0., 5.
+*End Instance
+*Tie, name=Constraint-1, adjust=yes
+s_Surf-1, m_Surf-1
+*End Assembly
+*Material, name=Steel
+"""
+
+
+def test_the_ordinary_export_of_two_parts(tmp_path):
+    """Sections and surfaces within a part, ties and materials without."""
+    mesh = read(tmp_path, CAE)
+    assert mesh.points[mesh.tags["Ball-1"]].min(axis=0).tolist() == [0, 0, 5]
+    assert mesh.points[mesh.tags["Plate-1"]].max(axis=0).tolist() == [1, 1, 1]
+    assert mesh.points[mesh.tags["Plate-1.Surf-1"], 2].tolist() == [0, 0, 0, 0]
+    assert listed(mesh) == {"*TIE": 1, "*MATERIAL": 1, "*SOLID SECTION": 1}
+
+
 def test_headers_that_give_nothing_new(tmp_path):
     """A repeated header, a header at the end, and the same lines again."""
     mesh = read(tmp_path, CUBE.replace("*ELEMENT, TYPE=C3D8\n", "*ELEMENT, TYPE=C3D8\n*ELEMENT, TYPE=C3D8\n") + CUBE)
