@@ -19,6 +19,7 @@ SHARE = 0.1
 ROUNDING = 1e-6
 """Distance of facets from the smooth surface, relative to the shortest edge, below which it is rounding."""
 
+
 def file_notes(left_out: Mapping[str, Sequence[LeftOut]]) -> tuple[Note, ...]:
     """Notes on the mesh files by body: one that lists the cards that are not honoured.
 
