@@ -90,11 +90,7 @@ def check(scenario: Scenario) -> Checked:
     if not solids:
         raise InputError("bodies", f"no Solid among {list(scene.bodies)}", 'at least one body of kind = "Solid"')
     check_dimensions(scene, solids)
-    for name, solid in solids.items():
-        if not mesh_of(solid).edge() > 0.0:
-            raise InputError(
-                f"bodies.{name}.mesh", "an edge has the length zero", "a mesh without coincident nodes in a cell"
-            )
+    _require_edges(solids)
     fixed = {n: check_solid(s, f"bodies.{n}") for n, s in solids.items()}
     notes = (*file_notes(left_out), *body_notes(solids, fixed))
     check_loads(scenario.loads, "loads", solids)
@@ -121,6 +117,15 @@ def check(scenario: Scenario) -> Checked:
         notes=(*notes, *contact_notes(model)),
         left_out=left_out,
     )
+
+
+def _require_edges(solids: Mapping[str, Solid]) -> None:
+    """Refuse meshes with an edge of the length zero."""
+    for name, solid in solids.items():
+        if not mesh_of(solid).edge() > 0.0:
+            raise InputError(
+                f"bodies.{name}.mesh", "an edge has the length zero", "a mesh without coincident nodes in a cell"
+            )
 
 
 def _slabs(scenario: Scenario, model: Model) -> tuple[float, int]:
