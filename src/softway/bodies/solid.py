@@ -77,6 +77,11 @@ class Driven:
         if not (np.diff(times) > 0.0).all():
             raise InputError("times", f"{list(self.times)} do not increase", "increasing instants")
 
+    @property
+    def greatest_speed(self) -> float:
+        """Greatest speed of a component at any time [m/s]."""
+        return float(np.abs(self.velocity).max())
+
     def at(self, time: float) -> float:
         """Velocity at a time [m/s]."""
         values = np.atleast_1d(np.asarray(self.velocity, float))

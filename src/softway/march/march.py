@@ -6,25 +6,22 @@ from typing import Literal
 
 import numpy as np
 
-from softway.bodies.elements.section import wave_speed
-from softway.errors import Cancel, InputError
+from softway.errors import Cancel
 from softway.march.attempts import DAMPED, AcceptedSlab, accept_slab, recent_rejections
-from softway.march.audit.ledger import initial_ledger, open_account, update_account
+from softway.march.audit.ledger import update_account
 from softway.march.march_state import MarchState, Settings, StepHistory
-from softway.march.model_state import ModelState, join_states, split_states
+from softway.march.model_state import ModelState, split_states
 from softway.march.results.step import Report, Step
 from softway.march.rules.slab_rule import Method
-from softway.march.slab_step import Stepper, stepper
-from softway.march.start.initial_state import initial_state
+from softway.march.slab_step import Stepper
+from softway.march.start.preparation import prepare
 from softway.march.step_control import StepControl, crushing, may_grow
 from softway.model.build import build
 from softway.model.model import Model
 from softway.model.scene import Scene, State
 from softway.model.time_weight import EndPeaks, TimeWeight
 from softway.solve.equations.energy_balance import SLIGHT
-from softway.solve.methods.central_difference import Explicit
 from softway.solve.methods.fixed_point import FixedPoint
-from softway.solve.stable_step import require_stable, stable_step
 from softway.units import Second
 
 log = logging.getLogger(__name__)
@@ -54,7 +51,8 @@ def march(
     step
         Slab length [s], shortened to divide the duration evenly; ``auto`` is the time in which a wave crosses the
         shortest edge, divided by the square root of 2: there the leading dispersion of a consistent mass and of the end
-        peaks cancel (docs/theory/time/time.md).
+        peaks cancel (docs/theory/time/time.md).  Without inertia it is the time in which tools and driven supports move
+        by a quarter of the shortest edge, at most a twentieth of the duration.
     weight
         Virtual time function.
     method
@@ -89,69 +87,8 @@ def march(
     """
     model = scene if isinstance(scene, Model) else build(scene)
     settings = Settings(until=until, step=step, weight=weight, method=method, control=control)
-    march_state = _begun(model, settings, state, cancel)
-    prepared = stepper(model, method, weight, cancel)
-    stepping = method if isinstance(method, Explicit) else weight
-    if not march_state.slabs and not (isinstance(stepping, Explicit) and step == "auto"):  # auto is stable
-        require_stable(model, march_state.state.start.displacement, stepping, march_state.step_history.span)
-    return _steps(prepared, march_state)
-
-
-def _begun(model: Model, settings: Settings, state: State | MarchState | None, cancel: Cancel | None) -> MarchState:
-    """March state at the start of a march."""
-    if isinstance(state, MarchState) and state.settings == settings:
-        return state.fitting(model)
-    past = 0.0 if state is None else state.state.time if isinstance(state, MarchState) else state.time
-    span = proposed(model, settings.step, settings.weight, settings.until - past, settings.method)
-    if isinstance(state, MarchState):
-        return state.fitting(model).asked(settings, span)
-    now = initial_state(model, span, cancel) if state is None else join_states(model, state)
-    return MarchState(
-        settings=settings,
-        state=now,
-        account=open_account(initial_ledger(model, now)),
-        step_history=StepHistory(span=span, length=span),
-    )
-
-
-def proposed(
-    model: Model,
-    step: Second | Literal["auto"],
-    weight: TimeWeight,
-    duration: float,
-    method: Method = FixedPoint(),
-) -> float:
-    """Slab length [s]: the requested one, or the crossing time of the shortest edge over sqrt(2), evenly divided.
-
-    Central differences use a fraction of their stability limit.
-
-    Raises
-    ------
-    InputError
-        If the duration or the step is not positive.
-    """
-    if duration <= 0.0:
-        raise InputError("time.end", f"the march would last {duration:g} s", "an end after the start")
-    if step != "auto":
-        if not 0.0 < step < np.inf:
-            raise InputError("time.step", f"{step:g} s", "a positive time, or 'auto'")
-        return evenly(duration, step)
-    if isinstance(method, Explicit):
-        return evenly(duration, method.safety * stable_step(model, model.displacement, method))
-    crossing = min(p.mesh.edge() / wave_speed(p.internal.material, p.density, p.internal.section) for p in model.parts)
-    bound = 0.9 * stable_step(model, model.displacement, weight)
-    return evenly(duration, min(crossing / np.sqrt(2.0), bound))
-
-
-def evenly(duration: float, step: float) -> float:
-    """Greatest length up to ``step`` that divides the duration evenly; equal slabs share one operator.
-
-    Examples
-    --------
-    >>> evenly(1.0, 0.3)
-    0.25
-    """
-    return float(duration / np.ceil(duration / step - 1e-9))
+    prepared = prepare(model, settings, state, cancel)
+    return _steps(prepared.stepper, prepared.march_state)
 
 
 def _steps(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:

@@ -12,11 +12,10 @@ from softway.contact.surfaces.nodal_tractions import TractionMap, traction_map
 from softway.errors import Cancel, InputError
 from softway.march.audit.balances import balances, contact_forces
 from softway.march.audit.ledger import initial_ledger as audit
-from softway.march.march import march, proposed
+from softway.march.march import march
 from softway.march.march_state import MarchState
 from softway.march.model_state import split_states
 from softway.march.results.step import Step
-from softway.march.start.initial_state import initial_state
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.record.conduct import continue_run, record_run
@@ -74,8 +73,8 @@ def run(
     """
     place = RunFolder(out=None if out is None else Path(out), overwrite=overwrite)
     place.check()
-    checked = scenario if isinstance(scenario, Checked) else check(scenario)
-    given, opening = checked.scenario, _opening(checked, cancel)
+    checked = scenario if isinstance(scenario, Checked) else check(scenario, cancel=cancel)
+    given, opening = checked.scenario, _opening(checked)
     steps = _steps(checked, opening.initial, cancel)
     plan = given.output.checkpoints
     texts, notes = _texts(given), checked.notes
@@ -119,9 +118,9 @@ def resume(
         return stopped
     with locked(stopped.path):
         given = stored(stopped.path, allow_python) if scenario is None else scenario
-        checked = given if isinstance(given, Checked) else check(given)
+        checked = given if isinstance(given, Checked) else check(given, cancel=cancel)
         provenance.require_same(stopped.path, stopped.provenance, _texts(checked.scenario))
-        opening, found = _opening(checked, cancel), last(stopped.path)
+        opening, found = _opening(checked), last(stopped.path)
         steps = _steps(checked, opening.initial if found is None else found.march_state, cancel)
         return continue_run(steps, opening, stopped, found, plan=checked.scenario.output.checkpoints, progress=progress)
 
@@ -146,10 +145,9 @@ def stored(folder: Path, allow_python: bool = False) -> Scenario:
     return load(file, allow_python=allow_python)
 
 
-def _opening(checked: Checked, cancel: Cancel | None) -> RunStart:
+def _opening(checked: Checked) -> RunStart:
     """Start of the run of a checked scenario."""
-    given, model = checked.scenario, checked.model
-    start = initial_state(model, proposed(model, checked.step, given.time.weight, given.time.end, given.solver), cancel)
+    given, model, start = checked.scenario, checked.model, checked.march_state.state
     initial, met = split_states(model, start), model.contacts
     return RunStart(
         scene=model.scene,

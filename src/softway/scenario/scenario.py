@@ -35,7 +35,8 @@ class Time:
     end
         End time [s].
     step
-        Length of a time step (slab) [s]; with ``auto`` a wave crosses the smallest edge in sqrt(2) slabs.
+        Length of a time step (slab) [s]; with ``auto`` a wave crosses the smallest edge in sqrt(2) slabs, and without
+        inertia tools and driven supports move by at most a quarter of the smallest edge in a slab.
     weight
         Virtual time function of the weighted momentum balance.
     control

@@ -21,11 +21,13 @@ DENSE = 600
 def greatest_frequency(model: Model, u: Array) -> float:
     """Greatest angular frequency of the components with inertia at the displacement u (n, d) [rad/s].
 
-    Massless components are condensed statically.
+    Massless components are condensed statically.  Without components with inertia it is zero.
     """
     all_mass = model.dofs.matrix(sp.csc_array(sp.kron(model.mass, sp.eye_array(model.shape[1]), format="csc")))
     inert = all_mass.diagonal() > 0.0
     heavy, light = np.flatnonzero(inert), np.flatnonzero(~inert)
+    if not len(heavy):
+        return 0.0
     mass = sp.csc_array(all_mass[heavy][:, heavy])
     stiffness = model.dofs.matrix(model.tangent(u))
     inner, cross = stiffness[heavy][:, heavy], stiffness[heavy][:, light]
@@ -67,6 +69,18 @@ def stable_step(model: Model, u: Array, scheme: TimeWeight | Explicit) -> float:
     return bound / omega if omega > 0.0 else np.inf
 
 
+def require_stable_weight(scheme: TimeWeight | Explicit) -> None:
+    """Refuse a time weight that is unstable for every slab length.
+
+    Raises
+    ------
+    InputError
+        With the weight.
+    """
+    if not isinstance(scheme, Explicit) and limit(scheme) == 0.0:
+        raise InputError("time.weight", f"{scheme} is unstable for every step", "a mean instant of at least 1/2")
+
+
 def require_stable(model: Model, u: Array, scheme: TimeWeight | Explicit, span: float) -> None:
     """Refuse a slab beyond the stability limit of its time weight or of central differences.
 
@@ -75,15 +89,26 @@ def require_stable(model: Model, u: Array, scheme: TimeWeight | Explicit, span: 
     InputError
         With the limit.
     """
-    if not isinstance(scheme, Explicit) and limit(scheme) == 0.0:
-        raise InputError("time.weight", f"{scheme} is unstable for every step", "a mean instant of at least 1/2")
+    require_stable_weight(scheme)
     greatest = stable_step(model, u, scheme)
     if span > greatest * (1.0 + 1e-9):
         raise InputError(
             "time.step",
             f"{span:.6g} s is beyond the stability limit {greatest:.6g} s of {type(scheme).__name__}",
-            f"a step of at most {greatest:.4g} s, or {_other(scheme)}, which is stable for every step",
+            f"a step of at most {_below(greatest):.4g} s, or {_other(scheme)}, which is stable for every step",
         )
+
+
+def _below(value: float) -> float:
+    """Value rounded down to four digits.
+
+    Examples
+    --------
+    >>> _below(0.70716)
+    0.7071
+    """
+    digit = 10.0 ** (np.floor(np.log10(value)) - 3.0)
+    return float(np.floor(value / digit) * digit)
 
 
 def _other(scheme: TimeWeight | Explicit) -> str:

@@ -31,6 +31,11 @@ MassRule = Consistent | Lumped
 
 ONE_LAYER = "are connected to contact nodes only: the part is one element thick there, and no node is left for its mass"
 """Reason of an error about contact nodes without a node near them that can take their mass."""
+MORE_LAYERS = (
+    "two layers of elements or quadratic elements there, a smaller contact tag, "
+    "or without friction the rule Impulse with FixedPoint or Newton"
+)
+"""Remedies for such nodes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,9 +149,7 @@ def condensation(mesh: Mesh, candidates: IntArray) -> sparse.csr_array:
         further = reach[left] @ near_by
         if left.any() and further.nnz == reach[left].nnz:
             problem = f"{int(left.sum())} contact nodes {ONE_LAYER}"
-            raise InputError(
-                "", problem, "two layers of elements or quadratic elements there, or a smaller contact tag"
-            )
+            raise InputError("", problem, MORE_LAYERS)
         waiting, reach = waiting[left], further
     parts = (np.concatenate(weights), (np.concatenate(rows), np.concatenate(columns)))
     return sparse.csr_array(parts, shape=(mesh.n_nodes, mesh.n_nodes))

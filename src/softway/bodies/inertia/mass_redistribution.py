@@ -12,7 +12,16 @@ from scipy import sparse
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.elements.section import Section
-from softway.bodies.inertia.mass_matrix import ONE_LAYER, Consistent, Lumped, MassRule, assembled, body_of, neighbours
+from softway.bodies.inertia.mass_matrix import (
+    MORE_LAYERS,
+    ONE_LAYER,
+    Consistent,
+    Lumped,
+    MassRule,
+    assembled,
+    body_of,
+    neighbours,
+)
 from softway.errors import InputError
 from softway.meshes.mesh import Mesh
 
@@ -170,8 +179,7 @@ def _depth(near: sparse.csr_array, candidates: IntArray) -> IntArray:
     light[candidates] = True
     alone = int((_cells_from(near, ~light) < 0).sum())
     if alone:
-        remedy = "two layers of elements or quadratic elements there, a smaller contact tag, or the rule Impulse"
-        raise InputError("", f"{alone} contact nodes {ONE_LAYER}", remedy)
+        raise InputError("", f"{alone} contact nodes {ONE_LAYER}", MORE_LAYERS)
     return _cells_from(near, light)
 
 

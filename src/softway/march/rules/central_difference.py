@@ -155,12 +155,19 @@ def central_difference(model: Model, method: Explicit, weight: TimeWeight) -> Ce
     Raises
     ------
     InputError
-        If contact nodes have inertia, the time weight is not the default, or unknowns move several components.
+        If contact nodes have inertia or no node has, the time weight is not the default, or unknowns move several
+        components.
     """
     if weight != EndPeaks():
-        raise InputError("time.weight", f"{weight} with Explicit, whose peak is at the start", "the default weight")
-    if not isinstance(model.timing, Energy) or model.timing.located:
-        raise InputError("solver", "Explicit with contact nodes that have inertia", "the timing Energy")
+        problem = f"{weight} with Explicit, whose peak is at the start"
+        raise InputError("time.weight", problem, "the default weight, or the solver FixedPoint")
+    if not model.inert:
+        raise InputError("solver", "Explicit without inertia", "the solver FixedPoint, or with inertia")
+    if not isinstance(model.timing, Energy):
+        problem = "Explicit with contact nodes that have inertia"
+        raise InputError("solver", problem, "the timing Energy, or the solver FixedPoint")
+    if model.timing.located:
+        raise InputError("solver", "Explicit with located = true", "located = false, or the solver FixedPoint")
     require_nodal(model, "Explicit")
     require_motion_alone(model, "Explicit")
     light = ~model.massive

@@ -79,12 +79,13 @@ def exact_instants(model: Model, method: FixedPoint | Newton, weight: TimeWeight
     require_frictionless(model, "the located Energy rule")
     require_nodal(model, "the located Energy rule")
     require_motion_alone(model, "the located Energy rule")
-    if not (model.linear and model.contacts.fixed):
-        raise InputError(
-            "contacts[0].timing.located",
-            "the located Energy rule is for small strain and resting half-spaces",
-            "the material LinearElastic, or located = false",
-        )
+    where = "contacts[0].timing.located"
+    if not model.linear:
+        problem = "the located Energy rule is for small strain"
+        raise InputError(where, problem, "located = false, or the material LinearElastic")
+    if not model.contacts.fixed:
+        problem = "the located Energy rule is for resting half-spaces"
+        raise InputError(where, problem, "located = false, or half-spaces at rest")
     stiffness = model.tangent(np.zeros(model.shape))
     exact = exact_instant_mean(model.rows(model.displacement), model.free, model.massive, model.load, stiffness)
     return Equilibrated(method=method, contact=ExactInstantContact(exact))

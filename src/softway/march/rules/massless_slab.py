@@ -75,7 +75,7 @@ def require_end_points(model: Model, weight: TimeWeight) -> None:
         raise InputError(
             "time.weight",
             f"{weight} with the Energy rule, whose contact nodes are in equilibrium at the slab's ends",
-            "EndPeaks with theta = 0.5, or the rule Impulse or Paper",
+            "EndPeaks with theta = 0.5, or with inertia and without friction the rule Impulse",
         )
 
 

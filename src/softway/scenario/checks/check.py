@@ -8,9 +8,10 @@ from scipy.spatial import cKDTree
 
 from softway.arrays import Array
 from softway.bodies.solid import Solid
-from softway.errors import InputError, Note
-from softway.march.march import proposed
-from softway.march.start.initial_state import SOON, require_apart, require_shallow, require_supported
+from softway.errors import Cancel, InputError, Note
+from softway.march.march_state import MarchState, Settings
+from softway.march.start.initial_state import SOON
+from softway.march.start.preparation import prepare
 from softway.meshes.files.abaqus.left_out import LeftOut
 from softway.model.build import build
 from softway.model.model import Model
@@ -34,8 +35,6 @@ from softway.scenario.checks.scales import (
 )
 from softway.scenario.checks.value_types import require
 from softway.scenario.scenario import Scenario, built_and_left_out
-from softway.solve.methods.central_difference import Explicit
-from softway.solve.stable_step import require_stable
 
 MOST = 1_000_000_000
 """Maximum number of time steps (slabs) in a run."""
@@ -55,6 +54,8 @@ class Checked:
         Scene as arrays, ready to march.
     bodies, contacts
         Scales of the bodies by name and of the contacts by label.
+    march_state
+        State at the start of the march.
     step, slabs
         Length of a time step (slab) [s], resolved if it is automatic, and number of slabs.
     notes
@@ -67,19 +68,33 @@ class Checked:
     model: Model
     bodies: Mapping[str, BodyScales]
     contacts: Mapping[str, ContactScales]
+    march_state: MarchState
     step: float
     slabs: int
     notes: tuple[Note, ...] = ()
     left_out: Mapping[str, tuple[LeftOut, ...]] = field(default_factory=dict)
 
 
-def check(scenario: Scenario) -> Checked:
-    """Build the meshes and check all names, signs and dimensions and the initial state.
+def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked:
+    """Build the model, check all names, signs and dimensions, and prepare the march up to its first time step (slab).
+
+    Everything that a run refuses before its first slab is refused here, with the same message.
+
+    Parameters
+    ----------
+    scenario
+        Scenario to check.
+    cancel
+        Function called in every iteration of an equilibrium at the start; the check stops when it returns True.
 
     Raises
     ------
     InputError
         With the path in the scenario, the value, and a remedy.
+    NumericsError
+        If there is no static equilibrium at the start.
+    Cancelled
+        If ``cancel`` requests it.
     """
     _require_scenario(scenario)
     for name, body in scenario.bodies.items():
@@ -102,18 +117,16 @@ def check(scenario: Scenario) -> Checked:
     if isinstance(scenario.start, StaticStart):
         check_loads(scenario.start.loads, "start.loads", solids)
     model = build(scene)
-    require_apart(model, model.displacement)
-    require_shallow(model, model.displacement)
-    contacts = {c.label: _contact(model, k, bodies) for k, c in enumerate(scene.contacts)}
-    require_supported(model)
-    step, slabs = _slabs(scenario, model)
+    march_state = _begun(scenario, model, cancel)
+    step = march_state.step_history.span
     return Checked(
         scenario=scenario,
         model=model,
         bodies=bodies,
-        contacts=contacts,
+        contacts={c.label: _contact(model, k, bodies) for k, c in enumerate(scene.contacts)},
+        march_state=march_state,
         step=step,
-        slabs=slabs,
+        slabs=int(np.ceil(scenario.time.end / step * (1.0 - 1e-12))),
         notes=(*notes, *contact_notes(model)),
         left_out=left_out,
     )
@@ -128,20 +141,25 @@ def _require_edges(solids: Mapping[str, Solid]) -> None:
             )
 
 
-def _slabs(scenario: Scenario, model: Model) -> tuple[float, int]:
-    """Length of a slab [s], resolved if it is automatic, and number of slabs; refuses unstable and too many ones."""
+def _begun(scenario: Scenario, model: Model, cancel: Cancel | None) -> MarchState:
+    """March state at the start of the run, prepared as by the march itself.
+
+    Raises
+    ------
+    InputError
+        If the march would refuse the model, or would need more than ``MOST`` slabs.
+    """
     time = scenario.time
     if time.step != "auto" and time.step > time.end:
         raise InputError("time.step", f"{time.step:g} s is longer than time.end = {time.end:g} s", "a shorter step")
-    solver = scenario.solver
-    step = proposed(model, time.step, time.weight, time.end, solver)
-    stepping = solver if isinstance(solver, Explicit) else time.weight
-    if not (isinstance(stepping, Explicit) and time.step == "auto"):  # such a step is a fraction of the stability limit
-        require_stable(model, model.displacement, stepping, step)
-    slabs = int(np.ceil(time.end / step * (1.0 - 1e-12)))
+    settings = Settings(
+        until=time.end, step=time.step, weight=time.weight, method=scenario.solver, control=time.control
+    )
+    march_state = prepare(model, settings, cancel=cancel).march_state
+    slabs, span = time.end / march_state.step_history.span, march_state.step_history.span
     if slabs > MOST:
-        raise InputError("time.end", f"needs {slabs:.3g} slabs of {step:.3g} s", "an earlier end, or longer slabs")
-    return step, slabs
+        raise InputError("time.end", f"needs {slabs:.3g} slabs of {span:.3g} s", "an earlier end, or longer slabs")
+    return march_state
 
 
 def _require_scenario(scenario: object) -> None:

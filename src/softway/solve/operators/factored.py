@@ -6,9 +6,10 @@ from typing import Literal
 import numpy as np
 
 from softway.arrays import Array
+from softway.model.model import Model
 from softway.solve.equations.slab_matrix import SlabMatrix
-from softway.solve.linear.backends.choice import best_solver, solver_named
-from softway.solve.linear.interface import Analysis, Factor, LinearSolver, Precision, SuperLU, number_type
+from softway.solve.linear.backends.choice import best_solver, require_solver, solver_named
+from softway.solve.linear.interface import Analysis, Factor, LinearSolver, Precision, SuperLU, counted, number_type
 from softway.solve.operators.interface import BuiltOperator
 
 MANY = 2000
@@ -53,10 +54,17 @@ class Factored:
     moduli: Literal["tangent", "secant"] = "tangent"
     threads: int | None = None
 
+    def require(self, model: Model) -> None:
+        """Refuse a backend that does not support the precision, and a number of threads below one."""
+        if self.backend == "auto":
+            counted(self.threads)
+        else:
+            require_solver(self.backend, self._precision(model), self.threads)
+
     def make(self, slab: SlabMatrix, u: Array, analysis: Analysis | None) -> BuiltOperator:
         """Factor the matrix of a slab at the displacement ``u`` (n, d)."""
         matrix = slab.operator(u, secant=self.moduli == "secant")
-        precision = self._precision(slab)
+        precision = self._precision(slab.model)
         if analysis is None:
             analysis = self._solver(matrix.shape[0], precision).analyse(matrix)
         factor = analysis.factor(matrix)
@@ -69,10 +77,10 @@ class Factored:
             return solver_named(self.backend, precision, self.threads)
         return suited(size, precision, self.threads)
 
-    def _precision(self, slab: SlabMatrix) -> Precision:
+    def _precision(self, model: Model) -> Precision:
         if self.precision != "auto":
             return self.precision
-        return "double" if slab.model.linear or slab.model.dofs.size < MANY else "single"
+        return "double" if model.linear or model.dofs.size < MANY else "single"
 
 
 def suited(size: int, precision: Precision = "double", threads: int | None = None) -> LinearSolver:

@@ -6,6 +6,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from softway.arrays import Array
+from softway.model.model import Model
 from softway.solve.constraints.compliance import FrozenOperator, RowBasis
 from softway.solve.equations.slab_matrix import SlabMatrix
 from softway.solve.linear.interface import Analysis, Factor
@@ -42,6 +43,16 @@ class BuiltOperator:
 
 class Operator(Protocol):
     """Declared kind of operator."""
+
+    def require(self, model: Model) -> None:
+        """Refuse a model for which the operator cannot be made on this machine.
+
+        Raises
+        ------
+        InputError
+            With the parameter.
+        """
+        ...
 
     def make(self, slab: SlabMatrix, u: Array, analysis: Analysis | None) -> BuiltOperator:
         """Make the operator of a slab at the displacement ``u`` (n, d), with the symbolic work of the last operator.

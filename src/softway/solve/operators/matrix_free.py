@@ -8,6 +8,7 @@ import scipy.sparse as sp
 
 from softway.arrays import Array
 from softway.errors import NoConvergence
+from softway.model.model import Model
 from softway.solve.checks import check_products
 from softway.solve.equations.slab_matrix import SlabMatrix
 from softway.solve.linear.interface import Analysis, Factor
@@ -42,6 +43,9 @@ class MatrixFree:
 
     def __post_init__(self) -> None:
         check_products(self.tolerance, self.limit)
+
+    def require(self, model: Model) -> None:
+        """Accept every model."""
 
     def make(self, slab: SlabMatrix, u: Array, analysis: Analysis | None) -> BuiltOperator:
         """The operator of a slab at the displacement ``u`` (n, d)."""

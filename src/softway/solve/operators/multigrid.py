@@ -11,6 +11,7 @@ from scipy.sparse.linalg import LinearOperator
 from softway.arrays import Array
 from softway.bodies.rigid_body_modes import motion_names, rigid_motions
 from softway.errors import InputError
+from softway.model.model import Model
 from softway.solve.checks import check_products
 from softway.solve.equations.slab_matrix import SlabMatrix
 from softway.solve.linear.interface import Analysis
@@ -49,10 +50,14 @@ class Multigrid:
     def __post_init__(self) -> None:
         check_products(self.tolerance, self.limit)
 
+    def require(self, model: Model) -> None:
+        """Refuse every model without pyamg."""
+        if not available():
+            remedy = "pip install 'softway[multigrid]', or the operator MatrixFree"
+            raise InputError("", "Multigrid without pyamg", remedy)
+
     def make(self, slab: SlabMatrix, u: Array, analysis: Analysis | None) -> BuiltOperator:
         """The operator of a slab at the displacement ``u`` (n, d)."""
-        if not available():
-            raise InputError("solver.operator", "Multigrid without pyamg", "pip install 'softway[multigrid]'")
         pyamg = importlib.import_module("pyamg")
         matrix = sp.csr_array(slab.operator(u))
         motions = _motions(slab, u)

@@ -13,8 +13,9 @@ from softway.bodies.solid import Fixed
 from softway.contact.contact import Contact
 from softway.contact.impact_rule import Energy, Impulse, Paper
 from softway.errors import InputError, NumericsError
-from softway.march.march import evenly, march
+from softway.march.march import march
 from softway.march.start.initial_state import initial_state
+from softway.march.start.slab_length import evenly
 from softway.march.step_control import StepControl
 from softway.meshes.generators.shapes import interval
 from softway.model.build import build

@@ -73,12 +73,23 @@ def solver_named(name: str, precision: Precision = "double", threads: int | None
     >>> solver_named("superlu")
     SuperLU(precision='double')
     """
+    require_solver(name, precision, threads)
+    return _working([name, *(n for n in _offered(precision) if n != name)], precision, threads)
+
+
+def require_solver(name: str, precision: Precision = "double", threads: int | None = None) -> None:
+    """Refuse a name without a backend, and a precision or a number of threads that the backend does not support.
+
+    Raises
+    ------
+    InputError
+        With the parameter.
+    """
     number_type(precision)
     counted(threads)
     if name not in BACKENDS:
         raise InputError("linear", f"no solver '{name}'", ", ".join(BACKENDS))
     BACKENDS[name](precision, threads)
-    return _working([name, *(n for n in _offered(precision) if n != name)], precision, threads)
 
 
 def _offered(precision: Precision) -> list[str]:
