@@ -1,5 +1,6 @@
 """Description of deformable solids and rigid tools."""
 
+from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -25,6 +26,9 @@ from softway.meshes.generators.recipes import MeshSource
 from softway.meshes.mesh import Mesh
 from softway.obstacles.primitives import Shape
 from softway.units import KilogramPerCubicMetre, MetrePerSecond, Second
+
+STRAIGHT = 1e-12
+"""Change of the slope of a prescribed velocity over a slab, relative to the velocity, that is rounding."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -86,6 +90,23 @@ class Driven:
         """Velocity at a time [m/s]."""
         values = np.atleast_1d(np.asarray(self.velocity, float))
         return float(np.interp(time, self.times, values)) if self.times else float(values[0])
+
+    def bends(self, start: float, end: float) -> tuple[tuple[float, float], ...]:
+        """Bends of the velocity inside a slab: instants tau in (0, 1), and changes of its slope [m/s per slab].
+
+        Examples
+        --------
+        >>> Driven(on="left", velocity=(0.0, 1.0, 0.0), times=(0.0, 0.5, 1.0)).bends(0.25, 0.75)
+        ((0.5, -2.0),)
+        """
+        first, last = bisect_right(self.times, start), bisect_left(self.times, end)
+        if first >= last:
+            return ()
+        tau = np.array([0.0, *((t - start) / (end - start) for t in self.times[first:last]), 1.0])
+        values = np.array([self.at(start), *(self.at(t) for t in self.times[first:last]), self.at(end)])
+        changes = np.diff(np.diff(values) / np.diff(tau))
+        real = np.abs(changes) > STRAIGHT * np.abs(values).max()
+        return tuple((float(t), float(c)) for t, c, bent in zip(tau[1:-1], changes, real, strict=True) if bent)
 
 
 Support = Fixed | Driven

@@ -137,6 +137,17 @@ class Model:
             out[where] = support.at(time)
         return out
 
+    def bends(self, start: float, end: float) -> tuple[tuple[float, Array], ...]:
+        """Bends of the prescribed velocities inside a slab, see
+        :class:`~softway.contact.slab_motion.trajectory.Trajectory`; later supports have precedence.
+        """
+        found: list[tuple[float, Array]] = []
+        for support, where in self.driven:
+            for _, field in found:
+                field[where] = 0.0
+            found += [(tau, np.where(where, change, 0.0)) for tau, change in support.bends(start, end)]
+        return tuple(found)
+
     @property
     def meshes(self) -> Mapping[str, Mesh]:
         """Mesh of each solid."""

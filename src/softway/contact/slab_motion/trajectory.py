@@ -10,6 +10,9 @@ A touch at ``tau_c`` fixes the normal component on the obstacle; a release at ``
     n . (u1 - u0) = -gap0 + (1 - tau_r) (h/2) n . q.
 
 A velocity jump ``J`` of every node at ``tau_c`` (the Impulse rule) adds ``h J (1/2 - tau_c)`` to ``u1``.
+
+A prescribed velocity whose slope changes by ``s`` at ``tau_b`` adds ``s ((tau - tau_b)_+ - tau (1 - tau_b))`` to the
+linear velocity, and ``-h s tau_b (1 - tau_b) / 2`` to ``u1``, the integral of the velocity (docs/theory/time/time.md).
 """
 
 from dataclasses import dataclass
@@ -81,6 +84,8 @@ class Trajectory:
         Contact rows and their events.
     jumps
         Pairs (tau, J (n, d)) of velocity jumps of the field.
+    bends
+        Pairs (tau, s (n, d)) of bends of the prescribed velocities: changes of their slope [m/s per slab].
     """
 
     span: float
@@ -91,6 +96,7 @@ class Trajectory:
     rows: ContactRows
     events: ContactEvents
     jumps: tuple[tuple[float, Array], ...] = ()
+    bends: tuple[tuple[float, Array], ...] = ()
 
     def end(self, q: Array) -> Array:
         """Displacement (n, d) at the end of the slab."""
@@ -103,6 +109,8 @@ class Trajectory:
         rate[light] = 0.5 * tau * q[light]
         for instant, jump in self.jumps:
             rate += (max(tau - instant, 0.0) - 0.5 * tau**2) * jump
+        for instant, slope in self.bends:
+            rate += _bent(tau, instant) * slope
         rate *= h
         rate += self.start
         return self._kinked(rate, self._normal_motion(tau, q)) if self.events.kinked.any() else rate
@@ -113,6 +121,8 @@ class Trajectory:
         rate = np.where(self.massive[:, None], v / 2.0 + (q - v) / 6.0, 0.25 * q)
         for instant, jump in self.jumps:
             rate = rate + (0.5 * (1.0 - instant) ** 2 - 1.0 / 6.0) * jump
+        for instant, slope in self.bends:
+            rate = rate + ((1.0 - instant) ** 3 - (1.0 - instant)) / 6.0 * slope
         smooth = self.start + h * rate
         return self._kinked(smooth, self._normal_mean(q)) if self.events.kinked.any() else smooth
 
@@ -147,3 +157,13 @@ class Trajectory:
         """Smooth motion with the normal components of the kinked rows replaced."""
         wanted = normal - self.rows.normal_component(smooth - self.start)
         return smooth + self.rows.motion(wanted, self.events.kinked, self.free)
+
+
+def bent(bends: tuple[tuple[float, Array], ...], span: float) -> Array | float:
+    """Displacement (n, d) in a slab of length ``span`` [s] beyond that of linear velocities [m]; zero without bends."""
+    return span * sum((_bent(1.0, tau) * slope for tau, slope in bends), 0.0)
+
+
+def _bent(tau: float, instant: float) -> float:
+    """Integral up to ``tau`` of the velocity beyond the linear one, by a unit change of slope at ``instant``."""
+    return 0.5 * (max(tau - instant, 0.0) ** 2 - tau**2 * (1.0 - instant))

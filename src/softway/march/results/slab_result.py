@@ -9,6 +9,7 @@ import numpy as np
 from softway.arrays import Array, BoolArray
 from softway.bodies.solid import Tool
 from softway.contact.contact_rows import ContactRows
+from softway.contact.slab_motion.trajectory import Trajectory, bent
 from softway.march.model_state import ModelState
 from softway.march.results.friction_result import FrictionResult
 from softway.march.results.step import Event
@@ -105,6 +106,19 @@ def supports(model: Model, now: ModelState, end: Evaluation, velocity: Array, pu
         return np.zeros(model.shape)
     inertia = model.mass @ ((velocity - now.start.velocity) / span)
     return np.where(model.free, 0.0, inertia + end.mean_force - model.slab_load(end.scalar) - push)
+
+
+def support_work(model: Model, path: Trajectory, support: Array, moved: Array, velocity: Array) -> float:
+    """Work of the mean forces ``support`` (n, d) over the displacement ``moved`` (n, d) of a slab [J].
+
+    The part of the forces that accelerates the supported nodes does its work over the mean of the velocities at the
+    ends, as the kinetic energy changes by it; only there is a bend of the prescribed velocity without work.
+    """
+    work = model.space.total(support * moved)
+    if not path.bends:
+        return work
+    inertia = model.mass @ ((velocity - path.velocity) / path.span)
+    return work - model.space.total(inertia * bent(path.bends, path.span))
 
 
 def contact_event(

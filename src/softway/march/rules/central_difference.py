@@ -22,7 +22,7 @@ from softway.march.results.friction_result import first_impulses
 from softway.march.results.slab_result import EnergyBalance
 from softway.march.results.step import Event
 from softway.march.rules.equilibrated import EndForceContact
-from softway.march.rules.massless_slab import ContactForces, equations, slab_result
+from softway.march.rules.massless_slab import ContactForces, equations, slab_result, with_prescribed
 from softway.march.rules.slab_rule import Attempt, Solutions, require_motion_alone, require_nodal
 from softway.march.step_control import require_slow
 from softway.model.model import Model
@@ -102,11 +102,13 @@ class CentralDifference:
         q = np.where(self.supported, system.given, moving)
         return q, system.path.end(q)
 
-    def reached(self, q: Array, moving: Array) -> Array:
-        """Velocity (n, d) at the end from q and from ``moving`` for nodes with inertia, which is overwritten."""
+    def reached(self, q: Array, moving: Array, prescribed: Array | None) -> Array:
+        """Velocity (n, d) at the end from q, from ``moving`` for nodes with inertia, which is overwritten, and from
+        the velocities of supports if they are ``prescribed`` (n, d).
+        """
         out = moving if self.supported is None else np.where(self.supported, q, moving)
         out[self.light] = 0.5 * q[self.light]
-        return out
+        return out if prescribed is None or self.supported is None else np.where(self.supported, prescribed, out)
 
     def solve(self, model: Model, now: ModelState, slab: Slab, memory: OperatorMemory, attempt: Attempt) -> Solutions:
         """Solution of the slab.
@@ -119,6 +121,7 @@ class CentralDifference:
         h, start = slab.span, now.start
         shock = model.shock_force(start.displacement, h * start.velocity, h)
         push = model.load if shock is None else model.load - shock
+        push = push if not model.driven else push - _drag(model, now, slab)
         opening = _opening(model, now, self)
         slope = self.sloped(push - opening, now.acceleration)
         moving = h * slope
@@ -127,6 +130,7 @@ class CentralDifference:
         coasting += start.velocity
         coasting *= h
         coasting += start.displacement
+        coasting = with_prescribed(model, now, slab, coasting)
         pairs = model.contacts.meet(start.displacement, coasting, slab.start, slab.end)
         require_slow(model, pairs, coasting, attempt.approach)
         system = equations(self.contact, model, now, slab, pairs, attempt)
@@ -144,7 +148,7 @@ class CentralDifference:
         slope += self.inertia.acceleration(push - closing)
         slope *= 0.5 * h
         slope += start.velocity
-        velocity = self.reached(it.q, slope)
+        velocity = self.reached(it.q, slope, model.prescribed(slab.end) if model.driven else None)
         out = slab_result(self.contact, model, now, slab, system, solution, pairs.found, velocity)
         yield out, with_remaining(model.space, it.memory, self.still, left)
 
@@ -197,6 +201,12 @@ def _evaluated(system: SlabEquations, it: Iterate, u1: Array) -> Evaluation:
         clipped=False,
         rows=it.system.contact.at(u1),
     )
+
+
+def _drag(model: Model, now: ModelState, slab: Slab) -> Array:
+    """Force (n, d) on the free nodes by which a consistent mass resists the prescribed change of velocity [N]."""
+    change = np.where(model.free, 0.0, model.prescribed(slab.end) - now.start.velocity)
+    return np.asarray(model.mass @ change) / slab.span
 
 
 def _opening(model: Model, now: ModelState, central: CentralDifference) -> Array:

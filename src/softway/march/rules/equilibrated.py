@@ -14,9 +14,11 @@ from softway.march.rules.massless_slab import (
     ContactForces,
     MasslessContact,
     closed_energy_balance,
+    end_velocity,
     equations,
     require_end_points,
     slab_result,
+    with_prescribed,
 )
 from softway.march.rules.slab_rule import Attempt, Solutions
 from softway.march.step_control import require_slow
@@ -45,6 +47,7 @@ class Equilibrated:
         h, start = slab.span, now.start
         rate = start.velocity + h * now.acceleration
         coasting = start.displacement + h * np.where(model.massive[:, None], 0.5 * (start.velocity + rate), rate)
+        coasting = with_prescribed(model, now, slab, coasting)
         pairs = model.contacts.meet(start.displacement, coasting, slab.start, slab.end)
         require_slow(model, pairs, coasting, attempt.approach)
         system = equations(self.contact, model, now, slab, pairs, attempt)
@@ -53,8 +56,7 @@ class Equilibrated:
         method = cancellable(self.method, attempt.cancel, slab.start)
         iterates = method.iterate(system, Guess(q=guess, impulse=impulse, active=active, memory=memory))
         for solution in iterate(system, iterates, method.tolerance, method.limit):
-            q = solution.last.q
-            velocity = np.where(model.massive[:, None], q, 0.5 * q)
+            velocity = end_velocity(model, slab, solution.last.q)
             out = slab_result(self.contact, model, now, slab, system, solution, pairs.found, velocity)
             yield out, solution.last.memory
 

@@ -11,11 +11,18 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.contact.impact_rule import Paper
-from softway.contact.slab_motion.trajectory import Trajectory
+from softway.contact.slab_motion.trajectory import Trajectory, bent
 from softway.errors import NoConvergence
 from softway.march.model_state import ModelState
 from softway.march.results.friction_result import FrictionResult
-from softway.march.results.slab_result import Balances, SlabResult, contact_event, ordered_events, supports
+from softway.march.results.slab_result import (
+    Balances,
+    SlabResult,
+    contact_event,
+    ordered_events,
+    support_work,
+    supports,
+)
 from softway.march.results.step import Event
 from softway.march.rules.event_iteration import EventIteration, with_new_events, with_new_facets, without_events
 from softway.march.rules.slab_rule import Attempt, Solutions, require_frictionless, require_nodal
@@ -55,6 +62,7 @@ class Impulsive:
         given = model.prescribed(slab.end)
         guess = np.where(model.free, ahead, given)
         coasting = now.start.displacement + 0.5 * slab.span * (now.start.velocity + guess)
+        coasting = coasting + bent(model.bends(slab.start, slab.end), slab.span)
         pairs = model.contacts.meet(now.start.displacement, coasting, slab.start, slab.end)
         require_slow(model, pairs, coasting, attempt.approach)
         current, facets = without_events(model, now, pairs, pairs.at(coasting)), pairs
@@ -141,6 +149,7 @@ def _system(
         rows=rows,
         events=events,
         jumps=tuple((j.instant, j.field) for j in found),
+        bends=model.bends(slab.start, slab.end),
     )
     none = np.zeros(len(events.closed))
     target = rows.tool_motion / slab.span - rows.normal_component(np.where(model.free, 0.0, given))
@@ -189,7 +198,7 @@ def _outcome(
         force=through / h,
         push=push,
         support=support,
-        work=float(through @ rows.tool_motion) / h + model.space.total(support * moved),
+        work=float(through @ rows.tool_motion) / h + support_work(model, system.path, support, moved, q),
         dissipation=rule.touch.loss(model, rows, events, found, (now.start.velocity, q), h),
         events=_events(now, slab, system, current, solution, found),
         pairs=pairs,

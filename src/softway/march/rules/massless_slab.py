@@ -7,12 +7,19 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray
 from softway.contact.contact_set import SlabContacts
-from softway.contact.slab_motion.trajectory import Trajectory, contact_events
+from softway.contact.slab_motion.trajectory import Trajectory, bent, contact_events
 from softway.errors import InputError
 from softway.march.friction.stick_slip_events import stick_slip_events
 from softway.march.model_state import ModelState
 from softway.march.results.friction_result import friction_result, slipping
-from softway.march.results.slab_result import Balances, EnergyBalance, SlabResult, ordered_events, supports
+from softway.march.results.slab_result import (
+    Balances,
+    EnergyBalance,
+    SlabResult,
+    ordered_events,
+    support_work,
+    supports,
+)
 from softway.march.results.step import Event
 from softway.march.rules.slab_rule import Attempt
 from softway.model.model import Model
@@ -98,6 +105,7 @@ def equations(
         free=model.free,
         rows=rows,
         events=contact_events(np.zeros(len(rows.node), bool)),
+        bends=model.bends(slab.start, slab.end),
     )
     last = model.prescribed(slab.end)
     given = last if not model.driven else np.where(model.massive[:, None], last, model.prescribed(slab.start) + last)
@@ -169,7 +177,7 @@ def slab_result(
         force=normal.rows,
         push=push,
         support=support,
-        work=tools + (model.space.total(support * moved) if model.driven else 0.0),
+        work=tools + (support_work(model, system.path, support, moved, velocity) if model.driven else 0.0),
         dissipation=friction.dissipation,
         events=ordered_events(events, slab),
         pairs=pairs,
@@ -178,6 +186,22 @@ def slab_result(
         handed_on=rows if model.contacts.paired else None,
         friction=friction,
     )
+
+
+def end_velocity(model: Model, slab: Slab, q: Array) -> Array:
+    """Velocity (n, d) at the end of a slab [m/s]; of massless nodes without driven support the mean of the slab."""
+    heavy = model.massive[:, None]
+    velocity = np.where(heavy, q, 0.5 * q)
+    return velocity if not model.driven else np.where(model.free | heavy, velocity, model.prescribed(slab.end))
+
+
+def with_prescribed(model: Model, now: ModelState, slab: Slab, coasting: Array) -> Array:
+    """Displacement (n, d) without contact at the end of a slab, with the exact one of supported components [m]."""
+    if not model.driven:
+        return coasting
+    start, end = model.prescribed(slab.start), model.prescribed(slab.end)
+    moved = slab.span * (0.5 * (start + end)) + bent(model.bends(slab.start, slab.end), slab.span)
+    return np.where(model.free, coasting, now.start.displacement + moved)
 
 
 def closed_energy_balance(model: Model, slab: Slab) -> EnergyBalance:

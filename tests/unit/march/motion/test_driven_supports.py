@@ -3,12 +3,18 @@
 import numpy as np
 import pytest
 
+from softway.bodies.inertia.inertia_scaling import Full, Off
+from softway.bodies.inertia.mass_matrix import Consistent, Lumped
 from softway.bodies.internal_force.slab_average import DiscreteGradient, Weighted
 from softway.bodies.setup.loads import Gravity
 from softway.bodies.solid import Driven, Fixed
+from softway.contact.contact import Contact
 from softway.contact.impact_rule import Energy, ImpactRule, Impulse, Paper
+from softway.march.march import march
 from softway.march.step_control import StepControl
+from softway.model.scene import Scene
 from softway.model.time_weight import Momentum
+from softway.solve.methods.central_difference import Explicit
 
 pytestmark = pytest.mark.slow
 
@@ -66,6 +72,45 @@ def test_the_table_is_followed_exactly(shop, rule: ImpactRule) -> None:
     t = np.array([s.slab.end for s in motion.steps])
     np.testing.assert_allclose(at, np.where(t <= 0.5, 0.2 * t**2, 0.1 - 0.2 * (1.0 - t) ** 2), atol=1e-15)
     closes(motion)
+
+
+BENT = Driven(on="left", velocity=(0.0, 1.0, 0.0, 0.3), times=(0.0, 0.5, 1.0, 1.5))
+
+
+@pytest.mark.parametrize("slabs", [1, 3, 7])
+@pytest.mark.parametrize("inertia", [Full(), Off()], ids=lambda i: type(i).__name__)
+@pytest.mark.parametrize("tag", ["left", "right"])
+@rules
+def test_bends_of_the_table_inside_of_slabs(shop, rule: ImpactRule, tag: str, inertia: Full | Off, slabs: int) -> None:
+    """The displacement is the integral of the velocity, the velocity its value, and the ledger closes."""
+    if not rule.massless and not inertia.factor:
+        return  # refused: there are no impacts without inertia
+    held = () if inertia.factor else (Fixed(on="right"),)
+    solid = shop.bar(v=0.0, supports=(BENT, *held))
+    bodies = {"body": solid, "wall": shop.plane(20.0, -1.0) if tag == "right" else shop.plane(-20.0, 1.0)}
+    contact = Contact(between=(f"body.{tag}", "wall"), timing=rule)
+    steps = list(march(Scene(bodies=bodies, contacts=(contact,), inertia=inertia), until=1.5, step=1.5 / slabs))
+    assert len(steps) == slabs
+    for s in steps:
+        t = s.slab.end
+        moved = t**2 if t <= 0.5 else 0.5 - (1.0 - t) ** 2 if t <= 1.0 else 0.5 + 0.3 * (t - 1.0) ** 2
+        assert s.after.displacement["body"][0, 0] == pytest.approx(moved, abs=1e-15)
+        assert s.after.velocity["body"][0, 0] == pytest.approx(BENT.at(t), abs=1e-15)
+        assert s.ledger.energy_error == pytest.approx(0.0, abs=1e-14)
+        assert s.certificate.momentum_error <= 1e-14
+
+
+@pytest.mark.parametrize("mass", [Consistent(), Lumped()], ids=lambda m: type(m).__name__)
+def test_a_bar_that_is_set_in_motion_by_central_differences(shop, mass: Consistent | Lumped) -> None:
+    """Free nodes take their share of a consistent mass: the momentum balance closes, and the energy returns."""
+    found = []
+    for step in (0.05, 0.025):
+        solid = shop.bar(v=0.0, supports=(RAMP,), mass=mass)
+        motion = shop.move(solid, {"wall": shop.plane(20.0, -1.0)}, tag="left", until=1.0, step=step, method=Explicit())
+        assert motion.momentum_error <= 1e-14
+        assert motion.last.after.displacement["body"][-1, 0] == pytest.approx(0.1, abs=1e-15)
+        found.append(motion.energy_error)
+    assert found[1] < found[0] / 3.0, "second order"
 
 
 @pytest.mark.parametrize(
