@@ -16,7 +16,7 @@ from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.equations.slab_values import Evaluation
 from softway.solve.methods.central_difference import Explicit
 from softway.solve.methods.contact_step import contact_step
-from softway.solve.methods.iteration import Iterate
+from softway.solve.methods.iteration import Iterate, resolved_speed
 from softway.solve.operators.operator_memory import IterationCount, Near, OperatorMemory, OperatorOrigin
 
 CLOSE, FAR = 0.5, 4.0
@@ -89,7 +89,7 @@ def balanced(
     """
     (q_all, u1), near, space = guess, chosen[0], system.model.space
     memory = _prepared(system, still, q_all, chosen)
-    frozen, scale = memory.frozen, max(space.greatest(q_all), 1e-300)
+    frozen, enough = memory.frozen, max(method.tolerance * space.greatest(q_all), resolved_speed(system))
     assert frozen is not None
     local = _Local.of(system, still, guess, near, frozen)
     live = local.live
@@ -104,7 +104,7 @@ def balanced(
         before, change = change, space.greatest(step.q - q)
         same = local.partial and bool((step.active == active).all())
         q, impulse, active = step.q, step.impulse, step.active
-        if change <= method.tolerance * scale or (same and _left(before, change) <= method.tolerance * scale):
+        if change <= enough or (same and _left(before, change) <= enough):
             q_all, u1 = q_all.copy(), u1.copy()
             q_all[local.nodes], u1[local.nodes] = q, local.placed(q)
             system = system if local.partial else local.system

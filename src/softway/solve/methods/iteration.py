@@ -95,7 +95,7 @@ def _pushed(system: SlabEquations, it: Iterate) -> float:
     return 0.0 if frozen is None else system.model.space.greatest(frozen.solve(system.path.span * force))
 
 
-def _resolved(system: SlabEquations) -> float:
+def resolved_speed(system: SlabEquations) -> float:
     """Velocity that moves the nodes by a few units in the last place of their coordinates in one slab [m/s]."""
     extent = system.model.extent(system.start.displacement)
     return 8.0 * float(np.finfo(float).eps) * extent / system.path.span
@@ -117,7 +117,7 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
     NoConvergence
         If there is no solution after ``limit`` iterations on the same facets, or a value is not finite.
     """
-    seen, closest, resolved = Stagnation(), np.inf, _resolved(system)
+    seen, closest, resolved = Stagnation(), np.inf, resolved_speed(system)
     contact, begun, space = system.contact, 0, system.model.space
     predicted: Array | None = None
     it: Iterate | None = None
@@ -152,7 +152,7 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
 def _stagnates(system: SlabEquations, it: Iterate, since: int, speeds: tuple[float, float]) -> bool:
     """True if the iteration stagnates at the rounding level, with ``since`` iterations since the change last halved.
 
-    ``speeds`` are the greatest velocity and that of :func:`_resolved` [m/s].
+    ``speeds`` are the greatest velocity and that of :func:`resolved_speed` [m/s].
     """
     scale, resolved = speeds
     if any(since >= n and it.change <= fraction * scale for n, fraction in STANDSTILL):
