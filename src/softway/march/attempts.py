@@ -17,6 +17,7 @@ from softway.march.results.slab_result import SlabResult
 from softway.march.results.step import Certificate, Ledger
 from softway.march.rules.slab_rule import Attempt
 from softway.march.slab_step import Stepper, advance
+from softway.march.start.slab_length import proposed
 from softway.march.step_control import CRAWL
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks
@@ -27,6 +28,8 @@ from softway.solve.operators.operator_memory import OperatorMemory
 log = logging.getLogger(__name__)
 PATIENCE = 1
 """Cutbacks after which an energy balance that the scalar cannot close is closed along the motion."""
+SHORT = 1e-2
+"""Step without inertia, relative to that of the prescribed motion, below which a longer one is advised."""
 DAMPED = EndPeaks(theta=1.0)
 """Virtual time function of the slab after a stop: the forces at its end act over the whole slab.  Friction may reverse
 at once, and vibrations caused by the stop are damped.  The operator is that of a slab longer by the root of 2."""
@@ -89,7 +92,7 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
             length = 0.5 * length if fresh else length
             fresh, memory = True, memory.failed()
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
-    raise NumericsError(_reason(march_state, reasons, crawls), now.time, _remedy(stepper))
+    raise NumericsError(_reason(march_state, reasons, crawls), now.time, _remedy(stepper, march_state))
 
 
 def recent_rejections(before: StepHistory, span: float, rejections: int) -> float:
@@ -117,9 +120,13 @@ def _reason(march_state: MarchState, reasons: list[str], crawls: bool) -> str:
     return f"no time step was accepted after {len(reasons)} cutbacks; last: {reasons[-1]}"
 
 
-def _remedy(stepper: Stepper) -> str:
-    """Possible remedies if no time step was accepted."""
-    found = ["a smaller step", "a finer mesh where the cells are crushed"]
+def _remedy(stepper: Stepper, march_state: MarchState) -> str:
+    """Possible remedies if no time step was accepted; without inertia very short slabs move nothing but rounding."""
+    settings = march_state.settings
+    usual = proposed(stepper.model, "auto", settings.weight, settings.until, settings.method)
+    short = not stepper.model.inert and march_state.step_history.span < SHORT * usual
+    found = [f"a longer step, such as {usual:.3g} s" if short else "a smaller step"]
+    found.append("a finer mesh where the cells are crushed")
     if isinstance(stepper.method, Newton):
         found.append("the method FixedPoint, which converges more often than Newton alone")
     if stepper.model.contacts.overlap_methods:  # mean gaps

@@ -48,8 +48,11 @@ class ModelState:
         return replace(self.rows, tool_motion=rows.tool_motion, shear=replace(old, moved=new.moved))
 
 
-def join_states(model: Model, state: State) -> ModelState:
+def join_states(model: Model, state: State, span: float = 1.0) -> ModelState:
     """Join a state to arrays of the model; force and energy are computed again.
+
+    Path-dependent materials without history variables in the state reach its displacement in one slab of length
+    ``span`` [s].
 
     Raises
     ------
@@ -64,7 +67,7 @@ def join_states(model: Model, state: State) -> ModelState:
     if ours != theirs or set(state.closed) != set(model.contacts.labels):
         raise InputError("state", f"bodies {theirs} and contacts {sorted(state.closed)}", f"a state of {ours}")
     u = model.join(state.displacement)
-    states = tuple(state.memory.get(p.name) for p in model.parts)
+    states = _remembered(model, state, u, span)
     energy, force, viscous = material_states.stored_force(model.parts, states, u)
     fields = tuple(c.at(model.join(state.fields[c.field.name]), u) for c in model.companions)
     labels, count = model.contacts.labels, len(model.contacts.contact)
@@ -86,6 +89,15 @@ def join_states(model: Model, state: State) -> ModelState:
         traction=np.concatenate([state.traction[n] for n in labels]) if rough else np.zeros((count, model.shape[1])),
         sliding=np.concatenate([state.sliding[n] for n in labels]) if rough else np.zeros(count, bool),
     )
+
+
+def _remembered(model: Model, state: State, u: Array, span: float) -> material_states.MaterialStates:
+    """Material states in a state, and of path-dependent materials without one that of the displacement u (n, d)."""
+    known = tuple(state.memory.get(p.name) for p in model.parts)
+    if all(m is not None or not p.internal.path_dependent for p, m in zip(model.parts, known, strict=True)):
+        return known
+    reached = material_states.committed(model.during((), span).parts, u)
+    return tuple(r if m is None else m for m, r in zip(known, reached, strict=True))
 
 
 def split_states(model: Model, state: ModelState) -> State:

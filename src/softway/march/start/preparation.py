@@ -60,7 +60,7 @@ def _begun(model: Model, settings: Settings, state: State | MarchState | None, c
     span = proposed(model, settings.step, settings.weight, settings.until - past, settings.method)
     if isinstance(state, MarchState):
         return state.fitting(model).asked(settings, span)
-    now = initial_state(model, span, cancel) if state is None else join_states(model, state)
+    now = initial_state(model, span, cancel) if state is None else join_states(model, state, span)
     return MarchState(
         settings=settings,
         state=now,

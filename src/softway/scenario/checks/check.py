@@ -32,6 +32,7 @@ from softway.scenario.checks.scales import (
     ContactScales,
     body_scales,
     contact_duration,
+    soft_duration,
 )
 from softway.scenario.checks.value_types import require
 from softway.scenario.scenario import Scenario, built_and_left_out
@@ -181,12 +182,13 @@ def _contact(model: Model, number: int, bodies: Mapping[str, BodyScales]) -> Con
     parts = [model.parts[k] for k in model.opponents[number] if k >= 0]
     least = np.flatnonzero(gaps <= gaps.min() + SAME * max(bodies[p.name].length for p in parts))
     first = least[np.argmax(speeds[least])]
-    durations = [contact_duration(p.mesh.points, normals[first], bodies[p.name].wave_speed) for p in parts]
+    waves = [bodies[p.name].wave_speed for p in parts]
+    durations = [contact_duration(p.mesh.points, normals[first], c) for p, c in zip(parts, waves, strict=True)]
     return ContactScales(
         nodes=len(np.unique(rows.node[rows.of_contact(number)])),
         gap=float(gaps.min()),
         approach=float(speeds[first]) + 0.0,
-        duration=min(durations),
+        duration=soft_duration(durations, [p.density * c for p, c in zip(parts, waves, strict=True)]),
     )
 
 

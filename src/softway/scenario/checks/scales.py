@@ -1,5 +1,6 @@
 """Scales of a scenario before the computation: speeds, times, lengths, numbers."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import sqrt
 
@@ -14,6 +15,8 @@ from softway.meshes.mesh import Mesh
 from softway.model.time_weight import Momentum, limit
 
 _FREQUENCY = {("linear", False): 12.0, ("linear", True): 4.0, ("quadratic", False): 60.0, ("quadratic", True): 24.0}
+ALIKE = 1.0 + 1e-9
+"""Ratio of impedances up to which bodies are equally stiff."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,7 +62,7 @@ class ContactScales:
     approach
         Closing speed of this gap at the start; the largest one if several places have the same gap [m/s].
     duration
-        Expected time of contact ``2 L / c``, with the extent L along the normal [s].
+        Expected time of contact ``2 L / c``, with the extent L along the normal, of the softer body [s].
     """
 
     nodes: int
@@ -99,3 +102,18 @@ def body_scales(solid: Solid, mesh: Mesh, free: int) -> BodyScales:
 def contact_duration(points: Array, normal: Array, speed: float) -> float:
     """Expected time of contact ``2 L / c`` [s]; L is the extent of the points (n, d) along the normal (d,)."""
     return 2.0 * float(np.ptp(points @ normal)) / speed
+
+
+def soft_duration(durations: Sequence[float], impedances: Sequence[float]) -> float:
+    """Expected time of contact of one or two bodies [s], from the times and impedances ``rho c`` [kg/m^2/s] of each.
+
+    The wave that returns in a body unloads the contact only if the other body is not softer: the time is that of the
+    body with the least impedance, the shorter one of equal impedances.
+
+    Examples
+    --------
+    >>> soft_duration([1e-5, 2e-3], [4e7, 1e5])
+    0.002
+    """
+    least = min(impedances)
+    return min(t for t, z in zip(durations, impedances, strict=True) if z <= ALIKE * least)

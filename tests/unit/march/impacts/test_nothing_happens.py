@@ -60,3 +60,14 @@ def test_the_natural_test_of_a_law(method: sw.Explicit, inertia: sw.bodies.Full,
     assert last.ledger.energy_strain == pytest.approx(work, rel=1e-12)
     assert last.ledger.work_external == pytest.approx(work, rel=1e-9)
     assert list(sw.march(scene, until=1.0, method=method))
+
+
+@laws
+def test_supports_that_hold_a_stretched_body_without_inertia(law: sw.LinearElastic) -> None:
+    """The whole surface is held; what momentum rounding leaves has no scale but that of the positions."""
+    mesh = sw.meshes.Rectangle(size=(1.0, 1.0), cells=(2, 2))
+    stretch = sw.bodies.Affine(value=(0.0, 0.0), gradient=((1e-4, 0.0), (0.0, 0.0)))
+    held = (sw.Driven(on="surface", velocity=0.0),)
+    body = sw.Solid(mesh=mesh, material=law, density=1.0, displacement=stretch, supports=held)
+    steps = list(sw.march(sw.Scene(bodies={"b": body}, inertia=sw.bodies.Off()), until=1.0, step=0.5))
+    assert len(steps) == 2 and not any(s.report.rejections for s in steps)

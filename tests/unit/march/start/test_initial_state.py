@@ -1,18 +1,21 @@
 """How a march starts, and what is refused before it does."""
 
 from contextlib import suppress
+from dataclasses import replace
 from itertools import islice
 
 import numpy as np
 import pytest
 
 from softway.bodies.inertia.inertia_scaling import Off
+from softway.bodies.prescribed_motion import Table, Translation, Turning
 from softway.bodies.setup.initial_fields import Affine, Uniform
 from softway.bodies.setup.loads import Gravity, Traction
-from softway.bodies.solid import Fixed
+from softway.bodies.solid import Driven, Fixed, Tool
 from softway.contact.contact import Contact
 from softway.contact.impact_rule import Energy, Impulse, Paper
 from softway.errors import InputError, NumericsError
+from softway.laws.bulk.viscoelastic import Kelvin
 from softway.march.march import march
 from softway.march.start.initial_state import initial_state
 from softway.march.start.slab_length import evenly
@@ -21,6 +24,7 @@ from softway.meshes.generators.shapes import interval
 from softway.model.build import build
 from softway.model.scene import Scene, StaticStart
 from softway.model.time_weight import Collocation, EndPeaks, Momentum
+from softway.obstacles.half_space import HalfSpace
 from softway.solve.methods.fixed_point import FixedPoint
 from softway.solve.methods.newton import Newton
 
@@ -269,6 +273,52 @@ def test_a_stop_names_what_may_help(shop, method: Newton | FixedPoint) -> None:
         shop.move(shop.block((0.1, -0.2)), shop.floor, until=1.0, step=0.1, method=method)
     assert "a smaller step" in stopped.value.remedy
     assert ("FixedPoint" in stopped.value.remedy) == isinstance(method, Newton)
+
+
+@pytest.mark.parametrize("share", [1.0, 1e-4])
+def test_a_stop_without_inertia_advises_a_longer_step_where_slabs_are_too_short(shop, share: float) -> None:
+    """A press that moves by a quarter of an edge in a usual slab; the advised step is that of the step auto."""
+    press = Driven(on="top", components="y", velocity=-0.1)
+    solid = shop.block((0.0, 0.0), height=0.0, supports=(press, Fixed(on="top", components="x")))
+    pressed = Scene(
+        bodies={"body": solid, "floor": shop.plane((0.0, 0.0), (0.0, 1.0))},
+        contacts=(Contact(between=("body.bottom", "floor")),),
+        inertia=Off(),
+    )
+    usual = next(march(pressed, until=1.0)).slab.span
+    assert usual == pytest.approx(1.0 / 20.0)
+    with pytest.raises(NumericsError) as stopped:
+        list(march(pressed, until=1.0, step=share * usual, method=Newton(limit=1)))
+    longer = f"a longer step, such as {usual:.3g} s"
+    assert ("a smaller step" in stopped.value.remedy, longer in stopped.value.remedy) == (share == 1.0, share < 1.0)
+
+
+def test_the_step_without_inertia_follows_the_fastest_tool_or_support(shop) -> None:
+    def slabs(speed: float, **motion: object) -> int:
+        held = Driven(on="top", components="y", velocity=-speed), Fixed(on="top", components="x")
+        tool = Tool(shape=HalfSpace(point=(0.0, -1.0), normal=(0.0, 1.0)), **motion)
+        solid = shop.block((0.0, 0.0), supports=held)
+        bodies = {"body": solid, "tool": tool}
+        first = next(march(Scene(bodies=bodies, inertia=Off()), until=1.0))
+        return round(1.0 / first.slab.span)
+
+    assert slabs(0.0) == 20
+    assert slabs(2.0) == 24, "a quarter of the edge of one third"
+    assert slabs(1.0, motion=Translation(velocity=(3.0, 4.0))) == 60
+    assert slabs(1.0, motion=Table(times=(0.0, 0.5, 2.0), displacements=((0.0, 0.0), (0.0, 1.5), (0.0, 1.5)))) == 36
+    far = np.hypot(1.0, 1.02)
+    assert slabs(1.0, motion=Turning(point=(0.0, 0.0), rate=4.0)) == int(np.ceil(4.0 * far * 12.0))
+
+
+def test_a_state_without_history_reaches_its_displacement_in_a_slab_of_the_march(shop) -> None:
+    """A stretched bar with a dashpot: it moves as from the same displacement at the start of the scene."""
+    law, stretch = Kelvin(E=1.0, shear_viscosity=0.05), Affine(value=0.0, gradient=0.01)
+    model = build(scene(shop, shop.bar(4, 0.0, material=law, displacement=stretch)))
+    first = next(march(model, until=1.0, step=0.1))
+    bare = replace(first.before, memory={})
+    assert first.before.memory
+    again = next(march(model, until=1.0, step=0.1, state=bare))
+    np.testing.assert_allclose(again.after.displacement["body"], first.after.displacement["body"], rtol=1e-12)
 
 
 def test_a_march_that_crawls_ends_with_the_reason(shop) -> None:

@@ -70,6 +70,19 @@ def test_the_approach_is_relative_to_a_tool_that_moves():
     assert towards.contacts["wall"].approach == pytest.approx(1.25)
 
 
+def test_the_softer_body_determines_how_long_a_contact_lasts():
+    """A stiff head on a soft mat: waves run through the head many times before that of the mat returns."""
+    head = square(mesh=Rectangle(size=(1.0, 0.1), cells=(4, 1)), place=Placement(bottom=0.01))
+    mat = square(mesh=Rectangle(size=(1.0, 0.5), cells=(4, 2), origin=(0.0, -0.5)))
+    durations = []
+    for law in (LinearElastic(E=1e4, nu=0.3), mat.material, LinearElastic(E=1e-4, nu=0.3)):
+        contact = Contact(between=("head", "mat.top"), name="c", timing=Impulse())
+        found = check(scenario(bodies={"head": replace(head, material=law), "mat": mat}, contacts=(contact,)))
+        speeds = {name: body.wave_speed for name, body in found.bodies.items()}
+        durations.append(found.contacts["c"].duration)
+    assert durations == pytest.approx([1.0 / speeds["mat"], 0.2 / speeds["mat"], 0.2 / speeds["head"]])
+
+
 def test_the_scales_of_a_contact_are_those_of_the_nearest_place():
     """A wheel above a plate: its flanks, which face the plate askew, do not count.  Gaps are along the normals of its
     sixteen facets.
