@@ -151,7 +151,6 @@ def _system(
         jumps=tuple((j.instant, j.field) for j in found),
         bends=model.bends(slab.start, slab.end),
     )
-    none = np.zeros(len(events.closed))
     target = rows.tool_motion / slab.span - rows.normal_component(np.where(model.free, 0.0, given))
     return SlabEquations(
         model=model,
@@ -161,7 +160,7 @@ def _system(
         average=touch.average(slab.weight),
         contact=FixedContact(
             rows=rows,
-            conditions=RowConditions(target=target, equal=events.closed, unilateral=none > 0.0),
+            conditions=RowConditions(target=target, equal=events.closed, unilateral=np.zeros_like(events.closed)),
             initial=InitialContact(rows=rows, pressure=now.pressure, traction=now.traction),
         ),
         unbalanced=sum((j.field for j in found if not touch.balanced), np.zeros(model.shape)),
