@@ -74,6 +74,16 @@ class FrictionProblem:
             tangential_compliance=(1.0 + factor) * self.tangential_compliance,
         )
 
+    def firmer(self, factor: float) -> "FrictionProblem":
+        """The same problem with trial forces for less slip: the compliance of the rows along the surface times
+        ``factor``.
+        """
+        return replace(self, tangential_compliance=factor * self.tangential_compliance)
+
+    def without_friction(self, x: Array) -> Array:
+        """Changes after which the tangential multipliers are zero."""
+        return np.concatenate([x[: self.count], -self.previous[self.count :]])
+
 
 def friction_problem(
     compliance: Array, free: Array, law: SlipConditions, previous: Array | None = None, rounding: float = 0.0

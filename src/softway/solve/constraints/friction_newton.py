@@ -10,7 +10,7 @@ do not move, rows that slip have the force of the law (docs/theory/contact/frict
 of the previous multipliers (:class:`~softway.solve.constraints.friction_conditions.FrictionProblem`).
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import lstsq, lu_factor, lu_solve
@@ -40,6 +40,12 @@ SWEEPS = 10
 """Gauss-Seidel sweeps after Newton's method has failed on a proximal problem."""
 ROUNDS = 30
 """Greatest number of proximal problems."""
+PATIENCE = 5
+"""Proximal problems without progress after which there is no solution to be found."""
+FIRMER = 0.3
+"""Part of the compliance along the surface in the trial forces of further attempts by Newton's method: with a law that
+falls steeply with the speed several slips belong to the trial force of a row, but only one to the forces of all rows.
+"""
 FIRST, NEARER, LEAST = 0.1, 0.1, 1e-7
 """First proximal term relative to the compliance of the rows, its reduction each time, and its least value."""
 FINAL = 1e-8
@@ -118,7 +124,8 @@ def solve_multipliers(problem: FrictionProblem, x: Array) -> tuple[Array, BoolAr
     """Changes of the multipliers (c (1 + k),) from a guess x, and slipping rows (c,).
 
     If friction drops with the slip, rows at rest first stick at any force.  Then rows with a force beyond the limit are
-    released, and so on: a released row does not stick again.
+    released, and so on: a released row does not stick again.  Rows that stick at any force may have no solution, where
+    sticking would open a row that must not open; then Newton's method is used with the limits.
 
     Raises
     ------
@@ -130,24 +137,57 @@ def solve_multipliers(problem: FrictionProblem, x: Array) -> tuple[Array, BoolAr
         return _solved(problem, x)
     slipping = law.sliding
     while True:
-        x, slips = _solved(replace(problem, law=replace(law, sliding=slipping, stick_at_any_force=True)), x)
+        held = replace(problem, law=replace(law, sliding=slipping, stick_at_any_force=True))
+        limited = held if law.stick_at_any_force else replace(problem, law=replace(law, sliding=slipping))
+        found = _attempted(held, x)
+        other, wedged = (x, False) if found.converged or limited is held else _newton(limited, x)
+        x, slips = _approached(NewtonAttempt(limited, other, True) if wedged else found)
         p, s = problem.multipliers(x)
         more = ~slipping & (np.linalg.norm(s, axis=1) > law.limit(p))
-        if law.stick_at_any_force or not more.any():
+        if wedged or limited is held or not more.any():
             return x, slips
         slipping = slipping | more
 
 
 def _solved(problem: FrictionProblem, x: Array) -> tuple[Array, BoolArray]:
-    """Changes of the multipliers and slipping rows for a law that does not drop.
+    """Changes of the multipliers and slipping rows for a law that does not drop."""
+    return _approached(_attempted(problem, x)) if problem.count else (x, np.zeros(0, bool))
 
-    If Newton's method does not converge, a sequence of proximal problems is solved: their multipliers are drawn to the
-    previous ones, less and less (Rockafellar 1976, Monotone operators and the proximal point algorithm, SIAM J. Control
-    Optim. 14, 877).  The limit of the sequence solves the original problem.
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NewtonAttempt:
+    """Changes x (c (1 + k),) of the multipliers by Newton's method on a problem, and True if it has converged."""
+
+    problem: FrictionProblem
+    x: Array
+    converged: bool
+
+
+def _attempted(problem: FrictionProblem, x: Array) -> NewtonAttempt:
+    """Changes by Newton's method from x, then with less slip in the trial forces, from x and without friction."""
+    first = NewtonAttempt(problem, *_newton(problem, x))
+    firmer = problem.firmer(FIRMER)
+    for start in (x, problem.without_friction(x)):
+        if first.converged:
+            return first
+        again = NewtonAttempt(firmer, *_newton(firmer, start))
+        first = again if again.converged else first
+    return first
+
+
+def _approached(attempt: NewtonAttempt) -> tuple[Array, BoolArray]:
+    """Changes of the multipliers and slipping rows, from those where Newton's method has ended.
+
+    If it has not converged, a sequence of proximal problems is solved: their multipliers are drawn to the previous
+    ones, less and less (Rockafellar 1976, Monotone operators and the proximal point algorithm, SIAM J. Control Optim.
+    14, 877).  The limit of the sequence solves the original problem.
+
+    Raises
+    ------
+    NoConvergence
+        If no forces are found.
     """
-    if not problem.count:
-        return x, np.zeros(0, bool)
-    x, converged = _newton(problem, x)
+    problem, x, converged = attempt.problem, attempt.x, attempt.converged
     pull, seen, residual = FIRST, Stagnation(), friction_residual(problem, x)
     for _ in range(ROUNDS):
         if converged:
@@ -158,6 +198,8 @@ def _solved(problem: FrictionProblem, x: Array) -> tuple[Array, BoolArray]:
         residual, pull = friction_residual(problem, x), max(NEARER * pull, LEAST)
         seen = seen.after(residual.worst)
         converged = _converged(problem, x, residual, seen.since)
+        if seen.since > PATIENCE:
+            break
     if not np.isfinite(residual.worst):
         raise NoConvergence(f"friction of {problem.count} contact rows: the forces are not finite")
     size = _size(problem, x, residual)

@@ -144,12 +144,14 @@ class ReturnedForces:
 def return_map(law: SlipConditions, trial: Array, pressed: Array, stiffness: Array) -> ReturnedForces:
     """Solve ``resistance(y) + stiffness y = trial`` for the slip y >= 0 of each row (m,); rows below the limit stick.
 
-    Newton's method within a bracket; exact in one step where the resistance is linear in the speed.
+    Newton's method within a bracket, halved where a step leaves it or exceeds half of the step before the last; exact
+    in one step where the resistance is linear in the speed.
     """
     slips = trial > law.limit(pressed)
     low, high = np.zeros(len(trial)), np.where(slips, trial / stiffness, 0.0)
     force, change, pressure_slope = law.resistance(low, pressed)
     slip = np.clip((trial - force) / stiffness, 0.0, high)
+    longest = (np.full(len(trial), np.inf), np.full(len(trial), np.inf))
     for _ in range(ITERATIONS):
         force, change, pressure_slope = law.resistance(slip, pressed)
         excess = force + stiffness * slip - trial
@@ -157,7 +159,8 @@ def return_map(law: SlipConditions, trial: Array, pressed: Array, stiffness: Arr
         with np.errstate(divide="ignore", invalid="ignore"):
             better = slip - excess / (change + stiffness)
         inside = np.isfinite(better) & (better >= low) & (better <= high)
-        moved = np.where(inside, better, 0.5 * (low + high))
+        moved = np.where(inside & (np.abs(better - slip) <= 0.5 * longest[0]), better, 0.5 * (low + high))
+        longest = longest[1], np.abs(moved - slip)
         done = np.abs(moved - slip) <= 1e-15 * np.maximum(moved, trial / stiffness)
         slip = np.where(slips, moved, 0.0)
         if done[slips].all():

@@ -1,7 +1,7 @@
 """The return map, and Newton's method on the forces of rows with friction."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import count
 from typing import ClassVar
 
@@ -11,6 +11,7 @@ import pytest
 from softway.contact.friction_rows import FrictionRows
 from softway.laws.friction import Coulomb, NortonHoff, StaticKinetic, Stribeck, Tresca
 from softway.laws.friction_law import FrictionLaw
+from softway.solve.constraints import friction_newton
 from softway.solve.constraints.friction_conditions import (
     FrictionProblem,
     friction_problem,
@@ -64,6 +65,19 @@ def test_the_force_is_that_of_the_slip_that_is_left(law):
     assert (trial[~found.slips] <= law.limit(pressed[~found.slips])).all()
 
 
+@pytest.mark.parametrize("power", [0.5, 0.8])
+def test_the_force_is_found_where_the_extrapolated_speed_reaches_zero(power):
+    """Below a third of the speed before there is no force; just above it it rises infinitely steeply."""
+    law, n = NortonHoff(alpha=1.0, p=power), 400
+    conditions = replace(slipping(law, n, ahead=0.5), before=np.geomspace(1e-3, 10.0, n))
+    trial, pressed, stiffness = np.tile(np.geomspace(0.1, 10.0, 20), 20), np.full(n, 2.0), np.full(n, 0.7)
+    found = return_map(conditions, trial, pressed, stiffness)
+    slip = (trial - found.force) / stiffness
+    speed = 1.5 * slip - 0.5 * conditions.before
+    least, most = (law.resistance(np.maximum(speed + d, 0.0), pressed)[0] for d in (-1e-13, 1e-13))
+    assert (found.force >= least - 1e-12).all() and (found.force <= most + 1e-12).all()
+
+
 def test_slopes_of_the_return_map_agree_with_differences():
     law = slipping(NortonHoff(alpha=1.0, p=0.6), 5, ahead=0.5)
     trial, pressed, stiffness, d = np.linspace(0.5, 3.0, 5), np.ones(5), np.full(5, 0.7), 1e-6
@@ -112,6 +126,50 @@ def test_the_forces_obey_the_law(seed, k, law):
     resisted = np.minimum(law.resistance(speed, p[slips])[0], STEEPEST * p[slips])
     assert size[slips] == pytest.approx(resisted, abs=1e-11)
     assert np.sum(s[slips] * slip[slips], axis=1) == pytest.approx(-size[slips] * speed, abs=1e-12)
+
+
+def of_few_rows(
+    compliance: list[list[float]], free: list[float], previous: list[float], law: FrictionLaw, unit: float,
+    before: list[float], sliding: list[bool],
+) -> FrictionProblem:  # fmt: skip
+    """Rows in the plane that have slipped in the slab before."""
+    count = len(before)
+    friction = FrictionRows(laws=(law,), contact=np.zeros(count, int), area=np.full(count, 0.25))
+    conditions = SlipConditions(
+        friction=friction, shift=np.zeros((count, 1)), speed_factor=0.5, unit=unit, ahead=0.5, before=np.array(before),
+        sliding=np.array(sliding),
+    )  # fmt: skip
+    return friction_problem(np.array(compliance), np.array(free), conditions, np.array(previous))
+
+
+ONE_ROW = [[499.0, -313.0], [-313.0, 472.0]]
+HARD = {
+    "a force that rises steeply": of_few_rows(
+        ONE_ROW, [-0.0374, 0.0575], [0.00049, 0.00021], NortonHoff(alpha=0.5, p=0.5, K=0.02, v0=0.05), 10.0, [0.0083],
+        [True],
+    ),
+    "a force that falls steeply": of_few_rows(
+        ONE_ROW, [-0.000578, -0.00304], [0.00056, 0.000336], Stribeck(mu_s=0.6, mu_k=0.3, v_s=0.02, viscous=0.1), 10.0,
+        [0.00298], [True],
+    ),
+    "a row that sticking at any force would open": of_few_rows(
+        [[39260.0, 1433.0, -14328.0, -1026.0], [1433.0, 33547.0, -1153.0, -18316.0],
+         [-14328.0, -1153.0, 40263.0, 773.0], [-1026.0, -18316.0, 773.0, 25350.0]],
+        [-0.149, -0.0391, -0.0253, 0.277], [5.34e-5, 0.0, 1.6e-5, 0.0], StaticKinetic(mu_s=0.6, mu_k=0.3), 80.0,
+        [0.0174, 0.1376], [True, False],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", HARD)
+def test_few_rows_always_find_their_forces(case, monkeypatch):
+    """By Newton's method: each has one solution, which no sequence of proximal problems has to approach."""
+    monkeypatch.setattr(friction_newton, "ROUNDS", 1)
+    hard = HARD[case]
+    x, slips = solve_multipliers(hard, np.zeros(len(hard.free)))
+    obeyed = replace(hard, law=hard.law.with_slipping(slips))
+    assert friction_residual(obeyed.firmer(0.3), x).worst < 1e-13
+    assert slips.all()
 
 
 def test_the_linearised_conditions_agree_with_differences():
