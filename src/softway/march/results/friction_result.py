@@ -11,6 +11,7 @@ from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import moments
 from softway.solve.constraints.return_map import NO_SLIP, SlipConditions
+from softway.solve.equations.energy_balance import body_groups
 from softway.solve.methods.iteration import Solution
 
 AHEAD = 0.5
@@ -34,7 +35,8 @@ class FrictionResult:
     work
         Work of driven tools along their surfaces [J].
     dissipation
-        Energy dissipated by friction [J].
+        Energy dissipated by friction [J], never negative: groups of touching bodies to which the friction force at the
+        start would give energy count as zero.
     """
 
     traction: Array
@@ -87,9 +89,9 @@ def first_impulses(now: ModelState, slab: Slab, rows: ContactRows) -> tuple[Arra
 
 
 def friction_result(
-    now: ModelState, slab: Slab, solution: Solution, rows: tuple[ContactRows, ContactRows], a: Array
+    model: Model, now: ModelState, slab: Slab, solution: Solution, rows: tuple[ContactRows, ContactRows], a: Array
 ) -> FrictionResult:
-    """Friction over a slab with its contact rows at both ends and the scalars a (m,)."""
+    """Friction over a slab with its contact rows at both ends and the scalars a (parts,)."""
     first, last = rows
     if not last.shear.count:
         return FrictionResult.none(last, solution.end.displacement.shape)
@@ -97,12 +99,17 @@ def friction_result(
     moved = solution.end.displacement - now.start.displacement
     flat = last.shear.components(solution.last.impulse[m:]) / (slab.span * moments(slab.weight)[1])
     traction = last.shear.vectors(flat)
-    old, new = (0.5 - a)[:, None] * now.traction, (0.5 + a)[:, None] * traction
+    share = a[model.part_of[last.node]][:, None]
+    old, new = (0.5 - share) * now.traction, (0.5 + share) * traction
+    works = old * first.shear.slip(moved), new * last.shear.slip(moved)
+    touching = (now.pressure > 0.0) | (solution.last.impulse[:m] > 0.0)
+    by_group = np.bincount(body_groups(model, touching)[model.part_of[last.node]], (works[0] + works[1]).sum(axis=1))
+    created = float(np.maximum(by_group, 0.0).sum())
     return FrictionResult(
         traction=traction,
         sliding=solution.last.active[m:],
         mean=old + new,
         push=first.shear.spread(old) + last.shear.spread(new),
         work=float(np.sum(old * first.shear.moved) + np.sum(new * last.shear.moved)),
-        dissipation=-float(np.sum(old * first.shear.slip(moved)) + np.sum(new * last.shear.slip(moved))),
+        dissipation=max(created - float(np.sum(works[0]) + np.sum(works[1])), 0.0),
     )

@@ -160,7 +160,7 @@ def slab_result(
     rows, first = end.rows, system.contact.initial.rows
     pressure = solution.last.impulse[: len(rows.node)] / (h * moments(slab.weight)[1])
     normal = how.forces(model, now, system, solution, pressure)
-    friction = friction_result(now, slab, solution, (first, rows), end.scalar[model.part_of[rows.node]])
+    friction = friction_result(model, now, slab, solution, (first, rows), end.scalar)
     push, tools = normal.nodes + friction.push, normal.work + friction.work
     events = how.events(model, now, slab, system, solution, solution.last.impulse[: len(rows.node)] > 0.0)
     events += stick_slip_events(model, now, slab, solution, (first, rows), friction)

@@ -35,3 +35,8 @@ class EndForces:
     def both(self) -> tuple[tuple[Array, ContactRows, Array], tuple[Array, ContactRows, Array]]:
         """Internal force (n, d), contact rows and normal forces (m,) at the two ends."""
         return (self.f0, self.rows0, self.force0), (self.f1, self.rows1, self.force1)
+
+    @property
+    def tangential(self) -> tuple[tuple[ContactRows, Array], tuple[ContactRows, Array]]:
+        """Contact rows and tangential forces (m, d) at the two ends."""
+        return (self.rows0, self.shear0), (self.rows1, self.shear1)

@@ -14,6 +14,7 @@ from softway.bodies.internal_force.slab_average import EnergyMomentum
 from softway.contact.contact_rows import ContactRows
 from softway.model.model import Model
 from softway.solve.equations.end_forces import EndForces
+from softway.solve.equations.friction_work import FrictionWork, friction_work
 from softway.solve.equations.spin_balance import middle, moment, spin_balance
 
 SUMS = 2e-15
@@ -57,7 +58,7 @@ def body_groups(model: Model, touching: BoolArray) -> IntArray:
 
 
 def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure:
-    """Close the balances of every group.
+    """Close the balances of every group, with friction that creates no energy.
 
     Beyond the bound of the scalar a slight residual is closed along the motion; with ``fallback`` any residual.
     """
@@ -71,22 +72,43 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
         if spin is not None:
             num[g] += spin.work(moving) @ spin.solve(spin.torque)
             den[g] -= spin.work(moving) @ spin.solve(spin.slope)
-    real = np.abs(num) > SUMS * level + floor + np.bincount(label, weights=_blurred(model, ends))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        wanted = np.where(real & (den != 0.0), num / den, 0.0)
+    rounding = SUMS * level + floor + np.bincount(label, weights=_blurred(model, ends))
     bound = BOUND if model.inert else WEIGHING
+    rubbing = friction_work(ends.tangential, ends.u1 - ends.u0, label[model.part_of[ends.rows0.node]], len(members))
+    num, den, reset = _without_created_energy((num, den), rounding, rubbing, bound)
+    wanted = _quotient(num, den, rounding)
     a = np.clip(wanted, -bound, bound)
+    excess = np.where(reset, np.maximum(rubbing.dissipated(a), 0.0), 0.0)
     mean = ends.mean + model.nodal(a[label]) * (ends.f1 - ends.f0)
     for g, spin in enumerate(spins):
         if spin is not None:
             mean += spin.force(-spin.solve(spin.torque + a[g] * spin.slope))
     work = np.bincount(label, weights=model.space.totals(np.abs(ends.mean * moving)))
-    missing = np.where(real, np.abs(num) / np.maximum(work, 1e-300), 0.0)
-    rest = np.where(np.abs(wanted) > bound, num - a * den, 0.0) * model.inert
+    missing = np.where(np.abs(num) > rounding, np.abs(num) / np.maximum(work, 1e-300), 0.0)
+    rest = np.where((np.abs(wanted) > bound) | (excess > 0.0), num - a * den + excess, 0.0) * model.inert
     great = (np.abs(rest) > np.maximum(SLIGHT * work, TINY * level)) & (not fallback)
     for g in np.flatnonzero(np.where(great, 0.0, rest)).tolist():
         mean += rest[g] * _along_motion(model, ends, moving, members[g])
     return EnergyClosure(mean=mean, scalar=a[label], missing_work=missing[label], clipped=bool(great.any()))
+
+
+def _quotient(num: Array, den: Array, rounding: Array) -> Array:
+    """Scalars (groups,) that close the balances; zero where the missing work is ``rounding``."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where((np.abs(num) > rounding) & (den != 0.0), num / den, 0.0)
+
+
+def _without_created_energy(
+    balance: tuple[Array, Array], rounding: Array, rubbing: FrictionWork, bound: float
+) -> tuple[Array, Array, BoolArray]:
+    """Missing work and its derivative (groups,), without the work of friction where it would create energy.
+
+    The third array marks these groups: there the dissipated energy is zero, and the scalar closes the balance with it.
+    """
+    num, den = balance
+    created = rubbing.dissipated(np.clip(_quotient(num, den, rounding), -bound, bound)) < -rounding
+    num = np.where(created, num - rubbing.dissipated(np.zeros(len(num))), num)
+    return num, np.where(created, den + rubbing.slope, den), created
 
 
 def end_force_closure(model: Model, ends: EndForces) -> EnergyClosure:
