@@ -8,7 +8,7 @@ ENERGY = 1e-9
 """Greatest error of the energy balance of one slab that has to close, relative to the energies that take part."""
 UNSTABLE = 0.1
 """Growth of the energy in one slab of central differences, relative to the energies that take part, that only a slab
-beyond the stability limit has."""
+beyond the stability limit has; of the rule Impulse, growth in all slabs together that makes a march worthless."""
 MOMENTUM = 1e-9
 """Greatest error of the momentum balance of one slab, relative to the momenta that take part."""
 MOTION = 1e-12

@@ -63,8 +63,8 @@ def _energetic(
     model: Model, before: ModelState, out: SlabResult, after: ModelState, ledger: Ledger, found: Certificate
 ) -> str | None:
     """Message on the energy balance; the full energy scale is computed only if a part of it is not sufficient."""
-    closes, error = out.required.energy == "closed", found.energy_error
-    error = abs(error) if closes else error
+    closes, limited = (out.required.energy == kind for kind in ("closed", "limited"))
+    error = abs(found.energy_error) if closes else ledger.energy_error if limited else found.energy_error
     level = float(np.abs(before.start.energy).sum() + np.abs(after.start.energy).sum()) + ledger.energy_kinetic
     level += abs(ledger.work_external)
     growth, rest = (0.0 if closes else UNSTABLE), AT_REST * float(model.floor.sum())
@@ -76,6 +76,8 @@ def _energetic(
         return None
     if closes:
         return f"the energy balance misses {found.energy_error:.3g} J of {level:.3g} J"
+    if limited:
+        return f"the energy has grown by {error:.3g} J of {level:.3g} J: slabs are too long for the touches in them"
     return f"the energy grows by {error:.3g} J of {level:.3g} J: beyond the stability limit"
 
 

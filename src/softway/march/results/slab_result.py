@@ -19,7 +19,7 @@ from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.equations.slab_values import Evaluation
 from softway.solve.methods.iteration import Solution
 
-EnergyBalance = Literal["closed", "bounded", "free"]
+EnergyBalance = Literal["closed", "bounded", "limited", "free"]
 """Requirement on the energy balance of a slab."""
 
 
@@ -31,7 +31,7 @@ class Balances:
     ----------
     energy
         ``closed``: the energy balance closes up to rounding; ``bounded``: the energy does not grow more than in a
-        stable slab; ``free``: no requirement.
+        stable slab; ``limited``: neither in all slabs together; ``free``: no requirement.
     momentum
         True if the momentum balance closes.
     """

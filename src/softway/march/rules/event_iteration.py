@@ -4,6 +4,7 @@ Nodes that end inside the obstacle get a touch, closed rows with a reaction in t
 instants inside the slab.  A row touches once and is released once in a slab; one that would touch again stays closed.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,13 +15,15 @@ from softway.contact.contact_set import SlabContacts
 from softway.contact.slab_motion.trajectory import ContactEvents, contact_events
 from softway.kernels.geometry.event_times import crossing, fading
 from softway.march.model_state import ModelState
-from softway.march.rules.touch import Touch
+from softway.march.rules.touch import Touch, VelocityJump
 from softway.march.rules.velocity_jumps import at, instants
 from softway.model.model import Model
 from softway.solve.constraints.impact_multipliers import ImpactMultipliers
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.methods.iteration import Solution
 
+SEPARATES = 1e-9
+"""Velocity of separation, relative to the greatest speed of a touch in the slab, beyond which rows do not touch."""
 APART = 1e-9
 """Gap at the start of a slab, relative to the coordinates, beyond which a row does not touch."""
 
@@ -79,6 +82,22 @@ def with_new_events(
     if tense.any():
         return _releasing(model, system, current, found.last.q, tense, pull, inertia)
     return None
+
+
+def without_adhesion(current: EventIteration, jumps: Sequence[VelocityJump]) -> EventIteration | None:
+    """Remove the touches whose rows separate when they come, because of other touches; None if there are none.
+
+    A jump would pull these rows back, and give energy to the bodies.
+    """
+    greatest = max((float(np.abs(j.speed).max()) for j in jumps), default=0.0)
+    leaving = np.zeros(len(current.events.closed), bool)
+    for jump in jumps:
+        leaving |= jump.hits & (jump.speed > SEPARATES * greatest)
+    if not leaving.any():
+        return None
+    events = current.events
+    touch, release = np.where(leaving, np.nan, events.touch), np.where(leaving, np.nan, events.release)
+    return replace(current, events=replace(events, closed=events.closed & ~leaving, touch=touch, release=release))
 
 
 def with_new_facets(

@@ -24,7 +24,13 @@ from softway.march.results.slab_result import (
     supports,
 )
 from softway.march.results.step import Event
-from softway.march.rules.event_iteration import EventIteration, with_new_events, with_new_facets, without_events
+from softway.march.rules.event_iteration import (
+    EventIteration,
+    with_new_events,
+    with_new_facets,
+    without_adhesion,
+    without_events,
+)
 from softway.march.rules.slab_rule import Attempt, Solutions, require_frictionless, require_nodal
 from softway.march.rules.split_elements import split_elements
 from softway.march.rules.touch import InelasticImpact, NodalStop, Touch, VelocityJump
@@ -80,6 +86,8 @@ class Impulsive:
                 revision = with_new_facets(model, facets, current, solution) or with_new_events(
                     model, now, system, current, solution, self.inertia, self.touch
                 )
+                if revision is None and self.touch.balanced:
+                    revision = without_adhesion(current, found)
                 if revision is not None:
                     break
                 if facets is not pairs and not pairs.apart(u1):
@@ -204,7 +212,7 @@ def _outcome(
         passes=work[0],
         iterations=work[1],
         friction=FrictionResult.none(rows, model.shape),
-        required=Balances(energy="free", momentum=rule.touch.balanced),
+        required=Balances(energy="limited" if rule.touch.balanced else "free", momentum=rule.touch.balanced),
     )
 
 
