@@ -1,16 +1,18 @@
 """Start of slip inside a slab (time step) if friction drops with slip: the slab ends where a body breaks away."""
 
+import logging
 from collections.abc import Callable
 
 import numpy as np
 
 from softway.arrays import Array, BoolArray
-from softway.errors import Halts
+from softway.errors import Halts, NoConvergence
 from softway.march.friction.slip_end import EARLY, LATE
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.model.model import Model
 
+log = logging.getLogger(__name__)
 SHORT = 1e-6
 """Fraction of the time to the instant by which the slab ends earlier: the body is still at rest at its end."""
 HALF = 0.5
@@ -23,7 +25,8 @@ def slip_start(model: Model, now: ModelState, out: SlabResult, solve_stuck: Call
     """Refuse a slab inside which a contact breaks away and its friction drops.
 
     ``solve_stuck`` solves the slab with sticking at any force of all rows at rest.  The instant follows from the forces
-    of the contact, which are linear in time until they reach the limit.
+    of the contact, which are linear in time until they reach the limit.  If no forces let the rows stick, there is no
+    such instant, and the slab stays as it is.
 
     Raises
     ------
@@ -40,7 +43,11 @@ def slip_start(model: Model, now: ModelState, out: SlabResult, solve_stuck: Call
     leaving = [k for k in np.unique(contact[breaking]).tolist() if _most(start, contact == k, breaking)]
     if not leaving:
         return
-    end = solve_stuck()
+    try:
+        end = solve_stuck()
+    except NoConvergence as failure:
+        log.info("slip from t = %.6g s on without the instant of its start: %s", now.time, failure)
+        return
     last, most = np.linalg.norm(end.friction.traction, axis=1), model.friction.limit(end.pressure)
     fractions = []
     for k in leaving:

@@ -218,6 +218,7 @@ def gauss_seidel(problem: FrictionProblem, x: Array, count: int) -> Array:
             trial = previous[at] + x[at] - stiff * slip
             size = np.linalg.norm(trial)
             pressed = np.maximum(previous[i : i + 1] + x[i : i + 1], 0.0)
-            force = return_map(parts[i], np.array([size]), pressed, np.array([stiff])).force[0]
+            sticks = size <= parts[i].limit(pressed)[0]
+            force = size if sticks else return_map(parts[i], np.array([size]), pressed, np.array([stiff])).force[0]
             x[at] = force * trial / max(size, 1e-300) - previous[at]
     return x

@@ -27,6 +27,7 @@ from softway.solve.constraints.friction_conditions import (
     linearised,
 )
 from softway.solve.constraints.normal_active_set import RowConditions, delassus, without_contact
+from softway.solve.constraints.return_map import SlipConditions
 from softway.solve.constraints.row_basis import RowCoefficients
 from softway.solve.stagnation import Stagnation
 
@@ -124,34 +125,47 @@ def solve_multipliers(problem: FrictionProblem, x: Array) -> tuple[Array, BoolAr
     """Changes of the multipliers (c (1 + k),) from a guess x, and slipping rows (c,).
 
     If friction drops with the slip, rows at rest first stick at any force.  Then rows with a force beyond the limit are
-    released, and so on: a released row does not stick again.  Rows that stick at any force may have no solution, where
-    sticking would open a row that must not open; then Newton's method is used with the limits.
+    released, and so on: a released row does not stick again.  If no forces let them stick, rows at rest first slip with
+    their stick limit as resistance, and the rows that slip are released.
 
     Raises
     ------
     NoConvergence
         If no forces are found.
     """
-    law = problem.law
-    if not problem.count or not law.drops(np.maximum(problem.multipliers(x)[0], 0.0)):
+    law, count = problem.law, problem.count
+    if law.stick_at_any_force or not count:
         return _solved(problem, x)
+    try:
+        if not law.drops(np.maximum(problem.multipliers(x)[0], 0.0)):
+            return _solved(problem, x)
+        return _released(problem, x, replace(law, stick_at_any_force=True), rounds=0)
+    except NoConvergence:
+        if not law.drops(np.ones(count)):
+            raise
+        return _released(problem, x, replace(law, slip_at_limit=True))
+
+
+def _released(problem: FrictionProblem, x: Array, law: SlipConditions, rounds: int = ROUNDS) -> tuple[Array, BoolArray]:
+    """Changes of the multipliers and slipping rows after the release of rows that slip or exceed their limit.
+
+    ``law`` are the slip conditions of the problem with another friction of rows at rest.
+    """
     slipping = law.sliding
     while True:
-        held = replace(problem, law=replace(law, sliding=slipping, stick_at_any_force=True))
-        limited = held if law.stick_at_any_force else replace(problem, law=replace(law, sliding=slipping))
-        found = _attempted(held, x)
-        other, wedged = (x, False) if found.converged or limited is held else _newton(limited, x)
-        x, slips = _approached(NewtonAttempt(limited, other, True) if wedged else found)
+        x, slips = _solved(replace(problem, law=replace(law, sliding=slipping)), x, rounds)
         p, s = problem.multipliers(x)
-        more = ~slipping & (np.linalg.norm(s, axis=1) > law.limit(p))
-        if wedged or limited is held or not more.any():
+        more = slips & ~slipping
+        if law.stick_at_any_force:
+            more = ~slipping & (np.linalg.norm(s, axis=1) > problem.law.limit(p))
+        if not more.any():
             return x, slips
         slipping = slipping | more
 
 
-def _solved(problem: FrictionProblem, x: Array) -> tuple[Array, BoolArray]:
+def _solved(problem: FrictionProblem, x: Array, rounds: int = ROUNDS) -> tuple[Array, BoolArray]:
     """Changes of the multipliers and slipping rows for a law that does not drop."""
-    return _approached(_attempted(problem, x)) if problem.count else (x, np.zeros(0, bool))
+    return _approached(_attempted(problem, x), rounds) if problem.count else (x, np.zeros(0, bool))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -175,7 +189,7 @@ def _attempted(problem: FrictionProblem, x: Array) -> NewtonAttempt:
     return first
 
 
-def _approached(attempt: NewtonAttempt) -> tuple[Array, BoolArray]:
+def _approached(attempt: NewtonAttempt, rounds: int = ROUNDS) -> tuple[Array, BoolArray]:
     """Changes of the multipliers and slipping rows, from those where Newton's method has ended.
 
     If it has not converged, a sequence of proximal problems is solved: their multipliers are drawn to the previous
@@ -189,9 +203,9 @@ def _approached(attempt: NewtonAttempt) -> tuple[Array, BoolArray]:
     """
     problem, x, converged = attempt.problem, attempt.x, attempt.converged
     pull, seen, residual = FIRST, Stagnation(), friction_residual(problem, x)
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         if converged:
-            return _clean(problem, x, residual), residual.slips & residual.touch
+            break
         near = problem.drawn(np.nan_to_num(x), pull)
         x, reached = _newton(near, np.nan_to_num(x))
         x = x if reached else _newton(near, gauss_seidel(near, np.nan_to_num(x), SWEEPS))[0]
@@ -200,6 +214,8 @@ def _approached(attempt: NewtonAttempt) -> tuple[Array, BoolArray]:
         converged = _converged(problem, x, residual, seen.since)
         if seen.since > PATIENCE:
             break
+    if converged:
+        return _clean(problem, x, residual), residual.slips & residual.touch
     if not np.isfinite(residual.worst):
         raise NoConvergence(f"friction of {problem.count} contact rows: the forces are not finite")
     size = _size(problem, x, residual)

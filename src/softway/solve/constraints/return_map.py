@@ -38,7 +38,10 @@ class SlipConditions:
         (m,) rows that slip at the start of the slab: they stick up to the slip resistance at zero speed instead of the
         stick limit.
     stick_at_any_force
-        True if the other rows stick at any force.
+        True if the other rows stick at any force.  Then there may be no forces: a row that sticks would have to pull,
+        and would overlap if released (Painleve 1895, C. R. Acad. Sci. Paris 121, 112).
+    slip_at_limit
+        True if the other rows slip with their stick limit as resistance.  Then there are forces for every compliance.
     """
 
     friction: FrictionRows
@@ -49,6 +52,7 @@ class SlipConditions:
     before: Array
     sliding: BoolArray
     stick_at_any_force: bool = False
+    slip_at_limit: bool = False
 
     @property
     def frictionless(self) -> bool:
@@ -75,10 +79,14 @@ class SlipConditions:
         """Greatest multiplier (m,) of sticking rows under normal multipliers (m,)."""
         if self.stick_at_any_force:
             return np.where(self.sliding, self.resistance(np.zeros(len(pressed)), pressed)[0], np.inf)
-        at_rest = np.minimum(self.friction.limit(self.unit * pressed) / self.unit, STEEPEST * pressed)
+        at_rest = self._at_rest(pressed)
         if not self.sliding.any():
             return at_rest
         return np.where(self.sliding, self.resistance(np.zeros(len(at_rest)), pressed)[0], at_rest)
+
+    def _at_rest(self, pressed: Array) -> Array:
+        """Stick limit (m,) of rows under normal multipliers (m,)."""
+        return np.minimum(self.friction.limit(self.unit * pressed) / self.unit, STEEPEST * pressed)
 
     def drops(self, pressed: Array) -> bool:
         """True if friction is lower in slip than at rest, under normal multipliers (m,)."""
@@ -93,12 +101,18 @@ class SlipConditions:
             change = np.where(late >= 0.0, slope * ((1.0 + self.ahead) * self.speed_factor / self.unit), 0.0)
         change, value = np.nan_to_num(change, nan=0.0, posinf=np.inf, neginf=-np.inf), value / self.unit
         lifted = value > STEEPEST * pressed
-        if not lifted.any():
+        if lifted.any():
+            value = np.where(lifted, STEEPEST * pressed, value)
+            change = np.where(lifted, 0.0, change)
+            pressure_slope = np.where(lifted, STEEPEST, pressure_slope)
+        if not self.slip_at_limit:
             return value, change, pressure_slope
+        limit = self._at_rest(pressed)
+        secant = limit / np.where(pressed > 0.0, pressed, np.inf)
         return (
-            np.where(lifted, STEEPEST * pressed, value),
-            np.where(lifted, 0.0, change),
-            np.where(lifted, STEEPEST, pressure_slope),
+            np.where(self.sliding, value, limit),
+            np.where(self.sliding, change, 0.0),
+            np.where(self.sliding, pressure_slope, secant),
         )
 
 

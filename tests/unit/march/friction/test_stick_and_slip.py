@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import softway as sw
-from softway.laws.friction import NortonHoff
+from softway.laws.friction import NortonHoff, StaticKinetic
 
 GRAVITY = 9.81
 DOWN = sw.Gravity(acceleration=(0.0, -GRAVITY))
@@ -118,3 +118,23 @@ def test_a_block_breaks_away_when_the_pull_reaches_static_friction() -> None:
         gained = 0.5 * rate * (t**2 - rigid**2) - 0.02 * heavy * (t - rigid)
         speed = begun + gained if s.before.time >= away.after.time else begun if s is away else 0.0
         assert s.ledger.momentum[0] / mass == pytest.approx(speed, abs=1e-4)
+
+
+def test_a_soft_block_that_no_forces_hold_settles_without_rejections() -> None:
+    """A nearly incompressible block is laid on a floor: it spreads, so that some of its corners break away at once."""
+    side, E, density = 0.0109, 7.8268e8, 813.627
+    solid = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(side, side), cells=(4, 4), cell="quad9"),
+        material=sw.Hypoelastic(E=E, nu=0.49), density=density,
+    )  # fmt: skip
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
+    law, nodes = StaticKinetic(mu_s=0.9, mu_k=0.45), sw.contact.NodeToSurface(nodes="both")
+    contact = sw.Contact(between=("block", "floor"), name="floor", friction=law, method=nodes)
+    scene = sw.Scene(
+        bodies={"block": solid, "floor": floor}, contacts=(contact,), loads=(sw.Gravity(acceleration=(0.0, -2750.842)),)
+    )
+    steps = list(sw.march(scene, until=8.1317e-5, step=1.6263e-5))
+    assert sum(s.report.iterations for s in steps) < 8 * len(steps) and not any(s.report.rejections for s in steps)
+    assert any(e.kind == "slip" for s in steps for e in s.events)
+    assert max(abs(s.ledger.energy_error) for s in steps) < 1e-15
+    assert steps[-1].ledger.dissipation > 0.0

@@ -254,3 +254,30 @@ def test_a_row_that_is_released_does_not_stick_again_when_its_neighbour_follows(
     x, slips = solve_multipliers(friction_problem(compliance, free, slipping(law, 2)), np.array([1.0, 1.0, 0.0, 0.0]))
     assert slips.tolist() == [True, True]
     assert x == pytest.approx([1.0, 1.0, 0.1, 0.1], rel=1e-12)
+
+
+@pytest.mark.parametrize("rested", [True, False])
+def test_a_row_that_no_force_lets_stick_slips(rested: bool) -> None:
+    """A row pulled along: sticking at any force it would have to pull, and released it would overlap (Painleve)."""
+    compliance, free = np.array([[1.0, 0.9], [0.9, 1.0]]), np.array([-0.1, -1.0])
+    assert np.linalg.solve(compliance, -free)[0] < 0.0 > free[0]
+    it = friction_problem(compliance, free, slipping(StaticKinetic(mu_s=0.9, mu_k=0.45), 1))
+    (p, s), slips = solve_multipliers(it, np.array([0.0 if rested else 0.05, 0.0]))
+    assert slips.tolist() == [True]
+    assert p == pytest.approx(0.1 / (1.0 + 0.45 * 0.9), rel=1e-12) and s == pytest.approx(0.45 * p, rel=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_friction_that_drops_has_forces_for_every_compliance(seed: int) -> None:
+    """Among these are rows that no forces let stick."""
+    law = StaticKinetic(mu_s=0.9, mu_k=0.45)
+    it = problem(seed, 12, 1, law)
+    x, slips = solve_multipliers(it, np.concatenate([np.ones(12), np.zeros(12)]))
+    p, s = it.split(x)
+    gap, slip = it.split(it.free + it.compliance @ x)
+    touch, size = p > 0.0, np.abs(s[:, 0])
+    assert p.min() >= 0.0 and gap.min() > -1e-13 and np.abs(gap[touch]).max() < 1e-13
+    assert (size[touch & ~slips] <= 0.9 * p[touch & ~slips] * (1.0 + 1e-12)).all()
+    assert np.abs(slip[touch & ~slips]).max(initial=0.0) < 1e-13
+    assert size[slips] == pytest.approx(0.45 * p[slips], abs=1e-12)
+    assert (s[slips, 0] * slip[slips, 0] <= 1e-12).all()
