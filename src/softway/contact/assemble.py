@@ -17,6 +17,7 @@ from softway.contact.node_to_surface.edge_to_edge import EdgeToEdge
 from softway.contact.node_to_surface.node_to_facet import NodeToFacet
 from softway.contact.node_to_surface.node_to_tool import NodeToTool
 from softway.contact.surfaces.boundary import ContactSurface, Edges, outward
+from softway.contact.surfaces.wall_thickness import nodal_thickness
 from softway.contact.tangential_rows import TangentialRows
 from softway.errors import InputError, within
 
@@ -57,24 +58,24 @@ def assemble_contacts(
         If a body is unknown, a tag contains no facet, or a name is given twice; the place begins with ``contacts[k]``.
     """
     points = np.concatenate([p.mesh.points for p in parts])
+    thickness = _thickness(contacts, parts, points)
     methods: list[NodeToTool | SurfacePair] = []
     number, opponents, nodes = [np.zeros(0, int)], [], [np.zeros(0, int)]
-    sizes = [0.0]
+    sizes, frictionless = [0.0], all(c.friction.frictionless for c in contacts)
     overlap: list[tuple[SurfacePair, int]] = []
     for k, contact in enumerate(contacts):
         _check_shape(contact, bodies, points)
         with within(f"contacts[{k}]"):
-            found, pair, touched, surfaces = _methods(contact, bodies, parts, points)
+            found, pair, touched, surfaces = _methods(contact, bodies, parts, points, thickness)
         methods += found
         if any(isinstance(m, Mortar) for m in found):
-            fine, coarse = surfaces
-            overlap += [(_on(one.side.nodes, one, other), k) for one, other in ((fine, coarse), (coarse, fine))]
+            turns = zip(surfaces, reversed(surfaces), strict=True)
+            overlap += [(_on(one.side.nodes, one, other, thickness), k) for one, other in turns]
         number.append(np.full(sum(len(m.node) for m in found), k))
         opponents.append(pair)
         nodes.append(touched)
         sizes += [s.edge for s in surfaces]
     row_contact = np.concatenate(number)
-    frictionless = all(c.friction.frictionless for c in contacts)
     contact_set = ContactSet(
         methods=tuple(methods),
         contact=row_contact,
@@ -161,8 +162,24 @@ class _Surface:
     edge: float
 
 
+def _thickness(contacts: Sequence[Contact], parts: Sequence[DiscreteSolid], points: Array) -> Array:
+    """Thickness (n,) of the solids that may touch one another behind their surface nodes [m]."""
+    names = {part.name for part in parts}
+    met = {name for c in contacts if c.opponent in names for name in (c.body, c.opponent)}
+    walls = [
+        ContactSurface(facets={kind: f + part.nodes.start for kind, f in part.mesh.boundary().items()})
+        for part in parts
+        if part.name in met and part.mesh.dim > 1
+    ]
+    return nodal_thickness(points, walls)
+
+
 def _methods(
-    contact: Contact, bodies: Mapping[str, Solid | Tool], parts: Sequence[DiscreteSolid], points: Array
+    contact: Contact,
+    bodies: Mapping[str, Solid | Tool],
+    parts: Sequence[DiscreteSolid],
+    points: Array,
+    thickness: Array,
 ) -> tuple[list[NodeToTool | SurfacePair], tuple[int, int], IntArray, list[_Surface]]:
     """Methods of one contact, its two solids, its nodes, and its deformable surfaces, the finer one first."""
     one = _part(parts, contact.body, "between")
@@ -181,34 +198,34 @@ def _methods(
     fine, coarse = sorted(found, key=lambda s: s.edge)
     nodes = np.concatenate([s.side.nodes for s in found])
     pair = names.index(one.name), names.index(other.name)
-    return _between(contact, fine, coarse, points.shape[1]), pair, nodes, [fine, coarse]
+    return _between(contact, fine, coarse, thickness), pair, nodes, [fine, coarse]
 
 
-def _between(contact: Contact, fine: _Surface, coarse: _Surface, dim: int) -> list[NodeToTool | SurfacePair]:
+def _between(contact: Contact, fine: _Surface, coarse: _Surface, thickness: Array) -> list[NodeToTool | SurfacePair]:
     """Contact methods between two solids: the finer surface is the slave; sharp corners and edges have own rows."""
-    located = not contact.timing.massless
+    located, dim = not contact.timing.massless, fine.side.dim
     method = contact.method or (NodeToSurface() if dim == 1 or located else DualMortar())
     found: list[NodeToTool | SurfacePair]
     if isinstance(method, NodeToSurface):
         found = [
-            _on(fine.side.nodes, fine, coarse),
-            _on(coarse.side.nodes if method.nodes == "both" else coarse.corners, coarse, fine),
+            _on(fine.side.nodes, fine, coarse, thickness),
+            _on(coarse.side.nodes if method.nodes == "both" else coarse.corners, coarse, fine, thickness),
         ]
     elif dim == 1 or located:
         problem = f"DualMortar with {contact.timing}" if located else "DualMortar between bars in 1D"
         raise InputError("method", problem, "NodeToSurface, or nothing")
     else:
-        found = [Mortar(slave_facets=fine.side.facets, master_facets=coarse.side.facets)]
-        found += [_on(fine.corners, fine, coarse), _on(coarse.corners, coarse, fine)]
+        found = [Mortar(slave_facets=fine.side.facets, master_facets=coarse.side.facets, thickness=thickness)]
+        found += [_on(fine.corners, fine, coarse, thickness), _on(coarse.corners, coarse, fine, thickness)]
     found = [m for m in found if len(m.node)]
     if fine.edges is not None and coarse.edges is not None and len(fine.edges.ends) and len(coarse.edges.ends):
         found.append(EdgeToEdge(first=fine.edges, second=coarse.edges))
     return found
 
 
-def _on(nodes: IntArray, own: _Surface, surface: _Surface) -> NodeToFacet:
+def _on(nodes: IntArray, own: _Surface, surface: _Surface, thickness: Array) -> NodeToFacet:
     """Contact of nodes (k,) of the surface ``own`` with the facets of another surface."""
-    return NodeToFacet(slaves=nodes, side=surface.side, own=own.side)
+    return NodeToFacet(slaves=nodes, side=surface.side, own=own.side, thickness=thickness)
 
 
 def _surface(part: DiscreteSolid, tag: str, points: Array) -> _Surface:

@@ -6,11 +6,13 @@ import numpy as np
 
 from softway.arrays import Array, IntArray
 from softway.contact.surfaces.broad_phase import Sweep, near, sweep
+from softway.contact.surfaces.wall_thickness import admissible_depth
 
 ANGLE = -0.5
 """Greatest product of unit normals that face each other: 60 degrees."""
 DEEP = 0.2
-"""Overlap at the start of the slab, in sizes of the simplices, beyond which they belong to opposite sides of bodies."""
+"""Overlap at the start of the slab, in sizes of the simplices, beyond which they belong to opposite sides of bodies;
+less where a body is thin, see :func:`~softway.contact.surfaces.wall_thickness.admissible_depth`."""
 FEW = 3.0
 """Distance in sizes of the simplices, in addition to travel and reach, beyond which a pair is ignored in the slab."""
 
@@ -52,7 +54,12 @@ def unit(vectors: Array, axis: int = 0) -> Array:
     return np.asarray(vectors / np.where(length > 0.0, length, 1.0))
 
 
-def facet_pairs(slave: tuple[Array, Array], master: tuple[Array, Array], reach: float) -> FacetPairs:
+def facet_pairs(
+    slave: tuple[Array, Array],
+    master: tuple[Array, Array],
+    reach: float,
+    thickness: tuple[Array | float, Array | float] = (np.inf, np.inf),
+) -> FacetPairs:
     """Find the pairs that may touch between two configurations.
 
     Their paths come within ``reach``.  At the start they face each other and the master is not behind the slave; at
@@ -64,6 +71,8 @@ def facet_pairs(slave: tuple[Array, Array], master: tuple[Array, Array], reach: 
         Coordinates (d, k, p) of the corners at the start and at the end [m].
     reach
         [m].
+    thickness
+        Thickness of the bodies behind the simplices of the slave (p,) and of the master (q,) [m].
 
     Examples
     --------
@@ -77,7 +86,8 @@ def facet_pairs(slave: tuple[Array, Array], master: tuple[Array, Array], reach: 
     i, j = i[opposite], j[opposite]
     size = np.maximum(_sizes(slave[0])[i], _sizes(master[0])[j])
     start, end = (_heights(below, above, i, j) for below, above in zip(slave, master, strict=True))
-    kept = (start[1] >= -DEEP * size) & (np.minimum(start[0], end[0]) <= reach)
+    walls = [np.broadcast_to(t, c[0].shape[2])[k] for t, c, k in zip(thickness, (slave, master), (i, j), strict=True)]
+    kept = (start[1] >= -admissible_depth(DEEP * size, walls[0] + walls[1])) & (np.minimum(start[0], end[0]) <= reach)
     i, j, size = i[kept], j[kept], size[kept]
     motion = _centre_motion(slave)[:, i] - _centre_motion(master)[:, j]
     return FacetPairs(slave=i, master=j, limit=FEW * size + reach + np.sqrt(np.sum(motion**2, axis=0)))

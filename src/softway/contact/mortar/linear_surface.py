@@ -106,6 +106,14 @@ class LinearSurface:
         """Rows (m, k) of the nodes from the rows (c, k) of the control points."""
         return rows if self.sharing is None else self.sharing @ rows
 
+    def thickness(self, nodal: Array | None) -> Array:
+        """Thickness (p,) behind the simplices, from that of all n nodes of a model; infinite if it is not given."""
+        if nodal is None:
+            return np.full(len(self.corner), np.inf)
+        at_vertices = np.full(self.spread.shape[0], np.inf)
+        at_vertices[: len(self.node)] = nodal[self.node]
+        return np.asarray(at_vertices[self.corner].min(axis=1))
+
 
 def linear_surface(facets: Mapping[str, IntArray]) -> LinearSurface:
     """Linear surface in place of facets: cell name -> (f, b) node numbers.

@@ -30,6 +30,8 @@ class Mortar:
     ----------
     slave_facets, master_facets
         Facet cell name -> (f, b) node numbers of the model, turned outward.
+    thickness
+        (n,) thickness of the bodies behind the nodes [m]; by default infinite.
 
     Examples
     --------
@@ -44,6 +46,7 @@ class Mortar:
 
     slave_facets: Mapping[str, IntArray]
     master_facets: Mapping[str, IntArray]
+    thickness: Array | None = None
     slave: LinearSurface = field(init=False, repr=False)
     master: LinearSurface = field(init=False, repr=False)
 
@@ -62,7 +65,8 @@ class Mortar:
         spread = self.slave.spread @ control
         slave = tuple(_corners(spread @ x, self.slave.corner) for x in (x0, x1))
         master = tuple(_corners(lift @ x, self.master.corner) for x in (x0, x1))
-        pairs = facet_pairs((slave[0], slave[1]), (master[0], master[1]), reach)
+        thickness = self.slave.thickness(self.thickness), self.master.thickness(self.thickness)
+        pairs = facet_pairs((slave[0], slave[1]), (master[0], master[1]), reach, thickness)
         return MortarContact(
             slave=self.slave,
             master=self.master,

@@ -12,11 +12,13 @@ from softway.contact.node_to_surface.pairs import NodeFacetPairs, firsts
 from softway.contact.node_to_surface.slab_pairs import NodeFacetContact
 from softway.contact.surfaces.boundary import ContactSurface
 from softway.contact.surfaces.broad_phase import near, sweep
+from softway.contact.surfaces.wall_thickness import admissible_depth, thickness_of
 from softway.kernels.geometry.closest_points import dot
 from softway.meshes.cells import CELLS
 
 INSIDE = 0.1
-"""Depth at the start of a slab, as a fraction of the facet size, up to which a slave inside a body is pushed out."""
+"""Depth at the start of a slab, as a fraction of the facet size, up to which a slave inside a body is pushed out; less
+where a body is thin, see :func:`~softway.contact.surfaces.wall_thickness.admissible_depth`."""
 FACING = -0.2
 """Product of the normals of a facet and of the surface around a slave below which they face each other."""
 SWELLING = {"quad8": 1.0}
@@ -46,6 +48,8 @@ class NodeToFacet:
     own
         Surface of the slaves.  A facet is excluded if no facet of this surface around the slave faces it: the lower
         corner of a block on top of another one does not touch the side walls of the other one.
+    thickness
+        (n,) thickness of the bodies behind the nodes [m]; by default infinite.
 
     Examples
     --------
@@ -62,6 +66,7 @@ class NodeToFacet:
     side: ContactSurface
     slots: int = 0
     own: ContactSurface | None = None
+    thickness: Array | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "slaves", np.asarray(self.slaves, dtype=np.int64))
@@ -96,7 +101,8 @@ class NodeToFacet:
         apart = [(x1 - x0)[nodes] - (x1 - x0)[pairs.node] for nodes in pairs.masters.T]
         travel = np.sqrt(reduce(np.maximum, [dot(shift, shift) for shift in apart]))
         close = seen.distance <= magnified * travel + reach
-        keep = close & _in_front(seen) & self._in_view(seen)
+        walls = thickness_of(self.thickness, pairs.node[:, None]) + thickness_of(self.thickness, pairs.masters)
+        keep = close & _in_front(seen, admissible_depth(INSIDE * size, walls)) & self._in_view(seen)
         return NodeFacetContact(
             pairs=pairs.subset(keep),
             count=len(self.slaves),
@@ -114,12 +120,12 @@ class NodeToFacet:
         return np.asarray(np.einsum("pkd,pd->pk", normals, seen.feet.normal).min(axis=1) <= FACING)
 
 
-def _in_front(seen: FacetProjection) -> BoolArray:
+def _in_front(seen: FacetProjection, inside: Array) -> BoolArray:
     """True for facets (p,) that face their slave.
 
     A slave that touches a convex surface is behind the facets next to the touched one; these are accepted within the
-    curvature of the surface.  The nearest facets are accepted even if the slave begins behind them, unless it is deep
-    inside: it has to come out there.
+    curvature of the surface.  The nearest facets are accepted even if the slave begins behind them, unless it is deeper
+    than ``inside`` (p,) [m]: it has to come out there.
     """
     slave, size = seen.pairs.slave, seen.size
     tied = seen.distance <= seen.pairs.least(seen.distance) + SAME * size
@@ -128,4 +134,4 @@ def _in_front(seen: FacetProjection) -> BoolArray:
     nearest = order[firsts(slave[order])]
     normal = np.repeat(seen.feet.normal[nearest], np.diff(firsts(slave), append=len(slave)), axis=0)
     slope = convex_drop(dot(seen.feet.normal, normal))
-    return np.asarray(seen.height >= -np.where(tied, INSIDE * size, slope * seen.distance + BEHIND * size))
+    return np.asarray(seen.height >= -np.where(tied, inside, slope * seen.distance + BEHIND * size))
