@@ -15,13 +15,16 @@ from softway.march.march_state import MarchState, StepHistory
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.results.step import Certificate, Ledger
+from softway.march.results.trying import Trying, TryWatch
 from softway.march.rules.slab_rule import Attempt
 from softway.march.slab_step import Stepper, advance
 from softway.march.start.slab_length import proposed
 from softway.march.step_control import CRAWL
+from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks
 from softway.solve.equations.energy_balance import BOUND
+from softway.solve.methods.iteration import Told
 from softway.solve.methods.newton import Newton
 from softway.solve.operators.operator_memory import OperatorMemory
 
@@ -76,7 +79,10 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
         slab = Slab(start=now.time, end=end, weight=DAMPED if history.halted else settings.weight)
         try:
             attempt = Attempt(
-                approach=settings.control.approach, energy_along_motion=unbalanced >= PATIENCE, cancel=stepper.cancel
+                approach=settings.control.approach,
+                energy_along_motion=unbalanced >= PATIENCE,
+                cancel=stepper.cancel,
+                told=_told(stepper.trying, march_state.slabs + 1, slab),
             )
             found = _tried(stepper, march_state, slab, memory, attempt)
             return replace(found, rejections=tuple(reasons), halted=halted)
@@ -92,7 +98,19 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
             length = 0.5 * length if fresh else length
             fresh, memory = True, memory.failed()
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
-    raise NumericsError(_reason(march_state, reasons, crawls), now.time, _remedy(stepper, march_state))
+    reason = _reason(march_state, reasons, crawls) + _touching(stepper.model, now)
+    raise NumericsError(reason, now.time, _remedy(stepper, march_state))
+
+
+def _told(trying: TryWatch | None, number: int, slab: Slab) -> Told | None:
+    """Callback after every iterate of an attempt at the slab of this number."""
+    if trying is None:
+        return None
+
+    def told(iteration: int, change: float, active: int) -> None:
+        trying(Trying(slab=number, time=slab.start, span=slab.span, iteration=iteration, change=change, active=active))
+
+    return told
 
 
 def recent_rejections(before: StepHistory, span: float, rejections: int) -> float:
@@ -118,6 +136,13 @@ def _reason(march_state: MarchState, reasons: list[str], crawls: bool) -> str:
         count = march_state.step_history.recent_rejections + len(reasons)
         return f"{count:.0f} rejections among slabs shorter than {CRAWL:g} of the step; last: {reasons[-1]}"
     return f"no time step was accepted after {len(reasons)} cutbacks; last: {reasons[-1]}"
+
+
+def _touching(model: Model, now: ModelState) -> str:
+    """Names of the contacts that are closed."""
+    contacts = model.contacts
+    closed = [contacts.labels[k] for k in np.unique(contacts.contact[now.closed]).tolist()]
+    return f"; in contact: {', '.join(closed)}" if closed else ""
 
 
 def _remedy(stepper: Stepper, march_state: MarchState) -> str:

@@ -12,6 +12,7 @@ from softway.march.audit.ledger import update_account
 from softway.march.march_state import MarchState, Settings, StepHistory
 from softway.march.model_state import ModelState, split_states
 from softway.march.results.step import Report, Step
+from softway.march.results.trying import TryWatch
 from softway.march.rules.slab_rule import Method
 from softway.march.slab_step import Stepper
 from softway.march.start.preparation import prepare
@@ -39,6 +40,7 @@ def march(
     state: State | MarchState | None = None,
     control: StepControl = StepControl(),
     cancel: Cancel | None = None,
+    trying: TryWatch | None = None,
 ) -> Iterator[Step]:
     """Accepted slabs from the start, or from ``state``, to the time ``until``.
 
@@ -64,6 +66,8 @@ def march(
         Limits of a slab; a slab that exceeds them is tried again with half the length.
     cancel
         Callback at every iteration, from the first equilibrium on, that may cancel the march.
+    trying
+        Callback with a :class:`~softway.march.results.trying.Trying` after every iteration in a slab.
 
     Raises
     ------
@@ -87,7 +91,7 @@ def march(
     """
     model = scene if isinstance(scene, Model) else build(scene)
     settings = Settings(until=until, step=step, weight=weight, method=method, control=control)
-    prepared = prepare(model, settings, state, cancel)
+    prepared = prepare(model, settings, state, cancel, trying)
     return _steps(prepared.stepper, prepared.march_state)
 
 

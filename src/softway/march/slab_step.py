@@ -8,6 +8,7 @@ from softway.bodies.assembled import material_states
 from softway.errors import Cancel, Unbalanced
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
+from softway.march.results.trying import TryWatch
 from softway.march.rules.declared import slab_rule
 from softway.march.rules.slab_rule import Attempt, Method, SlabRule
 from softway.model.model import Model
@@ -19,15 +20,20 @@ from softway.solve.operators.operator_memory import OperatorMemory
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Stepper:
-    """Model with its contact rule, prepared for a march by a method; ``cancel`` may cancel the march."""
+    """Model with its contact rule, prepared for a march by a method; ``cancel`` may cancel the march, ``trying`` is
+    called after every iterate.
+    """
 
     model: Model
     method: Method
     rule: SlabRule
     cancel: Cancel | None = None
+    trying: TryWatch | None = None
 
 
-def stepper(model: Model, method: Method, weight: TimeWeight, cancel: Cancel | None = None) -> Stepper:
+def stepper(
+    model: Model, method: Method, weight: TimeWeight, cancel: Cancel | None = None, trying: TryWatch | None = None
+) -> Stepper:
     """Prepare a model for a march.
 
     Raises
@@ -35,7 +41,7 @@ def stepper(model: Model, method: Method, weight: TimeWeight, cancel: Cancel | N
     InputError
         If the contact rule does not fit the material, the method or the time weight.
     """
-    return Stepper(model=model, method=method, rule=slab_rule(model, method, weight), cancel=cancel)
+    return Stepper(model=model, method=method, rule=slab_rule(model, method, weight), cancel=cancel, trying=trying)
 
 
 def advance(

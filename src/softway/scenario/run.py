@@ -26,7 +26,7 @@ from softway.record.storage.lock import locked
 from softway.record.storage.provenance import DONE
 from softway.record.storage.run_folder import RunFolder
 from softway.record.write.probes import readings
-from softway.record.write.progress import Watch
+from softway.record.write.progress import Heartbeat, Tell, Watch
 from softway.record.write.recorder import RunStart
 from softway.scenario.checks.check import Checked, check
 from softway.scenario.files import dumps, load
@@ -44,6 +44,7 @@ def run(
     *,
     progress: Watch | None = None,
     cancel: Cancel | None = None,
+    tell: Tell = LOG.info,
     overwrite: bool = False,
 ) -> Run:
     """Run a scenario to its end and record it.
@@ -59,6 +60,9 @@ def run(
         Callback with a :class:`Progress` after each accepted time step (slab).
     cancel
         Function called in every iteration, such as ``threading.Event().is_set``; the run stops when it returns True.
+    tell
+        Function that receives a line if one attempt at a slab takes five seconds, and every five seconds from then on:
+        what is being tried, and how far it is.  By default the line is logged.
     overwrite
         True if ``out`` may replace an earlier run.
 
@@ -75,7 +79,7 @@ def run(
     place.check()
     checked = scenario if isinstance(scenario, Checked) else check(scenario, cancel=cancel)
     given, opening = checked.scenario, _opening(checked)
-    steps = _steps(checked, opening.initial, cancel)
+    steps = _steps(checked, opening.initial, cancel, tell)
     plan = given.output.checkpoints
     texts, notes = _texts(given), checked.notes
     return record_run(steps, opening, place, title=given.title, texts=texts, notes=notes, plan=plan, progress=progress)
@@ -87,6 +91,7 @@ def resume(
     scenario: Scenario | Checked | None = None,
     progress: Watch | None = None,
     cancel: Cancel | None = None,
+    tell: Tell = LOG.info,
     allow_python: bool = False,
 ) -> Run:
     """Resume a run that was killed, interrupted, cancelled or failed, from its last checkpoint.
@@ -100,7 +105,7 @@ def resume(
         Folder of the run.
     scenario
         Scenario of the run, needed if parts of it were built in Python; by default the scenario in the folder.
-    progress, cancel
+    progress, cancel, tell
         As for :func:`run`.
     allow_python
         True if ``module:name`` in the scenario may also name an installed module.
@@ -121,7 +126,7 @@ def resume(
         checked = given if isinstance(given, Checked) else check(given, cancel=cancel)
         provenance.require_same(stopped.path, stopped.provenance, _texts(checked.scenario))
         opening, found = _opening(checked), last(stopped.path)
-        steps = _steps(checked, opening.initial if found is None else found.march_state, cancel)
+        steps = _steps(checked, opening.initial if found is None else found.march_state, cancel, tell)
         return continue_run(steps, opening, stopped, found, plan=checked.scenario.output.checkpoints, progress=progress)
 
 
@@ -170,7 +175,7 @@ def _opening(checked: Checked) -> RunStart:
     )
 
 
-def _steps(checked: Checked, state: State | MarchState, cancel: Cancel | None) -> Iterator[Step]:
+def _steps(checked: Checked, state: State | MarchState, cancel: Cancel | None, tell: Tell) -> Iterator[Step]:
     """March of a checked scenario."""
     time = checked.scenario.time
     return march(
@@ -182,6 +187,7 @@ def _steps(checked: Checked, state: State | MarchState, cancel: Cancel | None) -
         state=state,
         control=time.control,
         cancel=cancel,
+        trying=Heartbeat(tell),
     )
 
 

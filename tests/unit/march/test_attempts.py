@@ -8,6 +8,7 @@ import pytest
 
 import softway as sw
 from softway.errors import Halts, NoConvergence, Unbalanced
+from softway.march.results.trying import Trying
 from softway.march.rules.equilibrated import equilibrated
 from softway.march.rules.slab_rule import Attempt, Method, SlabRule
 from softway.model.model import Model
@@ -118,3 +119,30 @@ def test_the_fixed_point_is_a_remedy_where_newton_alone_fails(method: Method, na
     with pytest.raises(sw.NumericsError, match="after 5 cutbacks; last: h = 0.00781 s: always") as failed:
         flight(rule, method=method, control=sw.StepControl(least=0.05))
     assert ("FixedPoint" in failed.value.remedy) == named
+
+
+def test_every_iterate_of_every_attempt_is_told() -> None:
+    """A second slab whose first attempt fails: numbers, instants and lengths are those of the attempts."""
+    seen: list[Trying] = []
+    rule = Failing(failure=lambda n: NoConvergence("now") if n == 2 else None)
+    steps = flight(rule, until=0.25, trying=seen.append)
+    firsts = [(t.slab, t.time, t.span) for t in seen if t.iteration == 1]
+    assert firsts == [(k + 1, s.slab.start, s.slab.span) for k, s in enumerate(steps)]
+    assert [t.iteration for t in seen if t.slab == 1] == list(range(1, steps[0].report.iterations + 1))
+    assert all(t.active == 0 and t.change >= 0.0 for t in seen)
+    assert [s.report.iterations for s in steps] == [s.report.iterations for s in flight(rule, until=0.25)]
+
+
+def test_a_march_that_ends_in_contact_names_it() -> None:
+    """A block that rests on a floor."""
+    block = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(2, 4)), material=sw.LinearElastic(E=1e3), density=1.0
+    )
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
+    rule = Failing(failure=lambda n: NoConvergence("always") if n > 1 else None)
+    contact = sw.Contact(between=("block.bottom", "floor"), timing=rule)
+    scene = sw.Scene(
+        bodies={"block": block, "floor": floor}, contacts=(contact,), loads=(sw.Gravity(acceleration=(0.0, -1.0)),)
+    )
+    with pytest.raises(sw.NumericsError, match="always; in contact: block.bottom-floor"):
+        list(sw.march(scene, until=0.5, step=STEP))

@@ -19,7 +19,7 @@ from softway.apps.cli.law import check_law
 from softway.apps.cli.materials import materials
 from softway.apps.cli.output.folders import free
 from softway.apps.cli.output.log import Verbose, heard, listen
-from softway.apps.cli.output.progress import laps_of, progress_of
+from softway.apps.cli.output.progress import laps_of, progress_of, teller
 from softway.apps.cli.output.reading import examined
 from softway.apps.cli.output.tables import ranking, scales, summary
 from softway.apps.cli.plot import plot
@@ -170,7 +170,7 @@ def run(
     scales(checked, console)
     try:
         with progress_of(checked, console) as progress:
-            done = execute(checked, folder, progress=progress, overwrite=overwrite)
+            done = execute(checked, folder, progress=progress, tell=teller(console), overwrite=overwrite)
     except (NumericsError, KeyboardInterrupt):
         if folder.is_dir():
             name = escape(str(folder))

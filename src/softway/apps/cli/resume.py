@@ -7,7 +7,7 @@ from cyclopts import Parameter
 from rich.console import Console
 
 from softway.apps.cli.output.log import Verbose, listen
-from softway.apps.cli.output.progress import progress_of, waiting
+from softway.apps.cli.output.progress import progress_of, teller, waiting
 from softway.apps.cli.output.tables import summary
 from softway.record.run import Run
 from softway.record.storage.checkpoint import listed
@@ -47,5 +47,5 @@ def resume(
         checked, known = check(stored(folder, allow_python)), listed(folder)
     console.print(f"resumed from {known[0] if known else 'the start'}", markup=False, soft_wrap=True)
     with progress_of(checked, console) as progress:
-        done = go_on(folder, scenario=checked, progress=progress)
+        done = go_on(folder, scenario=checked, progress=progress, tell=teller(console))
     summary(done, console)

@@ -79,7 +79,7 @@ class Impulsive:
             closed = current.events.closed
             first = Guess(q=guess, impulse=np.zeros(len(closed)), active=closed, memory=memory)
             iterates = method.iterate(system, first)
-            for solution in iterate(system, iterates, method.tolerance, method.limit):
+            for solution in iterate(system, iterates, method.tolerance, method.limit, attempt.told):
                 u1, memory = solution.end.displacement, solution.last.memory
                 if passes == KEEP_FACETS_AFTER and pairs.fixed_rows is None:
                     facets = pairs.with_kept_facets(u1)

@@ -14,6 +14,7 @@ from softway.model.slab import Slab
 from softway.model.time_weight import TimeWeight
 from softway.solve.methods.central_difference import Explicit
 from softway.solve.methods.fixed_point import FixedPoint
+from softway.solve.methods.iteration import Told
 from softway.solve.methods.newton import Newton
 from softway.solve.operators.operator_memory import OperatorMemory
 
@@ -35,12 +36,15 @@ class Attempt:
         True if rows at rest stick at any force.
     cancel
         Callback between iterates that may cancel the march.
+    told
+        Callback with number, relative change and active rows of each iterate.
     """
 
     approach: float = np.inf
     energy_along_motion: bool = False
     stick_at_any_force: bool = False
     cancel: Cancel | None = None
+    told: Told | None = None
 
 
 class SlabRule(Protocol):

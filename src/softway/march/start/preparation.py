@@ -6,6 +6,7 @@ from softway.errors import Cancel, within
 from softway.march.audit.ledger import initial_ledger, open_account
 from softway.march.march_state import MarchState, Settings, StepHistory
 from softway.march.model_state import join_states
+from softway.march.results.trying import TryWatch
 from softway.march.slab_step import Stepper, stepper
 from softway.march.start.initial_state import initial_state
 from softway.march.start.slab_length import proposed
@@ -24,7 +25,11 @@ class Preparation:
 
 
 def prepare(
-    model: Model, settings: Settings, state: State | MarchState | None = None, cancel: Cancel | None = None
+    model: Model,
+    settings: Settings,
+    state: State | MarchState | None = None,
+    cancel: Cancel | None = None,
+    trying: TryWatch | None = None,
 ) -> Preparation:
     """Prepare a march of a model: everything that is refused before the first slab is refused here.
 
@@ -44,7 +49,10 @@ def prepare(
     if not isinstance(method, Explicit) and method.operator != "auto":
         with within("solver.operator"):
             method.operator.require(model)
-    prepared, stepping = stepper(model, method, weight, cancel), method if isinstance(method, Explicit) else weight
+    prepared, stepping = (
+        stepper(model, method, weight, cancel, trying),
+        method if isinstance(method, Explicit) else weight,
+    )
     require_stable_weight(stepping)
     march_state = _begun(model, settings, state, cancel)
     if not march_state.slabs and not (isinstance(stepping, Explicit) and settings.step == "auto"):  # auto is stable

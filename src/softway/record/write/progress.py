@@ -7,9 +7,13 @@ from dataclasses import dataclass
 from math import inf
 
 from softway.march.results.step import Step
+from softway.march.results.trying import Trying
 
 RECENT = 30.0
 """Wall-clock window over which the pace is measured [s]: slabs in contact take longer than slabs in free flight."""
+
+BEAT = 5.0
+"""Wall-clock time inside one attempt at a slab after which a line tells what is being tried [s]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -54,6 +58,48 @@ class Progress:
 
 Watch = Callable[[Progress], None]
 """Callback after every slab, in the thread of the run; an exception that it raises ends the run and propagates."""
+
+
+Tell = Callable[[str], None]
+"""Function that shows a line."""
+
+
+class Heartbeat:
+    """Sign of life of a run: a line after ``BEAT`` seconds inside one attempt at a slab, and again after as many.
+
+    The clock decides what is shown and nothing else.
+
+    Parameters
+    ----------
+    tell
+        Function that shows a line.
+    now
+        Function that returns the present time [s]; by default the clock of the process.
+
+    Examples
+    --------
+    >>> times = iter([0.0, 4.0, 5.5, 6.0, 11.0, 11.5])
+    >>> beat = Heartbeat(print, lambda: next(times))
+    >>> for k in (1, 2, 3, 4, 5, 1):
+    ...     beat(Trying(slab=3, time=0.25, span=0.125, iteration=k, change=0.5, active=12))
+    after 6 s: slab 3 at t = 0.25 s, h = 0.125 s: iteration 3, relative change 5.0e-01, 12 active rows
+    after 11 s: slab 3 at t = 0.25 s, h = 0.125 s: iteration 5, relative change 5.0e-01, 12 active rows
+    """
+
+    __slots__ = ("_begun", "_now", "_shown", "_tell")
+
+    def __init__(self, tell: Tell, now: Callable[[], float] | None = None) -> None:
+        self._tell, self._now = tell, now or clock.perf_counter
+        self._begun = self._shown = 0.0
+
+    def __call__(self, trying: Trying) -> None:
+        """Take an iterate; show it if the last line is old."""
+        now = self._now()
+        if trying.iteration == 1:
+            self._begun = self._shown = now
+        elif now - self._shown >= BEAT:
+            self._shown = now
+            self._tell(f"after {now - self._begun:.0f} s: {trying}")
 
 
 class Meter:

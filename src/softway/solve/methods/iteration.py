@@ -1,7 +1,7 @@
 """Iteration of a method until its iterates converge, and further for more accurate solutions."""
 
 import logging
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +14,9 @@ from softway.solve.operators.operator_memory import OperatorMemory
 from softway.solve.stagnation import Stagnation
 
 log = logging.getLogger(__name__)
+Told = Callable[[int, float, int], None]
+"""Callback with the number of an iterate, its change relative to the greatest velocity, and the number of active rows.
+"""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -84,6 +87,8 @@ STANDSTILL = ((6, 1e-9), (12, 1e-8))
 """Numbers of iterations without progress after which a change is accepted, and the change relative to the greatest
 velocity: changes of mixed iterates may stagnate for as many iterations as the mixing uses, and then decrease again.
 """
+WILD = 100.0
+"""Velocity of an iterate, relative to all that may cause it, beyond which the iteration has gone astray."""
 SELF_BALANCED = 1e-12
 """Rounding error of the velocity by balanced forces, relative to the velocity by their magnitudes."""
 
@@ -101,7 +106,9 @@ def resolved_speed(system: SlabEquations) -> float:
     return 8.0 * float(np.finfo(float).eps) * extent / system.path.span
 
 
-def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float, limit: int) -> Iterator[Solution]:
+def iterate(
+    system: SlabEquations, iterates: Iterator[Iterate], tolerance: float, limit: int, told: Told | None = None
+) -> Iterator[Solution]:
     """Solutions of a slab, from the first iterate that changes by less than ``tolerance`` of the greatest velocity.
 
     More accurate solutions follow on demand: the change of each is less than half of the previous one.  They end if the
@@ -110,12 +117,13 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
     If the change no longer decreases, the iteration has reached the rounding level of the problem.  Its iterate is
     accepted if the change is below a fraction of the greatest velocity (``STANDSTILL``), below ``SELF_BALANCED`` of the
     velocity that the forces alone would cause in one slab (a body at rest under load), or at the rounding level of
-    positions (bodies at rest that just touch).
+    positions (bodies at rest that just touch).  ``told`` is called after every iterate.
 
     Raises
     ------
     NoConvergence
-        If there is no solution after ``limit`` iterations on the same facets, or a value is not finite.
+        If there is no solution after ``limit`` iterations on the same facets, a value is not finite, or a velocity
+        leaves all reason.
     """
     seen, closest, resolved = Stagnation(), np.inf, resolved_speed(system)
     contact, begun, space = system.contact, 0, system.model.space
@@ -132,6 +140,9 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
         if it.system.contact is not contact:
             contact, begun, seen = it.system.contact, count - 1, Stagnation()
         scale = max(space.greatest(it.q, system.start.velocity), 1e-300)
+        if told is not None:
+            told(count, it.change / scale, int(np.count_nonzero(it.active[: len(it.free)])))
+        _require_reason(system, it, scale)
         seen = seen.after(it.change, resolved)
         failure = f"{count} iterations leave a relative change of {it.change / scale:.1e} (tolerance {tolerance:.0e})"
         near = it.change <= tolerance * scale
@@ -147,6 +158,24 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
             break
     if closest == np.inf:
         raise NoConvergence(failure)
+
+
+def _require_reason(system: SlabEquations, it: Iterate, scale: float) -> None:
+    """Refuse an iterate whose greatest velocity ``scale`` [m/s] crosses the whole scene in the slab without a cause.
+
+    Raises
+    ------
+    NoConvergence
+        If it is beyond ``WILD`` times all of: the velocities at the start, those of supports and tools, and what the
+        forces at the start and the loads cause in the slab.
+    """
+    h, space = system.path.span, system.model.space
+    if not system.model.inert or scale * h <= system.model.extent(system.start.displacement):
+        return
+    tools = space.greatest(system.path.rows.tool_motion) / h
+    caused = max(space.greatest(system.start.velocity, np.asarray(system.given)), 2.0 * tools, _pushed(system, it))
+    if scale > WILD * caused:
+        raise NoConvergence(f"an iterate moves a node at {scale:.3g} m/s, where all causes give {caused:.3g} m/s")
 
 
 def _stagnates(system: SlabEquations, it: Iterate, since: int, speeds: tuple[float, float]) -> bool:

@@ -270,3 +270,18 @@ def test_wrong_parameters_are_refused(wrong: Callable[[], object], where: str) -
     with pytest.raises(InputError) as error:
         wrong()
     assert error.value.where == where
+
+
+@pytest.mark.parametrize(("factor", "refused"), [(1.0, False), (50.0, False), (1e4, True)])
+def test_an_iterate_whose_velocity_has_no_cause_ends_the_attempt(
+    factor: float, refused: bool, block: Callable[..., Model]
+) -> None:
+    """An iterate that crosses the scene in the slab, at a multiple of the velocities at the start."""
+    system = slab(block(supports=(Fixed(on="top"),)))
+    none = np.zeros(len(system.contact.conditions.target))
+    guess = Guess(q=system.start.velocity, impulse=none, active=none > 0.0, memory=OperatorMemory())
+    first = next(Newton().iterate(system, guess))
+    astray = replace(first, q=factor * first.q, change=system.model.space.greatest(factor * first.q))
+    failure = "an iterate moves a node at" if refused else "1 iterations leave a relative change of 1.0e\\+00"
+    with pytest.raises(NoConvergence, match=failure):
+        next(iterate(system, iter([astray]), 1e-11, 1))

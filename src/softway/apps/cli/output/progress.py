@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import timedelta
+from functools import partial
 from threading import Timer
 
 from rich.console import Console
@@ -18,7 +19,7 @@ from rich.progress import (
 )
 from rich.progress import Progress as Display
 
-from softway.record.write.progress import Progress
+from softway.record.write.progress import Progress, Tell
 from softway.scenario.checks.check import Checked
 
 PATIENCE = 1.0
@@ -96,6 +97,11 @@ def progress_of(checked: Checked, console: Console) -> Iterator[Watch | None]:
     task = display.add_task(FIRST, total=checked.scenario.time.end, left="-", error="-", closed=0)
     with delayed(display):
         yield Watch(display=display, task=task)
+
+
+def teller(console: Console) -> Tell:
+    """Function that prints a line beside the progress display."""
+    return partial(console.print, markup=False, soft_wrap=True)
 
 
 def _clock(seconds: float) -> str:
