@@ -14,7 +14,6 @@ from softway.record.read import summary
 from softway.record.run import Run
 from softway.record.storage import checkpoint, provenance
 from softway.record.storage.checkpoint import Checkpoint, Checkpoints
-from softway.record.storage.lock import locked
 from softway.record.storage.provenance import CANCELLED, DONE, INTERRUPTED, Stop
 from softway.record.storage.run_folder import RunFolder
 from softway.record.write import events, fields, history
@@ -76,11 +75,11 @@ def record_run(
             (folder / name).write_text(text, encoding="utf-8")
         provenance.begin(folder, title, given, notes)
 
-    with _stored(place.out):
-        folder = place.make(fill)
-    run = Run(folder.path, folder if place.out is None else None)
-    kept = NO_CHECKPOINTS if place.out is None else plan
-    with locked(folder.path):
+    with ExitStack() as held:
+        with _stored(place.out):
+            folder = held.enter_context(place.made(fill))
+        run = Run(folder.path, folder if place.out is None else None)
+        kept = NO_CHECKPOINTS if place.out is None else plan
         try:
             with _stored(place.out):
                 recorders = _opened(folder.path, opening, {})

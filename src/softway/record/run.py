@@ -119,9 +119,8 @@ class Run:
 
     @property
     def stop(self) -> Stop:
-        """Reason of the stop of the run, or ``running``."""
-        found = self.provenance
-        return Stop(found["stop_reason"], found["message"])
+        """Reason of the stop of the run, or ``running``; a run whose process was killed is ``interrupted``."""
+        return provenance.stop_of(self.path, lambda: self.provenance)
 
 
 def _notes(file: Path, remedy: str) -> dict[str, Any]:

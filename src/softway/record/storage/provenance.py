@@ -6,7 +6,7 @@ import logging
 import os
 import platform
 import subprocess
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
@@ -15,6 +15,7 @@ from typing import Any
 
 from softway.errors import InputError, Note
 from softway.record.storage.atomic_file import replaced
+from softway.record.storage.lock import written_now
 
 LOG = logging.getLogger(__name__)
 FILE = "provenance.json"
@@ -31,7 +32,7 @@ class Stop:
     reason
         ``running``, ``done``, ``interrupted``, ``cancelled`` or ``failed``.
     message
-        Message of the failure; empty without one.
+        Message of the failure, or the machine on which the run is said to go on if it is another; otherwise empty.
     """
 
     reason: str
@@ -39,6 +40,32 @@ class Stop:
 
 
 RUNNING, DONE, INTERRUPTED, CANCELLED = Stop("running"), Stop("done"), Stop("interrupted"), Stop("cancelled")
+
+
+def stop_of(folder: Path, read: Callable[[], Mapping[str, Any]]) -> Stop:
+    """Reason of the stop of a run; a run whose process ended without a word is ``interrupted``.
+
+    The lock of the folder tells whether a process of this machine still writes.  What another machine does cannot be
+    told, and the message says so.
+
+    Parameters
+    ----------
+    folder
+        Folder of the run.
+    read
+        Function that reads its record; it is called again after the lock was seen to be free, since the run may have
+        ended in between.
+    """
+    record = read()
+    if record["stop_reason"] == RUNNING.reason:
+        host = record.get("host")
+        if host not in (None, platform.node()):
+            return Stop(RUNNING.reason, f"on {host}, as far as can be told from here")
+        if written_now(folder) is False:
+            record = read()
+            if record["stop_reason"] == RUNNING.reason:
+                return INTERRUPTED
+    return Stop(record["stop_reason"], record["message"])
 
 
 def begin(folder: Path, title: str, texts: Mapping[str, str], notes: Sequence[Note] = ()) -> Mapping[str, Any]:
@@ -49,6 +76,7 @@ def begin(folder: Path, title: str, texts: Mapping[str, str], notes: Sequence[No
     record = {
         "title": title,
         **_surroundings(),
+        "host": platform.node(),
         "input": digest(texts),
         "notes": [asdict(note) for note in notes],
         "start": _now(),
@@ -76,11 +104,12 @@ def resume(folder: Path, record: Mapping[str, Any], slabs: int, time: float) -> 
         "at": _now(),
         "slabs": slabs,
         "time": time,
-        "stopped": record["stop_reason"],
+        "stopped": INTERRUPTED.reason if record["stop_reason"] == RUNNING.reason else record["stop_reason"],
         "changed": {k: v for k, v in now.items() if record.get(k) != v},
     }
     past = [*record.get("resumed", []), entry]
-    again = {**record, "resumed": past, "stop": None, "stop_reason": RUNNING.reason, "message": ""}
+    here = {"host": platform.node(), "stop": None, "stop_reason": RUNNING.reason, "message": ""}
+    again = {**record, "resumed": past, **here}
     _save(folder, again)
     return again
 

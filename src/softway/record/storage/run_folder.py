@@ -4,13 +4,17 @@ import os
 import shutil
 import tempfile
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from softway.errors import InputError
 from softway.record.storage import provenance
 from softway.record.storage.lock import locked
+
+LONGEST = 240
+"""Greatest length of the name of a new folder [bytes]; while it is made, its name is longer."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
@@ -46,15 +50,26 @@ class RunFolder:
         """Refuse a folder that cannot be created or holds other files, before anything is computed."""
         if self.out is None:
             return
-        if not self.out.exists():
-            self._reachable(self.out)
+        try:
+            self._free(self.out)
+        except OSError as error:
+            problem = f"'{self.out}' cannot be a folder: {error.strerror}"
+            raise InputError("out", problem, "a shorter name, in a folder of your own: --out FOLDER") from None
+
+    def _free(self, out: Path) -> None:
+        if not out.exists():
+            self._reachable(out)
+            if len(os.fsencode(out.name)) > LONGEST:
+                raise InputError("out", f"'{out.name}' is longer than {LONGEST} bytes", "a shorter name")
             return
-        if not self.out.is_dir():
-            raise InputError("out", f"'{self.out}' is a file", "the name of a folder")
-        ours = (self.out / provenance.FILE).is_file()
-        if any(self.out.iterdir()) and not (ours and self.overwrite):
+        if not out.is_dir():
+            raise InputError("out", f"'{out}' is a file", "the name of a folder")
+        if out.samefile("."):
+            raise InputError("out", f"'{out}' is the present folder", "the name of a new folder, such as run")
+        ours = (out / provenance.FILE).is_file()
+        if any(out.iterdir()) and not (ours and self.overwrite):
             known = "already holds a run" if ours else "is not empty"
-            raise InputError("out", f"'{self.out}' {known}", "another folder" + (", or --overwrite" if ours else ""))
+            raise InputError("out", f"'{out}' {known}", "another folder" + (", or --overwrite" if ours else ""))
 
     @staticmethod
     def _reachable(out: Path) -> None:
@@ -65,25 +80,60 @@ class RunFolder:
         if not os.access(above, os.W_OK | os.X_OK):
             raise InputError("out", f"no permission to write to '{above}'", "a folder of your own: --out FOLDER")
 
-    def make(self, fill: Callable[[Path], None]) -> ScratchFolder:
-        """Create the folder atomically with the files that ``fill`` writes into it."""
+    @contextmanager
+    def made(self, fill: Callable[[Path], None]) -> Iterator[ScratchFolder]:
+        """Create the folder atomically with the files that ``fill`` writes into it; it is locked for this run.
+
+        Of several runs that are started into one folder at the same time, one gets it.
+
+        Raises
+        ------
+        InputError
+            If another run is writing to the folder, or has filled it meanwhile.
+        OSError
+            If the folder cannot be created or filled; nothing is left.
+        """
         if self.out is None:
-            made = scratch()
-            fill(made.path)
-            return made
-        self.check()
-        fresh, old = (self.out.with_name(f".{self.out.name}.{word}") for word in ("partial", "old"))
-        for left in (fresh, old):
-            shutil.rmtree(left, ignore_errors=True)
-        try:
-            fresh.mkdir(parents=True)
-            fill(fresh)
-            if self.out.exists():
-                with locked(self.out):
-                    self.out.replace(old)
-            fresh.replace(self.out)
-        except BaseException:
-            shutil.rmtree(fresh, ignore_errors=True)
-            raise
-        shutil.rmtree(old, ignore_errors=True)
-        return ScratchFolder(self.out)
+            temporary = scratch()
+            with locked(temporary.path):
+                fill(temporary.path)
+                yield temporary
+            return
+        target = self.out.resolve()
+        fresh, old = (target.with_name(f".{target.name}.{word}") for word in ("partial", "old"))
+        with self._claimed(fresh):
+            try:
+                for left in (*fresh.iterdir(), *([old] if old.exists() else [])):
+                    _remove(left)
+                fill(fresh)
+                if target.exists():
+                    with locked(target, self.out):
+                        target.replace(old)
+                fresh.replace(target)
+            except BaseException:
+                shutil.rmtree(fresh, ignore_errors=True)
+                raise
+            shutil.rmtree(old, ignore_errors=True)
+            yield ScratchFolder(self.out)
+
+    @contextmanager
+    def _claimed(self, fresh: Path) -> Iterator[None]:
+        """Create and lock the folder that is filled before it gets its name; leftovers of a killed process are reused.
+
+        A folder that another run has renamed in between is not ours.
+        """
+        while True:
+            self.check()
+            fresh.mkdir(parents=True, exist_ok=True)
+            with locked(fresh, self.out) as ours:
+                if ours:
+                    self.check()
+                    yield
+                    return
+
+
+def _remove(left: Path) -> None:
+    if left.is_dir() and not left.is_symlink():
+        shutil.rmtree(left)
+    else:
+        left.unlink()

@@ -229,7 +229,7 @@ def test_killed_twice(skid, tmp_path):
                 break
             time.sleep(0.002)
         process.communicate()
-        assert process.returncode == -signal.SIGKILL and sw.Run(folder).stop.reason == "running"
+        assert process.returncode == -signal.SIGKILL and sw.Run(folder).stop.reason == "interrupted"
     run = sw.resume(folder)
     assert len(run.provenance["resumed"]) == 2 and differences(folder, skid) == []
 

@@ -12,6 +12,7 @@ from softway.errors import Note
 from softway.record.read.findings import sentences
 from softway.record.read.summary import UNITS as NUMBERS
 from softway.record.run import Run
+from softway.record.storage.provenance import CANCELLED, INTERRUPTED
 from softway.record.storage.table import RATIO
 
 UNITS = {
@@ -92,6 +93,8 @@ def summary(run: Run, console: Console) -> None:
     _notes((Note(**note) for note in found.get("notes", ())), console)
     findings(found.get("findings", ()), console)
     console.print(f"{run.status}{': ' if stop.message else ''}{stop.message}", markup=False, soft_wrap=True)
+    if stop in (INTERRUPTED, CANCELLED):
+        console.print(f"resume with: softway resume {run.path}", markup=False, soft_wrap=True, highlight=False)
     console.print(f"records: {run.path}", markup=False, soft_wrap=True, highlight=False)
 
 
