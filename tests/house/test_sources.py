@@ -39,6 +39,7 @@ DOORS = {
     "pyvista": ("softway.record.read.frames", "softway.apps.viewer.solids"),
     "imageio_ffmpeg": ("softway.record.view.film",),
     "trame": ("softway.apps.viewer.*",),
+    "aiohttp": ("softway.apps.viewer.guard",),
     "pint": ("softway.scenario.hints.units_text",),
     "tomli_w": ("softway.scenario.files",),
     "cyclopts": ("softway.apps.cli.*",),

@@ -4,8 +4,8 @@ import secrets
 import socket
 import webbrowser
 from collections.abc import Callable
+from contextlib import ExitStack
 from functools import partial
-from typing import Any
 
 from softway.errors import InputError
 from softway.record.run import Run
@@ -18,7 +18,8 @@ Ready = Callable[[str], None]
 def serve(run: Run, *, port: int = 0, browser: bool = True, live: bool = False, ready: Ready | None = None) -> None:
     """Serve the page of a run until interrupted.
 
-    Only this machine can open the page, and only with the token in its address.
+    Only this machine can open the page, and only with the token in its address.  Neither the page nor its files nor its
+    web socket answer to requests without the token, to another name of the host, or to another page in the browser.
 
     Parameters
     ----------
@@ -40,6 +41,7 @@ def serve(run: Run, *, port: int = 0, browser: bool = True, live: bool = False, 
     """
     try:
         from softway.apps.viewer.app import page
+        from softway.apps.viewer.guard import Guard, signpost
     except ImportError as error:
         problem = f"'{error.name}' is not installed"
         raise InputError("view", problem, "pip install 'softway[view]'") from None
@@ -49,8 +51,21 @@ def serve(run: Run, *, port: int = 0, browser: bool = True, live: bool = False, 
     made, token = page(run, live), secrets.token_urlsafe(16)
     server = made.server
     server.cli.parse_known_args = partial(server.cli.parse_known_args, ["--authKey", token])
-    server.controller.on_server_ready.add(partial(_opened, server, token, browser, ready))
-    server.start(port=port, host=HOST, open_browser=False, show_connection_info=False, disable_logging=True, timeout=0)
+    server.controller.on_server_bind.add(Guard(token).watch)
+    with ExitStack() as held:
+
+        def opened(**_: object) -> None:
+            address = f"http://{HOST}:{server.port}/?secret={token}"
+            if ready is not None:
+                ready(address)
+            if browser:
+                webbrowser.open(held.enter_context(signpost(address)))
+
+        server.controller.on_server_ready.add(opened)
+        server.start(
+            port=port, host=HOST, backend="aiohttp", open_browser=False, show_connection_info=False,
+            disable_logging=True, timeout=0,
+        )  # fmt: skip
 
 
 def require_free(port: int) -> None:
@@ -61,11 +76,3 @@ def require_free(port: int) -> None:
             trial.bind((HOST, port))
     except OSError as error:
         raise InputError("--port", f"{port}: {error.strerror}", "another port, or no --port for any free one") from None
-
-
-def _opened(server: Any, token: str, browser: bool, ready: Ready | None, **_: object) -> None:
-    address = f"http://{HOST}:{server.port}/?secret={token}"
-    if ready is not None:
-        ready(address)
-    if browser:
-        webbrowser.open(address)
