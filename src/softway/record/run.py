@@ -10,6 +10,7 @@ from softway.errors import InputError
 from softway.record.read import summary
 from softway.record.read.frames import Fields
 from softway.record.storage import provenance, table
+from softway.record.storage.own_files import plain_file
 from softway.record.storage.provenance import RUNNING, Stop
 from softway.record.storage.table import Table
 from softway.record.write import events, fields, history
@@ -65,14 +66,15 @@ class Run:
     @property
     def provenance(self) -> Mapping[str, Any]:
         """Versions, platform, start and stop of the run, and the reason of the stop."""
-        return _notes(self.path / provenance.FILE, "the unchanged run folder")
+        return _notes(self.path / provenance.FILE, "the unchanged run folder", provenance.ENTRIES)
 
     @property
     def summary(self) -> Mapping[str, Any]:
         """Summary of the run in a few numbers, with the notes on its scenario; computed while the run has not ended."""
         written = self.path / summary.FILE
         if written.is_file():
-            return _notes(written, "delete this file: its numbers are computed again from history.csv")
+            remedy = "delete this file: its numbers are computed again from history.csv"
+            return _notes(written, remedy, summary.ENTRIES)
         return {**summary.summarise(self.history, self.events), "notes": self.provenance.get("notes", [])}
 
     @property
@@ -123,9 +125,13 @@ class Run:
         return provenance.stop_of(self.path, lambda: self.provenance)
 
 
-def _notes(file: Path, remedy: str) -> dict[str, Any]:
-    """Content of a JSON file of the folder."""
+def _notes(file: Path, remedy: str, entries: Mapping[str, type]) -> dict[str, Any]:
+    """Content of a JSON file of the folder, with its ``entries`` of the given types."""
     try:
-        return dict(json.loads(file.read_text(encoding="utf-8")))
-    except (OSError, ValueError, TypeError) as error:
+        found = dict(json.loads(plain_file(file).read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError, RecursionError) as error:
         raise InputError(str(file), f"cannot be read: {error}", remedy) from None
+    for key, kind in entries.items():
+        if not isinstance(found.get(key), kind):
+            raise InputError(str(file), f"its entry {key!r} is {found.get(key)!r:.60}", remedy)
+    return found

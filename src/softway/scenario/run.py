@@ -14,8 +14,9 @@ from softway.march.audit.balances import balances, contact_forces
 from softway.march.audit.ledger import initial_ledger as audit
 from softway.march.march import march
 from softway.march.march_state import MarchState
-from softway.march.model_state import split_states
+from softway.march.model_state import join_states, split_states
 from softway.march.results.step import Step
+from softway.march.start.stored_state import require_of_model
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.record.conduct import continue_run, record_run
@@ -23,6 +24,7 @@ from softway.record.run import SCENARIO, Run
 from softway.record.storage import provenance
 from softway.record.storage.checkpoint import last
 from softway.record.storage.lock import locked
+from softway.record.storage.own_files import require_own
 from softway.record.storage.provenance import DONE
 from softway.record.storage.run_folder import RunFolder
 from softway.record.write.probes import readings
@@ -122,10 +124,13 @@ def resume(
         LOG.info("'%s' is complete: nothing to compute", stopped.path)
         return stopped
     with locked(stopped.path):
+        require_own(stopped.path)
         given = stored(stopped.path, allow_python) if scenario is None else scenario
         checked = given if isinstance(given, Checked) else check(given, cancel=cancel)
         provenance.require_same(stopped.path, stopped.provenance, _texts(checked.scenario))
-        opening, found = _opening(checked), last(stopped.path)
+        opening = _opening(checked)
+        pattern = join_states(checked.model, opening.initial)
+        found = last(stopped.path, partial(require_of_model, checked.model, pattern))
         steps = _steps(checked, opening.initial if found is None else found.march_state, cancel, tell)
         return continue_run(steps, opening, stopped, found, plan=checked.scenario.output.checkpoints, progress=progress)
 

@@ -170,7 +170,7 @@ def test_only_known_classes_are_stored_and_made() -> None:
         packed(object())
     with pytest.raises(TypeError, match="cannot be stored"):
         packed(NEO)
-    with pytest.raises(KeyError):
+    with pytest.raises(ValueError, match="KeyError: 'NeoHookean'"):
         unpacked('{"kind": "NeoHookean", "with": {}}', {})
 
 

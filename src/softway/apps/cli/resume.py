@@ -10,7 +10,6 @@ from softway.apps.cli.output.log import Verbose, listen
 from softway.apps.cli.output.progress import progress_of, teller, waiting
 from softway.apps.cli.output.tables import summary
 from softway.record.run import Run
-from softway.record.storage.checkpoint import listed
 from softway.record.storage.provenance import DONE
 from softway.scenario.checks.check import check
 from softway.scenario.run import resume as go_on
@@ -44,8 +43,9 @@ def resume(
         console.print(f"already done: nothing is left to compute in {folder}", markup=False, soft_wrap=True)
         return
     with waiting(console, "reading the scenario and building the meshes"):
-        checked, known = check(stored(folder, allow_python)), listed(folder)
-    console.print(f"resumed from {known[0] if known else 'the start'}", markup=False, soft_wrap=True)
+        checked = check(stored(folder, allow_python))
     with progress_of(checked, console) as progress:
         done = go_on(folder, scenario=checked, progress=progress, tell=teller(console))
+    slabs = done.provenance["resumed"][-1]["slabs"]
+    console.print(f"resumed after slab {slabs}" if slabs else "resumed from the start", markup=False, soft_wrap=True)
     summary(done, console)

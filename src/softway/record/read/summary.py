@@ -11,6 +11,8 @@ from softway.record.read.findings import gathered, stored
 from softway.record.storage.table import Table
 
 FILE = "summary.json"
+ENTRIES: Mapping[str, type] = MappingProxyType({"slabs": int, "contacts": dict})
+"""Entries of every file, and their types."""
 LEAST = ("min_gap", "min_force")
 LEFT = ("complementarity", "power_residual", "momentum_error", "energy_error")
 

@@ -5,11 +5,11 @@ text that describes how to assemble the others.
 """
 
 import hashlib
-import io
 import json
 import logging
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, fields
 from math import isfinite
 from pathlib import Path
 
@@ -17,8 +17,11 @@ import numpy as np
 
 from softway.errors import InputError
 from softway.march.march_state import MarchState
+from softway.record.storage.archive import packed_arrays, unpacked_arrays
 from softway.record.storage.atomic_file import replaced
+from softway.record.storage.own_files import plain_file
 from softway.record.storage.serialisation import packed, unpacked
+from softway.record.storage.stored_types import require_fields
 from softway.units import Second
 
 LOG = logging.getLogger(__name__)
@@ -84,9 +87,7 @@ def save(folder: Path, checkpoint: Checkpoint, keep: int) -> Path:
     place.mkdir(exist_ok=True)
     text, arrays = packed(checkpoint.march_state)
     about = json.dumps({"march_state": text, "marks": dict(checkpoint.marks), "wall": checkpoint.wall})
-    body = io.BytesIO()
-    np.savez(body, allow_pickle=False, about=np.frombuffer(about.encode(), np.uint8), **arrays)
-    content = body.getvalue()
+    content = packed_arrays({"about": np.frombuffer(about.encode(), np.uint8), **arrays})
     head = f"{FORMAT} {hashlib.sha256(content).hexdigest()}\n".encode()
     file = place / f"slab-{checkpoint.march_state.slabs:09d}"
     replaced(file, head + content, sync=True)
@@ -100,13 +101,24 @@ def listed(folder: Path) -> list[Path]:
     return sorted((folder / FOLDER).glob("slab-*"), reverse=True)
 
 
-def last(folder: Path) -> Checkpoint | None:
-    """Last readable checkpoint of a run folder; a warning names each unreadable one."""
+def last(folder: Path, require: Callable[[MarchState], object] = lambda state: None) -> Checkpoint | None:
+    """Last usable checkpoint of a run folder; a warning names each other one.
+
+    Parameters
+    ----------
+    folder
+        Folder of the run.
+    require
+        Function that raises an :class:`InputError` if a state does not belong to the model of the run.
+    """
     for file in listed(folder):
         try:
-            return read(file)
-        except Damaged as error:
-            LOG.warning("checkpoint '%s' %s; the previous checkpoint or the start of the run is used", file, error)
+            found = read(file)
+            require(found.march_state)
+            return found
+        except (Damaged, InputError) as error:
+            why = str(error) if isinstance(error, Damaged) else f"is damaged: {error}"
+            LOG.warning("checkpoint '%s' %s; the previous checkpoint or the start of the run is used", file, why)
     return None
 
 
@@ -116,10 +128,10 @@ def read(file: Path) -> Checkpoint:
     Raises
     ------
     Damaged
-        If the file cannot be read, is of another version, or its checksum is wrong.
+        If the file cannot be read, is of another version, its checksum is wrong, or its content is no state of a march.
     """
     try:
-        head, _, content = file.read_bytes().partition(b"\n")
+        head, _, content = plain_file(file).read_bytes().partition(b"\n")
     except OSError as error:
         raise Damaged(f"cannot be read: {error.strerror}") from None
     kind = head.rpartition(b" ")[0]
@@ -127,17 +139,22 @@ def read(file: Path) -> Checkpoint:
         raise Damaged(f"is of another version of softway ({kind.decode(errors='replace')!r}, here {FORMAT!r})")
     if head != f"{FORMAT} {hashlib.sha256(content).hexdigest()}".encode():
         raise Damaged("is damaged: its checksum is wrong")
-    with np.load(io.BytesIO(content), allow_pickle=False) as stored:
-        arrays = {name: stored[name] for name in stored.files}
-    about = json.loads(arrays.pop("about").tobytes())
-    return Checkpoint(march_state=unpacked(about["march_state"], arrays), marks=about["marks"], wall=about["wall"])
+    try:
+        arrays = unpacked_arrays(content)
+        about = json.loads(arrays.pop("about").tobytes())
+        found = Checkpoint(march_state=unpacked(about["march_state"], arrays), marks=about["marks"], wall=about["wall"])
+        require_fields(Checkpoint, {f.name: getattr(found, f.name) for f in fields(Checkpoint)}, {})
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
+        raise Damaged(f"is damaged: {error}") from None
+    return found
 
 
 def forget(folder: Path) -> None:
     """Remove the checkpoints of a finished run."""
-    for file in listed(folder):
+    place = folder / FOLDER
+    if place.is_symlink() or not place.is_dir():
+        return
+    for file in (*listed(folder), *place.glob(".slab-*")):
         file.unlink(missing_ok=True)
-    if (folder / FOLDER).is_dir():
-        for rest in (folder / FOLDER).iterdir():
-            rest.unlink()
-        (folder / FOLDER).rmdir()
+    with suppress(OSError):  # files of others stay
+        place.rmdir()

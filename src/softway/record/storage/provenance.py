@@ -11,6 +11,7 @@ from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from softway.errors import InputError, Note
@@ -19,6 +20,8 @@ from softway.record.storage.lock import written_now
 
 LOG = logging.getLogger(__name__)
 FILE = "provenance.json"
+ENTRIES: Mapping[str, type] = MappingProxyType({"title": str, "versions": dict, "stop_reason": str, "message": str})
+"""Entries of every file, and their types."""
 PACKAGES = ("softway", "numpy", "scipy", "h5py", "fenics-basix", "meshio", "pint")
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 

@@ -1,6 +1,6 @@
 """Conversion of data classes to a text and arrays, and back; reading never executes stored code.
 
-Only the classes of ``KINDS`` are created, from numbers, strings, tuples, tables and arrays.
+Only the classes of ``KINDS`` are created, from numbers, strings, tuples, tables and arrays that fit their type hints.
 """
 
 import json
@@ -16,11 +16,13 @@ from numpy.typing import NDArray
 from softway.bodies.internal_force.material_state import MaterialState
 from softway.contact.contact_rows import ContactRows
 from softway.contact.tangential_rows import TangentialRows
+from softway.errors import InputError
 from softway.march.march_state import EnergyAccount, MarchState, Settings, StepHistory
 from softway.march.model_state import ModelState
 from softway.march.step_control import StepControl
 from softway.model.field import FieldState
 from softway.model.time_weight import Collocation, EndPeaks, Momentum
+from softway.record.storage.stored_types import require_fields
 from softway.solve.equations.slab_values import SlabStart
 from softway.solve.methods.central_difference import Explicit
 from softway.solve.methods.fixed_point import FixedPoint
@@ -72,12 +74,20 @@ def packed(value: object) -> tuple[str, Arrays]:
 def unpacked(text: str, arrays: Mapping[str, NDArray[Any]]) -> Any:
     """Restore a value from the result of :func:`packed`; its arrays are read-only.
 
+    Raises
+    ------
+    ValueError
+        If the text does not describe a value of these classes, with fields of their types.
+
     Examples
     --------
     >>> unpacked(*packed((1.5, None, np.ones(2))))
     (1.5, None, array([1., 1.]))
     """
-    return _made(json.loads(text), arrays)
+    try:
+        return _made(json.loads(text), arrays)
+    except (KeyError, TypeError, AttributeError, IndexError, OverflowError, RecursionError, InputError) as error:
+        raise ValueError(f"no stored value: {type(error).__name__}: {error}") from None
 
 
 def _plain(value: Any, arrays: Arrays, known: dict[int, str]) -> Any:
@@ -114,7 +124,11 @@ def _made(plain: Any, arrays: Mapping[str, NDArray[Any]]) -> Any:
         found.flags.writeable = False
         return found
     if "rows" in plain:
-        return sp.csr_array(_made(plain["rows"], arrays), shape=tuple(plain["shape"]))
+        rows = sp.csr_array(_made(plain["rows"], arrays), shape=tuple(plain["shape"]))
+        rows.check_format(full_check=True)
+        return rows
     if "table" in plain:
         return {k: _made(v, arrays) for k, v in plain["table"].items()}
-    return KINDS[plain["kind"]](**{k: _made(v, arrays) for k, v in plain["with"].items()})
+    kind, values = KINDS[plain["kind"]], {k: _made(v, arrays) for k, v in plain["with"].items()}
+    require_fields(kind, values, KINDS)
+    return kind(**values)

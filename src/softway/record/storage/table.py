@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from softway.errors import InputError
 from softway.html_tables import grid
+from softway.record.storage.own_files import plain_file
 
 TEXT = "-"
 """Unit in the header of a column of strings."""
@@ -154,7 +155,7 @@ def read(path: Path, needed: Sequence[tuple[str, str]] = ()) -> Table:
     """
     remedy = "the unchanged run folder"
     try:
-        found = parse(path.read_text(encoding="utf-8"))
+        found = parse(plain_file(path).read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise InputError(str(path), "is missing", remedy) from None
     except (OSError, ValueError) as error:

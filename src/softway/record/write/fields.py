@@ -22,6 +22,7 @@ from softway.errors import InputError
 from softway.march.results.step import Step
 from softway.model.scene import Scene, State
 from softway.record.storage.journal import JournaledFile, undone
+from softway.record.storage.own_files import plain_file
 from softway.record.write.grid_layout import Layout, components, layout, von_mises
 from softway.record.write.recorder import RunStart
 from softway.record.write.tool_shapes import stored
@@ -273,7 +274,7 @@ def reading(path: Path) -> Iterator[h5py.File]:
         If the file is missing or damaged.
     """
     try:
-        opened = h5py.File(path, "r", locking=False)
+        opened = h5py.File(plain_file(path), "r", locking=False)
     except OSError as error:
         problem = "is missing" if not path.exists() else f"cannot be read: {error}"
         raise InputError(str(path), problem, f"a run folder with the complete file {FILE}") from None
