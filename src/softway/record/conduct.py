@@ -160,11 +160,21 @@ def _carried_on(
         stop = Stop("failed", str(error))
         raise
     except Exception as error:  # from the progress callback, or a defect: it propagates unchanged
+        if _of_interruption(error):
+            stop = INTERRUPTED
+            raise KeyboardInterrupt from error
         stop = Stop("failed", f"{type(error).__name__}: {error}")
         raise
     finally:
         _finish(run, keeper, record, stop)
     return run
+
+
+def _of_interruption(error: BaseException | None) -> bool:
+    """True if an exception was raised while an interruption went up, as the clean-up of a library may do."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__context__
+    return error is not None
 
 
 def _opened(folder: Path, opening: RunStart, marks: Mapping[str, int]) -> dict[str, Recorder]:

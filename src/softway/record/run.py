@@ -10,7 +10,7 @@ from softway.errors import InputError
 from softway.record.read import summary
 from softway.record.read.frames import Fields
 from softway.record.storage import provenance, table
-from softway.record.storage.own_files import plain_file
+from softway.record.storage.gate.own_files import plain_file, readable_file
 from softway.record.storage.provenance import RUNNING, Stop
 from softway.record.storage.table import Table
 from softway.record.write import events, fields, history
@@ -45,7 +45,7 @@ class Run:
     def __init__(self, path: str | Path, keep: object = None) -> None:
         object.__setattr__(self, "path", Path(path))
         object.__setattr__(self, "keep", keep)
-        if not (self.path / provenance.FILE).is_file():
+        if not readable_file(self.path / provenance.FILE):
             raise InputError("", f"no run folder: '{self.path}'", "a folder written by 'softway run --out'")
 
     @property

@@ -23,8 +23,8 @@ from softway.record.conduct import continue_run, record_run
 from softway.record.run import SCENARIO, Run
 from softway.record.storage import provenance
 from softway.record.storage.checkpoint import last
+from softway.record.storage.gate.own_files import require_own
 from softway.record.storage.lock import locked
-from softway.record.storage.own_files import require_own
 from softway.record.storage.provenance import DONE
 from softway.record.storage.run_folder import RunFolder
 from softway.record.write.probes import readings

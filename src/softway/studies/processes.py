@@ -134,26 +134,53 @@ def _hired(work: Callable[[Any], Any], share: int) -> Worker:
     context = get_context("spawn")
     ours, theirs = context.Pipe()
     process = context.Process(target=_serve, args=(theirs, work, share), daemon=True)
-    process.start()
+    with _deferred():
+        process.start()
     theirs.close()
     return Worker(process, ours)
 
 
+@contextmanager
+def _deferred() -> Iterator[None]:
+    """Let Ctrl-C wait: a process that starts meanwhile is not interrupted before it has chosen to ignore it."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    from multiprocessing.resource_tracker import ensure_running
+
+    ensure_running()  # its own start lets Ctrl-C through again
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def _serve(line: Connection, work: Callable[[Any], Any], share: int) -> None:
     """Compute incoming tasks until the connection closes or the process is terminated."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent handles Ctrl-C and ends its workers
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
-    sys.unraisablehook = _again
     try:
-        with use(share):
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent handles Ctrl-C and ends its workers
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
+        with raised_again(), use(share):
             while True:
                 line.send(_answer(line.recv(), work))
     except (EOFError, ConnectionError, KeyboardInterrupt):
         signal.signal(signal.SIGTERM, signal.SIG_IGN)  # it is already ending
 
 
+@contextmanager
+def raised_again() -> Iterator[None]:
+    """Raise interruptions again that are lost in finalisers and callbacks; for a process of our own."""
+    before = sys.unraisablehook
+    sys.unraisablehook = _again
+    try:
+        yield
+    finally:
+        sys.unraisablehook = before
+
+
 def _again(lost: "sys.UnraisableHookArgs") -> None:
-    """Raise an interruption again that was lost in a finaliser, which cannot propagate exceptions."""
+    """Raise an interruption again that was lost where exceptions cannot propagate."""
     if lost.exc_type is KeyboardInterrupt and hasattr(signal, "setitimer"):
         signal.signal(signal.SIGALRM, signal.default_int_handler)
         signal.setitimer(signal.ITIMER_REAL, MOMENT)

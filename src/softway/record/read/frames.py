@@ -12,12 +12,16 @@ from softway.arrays import Array, IntArray
 from softway.bodies.prescribed_motion import PlacedShape
 from softway.bodies.solid import Tool
 from softway.errors import InputError
-from softway.record.write.fields import CELL_DATA, POINT_DATA, SIZES, reading
+from softway.meshes.cells import CELLS
+from softway.record.storage.gate.hdf5_file import BROKEN, reading
+from softway.record.write.fields import CELL_DATA, FILE, POINT_DATA, SIZES
 from softway.record.write.grid_layout import VTK
 from softway.record.write.tool_shapes import recovered
 
 if TYPE_CHECKING:
     import pyvista
+
+REMEDY = f"a run folder with the complete file {FILE}"
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -131,16 +135,16 @@ class Fields:
     keep: object = None
 
     def __len__(self) -> int:
-        with reading(self.path) as file:
-            return int(file["VTKHDF/Steps"].attrs["NSteps"])
+        with reading(self.path, REMEDY) as file:
+            return _count(file["VTKHDF"])
 
     def __iter__(self) -> Iterator[Frame]:
         return (self[k] for k in range(len(self)))
 
     def __getitem__(self, k: int) -> Frame:
-        with reading(self.path) as file:
+        with reading(self.path, REMEDY) as file:
             root = file["VTKHDF"]
-            count = int(root["Steps"].attrs["NSteps"])
+            count = _count(root)
             if not -count <= k < count:
                 raise IndexError(f"frame {k} of {count}")
             n, e = (int(root[name][0]) for name in SIZES[:2])
@@ -148,13 +152,15 @@ class Fields:
             point = {name: data[at] for name, data in root["PointData"].items()}
             cell = {name: d[k * e : (k + 1) * e] for name, d in root["CellData"].items() if name != "body"}
             data = {**point, **cell}
+            if any(len(values) != rows for part, rows in ((point, n), (cell, e)) for values in part.values()):
+                raise ValueError(f"a field of frame {k} is too short")
             always = {name: data.pop(name) for name in (*POINT_DATA, *CELL_DATA)}
             return Frame(time=float(root["Steps/Values"][k]), points=root["Points"][at], **always, more=data)
 
     @property
     def kinds(self) -> dict[str, Kind]:
         """Description of every field by name: on nodes or cells, unit, number of components."""
-        with reading(self.path) as file:
+        with reading(self.path, REMEDY) as file:
             return {
                 name: Kind(on=on, unit=str(data.attrs.get("unit", "")), components=int(np.prod(data.shape[1:])))
                 for on, group in (("nodes", "PointData"), ("cells", "CellData"))
@@ -165,25 +171,28 @@ class Fields:
     @property
     def times(self) -> Array:
         """Instants of the frames (frames,) [s]."""
-        with reading(self.path) as file:
-            return np.asarray(file["VTKHDF/Steps/Values"][: int(file["VTKHDF/Steps"].attrs["NSteps"])])
+        with reading(self.path, REMEDY) as file:
+            return np.asarray(file["VTKHDF/Steps/Values"][: _count(file["VTKHDF"])])
 
     @property
     def cells(self) -> Cells:
         """Cells, reference coordinates and rigid obstacles, common to all frames."""
-        with reading(self.path) as file:
+        with reading(self.path, REMEDY) as file:
             root = file["VTKHDF"]
-            tools = {name: _tool(data) for name, data in json.loads(file["tools"][()]).items()}
             whole = {name: np.asarray(root[name.title()][:], int) for name in ("connectivity", "offsets", "types")}
-            return Cells(
+            dimension = int(file.attrs["dimension"])
+            tools = {name: _tool(data, dimension) for name, data in json.loads(file["tools"][()]).items()}
+            found = Cells(
                 bodies=tuple(json.loads(file.attrs["bodies"])),
                 tools={n: tool for n, tool in tools.items() if tool is not None},
                 lost=tuple(n for n, tool in tools.items() if tool is None),
-                dimension=int(file.attrs["dimension"]),
+                dimension=dimension,
                 reference=file["reference"][:],
                 body=np.asarray(root["CellData/body"][:], int),
                 **whole,
             )
+            _require_cells(found)
+            return found
 
     def to_pyvista(self, k: int) -> "pyvista.UnstructuredGrid":
         """Frame ``k`` as a deformed PyVista grid with all its fields."""
@@ -199,13 +208,45 @@ class Fields:
         return grid
 
 
-def _tool(data: Mapping[str, Any]) -> Tool | None:
-    """Tool from its description; None if it is not plain data."""
+def _count(root: Any) -> int:
+    """Number of frames."""
+    count, stored = int(root["Steps"].attrs["NSteps"]), len(root["Steps/Values"])
+    if not 0 <= count <= stored:
+        raise ValueError(f"{count} frames, but {stored} instants")
+    return count
+
+
+def _tool(data: Any, dimension: int) -> Tool | None:
+    """Tool from its description; None if it is not plain data that make a tool of this dimension."""
     try:
-        made: Tool = recovered(data)
-    except InputError:
+        made = recovered(data)
+        if isinstance(made, Tool) and made.at(0.0).gap(np.zeros((1, dimension))).shape == (1,):
+            return made
+    except (InputError, *BROKEN, ArithmeticError, IndexError):
         return None
-    return made
+    return None
+
+
+def _require_cells(cells: Cells) -> None:
+    """Refuse numbers that lead beyond the arrays: what draws them does not look.
+
+    Raises
+    ------
+    ValueError
+        With the array.
+    """
+    n, e, k = len(cells.reference), len(cells.types), len(cells.connectivity)
+    widths = {kind: len(CELLS[name].nodes) for name, kind in VTK.items()}
+    if cells.dimension not in (1, 2, 3) or cells.reference.shape != (n, 3):
+        raise ValueError("dimension or reference coordinates")
+    if not (cells.connectivity.ndim == 1 and ((cells.connectivity >= 0) & (cells.connectivity < n)).all()):
+        raise ValueError("cells with nodes that are not there")
+    if cells.offsets.shape != (e + 1,) or cells.offsets[0] != 0 or cells.offsets[-1] != k:
+        raise ValueError("offsets of cells")
+    if np.diff(cells.offsets).tolist() != [widths.get(int(kind)) for kind in cells.types]:
+        raise ValueError("numbers of nodes of cells")
+    if cells.body.shape != (e,) or not ((cells.body >= 0) & (cells.body < len(cells.bodies))).all():
+        raise ValueError("numbers of bodies")
 
 
 def _padded(cells: Cells) -> IntArray:

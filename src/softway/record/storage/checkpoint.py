@@ -17,11 +17,11 @@ import numpy as np
 
 from softway.errors import InputError
 from softway.march.march_state import MarchState
-from softway.record.storage.archive import packed_arrays, unpacked_arrays
 from softway.record.storage.atomic_file import replaced
-from softway.record.storage.own_files import plain_file
+from softway.record.storage.gate.archive import packed_arrays, unpacked_arrays
+from softway.record.storage.gate.own_files import plain_file
+from softway.record.storage.gate.stored_types import require_fields
 from softway.record.storage.serialisation import packed, unpacked
-from softway.record.storage.stored_types import require_fields
 from softway.units import Second
 
 LOG = logging.getLogger(__name__)

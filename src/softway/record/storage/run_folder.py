@@ -127,7 +127,11 @@ class RunFolder:
             fresh.mkdir(parents=True, exist_ok=True)
             with locked(fresh, self.out) as ours:
                 if ours:
-                    self.check()
+                    try:
+                        self.check()
+                    except InputError:
+                        shutil.rmtree(fresh, ignore_errors=True)
+                        raise
                     yield
                     return
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from softway.errors import InputError
 from softway.html_tables import grid
-from softway.record.storage.own_files import plain_file
+from softway.record.storage.gate.own_files import plain_file
 
 TEXT = "-"
 """Unit in the header of a column of strings."""

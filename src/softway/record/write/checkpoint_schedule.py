@@ -6,6 +6,7 @@ from pathlib import Path
 
 from softway.march.march_state import MarchState
 from softway.record.storage.checkpoint import RARE, Checkpoint, Checkpoints, save
+from softway.record.storage.uninterrupted import uninterrupted
 from softway.record.write.recorder import Recorder
 
 
@@ -66,6 +67,7 @@ class CheckpointWriter:
         start = clock.perf_counter()
         for recorder in self.recorders.values():
             recorder.sync()
-        save(self.folder, Checkpoint(march_state=march_state, marks=marks, wall=self.wall), self.plan.keep)
+        point = Checkpoint(march_state=march_state, marks=marks, wall=self.wall)
+        uninterrupted(lambda: save(self.folder, point, self.plan.keep))
         self._saved, now = march_state.slabs, clock.perf_counter()
         self.due = now + max(self.plan.every, RARE * (now - start)) if self.plan.every else now

@@ -21,8 +21,9 @@ from softway.bodies.solid import Tool
 from softway.errors import InputError
 from softway.march.results.step import Step
 from softway.model.scene import Scene, State
+from softway.record.storage.gate.hdf5_file import BROKEN, require_plain
 from softway.record.storage.journal import JournaledFile, undone
-from softway.record.storage.own_files import plain_file
+from softway.record.storage.uninterrupted import uninterrupted
 from softway.record.write.grid_layout import Layout, components, layout, von_mises
 from softway.record.write.recorder import RunStart
 from softway.record.write.tool_shapes import stored
@@ -56,10 +57,12 @@ class Frames:
     def take(self, step: Step) -> None:
         """Write a frame if one is due at the end of the slab."""
         if self.opening.frame_due(step.before.time, step.after.time):
-            with _changing(self.guarded):
-                _append(
-                    self.file, self.layout.reference, _frame(self.layout, self.opening, step.after), step.after.time
-                )
+            frame = _frame(self.layout, self.opening, step.after)
+            uninterrupted(lambda: self._write(frame, step.after.time))
+
+    def _write(self, frame: Mapping[str, Mapping[str, Array]], time: float) -> None:
+        with _changing(self.guarded):
+            _append(self.file, self.layout.reference, frame, time)
 
     @property
     def mark(self) -> int:
@@ -72,6 +75,9 @@ class Frames:
 
     def close(self) -> None:
         """Close the file and remove an incomplete frame."""
+        uninterrupted(self._close)
+
+    def _close(self) -> None:
         with ExitStack() as closing:
             closing.callback(self.guarded.close)
             closing.callback(self.file.close)
@@ -88,6 +94,20 @@ def open_fields(folder: Path, opening: RunStart, mark: int | None = None) -> Fra
         If the file has fewer frames.
     """
     path, cells = folder / FILE, layout(opening.meshes, opening.touching)
+    first = _frame(cells, opening, opening.initial) if mark is None else {}
+    file, guarded = uninterrupted(lambda: _opened(path, cells, opening, first, mark), _close_all)
+    return Frames(file=file, guarded=guarded, before=(mark or 1) - 1, layout=cells, opening=opening)
+
+
+def _close_all(opened: tuple[h5py.File, JournaledFile]) -> None:
+    for file in opened:
+        file.close()
+
+
+def _opened(
+    path: Path, cells: Layout, opening: RunStart, first: Mapping[str, Mapping[str, Array]], mark: int | None
+) -> tuple[h5py.File, JournaledFile]:
+    """Open the file and write its first frame, or truncate it to ``mark`` frames."""
     undone(path)
     if mark is not None and not path.is_file():
         raise InputError(str(path), "is missing", REMEDY)
@@ -98,14 +118,13 @@ def open_fields(folder: Path, opening: RunStart, mark: int | None = None) -> Fra
             file = _file(path, guarded, new=mark is None)
             failing.callback(file.close)
             if mark is None:
-                first = _frame(cells, opening, opening.initial)
                 units = {f.name: f.unit for f in opening.fields}
                 _write_cells(file, cells, opening.scene, first, units)
                 _append(file, cells.reference, first, opening.initial.time)
             else:
                 _cut(path, file, mark)
         failing.pop_all()
-    return Frames(file=file, guarded=guarded, before=(mark or 1) - 1, layout=cells, opening=opening)
+    return file, guarded
 
 
 def _file(path: Path, guarded: JournaledFile, new: bool) -> h5py.File:
@@ -132,9 +151,13 @@ def _changing(guarded: JournaledFile) -> Iterator[None]:
 
 def _cut(path: Path, file: h5py.File, mark: int) -> None:
     """Truncate the file of an earlier part of the run to ``mark`` frames."""
-    root = file["VTKHDF"]
-    steps = root["Steps"]
-    count = int(steps.attrs["NSteps"])
+    try:
+        require_plain(file)
+        root = file["VTKHDF"]
+        steps = root["Steps"]
+        count = int(steps.attrs["NSteps"])
+    except BROKEN as error:
+        raise InputError(str(path), f"is damaged: {error}", REMEDY) from None
     if count < mark:
         raise InputError(str(path), f"has {count} frames, but {mark} at the checkpoint", REMEDY)
     steps.attrs["NSteps"] = np.int64(mark)
@@ -262,21 +285,3 @@ def _append(file: h5py.File, reference: Array, frame: Mapping[str, Mapping[str, 
 def _put(series: h5py.Dataset, start: int, data: Array) -> None:
     series.resize(start + len(data), axis=0)
     series[start:] = data
-
-
-@contextmanager
-def reading(path: Path) -> Iterator[h5py.File]:
-    """Open the file for reading, even while a run still writes to it.
-
-    Raises
-    ------
-    InputError
-        If the file is missing or damaged.
-    """
-    try:
-        opened = h5py.File(plain_file(path), "r", locking=False)
-    except OSError as error:
-        problem = "is missing" if not path.exists() else f"cannot be read: {error}"
-        raise InputError(str(path), problem, f"a run folder with the complete file {FILE}") from None
-    with opened as file:
-        yield file

@@ -24,6 +24,20 @@ def plain_file(path: Path) -> Path:
     return path
 
 
+def readable_file(path: Path) -> bool:
+    """True if a path leads to a file; a path that no file system takes leads to none.
+
+    Examples
+    --------
+    >>> readable_file(Path("x" * 5000))
+    False
+    """
+    try:
+        return path.is_file()
+    except OSError:
+        return False
+
+
 def require_own(folder: Path) -> None:
     """Refuse a run folder that a resumed run must not write to: a link in it may lead to files of the user.
 
