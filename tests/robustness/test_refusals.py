@@ -35,6 +35,8 @@ def told(folder: Path, capsys: pytest.CaptureFixture[str], *changes: str, text: 
         ("bodies.bar.mesh={kind='GradedDisc', radius=1, focus=0.1, cells=1000000}", "bodies.bar.mesh.cells", "1e+12"),
         ("time.step=1e-300", "time.end", "slabs"),
         ("bodies.bar.density=" + "9" * 400, "bodies.bar.density", "not finite"),
+        ("bodies.bar.density=1e-317", "bodies.bar.density", "beyond the range of numbers"),
+        ("bodies.bar.density=1e307", "bodies.bar.density", "beyond the range of numbers"),
         ("bodies.bar.material.kind=[1]", "bodies.bar.material.kind", "unknown"),
         ("bodies.bar.material={kind={a=1}}", "bodies.bar.material.kind", "unknown"),
         ("bodies.bar.material.kind=os:system", "bodies.bar.material.kind", "would run Python"),
@@ -55,6 +57,31 @@ def test_what_is_too_much_or_forbidden(tmp_path, capsys, change, where, problem)
     assert where in said
     assert problem in said
     assert "try:" in said
+
+
+@pytest.mark.parametrize("change", ["time.step=auto", "time.weight=Momentum", "solver.kind=Explicit"])
+@pytest.mark.parametrize("step", ["auto", "50 ms"])
+def test_a_body_that_is_held_everywhere_ends_or_is_refused(tmp_path, capsys, change, step):
+    """It has no frequency that bounds a step."""
+    (tmp_path / "bar.toml").write_text(BAR)
+    held = ["bodies.bar.supports=[{on='all'}]", "bodies.bar.velocity=0", f"time.step={step}", change]
+    given = [part for text in held for part in ("--set", text)]
+    assert main(["run", str(tmp_path / "bar.toml"), "--out", str(tmp_path / "out"), "-q", *given]) in (0, 2)
+    said = capsys.readouterr().err
+    assert "inf" not in said and ("try:" in said or (tmp_path / "out").is_dir())
+
+
+@pytest.mark.parametrize("verb", ["check", "run", "show", "resume", "plot", "view", "sweep"])
+def test_names_of_any_length_are_refused(tmp_path, capsys, verb):
+    """No file system has a name of this length."""
+    for name in ("x" * 300, "x" * 300 + ".toml", "x/" * 3000):
+        more = ["--over", "time.end=1 s"] if verb == "sweep" else []
+        assert main([verb, str(tmp_path / name), *more]) == 2
+        assert "try:" in capsys.readouterr().err
+    (tmp_path / "bar.toml").write_text(BAR)
+    for verb_, more in (("run", []), ("sweep", ["--over", "time.end=1 s"])):
+        assert main([verb_, str(tmp_path / "bar.toml"), "--out", str(tmp_path / ("x" * 300)), *more]) == 2
+        assert "try:" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("text", ["a = " + "[" * 5000 + "]" * 5000, "x" + ".x" * 5000 + " = 1", "a = " + "9" * 5000])

@@ -17,6 +17,7 @@ from rich.markup import escape
 from softway.apps.cli.explain import told
 from softway.apps.cli.law import check_law
 from softway.apps.cli.materials import materials
+from softway.apps.cli.output.failures import failed, unusable
 from softway.apps.cli.output.folders import free
 from softway.apps.cli.output.log import Verbose, heard, listen
 from softway.apps.cli.output.progress import laps_of, progress_of, teller
@@ -33,6 +34,7 @@ from softway.errors import InputError, NumericsError, StorageError
 from softway.scenario.files import dumps
 from softway.scenario.run import run as execute
 from softway.scenario.text.templates import headline, templates
+from softway.studies.processes import raised_again
 from softway.studies.race.contest import contest, entrants
 from softway.studies.race.report import FILE as RACE
 from softway.studies.race.report import record
@@ -262,7 +264,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return the exit code."""
     errors = Console(stderr=True)
     try:
-        with heard(errors):
+        with raised_again(), heard(errors):
             code = app(
                 sys.argv[1:] if arguments is None else arguments,
                 exit_on_error=False,
@@ -270,20 +272,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 result_action="return_value",
             )
     except (CycloptsError, InputError) as error:
-        return _failed(errors, error, WRONG_INPUT)
+        return failed(errors, error, WRONG_INPUT)
     except (NumericsError, StorageError) as error:
-        return _failed(errors, error, FAILED)
+        return failed(errors, error, FAILED)
+    except OSError as error:
+        return failed(errors, unusable(error), WRONG_INPUT)
     except MemoryError as error:
-        return _failed(errors, MemoryError(f"out of memory: {error}\n  try: fewer cells"), FAILED)
+        return failed(errors, MemoryError(f"out of memory: {error}\n  try: fewer cells"), FAILED)
     except KeyboardInterrupt:
         errors.print("interrupted")
         return INTERRUPTED
     return code if isinstance(code, int) else DONE
-
-
-def _failed(console: Console, error: Exception, code: int) -> int:
-    told = str(error)
-    if isinstance(error, CycloptsError):
-        told += f"\n  try: {' '.join(('softway', *(error.command_chain or ()), '--help'))}"
-    console.print(f"[bold red]error[/] {escape(told)}", soft_wrap=True, highlight=False)
-    return code

@@ -10,6 +10,8 @@ from softway.bodies.inertia.mass_redistribution import redistribute_mass
 from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 
+TINY, EPSILON = float(np.finfo(float).tiny), float(np.finfo(float).eps)
+
 
 def solid_following(part: DiscreteSolid, light: IntArray) -> sp.csr_array:
     """Matrix (n, n) that gives the velocities of all nodes from those with mass; ``light`` are the massless nodes."""
@@ -22,11 +24,21 @@ def solid_mass(part: DiscreteSolid, solid: Solid, candidates: IntArray, spread: 
     """Nodal mass matrix (n, n) [kg]; mass of the contact nodes ``candidates`` goes to ``spread`` layers of cells."""
     section = part.internal.section
     with within(f"bodies.{part.name}"):
+        _require_numbers(part, solid.density)
         if len(candidates):
             if not solid.supports:
                 _require_inertia(part, candidates)
             return redistribute_mass(part.mesh, solid.density, section, solid.mass, candidates, spread, part.name)
         return nodal_mass(part.mesh, solid.density, section, solid.mass)
+
+
+def _require_numbers(part: DiscreteSolid, density: float) -> None:
+    """Refuse a density at which masses of nodes leave the range of floating-point numbers, or lose digits near it."""
+    least, greatest = TINY / EPSILON, EPSILON / TINY
+    mass = density * float(np.prod(np.ptp(part.mesh.points, axis=0))) / part.mesh.n_nodes
+    if not least < mass < greatest:
+        problem = f"{density:g} kg/m^3 gives nodes a mass of about {mass:.2g} kg, beyond the range of numbers"
+        raise InputError("density", problem, "the density of a material, such as 1000 kg/m^3")
 
 
 def _require_inertia(part: DiscreteSolid, candidates: IntArray) -> None:

@@ -94,7 +94,7 @@ def evenly(duration: float, step: float) -> float:
 
     Examples
     --------
-    >>> evenly(1.0, 0.3)
-    0.25
+    >>> evenly(1.0, 0.3), evenly(1.0, float("inf"))
+    (0.25, 1.0)
     """
-    return float(duration / np.ceil(duration / step - 1e-9))
+    return float(duration / np.ceil(duration / min(step, duration) - 1e-9))
