@@ -107,8 +107,8 @@ def _below(value: float) -> float:
     >>> _below(0.70716)
     0.7071
     """
-    digit = 10.0 ** (np.floor(np.log10(value)) - 3.0)
-    return float(np.floor(value / digit) * digit)
+    digits = 3 - int(np.floor(np.log10(value)))
+    return round(float(np.floor(value * 10.0**digits)) / 10.0**digits, digits)
 
 
 def _other(scheme: TimeWeight | Explicit) -> str:

@@ -35,7 +35,8 @@ def solid_mass(part: DiscreteSolid, solid: Solid, candidates: IntArray, spread: 
 def _require_numbers(part: DiscreteSolid, density: float) -> None:
     """Refuse a density at which masses of nodes leave the range of floating-point numbers, or lose digits near it."""
     least, greatest = TINY / EPSILON, EPSILON / TINY
-    mass = density * float(np.prod(np.ptp(part.mesh.points, axis=0))) / part.mesh.n_nodes
+    size = float(np.linalg.norm(np.ptp(part.mesh.points, axis=0)))
+    mass = float(density) * size**part.mesh.cell_dim / part.mesh.n_nodes
     if not least < mass < greatest:
         problem = f"{density:g} kg/m^3 gives nodes a mass of about {mass:.2g} kg, beyond the range of numbers"
         raise InputError("density", problem, "the density of a material, such as 1000 kg/m^3")

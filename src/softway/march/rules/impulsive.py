@@ -212,8 +212,13 @@ def _outcome(
         passes=work[0],
         iterations=work[1],
         friction=FrictionResult.none(rows, model.shape),
-        required=Balances(energy="limited" if rule.touch.balanced else "free", momentum=rule.touch.balanced),
+        required=_required(rule.touch.balanced, bool(found or events.closed.any())),
     )
+
+
+def _required(balanced: bool, touched: bool) -> Balances:
+    """Balances that a slab has to keep: in free flight, weights may let the energy swing about its mean."""
+    return Balances(energy="limited" if balanced and touched else "free", momentum=balanced)
 
 
 def _acceleration(

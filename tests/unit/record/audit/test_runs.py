@@ -10,12 +10,13 @@ import pytest
 
 import softway as sw
 from softway.apps import cli
+from softway.march.march import march
 from softway.march.results.step import Step
 from softway.record.audit.watch import APART, watcher
 from softway.record.read.findings import KINDS
 from softway.scenario.checks.check import check
 from softway.scenario.files import loads
-from softway.scenario.run import _opening, _steps
+from softway.scenario.run import _opening
 
 THROUGH = """
 title = "Block that falls through a floor it knows nothing of"
@@ -127,18 +128,18 @@ def test_a_run_that_goes_on_after_a_stop_has_the_same_findings(through: sw.Run, 
 def test_slabs_that_are_not_due_are_not_looked_at() -> None:
     text = THROUGH.replace('fields_every = "0.1 s"', 'fields_every = "0.02 s"')
     checked = check(loads(text))
-    opening = _opening(checked, None)
-    steps = list(watcher(opening).watched(_steps(checked, opening.initial, None)))
+    opening = _opening(checked)
+    steps = list(watcher(opening).watched(march(checked.model, until=checked.scenario.time.end, step=checked.step)))
     seen = [k for k, step in enumerate(steps, 1) if not np.isnan(step.certificate.gap_nodes)]
     assert seen == list(range(APART, 41, APART))
 
 
 def made_wrong(checked, change) -> Iterator[str]:
     """Sentences of the audit on steps whose ledger is changed from slab 12 on."""
-    opening = _opening(checked, None)
+    opening = _opening(checked)
 
     def wrong() -> Iterator[Step]:
-        for k, step in enumerate(_steps(checked, opening.initial, None), 1):
+        for k, step in enumerate(march(checked.model, until=checked.scenario.time.end, step=checked.step), 1):
             yield step if k < 12 else replace(step, ledger=replace(step.ledger, **change(step.ledger)))
 
     for step in itertools.islice(watcher(opening).watched(wrong()), 20):
@@ -164,10 +165,10 @@ def test_a_ledger_that_is_wrong(change, words: str) -> None:
 
 def test_a_body_that_changes_its_momentum_without_a_cause() -> None:
     checked = check(loads(THROUGH))
-    opening = _opening(checked, None)
+    opening = _opening(checked)
 
     def kicked() -> Iterator[Step]:
-        for k, step in enumerate(_steps(checked, opening.initial, None), 1):
+        for k, step in enumerate(march(checked.model, until=checked.scenario.time.end, step=checked.step), 1):
             moved = {name: v + 1e-3 * (k == 20) for name, v in step.after.velocity.items()}
             momentum = step.ledger.momentum + 1e-3 * 4000.0 * np.array([k == 20, k == 20, 0])
             ledger = replace(step.ledger, momentum=momentum)
