@@ -23,7 +23,7 @@ class Event:
         Instant inside the slab [s].
     contact, kind, node
         Contact label; ``touch``, ``release``, ``stick`` or ``slip``; node number in its body. A finding of the audit
-        has the names of the bodies for the label and a kind of :data:`softway.record.read.findings.KINDS`.
+        has the names of the bodies for the label and a kind of ``record.read.findings.KINDS``.
     position
         (d,) position of the node [m].
     velocity_before, velocity_after

@@ -5,7 +5,7 @@ import shutil
 import tempfile
 import weakref
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -124,7 +124,8 @@ class RunFolder:
         """
         while True:
             self.check()
-            fresh.mkdir(parents=True, exist_ok=True)
+            with suppress(FileExistsError):  # removed by another run while it is looked at
+                fresh.mkdir(parents=True, exist_ok=True)
             with locked(fresh, self.out) as ours:
                 if ours:
                     try:
