@@ -15,7 +15,7 @@ from softway.bodies.discretised import DiscreteSolid, discretise, driven_compone
 from softway.bodies.dof_map import DofMap, MatrixSum, joined
 from softway.bodies.solid import Driven, Solid
 from softway.contact.assemble import assemble_contacts
-from softway.contact.impact_rule import Energy, ImpactRule, Paper
+from softway.contact.impact_rule import Energy, ImpactRule
 from softway.errors import InputError, within
 from softway.model.field import FieldEquations
 from softway.model.model import Model, assembled_tangent
@@ -39,7 +39,7 @@ def build(scene: Scene) -> Model:
     mass = sp.csr_array(factor * weight) if factor > 0.0 else sp.csr_array(weight.shape)
     fields = [initial(p, solids[p.name]) for p in parts]
     dofs = joined([p.dofs for p in parts])
-    weights = _row_sums(weight, timing, parts, met.nodes)
+    weights = np.asarray(weight.sum(axis=1)).ravel()
     driven = driven_components(parts, solids, dofs.free.shape)
     displacement = _displacement(parts, solids, [u for u, _ in fields], driven)
     loads = dead_load(parts, weights, scene.loads, "loads")
@@ -112,24 +112,6 @@ def _inertia(
     follow = [solid_following(p, nodes) for p, nodes in zip(parts, own, strict=True)]
     mass, following = (sp.csr_array(sp.block_diag(blocks, format="csr")) for blocks in (masses, follow))
     return mass, following
-
-
-def _row_sums(weight: sp.csr_array, timing: ImpactRule, parts: Sequence[DiscreteSolid], nodes: IntArray) -> Array:
-    """Row sums (n,) of the mass [kg].
-
-    Refuses contact ``nodes`` with a negative one for the rule Paper: their literal stop would gain energy.
-    """
-    weights = np.asarray(weight.sum(axis=1)).ravel()
-    for part in parts if isinstance(timing, Paper) else ():
-        own = weights[nodes[(nodes >= part.nodes.start) & (nodes < part.nodes.stop)]]
-        negative = int(np.count_nonzero(own < -1e-9 * weights.max()))
-        if negative:
-            problem = (
-                f"the rule Paper with {negative} contact nodes whose row of the consistent mass has a negative sum, "
-                f"corners of {', '.join(part.mesh.blocks)}"
-            )
-            raise InputError(f"bodies.{part.name}.mass", problem, "Lumped, or the timing Energy or Impulse")
-    return weights
 
 
 def _solids(scene: Scene) -> dict[str, Solid]:

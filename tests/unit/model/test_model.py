@@ -5,7 +5,7 @@ import pytest
 
 from softway.bodies.assembled.nodal_loads import dead_load
 from softway.bodies.elements.section import Bar, PlaneStrain
-from softway.bodies.inertia.mass_matrix import Lumped, nodal_mass
+from softway.bodies.inertia.mass_matrix import nodal_mass
 from softway.bodies.setup.initial_fields import Affine, Uniform
 from softway.bodies.setup.loads import Gravity, Traction
 from softway.bodies.solid import Fixed, Solid, Tool
@@ -181,17 +181,6 @@ def test_one_rule_in_a_scene() -> None:
         Contact(between=("b.bottom", "floor"), timing=Impulse()), Contact(between=("b.top", "floor"), timing=Energy())
     )  # fmt: skip
     assert "2 different timing rules" in refused(pair(contacts=contacts), "contacts").problem
-
-
-def test_the_literal_rule_refuses_contact_nodes_of_negative_mass() -> None:
-    """A corner of eight-node cells that stops would gain energy."""
-    mesh = rectangle((1.0, 1.0), (2, 2), cell="quad8")
-    contact = Contact(between=("b.bottom", "floor"), timing=Paper())
-    bodies = {"b": square(mesh=mesh), "floor": half_space()}
-    told = refused(Scene(bodies=bodies, contacts=(contact,)), "bodies.b.mass")
-    assert "3 contact nodes" in told.problem and "Lumped" in told.remedy
-    build(Scene(bodies={**bodies, "b": square(mesh=mesh, mass=Lumped())}, contacts=(contact,)))
-    build(Scene(bodies=bodies, contacts=(Contact(between=("b.bottom", "floor"), timing=Impulse()),)))
 
 
 def test_two_contacts_need_two_names() -> None:

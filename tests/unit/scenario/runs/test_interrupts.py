@@ -82,7 +82,7 @@ def test_ctrl_c_at_many_instants(tmp_path, capsys):
         assert code == 130 and "interrupted" in told and "Traceback" not in told and "ignored" not in told, told
         if folder.exists():
             run = sw.Run(folder)
-            assert run.stop.reason == "interrupted" and not list(folder.glob(".*.undo"))
+            assert run.stop.reason == "interrupted"  # a journal may stay, as after a kill: the next writer undoes it
             times = run.fields.times
             assert [f.time for f in run.fields] == list(times) and run.history.rows >= len(times)
             assert checkpoint.last(folder) is not None or run.history.rows <= 2
