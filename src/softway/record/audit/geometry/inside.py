@@ -61,25 +61,24 @@ def depths(cell: str, where: Array) -> Array:
     >>> depths("tri3", np.array([[0.25, 0.25]])).tolist()
     [[0.25, 0.5, 0.25]]
     """
-    nodes = CELLS[cell].nodes
-    inner = nodes[: CELLS[cell].corners].mean(axis=0)
-    out = np.empty((len(where), len(FACETS[cell])))
-    for k, (facet, local) in enumerate(FACETS[cell]):
-        corners = nodes[list(local)[: CELLS[facet].corners]]
-        origin, normal = corners[0], _normal(corners, inner)
-        out[:, k] = (where - origin) @ normal
-    return out
+    return np.stack([(where - origin) @ normal for origin, normal in _faces(cell)], axis=1)
 
 
 def slopes(cell: str, corners: Array, where: Array) -> Array:
     """Lengths (k, faces) of the gradients in space of the depths behind the faces [1/m]."""
     _, dN = tabulate(cell, where)
     jacobian = np.einsum("kad,kar->kdr", corners, dN)
-    nodes = CELLS[cell].nodes
-    inner = nodes[: CELLS[cell].corners].mean(axis=0)
-    normals = np.array([_normal(nodes[list(local)[: CELLS[facet].corners]], inner) for facet, local in FACETS[cell]])
+    normals = np.array([normal for _, normal in _faces(cell)])
     inverse = np.linalg.pinv(jacobian)
     return np.asarray(np.linalg.norm(np.einsum("fr,krd->kfd", normals, inverse), axis=2))
+
+
+def _faces(cell: str) -> list[tuple[Array, Array]]:
+    """Corner (r,) and inward normal (r,) of each face of a reference cell, in the order of ``FACETS``."""
+    nodes = CELLS[cell].nodes
+    inner = nodes[: CELLS[cell].corners].mean(axis=0)
+    corners = [nodes[list(local)[: CELLS[facet].corners]] for facet, local in FACETS[cell]]
+    return [(ends[0], _normal(ends, inner)) for ends in corners]
 
 
 def _normal(corners: Array, inner: Array) -> Array:

@@ -1,5 +1,6 @@
 """Overlap of deformable bodies, and of a body with itself, at nodes and between them."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -108,6 +109,10 @@ def overlaps(solids: Solids, x: Array) -> Inside:
     found = [_inside(solids, x, Points(ends=np.stack([nodes, nodes], axis=1), fraction=np.zeros(len(nodes))), meeting)]
     if solids.dim > 1:
         found.append(_inside(solids, x, _crossed(solids, x, window), meeting))
+    return _together(found)
+
+
+def _together(found: Sequence[Inside]) -> Inside:
     return Inside(
         ends=np.concatenate([f.ends for f in found]),
         place=np.concatenate([f.place for f in found]),
@@ -152,12 +157,7 @@ def _inside(solids: Solids, x: Array, points: Points, meeting: BoolArray) -> Ins
     for block in solids.blocks:
         which, cells, depth = _in_block(solids, block, x, points, place, meeting)
         found.append(Inside(ends=points.ends[which], place=place[which], body=block.body[cells], depth=depth))
-    return Inside(
-        ends=np.concatenate([f.ends for f in found]),
-        place=np.concatenate([f.place for f in found]),
-        body=np.concatenate([f.body for f in found]),
-        depth=np.concatenate([f.depth for f in found]),
-    )
+    return _together(found)
 
 
 def _in_block(
