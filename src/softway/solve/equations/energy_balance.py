@@ -25,6 +25,8 @@ BOUND = 0.5
 """Greatest scalar: with |a| <= 1/2 the mean force stays between those at the two ends."""
 WEIGHING = 2.0
 """Greatest scalar without inertia, where it only weights the works at the two ends."""
+AT_REST = 1e10
+"""Stored energy, relative to that of rounding errors, below which no work is missing: strains of 1e-9."""
 SLIGHT = 1e-2
 """Residual, relative to the work of the internal forces, that is closed along the motion if the scalar is bounded."""
 
@@ -84,7 +86,8 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
         if spin is not None:
             mean += spin.force(-spin.solve(spin.torque + a[g] * spin.slope))
     work = np.bincount(label, weights=model.space.totals(np.abs(ends.mean * moving)))
-    missing = np.where(np.abs(num) > rounding, np.abs(num) / np.maximum(work, 1e-300), 0.0)
+    strained = np.bincount(label, weights=np.abs(ends.V0) + np.abs(ends.V1)) > AT_REST * floor
+    missing = np.where((np.abs(num) > rounding) & strained, np.abs(num) / np.maximum(work, 1e-300), 0.0)
     rest = np.where((np.abs(wanted) > bound) | (excess > 0.0), num - a * den + excess, 0.0) * model.inert
     great = (np.abs(rest) > np.maximum(SLIGHT * work, TINY * level)) & (not fallback)
     for g in np.flatnonzero(np.where(great, 0.0, rest)).tolist():

@@ -14,13 +14,15 @@ from softway.bodies.internal_force.slab_average import (
 )
 from softway.bodies.setup.initial_fields import Affine, Profile, Uniform
 from softway.bodies.setup.loads import Gravity
-from softway.bodies.solid import Fixed
-from softway.laws.bulk import LinearElastic
+from softway.bodies.solid import Fixed, Solid, Tool
+from softway.laws.bulk import LinearElastic, NeoHookean
 from softway.march.march import march
 from softway.march.step_control import StepControl
+from softway.meshes.generators.recipes import Ring
 from softway.meshes.generators.shapes import interval, rectangle
 from softway.model.scene import Scene
 from softway.model.time_weight import Collocation, EndPeaks, Momentum, TimeWeight, amplification
+from softway.obstacles import HalfSpace
 
 WEIGHTS = [EndPeaks(), EndPeaks(theta=0.8), EndPeaks(theta=1.0), Momentum(), Collocation(), Collocation(at=(0.8,))]
 weights = pytest.mark.parametrize("weight", WEIGHTS, ids=str)
@@ -169,3 +171,18 @@ def test_bodies_do_not_feel_each_other(shop) -> None:
         alone = shop.move(solid, until=1.0, step=0.1).last
         np.testing.assert_allclose(both.after.velocity[name], alone.after.velocity["body"], atol=1e-11)
     assert both.report.scalars.keys() == {"a", "b"}
+
+
+def test_rounding_errors_shorten_no_slab_of_a_body_that_flies_unstrained(shop) -> None:
+    """Its forces are rounding errors, and so is the scalar that closes their work."""
+    ring = Solid(
+        mesh=Ring(inner=0.026, outer=0.03, cells=(2, 12)),
+        material=NeoHookean(E=1e8, nu=0.4),
+        density=1100.0,
+        velocity=Uniform(value=(3.0, -1.0)),
+        force=EnergyMomentum(),
+    )
+    far = Tool(shape=HalfSpace(point=(1.0, 0.0), normal=(-1.0, 0.0)))
+    flight = shop.move(ring, {"wall": far}, tag="outer", until=4e-3, step=1e-4)
+    assert max(abs(s.report.scalars["body"]) for s in flight.steps) > StepControl().scalar
+    assert len(flight.steps) == 40
