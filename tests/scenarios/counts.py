@@ -1,0 +1,75 @@
+"""Slabs, iterations and rejections of the scenarios: what they cost, but for the time of an iteration.
+
+    python tests/scenarios/counts.py
+
+counts all of them again and writes ``counts.json``.
+"""
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+from softway.march.march import march
+from softway.scenario.checks.check import check
+from softway.scenario.scenario import Scenario
+from variants import VARIANTS, small, whole
+
+FILE = Path(__file__).with_name("counts.json")
+CHEAP = (
+    "ball_impact",
+    "beam_swing",
+    "block_on_sphere",
+    "bracket_drop",
+    "paper_bar",
+    "paper_bar_fixed",
+    "ring_test",
+    "stamp_on_pad",
+)
+"""Scenarios that take less than five seconds as they are shipped."""
+KINDS = {"small": (small, tuple(sorted(VARIANTS))), "whole": (whole, CHEAP)}
+"""Small variants and shipped scenarios: how to get one by its name, and the names."""
+
+
+def counted(scenario: Scenario) -> dict[str, int]:
+    """Number of slabs, of iterations in accepted slabs, of calls between iterations in all attempts, and of rejections.
+
+    A march asks between iterations if it is cancelled, also in attempts that are rejected.
+    """
+    checked = check(scenario)
+    given, calls = checked.scenario, []
+
+    def going_on() -> bool:
+        calls.append(None)
+        return False
+
+    time = given.time
+    steps = [
+        (step.report.iterations, len(step.report.rejections))
+        for step in march(
+            checked.model,
+            until=time.end,
+            step=checked.step,
+            weight=time.weight,
+            method=given.solver,
+            control=time.control,
+            cancel=going_on,
+        )
+    ]
+    iterations, rejections = (sum(column) for column in zip(*steps, strict=True))
+    return {"slabs": len(steps), "iterations": iterations, "calls": len(calls), "rejections": rejections}
+
+
+def stored() -> Mapping[str, Mapping[str, Mapping[str, int]]]:
+    """Stored numbers by kind and name."""
+    found: Mapping[str, Mapping[str, Mapping[str, int]]] = json.loads(FILE.read_text(encoding="utf-8"))
+    return found
+
+
+def main() -> None:
+    """Count again and store the numbers."""
+    found = {kind: {name: counted(get(name)) for name in names} for kind, (get, names) in KINDS.items()}
+    FILE.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,111 @@
+"""Every scenario ten times with its nodes moved a little: it ends in the same way, with the same contact."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import softway as sw
+from jitter import jittered
+from softway.contact.impact_rule import Energy
+from softway.scenario.scenario import Scenario
+from softway.tolerances import ENERGY
+from variants import SCENARIOS, VARIANTS, small, whole
+
+pytestmark = pytest.mark.slow
+
+SEEDS = range(5)
+RARELY = "output.fields_every=1 h"
+"""Frames at the start and the end only."""
+TOUCHES = {1e-6: 0, 1e-2: 2}
+"""Greatest difference of the numbers of touches and of releases, by the size of the movements in cells."""
+FIRST = {1e-6: 1e-3, 1e-2: 0.5}
+"""Greatest difference of the instant of the first touch, in slabs."""
+IMPULSE = {1e-6: 1e-4, 1e-2: 0.05}
+"""Greatest difference of the impulse of a contact, relative to it."""
+BALANCE = 10.0 * ENERGY
+"""Greatest error of the energy balance of a run, relative to its energies: what ten slabs may miss together."""
+
+
+def ended(scenario: Scenario, folder: Path) -> sw.Run:
+    """Run of a scenario, also one that stopped early."""
+    try:
+        return sw.run(scenario, folder)
+    except sw.NumericsError:
+        return sw.Run(folder)
+
+
+@pytest.fixture(scope="module", params=sorted(VARIANTS))
+def name(request) -> str:
+    return str(request.param)
+
+
+@pytest.fixture(scope="module")
+def given(name) -> Scenario:
+    return small(name, RARELY)
+
+
+@pytest.fixture(scope="module")
+def still(name, given, tmp_path_factory) -> sw.Run:
+    """Run of a variant whose nodes are where they are."""
+    return ended(given, tmp_path_factory.mktemp(name) / "run")
+
+
+@pytest.mark.parametrize("size", [1e-6, 1e-2])
+@pytest.mark.parametrize("seed", SEEDS)
+def test_moved_nodes_change_little(name, given, size, seed, still, tmp_path):
+    moved = ended(jittered(given, size, seed, VARIANTS[name].held), tmp_path / "run")
+    assert (moved.status, moved.stop.message) == (still.status, still.stop.message)
+    assert_energy(given, moved, still)
+    found, expected = moved.summary["contacts"], still.summary["contacts"]
+    assert found.keys() == expected.keys()
+    for label in expected:
+        assert_contact(found[label], expected[label], size, float(still.history["h"].max()))
+
+
+def assert_energy(given: Scenario, moved: sw.Run, still: sw.Run) -> None:
+    """The energy balance closes; with ``Impulse`` and ``Paper`` it may lose energy, at most twice as much as before."""
+    history = moved.history
+    taking_part = history["energy_kinetic"] + history["energy_strain"] + np.abs(history["work_external"])
+    tolerance = BALANCE * float(taking_part.max())
+    lost = 0.0
+    if not all(isinstance(contact.timing, Energy) for contact in given.contacts):
+        lost = 2.0 * float(np.abs(still.history["energy_error"]).max())
+    assert history["energy_error"].max() <= tolerance
+    assert history["energy_error"].min() >= -tolerance - lost
+
+
+def assert_contact(found: Mapping[str, Any], expected: Mapping[str, Any], size: float, slab: float) -> None:
+    """Touches, releases, first touch and impulse of a contact are the same up to the tolerances."""
+    assert found["touches"] == pytest.approx(expected["touches"], abs=TOUCHES[size])
+    assert found["releases"] == pytest.approx(expected["releases"], abs=TOUCHES[size])
+    assert found["impulse"] == pytest.approx(expected["impulse"], rel=IMPULSE[size])
+    if expected["first_touch"] is None:
+        assert found["first_touch"] is None
+    else:
+        assert found["first_touch"] == pytest.approx(expected["first_touch"], abs=FIRST[size] * slab)
+
+
+def test_every_scenario_has_a_variant_that_touches_as_it_does():
+    assert VARIANTS.keys() == {file.stem for file in SCENARIOS.glob("*.toml")}
+    for name, variant in VARIANTS.items():
+        shipped, given = whole(name), small(name)
+        assert len(variant.same) > 40 and given.time.end <= shipped.time.end, name
+        assert given.contacts == shipped.contacts or "contacts" in variant.changes[0], name
+        assert [type(body) for body in given.bodies.values()] == [type(body) for body in shipped.bodies.values()], name
+
+
+def test_jitter_moves_all_nodes_but_those_that_are_held(name, given):
+    held = VARIANTS[name].held
+    moved = jittered(given, 1e-2, 0, held)
+    for body, solid in given.bodies.items():
+        if not isinstance(solid, sw.Solid):
+            continue
+        mesh = solid.mesh.build()
+        change = np.abs(moved.bodies[body].mesh.points - mesh.points) / mesh.edges()[:, None]
+        stays = np.zeros(change.shape, dtype=bool)
+        for tag, components in held.get(body, {}).items():
+            stays[np.ix_(mesh.nodes(tag), components)] = True
+        assert (change[stays] == 0.0).all() and (change[~stays] > 0.0).all() and 0.005 < change.max() <= 0.01 + 1e-9

@@ -1,0 +1,140 @@
+"""Small variants of the shipped scenarios: the same file with a few keys set, each run in about a second."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from softway.scenario.files import load
+from softway.scenario.scenario import Scenario
+
+SCENARIOS = Path(__file__).parents[2] / "scenarios"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Variant:
+    """Small variant of a scenario.
+
+    Parameters
+    ----------
+    changes
+        Changes of the form ``path=value``, as for ``--set``.
+    same
+        Reason why it is still about the same physics.
+    held
+        Body -> tag -> indices of the components that jitter leaves alone.
+    """
+
+    changes: tuple[str, ...]
+    same: str
+    held: Mapping[str, Mapping[str, tuple[int, ...]]] = field(default_factory=dict)
+
+
+VARIANTS: Mapping[str, Variant] = {
+    "ball_impact": Variant(
+        changes=("bodies.ball.mesh.cells=4", "time.end=3 s", "time.step=0.1 s"),
+        same="the ball is flattened and leaves the plane at 2.9 s; only the mesh is coarse",
+    ),
+    "bar_through_die": Variant(
+        changes=(
+            'bodies.bar.mesh.size=["40 mm", "10 mm"]',
+            'bodies.bar.mesh.origin=["-47 mm", "0 mm"]',
+            "bodies.bar.mesh.cells=[20, 4]",
+            'bodies.die.shape.centre=["0 mm", "15 mm"]',
+            "bodies.die.shape.radius=8 mm",
+            "time.end=7.3 ms",
+        ),
+        same="same cells, throat and drive; half of the bar starts nearer to shorter lips, which squeeze it as much: "
+        "nodes enter the throat, and the first one leaves it",
+        held={"bar": {"bottom": (1,), "left": (0,)}},  # plane of symmetry, driven side
+    ),
+    "beam_on_cylinder": Variant(
+        changes=(
+            "bodies.beam.mesh.cells=[16, 2]",
+            "bodies.cover.mesh.cells=[1, 18]",
+            "time.end=1.5 ms",
+            "time.step=0.1 ms",
+        ),
+        same="the beam slaps onto the roller flat, lifts off, and the wave that returns presses it down again",
+    ),
+    "beam_swing": Variant(
+        changes=("bodies.beam.mesh.cells=[20, 1, 1]", "time.end=60 s", "time.step=4 s"),
+        same="the beam swings to one side and back; its angle is as large",
+        held={"beam": {"left": (0,)}},  # clamped side
+    ),
+    "block_on_sphere": Variant(
+        changes=("bodies.block.mesh.cells=[3, 3, 3]", "time.end=2.8 ms", "time.step=80 us"),
+        same="the block hits the ball off-centre, turns, and its last node leaves the ball at 2.6 ms",
+    ),
+    "bouncing_bar": Variant(
+        changes=("bodies.bar.mesh.cells=10", "time.end=1.8 s"),
+        same="the bar falls from rest and bounces once: touch at 1 s, release after 2 L / c = 2/3 s",
+    ),
+    "bracket_drop": Variant(
+        changes=("time.end=64 us", "time.step=4 us"),
+        same="same mesh; the corner lands, the impact runs along the edge, and the corner leaves the floor again",
+        held={"bracket": {"base": (0, 2)}},  # the straight edge that lands: its nodes lie 40 um above each other
+    ),
+    "cam_follower": Variant(
+        changes=("time.end=1.25 ms",),
+        same="same mesh and slabs; the rod rides on the cam and leaves it before the top; only the flight is left out",
+        held={"rod": {"tip": (0, 1), "guide": (0,)}},  # contact that starts closed, guide
+    ),
+    "oblique_blocks": Variant(
+        changes=(
+            'contacts[0].between=["thrown.bottom", "still.top"]',
+            "bodies.still.mesh.cells=[2, 2, 2]",
+            "bodies.thrown.mesh.cells=[2, 2, 2]",
+            "time.end=2.1 ms",
+            "time.step=0.15 ms",
+        ),
+        same="the lower edge of the tilted block hits the upper face of the other, and leaves it at 1.6 ms; the sides, "
+        "which do not meet, carry the mass",
+    ),
+    "paper_bar": Variant(
+        changes=("time.end=3 s", "time.step=0.05 s"),
+        same="touch at 0.3 s, release after 2.3 s; longer slabs only",
+    ),
+    "paper_bar_fixed": Variant(
+        changes=("time.end=3 s", "time.step=0.05 s"),
+        same="the held bar meets its stop and leaves it; longer slabs only",
+    ),
+    "ring_in_ring": Variant(
+        changes=(
+            "bodies.small.mesh.cells=[2, 24]",
+            "bodies.large.mesh.cells=[2, 32]",
+            "time.end=3.4 ms",
+            "time.step=0.1 ms",
+        ),
+        same="the small ring flies and hits the large one; nodes touch and let go, and both rings begin to bend",
+    ),
+    "ring_test": Variant(
+        changes=("bodies.ring.mesh.cells=[6, 3]", "time.end=0.1 s"),
+        same="same platen, friction and slabs; a third of the way down",
+        held={"ring": {"bottom": (1,), "top": (1,)}},  # plane of symmetry, contact that starts flush
+    ),
+    "stamp_on_pad": Variant(
+        changes=(
+            "bodies.pad.mesh.cells=[5, 5, 2]",
+            'bodies.stamp.motion.times=["0 ms", "2 ms", "4 ms"]',
+            "time.end=4 ms",
+            "time.step=0.25 ms",
+        ),
+        same="the same way of the stamp, pressed and lifted, in less time and into fewer cells",
+    ),
+}
+"""Variant of every scenario, by the name of its file."""
+
+
+def names() -> list[str]:
+    """Names of the shipped scenarios."""
+    return sorted(file.stem for file in SCENARIOS.glob("*.toml"))
+
+
+def whole(name: str) -> Scenario:
+    """Scenario as it is shipped."""
+    return load(SCENARIOS / f"{name}.toml")
+
+
+def small(name: str, *more: str) -> Scenario:
+    """Small variant of a scenario, with ``more`` changes."""
+    return load(SCENARIOS / f"{name}.toml", (*VARIANTS[name].changes, *more))
