@@ -177,6 +177,7 @@ def _opening(checked: Checked) -> RunStart:
         audit=given.output.audit,
         balances=partial(balances, model),
         pushed=partial(contact_forces, model),
+        rounding=float(model.floor.sum()),
     )
 
 

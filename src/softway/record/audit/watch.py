@@ -88,7 +88,7 @@ class Watcher:
         gained = step.ledger.dissipation - self._dissipation
         self._dissipation = step.ledger.dissipation
         self._energy = max(self._energy, step.ledger.energy_kinetic + step.ledger.energy_strain)
-        if gained < -GIVEN_BACK * (self._energy + abs(self._dissipation)):
+        if gained < -GIVEN_BACK * (self._energy + abs(self._dissipation)) - self.opening.rounding:
             text = f"friction and material gave {-gained:.3g} J back in the slab of {step.slab.span:.3g} s"
             yield finding(step.after.time, DISSIPATION, ("all",), text)
 
@@ -96,7 +96,7 @@ class Watcher:
         """Findings on balances that miss, and on energies and momenta that do not agree with the fields."""
         ledger, time = step.ledger, step.after.time
         scale = self._energy + abs(ledger.work_external)
-        if abs(ledger.energy_error) > MISSED * scale:
+        if abs(ledger.energy_error) > MISSED * scale + self.opening.rounding:
             text = f"the energy balance misses {ledger.energy_error:.3g} J of {scale:.3g} J since the start"
             yield finding(time, ENERGY, ("all",), text)
         if self.opening.balances is None:
@@ -107,7 +107,7 @@ class Watcher:
             "strain": (again.strain, ledger.energy_strain),
         }
         for name, (found, given) in pairs.items():
-            if not abs(found - given) <= AGREED * scale:
+            if not abs(found - given) <= AGREED * scale + self.opening.rounding:
                 text = f"the {name} energy of the fields is {found:.9g} J, that of the ledger {given:.9g} J"
                 yield finding(time, ENERGY, ("all",), text)
         missed = float(np.abs(again.momentum - ledger.momentum).max())

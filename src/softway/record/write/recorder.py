@@ -49,6 +49,8 @@ class RunStart:
         Function from a state to its balances, computed again from its fields.
     pushed
         Function from a step to the contact forces that the change of momentum of each body needs.
+    rounding
+        Energy of strains that are rounding errors [J].
     """
 
     scene: Scene
@@ -66,6 +68,7 @@ class RunStart:
     audit: bool = False
     balances: Callable[[State], Balances] | None = None
     pushed: Callable[[Step], Mapping[str, Pushed]] | None = None
+    rounding: float = 0.0
 
     def frame_due(self, before: float, after: float) -> bool:
         """True if a slab between two times [s] passes an instant at which a frame is stored, or reaches the end."""

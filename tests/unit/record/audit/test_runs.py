@@ -210,3 +210,25 @@ def test_the_walls_of_a_hollow_ball_pass_through_each_other(tmp_path: Path) -> N
     found = {one["kind"]: one for one in run.summary["findings"]}
     assert found["overlap"]["between"] == "ball-ball"
     assert 4.0e-3 < found["overlap"]["first"] < 5.4e-3 and found["overlap"]["depth"] > 1e-4
+
+
+def test_a_body_at_rest_has_no_finding(tmp_path: Path) -> None:
+    """Its energies are rounding errors of strains of 1e-15: those of the fields and of the ledger differ by 5 %."""
+    text = """
+title = "Block at rest, far from a floor"
+solver = { kind = "Explicit" }
+[bodies.block]
+kind = "Solid"
+mesh = { kind = "Rectangle", size = [0.02, 0.02], cells = [4, 4] }
+material = { library = "steel S235", law = "plastic" }
+dilatation = "mean"
+[bodies.floor]
+kind = "Tool"
+shape = { kind = "HalfSpace", point = [0, -1], normal = [0, 1] }
+[[contacts]]
+between = ["block.bottom", "floor"]
+[time]
+end = "5 us"
+"""
+    done = sw.run(loads(text), tmp_path / "run")
+    assert done.status == "done" and done.history["energy_strain"][-1] < 1e-20
