@@ -155,9 +155,10 @@ def _bending_note(solid: Solid, section: Section, fixed: BoolArray, *, incompres
         return ()
     wrong, name, length, thickness, count = worst
     kind = "stiff" if wrong > 0.0 else "soft"
+    amount = f"about {abs(wrong):.0%}" if wrong < 2.0 else f"{wrong + 1.0:.2g} times"
     problem = (
         f"{count} {'layer' if count == 1 else 'layers'} of {name} of the length {length:.3g} m in a thickness of "
-        f"{thickness:.3g} m: where the body bends, it is about {abs(wrong):.0%} too {kind}"
+        f"{thickness:.3g} m: where the body bends, it is {amount} too {kind}"
     )
     quadratic = {"quad4": "quad9", "hex8": "hex27"}[name]
     dilatation = f' and dilatation = "{"corner" if incompressible or solid.dilatation != "point" else "point"}"'

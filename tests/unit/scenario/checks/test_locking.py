@@ -147,6 +147,11 @@ def test_slender_body_is_noted_with_the_error_of_its_stiffness(cells: tuple[int,
     assert float(number) / 100.0 == pytest.approx(abs(error), rel=0.15)
 
 
+def test_a_great_error_is_a_multiple() -> None:
+    (note,) = notes(beam((1, 1), dilatation="point"))
+    assert "times too stiff" in note and "%" not in note
+
+
 def test_error_in_plane_stress() -> None:
     thin = sw.bodies.PlaneStress()
     (note,) = notes(beam((10, 1), section=thin))
