@@ -56,10 +56,11 @@ class AcceptedSlab:
 def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory: OperatorMemory) -> AcceptedSlab:
     """Find the next accepted slab, with cutbacks of its length to one half.
 
-    A slab that fails with an old operator is first tried again with a new one.  If the scalar cannot close the energy
-    balance at half the length either, it is closed along the motion, also in the following slabs.  A slab inside which
-    a body comes to rest is tried again with its end at that instant; the slab after it is damped.  ``memory`` is that
-    of the march state, with its operator if available.
+    A slab that fails with an old operator is first tried again with a new one, and one in which Newton's method does
+    not converge by the fixed point.  If the scalar cannot close the energy balance at half the length either, it is
+    closed along the motion, also in the following slabs.  A slab inside which a body comes to rest is tried again with
+    its end at that instant; the slab after it is damped.  ``memory`` is that of the march state, with its operator if
+    available.
 
     Raises
     ------
@@ -72,7 +73,7 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
     reasons: list[str] = []
     halted = False
     unbalanced = PATIENCE if history.energy_along_motion else 0
-    fresh = memory.origin is None
+    fresh, first = memory.origin is None, stepper
     while length > least and not (crawls and reasons):
         heed(stepper.cancel, now.time)
         end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
@@ -95,7 +96,10 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
             reasons.append(f"h = {slab.span:.3g} s: {failure}")
         except NoConvergence as failure:
             reasons.append(f"h = {slab.span:.3g} s: {failure}")
-            length = 0.5 * length if fresh else length
+            if stepper is first and first.second is not None:
+                stepper = replace(first, rule=first.second)
+            else:
+                length, stepper = 0.5 * length if fresh else length, first
             fresh, memory = True, memory.failed()
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
     reason = _reason(march_state, reasons, crawls) + _touching(stepper.model, now)
@@ -152,7 +156,7 @@ def _remedy(stepper: Stepper, march_state: MarchState) -> str:
     short = not stepper.model.inert and march_state.step_history.span < SHORT * usual
     found = [f"a longer step, such as {usual:.3g} s" if short else "a smaller step"]
     found.append("a finer mesh where the cells are crushed")
-    if isinstance(stepper.method, Newton):
+    if isinstance(stepper.method, Newton) and not stepper.method.handover:
         found.append("the method FixedPoint, which converges more often than Newton alone")
     if stepper.model.contacts.overlap_methods:  # mean gaps
         found.append("the method NodeToSurface for coarse facets in contact")

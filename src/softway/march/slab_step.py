@@ -15,6 +15,8 @@ from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import TimeWeight
 from softway.solve.equations.slab_values import SlabStart
+from softway.solve.methods.fixed_point import FixedPoint
+from softway.solve.methods.newton import Newton
 from softway.solve.operators.operator_memory import OperatorMemory
 
 
@@ -22,11 +24,14 @@ from softway.solve.operators.operator_memory import OperatorMemory
 class Stepper:
     """Model with its contact rule, prepared for a march by a method; ``cancel`` may cancel the march, ``trying`` is
     called after every iterate.
+
+    ``second`` is the rule for slabs in which the method does not converge; by default they are shortened.
     """
 
     model: Model
     method: Method
     rule: SlabRule
+    second: SlabRule | None = None
     cancel: Cancel | None = None
     trying: TryWatch | None = None
 
@@ -41,7 +46,10 @@ def stepper(
     InputError
         If the contact rule does not fit the material, the method or the time weight.
     """
-    return Stepper(model=model, method=method, rule=slab_rule(model, method, weight), cancel=cancel, trying=trying)
+    rule, second = slab_rule(model, method, weight), None
+    if isinstance(method, Newton) and method.handover:
+        second = slab_rule(model, FixedPoint(tolerance=method.tolerance), weight)
+    return Stepper(model=model, method=method, rule=rule, second=second, cancel=cancel, trying=trying)
 
 
 def advance(

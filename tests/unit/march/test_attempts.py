@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
+import numpy as np
 import pytest
 
 import softway as sw
@@ -113,12 +114,33 @@ def test_a_march_that_crawls_ends_when_its_patience_is_used_up() -> None:
         going_on(patience + 0.25)
 
 
-@pytest.mark.parametrize(("method", "named"), [(sw.Newton(), True), (sw.FixedPoint(), False)], ids=["newton", "fixed"])
+ALONE = sw.Newton(handover=False)
+
+
+@pytest.mark.parametrize(("method", "named"), [(ALONE, True), (sw.FixedPoint(), False)], ids=["newton", "fixed"])
 def test_the_fixed_point_is_a_remedy_where_newton_alone_fails(method: Method, named: bool) -> None:
     rule = Failing(failure=lambda k: NoConvergence("always"))
     with pytest.raises(sw.NumericsError, match="after 5 cutbacks; last: h = 0.00781 s: always") as failed:
         flight(rule, method=method, control=sw.StepControl(least=0.05))
     assert ("FixedPoint" in failed.value.remedy) == named
+
+
+def test_the_fixed_point_takes_over_a_slab_in_which_newton_fails() -> None:
+    """One iteration of Newton is never enough for a law that is not linear: alone, it is left without a slab."""
+    block = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(2, 2)),
+        material=sw.NeoHookean(E=1.0, nu=0.3),
+        density=1.0,
+        velocity=sw.bodies.Affine(gradient=((0.1, 0.2), (0.0, -0.1))),
+    )
+    scene = sw.Scene(bodies={"block": block})
+    few = sw.Newton(limit=1)
+    steps = list(sw.march(scene, until=0.5, step=0.1, method=few))
+    assert [(len(s.report.rejections), round(s.slab.span, 12)) for s in steps] == [(1, 0.1)] * 5
+    for step, other in zip(steps, sw.march(scene, until=0.5, step=0.1), strict=True):
+        np.testing.assert_allclose(step.after.velocity["block"], other.after.velocity["block"], rtol=0, atol=1e-12)
+    with pytest.raises(sw.NumericsError, match="1 iterations leave"):
+        list(sw.march(scene, until=0.5, step=0.1, method=replace(few, handover=False)))
 
 
 def test_every_iterate_of_every_attempt_is_told() -> None:

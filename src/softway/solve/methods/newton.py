@@ -46,6 +46,8 @@ class Newton:
         Renewal of the operator: at every ``iterate``, or at the first one of a ``slab`` (modified Newton method).
     operator
         Settings of the factor.
+    handover
+        True if the fixed point tries a slab in which these iterates do not converge, before it is shortened.
 
     References
     ----------
@@ -61,6 +63,7 @@ class Newton:
     limit: int = 40
     renew: Literal["iterate", "slab"] = "iterate"
     operator: Factored = Factored(precision="double")
+    handover: bool = True
 
     def __post_init__(self) -> None:
         check_accuracy(self.tolerance, self.limit)

@@ -42,8 +42,8 @@ def entrants(tolerance: float = 1e-11) -> dict[str, Entrant]:
     return {
         "plain": FixedPoint(depth=0, handover=False, tolerance=tolerance),
         "accelerated": FixedPoint(tolerance=tolerance),
-        "modified": Newton(renew="slab", tolerance=tolerance),
-        "newton": Newton(tolerance=tolerance),
+        "modified": Newton(renew="slab", handover=False, tolerance=tolerance),
+        "newton": Newton(handover=False, tolerance=tolerance),
         "penalty": Penalty(tolerance=tolerance),
     }
 

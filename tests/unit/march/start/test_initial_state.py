@@ -266,7 +266,7 @@ def test_a_state_of_another_scene_is_refused(shop) -> None:
     refused(lambda: march(scene(shop, shop.block(), floor, "surface"), until=1.0, step=0.1, state=state))
 
 
-@pytest.mark.parametrize("method", [Newton(limit=1), FixedPoint(limit=1)], ids=["Newton", "FixedPoint"])
+@pytest.mark.parametrize("method", [Newton(limit=1, handover=False), FixedPoint(limit=1)], ids=["Newton", "FixedPoint"])
 def test_a_stop_names_what_may_help(shop, method: Newton | FixedPoint) -> None:
     """One iteration is too few; who has chosen Newton alone is told of the fixed point."""
     with pytest.raises(NumericsError) as stopped:
@@ -288,7 +288,7 @@ def test_a_stop_without_inertia_advises_a_longer_step_where_slabs_are_too_short(
     usual = next(march(pressed, until=1.0)).slab.span
     assert usual == pytest.approx(1.0 / 20.0)
     with pytest.raises(NumericsError) as stopped:
-        list(march(pressed, until=1.0, step=share * usual, method=Newton(limit=1)))
+        list(march(pressed, until=1.0, step=share * usual, method=Newton(limit=1, handover=False)))
     longer = f"a longer step, such as {usual:.3g} s"
     assert ("a smaller step" in stopped.value.remedy, longer in stopped.value.remedy) == (share == 1.0, share < 1.0)
 
