@@ -11,8 +11,8 @@ def check_accuracy(tolerance: float, limit: int) -> None:
     >>> check_accuracy(1e-11, 60)
     """
     real(tolerance, "tolerance")
-    if not 0.0 < tolerance < 1e-2:
-        raise InputError("tolerance", f"{tolerance:g}", "a number between 1e-14 and 1e-2")
+    if not 0.0 < tolerance <= 1e-2:
+        raise InputError("tolerance", f"{tolerance:g}", "a number above 0, at most 1e-2; 1e-11 is usual")
     if limit < 1:
         raise InputError("limit", f"{limit} iterations", "at least 1")
 

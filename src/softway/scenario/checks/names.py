@@ -1,11 +1,9 @@
 """Checks of the references in a scenario: bodies, tags, components, dimensions."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from math import isfinite
 
-import numpy as np
-
-from softway.arrays import Array, BoolArray
+from softway.arrays import BoolArray
 from softway.bodies.discretised import free_components
 from softway.bodies.elements.section import check_section
 from softway.bodies.setup.initial_fields import components, sample
@@ -56,14 +54,6 @@ def check_contact(bodies: Mapping[str, Solid | Tool], contact: Contact, where: s
         if isinstance(body, Solid):
             with within(f"{where}.between"):
                 mesh_of(body).nodes(tag)
-
-
-def entries(value: Iterable[float] | float, dim: int, where: str) -> Array:
-    """Convert a value to a vector (d,), and refuse another number of entries."""
-    vector = np.atleast_1d(np.asarray(value, float))
-    if vector.shape != (dim,):
-        raise InputError(where, f"{vector.tolist()} has {vector.size} entries in {dim}D", f"{dim} numbers")
-    return vector
 
 
 def check_density(density: float, where: str) -> None:

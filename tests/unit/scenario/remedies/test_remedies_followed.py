@@ -1,0 +1,120 @@
+"""Every remedy of a refusal is tried: following it leads to a scenario that is right, or to a different message.
+
+A refusal that no table tries, and that has no reason not to be tried here, fails the last test.
+"""
+
+import ast
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+import remedy_files
+import table_bodies
+import table_contacts
+import table_laws
+import table_meshes
+import table_obstacles
+import table_python
+import table_text
+import table_time
+from try_it import Call, Try, refusal, sites
+
+import softway
+from softway.errors import InputError
+
+TABLES: tuple[ModuleType, ...] = (
+    table_bodies,
+    table_contacts,
+    table_laws,
+    table_meshes,
+    table_obstacles,
+    table_python,
+    table_text,
+    table_time,
+)
+CASES: Mapping[str, Try | Call] = {
+    f"{module.__name__}: {name}": case for module in TABLES for name, case in module.TABLE.items()
+}
+PARTS = ("bodies", "contact", "laws", "march", "meshes", "model", "obstacles", "scenario", "solve")
+MODULES = ("errors.py", "record/write/probes.py", "record/storage/checkpoint.py")
+INNER = "called inside only, after the check of what the user has given"
+REASONS = {
+    "bodies/inertia/mass_matrix.py: body_of": INNER,
+    "bodies/inertia/mass_matrix.py: condensation": INNER,
+    "bodies/inertia/mass_redistribution.py: redistribute_mass": INNER,
+    "bodies/internal_force/inelastic/inelastic_force.py: inelastic_force": "a mesh admits no plates in space",
+    "contact/mortar/linear_surface.py: linear_surface": INNER,
+    "contact/surfaces/boundary.py: __post_init__": INNER,
+    "march/march_state.py: fitting": "a state of another scene, from Python",
+    "march/model_state.py: join_states": "a state of another scene, from Python",
+    "march/rules/slab_rule.py: require_nodal": "unknowns from Python: tests/contracts/test_own_dofs.py",
+    "march/rules/slab_rule.py: require_motion_alone": "companion fields from Python",
+    "march/start/stored_state.py: _require": "damaged checkpoints",
+    "meshes/files/abaqus/lexer.py: _lines": "millions of lines: tests/unit/meshes/files/abaqus/test_lexer.py",
+    "meshes/files/abaqus/lexer.py: _admit": "many files: tests/unit/meshes/files/abaqus/test_lexer.py",
+    "model/build.py: with_dofs": "unknowns from Python: tests/contracts/test_own_dofs.py",
+    "model/build.py: with_field": "companion fields from Python",
+    "scenario/files.py: load": "millions of characters",
+    "scenario/run.py: stored": "run folders: tests/unit/scenario/runs/test_resume.py",
+    "scenario/text/reader.py: _scalar": "a type that no key of a scenario has",
+    "solve/linear/pattern.py: require": INNER,
+    "solve/operators/multigrid.py: require": "a library that is installed here",
+}
+"""Functions whose refusals are not all tried here."""
+Tried = Mapping[str, tuple[InputError | None, InputError | None]]
+
+
+@pytest.fixture(scope="module")
+def tried(tmp_path_factory: pytest.TempPathFactory) -> Tried:
+    """First refusal of each case, and what follows its remedy."""
+    folder = tmp_path_factory.mktemp("remedies")
+    remedy_files.write(folder)
+    return {
+        name: (refusal(lambda case=case: case.begin(folder)), refusal(lambda case=case: case.go_on(folder)))
+        for name, case in CASES.items()
+    }
+
+
+def wrong(case: Try | Call, first: InputError | None, after: InputError | None) -> str:
+    """Description of a remedy that does not lead on; empty for one that does."""
+    if first is None:
+        return "is not refused"
+    if not first.remedy or case.remedy not in first.remedy:
+        return f"has another remedy: {first}"
+    if after is not None and (after.problem == first.problem or not case.then):
+        return f"is not mended: {first}\n  then {after}"
+    return "" if case.then in str(after or "") else f"has another message after {first}\n  {after}"
+
+
+def test_a_remedy_that_is_followed_leads_on(tried: Tried) -> None:
+    found = {name: wrong(CASES[name], *errors) for name, errors in tried.items()}
+    assert not any(found.values()), "\n".join(f"{name} {text}" for name, text in found.items() if text)
+
+
+def raised(file: Path) -> Iterator[tuple[str, range]]:
+    """Function and lines of every refusal with a remedy that a module raises."""
+    tree = ast.parse(file.read_text(encoding="utf-8"))
+    for function in (n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef)):
+        for node in (n for n in ast.walk(function) if isinstance(n, ast.Raise) and n.exc is not None):
+            calls = (n for n in ast.walk(node.exc) if isinstance(n, ast.Call) and len(n.args) > 2)
+            if any(isinstance(n.func, ast.Name) and n.func.id == "InputError" for n in calls):
+                yield function.name, range(node.lineno, (node.end_lineno or node.lineno) + 1)
+
+
+def test_every_refusal_is_tried_or_has_a_reason(tried: Tried) -> None:
+    seen = set().union(*(sites(first) for first, _ in tried.values()))
+    package = Path(softway.__file__).parent
+    files = [
+        *(package / name for name in MODULES),
+        *(f for part in PARTS for f in sorted((package / part).rglob("*.py"))),
+    ]
+    left = {
+        f"{name}: {function}": lines.start
+        for file in files
+        for name in [file.relative_to(package).as_posix()]
+        for function, lines in raised(file)
+        if not any((name, line) in seen for line in lines)
+    }
+    assert not (missing := left.keys() - REASONS.keys()), sorted(f"{name}, line {left[name]}" for name in missing)
+    assert not (idle := REASONS.keys() - left.keys()), sorted(idle)
