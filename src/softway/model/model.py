@@ -12,6 +12,7 @@ from softway.bodies.assembled.nodal_loads import DeadLoads
 from softway.bodies.assembled.vector_space import VectorSpace
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.dof_map import DofMap, MatrixSum
+from softway.bodies.elements.section import wave_speed
 from softway.bodies.internal_force.material_state import MaterialState
 from softway.bodies.solid import Driven
 from softway.contact.contact_rows import ContactRows
@@ -129,6 +130,11 @@ class Model:
     def rows(self, u: Array, time: float = 0.0) -> ContactRows:
         """Contact rows of the bodies at rest at the displacement ``u`` (n, d)."""
         return self.contacts.rest(u, time).at(u)
+
+    def wave_speed(self, part: DiscreteSolid) -> float:
+        """Speed of the fastest wave in a solid with its scaled masses [m/s]; that of full inertia without inertia."""
+        density = part.density * (self.scene.inertia.factor if self.inert else 1.0)
+        return wave_speed(part.internal.material, density, part.internal.section)
 
     def prescribed(self, time: float) -> Array:
         """Velocity (n, d) of the driven components at a time [m/s]; zero on all others."""

@@ -44,7 +44,8 @@ class Off:
 class Scaled:
     """Inertia times a factor (mass scaling): allows longer time steps for slow processes with small kinetic energy.
 
-    Gravity is not scaled.  The ledger contains the kinetic energy of the scaled masses.
+    Waves are slower by the root of the factor, and the step ``auto`` is longer by it.  Gravity is not scaled.  The
+    ledger contains the kinetic energy of the scaled masses.
 
     Parameters
     ----------

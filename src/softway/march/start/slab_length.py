@@ -5,7 +5,6 @@ from typing import Literal
 
 import numpy as np
 
-from softway.bodies.elements.section import wave_speed
 from softway.bodies.prescribed_motion import Motion, Table, Translation, Turning, carried_tool
 from softway.bodies.solid import Tool
 from softway.errors import InputError
@@ -64,8 +63,7 @@ def _edge(model: Model) -> float:
 
 def _crossing(model: Model) -> float:
     """Time in which the fastest wave crosses the shortest edge of its solid, over sqrt(2) [s]."""
-    times = (p.mesh.edge() / wave_speed(p.internal.material, p.density, p.internal.section) for p in model.parts)
-    return float(min(times) / np.sqrt(2.0))
+    return float(min(p.mesh.edge() / model.wave_speed(p) for p in model.parts) / np.sqrt(2.0))
 
 
 def _prescribed_speed(model: Model) -> float:

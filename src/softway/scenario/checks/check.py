@@ -111,7 +111,8 @@ def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked:
     notes = (*file_notes(left_out), *body_notes(solids, fixed))
     check_loads(scenario.loads, "loads", solids)
     check_contacts(scene.contacts)
-    bodies = {n: body_scales(s, mesh_of(s), int((~fixed[n]).sum())) for n, s in solids.items()}
+    factor = scenario.inertia.factor or 1.0
+    bodies = {n: body_scales(s, mesh_of(s), int((~fixed[n]).sum()), factor) for n, s in solids.items()}
     for k, contact in enumerate(scene.contacts):
         check_contact(scene.bodies, contact, f"contacts[{k}]")
     readings(scenario.output.probes, {n: mesh_of(s) for n, s in solids.items()})

@@ -76,13 +76,13 @@ def section_of(solid: Solid, mesh: Mesh) -> Section:
     return default_section(mesh) if solid.section is None else solid.section
 
 
-def body_scales(solid: Solid, mesh: Mesh, free: int) -> BodyScales:
-    """Scales of a solid with its mesh; ``free`` is the number of components without support.
+def body_scales(solid: Solid, mesh: Mesh, free: int, factor: float = 1.0) -> BodyScales:
+    """Scales of a solid with its mesh, ``free`` components without support, and its masses times a ``factor``.
 
     The highest frequency of a cell with edge a in d dimensions is estimated by ``omega^2 = k d c^2 / a^2``.  The factor
     k is exact for one cell in one dimension: 12 and 4 (linear, consistent and lumped mass), 60 and 24 (quadratic).
     """
-    speed = wave_speed(solid.material, solid.density, section_of(solid, mesh))
+    speed = wave_speed(solid.material, factor * solid.density, section_of(solid, mesh))
     length = float(np.ptp(mesh.points, axis=0).max())
     edge = mesh.edge()
     order = "quadratic" if any(CELLS[name].order == 2 for name in mesh.blocks) else "linear"

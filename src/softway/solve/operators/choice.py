@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softway.bodies.elements.section import wave_speed
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.operators.factored import Factored
 from softway.solve.operators.interface import Operator
@@ -52,9 +51,7 @@ def choose_operator(system: SlabEquations, memory: float | None = None) -> Opera
 def courant(system: SlabEquations) -> float:
     """Number of cells that the fastest wave crosses in a slab."""
     h = system.path.span
-    return max(
-        h * wave_speed(p.internal.material, p.density, p.internal.section) / p.mesh.edge() for p in system.model.parts
-    )
+    return max(h * system.model.wave_speed(p) / p.mesh.edge() for p in system.model.parts)
 
 
 def slender(system: SlabEquations) -> float:
