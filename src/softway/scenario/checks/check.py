@@ -34,7 +34,9 @@ from softway.scenario.checks.scales import (
     contact_duration,
     soft_duration,
 )
+from softway.scenario.checks.tool_notes import unit_notes
 from softway.scenario.checks.value_types import require
+from softway.scenario.checks.velocity_notes import velocity_notes
 from softway.scenario.scenario import Scenario, built_and_left_out
 
 MOST = 1_000_000_000
@@ -108,7 +110,7 @@ def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked:
     check_dimensions(scene, solids)
     _require_edges(solids)
     fixed = {n: check_solid(s, f"bodies.{n}") for n, s in solids.items()}
-    notes = (*file_notes(left_out), *body_notes(solids, fixed))
+    notes = (*file_notes(left_out), *unit_notes(scenario.bodies, solids), *body_notes(solids, fixed))
     check_loads(scenario.loads, "loads", solids)
     check_contacts(scene.contacts)
     factor = scenario.inertia.factor or 1.0
@@ -129,7 +131,7 @@ def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked:
         march_state=march_state,
         step=step,
         slabs=int(np.ceil(scenario.time.end / step * (1.0 - 1e-12))),
-        notes=(*notes, *contact_notes(model)),
+        notes=(*notes, *velocity_notes(model), *contact_notes(model)),
         left_out=left_out,
     )
 

@@ -1,10 +1,11 @@
 """Notes on a scenario: meshes, cells and contacts that are computed, although their results may be wrong."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from softway.arrays import BoolArray
-from softway.bodies.solid import Solid
-from softway.contact.contact import NodeToSurface
+from softway.bodies.solid import Solid, Tool
+from softway.contact.contact import Contact, NodeToSurface
 from softway.contact.surfaces.boundary import ContactSurface
 from softway.contact.surfaces.sagitta import CurvedSurface, Misfit, curved_surface, misfit
 from softway.errors import Note, within
@@ -13,6 +14,7 @@ from softway.meshes.files.abaqus.left_out import LeftOut
 from softway.model.model import Model
 from softway.scenario.checks.locking import locking_notes
 from softway.scenario.checks.names import mesh_of
+from softway.scenario.checks.tool_notes import curved_tool
 
 SHARE = 0.1
 """Distance of facets from the smooth surface, relative to the gap or interference, beyond which it is noted."""
@@ -63,20 +65,28 @@ def body_notes(solids: Mapping[str, Solid], fixed: Mapping[str, BoolArray]) -> t
 
 
 def contact_notes(model: Model) -> tuple[Note, ...]:
-    """Notes on contacts of curved surfaces whose facets stand off the curve as far as the gap or interference is."""
+    """Notes on contacts of curved surfaces whose facets stand off the curve as far as the gap or interference is.
+
+    Against a tool only the nodes of the solid count, and the facets of the tool.
+    """
     notes = []
     for k, contact in enumerate(model.scene.contacts):
         one, other = model.opponents[k]
-        if other < 0 or model.shape[1] == 1:
-            continue
         mortar = contact.timing.massless and not isinstance(contact.method, NodeToSurface)
-        tags = (one, contact.tag), (other, contact.opponent_tag)
-        first, second = (_curved(model, int(part), tag, mortar) for part, tag in tags)
+        tool = model.scene.bodies[contact.opponent]
+        second = curved_tool(tool) if isinstance(tool, Tool) else None
+        if model.shape[1] == 1 or (isinstance(tool, Tool) and second is None):
+            continue
+        first = _curved(model, int(one), contact.tag, mortar)
+        if second is None:
+            second = _curved(model, int(other), contact.opponent_tag, mortar)
+        else:
+            first = replace(first, factor=0.0)
         fit = contact.start == "fit"
         found = misfit(first, second, fit)
-        least = ROUNDING * min(float(model.edge[model.parts[part].nodes].min()) for part in (one, other))
+        least = ROUNDING * min(float(model.edge[model.parts[part].nodes].min()) for part in (one, other) if part >= 0)
         if found is not None and found.off > max(least, SHARE * abs(found.gap)):
-            notes.append(_off(k, contact.between, found, fit))
+            notes.append(_off(k, contact, found, isinstance(tool, Tool)))
     return tuple(notes)
 
 
@@ -87,13 +97,16 @@ def _curved(model: Model, number: int, tag: str, mortar: bool) -> CurvedSurface:
     return curved_surface(ContactSurface(facets=facets), model.points + model.displacement, mortar)
 
 
-def _off(k: int, between: tuple[str, str], found: Misfit, fit: bool) -> Note:
-    """Note on facets that stand off the curve through their nodes."""
+def _off(k: int, contact: Contact, found: Misfit, tool: bool) -> Note:
+    """Note on facets that stand off the curve through their nodes, those of a tool or of two solids."""
     share = f" ({found.off / abs(found.gap):.0%} of it)" if found.gap else ""
-    what = f"the interference is {-found.gap:.3g} m" if fit else f"the gap is {found.gap:.3g} m"
+    what = f"the interference is {-found.gap:.3g} m" if contact.start == "fit" else f"the gap is {found.gap:.3g} m"
+    whose = f"the tool {contact.opponent!r}" if tool else " and ".join(repr(name) for name in contact.between)
     problem = (
-        f"the facets of {between[0]!r} and {between[1]!r} stand up to {found.off:.3g} m off the curves through their "
+        f"the facets of {whose} stand up to {found.off:.3g} m off the curves through their "
         f"nodes, and {what}{share}: pressures may be wrong by this share, and more from node to node"
     )
     remedy = "the same nodes along both surfaces, or shorter edges: half the edge leaves a quarter of the distance"
+    if tool:
+        remedy = "smooth = true for a shape without sharp edges, or " + remedy.partition("or ")[2]
     return Note(where=f"contacts[{k}].between", problem=problem, remedy=remedy)
