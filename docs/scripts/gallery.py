@@ -56,9 +56,9 @@ def entries() -> Iterator[Entry]:
 
 
 def _first(text: str) -> str:
-    """First sentence of a text, and the one on the findings of the audit."""
+    """First sentence of a text, and those on the findings of the audit and the notes of the check."""
     first, *others = text.strip().split(". ")
-    told = [one for one in others if one.startswith("The audit finds")]
+    told = [one for one in others if one.startswith(("The audit finds", "`check` notes"))]
     return " ".join(one.rstrip(".") + "." for one in (first, *told))
 
 
