@@ -11,9 +11,10 @@ from softway.bodies.solid import Tool
 from softway.march.results.step import Event
 from softway.record.audit.geometry.inverted import inverted
 from softway.record.audit.geometry.overlap import overlaps
-from softway.record.audit.geometry.solids import Solids
+from softway.record.audit.geometry.solids import Solids, solids
 from softway.record.audit.geometry.tools import behind, sunk
 from softway.record.read.findings import BETWEEN, INVERTED, OVERLAP, finding
+from softway.record.write.grid_layout import Grid, blocks, owners
 
 VISIBLE = 1e-3
 """Depth of an overlap, relative to the largest side of the smaller body, from which it is a finding: one pixel in a
@@ -137,3 +138,9 @@ class Auditor:
     def _number(self, body: str, node: int) -> int:
         """Number in its body of a node."""
         return node - int(self.solids.first[self.solids.names.index(body)])
+
+
+def auditor(cells: Grid, tools: Mapping[str, Tool]) -> Auditor:
+    """Auditor of the solids of a grid, and of rigid tools by name."""
+    reference = cells.reference[:, : cells.dimension]
+    return Auditor(solids=solids(cells.bodies, reference, blocks(cells), owners(cells)), tools=tools)

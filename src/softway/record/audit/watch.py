@@ -9,8 +9,7 @@ from softway.arrays import Array
 from softway.bodies.solid import Tool
 from softway.march.results.step import Event, Step
 from softway.model.scene import State
-from softway.record.audit.auditor import Auditor
-from softway.record.audit.geometry.solids import solids
+from softway.record.audit.auditor import Auditor, auditor
 from softway.record.read.findings import DISSIPATION, ENERGY, MOMENTUM, finding
 from softway.record.storage.table import Table
 from softway.record.write.grid_layout import layout
@@ -134,8 +133,10 @@ class Watcher:
 def watcher(opening: RunStart) -> Watcher:
     """Audit of a run from its start."""
     cells = layout(opening.meshes, {})
-    blocks, bodies = cells.by_type()
-    reference = cells.reference[:, : cells.dimension]
     tools = {name: body for name, body in opening.scene.bodies.items() if isinstance(body, Tool)}
-    auditor = Auditor(solids=solids(cells.names, reference, blocks, bodies), tools=tools)
-    return Watcher(auditor, lambda state: reference + cells.nodal(state.displacement)[:, : cells.dimension], opening)
+    reference = cells.reference[:, : cells.dimension]
+
+    def positions(state: State) -> Array:
+        return np.asarray(reference + cells.nodal(state.displacement)[:, : cells.dimension])
+
+    return Watcher(auditor(cells, tools), positions, opening)

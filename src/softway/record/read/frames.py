@@ -15,7 +15,7 @@ from softway.errors import InputError
 from softway.meshes.cells import CELLS
 from softway.record.storage.gate.hdf5_file import BROKEN, reading
 from softway.record.write.fields import CELL_DATA, FILE, POINT_DATA, SIZES
-from softway.record.write.grid_layout import VTK
+from softway.record.write.grid_layout import VTK, blocks
 from softway.record.write.tool_shapes import recovered
 
 if TYPE_CHECKING:
@@ -56,20 +56,11 @@ class Cells:
 
     def blocks(self) -> dict[str, IntArray]:
         """Connectivity (cells, nodes) by cell name."""
-        return {name: self._nodes(kind) for name, kind in VTK.items() if (self.types == kind).any()}
-
-    def numbers(self, name: str) -> IntArray:
-        """Numbers (cells,) in the grid of the cells with one name, in the order of ``blocks``."""
-        return np.flatnonzero(self.types == VTK[name])
+        return blocks(self)
 
     def obstacles(self, time: float) -> dict[str, PlacedShape]:
         """Rigid obstacles in their positions at a time [s]."""
         return {name: tool.at(time) for name, tool in self.tools.items()}
-
-    def _nodes(self, kind: int) -> IntArray:
-        mine = np.flatnonzero(self.types == kind)
-        width = int(self.offsets[mine[0] + 1] - self.offsets[mine[0]])
-        return self.connectivity[self.offsets[mine][:, None] + np.arange(width)]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

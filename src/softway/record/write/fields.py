@@ -179,7 +179,7 @@ def _shorten(series: h5py.Dataset, rows: int) -> None:
 
 
 def _frame(cells: Layout, opening: RunStart, state: State) -> dict[str, dict[str, Array]]:
-    stress = np.concatenate([opening.stresses[name](state) for name in cells.names])
+    stress = np.concatenate([opening.stresses[name](state) for name in cells.bodies])
     force = cells.forces(state.pressure)
     return {
         "PointData": {
@@ -187,7 +187,7 @@ def _frame(cells: Layout, opening: RunStart, state: State) -> dict[str, dict[str
             "displacement": cells.nodal(state.displacement),
             "velocity": cells.nodal(state.velocity),
             "contact_force": force,
-            **{name: np.concatenate([values[body] for body in cells.names]) for name, values in state.fields.items()},
+            **{name: np.concatenate([values[body] for body in cells.bodies]) for name, values in state.fields.items()},
         },
         "CellData": {**_past(cells, opening, state), "stress": components(stress), "von_mises": von_mises(stress)},
     }
@@ -205,7 +205,7 @@ def _tractions(cells: Layout, opening: RunStart, state: State, force: Array) -> 
 
 def _past(cells: Layout, opening: RunStart, state: State) -> dict[str, Array]:
     """History variables (e,) of the cells by name; zero in solids without history."""
-    found = [opening.remembered[name](state) if name in opening.remembered else {} for name in cells.names]
+    found = [opening.remembered[name](state) if name in opening.remembered else {} for name in cells.bodies]
     counts = [mesh.n_cells for mesh in opening.meshes.values()]
     names = dict.fromkeys(name for one in found for name in one if name.isidentifier())
     return {
@@ -240,7 +240,7 @@ def _write_cells(
             _series(steps.require_group(f"{group}Offsets"), name, (), 1, dtype=np.int64)
     root["CellData/body"] = cells.body.astype(np.int32)
     _series(steps["CellDataOffsets"], "body", (), 1, dtype=np.int64)
-    file.attrs["bodies"] = json.dumps(list(cells.names))
+    file.attrs["bodies"] = json.dumps(list(cells.bodies))
     file.attrs["dimension"] = cells.dimension
     file["reference"] = cells.reference
     points = cells.reference[:, : cells.dimension]

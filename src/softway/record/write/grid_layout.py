@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -27,13 +28,71 @@ PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
 """Order of the six components of a symmetric tensor in VTK: xx yy zz xy yz xz."""
 
 
+class Grid(Protocol):
+    """Solids, reference coordinates, and cells in the format of VTK with the numbers of their solids."""
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """Names of the solids in order."""
+        ...
+
+    @property
+    def dimension(self) -> int:
+        """Dimension d of space."""
+        ...
+
+    @property
+    def reference(self) -> Array:
+        """Reference coordinates (n, 3) [m]."""
+        ...
+
+    @property
+    def connectivity(self) -> IntArray:
+        """Nodes (k,) of all cells."""
+        ...
+
+    @property
+    def offsets(self) -> IntArray:
+        """Starts (e + 1,) of the cells in the connectivity."""
+        ...
+
+    @property
+    def types(self) -> IntArray:
+        """VTK types (e,) of the cells."""
+        ...
+
+    @property
+    def body(self) -> IntArray:
+        """Number (e,) of the solid of each cell."""
+        ...
+
+
+def blocks(grid: Grid) -> dict[str, IntArray]:
+    """Connectivity (cells, nodes) by cell name."""
+    out = {}
+    for name, mine in _named(grid).items():
+        width = int(grid.offsets[mine[0] + 1] - grid.offsets[mine[0]])
+        out[name] = grid.connectivity[grid.offsets[mine][:, None] + np.arange(width)]
+    return out
+
+
+def owners(grid: Grid) -> dict[str, IntArray]:
+    """Numbers (cells,) of the solids of the cells by cell name, in the order of :func:`blocks`."""
+    return {name: grid.body[mine] for name, mine in _named(grid).items()}
+
+
+def _named(grid: Grid) -> dict[str, IntArray]:
+    """Numbers (cells,) of the cells with each name."""
+    return {name: np.flatnonzero(grid.types == kind) for name, kind in VTK.items() if (grid.types == kind).any()}
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Layout:
     """Grid that holds all solids one after the other; d is the dimension of space.
 
     Parameters
     ----------
-    names
+    bodies
         Names of the solids in order; the cell array ``body`` numbers them from 0.
     rows
         Points of each solid in the grid, by name.
@@ -47,7 +106,7 @@ class Layout:
         Dimension d of space.
     """
 
-    names: tuple[str, ...]
+    bodies: tuple[str, ...]
     rows: Mapping[str, slice]
     reference: Array
     connectivity: IntArray
@@ -56,17 +115,6 @@ class Layout:
     body: IntArray
     touching: Mapping[str, IntArray]
     dimension: int
-
-    def by_type(self) -> tuple[dict[str, IntArray], dict[str, IntArray]]:
-        """Cell name -> (e, a) nodes of the cells, and (e,) the numbers of their solids."""
-        named = {name: np.flatnonzero(self.types == kind) for name, kind in VTK.items() if (self.types == kind).any()}
-        nodes = {name: self._nodes(mine) for name, mine in named.items()}
-        return nodes, {name: self.body[mine] for name, mine in named.items()}
-
-    def _nodes(self, mine: IntArray) -> IntArray:
-        """Nodes (e, a) of cells of one type."""
-        width = int(self.offsets[mine[0] + 1] - self.offsets[mine[0]])
-        return self.connectivity[self.offsets[mine][:, None] + np.arange(width)]
 
     def nodal(self, fields: Mapping[str, Array]) -> Array:
         """Vector field (n, 3) on the grid from the fields of the solids (n, d)."""
@@ -106,7 +154,7 @@ def layout(meshes: Mapping[str, Mesh], touching: Mapping[str, IntArray]) -> Layo
     for name, mesh in meshes.items():
         reference[rows[name], :dimension] = mesh.points
     return Layout(
-        names=tuple(meshes),
+        bodies=tuple(meshes),
         rows=rows,
         reference=reference,
         connectivity=np.concatenate([(nodes + rows[name].start).ravel() for name, _, _, nodes in cells]),
