@@ -1,27 +1,44 @@
 """Energies and momenta of a state, and the contact forces that they ask for, computed again from the fields."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.discretised import UNSTRAINED
 from softway.bodies.elements.section import Axisymmetric
-from softway.march.audit.ledger import momentum
+from softway.march.audit.ledger import momentum, spin
 from softway.march.model_state import join_states
 from softway.march.results.step import Step
 from softway.model.model import Model
 from softway.model.scene import State
+from softway.solve.equations.spin_balance import moment
+
+PLACES = 16.0 * float(np.finfo(float).eps)
+"""Rounding error of positions, relative to the coordinates, after the sums that yield forces."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Balances:
-    """Energies [J], momentum (3,) and sum of the sizes of the momenta of all nodes [kg m/s], from the fields."""
+    """Energies, momentum and spin of a state, from its fields.
+
+    Parameters
+    ----------
+    kinetic, strain
+        Energies [J].
+    momentum, moving
+        Momentum (3,), and sum of the sizes of the momenta of all nodes [kg m/s].
+    spin, turning
+        Spin (3,) about the origin, and sum of the sizes of its parts [kg m^2/s].
+    """
 
     kinetic: float
     strain: float
     momentum: Array
     moving: float
+    spin: Array
+    turning: float
 
 
 def balances(model: Model, state: State) -> Balances:
@@ -33,33 +50,82 @@ def balances(model: Model, state: State) -> Balances:
         strain=float(now.energy.sum()),
         momentum=momentum(model.space, momenta),
         moving=model.space.total(np.abs(momenta)),
+        spin=spin(model, now.displacement, momenta),
+        turning=model.space.total(_levers(model.points + now.displacement, momenta)),
     )
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Pushed:
-    """Resultant (d,) of the contact forces on a body over a slab, and the sum of the sizes of its parts [N]."""
+    """Contact forces that a body needs over a slab for its change of momentum and of spin.
+
+    Parameters
+    ----------
+    resultant, scale
+        Resultant (d,) of the forces, and sum of the sizes of its parts [N].
+    moment, turning
+        Moment (k,) of the forces about the middle of the body, and sum of the sizes of its parts [N m].
+    arm
+        Greatest distance of a node from the middle of the body [m].
+    rounding
+        Force that rounding of positions makes in the body at rest [N].
+    """
 
     resultant: Array
     scale: float
+    moment: Array
+    turning: float
+    arm: float
+    rounding: float
 
 
 def contact_forces(model: Model, step: Step) -> Mapping[str, Pushed]:
     """Mean contact force that each body needs for its change of momentum, besides its loads and supports.
 
-    The radial direction of axisymmetric bodies is left out. Bodies that companion fields push on are not looked at.
+    The radial direction of axisymmetric bodies is left out, and so is their spin. Bodies that companion fields push on
+    are not looked at.
     """
     if model.companions or step.report.scalars is None:
         return {}
     slab = model.pushed(step.slab.start, step.slab.end)
     load = slab.slab_load(np.array([step.report.scalars[p.name] for p in model.parts]))
-    momenta = [model.mass @ model.join(state.velocity) for state in (step.before, step.after)]
-    out = {}
+    states = step.before, step.after
+    momenta = [model.mass @ model.join(state.velocity) / step.slab.span for state in states]
+    places = [model.points + model.join(state.displacement) for state in states]
+    blurred, out = rounding_forces(model, model.join(step.after.displacement)), {}
     for part in model.parts:
-        before, after = (p[part.nodes] / step.slab.span for p in momenta)
-        terms = (after, -before, -load[part.nodes], -step.reactions[part.name])
-        keep = np.ones(model.shape[1])
-        keep[0] = not isinstance(part.internal.section, Axisymmetric)
-        resultant = sum(model.space.sums(term) for term in terms) * keep
-        out[part.name] = Pushed(np.asarray(resultant), sum(model.space.total(np.abs(term)) for term in terms))
+        before, after = (p[part.nodes] for p in momenta)
+        x0, x1 = (x[part.nodes] for x in places)
+        given = load[part.nodes] + step.reactions[part.name]
+        terms = ((x1, after), (x0, -before), (0.5 * (x0 + x1), -given))
+        out[part.name] = _pushed(model, part.internal.section, terms, model.space.total(blurred[part.nodes]))
     return out
+
+
+def rounding_forces(model: Model, u: Array) -> Array:
+    """Forces (n,) that the rounding of positions makes at the nodes, with displacements u (n, d) [N]."""
+    stiffness = model.floor / UNSTRAINED**2 / [p.mesh.n_nodes for p in model.parts]
+    return np.asarray(PLACES * model.extent(u) * stiffness[model.part_of] / model.edge**2)
+
+
+def _pushed(model: Model, section: object, terms: Sequence[tuple[Array, Array]], rounding: float) -> Pushed:
+    """Sums of forces (n, d) at places (n, d) on one body: the changes of its momenta, less what is given."""
+    space, keep = model.space, np.ones(model.shape[1])
+    keep[0] = not isinstance(section, Axisymmetric)
+    middle = space.sums(terms[0][0]) / space.total(np.ones(len(terms[0][0])))
+    arms = [x - middle for x, _ in terms]
+    forces = [force for _, force in terms]
+    moments = sum(moment(space, x, force) for x, force in zip(arms, forces, strict=True))
+    return Pushed(
+        resultant=np.asarray(sum(space.sums(force) for force in forces) * keep),
+        scale=sum(space.total(np.abs(force)) for force in forces),
+        moment=np.asarray(moments if keep.all() else 0.0 * moments),
+        turning=sum(space.total(_levers(x, force)) for x, force in zip(arms, forces, strict=True)),
+        arm=max(space.greatest(np.linalg.norm(x, axis=1)) for x in arms),
+        rounding=rounding,
+    )
+
+
+def _levers(x: Array, force: Array) -> Array:
+    """Products (n,) of the sizes of places (n, d) and of forces or momenta (n, d) there."""
+    return np.asarray(np.linalg.norm(x, axis=1) * np.linalg.norm(force, axis=1))

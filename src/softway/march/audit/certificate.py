@@ -3,8 +3,8 @@
 import numpy as np
 
 from softway.arrays import Array
-from softway.bodies.discretised import UNSTRAINED
 from softway.bodies.elements.section import Axisymmetric
+from softway.march.audit.balances import rounding_forces
 from softway.march.audit.ledger import resultant
 from softway.march.march_state import EnergyAccount
 from softway.march.model_state import ModelState
@@ -17,8 +17,6 @@ AT_REST = 1e10
 """Energies, relative to the rounding error of the stored energy, below which bodies are at rest: strains of 1e-9."""
 BEQUEST = 0.5
 """Fraction of the admissible momentum error that a slab may leave to the next one."""
-PLACES = 16.0 * float(np.finfo(float).eps)
-"""Rounding error of positions, relative to the coordinates, after the sums that yield forces."""
 INTERNAL = 1e-4
 """Fraction of the impulses of internal forces, which cancel up to rounding, in the scale of momentum."""
 
@@ -121,9 +119,7 @@ def _blurred(model: Model, after: ModelState) -> Array:
     The energy of bodies that slide to rest decreases with the square of the speed, the work of these forces with the
     speed only.
     """
-    stiffness = model.floor / UNSTRAINED**2 / [p.mesh.n_nodes for p in model.parts]
-    spring = stiffness[model.part_of] / model.edge**2
-    return PLACES * model.extent(after.start.displacement) * np.where(model.massive, 0.0, spring)
+    return np.where(model.massive, 0.0, rounding_forces(model, after.start.displacement))
 
 
 def balance(model: Model, before: ModelState, out: SlabResult, after: ModelState) -> Array:

@@ -1,6 +1,7 @@
 """Audit of a march: its slabs with the findings at the stored frames and at the end."""
 
-from collections.abc import Callable, Iterator, Mapping
+import itertools
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +11,8 @@ from softway.bodies.solid import Tool
 from softway.march.results.step import Event, Step
 from softway.model.scene import State
 from softway.record.audit.auditor import Auditor, auditor
-from softway.record.read.findings import DISSIPATION, ENERGY, MOMENTUM, finding
+from softway.record.audit.energy_watch import ENERGIES, EnergyWatch
+from softway.record.read.findings import DISSIPATION, ENERGY, MOMENTUM, SPIN, finding
 from softway.record.storage.table import Table
 from softway.record.write.grid_layout import layout
 from softway.record.write.recorder import RunStart
@@ -19,13 +21,14 @@ APART = 10
 """Least number of slabs between two audits: with it they take a few percent of the time of a run."""
 GIVEN_BACK = 1e-12
 """Dissipation of a slab, relative to the energies, below whose negative it is a finding."""
-MISSED = 1e-2
-"""Error of the energy balance since the start, relative to the energies that took part, above which it is a finding."""
 AGREED = 1e-9
 """Difference of energies and momenta to those computed again from the fields, relative to them."""
 
 UNPUSHED = 1e-6
 """Force that no contact explains, relative to the forces on the nodes of a body, above which it is a finding."""
+
+UNTURNED = 1e-2
+"""Likewise the moment of forces, relative to the moments on the nodes of a body: slabs keep spin to second order."""
 
 TURNED = 0.1
 """Excess of the resultant over the sum of the row forces that turning normals of mean gaps may explain."""
@@ -44,21 +47,23 @@ class Watcher:
         Start of the run: when frames are stored, and the balances of a state.
     """
 
-    __slots__ = ("_audited", "_dissipation", "_energy", "_slabs", "auditor", "opening", "positions")
+    __slots__ = ("_audited", "_energy", "_slabs", "auditor", "opening", "positions")
 
     def __init__(self, auditor: Auditor, positions: Callable[[State], Array], opening: RunStart) -> None:
         self.auditor, self.positions, self.opening = auditor, positions, opening
         self._slabs = self._audited = 0
-        self._dissipation = 0.0
-        self._energy = opening.ledger.energy_kinetic + opening.ledger.energy_strain
+        start = opening.ledger
+        self._energy = EnergyWatch(start.energy_kinetic + start.energy_strain, opening.rounding)
 
     def past(self, history: Table) -> None:
         """Take up the history of the part of the run that was computed before it is resumed."""
-        times = history["time"]
-        for before, after in zip(times[:-1], times[1:], strict=True):
-            self._counted(before, after)
-        self._dissipation = float(history["dissipation"][-1])
-        self._energy = float((history["energy_kinetic"] + history["energy_strain"]).max())
+        lines = zip(*(history[name].tolist() for name in ("time", *ENERGIES)), strict=True)
+        before = float(history["time"][0])
+        for time, *energies in itertools.islice(lines, 1, None):
+            self._energy.took(time, *energies)
+            if self._counted(before, time):
+                self._energy.looked()
+            before = time
 
     def watched(self, steps: Iterator[Step]) -> Iterator[Step]:
         """Steps with the findings among their events, and the gaps that were seen in their certificates."""
@@ -76,7 +81,7 @@ class Watcher:
         self._slabs += 1
         if not (
             self.opening.ended(after)
-            or (self.opening.frame_due(before, after) and self._slabs - self._audited >= APART)
+            or (self._slabs - self._audited >= APART and self.opening.frame_due(before, after))
         ):
             return False
         self._audited = self._slabs
@@ -84,50 +89,56 @@ class Watcher:
 
     def _given_back(self, step: Step) -> Iterator[Event]:
         """Finding on a slab that gave dissipated energy back."""
-        gained = step.ledger.dissipation - self._dissipation
-        self._dissipation = step.ledger.dissipation
-        self._energy = max(self._energy, step.ledger.energy_kinetic + step.ledger.energy_strain)
-        if gained < -GIVEN_BACK * (self._energy + abs(self._dissipation)) - self.opening.rounding:
+        gained = self._energy.took(step.after.time, *(getattr(step.ledger, name) for name in ENERGIES))
+        if gained < -GIVEN_BACK * self._energy.level - self.opening.rounding:
             text = f"friction and material gave {-gained:.3g} J back in the slab of {step.slab.span:.3g} s"
             yield finding(step.after.time, DISSIPATION, ("all",), text)
 
     def _balanced(self, step: Step) -> Iterator[Event]:
         """Findings on balances that miss, and on energies and momenta that do not agree with the fields."""
         ledger, time = step.ledger, step.after.time
-        scale = self._energy + abs(ledger.work_external)
-        if abs(ledger.energy_error) > MISSED * scale + self.opening.rounding:
-            text = f"the energy balance misses {ledger.energy_error:.3g} J of {scale:.3g} J since the start"
-            yield finding(time, ENERGY, ("all",), text)
+        worst = self._energy.looked()
+        if worst is not None:
+            text = f"the energy balance misses {worst.error:.3g} J of {worst.scale:.3g} J since the start"
+            yield finding(worst.time, ENERGY, ("all",), text)
         if self.opening.balances is None:
             return
         again = self.opening.balances(step.after)
-        pairs: Mapping[str, tuple[float, float]] = {
-            "kinetic": (again.kinetic, ledger.energy_kinetic),
-            "strain": (again.strain, ledger.energy_strain),
-        }
-        for name, (found, given) in pairs.items():
-            if not abs(found - given) <= AGREED * scale + self.opening.rounding:
+        energies = (("kinetic", again.kinetic, ledger.energy_kinetic), ("strain", again.strain, ledger.energy_strain))
+        for name, found, given in energies:
+            if not abs(found - given) <= AGREED * self._energy.scale + self.opening.rounding:
                 text = f"the {name} energy of the fields is {found:.9g} J, that of the ledger {given:.9g} J"
                 yield finding(time, ENERGY, ("all",), text)
-        missed = float(np.abs(again.momentum - ledger.momentum).max())
-        if not missed <= AGREED * again.moving:
-            text = f"the momentum of the fields and that of the ledger differ by {missed:.3g} kg m/s"
-            yield finding(time, MOMENTUM, ("all",), text)
+        vectors = (
+            (MOMENTUM, again.momentum - ledger.momentum, again.moving, "kg m/s"),
+            (SPIN, again.spin - ledger.spin, again.turning, "kg m^2/s"),
+        )
+        for kind, difference, scale, unit in vectors:
+            missed = float(np.abs(difference).max())
+            if not missed <= AGREED * scale:
+                text = f"the {kind} of the fields and that of the ledger differ by {missed:.3g} {unit}"
+                yield finding(time, kind, ("all",), text)
 
     def _pushed(self, step: Step) -> Iterator[Event]:
-        """Findings on bodies whose change of momentum is more than all their contacts give.
+        """Findings on bodies whose changes of momentum and spin are more than all their contacts give.
 
-        The resultant of normal forces is no larger than their sum, whatever their directions are.
+        The resultant of normal forces is no larger than their sum, whatever their directions are, and their moment no
+        larger than the sum times the arm of the body.
         """
         if self.opening.pushed is None:
             return
         contacts = [(c.label, {name.partition(".")[0] for name in c.between}) for c in self.opening.scene.contacts]
         for body, needed in self.opening.pushed(step).items():
             mine = [step.ledger.contacts[label] for label, bodies in contacts if body in bodies]
-            given, force = sum(c.force_n + c.force_t for c in mine), float(np.linalg.norm(needed.resultant))
-            if not force <= (1.0 + TURNED) * given + UNPUSHED * needed.scale:
+            given = sum(c.force_n + c.force_t for c in mine)
+            force, moment = (float(np.linalg.norm(part)) for part in (needed.resultant, needed.moment))
+            if not force <= (1.0 + TURNED) * given + UNPUSHED * needed.scale + needed.rounding:
                 text = f"'{body}' is pushed by {force:.6g} N, its contacts give at most {given:.6g} N"
                 yield finding(step.after.time, MOMENTUM, (body,), text)
+            most, blur = given * needed.arm, needed.rounding * needed.arm
+            if not moment <= (1.0 + TURNED) * most + UNTURNED * needed.turning + blur:
+                text = f"'{body}' is turned by {moment:.6g} N m, its contacts give at most {most:.6g} N m"
+                yield finding(step.after.time, SPIN, (body,), text)
 
 
 def watcher(opening: RunStart) -> Watcher:

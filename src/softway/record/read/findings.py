@@ -9,10 +9,10 @@ from softway.arrays import Array
 from softway.march.results.step import Event
 
 OVERLAP, BETWEEN, INVERTED = "overlap", "overlap between nodes", "inverted cell"
-DISSIPATION, ENERGY, MOMENTUM = "dissipation", "energy", "momentum"
-KINDS = (OVERLAP, BETWEEN, INVERTED, DISSIPATION, ENERGY, MOMENTUM)
+DISSIPATION, ENERGY, MOMENTUM, SPIN = "dissipation", "energy", "momentum", "spin"
+KINDS = (OVERLAP, BETWEEN, INVERTED, DISSIPATION, ENERGY, MOMENTUM, SPIN)
 """Kinds: a node lies inside of another body, of a tool or of its own body; a place between nodes does; a cell is
-inverted; a slab gave dissipated energy back; a balance misses; a momentum does not agree with the fields."""
+inverted; a slab gave dissipated energy back; a balance misses; momentum or spin do not agree with the fields."""
 
 
 def finding(

@@ -10,10 +10,15 @@ import pytest
 
 import softway as sw
 from softway.apps import cli
+from softway.arrays import Array
+from softway.march.audit.balances import Balances, balances
 from softway.march.march import march
-from softway.march.results.step import Step
+from softway.march.results.step import Event, Step
+from softway.model.scene import State
+from softway.record.audit.energy_watch import ENERGIES
 from softway.record.audit.watch import APART, watcher
 from softway.record.read.findings import KINDS
+from softway.record.storage.table import Table
 from softway.scenario.checks.check import check
 from softway.scenario.files import loads
 from softway.scenario.run import _opening
@@ -125,13 +130,23 @@ def test_a_run_that_goes_on_after_a_stop_has_the_same_findings(through: sw.Run, 
         assert (tmp_path / "run" / name).read_bytes() == (through.path / name).read_bytes()
 
 
-def test_slabs_that_are_not_due_are_not_looked_at() -> None:
-    text = THROUGH.replace('fields_every = "0.1 s"', 'fields_every = "0.02 s"')
-    checked = check(loads(text))
-    opening = _opening(checked)
-    steps = list(watcher(opening).watched(march(checked.model, until=checked.scenario.time.end, step=checked.step)))
+@pytest.mark.parametrize(
+    ("every", "audited"), [("0.02 s", [10, 20, 30, 40]), ("0.1 s", [10, 20, 30, 40]), ("0.24 s", [12, 24, 36, 40])]
+)
+def test_slabs_that_are_not_due_are_not_looked_at(every: str, audited: list[int]) -> None:
+    """Frames are stored at each slab, at each fifth and at each twelfth; an audit is ten slabs from the last one."""
+    assert APART == 10
+    checked = check(loads(THROUGH.replace('fields_every = "0.1 s"', f'fields_every = "{every}"')))
+    opening, calls = _opening(checked), []
+
+    def counted(state: State) -> Balances:
+        calls.append(state.time)
+        return balances(checked.model, state)
+
+    audit = watcher(replace(opening, balances=counted))
+    steps = list(audit.watched(march(checked.model, until=checked.scenario.time.end, step=checked.step)))
     seen = [k for k, step in enumerate(steps, 1) if not np.isnan(step.certificate.gap_nodes)]
-    assert seen == list(range(APART, 41, APART))
+    assert seen == audited and calls == [steps[k - 1].after.time for k in audited]
 
 
 def made_wrong(checked, change) -> Iterator[str]:
@@ -154,6 +169,7 @@ def made_wrong(checked, change) -> Iterator[str]:
         (lambda l: {"energy_kinetic": l.energy_kinetic * (1 + 1e-6)}, "the kinetic energy of the fields"),
         (lambda l: {"energy_strain": l.energy_strain + 1e-3}, "the strain energy of the fields"),
         (lambda l: {"momentum": l.momentum + [0.0, 1e-3, 0.0]}, "the momentum of the fields and that of the ledger"),
+        (lambda l: {"spin": l.spin + [0.0, 0.0, 1e-3]}, "the spin of the fields and that of the ledger"),
     ],
 )
 def test_a_ledger_that_is_wrong(change, words: str) -> None:
@@ -163,22 +179,62 @@ def test_a_ledger_that_is_wrong(change, words: str) -> None:
     assert not list(made_wrong(checked, lambda ledger: {}))
 
 
-def test_a_body_that_changes_its_momentum_without_a_cause() -> None:
+def test_a_balance_that_misses_between_two_audits_is_told_with_its_time() -> None:
     checked = check(loads(THROUGH))
     opening = _opening(checked)
 
-    def kicked() -> Iterator[Step]:
+    def wrong() -> Iterator[Step]:
         for k, step in enumerate(march(checked.model, until=checked.scenario.time.end, step=checked.step), 1):
-            moved = {name: v + 1e-3 * (k == 20) for name, v in step.after.velocity.items()}
-            momentum = step.ledger.momentum + 1e-3 * 4000.0 * np.array([k == 20, k == 20, 0])
-            ledger = replace(step.ledger, momentum=momentum)
-            yield replace(step, after=replace(step.after, velocity=moved), ledger=ledger) if k == 20 else step
+            yield replace(step, ledger=replace(step.ledger, energy_error={13: -30.0, 16: 40.0}.get(k, 0.0)))
 
-    seen = [
-        e for s in itertools.islice(watcher(opening).watched(kicked()), 25) for e in s.events if e.kind == "momentum"
-    ]
-    assert [e.contact for e in seen] == ["block", "other"] and all(e.time == pytest.approx(0.4) for e in seen)
-    assert "its contacts give at most 0 N" in seen[0].finding
+    for known in range(0, 20, 4):  # slabs that were computed before the run is resumed
+        steps, audit = wrong(), watcher(opening)
+        before = [step.ledger for step in itertools.islice(steps, known)]
+        columns = {name: np.array([getattr(ledger, name) for ledger in (opening.ledger, *before)]) for name in ENERGIES}
+        audit.past(Table({"time": 0.02 * np.arange(known + 1), **columns}))
+        told = [e for s in itertools.islice(audit.watched(steps), 40) for e in s.events if e.kind == "energy"]
+        assert [(e.time, "misses 40 J" in e.finding) for e in told] == [(pytest.approx(0.32), True)]
+
+
+def kicked(velocity) -> list[Event]:
+    """Findings on a march whose velocities are changed in slab 20; its ledger has the momentum and spin of the state.
+
+    ``velocity`` makes the change (n, d) of the velocities at points (n, d).
+    """
+    checked = check(loads(THROUGH))
+    opening = _opening(checked)
+
+    def steps() -> Iterator[Step]:
+        for k, step in enumerate(march(checked.model, until=checked.scenario.time.end, step=checked.step), 1):
+            if k == 20:
+                places = {n: opening.meshes[n].points + u for n, u in step.after.displacement.items()}
+                after = replace(
+                    step.after, velocity={n: v + velocity(places[n]) for n, v in step.after.velocity.items()}
+                )
+                now = balances(checked.model, after)
+                ledger = replace(step.ledger, energy_kinetic=now.kinetic, momentum=now.momentum, spin=now.spin)
+                step = replace(step, after=after, ledger=ledger)
+            yield step
+
+    seen = itertools.islice(watcher(opening).watched(steps()), 25)
+    return [event for step in seen for event in step.events if event.kind in KINDS]
+
+
+def test_a_body_that_changes_its_momentum_without_a_cause() -> None:
+    seen = [e for e in kicked(lambda x: 1e-3 + 0.0 * x) if e.kind == "momentum"]
+    assert [e.contact for e in seen] == ["block", "other"]
+    assert all(e.time == pytest.approx(0.4) for e in seen) and "its contacts give at most 0 N" in seen[0].finding
+
+
+def test_a_body_that_changes_its_spin_without_a_cause() -> None:
+    def turned(x: Array) -> Array:
+        arm = x - x.mean(axis=0)
+        return 0.1 * np.stack([-arm[:, 1], arm[:, 0]], axis=1)
+
+    seen = [e for e in kicked(turned) if e.kind == "spin"]
+    assert [e.contact for e in seen] == ["block", "other"]
+    assert "is turned by" in seen[0].finding and "its contacts give at most 0 N m" in seen[0].finding
+    assert not kicked(lambda x: 0.0 * x)
 
 
 HOLLOW = """

@@ -1,0 +1,69 @@
+"""Energy account of a run as its audit follows it, slab by slab."""
+
+from dataclasses import dataclass
+
+MISSED = 1e-2
+"""Error of the energy balance since the start, relative to the energies that took part, above which it is a finding."""
+ENERGIES = ("energy_kinetic", "energy_strain", "work_external", "dissipation", "energy_error")
+"""Energies that an audit follows, by their names in the ledger and in the history."""
+
+
+@dataclass(frozen=True, slots=True)
+class Miss:
+    """Error of the balance at a ``time`` [s], and the ``scale`` of the energies that took part [J]."""
+
+    time: float
+    error: float
+    scale: float
+
+
+class EnergyWatch:
+    """Greatest energy, dissipation and error of the balance so far.
+
+    Parameters
+    ----------
+    energy
+        Energy at the start [J].
+    rounding
+        Energy of strains that are rounding errors [J].
+
+    Examples
+    --------
+    >>> watch = EnergyWatch(100.0)
+    >>> watch.took(0.1, 60.0, 42.0, 0.0, 0.0, 2.0), watch.took(0.2, 60.0, 40.0, 0.0, 1.0, 1.0)
+    (0.0, 1.0)
+    >>> watch.looked(), watch.looked()
+    (Miss(time=0.1, error=2.0, scale=102.0), None)
+    """
+
+    __slots__ = ("_dissipation", "_energy", "_work", "_worst", "rounding")
+
+    def __init__(self, energy: float, rounding: float = 0.0) -> None:
+        self._energy, self.rounding = energy, rounding
+        self._work = self._dissipation = 0.0
+        self._worst: Miss | None = None
+
+    @property
+    def level(self) -> float:
+        """Greatest energy of the bodies so far, and what was dissipated [J]."""
+        return self._energy + abs(self._dissipation)
+
+    @property
+    def scale(self) -> float:
+        """Greatest energy of the bodies so far, and the work of loads, supports and tools [J]."""
+        return self._energy + abs(self._work)
+
+    def took(self, time: float, kinetic: float, strain: float, work: float, dissipation: float, error: float) -> float:
+        """Energy dissipated in a slab [J], from the energies of the ledger at its end."""
+        gained = dissipation - self._dissipation
+        self._energy, self._work, self._dissipation = max(self._energy, kinetic + strain), work, dissipation
+        if not abs(error) <= MISSED * self.scale + self.rounding:
+            now = Miss(time, error, self.scale)
+            if self._worst is None or abs(error) * self._worst.scale > abs(self._worst.error) * now.scale:
+                self._worst = now
+        return gained
+
+    def looked(self) -> Miss | None:
+        """Worst of the balances that missed since the last call; None if none did."""
+        worst, self._worst = self._worst, None
+        return worst
