@@ -97,17 +97,37 @@ def test_edges_that_cross_between_their_nodes() -> None:
     assert deepest(bodies, x) == (0.0, 0.0)
 
 
+@pytest.mark.parametrize("cell", ["quad8", "quad9", "tri6", "hex20", "hex27", "tet10"])
+def test_curved_facets_that_overlap_while_their_nodes_and_flat_pieces_do_not(cell: str) -> None:
+    """Two parabolas, one turned down and one up, whose tops are .01 in each other between the nodes of both."""
+    size = (1.0, 1.0) if cell in PLANE + ("quad8",) else (1.0, 1.0, 1.0)
+    recipe = recipes.Rectangle if len(size) == 2 else recipes.Box
+    below, above = (recipe(size=size, cells=(1,) * len(size), cell=cell).build() for _ in range(2))
+    bodies, deep = together(below, above), 0.01
+    for pressed in (deep, -deep):
+        x = bodies.reference.copy()
+        upper = bodies.owner == 1
+        x[upper, 0] += 0.25
+        x[upper, 1] += 1.0 - pressed
+        x[:, 1] += 0.5 * np.where(upper, 1.0, -1.0) * (x[:, 0] - 0.63) ** 2
+        nodes, between = deepest(bodies, x)
+        assert nodes == 0.0
+        assert between == (pytest.approx(deep, rel=0.02) if pressed > 0.0 else 0.0)
+
+
 def arch(bodies: Solids, turned: float) -> Array:
     """Strip of unit length and height .1 bent into an arc that turns by an angle: its ends cross beyond 2 pi."""
-    x, y = bodies.reference.T
+    x, y, *z = bodies.reference.T
     radius, angle = 1.0 / turned, turned * (x - 0.5)
-    return np.stack([(radius + 0.05 - y) * np.sin(angle), (radius + 0.05 - y) * np.cos(angle)], axis=1)
+    return np.stack([(radius + 0.05 - y) * np.sin(angle), (radius + 0.05 - y) * np.cos(angle), *z], axis=1)
 
 
-@pytest.mark.parametrize("cell", PLANE)
+@pytest.mark.parametrize("cell", PLANE + SPACE)
 def test_a_strip_bent_through_itself(cell: str) -> None:
-    strip = together(recipes.Rectangle(size=(1.0, 0.1), cells=(40, 4), cell=cell).build())
-    assert deepest(strip, arch(strip, 0.97 * 2.0 * np.pi)) == (0.0, 0.0)
+    recipe = recipes.Rectangle if cell in PLANE else recipes.Box
+    size, cells = ((1.0, 0.1), (40, 4)) if cell in PLANE else ((1.0, 0.1, 0.1), (40, 4, 2))
+    strip = together(recipe(size=size, cells=cells, cell=cell).build())
+    assert max(deepest(strip, arch(strip, 0.97 * 2.0 * np.pi))) < 1e-13
     nodes, _ = deepest(strip, arch(strip, 1.05 * 2.0 * np.pi))
     assert 0.01 < nodes < 0.05  # .05 of the length overlaps; the nearest side is at most half a height away
 
@@ -142,14 +162,12 @@ def test_a_plane_is_checked_at_the_nodes_of_linear_cells_and_between_those_of_qu
     assert not between or max(f.depth for f in between) <= 0.02 * (1 + 1e-9)
 
 
-@pytest.mark.parametrize("cell", ["quad4", "quad9"])
+@pytest.mark.parametrize("cell", PLANE + SPACE)
 def test_inverted_cells_are_found_with_their_volume(cell: str) -> None:
-    body = together(square(2, cell))
+    body = together(square(2, cell) if cell in PLANE else cube(2, cell))
     assert not inverted(body, body.reference)
     corner = int(np.argmax(body.reference.sum(axis=1)))
     x = body.reference.copy()
-    x[corner] = [0.6, 0.6]
-    if cell == "quad4":
-        x[corner] = [0.4, 0.4]  # pushed beyond the centre of the body
+    x[corner] = 0.1  # pushed beyond the centre of the body
     ((number, nodes, ratio),) = inverted(body, x)
     assert number == 0 and corner in nodes and ratio < 0.0

@@ -1,20 +1,25 @@
 """Overlap of deformable bodies, and of a body with itself, at nodes and between them."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.meshes.element import tabulate
 from softway.record.audit.geometry import flat_pieces
 from softway.record.audit.geometry.crossings import between, crossings
 from softway.record.audit.geometry.folding import folded
 from softway.record.audit.geometry.inside import depths, local_coordinates, slopes
+from softway.record.audit.geometry.lattice import lattice
 from softway.record.audit.geometry.near import near
 from softway.record.audit.geometry.solids import Block, Solids, boxes
 
 BULGE = 0.1
 """Fraction of the size of the box around the nodes of a quadratic cell by which the cell may bulge out of it."""
+
+DIVISIONS = 8
+"""Number of intervals along the side of a curved facet between which its overlap is looked at."""
 
 SHALLOW = 1e-6
 """Depth, relative to the size of the body, up to which the distance from the outer faces of the cell is exact."""
@@ -22,23 +27,19 @@ SHALLOW = 1e-6
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Points:
-    """Points of the boundary, each between two nodes (which agree for a node itself).
+    """Points of the boundary, each near two nodes (which agree for a node itself).
 
     Parameters
     ----------
     ends
-        (k, 2) the two nodes.
-    fraction
-        (k,) distance from the first one, as a fraction of the distance between them.
+        (k, 2) the two nodes: ends of a line that the point is on, or the nearest ones of a curved facet.
+    place, rest
+        (k, d) places now and at rest [m].
     """
 
     ends: IntArray
-    fraction: Array
-
-    def at(self, x: Array) -> Array:
-        """Places (k, d) with the nodes at x (n, d)."""
-        first, last = x[self.ends[:, 0]], x[self.ends[:, 1]]
-        return np.asarray(first + self.fraction[:, None] * (last - first))
+    place: Array
+    rest: Array
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -86,12 +87,15 @@ class Window:
     meeting: BoolArray
     fold: BoolArray
 
-    def reached(self, corners: IntArray, *, whole: bool = False) -> BoolArray:
+    def reached(self, corners: IntArray, *, whole: bool = False, curved: bool = False) -> BoolArray:
         """Things (k,) with nodes ``corners`` (k, c) that reach into the common part of two boxes, or may touch their
-        own body; with ``whole`` all things of a body that may touch itself.
+        own body; with ``whole`` all things of a body that may touch itself. ``curved`` things bulge.
         """
         owner, places = self.solids.owner[corners[:, 0]], self.x[corners]
         low, high = places.min(axis=1), places.max(axis=1)
+        if curved:
+            margin = BULGE * (high - low).max(axis=1, keepdims=True)
+            low, high = low - margin, high + margin
         out = np.diagonal(self.meeting)[owner] if whole else self.fold[corners].any(axis=1)
         for a, b in np.argwhere(np.triu(self.meeting, 1)):
             least, most = np.maximum(self.low[a], self.low[b]), np.minimum(self.high[a], self.high[b])
@@ -105,11 +109,9 @@ def overlaps(solids: Solids, x: Array) -> Inside:
     if not window.meeting.any():
         return _none(solids.dim)
     nodes = solids.surface[window.reached(solids.surface[:, None], whole=True)]
-    meeting = window.meeting
-    found = [_inside(solids, x, Points(ends=np.stack([nodes, nodes], axis=1), fraction=np.zeros(len(nodes))), meeting)]
-    if solids.dim > 1:
-        found.append(_inside(solids, x, _crossed(solids, x, window), meeting))
-    return _together(found)
+    at_nodes = Points(ends=np.stack([nodes, nodes], axis=1), place=x[nodes], rest=solids.reference[nodes])
+    looked_at = [at_nodes, *([_crossed(solids, x, window)] if solids.dim > 1 else []), *_curved(solids, x, window)]
+    return _together([_inside(solids, x, points, window.meeting) for points in looked_at])
 
 
 def _together(found: Sequence[Inside]) -> Inside:
@@ -129,11 +131,21 @@ def _none(dim: int) -> Inside:
 def _window(solids: Solids, x: Array) -> Window:
     """Parts of space in which bodies may overlap."""
     low, high = boxes(x, solids.owner, len(solids.names))
+    bulge = _bulges(solids, x)[:, None]
+    low, high = low - bulge, high + bulge
     meeting: BoolArray = np.all((low[:, None] <= high[None, :]) & (low[None, :] <= high[:, None]), axis=2)
     fold = folded(solids, x)
     meeting[np.diag_indices(len(meeting))] = False
     meeting[solids.owner[fold], solids.owner[fold]] = True
     return Window(solids=solids, x=x, low=low, high=high, meeting=meeting, fold=fold)
+
+
+def _bulges(solids: Solids, x: Array) -> Array:
+    """Distances (bodies,) by which curved facets may bulge out of the boxes around the nodes of their bodies [m]."""
+    out = np.zeros(len(solids.names))
+    for facets in solids.curved.values():
+        np.maximum.at(out, solids.owner[facets[:, 0]], BULGE * np.ptp(x[facets], axis=1).max(axis=1))
+    return out
 
 
 def _crossed(solids: Solids, x: Array, window: Window) -> Points:
@@ -147,28 +159,42 @@ def _crossed(solids: Solids, x: Array, window: Window) -> Points:
     i, j = i[keep], j[keep]
     fraction, hit = crossings(ends[i], corners[j])
     samples = between(i[hit], fraction[hit])
-    return Points(ends=lines[samples.line], fraction=samples.fraction)
+    first, last = lines[samples.line].T
+    share = samples.fraction[:, None]
+    place, rest = (at[first] + share * (at[last] - at[first]) for at in (x, solids.reference))
+    return Points(ends=lines[samples.line], place=place, rest=rest)
+
+
+def _curved(solids: Solids, x: Array, window: Window) -> Iterator[Points]:
+    """Points of a lattice in the facets that are curved: their flat pieces need not cross where they overlap."""
+    for name, facets in solids.curved.items():
+        near_others = facets[window.reached(facets, curved=True)]
+        shares, _ = tabulate(name, lattice(name, DIVISIONS))
+        nearest = np.argsort(-shares, axis=1, kind="stable")[:, :2]
+        place, rest = (
+            np.einsum("pb,fbd->fpd", shares, at[near_others]).reshape(-1, solids.dim) for at in (x, solids.reference)
+        )
+        yield Points(ends=near_others[:, nearest].reshape(-1, 2), place=place, rest=rest)
 
 
 def _inside(solids: Solids, x: Array, points: Points, meeting: BoolArray) -> Inside:
     """Those of the points that lie inside of a body."""
-    place = points.at(x)
     found = [_none(solids.dim)]
     for block in solids.blocks:
-        which, cells, depth = _in_block(solids, block, x, points, place, meeting)
-        found.append(Inside(ends=points.ends[which], place=place[which], body=block.body[cells], depth=depth))
+        which, cells, depth = _in_block(solids, block, x, points, meeting)
+        found.append(Inside(ends=points.ends[which], place=points.place[which], body=block.body[cells], depth=depth))
     return _together(found)
 
 
 def _in_block(
-    solids: Solids, block: Block, x: Array, points: Points, place: Array, meeting: BoolArray
+    solids: Solids, block: Block, x: Array, points: Points, meeting: BoolArray
 ) -> tuple[IntArray, IntArray, Array]:
     """Numbers of points, of the cells that they are in, and their depths [m].
 
     In a cell at the boundary the depth is the distance from its outer faces, to first order: exact as it vanishes. A
     deeper point may be nearer to a piece of the boundary beside its cell.
     """
-    corners = x[block.nodes]
+    place, corners = points.place, x[block.nodes]
     low, high = corners.min(axis=1), corners.max(axis=1)
     margin = BULGE * (high - low).max(axis=1, keepdims=True) if block.nodes.shape[1] > 2**solids.dim else 0.0
     i, j = near(place, place, low - margin, high + margin)
@@ -184,7 +210,7 @@ def _in_block(
     deep = np.flatnonzero(depth > SHALLOW * solids.extents[block.body[j]])
     centre = solids.reference[block.nodes[j[deep]]].mean(axis=1)
     own = solids.owner[points.ends[i[deep], 0]] == block.body[j[deep]]
-    rest = np.where(own[:, None], points.at(solids.reference)[i[deep]], np.inf)
+    rest = np.where(own[:, None], points.rest[i[deep]], np.inf)
     far = flat_pieces.distance(solids, x, place[i[deep]], block.body[j[deep]], centre, rest)
     depth[deep] = np.minimum(depth[deep], far)
     return i, j, depth

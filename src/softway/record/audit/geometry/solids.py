@@ -70,6 +70,11 @@ class Solids:
         return np.flatnonzero(~inside)
 
     @cached_property
+    def curved(self) -> dict[str, IntArray]:
+        """Facets (k, b) that may be curved, by name."""
+        return {n: found for n, found in self.facets.items() if CELLS[n].dim > 0 and CELLS[n].order > 1}
+
+    @cached_property
     def flat(self) -> IntArray:
         """Corners (k, d) of the flat pieces between the nodes of the boundary: segments or triangles."""
         pieces = [facets[:, piece] for name, facets in self.facets.items() for piece in FLAT.get(name, ((0,),))]

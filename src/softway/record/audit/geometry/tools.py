@@ -11,6 +11,7 @@ from softway.meshes.cells import CELLS
 from softway.meshes.element import tabulate
 from softway.obstacles.half_space import HalfSpace
 from softway.obstacles.triangulated import Facets, Surface
+from softway.record.audit.geometry.lattice import lattice
 from softway.record.audit.geometry.solids import Solids, boxes
 
 DIVISIONS = (4, 16)
@@ -95,7 +96,7 @@ def _sampled(
     x: Array, shape: PlacedShape, name: str, facets: IntArray, divisions: int
 ) -> tuple[IntArray, Array, Array]:
     """Nearest nodes (f, p), places (f, p, d) and gaps (f, p) [m] of the points of a lattice in facets (f, b)."""
-    shares, _ = tabulate(name, _lattice(name, divisions))
+    shares, _ = tabulate(name, lattice(name, divisions))
     places = np.einsum("pb,fbd->fpd", shares, x[facets])
     return facets[:, shares.argmax(axis=1)], places, _gaps(shape, places)
 
@@ -117,14 +118,3 @@ def _open(shape: PlacedShape) -> bool:
     """True for a surface of facets with a rim."""
     found = shape.shape.facets if isinstance(shape.shape, Surface) else shape.shape
     return isinstance(found, Facets) and not found.closed
-
-
-def _lattice(name: str, divisions: int) -> Array:
-    """Points (p, r) of a lattice in a facet without its corners."""
-    cell = CELLS[name]
-    ticks = np.linspace(0.0, 1.0, divisions + 1)
-    points = np.stack(np.meshgrid(*[ticks] * cell.dim, indexing="ij"), axis=-1).reshape(-1, cell.dim)
-    if cell.simplex:
-        points = points[points.sum(axis=1) <= 1.0 + 1e-12]
-    corner = (np.abs(points[:, None] - cell.nodes[: cell.corners][None]).max(axis=2) < 1e-12).any(axis=1)
-    return np.asarray(points[~corner])
