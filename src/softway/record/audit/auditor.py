@@ -89,6 +89,8 @@ class Auditor:
     def _bodies(self, x: Array) -> Iterator[Overlap]:
         """Deepest overlap of each pair of bodies, at nodes and between them."""
         inside = overlaps(self.solids, x)
+        if not len(inside.ends):
+            return
         node = inside.ends[:, 0]
         first, at_node = self.solids.owner[node], inside.ends[:, 0] == inside.ends[:, 1]
         pairs = np.sort(np.stack([first, inside.body], axis=1), axis=1)
