@@ -5,11 +5,12 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import Progress
 
 from softway.apps.cli.output.tables import findings, summary
 from softway.record.audit.auditor import Depths
-from softway.record.audit.folder import frames_audited
+from softway.record.audit.folder import frames_audited, history_audited, unsaid
 from softway.record.read.findings import gathered
 from softway.record.run import Run
 
@@ -50,7 +51,8 @@ def audit(
     """Look for overlaps and inverted cells in all stored frames of a run, independently of its contact.
 
     Every body is compared with every other one, with all tools and with itself, whether they are in contact or not, at
-    the nodes and between them. A run does the same while it is computed, at most at every tenth slab (time step).
+    the nodes and between them. A run does the same while it is computed, at most at every tenth slab (time step). The
+    energy balance is computed again from history.csv. Warnings name what the summary of the run does not tell.
 
     Parameters
     ----------
@@ -71,8 +73,11 @@ def audit(
         for depths in frames_audited(fields):
             found.append(depths)
             display.advance(task)
-    told: list[dict[str, Any]] = gathered([event for depths in found for event in depths.findings])
+    seen = [*(event for depths in found for event in depths.findings), *history_audited(run.history)]
+    told: list[dict[str, Any]] = gathered(seen)
     nodes, between = (max((getattr(d, name) for d in found), default=0.0) for name in ("nodes", "between"))
     console.print(f"{len(found)} frames audited; deepest overlap at nodes {nodes:.3g} m, between nodes {between:.3g} m")
     findings(told, Console())
+    for sentence in unsaid(seen, run.summary.get("findings", ())):
+        Console(stderr=True).print(f"[bold yellow]warning[/] {escape(sentence)}", soft_wrap=True, highlight=False)
     return FINDINGS if strict and told else 0

@@ -1,7 +1,13 @@
 """Energy account of a run as its audit follows it, slab by slab."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
+from softway.march.results.step import Event
+from softway.record.read.findings import DISSIPATION, ENERGY, finding
+
+GIVEN_BACK = 1e-12
+"""Dissipation of a slab, relative to the energies, below whose negative it is a finding."""
 MISSED = 1e-2
 """Error of the energy balance since the start, relative to the energies that took part, above which it is a finding."""
 ENERGIES = ("energy_kinetic", "energy_strain", "work_external", "dissipation", "energy_error")
@@ -67,3 +73,18 @@ class EnergyWatch:
         """Worst of the balances that missed since the last call; None if none did."""
         worst, self._worst = self._worst, None
         return worst
+
+
+def given_back(watch: EnergyWatch, gained: float, time: float, span: float) -> Iterator[Event]:
+    """Finding on a slab of length ``span`` [s] that dissipated the energy ``gained`` [J], if that is negative."""
+    if gained < -GIVEN_BACK * watch.level - watch.rounding:
+        text = f"friction and material gave {-gained:.3g} J back in the slab of {span:.3g} s"
+        yield finding(time, DISSIPATION, ("all",), text)
+
+
+def missed(watch: EnergyWatch) -> Iterator[Event]:
+    """Finding on the worst balance since the last call, if it missed."""
+    worst = watch.looked()
+    if worst is not None:
+        text = f"the energy balance misses {worst.error:.3g} J of {worst.scale:.3g} J since the start"
+        yield finding(worst.time, ENERGY, ("all",), text)

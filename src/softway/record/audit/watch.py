@@ -11,16 +11,14 @@ from softway.bodies.solid import Tool
 from softway.march.results.step import Event, Step
 from softway.model.scene import State
 from softway.record.audit.auditor import Auditor, auditor
-from softway.record.audit.energy_watch import ENERGIES, EnergyWatch
-from softway.record.read.findings import DISSIPATION, ENERGY, MOMENTUM, SPIN, finding
+from softway.record.audit.energy_watch import ENERGIES, EnergyWatch, given_back, missed
+from softway.record.read.findings import ENERGY, MOMENTUM, SPIN, finding
 from softway.record.storage.table import Table
 from softway.record.write.grid_layout import layout
 from softway.record.write.recorder import RunStart
 
 APART = 10
 """Least number of slabs between two audits: with it they take a few percent of the time of a run."""
-GIVEN_BACK = 1e-12
-"""Dissipation of a slab, relative to the energies, below whose negative it is a finding."""
 AGREED = 1e-9
 """Difference of energies and momenta to those computed again from the fields, relative to them."""
 
@@ -90,17 +88,12 @@ class Watcher:
     def _given_back(self, step: Step) -> Iterator[Event]:
         """Finding on a slab that gave dissipated energy back."""
         gained = self._energy.took(step.after.time, *(getattr(step.ledger, name) for name in ENERGIES))
-        if gained < -GIVEN_BACK * self._energy.level - self.opening.rounding:
-            text = f"friction and material gave {-gained:.3g} J back in the slab of {step.slab.span:.3g} s"
-            yield finding(step.after.time, DISSIPATION, ("all",), text)
+        yield from given_back(self._energy, gained, step.after.time, step.slab.span)
 
     def _balanced(self, step: Step) -> Iterator[Event]:
         """Findings on balances that miss, and on energies and momenta that do not agree with the fields."""
         ledger, time = step.ledger, step.after.time
-        worst = self._energy.looked()
-        if worst is not None:
-            text = f"the energy balance misses {worst.error:.3g} J of {worst.scale:.3g} J since the start"
-            yield finding(worst.time, ENERGY, ("all",), text)
+        yield from missed(self._energy)
         if self.opening.balances is None:
             return
         again = self.opening.balances(step.after)
@@ -114,9 +107,9 @@ class Watcher:
             (SPIN, again.spin - ledger.spin, again.turning, "kg m^2/s"),
         )
         for kind, difference, scale, unit in vectors:
-            missed = float(np.abs(difference).max())
-            if not missed <= AGREED * scale:
-                text = f"the {kind} of the fields and that of the ledger differ by {missed:.3g} {unit}"
+            greatest = float(np.abs(difference).max())
+            if not greatest <= AGREED * scale:
+                text = f"the {kind} of the fields and that of the ledger differ by {greatest:.3g} {unit}"
                 yield finding(time, kind, ("all",), text)
 
     def _pushed(self, step: Step) -> Iterator[Event]:

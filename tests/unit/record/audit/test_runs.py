@@ -1,6 +1,8 @@
 """Runs whose contact is satisfied while their bodies overlap: the audit says so, and nothing else changes."""
 
 import itertools
+import json
+import shutil
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -101,6 +103,26 @@ def test_the_exit_code_and_the_words_on_the_terminal(through: sw.Run, tmp_path: 
     assert cli.main(["audit", str(tmp_path / "a"), "--strict"]) == 4
     assert "8 frames audited; deepest overlap at nodes 0.3 m" in capsys.readouterr().out
     assert cli.main(["audit", str(tmp_path / "a")]) == 0
+
+
+def test_an_audit_says_what_a_summary_leaves_out(through: sw.Run, tmp_path: Path, capsys) -> None:
+    folder = Path(shutil.copytree(through.path, tmp_path / "run"))
+    said = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+
+    def warned(findings) -> str:
+        (folder / "summary.json").write_text(json.dumps({**said, "findings": findings}), encoding="utf-8")
+        assert cli.main(["audit", str(folder)]) == 0
+        return capsys.readouterr().err
+
+    assert not warned(said["findings"])
+    nodes, *_ = said["findings"]
+    assert "tells 0.1 m of 0.3 m: overlap of 'block-other'" in warned([{**nodes, "depth": 0.1}, *said["findings"][1:]])
+    assert "does not tell: overlap of 'block-other'" in warned([])
+    text = (folder / "history.csv").read_text(encoding="utf-8").splitlines()
+    column, last = text[0].split(",").index("energy_kinetic [J]"), text[-1].split(",")
+    last[column] = str(0.5 * float(last[column]))
+    (folder / "history.csv").write_text("\n".join([*text[:-1], ",".join(last), ""]), encoding="utf-8")
+    assert warned(said["findings"]).count("does not tell") == 1
 
 
 def test_the_picture_tells_it(through: sw.Run) -> None:
