@@ -11,7 +11,7 @@ from rich.progress import Progress
 from softway.apps.cli.output.tables import findings, summary
 from softway.record.audit.auditor import Depths
 from softway.record.audit.folder import frames_audited, history_audited, unsaid
-from softway.record.read.findings import gathered
+from softway.record.read.findings import gathered, stored
 from softway.record.run import Run
 
 FINDINGS = 4
@@ -52,7 +52,8 @@ def audit(
 
     Every body is compared with every other one, with all tools and with itself, whether they are in contact or not, at
     the nodes and between them. A run does the same while it is computed, at most at every tenth slab (time step). The
-    energy balance is computed again from history.csv. Warnings name what the summary of the run does not tell.
+    error of the energy balance is computed again from the energies in history.csv. Warnings name findings, also those
+    of the run, that its summary does not tell.
 
     Parameters
     ----------
@@ -78,6 +79,6 @@ def audit(
     nodes, between = (max((getattr(d, name) for d in found), default=0.0) for name in ("nodes", "between"))
     console.print(f"{len(found)} frames audited; deepest overlap at nodes {nodes:.3g} m, between nodes {between:.3g} m")
     findings(told, Console())
-    for sentence in unsaid(seen, run.summary.get("findings", ())):
+    for sentence in unsaid([*seen, *stored(run.events)], run.summary.get("findings", ())):
         Console(stderr=True).print(f"[bold yellow]warning[/] {escape(sentence)}", soft_wrap=True, highlight=False)
     return FINDINGS if strict and told else 0

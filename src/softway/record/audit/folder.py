@@ -3,10 +3,12 @@
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+import numpy as np
+
 from softway.march.results.step import Event
 from softway.record.audit.auditor import Depths, auditor
-from softway.record.audit.energy_watch import EnergyWatch, given_back, missed
-from softway.record.read.findings import gathered
+from softway.record.audit.watch import AGREED
+from softway.record.read.findings import ENERGY, finding, gathered
 from softway.record.read.frames import Fields
 from softway.record.storage.table import Table
 
@@ -24,18 +26,25 @@ def frames_audited(fields: Fields) -> Iterator[Depths]:
 
 
 def history_audited(history: Table) -> list[Event]:
-    """Findings on the energies of a history; the error of the balance is computed again from the other columns."""
-    names = ("time", "h", "energy_kinetic", "energy_strain", "work_external", "dissipation")
-    lines = list(zip(*(history[name].tolist() for name in names), strict=True))
-    if not lines:
+    """Finding on a history whose column ``energy_error`` is not what the other energies leave.
+
+    Examples
+    --------
+    >>> columns = {"time": [0, 1], "energy_kinetic": [2, 1], "energy_strain": [0, 1], "work_external": [0, 0]}
+    >>> wrong = {**columns, "dissipation": [0, 0.5], "energy_error": [0, 0]}
+    >>> [found.finding for found in history_audited(Table({n: np.array(v) for n, v in wrong.items()}))]
+    ['the energies of history.csv leave 0.5 J, its column energy_error has 0 J']
+    """
+    names = ("energy_kinetic", "energy_strain", "work_external", "dissipation")
+    kinetic, strain, work, lost = (history[name] for name in names)
+    left = kinetic + strain - (kinetic + strain)[:1] - work + lost
+    scale = np.abs(kinetic) + np.abs(strain) + np.abs(work) + np.abs(lost) + (kinetic + strain)[:1]
+    wrong = np.flatnonzero(~(np.abs(left - history["energy_error"]) <= AGREED * scale))
+    if not len(wrong):
         return []
-    (_, _, *first), *others = lines
-    start = first[0] + first[1]
-    watch, found = EnergyWatch(start), []
-    for time, span, kinetic, strain, work, lost in others:
-        gained = watch.took(time, kinetic, strain, work, lost, kinetic + strain - start - work + lost)
-        found += [*given_back(watch, gained, time, span), *missed(watch)]
-    return found
+    k = wrong[0]
+    text = f"the energies of history.csv leave {left[k]:.3g} J, its column energy_error has"
+    return [finding(float(history["time"][k]), ENERGY, ("all",), f"{text} {float(history['energy_error'][k]):.3g} J")]
 
 
 def unsaid(found: Iterable[Event], claimed: Iterable[Mapping[str, Any]]) -> list[str]:

@@ -118,11 +118,16 @@ def test_an_audit_says_what_a_summary_leaves_out(through: sw.Run, tmp_path: Path
     nodes, *_ = said["findings"]
     assert "tells 0.1 m of 0.3 m: overlap of 'block-other'" in warned([{**nodes, "depth": 0.1}, *said["findings"][1:]])
     assert "does not tell: overlap of 'block-other'" in warned([])
+    events = (folder / "events.csv").read_text(encoding="utf-8")
+    missed = "0.8,all,energy,-1,0,0,0,0,0,0,0,the balance misses"
+    (folder / "events.csv").write_text(f"{events}{missed}\n", encoding="utf-8")
+    assert "does not tell: energy of 'all'" in warned(said["findings"])
+    (folder / "events.csv").write_text(events, encoding="utf-8")
     text = (folder / "history.csv").read_text(encoding="utf-8").splitlines()
     column, last = text[0].split(",").index("energy_kinetic [J]"), text[-1].split(",")
     last[column] = str(0.5 * float(last[column]))
     (folder / "history.csv").write_text("\n".join([*text[:-1], ",".join(last), ""]), encoding="utf-8")
-    assert warned(said["findings"]).count("does not tell") == 1
+    assert warned(said["findings"]) == "warning summary.json does not tell: energy of 'all'\n"
 
 
 def test_the_picture_tells_it(through: sw.Run) -> None:
