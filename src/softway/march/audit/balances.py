@@ -51,7 +51,7 @@ def balances(model: Model, state: State) -> Balances:
         momentum=momentum(model.space, momenta),
         moving=model.space.total(np.abs(momenta)),
         spin=spin(model, now.displacement, momenta),
-        turning=model.space.total(_levers(model.points + now.displacement, momenta)),
+        turning=_turning(model, model.points + now.displacement, momenta),
     )
 
 
@@ -64,7 +64,8 @@ class Pushed:
     resultant, scale
         Resultant (d,) of the forces, and sum of the sizes of its parts [N].
     moment, turning
-        Moment (k,) of the forces about the middle of the body, and sum of the sizes of its parts [N m].
+        Moment (k,) of the forces about the middle of the body, and sum of the sizes of its parts [N m]; none in 1D and
+        around an axis of revolution.
     arm
         Greatest distance of a node from the middle of the body [m].
     rounding
@@ -112,20 +113,26 @@ def _pushed(model: Model, section: object, terms: Sequence[tuple[Array, Array]],
     """Sums of forces (n, d) at places (n, d) on one body: the changes of its momenta, less what is given."""
     space, keep = model.space, np.ones(model.shape[1])
     keep[0] = not isinstance(section, Axisymmetric)
-    middle = space.sums(terms[0][0]) / space.total(np.ones(len(terms[0][0])))
-    arms = [x - middle for x, _ in terms]
-    forces = [force for _, force in terms]
-    moments = sum(moment(space, x, force) for x, force in zip(arms, forces, strict=True))
+    found: Array = np.zeros(0)
+    turning = arm = 0.0
+    if model.shape[1] > 1 and keep.all():
+        middle = space.sums(terms[0][0]) / space.total(np.ones(len(terms[0][0])))
+        about = [(x - middle, force) for x, force in terms]
+        found = np.asarray(sum(moment(space, x, force) for x, force in about))
+        turning = sum(_turning(model, x, force) for x, force in about)
+        arm = max(space.greatest(np.linalg.norm(x, axis=1)) for x, _ in about)
     return Pushed(
-        resultant=np.asarray(sum(space.sums(force) for force in forces) * keep),
-        scale=sum(space.total(np.abs(force)) for force in forces),
-        moment=np.asarray(moments if keep.all() else 0.0 * moments),
-        turning=sum(space.total(_levers(x, force)) for x, force in zip(arms, forces, strict=True)),
-        arm=max(space.greatest(np.linalg.norm(x, axis=1)) for x in arms),
+        resultant=np.asarray(sum(space.sums(force) for _, force in terms) * keep),
+        scale=sum(space.total(np.abs(force)) for _, force in terms),
+        moment=found,
+        turning=turning,
+        arm=arm,
         rounding=rounding,
     )
 
 
-def _levers(x: Array, force: Array) -> Array:
-    """Products (n,) of the sizes of places (n, d) and of forces or momenta (n, d) there."""
-    return np.asarray(np.linalg.norm(x, axis=1) * np.linalg.norm(force, axis=1))
+def _turning(model: Model, x: Array, force: Array) -> float:
+    """Sum of the products of the sizes of places (n, d) and of forces or momenta (n, d) there; zero in 1D."""
+    if model.shape[1] == 1:
+        return 0.0
+    return model.space.total(np.linalg.norm(x, axis=1) * np.linalg.norm(force, axis=1))

@@ -66,7 +66,8 @@ class Watcher:
     def watched(self, steps: Iterator[Step]) -> Iterator[Step]:
         """Steps with the findings among their events, and the gaps that were seen in their certificates."""
         for step in steps:
-            found = list(self._given_back(step))
+            gained = self._energy.took(step.after.time, *(getattr(step.ledger, name) for name in ENERGIES))
+            found = list(given_back(self._energy, gained, step.after.time, step.slab.span))
             seen = step.certificate
             if self._counted(step.before.time, step.after.time):
                 depths = self.auditor.look(step.after.time, self.positions(step.after))
@@ -84,11 +85,6 @@ class Watcher:
             return False
         self._audited = self._slabs
         return True
-
-    def _given_back(self, step: Step) -> Iterator[Event]:
-        """Finding on a slab that gave dissipated energy back."""
-        gained = self._energy.took(step.after.time, *(getattr(step.ledger, name) for name in ENERGIES))
-        yield from given_back(self._energy, gained, step.after.time, step.slab.span)
 
     def _balanced(self, step: Step) -> Iterator[Event]:
         """Findings on balances that miss, and on energies and momenta that do not agree with the fields."""

@@ -105,6 +105,8 @@ class Window:
 
 def overlaps(solids: Solids, x: Array) -> Inside:
     """All nodes of the boundary, and points between its crossings, that lie inside of a body at positions x (n, d)."""
+    if solids.dim == 1 and len(solids.names) == 1:
+        return _none(solids.dim)
     window = _window(solids, x)
     if not window.meeting.any():
         return _none(solids.dim)
