@@ -69,8 +69,10 @@ def test_balances_hold_in_every_slab(name, tmp_path, monkeypatch):
     assert not [one for one in run.summary["findings"] if one["kind"] in wrong]
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", sorted(templates()))
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=pytest.mark.minutes if n == "part" else pytest.mark.slow) for n in sorted(templates())],
+)
 def test_a_template_has_no_finding(name, tmp_path):
     text = templates()[name].replace('"part.msh"', '"bracket.msh"')
     run = sw.run(loads(text, folder=SCENARIOS), tmp_path / "run")
