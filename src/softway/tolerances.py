@@ -9,6 +9,8 @@ ENERGY = 1e-9
 UNSTABLE = 0.1
 """Growth of the energy in one slab of central differences, relative to the energies that take part, that only a slab
 beyond the stability limit has; of the rule Impulse, growth in all slabs together that makes a march worthless."""
+GAINED = 3e-3
+"""Growth of the energy in one slab of the rule Impulse with touches, relative to the energies that take part."""
 MOMENTUM = 1e-9
 """Greatest error of the momentum balance of one slab, relative to the momenta that take part."""
 MOTION = 1e-12

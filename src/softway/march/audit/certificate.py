@@ -11,7 +11,7 @@ from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.results.step import Certificate, Ledger
 from softway.model.model import Model
-from softway.tolerances import DEPTH, ENERGY, FORCES, MOMENTUM, TENSION, UNSTABLE
+from softway.tolerances import DEPTH, ENERGY, FORCES, GAINED, MOMENTUM, TENSION, UNSTABLE
 
 AT_REST = 1e10
 """Energies, relative to the rounding error of the stored energy, below which bodies are at rest: strains of 1e-9."""
@@ -66,9 +66,11 @@ def _energetic(
     level = float(np.abs(before.start.energy).sum() + np.abs(after.start.energy).sum()) + ledger.energy_kinetic
     level += abs(ledger.work_external)
     growth, rest = (0.0 if closes else UNSTABLE), AT_REST * float(model.floor.sum())
-    if out.required.energy == "free" or error <= (growth + ENERGY) * level + rest:
+    if out.required.energy == "free" or (not limited and error <= (growth + ENERGY) * level + rest):
         return None
     level += float(model.kinetic(before.start.velocity).sum())
+    if limited and found.energy_error > GAINED * level + rest:
+        return f"the energy grows by {found.energy_error:.3g} J of {level:.3g} J: the slab is too long for its touches"
     moved = np.abs(after.start.displacement - before.start.displacement).max(axis=1)
     if error <= (growth + ENERGY) * level + rest + model.space.total(_blurred(model, after) * moved):
         return None

@@ -31,7 +31,7 @@ class Balances:
     ----------
     energy
         ``closed``: the energy balance closes up to rounding; ``bounded``: the energy does not grow more than in a
-        stable slab; ``limited``: neither in all slabs together; ``free``: no requirement.
+        stable slab; ``limited``: nor in all slabs together, and hardly in one; ``free``: no requirement.
     momentum
         True if the momentum balance closes.
     """

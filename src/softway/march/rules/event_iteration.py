@@ -49,11 +49,17 @@ class EventIteration:
         return 0.5 * np.maximum(self.reaction, 0.0) * length
 
 
-def without_events(model: Model, now: ModelState, pairs: SlabContacts, rows: ContactRows) -> EventIteration:
-    """Contact events without touches; closed rows without contact at the start (node slid off a facet) are released."""
+def without_events(
+    model: Model, now: ModelState, pairs: SlabContacts, rows: ContactRows, travel: float
+) -> EventIteration:
+    """Contact events without touches; closed rows without contact at the start (node slid off a facet) are released.
+
+    ``travel`` bounds the motion of a node in the slab [m].
+    """
     first, u0 = pairs.start(now.start.displacement), now.start.displacement
     extent = model.extent(u0)
-    gone = now.closed & ~(rows.near & first.near & (first.gap(u0) <= APART * extent))
+    there = within_reach(model, rows, u0, travel)
+    gone = now.closed & ~(rows.near & first.near & there & (first.gap(u0) <= APART * extent))
     events = contact_events(now.closed & ~gone)
     events = replace(events, release=np.where(gone, 0.0, events.release))
     return EventIteration(
@@ -74,6 +80,8 @@ def with_new_events(
     rows, events, end = current.rows, current.events, found.end
     gap = rows.gap(end.displacement)
     below = ~events.closed & (gap < -rounding(model, rows, end.displacement)) & rows.reachable(model.dofs)
+    travel = system.path.span * model.space.greatest(now.start.velocity, found.last.q)
+    below &= within_reach(model, rows, now.start.displacement, travel)
     if below.any():
         return _touching(model, now, system, current, found.last.q, below, touch)
     pull = inertia.multiplier(rows, end.force, events.closed)
@@ -101,9 +109,12 @@ def without_adhesion(current: EventIteration, jumps: Sequence[VelocityJump]) -> 
 
 
 def with_new_facets(
-    model: Model, pairs: SlabContacts, current: EventIteration, found: Solution
+    model: Model, now: ModelState, pairs: SlabContacts, current: EventIteration, found: Solution, travel: float
 ) -> EventIteration | None:
-    """Update the contact rows to those at the end of the solution; None if they have converged."""
+    """Update the contact rows to those at the end of the solution; None if they have converged.
+
+    Closed rows whose new facet is not within reach are released: their nodes went over an edge.
+    """
     if pairs.fixed_rows is not None:
         return None
     u1 = found.end.displacement
@@ -114,7 +125,23 @@ def with_new_facets(
     fresh = rows.near & ~current.rows.near & (rows.gap(u1) < 0.0)
     if not fresh.any() and np.abs(off).max(initial=0.0) <= 8.0 * rounding(model, rows, u1):
         return None
-    return replace(current, rows=rows)
+    events, u0 = current.events, now.start.displacement
+    lost = events.closed & rows.near & ~within_reach(model, rows, u0, travel)
+    events = replace(
+        events,
+        closed=events.closed & ~lost,
+        touch=np.where(lost, np.nan, events.touch),
+        release=np.where(lost & now.closed, 0.0, events.release),
+    )
+    return replace(current, rows=rows, events=events)
+
+
+def within_reach(model: Model, rows: ContactRows, u0: Array, travel: float) -> BoolArray:
+    """Rows (m,) whose node is not so deep behind the plane of its facet at the start that no motion brings it there.
+
+    Such a plane is that of a facet round the corner: the node is beyond its edges, and outside of the body.
+    """
+    return np.asarray(rows.gap(u0) + rows.tool_motion >= -2.0 * travel - APART * model.extent(u0))
 
 
 def rounding(model: Model, rows: ContactRows, u: Array) -> float:
