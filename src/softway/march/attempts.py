@@ -15,7 +15,7 @@ from softway.march.march_state import MarchState, StepHistory
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.results.step import Certificate, Ledger
-from softway.march.results.trying import Trying, TryWatch
+from softway.march.results.trying import watched
 from softway.march.rules.slab_rule import Attempt
 from softway.march.slab_step import Stepper, advance
 from softway.march.start.slab_length import proposed
@@ -23,14 +23,16 @@ from softway.march.step_control import CRAWL
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks
+from softway.solve.effort import Effort
 from softway.solve.equations.energy_balance import BOUND
-from softway.solve.methods.iteration import Told
 from softway.solve.methods.newton import Newton
 from softway.solve.operators.operator_memory import OperatorMemory
 
 log = logging.getLogger(__name__)
 PATIENCE = 1
 """Cutbacks after which an energy balance that the scalar cannot close is closed along the motion."""
+STEPS = 8
+"""Steps of the contact problems for each iterate above which an attempt is given up; accepted slabs take up to 3."""
 SHORT = 1e-2
 """Step without inertia, relative to that of the prescribed motion, below which a longer one is advised."""
 DAMPED = EndPeaks(theta=1.0)
@@ -83,7 +85,7 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
                 approach=settings.control.approach,
                 energy_along_motion=unbalanced >= PATIENCE,
                 cancel=stepper.cancel,
-                told=_told(stepper.trying, march_state.slabs + 1, slab),
+                effort=_effort(stepper, march_state.slabs + 1, slab),
             )
             found = _tried(stepper, march_state, slab, memory, attempt)
             return replace(found, rejections=tuple(reasons), halted=halted)
@@ -106,15 +108,9 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
     raise NumericsError(reason, now.time, _remedy(stepper, march_state))
 
 
-def _told(trying: TryWatch | None, number: int, slab: Slab) -> Told | None:
-    """Callback after every iterate of an attempt at the slab of this number."""
-    if trying is None:
-        return None
-
-    def told(iteration: int, change: float, active: int) -> None:
-        trying(Trying(slab=number, time=slab.start, span=slab.span, iteration=iteration, change=change, active=active))
-
-    return told
+def _effort(stepper: Stepper, number: int, slab: Slab) -> Effort:
+    """Counted work of an attempt at the slab of this number."""
+    return Effort(STEPS, watched(stepper.trying, number, slab.start, slab.span))
 
 
 def recent_rejections(before: StepHistory, span: float, rejections: int) -> float:

@@ -12,10 +12,12 @@ from softway.contact.contact_set import SlabContacts
 from softway.errors import Cancel, NoConvergence, NumericsError, heed
 from softway.model.model import Model
 from softway.solve.constraints.compliance import frozen_operator, row_basis
-from softway.solve.constraints.friction_newton import solve_friction
+from softway.solve.constraints.friction_contact import solve_friction
 from softway.solve.constraints.normal_active_set import RowConditions, rounded, solve_normal_contact
 from softway.solve.constraints.return_map import NO_SLIP, SlipConditions
+from softway.solve.effort import Effort
 from softway.solve.linear.interface import SuperLU
+from softway.solve.operators.choice import factor_operations
 from softway.solve.stagnation import Stagnation
 
 LIFT = 1e-7
@@ -99,6 +101,7 @@ def equilibrium(
     limit: int = 60,
     friction: InitialFriction = NoInitialSlip(),
     cancel: Cancel | None = None,
+    effort: Effort | None = None,
 ) -> StaticState:
     """Solve ``f(u) = load + G^T lambda`` on the unknowns for displacement and contact forces.
 
@@ -116,6 +119,8 @@ def equilibrium(
         Friction between the bodies.
     cancel
         Callback at every step that may cancel the computation.
+    effort
+        Counted work, with signs of life.
 
     Raises
     ------
@@ -126,7 +131,9 @@ def equilibrium(
     """
     if not dofs.size:
         return StaticState.apart(u, len(model.contacts.contact))
-    return _newton_iteration(model, u, dofs, load, model.contacts.rest(u, time), None, limit, friction, cancel)
+    return _newton_iteration(
+        model, u, dofs, load, model.contacts.rest(u, time), None, limit, friction, cancel, effort or Effort()
+    )
 
 
 def fitted(
@@ -138,6 +145,7 @@ def fitted(
     limit: int = 200,
     friction: InitialFriction = NoInitialSlip(),
     cancel: Cancel | None = None,
+    effort: Effort | None = None,
 ) -> StaticState:
     """Static equilibrium of bodies that overlap at the start (press fit): they are pressed apart.
 
@@ -159,7 +167,7 @@ def fitted(
     nodal = LIFT * (model.space.mean(stiffness.diagonal()) / model.space.mean(weight)) * weight
     lift = dofs.matrix(sp.csc_array(sp.diags_array(nodal)))
     pairs = model.contacts.meet(apart, u, 0.0, 0.0)
-    return _newton_iteration(model, u, dofs, load, pairs, lift, limit, friction, cancel)
+    return _newton_iteration(model, u, dofs, load, pairs, lift, limit, friction, cancel, effort or Effort())
 
 
 def _nodal_volume(model: Model) -> Array:
@@ -186,6 +194,7 @@ def _newton_iteration(
     limit: int,
     friction: InitialFriction,
     cancel: Cancel | None,
+    effort: Effort,
 ) -> StaticState:
     """Newton's method with the contact rows as inequalities; ``lift`` (k, k) is added to the stiffness."""
     last: tuple[Array, BoolArray] | None = None
@@ -199,13 +208,16 @@ def _newton_iteration(
         try:
             stiffness = dofs.matrix(model.tangent(u))
             lifted = stiffness if lift is None else stiffness + lift
-            step, force, active = _step(model, rows, u, dofs, load, lifted, last, friction)
+            step, force, active = _step(model, rows, u, dofs, load, lifted, last, friction, effort)
         except NoConvergence as failure:
             raise NumericsError(f"no static equilibrium at the start: {failure}", 0.0, REMEDY) from None
         u, last = u + dofs.nodes(step), (force, active)
         change = model.space.greatest(step)
         if not np.isfinite(change):
             break
+        effort.iterated(
+            count + 1, change / max(model.space.greatest(u), 1e-300), int(np.count_nonzero(force[: len(rows.node)]))
+        )
         size = max(model.space.greatest(u), float(np.abs(rows.offset[rows.near]).max(initial=0.0)))
         seen = seen.after(change)
         if once or change <= max(1e-13 * size, rounding) or (seen.since >= 2 and change <= WANDERING * size):
@@ -231,6 +243,7 @@ def _step(
     stiffness: sp.csc_array,
     last: tuple[Array, BoolArray] | None,
     friction: InitialFriction,
+    effort: Effort,
 ) -> tuple[Array, Array, BoolArray]:
     """One step of Newton's method on the unknowns, the contact forces, and the active rows."""
     extent = model.extent(u)
@@ -239,6 +252,7 @@ def _step(
     directions = row_basis(rows, dofs, model.contacts.fixed, model.touchable)
     reachable = rows.reachable(dofs)
     target = np.where(reachable, -rows.gap(u), 0.0)
+    effort.factor(dofs.size, factor_operations(model))
     frozen = frozen_operator(stiffness, directions, SuperLU())
     coefficients = frozen.coefficients(rows, dofs)
     m = len(target)
@@ -254,7 +268,7 @@ def _step(
         rounding=rounded(model.space.greatest(model.points)),
     )
     solve = solve_normal_contact if slipping.frictionless else solve_friction
-    return solve(free, frozen, coefficients, conditions, active, force)
+    return solve(free, frozen, coefficients, conditions, active, force, effort)
 
 
 def _open(m: int, slipping: SlipConditions) -> tuple[Array, BoolArray]:

@@ -1,5 +1,6 @@
 """Attempts at a slab: what is tried after a failure, what the next slab inherits, and when a march ends."""
 
+import importlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
@@ -16,6 +17,7 @@ from softway.model.model import Model
 from softway.model.time_weight import TimeWeight
 from softway.solve.operators.operator_memory import OperatorMemory
 
+attempts = importlib.import_module("softway.march.attempts")
 STEP = 0.125
 Failure = Callable[[int], Exception | None]
 
@@ -62,6 +64,20 @@ def flight(rule: Failing, until: float = 0.5, **options: Any) -> list[sw.Step]:
     contact = sw.Contact(between=("block.bottom", "floor"), timing=rule)
     scene = sw.Scene(bodies={"block": block, "floor": floor}, contacts=(contact,))
     return list(sw.march(scene, until=until, step=STEP, **options))
+
+
+def resting(rule: Any) -> sw.Scene:
+    """A block that falls on the floor where it stands."""
+    block = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(2, 4)),
+        material=sw.NeoHookean(E=1e3, nu=0.3),
+        density=1.0,
+    )
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
+    contact = sw.Contact(between=("block.bottom", "floor"), timing=rule)
+    return sw.Scene(
+        bodies={"block": block, "floor": floor}, contacts=(contact,), loads=(sw.Gravity(acceleration=(0.0, -1.0)),)
+    )
 
 
 def spans(steps: list[sw.Step]) -> list[float]:
@@ -114,6 +130,14 @@ def test_a_march_that_crawls_ends_when_its_patience_is_used_up() -> None:
         going_on(patience + 0.25)
 
 
+def test_an_attempt_is_given_up_when_its_steps_are_used_up(monkeypatch) -> None:
+    """One step of the contact problems for an attempt is too few for any slab on the floor."""
+    monkeypatch.setattr(attempts, "STEPS", 0.02)
+    told = "attempt given up after 1 iterations, 1 factors and 2 steps of the contact problems, of 1 allowed; the"
+    with pytest.raises(sw.NumericsError, match=told):
+        list(sw.march(resting(sw.contact.Energy()), until=0.5, step=STEP))
+
+
 ALONE = sw.Newton(handover=False)
 
 
@@ -144,27 +168,25 @@ def test_the_fixed_point_takes_over_a_slab_in_which_newton_fails() -> None:
 
 
 def test_every_iterate_of_every_attempt_is_told() -> None:
-    """A second slab whose first attempt fails: numbers, instants and lengths are those of the attempts."""
+    """A second slab whose first attempt fails before its first iterate: numbers, instants and lengths are those of the
+    attempts.
+    """
     seen: list[Trying] = []
     rule = Failing(failure=lambda n: NoConvergence("now") if n == 2 else None)
     steps = flight(rule, until=0.25, trying=seen.append)
-    firsts = [(t.slab, t.time, t.span) for t in seen if t.iteration == 1]
-    assert firsts == [(k + 1, s.slab.start, s.slab.span) for k, s in enumerate(steps)]
-    assert [t.iteration for t in seen if t.slab == 1] == list(range(1, steps[0].report.iterations + 1))
-    assert all(t.active == 0 and t.change >= 0.0 for t in seen)
+    assert seen[0] == Trying(slab=0, iteration=0)
+    firsts = [(t.slab, t.time, t.span) for t in seen[1:] if t.iteration == 0 and not t.doing]
+    begun = [(k + 1, s.slab.start, s.slab.span) for k, s in enumerate(steps)]
+    assert firsts == [begun[0], begun[1], begun[1]]
+    iterates = [t for t in seen if t.slab == 1 and t.iteration and not t.doing]
+    assert [t.iteration for t in iterates] == list(range(1, steps[0].report.iterations + 1))
+    assert all(t.active == 0 and t.change >= 0.0 for t in iterates)
+    assert any(t.doing.startswith("factoring ") and t.seconds < 1e-3 for t in seen)
     assert [s.report.iterations for s in steps] == [s.report.iterations for s in flight(rule, until=0.25)]
 
 
 def test_a_march_that_ends_in_contact_names_it() -> None:
     """A block that rests on a floor."""
-    block = sw.Solid(
-        mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(2, 4)), material=sw.LinearElastic(E=1e3), density=1.0
-    )
-    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
     rule = Failing(failure=lambda n: NoConvergence("always") if n > 1 else None)
-    contact = sw.Contact(between=("block.bottom", "floor"), timing=rule)
-    scene = sw.Scene(
-        bodies={"block": block, "floor": floor}, contacts=(contact,), loads=(sw.Gravity(acceleration=(0.0, -1.0)),)
-    )
     with pytest.raises(sw.NumericsError, match="always; in contact: block.bottom-floor"):
-        list(sw.march(scene, until=0.5, step=STEP))
+        list(sw.march(resting(rule), until=0.5, step=STEP))

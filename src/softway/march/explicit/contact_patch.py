@@ -104,6 +104,8 @@ def balanced(
         before, change = change, space.greatest(step.q - q)
         same = local.partial and bool((step.active == active).all())
         q, impulse, active = step.q, step.impulse, step.active
+        scale = max(space.greatest(q_all), 1e-300)
+        system.effort.iterated(count, change / scale, int(np.count_nonzero(impulse[: len(end.rows.node)])))
         if change <= enough or (same and _left(before, change) <= enough):
             q_all, u1 = q_all.copy(), u1.copy()
             q_all[local.nodes], u1[local.nodes] = q, local.placed(q)

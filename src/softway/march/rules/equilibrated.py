@@ -55,7 +55,7 @@ class Equilibrated:
         impulse, active = first_impulses(now, slab, system.path.rows)
         method = cancellable(self.method, attempt.cancel, slab.start)
         iterates = method.iterate(system, Guess(q=guess, impulse=impulse, active=active, memory=memory))
-        for solution in iterate(system, iterates, method.tolerance, method.limit, attempt.told):
+        for solution in iterate(system, iterates, method.tolerance, method.limit):
             velocity = end_velocity(model, slab, solution.last.q)
             out = slab_result(self.contact, model, now, slab, system, solution, pairs.found, velocity)
             yield out, solution.last.memory

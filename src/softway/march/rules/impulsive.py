@@ -4,7 +4,7 @@ The slab is first solved with the rows closed at its start, and then again with 
 releases that the solution requires, until there are no new ones.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import cast
 
 import numpy as np
@@ -77,10 +77,11 @@ class Impulsive:
         for passes in range(1, PASSES + 1):
             found = velocity_jumps(model, current.rows, current.events, now.closed, self.touch, slab.span)
             system = _system(model, now, slab, current, found, given, self.touch)
+            system = replace(system, effort=attempt.effort)
             closed = current.events.closed
             first = Guess(q=guess, impulse=np.zeros(len(closed)), active=closed, memory=memory)
             iterates = method.iterate(system, first)
-            for solution in iterate(system, iterates, method.tolerance, method.limit, attempt.told):
+            for solution in iterate(system, iterates, method.tolerance, method.limit):
                 u1, memory = solution.end.displacement, solution.last.memory
                 if passes == KEEP_FACETS_AFTER and pairs.fixed_rows is None:
                     facets = pairs.with_kept_facets(u1)

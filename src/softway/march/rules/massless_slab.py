@@ -118,6 +118,7 @@ def equations(
         closure=how.closure(model, now, slab, attempt),
         contact=_contact(model, now, slab, pairs, path, given, attempt),
         given=given,
+        effort=attempt.effort,
     )
 
 

@@ -1,7 +1,7 @@
 """Protocol of contact rules in time: solution of one slab (time step) with contact."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
@@ -12,9 +12,9 @@ from softway.march.results.slab_result import SlabResult
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import TimeWeight
+from softway.solve.effort import Effort
 from softway.solve.methods.central_difference import Explicit
 from softway.solve.methods.fixed_point import FixedPoint
-from softway.solve.methods.iteration import Told
 from softway.solve.methods.newton import Newton
 from softway.solve.operators.operator_memory import OperatorMemory
 
@@ -36,15 +36,15 @@ class Attempt:
         True if rows at rest stick at any force.
     cancel
         Callback between iterates that may cancel the march.
-    told
-        Callback with number, relative change and active rows of each iterate.
+    effort
+        Counted work of the attempt.
     """
 
     approach: float = np.inf
     energy_along_motion: bool = False
     stick_at_any_force: bool = False
     cancel: Cancel | None = None
-    told: Told | None = None
+    effort: Effort = field(default_factory=Effort)
 
 
 class SlabRule(Protocol):

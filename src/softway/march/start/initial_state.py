@@ -12,9 +12,11 @@ from softway.bodies.rigid_body_modes import free_motions
 from softway.contact.contact import NodeToSurface
 from softway.errors import Cancel, InputError
 from softway.march.model_state import ModelState
+from softway.march.results.trying import TryWatch, watched
 from softway.march.start.initial_overlap import deepest, shrunk
 from softway.model.model import Model
 from softway.model.scene import StaticStart
+from softway.solve.effort import Effort
 from softway.solve.equations.slab_values import SlabStart
 from softway.solve.static_equilibrium import (
     InitialFriction,
@@ -37,7 +39,9 @@ TOGETHER = 1e-7
 """Relative velocity of surfaces at the start, relative to the greatest speed, that is rounding."""
 
 
-def initial_state(model: Model, span: float = 1.0, cancel: Cancel | None = None) -> ModelState:
+def initial_state(
+    model: Model, span: float = 1.0, cancel: Cancel | None = None, trying: TryWatch | None = None
+) -> ModelState:
     """State at t = 0; path-dependent materials reach their initial displacement in one slab of length ``span`` [s].
 
     Raises
@@ -48,7 +52,7 @@ def initial_state(model: Model, span: float = 1.0, cancel: Cancel | None = None)
         If ``cancel`` requests it at an iteration of an equilibrium.
     """
     model = model.during((), span)
-    rest = _resting(model, cancel)
+    rest = _resting(model, cancel, Effort(tell=watched(trying)))
     u, pressure = rest.displacement, rest.pressure
     energy, force = model.energy_and_force(u)
     states = material_states.committed(model.parts, u)
@@ -72,7 +76,7 @@ def initial_state(model: Model, span: float = 1.0, cancel: Cancel | None = None)
     )
 
 
-def _resting(model: Model, cancel: Cancel | None) -> StaticState:
+def _resting(model: Model, cancel: Cancel | None, effort: Effort) -> StaticState:
     """Initial static state: in equilibrium if requested, with massless nodes relaxed."""
     u, count = model.displacement, len(model.contacts.contact)
     rest = StaticState.apart(u, count)
@@ -86,13 +90,22 @@ def _resting(model: Model, cancel: Cancel | None) -> StaticState:
     fits = any(c.start == "fit" for c in model.scene.contacts)
     if fits or (isinstance(start, StaticStart) and unsupported_motions(model)):
         apart = shrunk(model, u, DEPTH * model.extent(u))
-        rest = fitted(model, u, model.dofs, loads, apart, friction=NoInitialSlip() if fits else friction, cancel=cancel)
+        rest = fitted(
+            model,
+            u,
+            model.dofs,
+            loads,
+            apart,
+            friction=NoInitialSlip() if fits else friction,
+            cancel=cancel,
+            effort=effort,
+        )
     elif isinstance(start, StaticStart):
-        rest = equilibrium(model, u, model.dofs, loads, friction=friction, cancel=cancel)
+        rest = equilibrium(model, u, model.dofs, loads, friction=friction, cancel=cancel, effort=effort)
     if model.timing.massless and not model.space.every(model.massive):
         before = float(model.energy_and_force(rest.displacement)[0].sum())
         light = model.dofs.only(~model.massive)
-        rest = equilibrium(model, rest.displacement, light, model.load, friction=friction, cancel=cancel)
+        rest = equilibrium(model, rest.displacement, light, model.load, friction=friction, cancel=cancel, effort=effort)
         after = float(model.energy_and_force(rest.displacement)[0].sum())
         if before != after:
             log.info("relaxing the contact nodes at the start releases %.3g J of %.3g J", before - after, before)

@@ -54,13 +54,19 @@ def prepare(
         method if isinstance(method, Explicit) else weight,
     )
     require_stable_weight(stepping)
-    march_state = _begun(model, settings, state, cancel)
+    march_state = _begun(model, settings, state, cancel, trying)
     if not march_state.slabs and not (isinstance(stepping, Explicit) and settings.step == "auto"):  # auto is stable
         require_stable(model, march_state.state.start.displacement, stepping, march_state.step_history.span)
     return Preparation(stepper=prepared, march_state=march_state)
 
 
-def _begun(model: Model, settings: Settings, state: State | MarchState | None, cancel: Cancel | None) -> MarchState:
+def _begun(
+    model: Model,
+    settings: Settings,
+    state: State | MarchState | None,
+    cancel: Cancel | None,
+    trying: TryWatch | None,
+) -> MarchState:
     """March state at the start of a march."""
     if isinstance(state, MarchState) and state.settings == settings:
         return state.fitting(model)
@@ -68,7 +74,7 @@ def _begun(model: Model, settings: Settings, state: State | MarchState | None, c
     span = proposed(model, settings.step, settings.weight, settings.until - past, settings.method)
     if isinstance(state, MarchState):
         return state.fitting(model).asked(settings, span)
-    now = initial_state(model, span, cancel) if state is None else join_states(model, state, span)
+    now = initial_state(model, span, cancel, trying) if state is None else join_states(model, state, span)
     return MarchState(
         settings=settings,
         state=now,

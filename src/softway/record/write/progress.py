@@ -67,7 +67,8 @@ Tell = Callable[[str], None]
 class Heartbeat:
     """Sign of life of a run: a line after ``BEAT`` seconds inside one attempt at a slab, and again after as many.
 
-    The clock decides what is shown and nothing else.
+    It is shown beforehand if what begins will take as long by its estimate.  The clock decides what is shown and
+    nothing else.
 
     Parameters
     ----------
@@ -80,10 +81,10 @@ class Heartbeat:
     --------
     >>> times = iter([0.0, 4.0, 5.5, 6.0, 11.0, 11.5])
     >>> beat = Heartbeat(print, lambda: next(times))
-    >>> for k in (1, 2, 3, 4, 5, 1):
+    >>> for k in (0, 1, 2, 3, 4, 0):
     ...     beat(Trying(slab=3, time=0.25, span=0.125, iteration=k, change=0.5, active=12))
-    after 6 s: slab 3 at t = 0.25 s, h = 0.125 s: iteration 3, relative change 5.0e-01, 12 active rows
-    after 11 s: slab 3 at t = 0.25 s, h = 0.125 s: iteration 5, relative change 5.0e-01, 12 active rows
+    after 6 s: slab 3 at t = 0.25 s, h = 0.125 s: iteration 2, relative change 5.0e-01, 12 active rows
+    after 11 s: slab 3 at t = 0.25 s, h = 0.125 s: iteration 4, relative change 5.0e-01, 12 active rows
     """
 
     __slots__ = ("_begun", "_now", "_shown", "_tell")
@@ -93,11 +94,11 @@ class Heartbeat:
         self._begun = self._shown = 0.0
 
     def __call__(self, trying: Trying) -> None:
-        """Take an iterate; show it if the last line is old."""
+        """Take the state of an attempt; show it if the last line is old, or will be before the next one."""
         now = self._now()
-        if trying.iteration == 1:
+        if trying.iteration == 0 and not trying.doing:
             self._begun = self._shown = now
-        elif now - self._shown >= BEAT:
+        elif now - self._shown + trying.seconds >= BEAT:
             self._shown = now
             self._tell(f"after {now - self._begun:.0f} s: {trying}")
 

@@ -1,12 +1,13 @@
 """Contact problem with friction of the touching rows: conditions, linearisation, Gauss-Seidel sweeps."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from softway.arrays import Array, BoolArray
 from softway.errors import NoConvergence
 from softway.solve.constraints.return_map import SlipConditions, return_map
+from softway.solve.effort import Effort
 
 LIFT = 1e-12
 """Fraction of the compliance added to the diagonal, which makes dependent rows regular."""
@@ -35,6 +36,8 @@ class FrictionProblem:
         (c (1 + k),) previous multipliers.
     rounding
         Rounding error of gaps and slips.
+    effort
+        Counted work of the attempt at the slab.
     """
 
     compliance: Array
@@ -44,6 +47,7 @@ class FrictionProblem:
     tangential_compliance: Array
     previous: Array
     rounding: float = 0.0
+    effort: Effort = field(default_factory=Effort)
 
     @property
     def count(self) -> int:
@@ -86,7 +90,12 @@ class FrictionProblem:
 
 
 def friction_problem(
-    compliance: Array, free: Array, law: SlipConditions, previous: Array | None = None, rounding: float = 0.0
+    compliance: Array,
+    free: Array,
+    law: SlipConditions,
+    previous: Array | None = None,
+    rounding: float = 0.0,
+    effort: Effort | None = None,
 ) -> FrictionProblem:
     """Contact problem of rows with their compliance, and with gaps and slips under the ``previous`` multipliers.
 
@@ -109,6 +118,7 @@ def friction_problem(
         tangential_compliance=np.maximum(tangential_compliance, least),
         previous=np.zeros(len(free)) if previous is None else previous,
         rounding=rounding,
+        effort=effort or Effort(),
     )
 
 
@@ -203,7 +213,8 @@ def gauss_seidel(problem: FrictionProblem, x: Array, count: int) -> Array:
     x, previous = x.copy(), problem.previous
     k = (len(x) - c) // c
     parts = [problem.law.subset(np.array([i])) for i in range(c)]
-    for _ in range(count):
+    for sweep in range(1, count + 1):
+        problem.effort.step(f"friction of {c} rows, Gauss-Seidel sweep {sweep}")
         for i in range(c):
             at = c + k * i + np.arange(k)
             gap = problem.free[i] + W[i] @ x

@@ -1,13 +1,7 @@
-"""Contact with friction on the frozen operator: Newton's method for the forces of the touching rows.
+"""Newton's method for the forces of touching rows with friction.
 
-Given the free solution ``y`` of A y = b, find normal and tangential multipliers of the contact rows such that
-``z = y + A^-1 (G^T p + T^T s)`` satisfies
-
-    G z >= c,  p >= 0,  p (G z - c) = 0,    s = -resistance(T z - shift, p) along the slip, or no slip within a limit.
-
-The tangential condition is the return map of a trial ``s - r (T z - shift)``.  Nothing is regularised: rows that stick
-do not move, rows that slip have the force of the law (docs/theory/contact/friction.md).  The unknowns are the changes
-of the previous multipliers (:class:`~softway.solve.constraints.friction_conditions.FrictionProblem`).
+The unknowns are the changes of the previous multipliers
+(:class:`~softway.solve.constraints.friction_conditions.FrictionProblem`).
 """
 
 from dataclasses import dataclass, replace
@@ -17,18 +11,14 @@ from scipy.linalg import lstsq, lu_factor, lu_solve
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import NoConvergence
-from softway.solve.constraints.compliance import FrozenOperator
 from softway.solve.constraints.friction_conditions import (
     FrictionProblem,
     FrictionResidual,
-    friction_problem,
     friction_residual,
     gauss_seidel,
     linearised,
 )
-from softway.solve.constraints.normal_active_set import RowConditions, delassus, without_contact
 from softway.solve.constraints.return_map import SlipConditions
-from softway.solve.constraints.row_basis import RowCoefficients
 from softway.solve.stagnation import Stagnation
 
 NEWTON = 25
@@ -56,69 +46,6 @@ DEPENDENT, SUSPECT = 1e-11, 1e-9
 columns is computed."""
 CONVERGED = 1e-14
 """Residual, relative to the motion by the forces, at the level of rounding."""
-
-
-def solve_friction(
-    free: Array,
-    frozen: FrozenOperator,
-    coefficients: RowCoefficients,
-    rows: RowConditions,
-    guess: BoolArray,
-    previous: Array,
-) -> tuple[Array, Array, BoolArray]:
-    """Solve the contact problem with friction for a free solution: solution (f,), multipliers and active rows.
-
-    The normal multipliers (m,) are followed by the tangential ones (m k,), row by row; the touching rows (m,) by the
-    slipping rows (m,).  The free solution contains the ``previous`` multipliers already.
-
-    Raises
-    ------
-    NoConvergence
-        If no forces are found.
-    """
-    law, (m, k) = rows.slipping, rows.slipping.shift.shape
-    before = coefficients.spread(previous)
-    offset = np.concatenate([rows.target, law.shift.ravel()])
-    open_ = np.concatenate([rows.unilateral, np.repeat(rows.unilateral, k)])
-    loaded = np.where(open_, coefficients.from_basis(frozen.restrict(free)) - offset, 0.0)
-    slack = np.where(open_, coefficients.from_basis(without_contact(free, frozen, before)) - offset, 0.0)
-    floor = rows.missable(slack[:m])
-    near = rows.unilateral & guess[:m]
-    x = np.zeros(len(previous))
-    for _ in range(30 + m):
-        index = np.flatnonzero(near)
-        here = stacked(index, m, k)
-        part, rest = coefficients.subset(here), previous.copy()
-        rest[here] = 0.0
-        lifted = coefficients.spread(rest)
-        now = loaded - np.where(open_, coefficients.from_basis(frozen.compliance_times(lifted)), 0.0)
-        problem = friction_problem(delassus(frozen, part), now[here], law.subset(index), previous[here], rows.rounding)
-        x[here], slips = solve_multipliers(problem, x[here])
-        push = part.spread(x[here])
-        gap = now[:m] + coefficients.from_basis(frozen.compliance_times(push))[:m]
-        fresh = rows.unilateral & ~near & (gap < -floor)
-        if not fresh.any():
-            break
-        near = near | fresh
-    else:
-        raise NoConvergence(f"the {m} contact rows have no solution")
-    multiplier = np.zeros(len(previous))
-    multiplier[here] = previous[here] + x[here]
-    sliding = np.zeros(m, bool)
-    sliding[index] = slips
-    active = np.concatenate([multiplier[:m] > 0.0, sliding])
-    return free + frozen.solve_push(push - lifted), multiplier, active
-
-
-def stacked(index: IntArray, m: int, k: int) -> IntArray:
-    """Places of the rows ``index`` out of m, followed by those of their k tangential directions.
-
-    Examples
-    --------
-    >>> stacked(np.array([1]), 2, 2).tolist()
-    [1, 4, 5]
-    """
-    return np.concatenate([index, (m + k * index[:, None] + np.arange(k)).ravel()])
 
 
 def solve_multipliers(problem: FrictionProblem, x: Array) -> tuple[Array, BoolArray]:
@@ -226,10 +153,11 @@ def _newton(problem: FrictionProblem, x: Array) -> tuple[Array, bool]:
     """Changes (c (1 + k),) by Newton's method from x, and True if they converged; x if they are not finite."""
     seen, factor, before, last_status = Stagnation(), None, np.inf, b""
     residual = friction_residual(problem, x)
-    for _ in range(NEWTON):
+    for count in range(1, NEWTON + 1):
         seen = seen.after(residual.worst)
         if _converged(problem, x, residual, seen.since):
             return x, True
+        problem.effort.step(f"friction of {problem.count} rows, step {count} of Newton's method")
         status = residual.touch.tobytes() + residual.slips.tobytes()
         if factor is None or residual.worst > FALLS * before or status != last_status:
             last_status = status

@@ -18,6 +18,7 @@ from softway.kernels.linalg.dense import DenseFactor, factored
 from softway.solve.constraints.compliance import FrozenOperator
 from softway.solve.constraints.return_map import NO_SLIP, SlipConditions
 from softway.solve.constraints.row_basis import CombinedRows, RowCoefficients
+from softway.solve.effort import Effort
 
 BATCH = 16
 """Rows close to contact whose columns are computed along with a new one: in a batch they cost a third."""
@@ -78,6 +79,7 @@ def solve_normal_contact(
     rows: RowConditions,
     guess: BoolArray,
     previous: Array | None = None,
+    effort: Effort | None = None,
 ) -> tuple[Array, Array, BoolArray]:
     """Solve the contact problem: solution (f,), multipliers (m,) and active rows (m,).
 
@@ -96,9 +98,10 @@ def solve_normal_contact(
     slack = loaded - np.where(
         count, coefficients.from_basis(frozen.compliance_times(coefficients.spread(previous))), 0.0
     )
-    floor = rows.missable(slack)
+    floor, effort = rows.missable(slack), effort or Effort()
     for sweep in range(most_sweeps(len(active))):
         index = np.flatnonzero(active)
+        effort.step(f"contact of {len(active)} rows, {len(index)} active, exchange {sweep}")
         _expect(frozen, coefficients, index, np.where(rows.unilateral, slack, np.inf))
         lifted = coefficients.spread(np.where(active, 0.0, previous))
         now = loaded - np.where(count, coefficients.from_basis(frozen.compliance_times(lifted)), 0.0)

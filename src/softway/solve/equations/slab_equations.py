@@ -8,7 +8,7 @@ They are composed of three parts: the mean force ``f_mean``, averaged by the vir
 the contact rows G with their conditions (``slab_contact.py``).  ``J`` are the unbalanced jumps of the Paper rule.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from softway.model.time_weight import TimeWeight, moments
 from softway.solve.constraints.compliance import FrozenOperator, RowBasis, row_basis
 from softway.solve.constraints.normal_active_set import RowConditions
 from softway.solve.constraints.row_basis import RowCoefficients
+from softway.solve.effort import Effort
 from softway.solve.equations.closure import Closure, Unclosed
 from softway.solve.equations.end_forces import EndForces
 from softway.solve.equations.mean_force import MeanForce, first_weight
@@ -50,6 +51,8 @@ class SlabEquations:
         (n, d) velocity jumps excluded from the momentum equation.
     impulses
         (n, d) known contact impulses [N s].
+    effort
+        Counted work of the attempt at the slab.
     """
 
     model: Model
@@ -62,6 +65,7 @@ class SlabEquations:
     given: Array | float = 0.0
     unbalanced: Array | float = 0.0
     impulses: Array | float = 0.0
+    effort: Effort = field(default_factory=Effort)
 
     def evaluate(self, q: Array, impulse: Array) -> Evaluation:
         """Evaluate the residual and its ingredients at q (n, d) with the contact impulses (m,) [N s]."""

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from softway.arrays import Array, BoolArray
 from softway.solve.constraints.compliance import FrozenOperator
-from softway.solve.constraints.friction_newton import solve_friction
+from softway.solve.constraints.friction_contact import solve_friction
 from softway.solve.constraints.normal_active_set import solve_normal_contact
 from softway.solve.constraints.row_basis import RowCoefficients
 from softway.solve.equations.slab_equations import SlabEquations
@@ -34,5 +34,5 @@ def contact_step(
     rows, conditions = system.conditions(q, end, frozen)
     free = dofs.unknowns(q) - frozen.solve(dofs.forces(end.residual) - frozen.prolong(rows.spread(impulse)))
     solve = solve_normal_contact if conditions.slipping.frictionless else solve_friction
-    solved, pressed, now = solve(free, frozen, rows, conditions, active, impulse)
+    solved, pressed, now = solve(free, frozen, rows, conditions, active, impulse, system.effort)
     return ContactStep(q=dofs.nodes(solved, system.given), rows=rows, free=free, impulse=pressed, active=now)

@@ -1,7 +1,7 @@
 """Iteration of a method until its iterates converge, and further for more accurate solutions."""
 
 import logging
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,9 +14,6 @@ from softway.solve.operators.operator_memory import OperatorMemory
 from softway.solve.stagnation import Stagnation
 
 log = logging.getLogger(__name__)
-Told = Callable[[int, float, int], None]
-"""Callback with the number of an iterate, its change relative to the greatest velocity, and the number of active rows.
-"""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -106,9 +103,7 @@ def resolved_speed(system: SlabEquations) -> float:
     return 8.0 * float(np.finfo(float).eps) * extent / system.path.span
 
 
-def iterate(
-    system: SlabEquations, iterates: Iterator[Iterate], tolerance: float, limit: int, told: Told | None = None
-) -> Iterator[Solution]:
+def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float, limit: int) -> Iterator[Solution]:
     """Solutions of a slab, from the first iterate that changes by less than ``tolerance`` of the greatest velocity.
 
     More accurate solutions follow on demand: the change of each is less than half of the previous one.  They end if the
@@ -117,7 +112,7 @@ def iterate(
     If the change no longer decreases, the iteration has reached the rounding level of the problem.  Its iterate is
     accepted if the change is below a fraction of the greatest velocity (``STANDSTILL``), below ``SELF_BALANCED`` of the
     velocity that the forces alone would cause in one slab (a body at rest under load), or at the rounding level of
-    positions (bodies at rest that just touch).  ``told`` is called after every iterate.
+    positions (bodies at rest that just touch).
 
     Raises
     ------
@@ -140,8 +135,7 @@ def iterate(
         if it.system.contact is not contact:
             contact, begun, seen = it.system.contact, count - 1, Stagnation()
         scale = max(space.greatest(it.q, system.start.velocity), 1e-300)
-        if told is not None:
-            told(count, it.change / scale, int(np.count_nonzero(it.active[: len(it.free)])))
+        system.effort.iterated(count, it.change / scale, int(np.count_nonzero(it.active[: len(it.free)])))
         _require_reason(system, it, scale)
         seen = seen.after(it.change, resolved)
         failure = f"{count} iterations leave a relative change of {it.change / scale:.1e} (tolerance {tolerance:.0e})"

@@ -19,7 +19,7 @@ from softway.solve.methods.facet_check import check_facets
 from softway.solve.methods.iteration import Guess, Iterate, lost
 from softway.solve.operators.factored import Factored
 from softway.solve.operators.operator_memory import IterationCount, OperatorMemory, OperatorOrigin
-from softway.solve.operators.operator_refresh import analyst
+from softway.solve.operators.operator_refresh import analyst, announce
 
 HALVINGS = 6
 """Greatest number of halvings of a Newton step."""
@@ -113,6 +113,7 @@ class Newton:
 
     def _renewed(self, system: SlabEquations, memory: OperatorMemory, end: Evaluation) -> OperatorMemory:
         """Operator memory with the operator at the end of the slab; later slabs may use it."""
+        announce(system, self.operator)
         made = self.operator.make(system.stiffness, end.displacement, memory.analysis)
         return replace(
             memory,

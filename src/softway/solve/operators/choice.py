@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softway.model.model import Model
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.operators.factored import Factored
 from softway.solve.operators.interface import Operator
@@ -46,6 +47,13 @@ def choose_operator(system: SlabEquations, memory: float | None = None) -> Opera
         why = f"{facts}: about {products:.0f} products cost less than a solution with the factor"
         return OperatorChoice(operator=MatrixFree(), reason=why)
     return OperatorChoice(operator=Factored(), reason=f"{facts}: a factor of {4e-6 * numbers:.2g} MB serves many slabs")
+
+
+def factor_operations(model: Model) -> float:
+    """Estimate of the floating-point operations that factor the operator of a model."""
+    factor, power = FILL[max(p.mesh.cell_dim for p in model.parts)]
+    unknowns = max(model.dofs.size, 1)
+    return (factor * unknowns**power) ** 2 / unknowns
 
 
 def courant(system: SlabEquations) -> float:

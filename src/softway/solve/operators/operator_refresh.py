@@ -8,6 +8,8 @@ from softway.bodies.assembled.material_states import any_path_dependent
 from softway.solve.constraints.compliance import FrozenOperator
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.operators import BuiltOperator, Operator, OperatorChoice, choose_operator
+from softway.solve.operators.choice import factor_operations
+from softway.solve.operators.factored import Factored
 from softway.solve.operators.nodal_rotation import SMALL, nodal_rotation
 from softway.solve.operators.operator_memory import IterationCount, OperatorMemory, OperatorOrigin
 
@@ -36,6 +38,7 @@ def restored(system: SlabEquations, memory: OperatorMemory, serves: bool) -> Ope
         analysis = origin.analyst.make(matrix, origin.at, None).analysis
     if not serves:
         return replace(memory, analysis=analysis)
+    announce(system, origin.operator)
     made = origin.operator.make(matrix, origin.at, analysis)
     frozen = made.frozen(system.directions(turning=memory.mixed)).filled(memory.batches)
     return replace(memory, frozen=frozen, analysis=made.analysis)
@@ -54,6 +57,7 @@ def renewed(
         choice = (
             choose_operator(system) if operator == "auto" else OperatorChoice(operator=operator, reason="as requested")
         )
+    announce(system, choice.operator)
     made = choice.operator.make(system.stiffness, u, memory.analysis)
     return replace(
         memory,
@@ -67,6 +71,12 @@ def renewed(
         taken=IterationCount(),
         price=made.price,
     )
+
+
+def announce(system: SlabEquations, operator: Operator) -> None:
+    """Count the factor of a slab before it is made."""
+    if isinstance(operator, Factored):
+        system.effort.factor(system.model.dofs.size, factor_operations(system.model))
 
 
 def analyst(memory: OperatorMemory, made: BuiltOperator, operator: Operator) -> Operator | None:

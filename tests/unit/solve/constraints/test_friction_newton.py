@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from softway.contact.friction_rows import FrictionRows
+from softway.errors import NoConvergence
 from softway.laws.friction import Coulomb, NortonHoff, StaticKinetic, Stribeck, Tresca
 from softway.laws.friction_law import FrictionLaw
 from softway.solve.constraints import friction_newton
@@ -21,6 +22,7 @@ from softway.solve.constraints.friction_conditions import (
 )
 from softway.solve.constraints.friction_newton import _newton, solve_multipliers
 from softway.solve.constraints.return_map import STEEPEST, SlipConditions, return_map
+from softway.solve.effort import Effort
 
 
 def slipping(law: FrictionLaw, count: int, k: int = 1, *, sliding: bool = False, ahead: float = 0.0) -> SlipConditions:
@@ -281,3 +283,16 @@ def test_friction_that_drops_has_forces_for_every_compliance(seed: int) -> None:
     assert np.abs(slip[touch & ~slips]).max(initial=0.0) < 1e-13
     assert size[slips] == pytest.approx(0.45 * p[slips], abs=1e-12)
     assert (s[slips, 0] * slip[slips, 0] <= 1e-12).all()
+
+
+def test_a_hopeless_problem_is_given_up_by_its_steps():
+    """By their number: the same on every machine."""
+    hopeless = dependent(71, 4, 10)
+    with pytest.raises(NoConvergence, match="friction of 10 contact rows leaves"):
+        solve_multipliers(hopeless, np.zeros(30))
+    assert hopeless.effort.steps > 400
+    told = (
+        "attempt given up after 0 iterations, 0 factors and 101 steps of the contact problems, of 100 allowed; the last"
+    )
+    with pytest.raises(NoConvergence, match=told):
+        solve_multipliers(replace(hopeless, effort=Effort(limit=2)), np.zeros(30))
