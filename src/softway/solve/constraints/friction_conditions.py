@@ -11,6 +11,9 @@ from softway.solve.effort import Effort
 
 LIFT = 1e-12
 """Fraction of the compliance added to the diagonal, which makes dependent rows regular."""
+GROWN = 1e12
+"""Growth of the forces in Gauss-Seidel sweeps, relative to those that close the gaps and stop the slips row by row,
+beyond which they grow without bound."""
 EPS = 4.0 * float(np.finfo(float).eps)
 """Rounding error of a multiplier, relative to it."""
 
@@ -61,6 +64,11 @@ class FrictionProblem:
     def multipliers(self, x: Array) -> tuple[Array, Array]:
         """Total normal (c,) and tangential (c, k) multipliers after the changes x."""
         return self.split(self.previous + x)
+
+    def usual_force(self, x: Array) -> float:
+        """Greatest of the previous multipliers, their changes x, and the changes that each row alone would need."""
+        alone = np.concatenate([self.normal_compliance, np.repeat(self.tangential_compliance, self.law.shift.shape[1])])
+        return float(max(np.abs(v).max(initial=0.0) for v in (self.previous, x, self.free / alone)))
 
     def drawn(self, x: Array, factor: float) -> "FrictionProblem":
         """Proximal problem: its multipliers are drawn to those after x by ``factor`` times the compliance of the rows.
@@ -208,13 +216,24 @@ def linearised(problem: FrictionProblem, residual: FrictionResidual) -> Array:
 
 
 def gauss_seidel(problem: FrictionProblem, x: Array, count: int) -> Array:
-    """Changes of the multipliers after ``count`` Gauss-Seidel sweeps: each row in turn satisfies its conditions."""
+    """Changes of the multipliers after ``count`` Gauss-Seidel sweeps: each row in turn satisfies its conditions.
+
+    They end before a sweep after which the forces are beyond ``GROWN``: with a compliance that is not positive, as in
+    crushed cells with an unstable tangent, they grow without bound.
+
+    Raises
+    ------
+    NoConvergence
+        If a row has no positive compliance along the surface.
+    """
     c, W = problem.count, problem.compliance
+    most = GROWN * problem.usual_force(x)
     x, previous = x.copy(), problem.previous
     k = (len(x) - c) // c
     parts = [problem.law.subset(np.array([i])) for i in range(c)]
     for sweep in range(1, count + 1):
         problem.effort.step(f"friction of {c} rows, Gauss-Seidel sweep {sweep}")
+        before = x.copy()
         for i in range(c):
             at = c + k * i + np.arange(k)
             gap = problem.free[i] + W[i] @ x
@@ -232,4 +251,6 @@ def gauss_seidel(problem: FrictionProblem, x: Array, count: int) -> Array:
             sticks = size <= parts[i].limit(pressed)[0]
             force = size if sticks else return_map(parts[i], np.array([size]), pressed, np.array([stiff])).force[0]
             x[at] = force * trial / max(size, 1e-300) - previous[at]
+        if not np.abs(x).max(initial=0.0) <= most:
+            return before
     return x

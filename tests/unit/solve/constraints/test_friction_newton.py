@@ -14,6 +14,7 @@ from softway.laws.friction import Coulomb, NortonHoff, StaticKinetic, Stribeck, 
 from softway.laws.friction_law import FrictionLaw
 from softway.solve.constraints import friction_newton
 from softway.solve.constraints.friction_conditions import (
+    GROWN,
     FrictionProblem,
     friction_problem,
     friction_residual,
@@ -283,6 +284,19 @@ def test_friction_that_drops_has_forces_for_every_compliance(seed: int) -> None:
     assert np.abs(slip[touch & ~slips]).max(initial=0.0) < 1e-13
     assert size[slips] == pytest.approx(0.45 * p[slips], abs=1e-12)
     assert (s[slips, 0] * slip[slips, 0] <= 1e-12).all()
+
+
+@pytest.mark.parametrize("seed", [0, 1, 3, 112])
+def test_forces_that_grow_without_bound_are_given_up(seed):
+    """A compliance that is not positive, as of crushed cells: sweeps over the rows would end in an overflow."""
+    rng = np.random.default_rng(seed)
+    root = rng.normal(size=(12, 12))
+    it = friction_problem(root + root.T, rng.normal(size=12) - 0.5, slipping(Coulomb(mu=0.6), 4, 2))
+    start = np.zeros(12)
+    x = gauss_seidel(it, start, 400)
+    assert np.abs(x).max() <= GROWN * it.usual_force(start)
+    with pytest.raises(NoConvergence, match="friction of 4 contact rows leaves"):
+        solve_multipliers(it, start)
 
 
 def test_a_hopeless_problem_is_given_up_by_its_steps():
