@@ -68,7 +68,7 @@ def judged(given: Drop, units: Units) -> dict[str, Any]:
             why, seen = _unrecorded(done) or _unsaid(done), _seen(done)
             end = "defect" if why else "done"
     except NumericsError as error:
-        crawls = "crawls: " if "rejections among" in error.what else ""
+        crawls = "crawls: " if "rejections among" in error.what or "stays at h" in error.what else ""
         end, why = "stops", crawls + error.what.rpartition(" s: ")[2]
     except InputError as error:
         end, why = "refused", str(error).splitlines()[0]

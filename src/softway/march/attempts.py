@@ -19,7 +19,7 @@ from softway.march.results.trying import watched
 from softway.march.rules.slab_rule import Attempt
 from softway.march.slab_step import Stepper, advance
 from softway.march.start.slab_length import proposed
-from softway.march.step_control import CRAWL
+from softway.march.step_control import CRAWL, ENDLESS
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks
@@ -113,8 +113,31 @@ def _effort(stepper: Stepper, number: int, slab: Slab) -> Effort:
     return Effort(STEPS, watched(stepper.trying, number, slab.start, slab.span))
 
 
-def recent_rejections(before: StepHistory, span: float, rejections: int) -> float:
+def require_progress(stepper: Stepper, march_state: MarchState, length: float) -> None:
+    """End a march whose slabs stay far below the requested length, with more than ``ENDLESS`` of them ahead.
+
+    Raises
+    ------
+    NumericsError
+        With the length, the contacts and the last rejection, once the patience is used up.
+    """
+    history, now, control = march_state.step_history, march_state.state, march_state.settings.control
+    left = (march_state.settings.until - now.time) / length
+    if history.recent_rejections <= control.patience or length > CRAWL * history.span or left <= ENDLESS:
+        return
+    last = f"; the last rejection: {history.last_rejection}" if history.last_rejection else ""
+    raise NumericsError(
+        f"the time step stays at h = {length:.3g} s of the {history.span:.3g} s given, {left:.1g} more of them lead to "
+        f"the end{last}{_touching(stepper.model, now)}",
+        now.time,
+        f"{_remedy(stepper, march_state)}, or to go on regardless time.control.patience = {10 * control.patience:.0f}",
+    )
+
+
+def recent_rejections(before: StepHistory, span: float, rejections: int, left: float = 0.0) -> float:
     """Number of recent rejections in slabs far below the requested length; four such slabs without any cancel one.
+
+    A slab after which more than ``ENDLESS`` of its length are ``left`` counts as a rejection.
 
     Examples
     --------
@@ -124,8 +147,11 @@ def recent_rejections(before: StepHistory, span: float, rejections: int) -> floa
     ...     found.append(history.recent_rejections)
     >>> found
     [0.0, 2.0, 4.0, 3.75, 0.0]
+    >>> recent_rejections(history, 1e-7, 0, left=9e6)
+    1.0
     """
-    return max(0.0, before.recent_rejections + (rejections or -0.25)) if span <= CRAWL * before.span else 0.0
+    more = rejections or (1.0 if left > ENDLESS else -0.25)
+    return max(0.0, before.recent_rejections + more) if span <= CRAWL * before.span else 0.0
 
 
 def _reason(march_state: MarchState, reasons: list[str], crawls: bool) -> str:

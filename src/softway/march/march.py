@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 
 from softway.errors import Cancel
-from softway.march.attempts import DAMPED, AcceptedSlab, accept_slab, recent_rejections
+from softway.march.attempts import DAMPED, AcceptedSlab, accept_slab, recent_rejections, require_progress
 from softway.march.audit.ledger import update_account
 from softway.march.march_state import MarchState, Settings, StepHistory
 from softway.march.model_state import ModelState, split_states
@@ -104,6 +104,7 @@ def _steps(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
         time = march_state.state.time
         length = min(march_state.step_history.length, until - time)
         length = until - time if until - time - length < least else length
+        require_progress(stepper, march_state, length)
         found = accept_slab(stepper, march_state, length, memory)
         if memory.choice is None and found.memory.choice is not None:
             log.info("operator %s: %s", found.memory.choice.operator, found.memory.choice.reason)
@@ -118,7 +119,13 @@ def _steps(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
                 length=following,
                 energy_along_motion=found.energy_along_motion,
                 halted=found.halted,
-                recent_rejections=recent_rejections(march_state.step_history, found.slab.span, len(found.rejections)),
+                recent_rejections=recent_rejections(
+                    march_state.step_history,
+                    found.slab.span,
+                    len(found.rejections),
+                    (until - found.after.time) / found.slab.span,
+                ),
+                last_rejection=[march_state.step_history.last_rejection, *found.rejections][-1],
             ),
             memory=found.memory.bare(),
             slabs=march_state.slabs + 1,

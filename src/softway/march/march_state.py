@@ -50,7 +50,9 @@ class StepHistory:
     halted
         True if the last slab ended where a body came to rest.
     recent_rejections
-        Number of recent rejections in slabs far below the requested length.
+        Number of recent rejections in slabs far below the requested length, and of such slabs without end in sight.
+    last_rejection
+        Reason of the last rejection.
     """
 
     span: float
@@ -58,6 +60,7 @@ class StepHistory:
     energy_along_motion: bool = False
     halted: bool = False
     recent_rejections: float = 0.0
+    last_rejection: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

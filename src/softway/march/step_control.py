@@ -15,6 +15,9 @@ from softway.solve.methods.central_difference import Explicit
 
 CRAWL = 1e-2
 """Fraction of the requested length below which rejections in a march are counted."""
+ENDLESS = 1e6
+"""Number of slabs of the present length up to the end of the march, above which slabs far below the requested length
+lead nowhere."""
 SMALL_STRAIN = 1.0
 """Least limit of the approach, in edges, for bodies of small strain: their cells cannot be crushed."""
 
@@ -41,6 +44,7 @@ class StepControl:
     patience
         Number of rejections among slabs shorter than ``CRAWL`` of the requested length, less a quarter of such slabs
         without rejection, after which the march ends with the reason: it would continue for hours by halving slabs.
+        Slabs so short that more than ``ENDLESS`` of them are left count as rejections.
 
     References
     ----------

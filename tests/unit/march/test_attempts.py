@@ -130,6 +130,22 @@ def test_a_march_that_crawls_ends_when_its_patience_is_used_up() -> None:
         going_on(patience + 0.25)
 
 
+def test_a_march_whose_slabs_stay_far_too_short_ends() -> None:
+    """Slabs of 1e-9 of the length that was asked for are all accepted, but a hundred million are left."""
+    begun = flight(Failing(failure=lambda k: None))[1].march_state
+    control = sw.StepControl(patience=2, least=1e-12)
+    history = replace(begun.step_history, length=1e-9 * STEP, last_rejection="h = 0.1 s: friction of 3 contact rows")
+    crawling = replace(begun, settings=replace(begun.settings, control=control), step_history=history)
+    told = r"t = 0.25 s: the time step stays at h = \S+ s of the 0.125 s given, \de\+08 more of them lead to the end; "
+    with pytest.raises(sw.NumericsError, match=told) as failed:
+        flight(Failing(failure=lambda k: None), state=crawling, control=control)
+    assert failed.value.what.endswith("rejection: h = 0.1 s: friction of 3 contact rows")
+    assert failed.value.remedy.endswith(", or to go on regardless time.control.patience = 20")
+    patient = replace(control, patience=20)
+    crawling = replace(crawling, settings=replace(begun.settings, control=patient))
+    assert len(flight(Failing(failure=lambda k: None), state=crawling, control=patient)) > 20
+
+
 def test_an_attempt_is_given_up_when_its_steps_are_used_up(monkeypatch) -> None:
     """One step of the contact problems for an attempt is too few for any slab on the floor."""
     monkeypatch.setattr(attempts, "STEPS", 0.02)
