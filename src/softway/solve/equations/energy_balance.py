@@ -62,9 +62,11 @@ def body_groups(model: Model, touching: BoolArray) -> IntArray:
 def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure:
     """Close the balances of every group, with friction that creates no energy.
 
-    Beyond the bound of the scalar a slight residual is closed along the motion; with ``fallback`` any residual.
+    Beyond the bound of the scalar a slight residual is closed along the motion; with ``fallback`` any residual.  Bodies
+    that fly without strain have no scalar: their forces are rounding errors.
     """
-    label = body_groups(model, (ends.force0 > 0.0) | (ends.force1 > 0.0))
+    touching = (ends.force0 > 0.0) | (ends.force1 > 0.0)
+    label = body_groups(model, touching)
     moving = (ends.u1 - ends.u0) * model.massive[:, None]
     num, den, level = _energies(model, ends, moving)
     num, den, level, floor = (np.asarray(np.bincount(label, weights=v), float) for v in (num, den, level, model.floor))
@@ -78,7 +80,9 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
     bound = BOUND if model.inert else WEIGHING
     rubbing = friction_work(ends.tangential, ends.u1 - ends.u0, label[model.part_of[ends.rows0.node]], len(members))
     num, den, reset = _without_created_energy((num, den), rounding, rubbing, bound)
-    wanted = _quotient(num, den, rounding)
+    strained = np.bincount(label, weights=np.abs(ends.V0) + np.abs(ends.V1)) > AT_REST * floor
+    touched = np.isin(np.arange(len(members)), label[model.part_of[ends.rows0.node[touching]]])
+    wanted = np.where(strained | touched, _quotient(num, den, rounding), 0.0)
     a = np.clip(wanted, -bound, bound)
     excess = np.where(reset, np.maximum(rubbing.dissipated(a), 0.0), 0.0)
     mean = ends.mean + model.nodal(a[label]) * (ends.f1 - ends.f0)
@@ -86,7 +90,6 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
         if spin is not None:
             mean += spin.force(-spin.solve(spin.torque + a[g] * spin.slope))
     work = np.bincount(label, weights=model.space.totals(np.abs(ends.mean * moving)))
-    strained = np.bincount(label, weights=np.abs(ends.V0) + np.abs(ends.V1)) > AT_REST * floor
     missing = np.where((np.abs(num) > rounding) & strained, np.abs(num) / np.maximum(work, 1e-300), 0.0)
     rest = np.where((np.abs(wanted) > bound) | (excess > 0.0), num - a * den + excess, 0.0) * model.inert
     great = (np.abs(rest) > np.maximum(SLIGHT * work, TINY * level)) & (not fallback)
