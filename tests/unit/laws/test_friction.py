@@ -55,3 +55,17 @@ def test_the_limited_law_is_the_least_of_three():
     law = friction.LimitedViscoplastic(alpha=1.0, p=1.0, K=1.0, mbar=1.0, sigma_eq=np.sqrt(3.0) * 5.0, mu=0.5)
     speed, pressure = np.array([1.0, 100.0, 100.0]), np.array([100.0, 100.0, 4.0])
     assert law.resistance(speed, pressure)[0] == pytest.approx([1.0, 5.0, 2.0])
+
+
+@pytest.mark.parametrize(
+    ("law", "pressure"),
+    [
+        (friction.NortonHoff(alpha=0.5, p=0.2, K=0.0), 1.0),
+        (friction.LimitedViscoplastic(alpha=0.0, p=0.2, K=1.0, mbar=1.0, sigma_eq=1.0, mu=0.5), 1.0),
+        (friction.Stribeck(mu_s=0.5, mu_k=0.3, v_s=0.2, delta=0.5), 0.0),
+    ],
+)
+def test_a_law_without_force_has_no_slope_at_rest(law, pressure):
+    """Zero times an infinite slope was no number."""
+    for found in law.resistance(np.zeros(2), np.full(2, pressure)):
+        assert np.isfinite(found).all()

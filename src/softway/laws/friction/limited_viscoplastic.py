@@ -65,7 +65,7 @@ class LimitedViscoplastic:
         v, n = (np.asarray(a, float) for a in np.broadcast_arrays(speed, pressure))
         x, scale = np.maximum(v / self.v0, 0.0), self.alpha * self.K
         with np.errstate(divide="ignore"):
-            slope = scale * self.p / self.v0 * x ** (self.p - 1.0)
+            slope = scale * self.p / self.v0 * x ** (self.p - 1.0) if scale > 0.0 else np.zeros_like(x)
         flow, dry = scale * x**self.p, self.mu * n
         strength = np.full_like(x, self.mbar * self.sigma_eq / np.sqrt(3.0))
         least = np.minimum(np.minimum(flow, strength), dry)

@@ -53,5 +53,5 @@ class NortonHoff:
         x = np.maximum(np.broadcast_arrays(speed, pressure)[0] / self.v0, 0.0)
         scale = self.alpha * self.K
         with np.errstate(divide="ignore"):
-            slope = scale * self.p / self.v0 * x ** (self.p - 1.0)
+            slope = scale * self.p / self.v0 * x ** (self.p - 1.0) if scale > 0.0 else np.zeros_like(x)
         return scale * x**self.p, slope, np.zeros_like(x)

@@ -64,5 +64,5 @@ class Stribeck:
         fall = (self.mu_s - self.mu_k) * np.exp(-power)
         mu = self.mu_k + fall + self.viscous * x
         with np.errstate(divide="ignore", invalid="ignore"):
-            steep = np.where(fall > 0.0, fall * self.delta * x ** (self.delta - 1.0), 0.0)
+            steep = np.where((fall > 0.0) & (n != 0.0), fall * self.delta * x ** (self.delta - 1.0), 0.0)
         return mu * n, n / self.v_s * (self.viscous - steep), mu
