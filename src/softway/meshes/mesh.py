@@ -16,6 +16,9 @@ from softway.meshes.topology import check_topology
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 
+LARGEST = 1e50
+"""Greatest coordinate of a node [m]; the volumes of larger cells are no numbers."""
+
 # A cell is degenerate if its Jacobian determinant is below this fraction of the product of the lengths of the columns
 # of the Jacobian.
 _DEGENERATE = 1e-10
@@ -176,6 +179,9 @@ def _check_shapes(points: Array, blocks: Mapping[str, IntArray], tags: Mapping[s
     if points.ndim == 2 and not np.isfinite(points).all():
         node = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
         raise InputError("points", f"node {node} lies at {points[node].tolist()}", "finite coordinates")
+    if points.ndim == 2 and np.abs(points).max(initial=0.0) > LARGEST:
+        node = int(np.argmax(np.abs(points).max(axis=1)))
+        raise InputError("points", f"node {node} lies at {points[node].tolist()}", f"coordinates up to {LARGEST:g} m")
     if points.ndim != 2 or points.shape[1] not in (1, 2, 3):
         raise InputError("points", f"array of shape {points.shape}", "finite coordinates (n, d), d = 1, 2 or 3")
     if not blocks:

@@ -1,4 +1,4 @@
-"""Readers of mesh files; the only module that uses meshio, for all formats but input decks."""
+"""Readers of mesh files; the only module that uses meshio, for STL, PLY and VTK files."""
 
 import contextlib
 import io
@@ -9,7 +9,6 @@ from pathlib import Path
 
 import meshio
 import numpy as np
-from numpy.typing import NDArray
 
 from softway.arrays import Array, IntArray
 from softway.errors import InputError
@@ -17,27 +16,12 @@ from softway.meshes.cells import CELLS, FACETS, FLAT
 from softway.meshes.files.abaqus.assembly import deck_mesh
 from softway.meshes.files.abaqus.left_out import LeftOut
 from softway.meshes.files.abaqus.lexer import is_file, is_folder
+from softway.meshes.files.gmsh.mesh import NAMES, gmsh_mesh
+from softway.meshes.files.wavefront import obj_facets
 from softway.meshes.mesh import Mesh
 
 LOG = logging.getLogger(__name__)
-NAMES = {
-    "line": "bar2",
-    "line3": "bar3",
-    "triangle": "tri3",
-    "triangle6": "tri6",
-    "quad": "quad4",
-    "quad8": "quad8",
-    "quad9": "quad9",
-    "tetra": "tet4",
-    "tetra10": "tet10",
-    "hexahedron": "hex8",
-    "hexahedron20": "hex20",
-    "hexahedron27": "hex27",
-}
-"""Name of a cell in meshio -> name here; both use the node order of VTK."""
-
-_READERS = {".msh": "gmsh"}
-_SURFACES = {".stl": "stl", ".obj": "obj", ".ply": "ply", ".msh": "gmsh", ".vtu": "vtu"}
+_SURFACES = {".stl": "stl", ".ply": "ply", ".vtu": "vtu"}
 _BODIES = (".msh", ".vtu")
 """Formats whose plane cells form a body in the plane; in other formats they form a surface in space."""
 LARGEST = 8_000_000_000
@@ -66,7 +50,7 @@ class FileMesh:
     mesh
         Mesh of the wanted cells.
     left_out
-        Cards of an input deck that the mesh does not hold.
+        Cards of an input deck, or sections, nodes and groups of a Gmsh file, that the mesh does not hold.
     """
 
     mesh: Mesh
@@ -104,16 +88,11 @@ def read_mesh(
 def read_file(
     path: str | Path, scale: float = 1.0, *, cells: Sequence[str] | None = None, only: Sequence[str] = ()
 ) -> FileMesh:
-    """Read a mesh file as :func:`read_mesh` does, and list what of a deck the mesh does not hold."""
+    """Read a mesh file as :func:`read_mesh` does, and list what of it the mesh does not hold."""
     file = Path(path)
-    _require_file(file, (*_READERS, ".inp"))
-    if file.suffix.lower() == ".inp":
-        deck = deck_mesh(file, cells, only)
-        return FileMesh(_mesh(deck.points * scale, deck.blocks, deck.tags), deck.left_out)
-    raw = _read(file, _READERS)
-    dim = max((_dim(block.type) for block in raw.cells), default=0)
-    blocks = _blocks(raw, dim, cells, only)
-    return FileMesh(_mesh(np.asarray(raw.points, dtype=float) * scale, blocks, _groups(raw)))
+    _require_file(file, (".msh", ".inp"))
+    found = (deck_mesh if file.suffix.lower() == ".inp" else gmsh_mesh)(file, cells, only)
+    return FileMesh(_mesh(found.points * scale, found.blocks, found.tags), found.left_out)
 
 
 def _mesh(points: Array, blocks: Mapping[str, IntArray], tags: Mapping[str, IntArray]) -> Mesh:
@@ -144,13 +123,12 @@ def read_facets(path: str | Path, scale: float = 1.0) -> tuple[Array, IntArray]:
         (f, d) numbers of the points, triangles in space and segments in the plane.
     """
     path = Path(path)
-    _require_file(path, tuple(_SURFACES))
-    raw = _read(path, _SURFACES)
-    dim = max((_dim(block.type) for block in raw.cells), default=0)
+    _require_file(path, (*_SURFACES, ".obj", ".msh"))
+    points, blocks = _cells(path)
+    dim = max((CELLS[name].dim for name in blocks), default=0)
     if dim == 0:
         raise InputError("path", f"{path.name} has no facets", "a file with triangles, or with lines in a plane")
-    blocks = _blocks(raw, dim, None)
-    points = np.asarray(raw.points, dtype=float) * scale
+    points = points * scale
     flat = points.shape[1] == 2 or np.ptp(points[:, 2]) <= 1e-12 * np.ptp(points, axis=0).max()
     if dim == 1 and not flat:
         raise InputError(
@@ -202,50 +180,26 @@ def _dim(name: str) -> int:
     return next((dim for stem, dim in _DIMS.items() if name.rstrip("0123456789") == stem), 0)
 
 
-def _blocks(raw: meshio.Mesh, dim: int, wanted: Sequence[str] | None, only: Sequence[str] = ()) -> dict[str, IntArray]:
-    """Wanted cells, or all cells of the highest dimension, by name; with ``only`` those of some physical groups."""
-    parts: dict[str, list[IntArray]] = {}
-    for block, groups in zip(raw.cells, _names(raw), strict=True):
+def _cells(path: Path) -> tuple[Array, dict[str, IntArray]]:
+    """Points and cells of the highest dimension, by name."""
+    if path.suffix.lower() == ".msh":
+        found = gmsh_mesh(path)
+        return found.points, found.blocks
+    if path.suffix.lower() == ".obj":
+        return obj_facets(path)
+    if path.suffix.lower() == ".vtu" and path.read_bytes().count(b"<Piece ") > 1:
+        raise InputError("path", f"{path.name} has several pieces", "a file with one piece")
+    raw = _read(path, _SURFACES)
+    dim, parts = max((_dim(block.type) for block in raw.cells), default=0), dict[str, list[IntArray]]()
+    for block in raw.cells:
         name = NAMES.get(block.type)
-        if name is None and _dim(block.type) == dim and dim > 0 and wanted is None:
+        if name is None and _dim(block.type) == dim and dim > 0:
             raise InputError(
                 "path", f"cells of type {block.type!r} are not supported", f"mesh with: {', '.join(FACETS)}"
             )
-        if name is None or (wanted is None and CELLS[name].dim != dim) or (wanted is not None and name not in wanted):
-            continue
-        kept = np.isin(groups, list(only)) if only else np.ones(len(block.data), dtype=bool)
-        if kept.any():
-            parts.setdefault(name, []).append(np.asarray(block.data, dtype=np.int64)[kept])
-    if not parts and only:
-        known = ", ".join(sorted({group for groups in _names(raw) for group in groups if group})) or "no groups"
-        raise InputError("only", f"no cells in the groups {', '.join(only)}", f"one of: {known}")
-    if not parts:
-        found = sorted({block.type for block in raw.cells})
-        raise InputError(
-            "cells", f"none of the wanted cells among {', '.join(found) or 'no cells'}", f"one of: {', '.join(FACETS)}"
-        )
-    return {name: np.concatenate(part) for name, part in parts.items()}
-
-
-def _names(raw: meshio.Mesh) -> list[NDArray[np.str_]]:
-    """Name of the physical group of each cell, by block; its number without a name, empty without a group."""
-    numbers = raw.cell_data.get("gmsh:physical", [np.zeros(len(block.data), dtype=int) for block in raw.cells])
-    names = {(int(value[1]), int(value[0])): name for name, value in raw.field_data.items()}
-    found = []
-    for block, marks in zip(raw.cells, numbers, strict=True):
-        known = {int(m): names.get((_dim(block.type), int(m)), str(int(m))) if m else "" for m in np.unique(marks)}
-        found.append(np.array([known[int(mark)] for mark in marks], dtype=np.str_))
-    return found
-
-
-def _groups(raw: meshio.Mesh) -> dict[str, IntArray]:
-    """Nodes of the physical groups of Gmsh; the number of a group replaces a missing name."""
-    parts: dict[str, list[IntArray]] = {}
-    for block, groups in zip(raw.cells, _names(raw), strict=True):
-        for name in dict.fromkeys(groups.tolist()):
-            if name:
-                parts.setdefault(name, []).append(np.asarray(block.data)[groups == name].ravel())
-    return {name: np.concatenate(part).astype(np.int64) for name, part in parts.items()}
+        if name is not None and CELLS[name].dim == dim:
+            parts.setdefault(name, []).append(np.asarray(block.data, dtype=np.int64))
+    return np.asarray(raw.points, dtype=float), {name: np.concatenate(part) for name, part in parts.items()}
 
 
 def _compact(points: Array, blocks: Mapping[str, IntArray], tags: Mapping[str, IntArray]) -> Mesh:

@@ -65,6 +65,22 @@ $Elements
 1 {cell}
 $EndElements
 """
+PENTAGON = """ply
+format ascii 1.0
+element vertex 5
+property float x
+property float y
+property float z
+element face 1
+property list uchar int vertex_indices
+end_header
+0 0 0
+2 0 0
+2 2 0
+1 3 0
+0 2 0
+5 0 1 2 3 4
+"""
 LAWS = """from dataclasses import dataclass
 from softway.laws.bulk.linear_elastic import LinearElastic
 
@@ -96,6 +112,12 @@ def write(folder: Path) -> None:
         (folder / f"{name}.stl").write_text("\n".join(["solid s", *loops, "endsolid s", ""]))
     texts = {
         "empty.stl": "",
+        "points.obj": "v 0 0 0\n",
+        "pentagon.obj": "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3 1 2\n",
+        "bad.obj": "hello",
+        "flat.obj": "v 0 0\nv 1 0\nv 1 1\nf 1 2 3\n",
+        "pentagon.ply": PENTAGON,
+        "pieces.vtu": "<VTKFile><Piece /><Piece /></VTKFile>",
         "bad.stl": "hello",
         "bad.ply": "hello",
         "tool.step": "hello",

@@ -56,6 +56,7 @@ TABLE: Table = {
     ),
     "lines": call(lambda: grid((0.0, 1.0)), "x, y and z", lambda: grid((0.0, 1.0), (0.0, 1.0))),
     "nan": mesh("finite coordinates", SQUARE * np.nan, quad4=QUAD),
+    "beyond all places": mesh("coordinates up to", SQUARE * 1e60, quad4=QUAD),
     "four dimensions": mesh("d = 1, 2 or 3", np.zeros((4, 4)), quad4=QUAD),
     "no cells": mesh("at least one block"),
     "unknown cell": mesh("quad4", quad5=QUAD),

@@ -42,6 +42,12 @@ TABLE: Table = {
     "PLY": surface("bad.ply", "save the mesh again"),
     "damaged": surface("bad.stl", "save the mesh again"),
     "no facets": surface("points.msh", "a file with triangles"),
+    "no facets of an OBJ": surface("points.obj", "a file with triangles"),
+    "pentagon": surface("pentagon.obj", "triangles and quadrangles"),
+    "damaged OBJ": surface("bad.obj", "save the mesh again"),
+    "flat point": surface("flat.obj", "three coordinates of each point"),
+    "pentagon of a PLY": surface("pentagon.ply", "mesh with: "),
+    "pieces": surface("pieces.vtu", "a file with one piece"),
     "lines": surface("lines.msh", "lines in one plane, or facets"),
     "scale": Try(
         SPACE, f"{SHAPE}={{kind='Surface', file='box.stl', scale=0}}", "a positive length", f"{SHAPE}.scale=1"
@@ -86,6 +92,7 @@ TABLE: Table = {
     "pyramid": body("pyramid.msh", "mesh with: "),
     "no group": body("square.msh", "one of: steel", "only=steel", ", only='glass'"),
     "no cells of a mesh": body("square.msh", "quad4", "cells=['quad4']", ", cells=['tri3']"),
+    "points of a mesh": body("points.msh", "a file with triangles"),
     "damaged mesh": body("bad.msh", "save the mesh again"),
     "unit": body("tagged.inp", "in, ft", "unit=in", ", unit='mil'"),
 }
