@@ -148,13 +148,27 @@ def free_components(supports: tuple[Support, ...], mesh: Mesh) -> BoolArray:
     Raises
     ------
     InputError
-        Naming the place from ``supports[k]`` on: letters that are not axes of the mesh, a tag that matches nothing.
+        Naming the place from ``supports[k]`` on: letters that are not axes of the mesh, a tag that matches nothing, a
+        support all of whose components other supports drive with another velocity.
     """
-    free = np.ones((mesh.n_nodes, mesh.dim), bool)
+    masks = []
     for k, support in enumerate(supports):
         with within(f"supports[{k}]"):
-            free &= ~supported_components(support, mesh)
-    return free
+            masks.append(supported_components(support, mesh))
+    _require_effect(supports, masks)
+    return ~np.logical_or.reduce([*masks, np.zeros((mesh.n_nodes, mesh.dim), bool)])
+
+
+def _require_effect(supports: tuple[Support, ...], masks: Sequence[BoolArray]) -> None:
+    """Refuse a support that others override: driven ones override fixed ones, and the driven ones before them."""
+    for k, support in enumerate(supports):
+        over = np.zeros_like(masks[k])
+        for j, other in enumerate(supports):
+            if isinstance(other, Driven) and other != support and (j > k or not isinstance(support, Driven)):
+                over |= masks[j]
+        if not (masks[k] & ~over).any():
+            problem = f"all components on {support.on!r} are driven by other supports"
+            raise InputError(f"supports[{k}]", problem, "one support for each component")
 
 
 def supported_components(support: Support, mesh: Mesh) -> BoolArray:

@@ -215,6 +215,11 @@ def wave_speed(material: Material, density: float, section: Section) -> float:
 
     ``sqrt(E/rho)`` in a bar, ``sqrt(E/((1 - nu^2) rho))`` in a plate, ``sqrt((lambda + 2 mu)/rho)`` otherwise.
 
+    Raises
+    ------
+    InputError
+        If the moduli are so small that the speed is zero.
+
     Examples
     --------
     >>> from softway.laws.bulk import LinearElastic
@@ -224,7 +229,10 @@ def wave_speed(material: Material, density: float, section: Section) -> float:
     """
     free = free_axes(section)
     moduli = condensed(initial_moduli(material), 3 - len(free), free)
-    return sqrt(wave_modulus(moduli) / density)
+    speed = sqrt(max(0.0, wave_modulus(moduli)) / density)
+    if not speed > 0.0:
+        raise InputError("material", f"waves of the speed {speed:g} m/s: it has no stiffness", "larger moduli")
+    return speed
 
 
 def _uniform(value: float, points: Array) -> Array:

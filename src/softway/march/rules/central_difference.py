@@ -12,6 +12,8 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.assembled.contact_layer import layer
+from softway.bodies.internal_force.slab_average import Weighted
+from softway.bodies.solid import Solid
 from softway.contact.contact_rows import ContactRows
 from softway.contact.impact_rule import Energy
 from softway.errors import InputError
@@ -159,12 +161,16 @@ def central_difference(model: Model, method: Explicit, weight: TimeWeight) -> Ce
     Raises
     ------
     InputError
-        If contact nodes have inertia or no node has, the time weight is not the default, or unknowns move several
-        components.
+        If contact nodes have inertia or no node has, the time weight or the force of a body is not the default, or
+        unknowns move several components.
     """
     if weight != EndPeaks():
         problem = f"{weight} with Explicit, whose peak is at the start"
         raise InputError("time.weight", problem, "the default weight, or the solver FixedPoint")
+    for name, body in model.scene.bodies.items():
+        if isinstance(body, Solid) and body.force != Weighted():
+            problem = f"{type(body.force).__name__} with Explicit, which takes the force at instants"
+            raise InputError(f"bodies.{name}.force", problem, "the default force, or the solver FixedPoint")
     if not model.inert:
         raise InputError("solver", "Explicit without inertia", "the solver FixedPoint, or with inertia")
     if not isinstance(model.timing, Energy):

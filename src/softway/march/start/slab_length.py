@@ -18,6 +18,8 @@ from softway.units import Second
 
 SLABS = 20
 """Least number of slabs without inertia: loads and materials may change with time although nothing is moved."""
+SHORTEST = 1e-50
+"""Shortest duration and slab [s]: the squares of shorter ones are no numbers."""
 QUICK = 1e-3
 """Angle of a turning tool by which its speed is measured [rad]."""
 QUARTER = 0.25
@@ -39,12 +41,12 @@ def proposed(
     Raises
     ------
     InputError
-        If the duration or the step is not positive.
+        If the duration or the step is not positive, or too short to be squared.
     """
-    if duration <= 0.0:
+    if not duration >= SHORTEST:
         raise InputError("time.end", f"the march would last {duration:g} s", "an end after the start")
     if step != "auto":
-        if not 0.0 < step < np.inf:
+        if not SHORTEST <= step < np.inf:
             raise InputError("time.step", f"{step:g} s", "a positive time, or 'auto'")
         return evenly(duration, step)
     if not model.inert:

@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 
 from softway.arrays import Array
 from softway.bodies.solid import Solid
-from softway.errors import Cancel, InputError, Note
+from softway.errors import Cancel, InputError, Note, within
 from softway.march.march_state import MarchState, Settings
 from softway.march.start.initial_state import SOON
 from softway.march.start.preparation import prepare
@@ -23,6 +23,7 @@ from softway.scenario.checks.names import (
     check_density,
     check_dimensions,
     check_loads,
+    check_names,
     check_solid,
     mesh_of,
 )
@@ -100,6 +101,7 @@ def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked:
         If ``cancel`` requests it.
     """
     _require_scenario(scenario)
+    check_names(scenario.bodies)
     for name, body in scenario.bodies.items():
         if isinstance(body, Solid):
             check_density(body.density, f"bodies.{name}.density")
@@ -114,7 +116,10 @@ def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked:
     check_loads(scenario.loads, "loads", solids)
     check_contacts(scene.contacts)
     factor = scenario.inertia.factor or 1.0
-    bodies = {n: body_scales(s, mesh_of(s), int((~fixed[n]).sum()), factor) for n, s in solids.items()}
+    bodies = {}
+    for name, solid in solids.items():
+        with within(f"bodies.{name}"):
+            bodies[name] = body_scales(solid, mesh_of(solid), int((~fixed[name]).sum()), factor)
     for k, contact in enumerate(scene.contacts):
         check_contact(scene.bodies, contact, f"contacts[{k}]")
     readings(scenario.output.probes, {n: mesh_of(s) for n, s in solids.items()})
@@ -205,5 +210,6 @@ def _nearest(model: Model, number: int) -> tuple[Array, Array, Array]:
     distance, found = cKDTree(x[other]).query(x[one])
     least = int(np.argmin(distance))
     a, b = one[least], other[found[least]]
-    direction = (x[a] - x[b]) / distance[least]
+    away = x[a] - x[b] if distance[least] > 0.0 else x[one].mean(axis=0) - x[other].mean(axis=0)
+    direction = away / max(float(np.linalg.norm(away)), 1e-300)
     return direction[None], distance[[least]], -np.array([(model.velocity[a] - model.velocity[b]) @ direction])

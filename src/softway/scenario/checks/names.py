@@ -1,6 +1,6 @@
 """Checks of the references in a scenario: bodies, tags, components, dimensions."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from math import isfinite
 
 from softway.arrays import BoolArray
@@ -33,6 +33,14 @@ def solid_named(bodies: Mapping[str, Solid | Tool], name: str, where: str) -> So
     if not isinstance(body, Solid):
         raise InputError(where, f"{name!r} is a Tool, which has no nodes", nearest(name, solids))
     return body
+
+
+def check_names(bodies: Iterable[str]) -> None:
+    """Refuse names of bodies that no contact, load or probe could name, or that no line could show."""
+    for name in bodies:
+        if not name.strip() or "." in name or not name.isprintable():
+            problem = f"{name!r:.60} cannot be the name of a body"
+            raise InputError("bodies", problem, "letters, digits and blanks; a dot stands between a body and its tag")
 
 
 def check_contact(bodies: Mapping[str, Solid | Tool], contact: Contact, where: str) -> None:

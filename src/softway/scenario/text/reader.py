@@ -98,12 +98,15 @@ class Reader:
         """Read a table whose keys are names chosen by the user."""
         if not isinstance(value, Mapping):
             raise InputError(where, f"{value!r} is not a table", f"tables such as [{where}.NAME]")
+        for key in value:
+            if not key.isprintable():
+                raise InputError(where, f"the name {key!r:.60} holds signs that no line can show", "letters and digits")
         return {k: self.read(v, get_args(hint)[1], f"{where}.{k}", unit) for k, v in value.items()}
 
     def _union(self, value: Any, options: tuple[Any, ...], where: str, unit: str | None) -> Any:
         """Select the alternative from the kind or the form of the value, and read it."""
         known = kinds(options)
-        if isinstance(value, Mapping):
+        if isinstance(value, Mapping) and known:
             return self._kind(value, options, known, where, unit)
         if isinstance(value, str):
             if any(get_origin(o) is Literal and value in get_args(o) for o in options):
@@ -118,7 +121,8 @@ class Reader:
         short = [(c, k) for c in known.values() for k in inputs(c) if len(inputs(c)) == 1 and fits(value, hints(c)[k])]
         if len(short) == 1:
             return self._object({short[0][1]: value}, short[0][0], where, unit)
-        raise InputError(where, f"{value!r} is not a known kind", _remedy(value, options, known, unit))
+        problem = f"{value!r} is not a known kind" if known else f"{value!r} does not fit"
+        raise InputError(where, problem, _remedy(value, options, known, unit))
 
     def _fitting(self, value: Any, choice: Any, options: tuple[Any, ...], where: str, unit: str | None) -> Any:
         """Read one alternative; an error also lists the admitted words."""

@@ -41,7 +41,7 @@ def test_a_body_at_rest_stays_at_rest(law: sw.LinearElastic, method: sw.Explicit
 def test_the_natural_test_of_a_law(method: sw.Explicit, inertia: sw.bodies.Full, rule: Energy, force: object) -> None:
     """One sheared cell, all of whose nodes are prescribed: G times the shear, and the work of the supports."""
     odd = (isinstance(method, sw.Explicit), not inertia.factor, not getattr(rule, "massless", True))
-    if sum(odd) > 1:
+    if sum(odd) > 1 or (odd[0] and force != sw.bodies.Weighted()):
         return  # refused
     mesh, pull = sw.meshes.Rectangle(size=(1.0, 1.0), cells=(1, 1)), 0.1
     supports = (

@@ -8,10 +8,11 @@ import pytest
 
 import softway.scenario.scenario as model
 from softway.bodies.inertia.mass_matrix import Lumped
+from softway.bodies.internal_force.slab_average import EnergyMomentum
 from softway.bodies.setup.initial_fields import Uniform
 from softway.bodies.setup.loads import Gravity, Traction
 from softway.bodies.setup.placement import Placement
-from softway.bodies.solid import Solid, Tool
+from softway.bodies.solid import Driven, Fixed, Solid, Tool
 from softway.contact.contact import Contact
 from softway.contact.impact_rule import Impulse
 from softway.errors import InputError
@@ -23,6 +24,7 @@ from softway.scenario.checks.check import check
 from softway.scenario.files import dumps, load, loads
 from softway.scenario.hints.units_text import Units
 from softway.scenario.text.templates import templates
+from softway.solve.methods.central_difference import Explicit
 from softway.solve.stable_step import stable_step
 
 UNITS = Units.standard()
@@ -234,3 +236,49 @@ def test_a_body_may_start_touching():
 def test_lumped_mass_allows_longer_slabs():
     slow = check(replace(BAR, bodies={**BAR.bodies, "bar": replace(BAR.bodies["bar"], mass=Lumped())}))
     assert slow.bodies["bar"].stable_step == pytest.approx(np.sqrt(3.0) * 0.5)
+
+
+@pytest.mark.parametrize("name", ["a.b", "a\nb", "", " ", "\x1b[2J"])
+def test_names_that_nothing_can_name_or_show_are_refused(name):
+    with pytest.raises(InputError, match="cannot be the name of a body") as found:
+        check(replace(BAR, bodies={**BAR.bodies, name: BAR.bodies["wall"]}))
+    assert found.value.where == "bodies"
+    check(replace(BAR, bodies={**BAR.bodies, "a name with blanks, ä": BAR.bodies["wall"]}))
+
+
+def test_times_whose_squares_are_no_numbers_are_refused():
+    """The slab of 1e-300 s was accepted, and the run divided by its square."""
+    for end, step in ((1e-300, "auto"), (1.0, 1e-300)):
+        with pytest.raises(InputError) as found:
+            check(replace(BAR, time=replace(BAR.time, end=end, step=step)))
+        assert found.value.where in ("time.end", "time.step")
+
+
+def test_bodies_in_one_place_have_an_approach_speed():
+    """Their nearest nodes coincide: there is no direction between them."""
+    mesh, law = Rectangle(size=(1.0, 1.0), cells=(2, 2)), LinearElastic(E=1.0)
+    bodies = {n: Solid(mesh=mesh, material=law, density=1.0, velocity=v) for n, v in (("a", (1.0, 0)), ("b", (0.0, 0)))}
+    bodies = {n: replace(b, velocity=Uniform(value=b.velocity)) for n, b in bodies.items()}
+    contact = Contact(between=("a.left", "b.top"))
+    found = check(model.Scenario(bodies=bodies, contacts=(contact,), time=model.Time(end=1.0)))
+    assert np.isfinite(found.contacts[contact.label].approach)
+    assert found.contacts[contact.label].gap == 0.0
+
+
+def test_supports_that_others_override_are_refused():
+    """The later of two driven supports won without a word, and a driven one over a fixed one."""
+    left = {"on": "left", "velocity": 1.0}
+    for first in (Fixed(on="left"), Driven(on="left", velocity=2.0)):
+        supports = (first, Driven(**left))
+        with pytest.raises(InputError, match="driven by other supports") as found:
+            check(replace(BAR, bodies={**BAR.bodies, "bar": replace(BAR.bodies["bar"], supports=supports)}))
+        assert found.value.where == "bodies.bar.supports[0]"
+    twice = replace(BAR.bodies["bar"], supports=(Fixed(on="left"), Fixed(on="left")), velocity=Uniform())
+    check(replace(BAR, bodies={**BAR.bodies, "bar": twice}))
+
+
+def test_a_force_that_central_differences_do_not_take_is_refused():
+    bar = replace(BAR.bodies["bar"], force=EnergyMomentum())
+    with pytest.raises(InputError, match="EnergyMomentum with Explicit") as found:
+        check(replace(BAR, bodies={**BAR.bodies, "bar": bar}, solver=Explicit()))
+    assert found.value.where == "bodies.bar.force"

@@ -1,10 +1,27 @@
 """Refusals of bodies: sections, supports, initial fields, loads, forces."""
 
-from try_it import BAR, PLANE, SPACE, TWO, Table, Try
+from try_it import BAR, PLANE, SPACE, TWO, UNITS, Call, Table, Try
+
+from softway.scenario.checks.check import check
+from softway.scenario.files import loads
 
 B = "bodies.b"
 FALL = "start={kind='StaticStart', loads=[{kind='Gravity', acceleration=[0, -1]}]}"
 TABLE: Table = {
+    "overridden support": Try(
+        PLANE,
+        f"{B}.supports=[{{on='top'}}, {{kind='Driven', on='top', velocity=1}}]",
+        "one support for each",
+        f"{B}.supports=[{{on='top'}}]",
+    ),
+    "force of Explicit": Try(
+        PLANE, f"solver=Explicit & {B}.force=EnergyMomentum", "the default force", f"{B}.force=Weighted"
+    ),
+    "name of a body": Call(
+        lambda _: check(loads(PLANE.replace("bodies.w", 'bodies."w.x"'), units=UNITS)),
+        "a dot stands between",
+        lambda _: check(loads(PLANE, units=UNITS)),
+    ),
     "no solid": Try(
         "bodies = {}\n[time]\nend = 1",
         "",
@@ -19,6 +36,14 @@ TABLE: Table = {
         "bodies.c.mesh={kind='Rectangle', size=[1, 1], cells=[2, 2], origin=[0, -1]}",
     ),
     "no density": Try(PLANE, f"{B}.density=0", "7850 kg/m^3", f"{B}.density=7850 kg/m^3"),
+    "no stiffness": Try(
+        BAR, f"{B}.material={{E=1e-300}} & {B}.material.kind=LinearElastic", "larger moduli", f"{B}.material.E=1"
+    ),
+    "signs in a name": Call(
+        lambda _: loads(PLANE.replace("bodies.w", 'bodies."w\\n"'), units=UNITS),
+        "letters and digits",
+        lambda _: loads(PLANE, units=UNITS),
+    ),
     "tiny density": Try(PLANE, f"{B}.density=1e-300", "1000 kg/m^3", f"{B}.density=1000 kg/m^3"),
     "section": Try(PLANE, f"{B}.section=Volume", "PlaneStrain", f"{B}.section=PlaneStrain"),
     "negative radius": Try(
