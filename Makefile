@@ -22,7 +22,7 @@ help:
 	@echo "make bench-smoke  every figure with the smallest meshes, in a minute or two: whether all of them still run"
 	@echo "make kills  runs killed at 50 random instants, resumed and compared bit by bit: KILLS='--kills 500 --seed 2' for more"
 	@echo "make manual  all verification cases: docs/verification/manual.md, and docs/_build/verification.html with curves"
-	@echo "make fuzz   ten thousand damaged scenarios, mesh files and command lines, into docs/verification/robustness.md"
+	@echo "make fuzz   ten thousand damaged inputs, and five thousand scenarios, meshes and decks mutated by meaning, into docs/verification/robustness.md"
 	@echo "make drops  five hundred random drops, into the same page"
 	@echo "make endurance  a hundred thousand slabs with all records, and their memory, into the same page"
 	@echo "make docs   pages, reference and examples as HTML in docs/_build/html, none of which needs the network"
@@ -94,7 +94,7 @@ manual: $(TEST)/ready
 	$(TEST)/bin/python docs/scripts/manual.py docs/_build/verification.json docs/verification/manual.md
 
 fuzz: $(TEST)/ready
-	$(TEST)/bin/python tests/robustness/fuzz.py 10000 --out docs/verification/robustness/fuzz.json
+	$(TEST)/bin/python tests/robustness/fuzz.py --out docs/verification/robustness/fuzz.json
 	$(TEST)/bin/python tests/robustness/page.py
 
 drops: $(TEST)/ready

@@ -1,72 +1,63 @@
-"""Damaged inputs given to the command line: ``python tests/robustness/fuzz.py COUNT`` reports what it does with them.
+"""Damaged and mutated inputs given to the command line: ``python tests/robustness/fuzz.py`` reports what it does.
 
-With ``--decks`` the inputs are decks mutated by meaning, of which nothing may be lost in silence.
+``--of scenarios`` takes the scenarios mutated by meaning, ``--of meshes`` mesh files, ``--of decks`` input decks, and
+``--of damaged`` inputs with bytes, numbers and keys changed; without it all of them are judged.
 
 Each input has its own folder, a limit of time, and a process with a limit of memory.  A defect is a traceback, an exit
-code without its message, a hang, a process that dies, or a file left behind.
+code without its message, a hang, a process that dies, a file left behind, or a part that is lost in silence.
 """
 
 import argparse
 import collections
-import contextlib
-import io
 import json
 import multiprocessing as mp
-import os
 import resource
-import signal
 import tempfile
-import traceback
-import warnings
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+from inputs.command import FAILED, REFUSED, answer, written
 from inputs.decks import judged_deck
+from inputs.mesh_files import judged_mesh
 from inputs.mutations import Damaged, damaged
+from inputs.scenarios.judge import judged_scenario
 
 MEMORY = 6 << 30
 """Bytes that a process may take."""
 SECONDS = 20
 """Time for one input [s]."""
-REFUSED, FAILED, INTERRUPTED = 2, 3, 130
-
-
-class TooLong(BaseException):
-    """The input took more than its time."""
+ENDS = ("ok", "refused", "failed", "slow")
+"""Verdicts that are no defects."""
 
 
 def judged(given: Damaged, seconds: int = SECONDS) -> str:
     """What the command line does with an input: ``ok``, ``refused``, ``failed``, or a defect in words."""
-    from softway.apps.cli import main
-
-    with tempfile.TemporaryDirectory() as place:
-        for name, data in given.files.items():
-            Path(place, name).write_bytes(data)
-        before, home = set(os.listdir(place)), Path.cwd()
-        out, errors = io.StringIO(), io.StringIO()
-        os.chdir(place)
-        signal.signal(signal.SIGALRM, _stop)
-        signal.alarm(seconds)
-        try:
-            with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors), warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                code = main(list(given.command))
-        except TooLong:
-            return f"hang: more than {seconds} s" if given.command[:1] not in (("run",), ("race",)) else "ok"
-        except SystemExit as stop:
-            return f"left by SystemExit {stop.code}"
-        except Exception as error:
-            where = traceback.extract_tb(error.__traceback__)[-1]
-            return f"traceback: {type(error).__name__}: {str(error)[:80]} at {Path(where.filename).name}:{where.lineno}"
-        finally:
-            signal.alarm(0)
-            os.chdir(home)
-        left = set(os.listdir(place)) - before
-    return _verdict(code, errors.getvalue(), left, given)
+    with tempfile.TemporaryDirectory() as name:
+        place = Path(name)
+        written(place, given.files)
+        told = answer(place, given.command, seconds)
+    if told.defect.startswith("hang") and given.command[:1] in (("run",), ("race",)):
+        return "slow"
+    return told.defect or _verdict(told.code, told.told, told.left, given)
 
 
-def _verdict(code: int, told: str, left: set[str], given: Damaged) -> str:
+def judged_damaged(number: int) -> str:
+    """Verdict on the damaged input of a number."""
+    return judged(damaged(number))
+
+
+KINDS: Mapping[str, tuple[int, Callable[[int], str]]] = {
+    "damaged": (10_000, judged_damaged),
+    "scenarios": (3_000, judged_scenario),
+    "meshes": (1_000, judged_mesh),
+    "decks": (1_000, judged_deck),
+}
+"""Numbers of inputs, and their judgement."""
+
+
+def _verdict(code: int | None, told: str, left: frozenset[str], given: Damaged) -> str:
     if left and code != 0 and given.command[:1] not in (("run",), ("race",)):
         return f"files left: {sorted(left)}"
     if "Traceback" in told:
@@ -75,14 +66,10 @@ def _verdict(code: int, told: str, left: set[str], given: Damaged) -> str:
         return f"exit {code} without a message"
     if code in (REFUSED, FAILED) and given.family != "command" and "try:" not in told and "line" not in told:
         return f"no remedy: {told[:90]!r}"
-    return {0: "ok", 1: "ok", REFUSED: "refused", FAILED: "failed"}.get(code, f"exit {code}")
+    return {0: "ok", 1: "ok", REFUSED: "refused", FAILED: "failed"}.get(code or 0, f"exit {code}")
 
 
-def _stop(*_: object) -> None:
-    raise TooLong
-
-
-def _work(first: int, count: int, decks: bool, results: Any) -> None:
+def _work(first: int, count: int, kind: str, results: Any) -> None:
     """Judge some inputs, telling each before and after; in a process of its own."""
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     from softway.scenario.hints.units_text import Units
@@ -92,18 +79,20 @@ def _work(first: int, count: int, decks: bool, results: Any) -> None:
     for number in range(first, first + count):
         results.send((number, None, 0.0))
         begun = perf_counter()
-        verdict = judged_deck(number) if decks else judged(damaged(number))
+        verdict = KINDS[kind][1](number)
         results.send((number, verdict, perf_counter() - begun))
+        if verdict == "slow":  # what was interrupted may have left a half-compiled kernel
+            break
     results.send(None)
 
 
-def verdicts(first: int, count: int, *, decks: bool = False) -> dict[int, tuple[str, float]]:
+def verdicts(first: int, count: int, kind: str = "damaged") -> dict[int, tuple[str, float]]:
     """Verdict and time of each input; a process that dies or hangs is replaced."""
     found: dict[int, tuple[str, float]] = {}
     context, end = mp.get_context("spawn"), first + count
     while first < end:
         here, there = context.Pipe(duplex=False)
-        worker = context.Process(target=_work, args=(first, end - first, decks, there))
+        worker = context.Process(target=_work, args=(first, end - first, kind, there))
         worker.start()
         there.close()
         number, told = first, True
@@ -126,27 +115,30 @@ def verdicts(first: int, count: int, *, decks: bool = False) -> dict[int, tuple[
     return found
 
 
-def _family(number: int, decks: bool) -> str:
-    return "deck" if decks else damaged(number).family
+def _family(number: int, kind: str) -> str:
+    return damaged(number).family if kind == "damaged" else kind
 
 
 def main() -> None:
     """Judge so many inputs and write the counts as JSON."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("count", type=int, nargs="?", default=10_000)
+    parser.add_argument("count", type=int, nargs="?")
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--out", type=Path)
-    parser.add_argument("--decks", action="store_true")
+    parser.add_argument("--of", choices=list(KINDS))
     given = parser.parse_args()
-    found = verdicts(given.first, given.count, decks=given.decks)
-    defects = {n: v for n, (v, _) in found.items() if v not in ("ok", "refused", "failed")}
     counts: dict[str, collections.Counter[str]] = collections.defaultdict(collections.Counter)
-    for number, (verdict, _) in found.items():
-        counts[_family(number, given.decks)][verdict if verdict in ("ok", "refused", "failed") else "defect"] += 1
-    for number, verdict in defects.items():
-        print(number, _family(number, given.decks), verdict)
-    slowest = max(time for _, time in found.values())
-    table = {"inputs": len(found), "families": counts, "defects": len(defects), "slowest": round(slowest, 2)}
+    inputs, defects, slowest = 0, 0, 0.0
+    for kind in [given.of] if given.of else KINDS:
+        found = verdicts(given.first, given.count or KINDS[kind][0], kind)
+        for number, (verdict, _) in found.items():
+            counts[_family(number, kind)][verdict if verdict in ENDS else "defect"] += 1
+            if verdict not in ENDS:
+                print(number, _family(number, kind), verdict, flush=True)
+                defects += 1
+        inputs += len(found)
+        slowest = max(slowest, *(time for _, time in found.values()))
+    table = {"inputs": inputs, "families": counts, "defects": defects, "slowest": round(slowest, 2)}
     print(json.dumps(table))
     if given.out:
         given.out.parent.mkdir(parents=True, exist_ok=True)

@@ -58,17 +58,33 @@ def table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
 
 def fuzz(found: dict[str, Any]) -> str:
     """Damaged inputs and what became of them."""
-    kinds = ("ok", "refused", "failed", "defect")
+    kinds = ("ok", "refused", "failed", "slow", "defect")
     rows = [[name, *(counts.get(k, 0) for k in kinds)] for name, counts in sorted(found["families"].items())]
-    text = f"""## Damaged inputs
+    text = f"""## Damaged and mutated inputs
 
-{found["inputs"]} scenarios, mesh files (msh, inp, stl, ply, obj, vtu) and command lines with bytes, numbers, keys
-and parts changed, each given to the command line in a process with a limit of memory and 20 s. A defect is a
-traceback, a hang, a dead process, a refusal without place or remedy, or a file left behind: {found["defects"]}. The
-slowest took {found["slowest"]} s (a `run` of a scenario that is right may take its time).
+{found["inputs"]} inputs, each in a process with a limit of memory and of time; {found["defects"]} defects.
+
+- **Damaged** (`bytes`, `structure`, `mesh`, `command`): scenarios, mesh files (msh, inp, stl, ply, obj, vtu) and
+  command lines with bytes, numbers, keys and parts changed. A defect is a traceback, a hang, a dead process, a refusal
+  without place or remedy, or a file left behind.
+- **Scenarios** mutated by meaning: small scenes of every dimension, rule and solver get valid parts in new
+  combinations, drawn from the same type hints as the reader (other laws, meshes, tools, motions, rules, solvers), parts
+  of each other, bodies, contacts and supports twice or crossed, other names, units and lengths of lists. `check` may
+  refuse them with place and remedy; what it accepts has every value of the file in the scenario, and runs for three
+  time steps (slabs).
+  Further defects are: `check` accepts and `run` refuses, a value of the file that the scenario does not have, a
+  warning of Python, a history that is not finite.
+- **Meshes** mutated by meaning: Gmsh files of the versions 2.2, 4.0 and 4.1, as text and as bytes (labels with gaps,
+  nodes that are not there, cells twice, further parts, several groups of one entity, names twice, huge or on nothing,
+  sections of other programs, wrong counts) and surfaces as STL, OBJ, PLY and VTU. A file that is read gives all its
+  cells, their volume or area, and all its groups, or the list of `check` names what is missing.
+- **Decks** mutated by meaning: parts, includes, repeated headers, wrong labels, odd cards. Every card that was added is
+  in the mesh or in the list of `check`.
+
+The slowest took {found["slowest"]} s; *slow* is a `run` that its limit of time ended.
 
 """
-    return text + table(["damage to", "accepted", "refused (exit 2)", "failed (exit 3)", "defects"], rows)
+    return text + table(["inputs", "accepted", "refused (exit 2)", "failed (exit 3)", "slow", "defects"], rows)
 
 
 def drops(found: list[dict[str, Any]]) -> str:
