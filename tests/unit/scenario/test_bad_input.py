@@ -156,7 +156,10 @@ def test_an_unknown_option_is_answered_with_the_help_of_its_verb(capsys):
     assert "softway run --help" in " ".join(capsys.readouterr().err.split())
 
 
-@pytest.mark.parametrize(("mesh", "told"), [("hello", "damaged"), (INVERTED.replace("2 1 0 0", "2 nan 0 0"), "node 1")])
+@pytest.mark.parametrize(
+    ("mesh", "told"),
+    [("hello", "begins with 'hello', not with $MeshFormat"), (INVERTED.replace("2 1 0 0", "2 nan 0 0"), "node 1")],
+)
 def test_an_unreadable_mesh_is_refused_with_the_reason(mesh, told, scenario, capsys):
     (scenario.parent / "bad.msh").write_text(mesh)
     assert main(["check", str(scenario), "--set", "bodies.block.mesh={kind='MeshFile', path='bad.msh'}"]) == 2

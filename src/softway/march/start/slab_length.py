@@ -47,7 +47,7 @@ def proposed(
         raise InputError("time.end", f"the march would last {duration:g} s", "an end after the start")
     if step != "auto":
         if not SHORTEST <= step < np.inf:
-            raise InputError("time.step", f"{step:g} s", "a positive time, or 'auto'")
+            raise InputError("time.step", f"{step:g} s", f"a time of at least {SHORTEST:g} s, or 'auto'")
         return evenly(duration, step)
     if not model.inert:
         return evenly(duration, min(duration / SLABS, QUARTER * _edge(model) / max(_prescribed_speed(model), 1e-300)))
