@@ -144,6 +144,8 @@ def read(file: Path) -> Checkpoint:
         about = json.loads(arrays.pop("about").tobytes())
         found = Checkpoint(march_state=unpacked(about["march_state"], arrays), marks=about["marks"], wall=about["wall"])
         require_fields(Checkpoint, {f.name: getattr(found, f.name) for f in fields(Checkpoint)}, {})
+        if min(found.marks.values(), default=0) < 0:
+            raise ValueError("a mark is negative")
     except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise Damaged(f"is damaged: {error}") from None
     return found

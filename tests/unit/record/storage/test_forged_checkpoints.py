@@ -180,7 +180,8 @@ def test_a_deep_state_and_wrong_marks_are_damaged(stopped, tmp_path):
     forge(file, {**content, "about.npy": array(np.frombuffer(deep.encode(), np.uint8))})
     with pytest.raises(Damaged, match="Recursion"):
         read(file)
-    for wrong in ({"marks": {"history.csv": "all"}}, {"marks": 3}, {"wall": "long"}, {"wall": None}):
+    negative = {"marks": {"fields.vtkhdf": -1}}
+    for wrong in ({"marks": {"history.csv": "all"}}, negative, {"marks": 3}, {"wall": "long"}, {"wall": None}):
         forge(file, with_about(content, {**about, **wrong}))
         with pytest.raises(Damaged):
             read(file)
