@@ -31,8 +31,8 @@ from softway.solve.operators.operator_memory import OperatorMemory
 log = logging.getLogger(__name__)
 PATIENCE = 1
 """Cutbacks after which an energy balance that the scalar cannot close is closed along the motion."""
-STEPS = 8
-"""Steps of the contact problems for each iterate above which an attempt is given up; accepted slabs take up to 3."""
+STEPS = 24
+"""Steps of the contact problems for each iterate above which an attempt is given up; accepted slabs take up to 10."""
 SHORT = 1e-2
 """Step without inertia, relative to that of the prescribed motion, below which a longer one is advised."""
 DAMPED = EndPeaks(theta=1.0)
