@@ -1,4 +1,4 @@
-"""Counted work of one attempt at a slab (time step), with its limit and signs of life."""
+"""Counted work of one attempt at a slab (time step), with its limit and progress lines."""
 
 from collections.abc import Callable
 from math import inf, nan

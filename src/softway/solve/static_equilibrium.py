@@ -120,7 +120,7 @@ def equilibrium(
     cancel
         Callback at every step that may cancel the computation.
     effort
-        Counted work, with signs of life.
+        Counted work, with progress lines.
 
     Raises
     ------

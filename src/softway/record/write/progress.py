@@ -65,7 +65,7 @@ Tell = Callable[[str], None]
 
 
 class Heartbeat:
-    """Sign of life of a run: a line after ``BEAT`` seconds inside one attempt at a slab, and again after as many.
+    """Heartbeat of a run: a line after ``BEAT`` seconds inside one attempt at a slab, and again after as many.
 
     It is shown beforehand if what begins will take as long by its estimate.  The clock decides what is shown and
     nothing else.

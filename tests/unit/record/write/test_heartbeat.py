@@ -1,4 +1,4 @@
-"""Signs of life inside one attempt at a slab: the clock decides what is shown and nothing else."""
+"""Progress lines inside one attempt at a slab: the clock decides what is shown and nothing else."""
 
 import math
 from itertools import count
