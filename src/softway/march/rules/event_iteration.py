@@ -27,6 +27,9 @@ SEPARATES = 1e-9
 APART = 1e-9
 """Gap at the start of a slab, relative to the coordinates, beyond which a row does not touch."""
 
+SHALLOW = 1e-3
+"""Depth behind a plane, relative to the edges at the node, that a node may be lifted by without a touch before."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class EventIteration:
@@ -141,7 +144,7 @@ def within_reach(model: Model, rows: ContactRows, u0: Array, travel: float) -> B
 
     Such a plane is that of a facet round the corner: the node is beyond its edges, and outside of the body.
     """
-    return np.asarray(rows.gap(u0) + rows.tool_motion >= -2.0 * travel - APART * model.extent(u0))
+    return np.asarray(rows.gap(u0) + rows.tool_motion >= -2.0 * travel - SHALLOW * model.edge[rows.node])
 
 
 def rounding(model: Model, rows: ContactRows, u: Array) -> float:
