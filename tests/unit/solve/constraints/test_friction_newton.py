@@ -299,14 +299,9 @@ def test_forces_that_grow_without_bound_are_given_up(seed):
         solve_multipliers(it, start)
 
 
-def test_a_hopeless_problem_is_given_up_by_its_steps():
-    """By their number: the same on every machine."""
-    hopeless = dependent(71, 4, 10)
-    with pytest.raises(NoConvergence, match="friction of 10 contact rows leaves"):
-        solve_multipliers(hopeless, np.zeros(30))
-    assert hopeless.effort.steps > 400
-    told = (
-        "attempt given up after 0 iterations, 0 factors and 101 steps of the contact problems, of 100 allowed; the last"
-    )
+def test_a_problem_is_given_up_by_its_steps():
+    """By their number alone: ten rows that depend on each other need many, whatever the rounding."""
+    hard = dependent(71, 4, 10)
+    told = "attempt given up after 0 iterations, 0 factors and 6 steps of the contact problems, of 5 allowed; the last"
     with pytest.raises(NoConvergence, match=told):
-        solve_multipliers(replace(hopeless, effort=Effort(limit=2)), np.zeros(30))
+        solve_multipliers(replace(hard, effort=Effort(limit=0.1)), np.zeros(30))
