@@ -13,7 +13,7 @@ from softway.contact.contact import Contact
 from softway.errors import InputError, real
 from softway.html_tables import table as html_table
 from softway.march.step_control import StepControl
-from softway.meshes.files.abaqus.left_out import LeftOut
+from softway.meshes.files.listed_mesh import LeftOut
 from softway.meshes.files.mesh_files import FileMesh
 from softway.meshes.generators.recipes import MeshFile, MeshSource
 from softway.meshes.mesh import Mesh

@@ -14,9 +14,9 @@ from softway.arrays import Array, IntArray
 from softway.errors import InputError
 from softway.meshes.cells import CELLS, FACETS, FLAT
 from softway.meshes.files.abaqus.assembly import deck_mesh
-from softway.meshes.files.abaqus.left_out import LeftOut
 from softway.meshes.files.abaqus.lexer import is_file, is_folder
 from softway.meshes.files.gmsh.mesh import NAMES, gmsh_mesh
+from softway.meshes.files.listed_mesh import LeftOut
 from softway.meshes.files.wavefront import obj_facets
 from softway.meshes.mesh import Mesh
 
@@ -184,7 +184,7 @@ def _cells(path: Path) -> tuple[Array, dict[str, IntArray]]:
     """Points and cells of the highest dimension, by name."""
     if path.suffix.lower() == ".msh":
         found = gmsh_mesh(path)
-        return found.points, found.blocks
+        return found.points, dict(found.blocks)
     if path.suffix.lower() == ".obj":
         return obj_facets(path)
     if path.suffix.lower() == ".vtu" and path.read_bytes().count(b"<Piece ") > 1:

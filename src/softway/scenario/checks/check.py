@@ -12,7 +12,7 @@ from softway.errors import Cancel, InputError, Note, within
 from softway.march.march_state import MarchState, Settings
 from softway.march.start.initial_state import SOON
 from softway.march.start.preparation import prepare
-from softway.meshes.files.abaqus.left_out import LeftOut
+from softway.meshes.files.listed_mesh import LeftOut
 from softway.model.build import build
 from softway.model.model import Model
 from softway.model.scene import StaticStart

@@ -10,7 +10,7 @@ from softway.contact.surfaces.boundary import ContactSurface
 from softway.contact.surfaces.sagitta import CurvedSurface, Misfit, curved_surface, misfit
 from softway.errors import Note, within
 from softway.meshes.examination import examined
-from softway.meshes.files.abaqus.left_out import LeftOut
+from softway.meshes.files.listed_mesh import LeftOut
 from softway.model.model import Model
 from softway.scenario.checks.locking import locking_notes
 from softway.scenario.checks.names import mesh_of

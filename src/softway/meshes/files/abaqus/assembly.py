@@ -2,7 +2,6 @@
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -13,36 +12,14 @@ from softway.meshes.cells import FACETS
 from softway.meshes.files.abaqus.cell_types import cell_type
 from softway.meshes.files.abaqus.choice import chosen_elements
 from softway.meshes.files.abaqus.deck import Deck, placed, read_deck
-from softway.meshes.files.abaqus.left_out import LeftOut
 from softway.meshes.files.abaqus.scope import Scope
 from softway.meshes.files.abaqus.tags import tags_of
+from softway.meshes.files.listed_mesh import ListedMesh
 
 _DIMS = {"bar": 1, "tri": 2, "quad": 2, "tet": 3, "hex": 3, "wedge": 3, "pyramid": 3}
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class DeckMesh:
-    """Mesh of a deck.
-
-    Parameters
-    ----------
-    points
-        (n, 3) coordinates of all nodes.
-    blocks
-        Cell name -> (e, a) numbers of the nodes.
-    tags
-        Name -> numbers of the nodes.
-    left_out
-        Cards that are not honoured.
-    """
-
-    points: Array
-    blocks: Mapping[str, IntArray]
-    tags: Mapping[str, IntArray]
-    left_out: tuple[LeftOut, ...]
-
-
-def deck_mesh(path: Path, cells: Sequence[str] | None = None, only: Sequence[str] = ()) -> DeckMesh:
+def deck_mesh(path: Path, cells: Sequence[str] | None = None, only: Sequence[str] = ()) -> ListedMesh:
     r"""Read the mesh of an input deck.
 
     Parameters
@@ -81,7 +58,7 @@ def deck_mesh(path: Path, cells: Sequence[str] | None = None, only: Sequence[str
     tags = tags_of(pieces, numbers, deck.left_out)
     if cells is None and not only:
         _list_unused(deck, blocks, tags, len(points))
-    return DeckMesh(points, blocks, tags, deck.left_out.listed())
+    return ListedMesh(points, blocks, tags, deck.left_out.listed())
 
 
 def _numbered(pieces: Mapping[str, Scope]) -> tuple[dict[str, dict[int, int]], Array]:

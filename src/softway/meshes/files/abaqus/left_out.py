@@ -4,53 +4,14 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from softway.meshes.files.abaqus.lexer import Card
+from softway.meshes.files.listed_mesh import LeftOut
 
-SHOWN = 6
-"""Greatest number of lines that are named for a card."""
 _QUIET = {
     "HEADING", "PREPRINT", "RESTART", "OUTPUT", "MONITOR", "FILEFORMAT", "PRINT", "TIMEPOINTS", "FACEPRINT",
     "SECTIONPRINT", "SECTIONFILE", "DIAGNOSTICS", "NOANALYSIS", "PARAMETER", "FILTER",
 }  # fmt: skip
 _REQUESTS = ("NODE", "EL", "ELEMENT", "ENERGY", "CONTACT", "MODAL", "RADIATION", "INCREMENTATION", "INTEGRATED", "NSET")
 _VERBS = ("PRINT", "FILE", "OUTPUT")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LeftOut:
-    """Card of a mesh file that the mesh does not hold.
-
-    Parameters
-    ----------
-    card
-        Keyword and, where it matters, its parameter, such as ``*BOUNDARY`` or ``*ELEMENT, TYPE=SPRINGA``.
-    count
-        Number of such cards.
-    lines
-        Lines of the cards, if known; in an included file the name of the file is before the number.
-    meaning
-        Description of the loss and of what to do; empty if the keyword says enough.
-    matters
-        False for headings, output requests and markers, which say nothing about the body.
-
-    Examples
-    --------
-    >>> print(LeftOut(card="*BOUNDARY", count=2, lines=("12", "40")))
-    *BOUNDARY (2; lines 12, 40)
-    """
-
-    card: str
-    count: int
-    lines: tuple[str, ...]
-    meaning: str = ""
-    matters: bool = True
-
-    def __str__(self) -> str:
-        """Card, count, lines and meaning in one line."""
-        more = ", ..." if len(self.lines) > SHOWN else ""
-        where = (
-            f"; line{'s' if len(self.lines) > 1 else ''} {', '.join(self.lines[:SHOWN])}{more}" if self.lines else ""
-        )
-        return f"{self.card} ({self.count}{where})" + (f": {self.meaning}" if self.meaning else "")
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,18 +1,17 @@
 """Mesh of a Gmsh file: its cells, the tags of its physical groups, and the list of what it does not hold."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from softway.arrays import Array, BoolArray, IntArray
+from softway.arrays import BoolArray, IntArray
 from softway.errors import InputError
 from softway.meshes.cells import CELLS, FACETS
-from softway.meshes.files.abaqus.left_out import LeftOut
 from softway.meshes.files.gmsh.cursor import damaged
 from softway.meshes.files.gmsh.msh_file import TYPES, Elements, MshFile
 from softway.meshes.files.gmsh.reader import read_msh
+from softway.meshes.files.listed_mesh import LeftOut, ListedMesh
 
 NAMES = {
     "line": "bar2",
@@ -33,29 +32,7 @@ QUIET = ("Comments", "PartitionedEntities")
 """Sections that say nothing about the body."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class GmshMesh:
-    """Mesh of a Gmsh file.
-
-    Parameters
-    ----------
-    points
-        (n, 3) coordinates of all nodes.
-    blocks
-        Cell name -> (e, a) numbers of the nodes.
-    tags
-        Name -> numbers of the nodes of a physical group.
-    left_out
-        Sections, nodes and groups that are not honoured.
-    """
-
-    points: Array
-    blocks: dict[str, IntArray]
-    tags: dict[str, IntArray]
-    left_out: tuple[LeftOut, ...]
-
-
-def gmsh_mesh(path: Path, cells: Sequence[str] | None = None, only: Sequence[str] = ()) -> GmshMesh:
+def gmsh_mesh(path: Path, cells: Sequence[str] | None = None, only: Sequence[str] = ()) -> ListedMesh:
     """Read the mesh of a Gmsh file.
 
     Parameters
@@ -79,7 +56,7 @@ def gmsh_mesh(path: Path, cells: Sequence[str] | None = None, only: Sequence[str
         raise InputError(error.where, problem, error.remedy) from None
 
 
-def _made(file: MshFile, cells: Sequence[str] | None, only: Sequence[str]) -> GmshMesh:
+def _made(file: MshFile, cells: Sequence[str] | None, only: Sequence[str]) -> ListedMesh:
     """Mesh of the wanted cells of a file."""
     dim = max((e.dim for e in file.elements), default=0)
     parts: dict[str, list[IntArray]] = {}
@@ -98,7 +75,7 @@ def _made(file: MshFile, cells: Sequence[str] | None, only: Sequence[str]) -> Gm
     for block in blocks.values():
         used[block] = True
     lost = () if only or cells else _unused(file, used, made)
-    return GmshMesh(file.points, blocks, made, (*_sections(file), *lost))
+    return ListedMesh(file.points, blocks, made, (*_sections(file), *lost))
 
 
 def _wanted(elements: Elements, dim: int, cells: Sequence[str] | None) -> bool:

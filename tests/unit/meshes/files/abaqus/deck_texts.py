@@ -2,7 +2,8 @@
 
 from pathlib import Path
 
-from softway.meshes.files.abaqus.assembly import DeckMesh, deck_mesh
+from softway.meshes.files.abaqus.assembly import deck_mesh
+from softway.meshes.files.listed_mesh import ListedMesh
 
 CUBE = """*NODE
 1, 0,0,0
@@ -18,12 +19,12 @@ CUBE = """*NODE
 """
 
 
-def read(folder: Path, text: str, *, cells: tuple[str, ...] | None = None, only: tuple[str, ...] = ()) -> DeckMesh:
+def read(folder: Path, text: str, *, cells: tuple[str, ...] | None = None, only: tuple[str, ...] = ()) -> ListedMesh:
     """Mesh of a deck with this text."""
     (folder / "deck.inp").write_text(text)
     return deck_mesh(folder / "deck.inp", cells, only)
 
 
-def listed(mesh: DeckMesh) -> dict[str, int]:
+def listed(mesh: ListedMesh) -> dict[str, int]:
     """Cards that are left out and matter, with their numbers."""
     return {card.card: card.count for card in mesh.left_out if card.matters}
