@@ -7,6 +7,7 @@ import pytest
 import scipy.sparse as sp
 
 import softway as sw
+from run_drops import fall
 from softway.bodies.inertia.mass_matrix import Consistent
 from softway.bodies.inertia.mass_redistribution import redistribute_mass
 from softway.contact.contact_rows import ContactRows
@@ -137,3 +138,13 @@ def test_a_block_slides_off_the_edge_of_a_table(rule):
     assert any(step.after.closed["fall"].any() for step in steps)
     assert not steps[-1].after.closed["fall"].any()
     assert steps[-1].after.displacement["block"][:2, 1].max() < -0.25
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [58, 425], ids=["J2", "NeoHookean"])
+def test_crushed_blocks_that_rub_go_on_with_a_definite_operator(number):
+    """At 0.14 and 0.26 of the wave speed their massless nodes lose their stability; they used to stop there."""
+    told = fall(number)
+    assert told["end"] == "done", told["why"]
+    assert told["rejections"] > 0
+    assert told["energy"] < 1e-8 and told["depth"] < 1e-9 and told["given_back"] < 1e-12

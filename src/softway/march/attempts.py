@@ -58,11 +58,11 @@ class AcceptedSlab:
 def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory: OperatorMemory) -> AcceptedSlab:
     """Find the next accepted slab, with cutbacks of its length to one half.
 
-    A slab that fails with an old operator is first tried again with a new one, and one in which Newton's method does
-    not converge by the fixed point.  If the scalar cannot close the energy balance at half the length either, it is
-    closed along the motion, also in the following slabs.  A slab inside which a body comes to rest is tried again with
-    its end at that instant; the slab after it is damped.  ``memory`` is that of the march state, with its operator if
-    available.
+    A slab that fails with an old operator is first tried again with a new one, one in which Newton's method does not
+    converge by the fixed point, and one with an indefinite operator by a positive definite one.  If the scalar cannot
+    close the energy balance at half the length either, it is closed along the motion, also in the following slabs.  A
+    slab inside which a body comes to rest is tried again with its end at that instant; the slab after it is damped.
+    ``memory`` is that of the march state, with its operator if available.
 
     Raises
     ------
@@ -73,7 +73,7 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
     history = march_state.step_history
     least, crawls = settings.control.least * history.span, history.recent_rejections > settings.control.patience
     reasons: list[str] = []
-    halted = False
+    halted = positive_definite = False
     unbalanced = PATIENCE if history.energy_along_motion else 0
     fresh, first = memory.origin is None, stepper
     while length > least and not (crawls and reasons):
@@ -86,6 +86,7 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
                 energy_along_motion=unbalanced >= PATIENCE,
                 cancel=stepper.cancel,
                 effort=_effort(stepper, march_state.slabs + 1, slab),
+                positive_definite=positive_definite,
             )
             found = _tried(stepper, march_state, slab, memory, attempt)
             return replace(found, rejections=tuple(reasons), halted=halted)
@@ -98,10 +99,11 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
             reasons.append(f"h = {slab.span:.3g} s: {failure}")
         except NoConvergence as failure:
             reasons.append(f"h = {slab.span:.3g} s: {failure}")
-            if stepper is first and first.second is not None:
-                stepper = replace(first, rule=first.second)
+            indefinite = attempt.effort.indefinite
+            if (stepper is first and first.second is not None) or (indefinite and not positive_definite):
+                stepper, positive_definite = replace(first, rule=first.second or first.rule), indefinite
             else:
-                length, stepper = 0.5 * length if fresh else length, first
+                length, stepper, positive_definite = 0.5 * length if fresh else length, first, False
             fresh, memory = True, memory.failed()
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
     reason = _reason(march_state, reasons, crawls) + _touching(stepper.model, now)

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from math import inf, nan
 
 from softway.errors import NoConvergence
+from softway.solve.linear.interface import Factor
 
 EARLY = 50
 """Iterates whose steps are allowed before they are made: the first contact problem of a slab is the hardest."""
@@ -13,6 +14,8 @@ SPEED = 2e9
 
 class Effort:
     """Counted work of one attempt at a slab: iterates, factors, and steps of the contact problems.
+
+    It knows, too, if the last operator of the attempt was indefinite.
 
     A step is an exchange of active rows, a step of Newton's method for friction, or a Gauss-Seidel sweep.  Counts alone
     end an attempt, so that every machine decides alike.
@@ -39,12 +42,13 @@ class Effort:
 of 1 allowed; the last: exchange 1 of 5 active rows
     """
 
-    __slots__ = ("_tell", "active", "change", "factors", "iterates", "iterations", "limit", "steps")
+    __slots__ = ("_tell", "_factor", "active", "change", "factors", "iterates", "iterations", "limit", "steps")
 
     def __init__(self, limit: float = inf, tell: Callable[["Effort", str, float], None] | None = None) -> None:
         self.limit, self._tell = limit, tell
         self.iterations, self.change, self.active = 0, nan, 0
         self.iterates = self.factors = self.steps = 0
+        self._factor: Factor | None = None
 
     def tell(self, doing: str, seconds: float = 0.0) -> None:
         """Say what is being done, and about how long it takes [s]."""
@@ -60,7 +64,17 @@ of 1 allowed; the last: exchange 1 of 5 active rows
     def factor(self, size: int, operations: float) -> None:
         """Count a factor of ``size`` unknowns that takes about so many floating-point operations, before it is made."""
         self.factors += 1
+        self._factor = None
         self.tell(f"factoring {size} unknowns, about {operations:.0e} operations", operations / SPEED)
+
+    def factored(self, factor: Factor) -> None:
+        """Take the factor that was made."""
+        self._factor = factor
+
+    @property
+    def indefinite(self) -> bool:
+        """True if the last operator is not positive definite, or could not be factored."""
+        return self.factors > 0 and (self._factor is None or self._factor.indefinite)
 
     def step(self, doing: str) -> None:
         """Count a step of a contact problem, before it is made.

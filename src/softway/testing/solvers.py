@@ -72,6 +72,7 @@ def _accuracy(solver: LinearSolver) -> None:
     for columns in (0, 1, 7):
         _solves(solver, factor, matrix, "the solution is wrong", columns)
     require(factor.solve(np.zeros((216, 0))).shape == (216, 0), solver, "zero right-hand sides give a wrong shape")
+    require(not factor.indefinite, solver, "a factor of a positive definite matrix says that it is indefinite")
     require(not factor.solve(np.zeros(216)).any(), solver, "a zero right-hand side gives a nonzero solution")
     least = (matrix.nnz + 216) // 2 * (4 if solver.precision == "single" else 8)
     require(factor.bytes >= least, solver, f"a factor of {factor.bytes} bytes cannot hold the matrix")
@@ -138,6 +139,7 @@ def _indefinite(solver: LinearSolver) -> None:
             factor = solver.factor(matrix)
         except NoConvergence:
             continue
+        require(factor.indefinite, solver, "a factor does not say that its matrix is indefinite")
         x = np.linspace(1.0, 2.0, matrix.shape[0])
         residual = matrix @ (factor.solve(matrix @ x) - x)
         close(residual, 0.0, 10.0 * ACCURACY[solver.precision], solver, "an indefinite matrix is solved wrongly", 6.0)

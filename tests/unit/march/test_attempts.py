@@ -24,12 +24,15 @@ Failure = Callable[[int], Exception | None]
 
 @dataclass(frozen=True, kw_only=True)
 class Failing:
-    """The rule Energy, but for ``failure`` of attempts by their number; it notes the attempts."""
+    """The rule Energy, but for ``failure`` of attempts by their number, which may have an operator that cannot be
+    factored; it notes the attempts.
+    """
 
     massless: ClassVar[bool] = True
 
     spread: int = 5
     failure: Failure
+    indefinite: bool = False
     attempts: list[Attempt] = field(default_factory=list, compare=False)
 
     def slab_rule(self, model: Model, method: Method, weight: TimeWeight) -> SlabRule:
@@ -47,6 +50,8 @@ class Failed:
         self.declared.attempts.append(attempt)
         failure = self.declared.failure(len(self.declared.attempts))
         if failure is not None:
+            if self.declared.indefinite:
+                attempt.effort.factor(1, 1.0)
             raise failure
         yield from self.rule.solve(model, now, slab, memory, attempt)
 
@@ -97,6 +102,14 @@ def test_a_slab_that_fails_with_a_new_operator_is_halved() -> None:
     assert spans(first)[0] == 0.5 and len(first[0].report.rejections) == 1
     third = flight(Failing(failure=lambda k: NoConvergence("twice") if k in (3, 4) else None))
     assert spans(third)[:3] == [1.0, 1.0, 0.5] and len(third[2].report.rejections) == 2
+
+
+@pytest.mark.parametrize("method", [sw.FixedPoint(), sw.Newton()], ids=["fixed", "newton"])
+def test_a_slab_with_an_indefinite_operator_gets_a_definite_one_before_it_is_halved(method: Method) -> None:
+    rule = Failing(failure=lambda k: NoConvergence("twice") if k in (3, 4) else None, indefinite=True)
+    steps = flight(rule, method=method)
+    assert spans(steps)[:3] == [1.0, 1.0, 0.5]
+    assert [a.positive_definite for a in rule.attempts[:6]] == [False, False, False, True, False, False]
 
 
 def test_what_the_scalar_cannot_close_at_half_the_length_is_closed_along_the_motion() -> None:

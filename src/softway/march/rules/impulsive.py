@@ -77,7 +77,7 @@ class Impulsive:
         for passes in range(1, PASSES + 1):
             found = velocity_jumps(model, current.rows, current.events, now.closed, self.touch, slab.span)
             system = _system(model, now, slab, current, found, given, self.touch)
-            system = replace(system, effort=attempt.effort)
+            system = replace(system, effort=attempt.effort, positive_definite=attempt.positive_definite)
             closed = current.events.closed
             first = Guess(q=guess, impulse=np.zeros(len(closed)), active=closed, memory=memory)
             iterates = method.iterate(system, first)

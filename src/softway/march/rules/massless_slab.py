@@ -119,6 +119,7 @@ def equations(
         contact=_contact(model, now, slab, pairs, path, given, attempt),
         given=given,
         effort=attempt.effort,
+        positive_definite=attempt.positive_definite,
     )
 
 

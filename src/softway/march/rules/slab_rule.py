@@ -38,6 +38,8 @@ class Attempt:
         Callback between iterates that may cancel the march.
     effort
         Counted work of the attempt.
+    positive_definite
+        True if the operators have to be positive definite.
     """
 
     approach: float = np.inf
@@ -45,6 +47,7 @@ class Attempt:
     stick_at_any_force: bool = False
     cancel: Cancel | None = None
     effort: Effort = field(default_factory=Effort)
+    positive_definite: bool = False
 
 
 class SlabRule(Protocol):

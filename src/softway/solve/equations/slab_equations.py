@@ -53,6 +53,8 @@ class SlabEquations:
         (n, d) known contact impulses [N s].
     effort
         Counted work of the attempt at the slab.
+    positive_definite
+        True if the operator has to be positive definite.
     """
 
     model: Model
@@ -66,6 +68,7 @@ class SlabEquations:
     unbalanced: Array | float = 0.0
     impulses: Array | float = 0.0
     effort: Effort = field(default_factory=Effort)
+    positive_definite: bool = False
 
     def evaluate(self, q: Array, impulse: Array) -> Evaluation:
         """Evaluate the residual and its ingredients at q (n, d) with the contact impulses (m,) [N s]."""
@@ -169,4 +172,9 @@ class SlabEquations:
     def stiffness(self) -> SlabMatrix:
         """Matrix ``M + h^2/2 mu2 K`` on the unknowns."""
         viscous_factor = first_weight(self.weight) / moments(self.weight)[1]
-        return SlabMatrix(model=self.model, stiffness_factor=self.stiffness_factor, viscous_factor=viscous_factor)
+        return SlabMatrix(
+            model=self.model,
+            stiffness_factor=self.stiffness_factor,
+            viscous_factor=viscous_factor,
+            positive_definite=self.positive_definite,
+        )

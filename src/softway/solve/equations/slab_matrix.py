@@ -20,11 +20,15 @@ class SlabMatrix:
         Factor of the stiffness [s^2].
     viscous_factor
         Additional weight of the viscous stiffness between nodes with inertia.
+    positive_definite
+        True if its factor has to be that of a positive definite matrix, see
+        :func:`~softway.solve.operators.positive_definite.positive_definite_factor`.
     """
 
     model: Model
     stiffness_factor: float
     viscous_factor: float
+    positive_definite: bool = False
 
     def operator(self, u: Array, secant: bool = False) -> sp.csc_array:
         """Matrix (f, f) at the displacement u (n, d), symmetric positive definite near equilibrium."""

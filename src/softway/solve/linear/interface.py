@@ -27,6 +27,11 @@ class Factor(Protocol):
         """Bytes of the entries of the factor."""
         ...
 
+    @property
+    def indefinite(self) -> bool:
+        """True if the factor shows that the matrix is not positive definite."""
+        ...
+
     def solve(self, b: Array) -> Array:
         """Solution of A x = b for b (f,) or (f, k)."""
         ...
@@ -155,6 +160,11 @@ class _LU:
     @property
     def bytes(self) -> int:
         return int(self.lu.nnz) * np.dtype(self.kind).itemsize
+
+    @property
+    def indefinite(self) -> bool:
+        off_diagonal = not np.array_equal(self.lu.perm_r, self.lu.perm_c)
+        return off_diagonal or bool((self.lu.U.diagonal() <= 0.0).any())
 
     def solve(self, b: Array) -> Array:
         return np.asarray(self.lu.solve(np.asarray(b, self.kind)), float)

@@ -115,6 +115,7 @@ class Newton:
         """Operator memory with the operator at the end of the slab; later slabs may use it."""
         announce(system, self.operator)
         made = self.operator.make(system.stiffness, end.displacement, memory.analysis)
+        system.effort.factored(made.factor)
         return replace(
             memory,
             frozen=made.frozen(system.directions()),

@@ -11,6 +11,7 @@ from softway.solve.equations.slab_matrix import SlabMatrix
 from softway.solve.linear.backends.choice import best_solver, require_solver, solver_named
 from softway.solve.linear.interface import Analysis, Factor, LinearSolver, Precision, SuperLU, counted, number_type
 from softway.solve.operators.interface import BuiltOperator
+from softway.solve.operators.positive_definite import positive_definite_factor
 
 MANY = 2000
 """Number of unknowns below which a factor in double precision is as fast."""
@@ -67,7 +68,7 @@ class Factored:
         precision = self._precision(slab.model)
         if analysis is None:
             analysis = self._solver(matrix.shape[0], precision).analyse(matrix)
-        factor = analysis.factor(matrix)
+        factor = positive_definite_factor(analysis, matrix) if slab.positive_definite else analysis.factor(matrix)
         kind = number_type(precision)
         price = cost(factor, matrix.shape[0], precision)
         return BuiltOperator(factor=factor, local=None, analysis=analysis, price=price, kind=kind)

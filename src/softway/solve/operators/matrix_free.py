@@ -67,6 +67,7 @@ class Blocks:
 
     matrix: sp.csr_array
     bytes: int = 0
+    indefinite: bool = False
 
     def solve(self, b: Array) -> Array:
         """Solution (f,) or (f, k); sparse if b is sparse."""
@@ -99,6 +100,7 @@ class Gradients:
     tolerance: float
     limit: int
     bytes: int = 0
+    indefinite: bool = False
 
     def solve(self, b: Array) -> Array:
         """Solution (f,) or (f, k) to the tolerance; directions of negative curvature end the iteration."""

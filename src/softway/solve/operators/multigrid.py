@@ -86,6 +86,7 @@ class _Cycle:
 
     operator: LinearOperator
     bytes: int = 0
+    indefinite: bool = False
 
     def solve(self, b: Array) -> Array:
         """Result (f,) of one cycle for the right side b (f,)."""

@@ -36,8 +36,8 @@ class OperatorOrigin:
         (n, d) displacement where it was made [m].
     states, span
         History of the materials, and length of the slab [s].
-    stiffness_factor, viscous_factor
-        Factors of the stiffness, see :class:`~softway.solve.equations.slab_matrix.SlabMatrix`.
+    stiffness_factor, viscous_factor, positive_definite
+        As for :class:`~softway.solve.equations.slab_matrix.SlabMatrix`.
     """
 
     operator: Operator | None
@@ -47,6 +47,7 @@ class OperatorOrigin:
     span: float
     stiffness_factor: float
     viscous_factor: float
+    positive_definite: bool = False
 
     @classmethod
     def of(
@@ -62,6 +63,7 @@ class OperatorOrigin:
             span=system.path.span,
             stiffness_factor=matrix.stiffness_factor,
             viscous_factor=matrix.viscous_factor,
+            positive_definite=matrix.positive_definite,
         )
 
     def stiffness(self, model: Model) -> SlabMatrix:
@@ -70,6 +72,7 @@ class OperatorOrigin:
             model=model.during(self.states, self.span),
             stiffness_factor=self.stiffness_factor,
             viscous_factor=self.viscous_factor,
+            positive_definite=self.positive_definite,
         )
 
 

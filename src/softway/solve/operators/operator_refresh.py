@@ -59,6 +59,7 @@ def renewed(
         )
     announce(system, choice.operator)
     made = choice.operator.make(system.stiffness, u, memory.analysis)
+    system.effort.factored(made.factor)
     return replace(
         memory,
         frozen=made.frozen(system.directions()),

@@ -87,5 +87,9 @@ class _Factor:
             self.entries.append(int(self.cholesky.L().nnz))
         return 8 * self.entries[0]
 
+    @property
+    def indefinite(self) -> bool:
+        return False  # such a matrix has no factor
+
     def solve(self, b: Array) -> Array:
         return np.asarray(self.cholesky(b)) if b.size else np.zeros(b.shape)

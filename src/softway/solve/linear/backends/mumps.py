@@ -14,6 +14,8 @@ from softway.solve.linear.pattern import Pattern
 
 THREADS = 16
 """Entry of ``icntl`` that sets the number of threads."""
+NEGATIVE = 11
+"""Entry of ``infog`` with the number of negative pivots."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +133,10 @@ class _Factor:
     context: Any
     kind: np.dtype[Any]
     bytes: int
+
+    @property
+    def indefinite(self) -> bool:
+        return int(self.context.mumps_instance.infog[NEGATIVE]) > 0
 
     def solve(self, b: Array) -> Array:
         if not b.size:

@@ -257,6 +257,10 @@ class _Factor:
     values: NDArray[Any]
     bytes: int
 
+    @property
+    def indefinite(self) -> bool:
+        return int(self.handle.call.numbers[TYPE]) != DEFINITE
+
     def solve(self, b: Array) -> Array:
         if len(b) != self.handle.call.numbers[SIZE]:
             raise ValueError(f"{len(b)} values for {self.handle.call.numbers[SIZE]} unknowns")
