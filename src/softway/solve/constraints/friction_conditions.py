@@ -218,7 +218,7 @@ def linearised(problem: FrictionProblem, residual: FrictionResidual) -> Array:
 def gauss_seidel(problem: FrictionProblem, x: Array, count: int) -> Array:
     """Changes of the multipliers after ``count`` Gauss-Seidel sweeps: each row in turn satisfies its conditions.
 
-    They end before a sweep after which the forces are beyond ``GROWN``: with a compliance that is not positive, as in
+    They end before a sweep in which a force is beyond ``GROWN``: with a compliance that is not positive, as in
     crushed cells with an unstable tangent, they grow without bound.
 
     Raises
@@ -238,6 +238,8 @@ def gauss_seidel(problem: FrictionProblem, x: Array, count: int) -> Array:
             at = c + k * i + np.arange(k)
             gap = problem.free[i] + W[i] @ x
             x[i] = max(x[i] - gap / problem.normal_compliance[i], -previous[i])
+            if not abs(x[i]) <= most:
+                return before
             slip = problem.free[at] + W[at] @ x
             soft = max(
                 float(np.linalg.eigvalsh(W[np.ix_(at, at)]).max(initial=0.0)), 1e-12 * problem.tangential_compliance[i]
@@ -251,6 +253,6 @@ def gauss_seidel(problem: FrictionProblem, x: Array, count: int) -> Array:
             sticks = size <= parts[i].limit(pressed)[0]
             force = size if sticks else return_map(parts[i], np.array([size]), pressed, np.array([stiff])).force[0]
             x[at] = force * trial / max(size, 1e-300) - previous[at]
-        if not np.abs(x).max(initial=0.0) <= most:
-            return before
+            if not np.abs(x[at]).max(initial=0.0) <= most:
+                return before
     return x
