@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 
 from softway.errors import Halts, NoConvergence, NumericsError, TooFast, Unbalanced, heed
+from softway.laws.bulk import StVenantKirchhoff
 from softway.march.audit.certificate import balance, certify, violation
 from softway.march.audit.ledger import audit
 from softway.march.friction.slip_end import slip_end
@@ -33,6 +34,8 @@ PATIENCE = 1
 """Cutbacks after which an energy balance that the scalar cannot close is closed along the motion."""
 STEPS = 24
 """Steps of the contact problems for each iterate above which an attempt is given up; accepted slabs take up to 10."""
+CRUSHED = 0.7
+"""Ratio of present to reference volume below which a message calls matter crushed."""
 SHORT = 1e-2
 """Step without inertia, relative to that of the prescribed motion, below which a longer one is advised."""
 DAMPED = EndPeaks(theta=1.0)
@@ -106,7 +109,7 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
                 length, stepper, positive_definite = 0.5 * length if fresh else length, first, False
             fresh, memory = True, memory.failed()
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
-    reason = _reason(march_state, reasons, crawls) + _touching(stepper.model, now)
+    reason = _reason(march_state, reasons, crawls) + _touching(stepper.model, now) + _crushed(stepper.model, now)
     raise NumericsError(reason, now.time, _remedy(stepper, march_state))
 
 
@@ -130,7 +133,8 @@ def require_progress(stepper: Stepper, march_state: MarchState, length: float) -
     last = f"; the last rejection: {history.last_rejection}" if history.last_rejection else ""
     raise NumericsError(
         f"the time step stays at h = {length:.3g} s of the {history.span:.3g} s given, {left:.1g} more of them lead to "
-        f"the end{last}{_touching(stepper.model, now)}",
+        f"the end{last}{_touching(stepper.model, now)}"
+        f"{_crushed(stepper.model, now)}",
         now.time,
         f"{_remedy(stepper, march_state)}, or to go on regardless time.control.patience = {10 * control.patience:.0f}",
     )
@@ -173,6 +177,13 @@ def _touching(model: Model, now: ModelState) -> str:
     return f"; in contact: {', '.join(closed)}" if closed else ""
 
 
+def _crushed(model: Model, now: ModelState) -> str:
+    """Names of the bodies whose matter is crushed somewhere, with the volume that is left there."""
+    u = now.start.displacement
+    left = {p.name: p.internal.volume_ratio(u[p.nodes]) for p in model.parts}
+    return "".join(f"; {n!r} is crushed to {100.0 * r:.2g} % of its volume" for n, r in left.items() if r < CRUSHED)
+
+
 def _remedy(stepper: Stepper, march_state: MarchState) -> str:
     """Possible remedies if no time step was accepted; without inertia very short slabs move nothing but rounding."""
     settings = march_state.settings
@@ -180,6 +191,8 @@ def _remedy(stepper: Stepper, march_state: MarchState) -> str:
     short = not stepper.model.inert and march_state.step_history.span < SHORT * usual
     found = [f"a longer step, such as {usual:.3g} s" if short else "a smaller step"]
     found.append("a finer mesh where the cells are crushed")
+    if any(type(p.internal.material) is StVenantKirchhoff for p in stepper.model.parts):
+        found.append("the material NeoHookean, which stiffens where StVenantKirchhoff softens under compression")
     if isinstance(stepper.method, Newton) and not stepper.method.handover:
         found.append("the method FixedPoint, which converges more often than Newton alone")
     if stepper.model.contacts.overlap_methods:  # mean gaps

@@ -3,7 +3,7 @@
 import importlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar
+from typing import Any, ClassVar, cast
 
 import numpy as np
 import pytest
@@ -219,3 +219,21 @@ def test_a_march_that_ends_in_contact_names_it() -> None:
     rule = Failing(failure=lambda n: NoConvergence("always") if n > 1 else None)
     with pytest.raises(sw.NumericsError, match="always; in contact: block.bottom-floor"):
         list(sw.march(resting(rule), until=0.5, step=STEP))
+
+
+@pytest.mark.parametrize(
+    "material", [sw.laws.StVenantKirchhoff(E=1.0, nu=0.3), sw.NeoHookean(E=1.0)], ids=["soft", "stiff"]
+)
+@pytest.mark.parametrize(("stretch", "told"), [(0.68, "; 'block' is crushed to 68 % of its volume"), (0.8, "")])
+def test_a_march_that_ends_names_crushed_bodies_and_a_law_that_resists(
+    material: sw.NeoHookean | sw.laws.StVenantKirchhoff, stretch: float, told: str
+) -> None:
+    rule = Failing(failure=lambda n: NoConvergence("always"))
+    scene = resting(rule)
+    start = sw.bodies.Affine(gradient=((0.0, 0.0), (0.0, stretch - 1.0)))
+    block = replace(cast(sw.Solid, scene.bodies["block"]), material=material, displacement=start)
+    with pytest.raises(sw.NumericsError, match="always") as failed:
+        list(sw.march(replace(scene, bodies={**scene.bodies, "block": block}), until=0.5, step=STEP))
+    assert failed.value.what.endswith("in contact: block.bottom-floor" + told) or not told
+    assert ("is crushed" in failed.value.what) == bool(told)
+    assert ("NeoHookean" in failed.value.remedy) == isinstance(material, sw.laws.StVenantKirchhoff)
