@@ -15,7 +15,7 @@ class StVenantKirchhoff:
     """St. Venant-Kirchhoff law ``W = lambda/2 (tr E)^2 + mu E:E`` with Green's strain E.
 
     For small strains and arbitrary rotations.  It softens without limit in strong compression (below a stretch of
-    ``1/sqrt(3)`` in a bar); use :class:`~softway.laws.bulk.NeoHookean` there.
+    0.58 in a bar, and of 0.71 in a volume with ``nu`` = 0.3); use :class:`~softway.laws.bulk.NeoHookean` there.
 
     Parameters
     ----------

@@ -35,6 +35,7 @@ from softway.scenario.checks.scales import (
     contact_duration,
     soft_duration,
 )
+from softway.scenario.checks.softening_notes import softening_notes
 from softway.scenario.checks.tool_notes import unit_notes
 from softway.scenario.checks.value_types import require
 from softway.scenario.checks.velocity_notes import velocity_notes
@@ -115,8 +116,7 @@ def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked:
     notes = (*file_notes(left_out), *unit_notes(scenario.bodies, solids), *body_notes(solids, fixed))
     check_loads(scenario.loads, "loads", solids)
     check_contacts(scene.contacts)
-    factor = scenario.inertia.factor or 1.0
-    bodies = {}
+    factor, bodies = scenario.inertia.factor or 1.0, {}
     for name, solid in solids.items():
         with within(f"bodies.{name}"):
             bodies[name] = body_scales(solid, mesh_of(solid), int((~fixed[name]).sum()), factor)
@@ -128,15 +128,16 @@ def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked:
     model = build(scene)
     march_state = _begun(scenario, model, cancel)
     step = march_state.step_history.span
+    contacts = {c.label: _contact(model, k, bodies) for k, c in enumerate(scene.contacts)}
     return Checked(
         scenario=scenario,
         model=model,
         bodies=bodies,
-        contacts={c.label: _contact(model, k, bodies) for k, c in enumerate(scene.contacts)},
+        contacts=contacts,
         march_state=march_state,
         step=step,
         slabs=int(np.ceil(scenario.time.end / step * (1.0 - 1e-12))),
-        notes=(*notes, *velocity_notes(model), *contact_notes(model)),
+        notes=(*notes, *velocity_notes(model), *softening_notes(model, contacts), *contact_notes(model)),
         left_out=left_out,
     )
 
