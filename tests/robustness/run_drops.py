@@ -60,9 +60,10 @@ def judged(given: Drop, units: Units) -> dict[str, Any]:
     watch, begun = Watch(), process_time()
     signal.signal(signal.SIGVTALRM, _stop)
     signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
-    end, why, seen = "done", "", {"findings": "", "given_back": 0.0}
+    end, why, seen, noted = "done", "", {"findings": "", "given_back": 0.0}, False
     try:
         checked: Checked = check(loads(given.text, folder=ROOT, units=units))
+        noted = any("loses its stability" in note.problem for note in checked.notes)
         with tempfile.TemporaryDirectory() as place:
             done = run(checked, Path(place) / "run", progress=watch)
             why, seen = _unrecorded(done) or _unsaid(done), _seen(done)
@@ -79,6 +80,7 @@ def judged(given: Drop, units: Units) -> dict[str, Any]:
     finally:
         signal.setitimer(signal.ITIMER_VIRTUAL, 0)
     told = {"number": given.number, "end": end, "why": why, "slabs": watch.slabs, "rejections": watch.rejections}
+    told["noted"] = noted
     return {**told, "seconds": round(process_time() - begun, 2), **watch.worst, **seen, **given.traits}
 
 
