@@ -148,3 +148,11 @@ def test_crushed_blocks_that_rub_go_on_with_a_definite_operator(number):
     assert told["end"] == "done", told["why"]
     assert told["rejections"] > 0
     assert told["energy"] < 1e-8 and told["depth"] < 1e-9 and told["given_back"] < 1e-12
+
+
+@pytest.mark.slow
+def test_nodes_inside_a_coarse_facet_do_not_end_a_march():
+    """The corner of a ring that folds on two facets: mean gaps are zero, a node is a third of its edge inside."""
+    told = fall(215)
+    assert told["end"] == "done", told["why"]
+    assert "overlap" in told["findings"]

@@ -6,6 +6,7 @@ import numpy as np
 
 from softway.arrays import Array, IntArray
 from softway.bodies.discretised import DiscreteSolid
+from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import SlabContacts
 from softway.errors import TooFast, positive
 from softway.kernels.geometry.shortest_edge import shortest
@@ -69,22 +70,34 @@ class StepControl:
         )
 
 
-def require_slow(model: Model, pairs: SlabContacts, coasting: Array, limit: float) -> None:
+def require_slow(model: Model, pairs: SlabContacts, start: Array, coasting: Array, limit: float) -> None:
     """Refuse a slab in which a node would overlap by more than ``limit`` edges at the free displacement ``coasting``.
+
+    Its overlap at the displacement ``start`` of the slab does not count: mean gaps allow it, and no shorter slab
+    avoids it.
 
     Raises
     ------
     TooFast
-        With the contact and the overlap.
+        With the contact and the approach beyond the touch.
     """
     rows = pairs.overlap_rows(coasting)
-    edges = np.where(rows.near, -rows.gap(coasting), -np.inf) / model.edge[rows.node]
+    depth = _in_edges(model, rows, -rows.gap(coasting))
     crushable = np.array([not p.internal.linear for p in model.parts])[model.part_of[rows.node]]
-    depth = edges * np.where(crushable, 1.0, min(limit / SMALL_STRAIN, 1.0))
-    if len(depth) and depth.max() > limit * (1.0 + 1e-6):
-        worst = int(np.argmax(depth))
+    allowed = (1.0 + 1e-6) * np.where(crushable, limit, max(limit, SMALL_STRAIN))
+    if (depth <= allowed).all():
+        return
+    first = pairs.overlap_rows(start)
+    depth = depth - np.maximum(_in_edges(model, first, -first.gap(start) - first.tool_motion), 0.0)
+    if (depth > allowed).any():
+        worst = int(np.argmax(depth / allowed))
         label = rows.labels[rows.contact[worst]]
-        raise TooFast(f"in {label} a node approaches by {edges[worst]:.3g} edges beyond the touch")
+        raise TooFast(f"in {label} a node approaches by {depth[worst]:.3g} edges beyond the touch")
+
+
+def _in_edges(model: Model, rows: ContactRows, overlap: Array) -> Array:
+    """Overlap (m,) of rows [m] in edges; -inf where nothing is near."""
+    return np.where(rows.near, overlap, -np.inf) / model.edge[rows.node]
 
 
 def may_grow(model: Model, control: StepControl, length: float, before: ModelState, after: ModelState) -> bool:

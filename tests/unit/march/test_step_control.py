@@ -1,5 +1,6 @@
 """How far bodies may approach each other in a slab, and when slabs grow again."""
 
+from contextlib import nullcontext
 from types import SimpleNamespace
 
 import numpy as np
@@ -7,7 +8,9 @@ import pytest
 
 import softway as sw
 from softway.bodies.assembled.vector_space import LocalSpace
-from softway.march.step_control import may_grow
+from softway.errors import TooFast
+from softway.march.step_control import may_grow, require_slow
+from softway.model.build import build
 
 SOFT, LINEAR = sw.NeoHookean(E=1.0, nu=0.3), sw.LinearElastic(E=1.0, nu=0.3)
 
@@ -53,6 +56,35 @@ def test_a_rejection_names_the_contact_that_closes_too_fast() -> None:
     scene = sw.Scene(bodies={"block": block, **tools}, contacts=contacts)
     told = next(iter(sw.march(scene, until=0.5, step=0.5))).report.rejections
     assert "in block.bottom-floor a node approaches by 0.8 edges" in told[0]
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "push", "told"),
+    [
+        (0.3, 0.5, 0.0, ""),
+        (0.3, 0.6, 0.0, "0.3 edges"),
+        (-0.1, 0.5, 0.0, "0.5 edges"),
+        (0.0, 0.0, 0.2, ""),
+        (0.0, 0.0, 0.3, "0.3 edges"),
+        (0.3, 0.3, 0.2, ""),
+        (0.3, 0.4, 0.2, "0.3 edges"),
+    ],
+)
+def test_an_overlap_at_the_start_does_not_count(start: float, end: float, push: float, told: str) -> None:
+    """Mean gaps leave nodes inside their opponent; no shorter slab would take them out.
+
+    Depths and the ``push`` of the floor in the slab are in edges.
+    """
+    block = sw.Solid(mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(5, 5)), material=SOFT, density=1.0)
+    shape = sw.obstacles.HalfSpace(point=(0.0, -0.1), normal=(0.0, 1.0))
+    floor = sw.Tool(shape=shape, motion=sw.bodies.Translation(velocity=(0.0, 0.2 * push)))
+    model = build(
+        sw.Scene(bodies={"block": block, "floor": floor}, contacts=(sw.Contact(between=("block.bottom", "floor")),))
+    )
+    first, last = (np.full(model.shape, 1.0) * [0.0, -0.1 - 0.2 * depth] for depth in (start, end))
+    pairs = model.contacts.meet(first, last, 0.0, 1.0)
+    with pytest.raises(TooFast, match=told) if told else nullcontext():
+        require_slow(model, pairs, first, last, 0.25)
 
 
 @pytest.mark.parametrize("value", [0.0, -1.0, np.inf, np.nan])

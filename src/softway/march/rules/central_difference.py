@@ -134,7 +134,7 @@ class CentralDifference:
         coasting += start.displacement
         coasting = with_prescribed(model, now, slab, coasting)
         pairs = model.contacts.meet(start.displacement, coasting, slab.start, slab.end)
-        require_slow(model, pairs, coasting, attempt.approach)
+        require_slow(model, pairs, now.start.displacement, coasting, attempt.approach)
         system = equations(self.contact, model, now, slab, pairs, attempt)
         guess, first = self.guessed(system, moving, coasting), first_impulses(now, slab, system.path.rows)
         it, u1, count = solve_contact_nodes(system, self.still, guess, first, memory, self.method)

@@ -49,7 +49,7 @@ class Equilibrated:
         coasting = start.displacement + h * np.where(model.massive[:, None], 0.5 * (start.velocity + rate), rate)
         coasting = with_prescribed(model, now, slab, coasting)
         pairs = model.contacts.meet(start.displacement, coasting, slab.start, slab.end)
-        require_slow(model, pairs, coasting, attempt.approach)
+        require_slow(model, pairs, start.displacement, coasting, attempt.approach)
         system = equations(self.contact, model, now, slab, pairs, attempt)
         guess = np.where(model.free, np.where(model.massive[:, None], rate, 2.0 * rate), system.given)
         impulse, active = first_impulses(now, slab, system.path.rows)

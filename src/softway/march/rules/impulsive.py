@@ -70,7 +70,7 @@ class Impulsive:
         coasting = now.start.displacement + 0.5 * slab.span * (now.start.velocity + guess)
         coasting = coasting + bent(model.bends(slab.start, slab.end), slab.span)
         pairs = model.contacts.meet(now.start.displacement, coasting, slab.start, slab.end)
-        require_slow(model, pairs, coasting, attempt.approach)
+        require_slow(model, pairs, now.start.displacement, coasting, attempt.approach)
         travel = slab.span * model.space.greatest(now.start.velocity, guess)
         current, facets = without_events(model, now, pairs, pairs.at(coasting), travel), pairs
         method, iterations = cancellable(self.method, attempt.cancel, slab.start), 0
