@@ -34,7 +34,7 @@ class Newton:
     """``q <- q - alpha A(q)^-1 r(q)`` with contact on the compliance of the current operator.
 
     The step is halved while the next correction by the same operator would be longer than this one (natural
-    monotonicity test).  The scalar of the Energy rule is lagged in the operator.
+    monotonicity test), and taken in full if this never ends.  The scalar of the Energy rule is lagged in the operator.
 
     Parameters
     ----------
@@ -130,13 +130,16 @@ class Newton:
     def _line_searched(
         self, system: SlabEquations, q: Array, step: Array, impulse: Array, frozen: FrozenOperator
     ) -> tuple[Array, Evaluation]:
-        """Next iterate by line search along the step (n, d), and its evaluation."""
+        """Next iterate by line search along the step (n, d), and its evaluation.
+
+        If no fraction of the step passes the test, it is taken in full: at kinks short steps would never arrive.
+        """
         space, unknowns = system.model.space, system.model.dofs.unknowns(step)
-        length, fraction = space.norm(step), 1.0
-        for halvings in itertools.count():
+        length, fraction, full = space.norm(step), 1.0, None
+        for _ in range(HALVINGS):
             new = q + fraction * step
             end = system.evaluate(new, impulse)
-            if halvings == HALVINGS or length == 0.0:
+            if length == 0.0:
                 return new, end
             if space.every(np.isfinite(end.residual)):
                 left = _left(system, new, end, impulse, frozen)
@@ -144,8 +147,9 @@ class Newton:
                     return new, end
                 if fraction == 1.0 and _alike(space, left, unknowns):
                     return self._stretched(system, q, step, impulse, frozen)
+                full = (new, end) if fraction == 1.0 else full
             fraction *= 0.5
-        raise AssertionError
+        return full or (q + fraction * step, system.evaluate(q + fraction * step, impulse))
 
     def _stretched(
         self, system: SlabEquations, q: Array, step: Array, impulse: Array, frozen: FrozenOperator
