@@ -18,8 +18,8 @@ KNOWN = """## What is known to stop or to take long
 - A block of few cells on a roller with friction near 1 (NeoHookean, v/c = 0.26): places without inertia have no
   neighbouring equilibrium with such friction; the march ends with the overlap that no slab avoids.
 - Impacts that a law does not bear: StVenantKirchhoff from half the speed at which a plane impact takes its matter to
-  where it is unstable ([softening](../theory/bodies/softening.md)); `check` notes them. Cells collapse to a hundredth of
-  their volume and less. With NeoHookean in its place 421, 429, 458 and 468 are done in 2 to 4 s.
+  where it is unstable ([softening](../theory/bodies/softening.md)); `check` notes them. Cells collapse to a hundredth
+  of their volume and less. With NeoHookean in its place 421, 429, 458 and 468 are done in 2 to 4 s.
 - Other matter crushed at v/c > 0.13 with friction: nodes of a surface have no stable equilibrium beside the last one,
   even with a [definite operator](../theory/solver/solver.md).
 - A cylinder of two quadratic cells that lands on its rim and slides (436): the mean gaps of facets that lean that much
