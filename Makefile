@@ -98,7 +98,7 @@ fuzz: $(TEST)/ready
 	$(TEST)/bin/python tests/robustness/page.py
 
 drops: $(TEST)/ready
-	$(TEST)/bin/python -W ignore tests/robustness/run_drops.py 500 --jobs $(JOBS) --out docs/verification/robustness/drops.jsonl
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(TEST)/bin/python -W ignore tests/robustness/run_drops.py 500 --jobs $(JOBS) --out docs/verification/robustness/drops.jsonl
 	$(TEST)/bin/python tests/robustness/page.py
 
 endurance: $(TEST)/ready
