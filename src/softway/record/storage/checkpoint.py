@@ -27,7 +27,7 @@ from softway.units import Second
 LOG = logging.getLogger(__name__)
 FOLDER = "checkpoints"
 FAMILY = "softway checkpoint"
-FORMAT = f"{FAMILY} 2"
+FORMAT = f"{FAMILY} 3"
 RARE = 100.0
 """Minimum time between checkpoints, as a multiple of the time that the last one took to write."""
 
