@@ -133,8 +133,7 @@ def require_progress(stepper: Stepper, march_state: MarchState, length: float) -
     last = f"; the last rejection: {history.last_rejection}" if history.last_rejection else ""
     raise NumericsError(
         f"the time step stays at h = {length:.3g} s of the {history.span:.3g} s given, {left:.1g} more of them lead to "
-        f"the end{last}{_touching(stepper.model, now)}"
-        f"{_crushed(stepper.model, now)}",
+        f"the end{last}{_touching(stepper.model, now)}{_crushed(stepper.model, now)}",
         now.time,
         f"{_remedy(stepper, march_state)}, or to go on regardless time.control.patience = {10 * control.patience:.0f}",
     )
@@ -178,10 +177,16 @@ def _touching(model: Model, now: ModelState) -> str:
 
 
 def _crushed(model: Model, now: ModelState) -> str:
-    """Names of the bodies whose matter is crushed somewhere, with the volume that is left there."""
+    """Names of the crushed bodies, with the volume that is left in one place."""
+    left = _volumes_left(model, now)
+    return "".join(f"; {name!r} is crushed to {100.0 * ratio:.2g} % of its volume" for name, ratio in left.items())
+
+
+def _volumes_left(model: Model, now: ModelState) -> dict[str, float]:
+    """Least ratio of present to reference volume of each crushed body."""
     u = now.start.displacement
     left = {p.name: p.internal.volume_ratio(u[p.nodes]) for p in model.parts}
-    return "".join(f"; {n!r} is crushed to {100.0 * r:.2g} % of its volume" for n, r in left.items() if r < CRUSHED)
+    return {name: ratio for name, ratio in left.items() if ratio < CRUSHED}
 
 
 def _remedy(stepper: Stepper, march_state: MarchState) -> str:
@@ -191,7 +196,8 @@ def _remedy(stepper: Stepper, march_state: MarchState) -> str:
     short = not stepper.model.inert and march_state.step_history.span < SHORT * usual
     found = [f"a longer step, such as {usual:.3g} s" if short else "a smaller step"]
     found.append("a finer mesh where the cells are crushed")
-    if any(type(p.internal.material) is StVenantKirchhoff for p in stepper.model.parts):
+    crushed = _volumes_left(stepper.model, march_state.state)
+    if any(type(p.internal.material) is StVenantKirchhoff for p in stepper.model.parts if p.name in crushed):
         found.append("the material NeoHookean, which stiffens where StVenantKirchhoff softens under compression")
     if isinstance(stepper.method, Newton) and not stepper.method.handover:
         found.append("the method FixedPoint, which converges more often than Newton alone")
