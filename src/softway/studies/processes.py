@@ -4,7 +4,7 @@ import signal
 import sys
 import time as clock
 from collections.abc import Callable, Generator, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
@@ -158,14 +158,15 @@ def _deferred() -> Iterator[None]:
 
 def _serve(line: Connection, work: Callable[[Any], Any], share: int) -> None:
     """Compute incoming tasks until the connection closes or the process is terminated."""
-    try:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent handles Ctrl-C and ends its workers
-        signal.signal(signal.SIGTERM, signal.default_int_handler)
-        with raised_again(), use(share):
-            while True:
-                line.send(_answer(line.recv(), work))
-    except (EOFError, ConnectionError, KeyboardInterrupt):
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # it is already ending
+    with suppress(KeyboardInterrupt):  # it is terminated after its connection was closed, before it ignores that
+        try:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent handles Ctrl-C and ends its workers
+            signal.signal(signal.SIGTERM, signal.default_int_handler)
+            with raised_again(), use(share):
+                while True:
+                    line.send(_answer(line.recv(), work))
+        except (EOFError, ConnectionError, KeyboardInterrupt):
+            signal.signal(signal.SIGTERM, signal.SIG_IGN)  # it is already ending
 
 
 @contextmanager
