@@ -123,10 +123,8 @@ rules Impulse and Paper give no promise on energy. *Slow* is more than five minu
         keys = ("number", "space", "body", "cells", "law", "obstacle", "rule", "solver", "friction", "speed")
         lines = [[*(d[k] for k in keys), d["end"], d["why"].replace("|", "/")] for d in stopped]
         out += table(["drop", *keys[1:], "end", "reason"], lines)
-        out += (
-            f"\n{noted} of them are impacts that their law does not bear ([softening](../theory/bodies/softening.md)): "
-        )
-        out += "`check` notes them, and the march advises another law.\n"
+        out += f"\n{noted} of them are impacts that their law does not bear, as `check` notes before they are marched: "
+        out += "[softening](../theory/bodies/softening.md).\n"
     return out + f"\nIn all: {', '.join(f'{ends[e]} {e}' for e in ENDS if ends[e])}.\n"
 
 

@@ -17,6 +17,7 @@ from softway.record.audit.folder import frames_audited
 from softway.record.run import Run
 from softway.record.write.progress import Progress
 from softway.scenario.checks.check import Checked, check
+from softway.scenario.checks.softening_notes import softening_notes
 from softway.scenario.files import loads
 from softway.scenario.hints.units_text import Units
 from softway.scenario.run import run
@@ -63,7 +64,7 @@ def judged(given: Drop, units: Units) -> dict[str, Any]:
     end, why, seen, noted = "done", "", {"findings": "", "given_back": 0.0}, False
     try:
         checked: Checked = check(loads(given.text, folder=ROOT, units=units))
-        noted = any("loses its stability" in note.problem for note in checked.notes)
+        noted = bool(softening_notes(checked.model, checked.contacts))
         with tempfile.TemporaryDirectory() as place:
             done = run(checked, Path(place) / "run", progress=watch)
             why, seen = _unrecorded(done) or _unsaid(done), _seen(done)
@@ -80,8 +81,8 @@ def judged(given: Drop, units: Units) -> dict[str, Any]:
     finally:
         signal.setitimer(signal.ITIMER_VIRTUAL, 0)
     told = {"number": given.number, "end": end, "why": why, "slabs": watch.slabs, "rejections": watch.rejections}
-    told["noted"] = noted
-    return {**told, "seconds": round(process_time() - begun, 2), **watch.worst, **seen, **given.traits}
+    seconds = round(process_time() - begun, 2)
+    return {**told, "noted": noted, "seconds": seconds, **watch.worst, **seen, **given.traits}
 
 
 def _unrecorded(done: Run) -> str:

@@ -3,6 +3,7 @@
 import numpy as np
 import scipy.sparse as sp
 
+from softway.arrays import Array
 from softway.errors import NoConvergence
 from softway.solve.linear.interface import Analysis, Factor, finite
 
@@ -51,7 +52,7 @@ def positive_definite_factor(analysis: Analysis, matrix: sp.csc_array) -> Factor
     return analysis.factor(_shifted(matrix, SHIFTS[-1] * sums))
 
 
-def _shifted(matrix: sp.csc_array, shift: np.ndarray) -> sp.csc_array:
+def _shifted(matrix: sp.csc_array, shift: Array) -> sp.csc_array:
     """Matrix (f, f) with values (f,) added to its diagonal; its pattern is kept."""
     columns = np.repeat(np.arange(matrix.shape[0]), np.diff(matrix.indptr))
     data = matrix.data + np.where(matrix.indices == columns, shift[columns], 0.0)
