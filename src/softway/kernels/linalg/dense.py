@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg.lapack import dgetrf, dgetrs
+from scipy.linalg.lapack import dgetrf, dgetrs, dpotrf, dpotrs
 
 from softway.arrays import Array, IntArray
 from softway.errors import NoConvergence
@@ -61,3 +61,43 @@ def solve_dense(matrix: Array, b: Array) -> Array:
     array([0.5, 0.5])
     """
     return factored(matrix).solve(b)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NestedFactor:
+    """Cholesky factor of a dense positive matrix (k, k), which contains those of its leading blocks."""
+
+    matrix: Array
+    lower: Array
+
+    def solve(self, b: Array) -> Array:
+        """Solution (j,) of the leading block of size j <= k, refined iteratively with the original matrix."""
+        j = len(b)
+        if not j:
+            return np.zeros(0)
+        lower, matrix = np.asfortranarray(self.lower[:j, :j]), self.matrix[:j, :j]
+        x = np.asarray(dpotrs(lower, b, lower=1)[0], float)
+        for _ in range(3):
+            x = x + dpotrs(lower, b - matrix @ x, lower=1)[0]
+        return x
+
+
+def nested(matrix: Array) -> NestedFactor:
+    """Factor a dense positive matrix whose rows may be linearly dependent, see :func:`factored`.
+
+    Examples
+    --------
+    >>> factor = nested(np.array([[2.0, 1.0], [1.0, 2.0]]))
+    >>> factor.solve(np.array([1.0])).round(12), factor.solve(np.array([3.0, 3.0])).round(12)
+    (array([0.5]), array([1., 1.]))
+
+    Raises
+    ------
+    NoConvergence
+        If the matrix is not positive.
+    """
+    lift = LIFT * np.abs(np.diag(matrix)).max(initial=0.0)
+    lower, failed = dpotrf(matrix + lift * np.eye(len(matrix)), lower=1, clean=1) if len(matrix) else (matrix, 0)
+    if failed:
+        raise NoConvergence(f"the compliance of {len(matrix)} contact rows is not positive")
+    return NestedFactor(matrix, lower)

@@ -19,6 +19,7 @@ from softway.march.rules.touch import Touch, VelocityJump
 from softway.march.rules.velocity_jumps import at, instants
 from softway.model.model import Model
 from softway.solve.constraints.impact_multipliers import ImpactMultipliers
+from softway.solve.constraints.impact_sequence import ImpactSequence, contact_order
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.methods.iteration import Solution
 
@@ -214,10 +215,13 @@ def _releasing(
     """Release the closed rows with a reaction in tension at the end, at the instant where it vanishes."""
     events = current.events
     first = current.reaction.copy()
+    begun = events.closed & ~np.isfinite(events.touch)
+    order = contact_order(np.where(events.closed, events.touch, np.nan), begun)
+    sequence = ImpactSequence(inertia, current.rows, order)
     for instant in instants(np.where(tense, events.touch, np.nan)):
         here = tense & at(events.touch, instant)
         after = events.closed & (~(events.touch > instant) | here)
-        first[here] = inertia.multiplier(current.rows, model.force(system.path.at(instant, q)), after)[here]
+        first[here] = sequence.reactions(model.force(system.path.at(instant, q)), after)[here]
     begin = np.nan_to_num(events.touch)
     release = np.minimum(begin + (1.0 - begin) * fading(first, pull), 1.0 - 1e-9)
     return replace(

@@ -127,8 +127,9 @@ def nodal_stop(model: Model, method: FixedPoint | Newton, weight: TimeWeight) ->
     _require_nodes(model)
     declared = cast(Paper, model.timing)
     split = split_elements(model) if declared.split == "triangle" else None
-    touch = NodalStop(approach=declared.approach, split=split)
-    return Impulsive(method=method, inertia=impact_multipliers(model), touch=touch)
+    inertia = impact_multipliers(model)
+    touch = NodalStop(inertia=inertia, approach=declared.approach, split=split)
+    return Impulsive(method=method, inertia=inertia, touch=touch)
 
 
 def _require_nodes(model: Model) -> None:

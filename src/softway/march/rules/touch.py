@@ -37,6 +37,11 @@ class Touch(Protocol):
     balanced: ClassVar[bool]
     """True if all nodes take part in the jump, so that momentum is balanced."""
 
+    @property
+    def inertia(self) -> ImpactMultipliers:
+        """Mass of all nodes."""
+        ...
+
     def average(self, weight: TimeWeight) -> MeanForce:
         """Average of the internal force over a slab."""
         ...
@@ -45,12 +50,10 @@ class Touch(Protocol):
         """Change (m,) of the normal velocities before a touch, over a slab [m/s]; ``solved`` (m,) is computed."""
         ...
 
-    def jump(
-        self, model: Model, rows: ContactRows, approach: Array, hits: BoolArray, stopped: BoolArray
-    ) -> tuple[Array, Array]:
-        """Velocity change (n, d) that stops the hit rows, and its impulses (m,).
+    def jump(self, model: Model, rows: ContactRows, approach: Array, hits: BoolArray) -> tuple[Array, Array] | None:
+        """Velocity change (n, d) of the touching nodes alone, and its impulses (m,); None if all nodes take part.
 
-        ``approach`` (m,) are the normal velocities of the hit rows, ``stopped`` (m,) all rows in contact.
+        ``approach`` (m,) are the normal velocities of the hit rows.
         """
         ...
 
@@ -83,11 +86,8 @@ class InelasticImpact:
         """Return the computed change."""
         return solved
 
-    def jump(
-        self, model: Model, rows: ContactRows, approach: Array, hits: BoolArray, stopped: BoolArray
-    ) -> tuple[Array, Array]:
-        """Velocity change (n, d) that brings all rows in contact to rest, and its impulses (m,)."""
-        return self.inertia.jump(rows, approach, stopped)
+    def jump(self, model: Model, rows: ContactRows, approach: Array, hits: BoolArray) -> None:
+        """Return None: all nodes take part."""
 
     def loss(
         self,
@@ -114,6 +114,8 @@ class NodalStop:
 
     Parameters
     ----------
+    inertia
+        Mass of all nodes.
     approach
         Velocity before the instant: kept or extrapolated from the slab before.
     split
@@ -122,6 +124,7 @@ class NodalStop:
 
     balanced: ClassVar[bool] = False
 
+    inertia: ImpactMultipliers
     approach: Literal["kept", "extrapolated"] = "kept"
     split: TrapezoidTriangle | None = None
 
@@ -136,14 +139,13 @@ class NodalStop:
             span * rows.normal_component(now.acceleration) if self.approach == "extrapolated" else np.zeros_like(solved)
         )
 
-    def jump(
-        self, model: Model, rows: ContactRows, approach: Array, hits: BoolArray, stopped: BoolArray
-    ) -> tuple[Array, Array]:
+    def jump(self, model: Model, rows: ContactRows, approach: Array, hits: BoolArray) -> tuple[Array, Array]:
         """Velocity change (n, d) of only the nodes of the hit rows, and its impulses (m,)."""
         inertia = np.asarray(model.mass.sum(axis=1)).reshape(-1, 1)
         index = np.flatnonzero(hits & rows.reachable(model.dofs))
         some = rows.gradient[index]
-        if np.unique(some.tocoo().coords[1] // model.shape[1]).size <= np.unique(rows.node[index]).size:
+        nodes = np.unique(some.tocoo().coords[1] // model.shape[1])
+        if nodes.size <= np.unique(rows.node[index]).size:
             field = rows.motion(-approach, hits, model.free)
             return field, rows.normal_forces(inertia * field, hits, model.free)
         mobility = np.where(model.free & (inertia > 0.0), 1.0 / np.where(inertia > 0.0, inertia, 1.0), 0.0).ravel()

@@ -1,6 +1,7 @@
 """Cache of the columns of a matrix that are computed on demand."""
 
 import numpy as np
+import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
 
@@ -72,3 +73,10 @@ class ColumnCache:
             return np.asarray(full @ self.stored[: self.count], float)
         used = self.place[which]
         return np.asarray(full[used] @ self.stored[used], float)
+
+    def combined(self, amounts: sp.csr_array) -> Array:
+        """Sums (k, m) of columns times the amounts (k, b), whose columns are all stored."""
+        stored = sp.csr_array(
+            (amounts.data, self.place[amounts.indices], amounts.indptr), shape=(amounts.shape[0], self.count)
+        )
+        return np.asarray(stored @ self.stored[: self.count], float)

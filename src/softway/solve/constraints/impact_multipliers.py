@@ -2,7 +2,7 @@
 
     M a = load - f + G^T lambda,   G a = 0      =>      lambda = (G M^-1 G^T)^-1 G M^-1 (f - load)
 
-and the mass-consistent jump ``J = -M^-1 G^T (G M^-1 G^T)^-1 G v``.
+The mass-consistent jump ``J = -M^-1 G^T (G M^-1 G^T)^-1 G v`` is that of ``impact_sequence.py``.
 """
 
 from dataclasses import dataclass
@@ -34,15 +34,6 @@ class ImpactMultipliers:
             pull = self.mass.solve(self.model.dofs.forces(force - self.model.load))
             out[index] = multipliers(self.mass, active, active.from_basis(self.mass.restrict(pull)))[0]
         return out
-
-    def jump(self, rows: ContactRows, approach: Array, closed: BoolArray) -> tuple[Array, Array]:
-        """Velocity jump (n, d) and impulses (m,) that bring the closed rows from ``approach`` (m,) to rest."""
-        index, active = self._active(rows, closed)
-        out, impulse = np.zeros(self.model.shape), np.zeros(len(closed))
-        if len(index):
-            impulse[index], push = multipliers(self.mass, active, -approach[index])
-            out = self.model.dofs.nodes(self.mass.solve(self.mass.basis.directions @ push.directions))
-        return out, impulse
 
     def _active(self, rows: ContactRows, closed: BoolArray) -> tuple[IntArray, RowCoefficients]:
         """Closed rows that can move (k,), with their coefficients along the contact directions."""
