@@ -31,7 +31,9 @@ class Paper:
     Up to the instant t_c the velocity is ``kept`` or ``extrapolated`` linearly from the slab before; after it the
     normal velocity vanishes and the node is eliminated (Figs. 2 and 4).  The neighbours do not balance the jump, so the
     rule loses the kinetic energy of the node (docs/theory/contact/contact.md).  Between two deformable bodies the
-    touching nodes of both share the jump in proportion to their masses.
+    touching nodes of both share the jump in proportion to their masses.  Nodes without an inertia of their own
+    (corners of tri6, tet10, quad8 and hex20 with the consistent mass) are stopped as by ``Impulse``.  The stop of a
+    node may create energy where its neighbours move against it; the audit then has a finding.
 
     Parameters
     ----------

@@ -33,7 +33,7 @@ from softway.march.rules.event_iteration import (
 )
 from softway.march.rules.slab_rule import Attempt, Solutions, require_frictionless, require_nodal
 from softway.march.rules.split_elements import split_elements
-from softway.march.rules.touch import InelasticImpact, NodalStop, Touch, VelocityJump
+from softway.march.rules.touch import InelasticImpact, NodalStop, Touch, VelocityJump, without_own_inertia
 from softway.march.rules.velocity_jumps import velocity_jumps
 from softway.march.step_control import require_slow
 from softway.model.model import Model
@@ -128,7 +128,7 @@ def nodal_stop(model: Model, method: FixedPoint | Newton, weight: TimeWeight) ->
     declared = cast(Paper, model.timing)
     split = split_elements(model) if declared.split == "triangle" else None
     inertia = impact_multipliers(model)
-    touch = NodalStop(inertia=inertia, approach=declared.approach, split=split)
+    touch = NodalStop(inertia=inertia, shared=without_own_inertia(model), approach=declared.approach, split=split)
     return Impulsive(method=method, inertia=inertia, touch=touch)
 
 

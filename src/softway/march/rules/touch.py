@@ -110,12 +110,14 @@ class NodalStop:
     """Literal rule: only the normal velocity of the touching node is reset.
 
     Its row of the mass matrix determines the lost momentum.  Between two bodies the nodes on both sides share the
-    change, weighted by the sums of their mass rows.
+    change, weighted by the sums of their mass rows.  All nodes take part in the touches of nodes ``shared``.
 
     Parameters
     ----------
     inertia
-        Mass of all nodes.
+        Mass of all nodes, for the touches that all of them take part in.
+    shared
+        (n,) nodes without an inertia of their own, see :func:`without_own_inertia`.
     approach
         Velocity before the instant: kept or extrapolated from the slab before.
     split
@@ -125,6 +127,7 @@ class NodalStop:
     balanced: ClassVar[bool] = False
 
     inertia: ImpactMultipliers
+    shared: BoolArray
     approach: Literal["kept", "extrapolated"] = "kept"
     split: TrapezoidTriangle | None = None
 
@@ -139,12 +142,14 @@ class NodalStop:
             span * rows.normal_component(now.acceleration) if self.approach == "extrapolated" else np.zeros_like(solved)
         )
 
-    def jump(self, model: Model, rows: ContactRows, approach: Array, hits: BoolArray) -> tuple[Array, Array]:
-        """Velocity change (n, d) of only the nodes of the hit rows, and its impulses (m,)."""
+    def jump(self, model: Model, rows: ContactRows, approach: Array, hits: BoolArray) -> tuple[Array, Array] | None:
+        """Velocity change (n, d) of only the nodes of the hit rows, and its impulses (m,); None if one is shared."""
         inertia = np.asarray(model.mass.sum(axis=1)).reshape(-1, 1)
         index = np.flatnonzero(hits & rows.reachable(model.dofs))
         some = rows.gradient[index]
         nodes = np.unique(some.tocoo().coords[1] // model.shape[1])
+        if self.shared[nodes].any():
+            return None
         if nodes.size <= np.unique(rows.node[index]).size:
             field = rows.motion(-approach, hits, model.free)
             return field, rows.normal_forces(inertia * field, hits, model.free)
@@ -173,3 +178,11 @@ class NodalStop:
             at = at + rows.motion(normal - rows.normal_component(at), events.kinked, model.free)
             total += float(jump.impulse @ tool) - model.space.total((at + 0.5 * jump.field) * (model.mass @ jump.field))
         return total
+
+
+def without_own_inertia(model: Model) -> BoolArray:
+    """Nodes (n,) that create energy when they are stopped alone in uniform motion.
+
+    Their rows of the mass have a sum below half the diagonal: corners of quadratic simplices and serendipity cells.
+    """
+    return np.asarray(np.asarray(model.mass.sum(axis=1)).ravel() < 0.5 * model.mass.diagonal())
