@@ -6,24 +6,29 @@ from scipy.optimize import brentq
 
 BAR_STRETCH = 1.0 / sqrt(3.0)
 """Stretch of a bar, or of a volume along one axis, at its greatest compressive force."""
-ROUNDING = 1e-9
-"""Strain that leaves every material stable."""
+COLLAPSED = -0.35
+"""Green's strain in one direction at which no material is stable: waves along it lose their speed at -1/3."""
+SAFE = 1e-3
+"""Pressure of a strain, relative to the shear modulus, that leaves every material stable."""
 
 
-def stable_stretch(nu: float) -> float:
+def stable_stretch(lame: float) -> float:
     """Stretch in one direction, with the others held, below which some wave has no real speed.
 
     Parameters
     ----------
-    nu
-        Poisson's ratio, between -1 and 1/2.
+    lame
+        Lame's first constant, in plane stress ``2 lambda mu / (lambda + 2 mu)``, relative to the shear modulus mu;
+        greater than -1.
 
     Examples
     --------
-    >>> round(stable_stretch(0.3), 3), round(stable_stretch(0.45), 3)
-    (0.706, 0.906)
+    Poisson's ratios of 0.3 and 0.45, where ``lame`` is ``2 nu / (1 - 2 nu)``, and rubber:
+
+    >>> round(stable_stretch(1.5), 3), round(stable_stretch(9.0), 3), 1.0 - stable_stretch(1e6) < 1e-5
+    (0.706, 0.906, True)
     """
-    strain = brentq(lambda e: _least(e, nu), -0.5 * (1.0 - BAR_STRETCH**2), -ROUNDING)
+    strain = brentq(lambda e: _least(e, lame), COLLAPSED, -SAFE / (lame + 2.0), xtol=1e-300)
     return sqrt(1.0 + 2.0 * strain)
 
 
@@ -43,13 +48,12 @@ def plane_impact(stretch: float) -> float:
     return _primitive(1.0) - _primitive(stretch)
 
 
-def _least(e: float, nu: float) -> float:
+def _least(e: float, lame: float) -> float:
     """Least of the numbers whose sign tells if all waves have real speeds, for Green's strain e in one direction.
 
     With the shear modulus as unit, the determinant of the acoustic tensor in the plane of the directions with the
     cosine sqrt(x) is a convex parabola in x; the eigenvalue across that plane is least along the strain.
     """
-    lame = 2.0 * nu / (1.0 - 2.0 * nu)
     a = lame + 1.0
     p, q = 1.0 + 2.0 * e + e * lame, a * (1.0 + 2.0 * e) + 2.0 * e
     r, t = a + 1.0 + e * lame, a - 2.0 * e

@@ -2,10 +2,11 @@
 
 from collections.abc import Mapping
 
-from softway.bodies.elements.section import Bar
+from softway.bodies.elements.section import Bar, PlaneStress, Section
 from softway.errors import Note
 from softway.laws.bulk import StVenantKirchhoff
 from softway.laws.elasticity.compression import BAR_STRETCH, plane_impact, stable_stretch
+from softway.laws.elasticity.elastic_constants import lame
 from softway.model.model import Model
 from softway.scenario.checks.scales import ContactScales
 
@@ -16,8 +17,10 @@ CONCENTRATION = 2.0
 def softening_notes(model: Model, contacts: Mapping[str, ContactScales]) -> tuple[Note, ...]:
     """Notes on St. Venant-Kirchhoff bodies that approach too fast, see docs/theory/bodies/softening.md; one for each.
 
-    Two solids share the speed of their approach.
+    Two solids share the speed of their approach.  Without inertia there are no waves, and no notes.
     """
+    if not model.inert:
+        return ()
     notes: dict[str, Note] = {}
     for k, contact in enumerate(model.scene.contacts):
         solids = [model.parts[n] for n in model.opponents[k] if n >= 0]
@@ -26,11 +29,21 @@ def softening_notes(model: Model, contacts: Mapping[str, ContactScales]) -> tupl
             law = part.internal.material
             if type(law) is not StVenantKirchhoff:
                 continue
-            stretch = BAR_STRETCH if isinstance(part.internal.section, Bar) else stable_stretch(law.nu)
+            stretch = _stable(law, part.internal.section)
             bound = plane_impact(stretch) * model.wave_speed(part)
             if speed * CONCENTRATION > bound:
                 notes.setdefault(part.name, _note(part.name, speed, bound, stretch))
     return tuple(notes.values())
+
+
+def _stable(law: StVenantKirchhoff, section: Section) -> float:
+    """Least stable stretch of a material in a section."""
+    if isinstance(section, Bar):
+        return BAR_STRETCH
+    first, shear = lame(law.E, law.nu)
+    if isinstance(section, PlaneStress):
+        return stable_stretch(2.0 * first / (first + 2.0 * shear))
+    return stable_stretch(first / shear)
 
 
 def _note(name: str, speed: float, bound: float, stretch: float) -> Note:
