@@ -39,6 +39,8 @@ def velocity_jumps(
     model: Model, rows: ContactRows, events: ContactEvents, closed: BoolArray, touch: Touch, span: float
 ) -> tuple[VelocityJump, ...]:
     """Velocity jumps of a slab in order of time; ``closed`` (m,) are the rows closed at its start."""
+    if not np.isfinite(events.touch).any():
+        return ()
     speed = events.approach - np.where(np.isfinite(events.touch), rows.tool_motion / span, 0.0)
     together = ImpactSequence(touch.inertia, rows, contact_order(events.touch, closed))
     jumps: list[VelocityJump] = []
