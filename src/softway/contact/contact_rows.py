@@ -63,6 +63,16 @@ class ContactRows:
         """Normal component (m,) of a nodal field (n, d), relative to the opponent's."""
         return np.asarray(self.gradient @ field.ravel())
 
+    def travel(self, motion: Array, greatest: float) -> Array:
+        """Bound (m,) of the motion of slave and opponent against each other, if each node moves by ``motion`` (n,) [m].
+
+        Tools are taken to move by the ``greatest`` motion.
+        """
+        d = self.normal.shape[1]
+        weights = (self.gradient.power(2) @ sp.kron(sp.eye_array(len(motion)), np.ones((d, 1)), format="csr")).sqrt()
+        tool = np.maximum(2.0 - np.asarray(weights.sum(axis=1)), 0.0)
+        return np.asarray(weights @ motion + tool * greatest)
+
     def spread(self, values: Array, shape: tuple[int, int]) -> Array:
         """Nodal field (n, d) ``G^T values`` of row values (m,)."""
         return np.asarray(self.gradient.T @ values).reshape(shape)
@@ -84,16 +94,18 @@ class ContactRows:
         """Smallest nodal field (n, d) on the free components of slave nodes, with normal components ``values`` (m,) on
         the rows ``which`` (m,).
 
-        A node with several rows gets the smallest motion that satisfies all of them.  The same holds for slave nodes
-        that belong to facets of other rows.
+        Where a node has several rows, or a slave node belongs to facets of other rows, all nodes of the rows move:
+        slave nodes alone would go far aside to satisfy rows that are nearly parallel.
         """
         out = np.zeros(free.shape)
         rows = self._own(which, free)
         own = np.unique(self.node[rows])
         parts = (own[:, None] * free.shape[1] + np.arange(free.shape[1])).ravel()
-        felt = self.gradient[rows][:, parts[free.ravel()[parts]]]
-        if felt.nnz > (free[self.node[rows]] & (self.normal[rows] != 0.0)).sum():
-            out.ravel()[parts[free.ravel()[parts]]] = np.linalg.lstsq(felt.toarray(), values[rows], rcond=1e-12)[0]
+        some = self.gradient[rows]
+        coupled = some[:, parts[free.ravel()[parts]]].nnz > (free[self.node[rows]] & (self.normal[rows] != 0.0)).sum()
+        if coupled:
+            felt = some @ sp.diags_array(free.ravel().astype(float))
+            out.ravel()[:] = felt.T @ np.linalg.lstsq((felt @ felt.T).toarray(), values[rows], rcond=1e-12)[0]
             return out
         node, n = self.node[rows], self.normal[rows] * free[self.node[rows]]
         if len(np.unique(node)) == len(node):

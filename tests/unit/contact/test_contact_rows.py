@@ -92,6 +92,23 @@ def test_a_motion_has_the_normal_components_asked_for(case) -> None:
     assert not field[~np.isin(np.arange(len(free)), rows.node[movable])].any()
 
 
+def test_nearly_parallel_rows_do_not_move_their_node_aside() -> None:
+    """Two edges of a body at the corner 0 that lies on a facet of the other: the opponents move too."""
+    angle = 1e-3
+    normal = [[0.0, 1.0], [np.sin(angle), np.cos(angle)]]
+    rows = single([0, 0], normal, 0.0, 3, masters=[[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    values = np.array([1e-7, -1e-7])
+    field = rows.motion(values, np.ones(2, bool), np.ones((3, 2), bool))
+    np.testing.assert_allclose(rows.normal_component(field), values, rtol=1e-9)
+    assert np.abs(field).max() < 2e-7
+
+
+def test_travel_bounds_the_motion_of_a_node_against_a_facet_or_a_tool() -> None:
+    rows = single([0, 0, 1], [[0.0, 1.0]] * 3, [0.0, 0.0, np.inf], 3, masters=[[0.0, 0.5, 0.5], [0.0] * 3, [0.0] * 3])
+    bound = rows.travel(np.array([1.0, 2.0, 4.0]), 4.0)
+    assert bound[:2] == pytest.approx([1.0 + 3.0, 1.0 + 4.0])
+
+
 def test_a_pair_of_bodies_pushes_with_opposite_forces() -> None:
     """A node on the middle of a bar of the other body: forces and moments cancel, at the gap zero."""
     x = np.array([[0.5, 0.0], [0.0, 0.0], [1.0, 0.0]])

@@ -54,15 +54,15 @@ class EventIteration:
 
 
 def without_events(
-    model: Model, now: ModelState, pairs: SlabContacts, rows: ContactRows, travel: float
+    model: Model, now: ModelState, pairs: SlabContacts, rows: ContactRows, guess: Array, span: float
 ) -> EventIteration:
     """Contact events without touches; closed rows without contact at the start (node slid off a facet) are released.
 
-    ``travel`` bounds the motion of a node in the slab [m].
+    ``guess`` (n, d) is the velocity expected at the end of the slab of length ``span``.
     """
     first, u0 = pairs.start(now.start.displacement), now.start.displacement
     extent = model.extent(u0)
-    there = within_reach(model, rows, u0, travel)
+    there = within_reach(model, rows, now, guess, span)
     gone = now.closed & ~(rows.near & first.near & there & (first.gap(u0) <= APART * extent))
     events = contact_events(now.closed & ~gone)
     events = replace(events, release=np.where(gone, 0.0, events.release))
@@ -84,8 +84,7 @@ def with_new_events(
     rows, events, end = current.rows, current.events, found.end
     gap = rows.gap(end.displacement)
     below = ~events.closed & (gap < -rounding(model, rows, end.displacement)) & rows.reachable(model.dofs)
-    travel = system.path.span * model.space.greatest(now.start.velocity, found.last.q)
-    below &= within_reach(model, rows, now.start.displacement, travel)
+    below &= within_reach(model, rows, now, found.last.q, system.path.span)
     if below.any():
         return _touching(model, now, system, current, found.last.q, below, touch)
     pull = inertia.multiplier(rows, end.force, events.closed)
@@ -113,7 +112,7 @@ def without_adhesion(current: EventIteration, jumps: Sequence[VelocityJump]) -> 
 
 
 def with_new_facets(
-    model: Model, now: ModelState, pairs: SlabContacts, current: EventIteration, found: Solution, travel: float
+    model: Model, now: ModelState, pairs: SlabContacts, current: EventIteration, found: Solution, span: float
 ) -> EventIteration | None:
     """Update the contact rows to those at the end of the solution; None if they have converged.
 
@@ -129,8 +128,8 @@ def with_new_facets(
     fresh = rows.near & ~current.rows.near & (rows.gap(u1) < 0.0)
     if not fresh.any() and np.abs(off).max(initial=0.0) <= 8.0 * rounding(model, rows, u1):
         return None
-    events, u0 = current.events, now.start.displacement
-    lost = events.closed & rows.near & ~within_reach(model, rows, u0, travel)
+    events = current.events
+    lost = events.closed & rows.near & ~within_reach(model, rows, now, found.last.q, span)
     events = replace(
         events,
         closed=events.closed & ~lost,
@@ -140,12 +139,16 @@ def with_new_facets(
     return replace(current, rows=rows, events=events)
 
 
-def within_reach(model: Model, rows: ContactRows, u0: Array, travel: float) -> BoolArray:
+def within_reach(model: Model, rows: ContactRows, now: ModelState, end: Array, span: float) -> BoolArray:
     """Rows (m,) whose node is not so deep behind the plane of its facet at the start that no motion brings it there.
 
-    Such a plane is that of a facet round the corner: the node is beyond its edges, and outside of the body.
+    Such a plane is that of a facet round the corner: the node is beyond its edges, and outside of the body.  The
+    velocities at the start and at the ``end`` (n, d) of the slab bound the motion of node and facet.
     """
-    return np.asarray(rows.gap(u0) + rows.tool_motion >= -2.0 * travel - SHALLOW * model.edge[rows.node])
+    speed = np.maximum(np.linalg.norm(now.start.velocity, axis=1), np.linalg.norm(end, axis=1))
+    travel = span * rows.travel(speed, model.space.greatest(speed))
+    depth = -(rows.gap(now.start.displacement) + rows.tool_motion)
+    return np.asarray(depth <= travel + SHALLOW * model.edge[rows.node])
 
 
 def rounding(model: Model, rows: ContactRows, u: Array) -> float:

@@ -71,8 +71,7 @@ class Impulsive:
         coasting = coasting + bent(model.bends(slab.start, slab.end), slab.span)
         pairs = model.contacts.meet(now.start.displacement, coasting, slab.start, slab.end)
         require_slow(model, pairs, now.start.displacement, coasting, attempt.approach)
-        travel = slab.span * model.space.greatest(now.start.velocity, guess)
-        current, facets = without_events(model, now, pairs, pairs.at(coasting), travel), pairs
+        current, facets = without_events(model, now, pairs, pairs.at(coasting), guess, slab.span), pairs
         method, iterations = cancellable(self.method, attempt.cancel, slab.start), 0
         for passes in range(1, PASSES + 1):
             found = velocity_jumps(model, current.rows, current.events, now.closed, self.touch, slab.span)
@@ -85,7 +84,7 @@ class Impulsive:
                 u1, memory = solution.end.displacement, solution.last.memory
                 if passes == KEEP_FACETS_AFTER and pairs.fixed_rows is None:
                     facets = pairs.with_kept_facets(u1)
-                revision = with_new_facets(model, now, facets, current, solution, travel) or with_new_events(
+                revision = with_new_facets(model, now, facets, current, solution, slab.span) or with_new_events(
                     model, now, system, current, solution, self.inertia, self.touch
                 )
                 if revision is None and self.touch.balanced:

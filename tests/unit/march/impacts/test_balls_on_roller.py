@@ -40,17 +40,18 @@ def test_a_node_that_another_touch_pushes_away_is_not_pulled_back():
     assert not any(s.report.rejections for s in steps)
 
 
-@pytest.mark.parametrize("seed", [5, 7, 12])
+@pytest.mark.parametrize("seed", [5, 7, 10, 12, 17])
 def test_no_slab_gives_much_energy(seed: int):
-    """They gave 21, 20 and 17 percent: nodes were put on the plane of a facet round the corner (5), or slabs were long.
+    """Nodes go over edges of the other ball, and edges around a corner that lies on a facet are nearly parallel rows.
 
-    A closed node that goes over an edge of the other ball finds a facet there behind whose plane it lies by 4 mm.
+    A facet round the corner has a plane behind which the node lies by 4 mm; parallel rows moved a node by .7 mm aside.
     """
     steps = list(sw.march(balls_on_roller(seed), until=0.012, step=2.5e-4))
     energy = steps[0].ledger.energy_kinetic
+    assert len(steps) < 60
     assert max(abs(s.ledger.energy_error) for s in steps) < 2e-2 * energy
     assert max(s.certificate.energy_error for s in steps) < 1e-2 * energy
     for step in steps:
         for name, after in step.after.displacement.items():
             fastest = max(np.abs(v[name]).max() for v in (step.before.velocity, step.after.velocity))
-            assert np.abs(after - step.before.displacement[name]).max() < 4.0 * fastest * step.slab.span + 1e-4
+            assert np.abs(after - step.before.displacement[name]).max() < 1.5 * fastest * step.slab.span
