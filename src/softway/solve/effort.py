@@ -15,7 +15,8 @@ SPEED = 2e9
 class Effort:
     """Counted work of one attempt at a slab: iterates, factors, and steps of the contact problems.
 
-    It knows, too, if the last operator of the attempt was indefinite.
+    It knows, too, if the last operator of the attempt was indefinite, and how often no forces let the rows at rest
+    stick (``unstuck``).
 
     A step is an exchange of active rows, a step of Newton's method for friction, or a Gauss-Seidel sweep.  Counts alone
     end an attempt, so that every machine decides alike.
@@ -42,12 +43,12 @@ class Effort:
 of 1 allowed; the last: exchange 1 of 5 active rows
     """
 
-    __slots__ = ("_tell", "_factor", "active", "change", "factors", "iterates", "iterations", "limit", "steps")
+    __slots__ = ("_tell", "_factor", "active", "change", "factors", "iterates", "iterations", "limit", "steps", "unstuck")
 
     def __init__(self, limit: float = inf, tell: Callable[["Effort", str, float], None] | None = None) -> None:
         self.limit, self._tell = limit, tell
         self.iterations, self.change, self.active = 0, nan, 0
-        self.iterates = self.factors = self.steps = 0
+        self.iterates = self.factors = self.steps = self.unstuck = 0
         self._factor: Factor | None = None
 
     def tell(self, doing: str, seconds: float = 0.0) -> None:

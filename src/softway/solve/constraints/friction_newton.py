@@ -27,6 +27,8 @@ HALVINGS = 6
 """Halvings of a step that would increase the violation."""
 FALLS = 0.1
 """Reduction of the violation by a step above which the linearisation is renewed."""
+STUCK = 3
+"""Searches without result for forces that let rows at rest stick, after which an attempt at a slab makes no more."""
 SWEEPS = 10
 """Gauss-Seidel sweeps after Newton's method has failed on a proximal problem."""
 ROUNDS = 30
@@ -53,24 +55,27 @@ def solve_multipliers(problem: FrictionProblem, x: Array) -> tuple[Array, BoolAr
 
     If friction drops with the slip, rows at rest first stick at any force.  Then rows with a force beyond the limit are
     released, and so on: a released row does not stick again.  If no forces let them stick, rows at rest first slip with
-    their stick limit as resistance, and the rows that slip are released.
+    their stick limit as resistance, and the rows that slip are released.  An attempt at a slab in which this happened
+    ``STUCK`` times does not look for forces that let them stick any more.
 
     Raises
     ------
     NoConvergence
         If no forces are found.
     """
-    law, count = problem.law, problem.count
+    law, count, effort = problem.law, problem.count, problem.effort
     if law.stick_at_any_force or not count:
         return _solved(problem, x)
     try:
         if not law.drops(np.maximum(problem.multipliers(x)[0], 0.0)):
             return _solved(problem, x)
-        return _released(problem, x, replace(law, stick_at_any_force=True), rounds=0)
+        if effort.unstuck < STUCK:
+            return _released(problem, x, replace(law, stick_at_any_force=True), rounds=0)
     except NoConvergence:
         if not law.drops(np.ones(count)):
             raise
-        return _released(problem, x, replace(law, slip_at_limit=True))
+        effort.unstuck += 1
+    return _released(problem, x, replace(law, slip_at_limit=True))
 
 
 def _released(problem: FrictionProblem, x: Array, law: SlipConditions, rounds: int = ROUNDS) -> tuple[Array, BoolArray]:

@@ -21,7 +21,7 @@ from softway.solve.constraints.friction_conditions import (
     gauss_seidel,
     linearised,
 )
-from softway.solve.constraints.friction_newton import _newton, solve_multipliers
+from softway.solve.constraints.friction_newton import STUCK, _newton, solve_multipliers
 from softway.solve.constraints.return_map import STEEPEST, SlipConditions, return_map
 from softway.solve.effort import Effort
 
@@ -268,6 +268,20 @@ def test_a_row_that_no_force_lets_stick_slips(rested: bool) -> None:
     (p, s), slips = solve_multipliers(it, np.array([0.0 if rested else 0.05, 0.0]))
     assert slips.tolist() == [True]
     assert p == pytest.approx(0.1 / (1.0 + 0.45 * 0.9), rel=1e-12) and s == pytest.approx(0.45 * p, rel=1e-12)
+
+
+def test_an_attempt_looks_a_few_times_only_for_forces_that_let_rows_stick() -> None:
+    """Such a search takes up to 75 steps of Newton's method, and the next iterate of a slab has nearly the same rows."""
+    compliance, free = np.array([[1.0, 0.9], [0.9, 1.0]]), np.array([-0.1, -1.0])
+    law, effort, steps = StaticKinetic(mu_s=0.9, mu_k=0.45), Effort(), []
+    for _ in range(STUCK + 2):
+        before = effort.steps
+        x, slips = solve_multipliers(
+            friction_problem(compliance, free, slipping(law, 1), effort=effort), np.array([0.05, 0.0])
+        )
+        steps.append(effort.steps - before)
+        assert slips.tolist() == [True] and x[1] == pytest.approx(0.45 * x[0], rel=1e-12)
+    assert max(steps[STUCK:]) < 0.3 * min(steps[:STUCK])
 
 
 @pytest.mark.parametrize("seed", range(40))
