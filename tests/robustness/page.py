@@ -19,13 +19,9 @@ KNOWN = """## What is known to stop or to take long
   where it is unstable ([softening](../theory/bodies/softening.md)); `check` notes them. Cells collapse to a hundredth
   of their volume and less. With NeoHookean in its place 421, 429, 458 and 468 are done in 2 to 4 s.
 - Other matter crushed at v/c > 0.13, most of it with friction: nodes of a surface have no stable equilibrium beside the
-  last one. A [definite operator](../theory/solver/solver.md) cures some; in others it leaves hundreds of short slabs,
-  which take longer than five minutes.
+  last one. A [definite operator](../theory/solver/solver.md) cures some; in others it leaves hundreds of short slabs.
 - Newton's method chosen by hand with crushed cells: where it does not converge, the fixed point takes over, and each
   slab pays for both.
-- The bracket landing flat, 518 nodes at once, with friction that drops when it slips (210): every step of Newton's
-  method for the friction factors a dense matrix of 1,554 unknowns, and a slab takes hundreds of them.
-- Impulse on the bracket with 504 impacts in a slab (229): each needs its own field, and its releases follow.
 - Impulse and Paper between the corners of two bodies: a node sees one wall of a corner in one slab and the other in
   the next.
 - Paper gives energy where neighbours move against the node that it stops, as in the second example of the paper

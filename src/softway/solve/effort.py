@@ -43,7 +43,18 @@ class Effort:
 of 1 allowed; the last: exchange 1 of 5 active rows
     """
 
-    __slots__ = ("_tell", "_factor", "active", "change", "factors", "iterates", "iterations", "limit", "steps", "unstuck")
+    __slots__ = (
+        "_tell",
+        "_factor",
+        "active",
+        "change",
+        "factors",
+        "iterates",
+        "iterations",
+        "limit",
+        "steps",
+        "unstuck",
+    )
 
     def __init__(self, limit: float = inf, tell: Callable[["Effort", str, float], None] | None = None) -> None:
         self.limit, self._tell = limit, tell

@@ -271,7 +271,7 @@ def test_a_row_that_no_force_lets_stick_slips(rested: bool) -> None:
 
 
 def test_an_attempt_looks_a_few_times_only_for_forces_that_let_rows_stick() -> None:
-    """Such a search takes up to 75 steps of Newton's method, and the next iterate of a slab has nearly the same rows."""
+    """A search takes up to 75 steps of Newton's method, and the next iterate of a slab has nearly the same rows."""
     compliance, free = np.array([[1.0, 0.9], [0.9, 1.0]]), np.array([-0.1, -1.0])
     law, effort, steps = StaticKinetic(mu_s=0.9, mu_k=0.45), Effort(), []
     for _ in range(STUCK + 2):
