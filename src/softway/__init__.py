@@ -1,7 +1,7 @@
 """softway: dynamic contact of solids, with the velocity as unknown and contact as a constraint on it.
 
 Names that nearly every program needs are here.  The others are one dot deeper: ``softway.bodies``, ``contact``,
-``laws``, ``meshes``, ``model``, ``obstacles``, ``record``, ``solve`` and ``studies``.
+``laws``, ``mechanisms``, ``meshes``, ``model``, ``obstacles``, ``record``, ``solve`` and ``studies``.
 """
 
 import logging
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from softway import bodies as bodies
 from softway import contact as contact
 from softway import laws as laws
+from softway import mechanisms as mechanisms
 from softway import meshes as meshes
 from softway import model as model
 from softway import obstacles as obstacles

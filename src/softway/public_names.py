@@ -3,7 +3,7 @@
 from importlib import import_module
 from typing import Any
 
-PACKAGES = ("bodies", "contact", "laws", "meshes", "model", "obstacles", "record", "solve", "studies")
+PACKAGES = ("bodies", "contact", "laws", "mechanisms", "meshes", "model", "obstacles", "record", "solve", "studies")
 """Packages that export the names of softway that are one dot deeper."""
 
 

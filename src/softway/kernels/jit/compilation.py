@@ -27,6 +27,12 @@ _SHARED = (
     "fused/history_stages.py",
     "fused/inelastic.py",
     "fused/stages.py",
+    "multibody/band.py",
+    "multibody/energy.py",
+    "multibody/forces.py",
+    "multibody/joint_rows.py",
+    "multibody/rotations.py",
+    "multibody/tables.py",
 )
 _SOURCES = b"".join((Path(__file__).parents[1] / name).read_bytes() for name in _SHARED)
 _ENDING = f"_{sha256(_SOURCES).hexdigest()[:12]}"

@@ -1,0 +1,1 @@
+"""Compiled slabs (time steps) of rigid bodies with joints."""

@@ -1,0 +1,117 @@
+"""Energies of groups of connected rigid bodies, and the scalar that gives back what the joints took.
+
+The velocities that satisfy the joints are the nearest ones, so their energy is a little too low.  The motion relative
+to the mean rigid motion of a group is scaled until the energy is that which the forces of the slab left to it.
+"""
+
+import numpy as np
+
+from softway.kernels.jit.compilation import kernel
+from softway.kernels.multibody.forces import spring_vector
+from softway.kernels.multibody.joint_rows import turned_back
+from softway.kernels.multibody.rotations import in_space
+
+AT_REST = 1e-13
+"""Kinetic energy relative to the greatest energy below which a group is at rest: nothing is scaled."""
+FAR = 0.05
+"""Change of the squared scalar beyond which it is no correction: nothing is scaled."""
+
+
+@kernel
+def kinetic_energy(bodies, motion, out):
+    """Add the kinetic energies of the groups (g,)."""
+    for i in range(len(motion.place) - 1):
+        total = 0.0
+        for c in range(3):
+            total += 0.5 * bodies.mass[i] * motion.velocity[i, c] ** 2
+            for m in range(3):
+                total += 0.5 * motion.spin[i, c] * bodies.inertia[i, c, m] * motion.spin[i, m]
+        out[bodies.group[i]] += total
+
+
+@kernel
+def potential_energy(bodies, springs, place, R, out):
+    """Add the potential energies of the groups (g,): weight and springs."""
+    n = len(place) - 1
+    for i in range(n):
+        for c in range(3):
+            out[bodies.group[i]] -= bodies.mass[i] * bodies.gravity[c] * place[i, c]
+    for k in range(len(springs.a)):
+        length = spring_vector(springs, k, place, R)[3]
+        i = springs.a[k] if springs.a[k] < n else springs.b[k]
+        out[bodies.group[i]] += 0.5 * springs.stiffness[k] * (length - springs.rest[k]) ** 2
+
+
+@kernel
+def close_energy(bodies, springs, motion, space):
+    """Scale the velocities of the jointed groups; the greatest change of a scalar from 1."""
+    groups, worst = len(bodies.jointed), 0.0
+    kinetic, potential = np.zeros(groups), np.zeros(groups)
+    kinetic_energy(bodies, motion, kinetic)
+    potential_energy(bodies, springs, motion.place, space.R0, potential)
+    mean = np.zeros((groups, 3, 3))  # place of the centre, its velocity, and the angular velocity of a free group
+    for k in range(groups):
+        rigid = 0.0
+        if bodies.jointed[k] == 0:
+            continue
+        if bodies.supported[k] == 0:
+            rigid = _mean_motion(bodies, motion, space, k, mean[k])
+        moving, wanted = kinetic[k] - rigid, motion.energy[k] - potential[k] - rigid
+        scale = abs(motion.energy[k]) + abs(potential[k]) + kinetic[k]
+        if moving <= AT_REST * scale or abs(wanted - moving) > FAR * moving:
+            continue
+        s = np.sqrt(wanted / moving)
+        worst = max(worst, abs(s - 1.0))
+        _scale(bodies, motion, space, k, mean[k], s)
+    return worst
+
+
+@kernel
+def _mean_motion(bodies, motion, space, group, mean):
+    """Rigid motion with the momentum and spin of a free group: centre, velocity, angular velocity; its energy."""
+    mass, R = 0.0, space.R0
+    mean[:] = 0.0
+    for i in range(len(motion.place) - 1):
+        if bodies.group[i] == group:
+            mass += bodies.mass[i]
+            for c in range(3):
+                mean[0, c] += bodies.mass[i] * motion.place[i, c]
+                mean[1, c] += bodies.mass[i] * motion.velocity[i, c]
+    mean[:2] /= mass
+    total, spin, own = np.zeros((3, 3)), np.zeros(3), np.zeros((len(R), 3, 3))
+    for i in range(len(motion.place) - 1):
+        if bodies.group[i] != group:
+            continue
+        m, v, w = bodies.mass[i], motion.velocity, motion.spin
+        x, y, z = motion.place[i, 0] - mean[0, 0], motion.place[i, 1] - mean[0, 1], motion.place[i, 2] - mean[0, 2]
+        arm = (x, y, z)
+        in_space(R, bodies.inertia, i, own)
+        spin[0] += m * (y * v[i, 2] - z * v[i, 1])
+        spin[1] += m * (z * v[i, 0] - x * v[i, 2])
+        spin[2] += m * (x * v[i, 1] - y * v[i, 0])
+        for c in range(3):
+            turning = R[i, c, 0] * w[i, 0] + R[i, c, 1] * w[i, 1] + R[i, c, 2] * w[i, 2]
+            for j in range(3):
+                spin[j] += own[i, j, c] * turning
+                total[c, j] += own[i, c, j] - m * arm[c] * arm[j]
+            total[c, c] += m * (x * x + y * y + z * z)
+    mean[2] = np.linalg.lstsq(total, spin, 1e-12)[0]
+    energy = 0.0
+    for c in range(3):
+        energy += 0.5 * mass * mean[1, c] ** 2 + 0.5 * spin[c] * mean[2, c]
+    return energy
+
+
+@kernel
+def _scale(bodies, motion, space, group, mean, s):
+    """Scale the velocities of a group relative to its mean motion by s."""
+    p, q, r = mean[2, 0], mean[2, 1], mean[2, 2]
+    for i in range(len(motion.place) - 1):
+        if bodies.group[i] != group:
+            continue
+        x, y, z = motion.place[i, 0] - mean[0, 0], motion.place[i, 1] - mean[0, 1], motion.place[i, 2] - mean[0, 2]
+        rigid = mean[1, 0] + q * z - r * y, mean[1, 1] + r * x - p * z, mean[1, 2] + p * y - q * x
+        own = turned_back(space.R0, i, p, q, r)
+        for c in range(3):
+            motion.velocity[i, c] = rigid[c] + s * (motion.velocity[i, c] - rigid[c])
+            motion.spin[i, c] = own[c] + s * (motion.spin[i, c] - own[c])

@@ -1,0 +1,87 @@
+"""Forces on rigid bodies in a slab (time step): gravity, springs with dampers, torques; and their work.
+
+The force of a spring is the exact difference of its potential, ``-k (1 - l/Lm) rm`` with the means of the length and of
+the vector between its ends.
+"""
+
+import numpy as np
+
+from softway.kernels.jit.compilation import inlined, kernel
+from softway.kernels.multibody.joint_rows import mean_turned, turned
+
+
+@inlined
+def spring_vector(springs, k, place, R):
+    """Vector from the first end of a spring to the second, as three numbers, and its length."""
+    a, b = springs.a[k], springs.b[k]
+    xa, ya, za = turned(R, a, springs.X, k)
+    xb, yb, zb = turned(R, b, springs.Y, k)
+    x, y, z = (
+        place[b, 0] + xb - place[a, 0] - xa,
+        place[b, 1] + yb - place[a, 1] - ya,
+        place[b, 2] + zb - place[a, 2] - za,
+    )
+    return x, y, z, np.sqrt(x * x + y * y + z * z)
+
+
+@inlined
+def add_forces(bodies, springs, place0, R0, place1, R1, z, h, force):
+    """Add h times the forces (n, 6) of the slab."""
+    gx, gy, gz = h * bodies.gravity[0], h * bodies.gravity[1], h * bodies.gravity[2]
+    for i in range(len(z) - 1):
+        force[i, 0] += bodies.mass[i] * gx
+        force[i, 1] += bodies.mass[i] * gy
+        force[i, 2] += bodies.mass[i] * gz
+    for k in range(len(springs.a)):
+        x0, y0, z0, l0 = spring_vector(springs, k, place0, R0)
+        x1, y1, z1, l1 = spring_vector(springs, k, place1, R1)
+        mean = 0.5 * (l0 + l1)
+        if mean == 0.0:
+            continue
+        pull = 0.5 * h * (springs.stiffness[k] * (mean - springs.rest[k]) + springs.damping[k] * (l1 - l0) / h) / mean
+        _pull_at(R0, R1, springs.a[k], springs.X, k, pull * (x0 + x1), pull * (y0 + y1), pull * (z0 + z1), force)
+        _pull_at(R0, R1, springs.b[k], springs.Y, k, -pull * (x0 + x1), -pull * (y0 + y1), -pull * (z0 + z1), force)
+    for k in range(len(springs.turned)):
+        i, factor = springs.turned[k], h * angle_factor(z, springs.turned[k])
+        for c in range(3):
+            force[i, 3 + c] += factor * springs.torque[k, c]
+
+
+@inlined
+def _pull_at(R0, R1, i, X, k, fx, fy, fz, force):
+    """Add a force (times h) at the mean place of the point ``X[k]`` of body i."""
+    x, y, z = turned(R1, i, X, k)
+    x, y, z = mean_turned(R0, i, X, k, x, y, z)
+    force[i, 0] += fx
+    force[i, 1] += fy
+    force[i, 2] += fz
+    force[i, 3] += y * fz - z * fy
+    force[i, 4] += z * fx - x * fz
+    force[i, 5] += x * fy - y * fx
+
+
+@inlined
+def angle_factor(z, i):
+    """Angle of a rotation over the magnitude of its vector theta, ``2 atan(|theta|/2)/|theta|``."""
+    size = np.sqrt(z[i, 3] * z[i, 3] + z[i, 4] * z[i, 4] + z[i, 5] * z[i, 5])
+    return 1.0 if size < 1e-8 else 2.0 * np.arctan(0.5 * size) / size
+
+
+@kernel
+def work_of_slab(bodies, springs, motion, space, h):
+    """Add the work of torques to the energies that the groups have to have, and take what dampers dissipate."""
+    z = space.z
+    for k in range(len(springs.a)):
+        if springs.damping[k] != 0.0:
+            l0 = spring_vector(springs, k, motion.place, space.R0)[3]
+            l1 = spring_vector(springs, k, space.place, space.R1)[3]
+            lost = springs.damping[k] * (l1 - l0) ** 2 / h
+            i = springs.a[k] if springs.a[k] < len(z) - 1 else springs.b[k]
+            motion.energy[bodies.group[i]] -= lost
+            motion.work[1] += lost
+    for k in range(len(springs.turned)):
+        i, done = springs.turned[k], 0.0
+        for c in range(3):
+            done += angle_factor(z, i) * z[i, 3 + c] * springs.torque[k, c]
+        motion.energy[bodies.group[i]] += done
+        motion.work[0] += done

@@ -1,0 +1,243 @@
+"""Slabs (time steps) of rigid bodies with joints: fixed point with a frozen factor, then the velocities of the joints.
+
+The unknown is the motion ``z = (d, theta) = h/2 (v0 + v1, R0 (W0 + W1))`` of each body, see docs/theory/mechanisms.md.
+"""
+
+import numpy as np
+
+from softway.kernels.jit.compilation import inlined, kernel
+from softway.kernels.multibody.band import factor_band, solve_band
+from softway.kernels.multibody.energy import close_energy, kinetic_energy, potential_energy
+from softway.kernels.multibody.forces import add_forces, work_of_slab
+from softway.kernels.multibody.joint_rows import joint_row, turned_back
+from softway.kernels.multibody.rotations import cayley_turned, in_space, matrix_of, quaternion_turned
+
+ITERATIONS = 60
+"""Greatest number of iterations of a slab."""
+CONVERGED = 1e-15
+"""Change of the motion, relative to the extent of the mechanism or to a radian, at the level of rounding."""
+NEARLY = 1e-12
+"""Change below which an iteration that does not improve any more has converged."""
+SLOW = 0.7
+"""Ratio of successive changes above which an iteration is not worth its time, if it happens twice."""
+
+
+@inlined
+def evaluate_rows(joints, place0, R0, place1, R1, g, G):
+    """Values g (r,) at the end and Jacobians G (r, 2, 6) at the means of two configurations."""
+    for k in range(len(g)):
+        joint_row(joints, k, place0, R0, place1, R1, g, G)
+
+
+@kernel
+def prepare_joints(bodies, joints, place, R, space):
+    """Jacobians at a configuration, ``M^-1 G^T``, and the factor of ``G M^-1 G^T``."""
+    n = len(place)
+    for i in range(n):
+        in_space(R, bodies.inverse_inertia, i, space.mobility)
+    evaluate_rows(joints, place, R, place, R, space.g, space.G)
+    G, MG = space.G, space.MG
+    for k in range(len(space.g)):
+        for side in range(2):
+            i = joints.a[k] if side == 0 else joints.b[k]
+            for c in range(3):
+                MG[k, side, c] = bodies.inverse_mass[i] * G[k, side, c]
+                total = 0.0
+                for m in range(3):
+                    total += space.mobility[i, c, m] * G[k, side, 3 + m]
+                MG[k, side, 3 + c] = total
+    space.matrix[:] = 0.0
+    for p in range(len(joints.pairs)):
+        i, j, si, sj = joints.pairs[p, 0], joints.pairs[p, 1], joints.pairs[p, 2], joints.pairs[p, 3]
+        total = 0.0
+        for c in range(6):
+            total += G[i, si, c] * MG[j, sj, c]
+        space.matrix[i, i - j] += total
+    factor_band(space.matrix, space.lower, space.pivot)
+
+
+@inlined
+def place_ends(z, place0, R0, place1, R1):
+    """Places and rotations at the end of the motion z (n, 6)."""
+    for i in range(len(z) - 1):
+        for c in range(3):
+            place1[i, c] = place0[i, c] + z[i, c]
+        cayley_turned(z, R0, R1, i)
+
+
+@inlined
+def motion_of(bodies, joints, springs, motion, space, h, P, z, new):
+    """Motion ``new`` (n, 6) by the forces and impulses P at the motion z; Jacobians and ends at z are in the space."""
+    n = len(z) - 1
+    force = space.force
+    force[:] = 0.0
+    for k in range(len(P)):
+        for side in range(2):
+            i = joints.a[k] if side == 0 else joints.b[k]
+            for c in range(6):
+                force[i, c] += P[k] * space.G[k, side, c]
+    add_forces(bodies, springs, motion.place, space.R0, space.place, space.R1, z, h, force)
+    for i in range(n):
+        for c in range(3):
+            new[i, c] = h * (motion.velocity[i, c] + 0.5 * bodies.inverse_mass[i] * force[i, c])
+        turning(bodies, motion, space, h, z, i, force, new)
+
+
+@inlined
+def turning(bodies, motion, space, h, z, i, force, new):
+    """Rotation ``new[i, 3:]``: ``theta = h R0 (W0 + W1)/2`` with ``W1 = W0 + J^-1 R0^T (h tau - (R1 - R0) J W1)``."""
+    R0, R1, own, inverse, s = space.R0, space.R1, bodies.inertia, bodies.inverse_inertia, motion.spin
+    w0, w1, w2 = body_rate(R0, z, s, h, i)
+    j0 = own[i, 0, 0] * w0 + own[i, 0, 1] * w1 + own[i, 0, 2] * w2
+    j1 = own[i, 1, 0] * w0 + own[i, 1, 1] * w1 + own[i, 1, 2] * w2
+    j2 = own[i, 2, 0] * w0 + own[i, 2, 1] * w1 + own[i, 2, 2] * w2
+    d = R1[i, 0, 0] - R0[i, 0, 0], R1[i, 0, 1] - R0[i, 0, 1], R1[i, 0, 2] - R0[i, 0, 2]
+    b0 = force[i, 3] - d[0] * j0 - d[1] * j1 - d[2] * j2
+    d = R1[i, 1, 0] - R0[i, 1, 0], R1[i, 1, 1] - R0[i, 1, 1], R1[i, 1, 2] - R0[i, 1, 2]
+    b1 = force[i, 4] - d[0] * j0 - d[1] * j1 - d[2] * j2
+    d = R1[i, 2, 0] - R0[i, 2, 0], R1[i, 2, 1] - R0[i, 2, 1], R1[i, 2, 2] - R0[i, 2, 2]
+    b2 = force[i, 5] - d[0] * j0 - d[1] * j1 - d[2] * j2
+    a0, a1, a2 = turned_back(R0, i, b0, b1, b2)
+    u0 = s[i, 0] + 0.5 * (inverse[i, 0, 0] * a0 + inverse[i, 0, 1] * a1 + inverse[i, 0, 2] * a2)
+    u1 = s[i, 1] + 0.5 * (inverse[i, 1, 0] * a0 + inverse[i, 1, 1] * a1 + inverse[i, 1, 2] * a2)
+    u2 = s[i, 2] + 0.5 * (inverse[i, 2, 0] * a0 + inverse[i, 2, 1] * a1 + inverse[i, 2, 2] * a2)
+    for c in range(3):
+        new[i, 3 + c] = h * (R0[i, c, 0] * u0 + R0[i, c, 1] * u1 + R0[i, c, 2] * u2)
+
+
+@inlined
+def body_rate(R0, z, spin, h, i):
+    """Angular velocity ``W1 = 2/h R0^T theta - W0`` at the end in the axes of the body, as three numbers."""
+    x, y, w = turned_back(R0, i, 2.0 / h * z[i, 3], 2.0 / h * z[i, 4], 2.0 / h * z[i, 5])
+    return x - spin[i, 0], y - spin[i, 1], w - spin[i, 2]
+
+
+@kernel
+def guess_motion(bodies, joints, springs, motion, space, h):
+    """Motion z at the start: that of the velocities and of the impulses of the slab before."""
+    z = space.z
+    z[:] = 0.0
+    space.place[:] = motion.place
+    space.R1[:] = space.R0
+    for i in range(len(z) - 1):
+        for c in range(3):
+            z[i, c] = h * motion.velocity[i, c]
+            z[i, 3 + c] = h * (
+                space.R0[i, c, 0] * motion.spin[i, 0]
+                + space.R0[i, c, 1] * motion.spin[i, 1]
+                + space.R0[i, c, 2] * motion.spin[i, 2]
+            )
+    motion_of(bodies, joints, springs, motion, space, h, motion.impulse, z, space.new)
+    z[:] = space.new
+
+
+@kernel
+def solve_motion(bodies, joints, springs, motion, space, h, extent):
+    """Fixed point for the motion and the impulses with the factor of the start; number of iterations, 0 if it fails."""
+    guess_motion(bodies, joints, springs, motion, space, h)
+    z, new, P, before, slow = space.z, space.new, motion.impulse, np.inf, 0
+    for iteration in range(1, ITERATIONS + 1):
+        place_ends(z, motion.place, space.R0, space.place, space.R1)
+        evaluate_rows(joints, motion.place, space.R0, space.place, space.R1, space.g, space.G)
+        space.push[:] = space.g
+        solve_band(space.lower, space.pivot, space.push)
+        for k in range(len(P)):
+            P[k] -= 2.0 / h * space.push[k]
+        motion_of(bodies, joints, springs, motion, space, h, P, z, new)
+        change = 0.0
+        for i in range(len(z) - 1):
+            for c in range(3):
+                change = max(change, abs(new[i, c] - z[i, c]) / extent, abs(new[i, 3 + c] - z[i, 3 + c]))
+                z[i, c], z[i, 3 + c] = new[i, c], new[i, 3 + c]
+        if change <= CONVERGED or (change <= NEARLY and change > 0.5 * before):
+            return iteration
+        slow = slow + 1 if change > SLOW * before else 0
+        if slow >= 2 or not np.isfinite(change):
+            return 0
+        before = change
+    return 0
+
+
+@kernel
+def end_slab(bodies, joints, springs, motion, space, h, told):
+    """Take the motion z: new state with the velocities of the joints, and the energy that each group has to have.
+
+    ``told`` (3,) takes the greatest joint value and joint velocity, and the greatest change of the scalars from 1.
+    """
+    n, z = len(motion.place) - 1, space.z
+    place_ends(z, motion.place, space.R0, space.place, space.R1)
+    work_of_slab(bodies, springs, motion, space, h)
+    for i in range(n):
+        motion.spin[i, 0], motion.spin[i, 1], motion.spin[i, 2] = body_rate(space.R0, z, motion.spin, h, i)
+        for c in range(3):
+            motion.velocity[i, c] = 2.0 / h * z[i, c] - motion.velocity[i, c]
+            motion.place[i, c] = space.place[i, c]
+        quaternion_turned(z, motion.turn, i)
+        matrix_of(motion.turn, space.R0, i)
+    prepare_joints(bodies, joints, motion.place, space.R0, space)
+    project_velocities(bodies, joints, motion, space)
+    told[2] = max(told[2], close_energy(bodies, springs, motion, space))
+    for k in range(len(space.g)):
+        told[0] = max(told[0], abs(space.g[k]))
+        told[1] = max(told[1], abs(joint_velocity(joints, motion, space, k)))
+
+
+@inlined
+def joint_velocity(joints, motion, space, k):
+    """Velocity of a joint row, ``G v``."""
+    total = 0.0
+    for side in range(2):
+        i = joints.a[k] if side == 0 else joints.b[k]
+        for c in range(3):
+            spin = (
+                space.R0[i, c, 0] * motion.spin[i, 0]
+                + space.R0[i, c, 1] * motion.spin[i, 1]
+                + space.R0[i, c, 2] * motion.spin[i, 2]
+            )
+            total += space.G[k, side, c] * motion.velocity[i, c] + space.G[k, side, 3 + c] * spin
+    return total
+
+
+@kernel
+def project_velocities(bodies, joints, motion, space):
+    """Nearest velocities in the norm of the mass that satisfy the joints: ``v - M^-1 G^T (G M^-1 G^T)^+ G v``."""
+    for _ in range(2):
+        for k in range(len(space.g)):
+            space.push[k] = joint_velocity(joints, motion, space, k)
+        solve_band(space.lower, space.pivot, space.push)
+        for k in range(len(space.g)):
+            for side in range(2):
+                i = joints.a[k] if side == 0 else joints.b[k]
+                for c in range(3):
+                    motion.velocity[i, c] -= space.push[k] * space.MG[k, side, c]
+                    motion.spin[i, c] -= space.push[k] * (
+                        space.R0[i, 0, c] * space.MG[k, side, 3]
+                        + space.R0[i, 1, c] * space.MG[k, side, 4]
+                        + space.R0[i, 2, c] * space.MG[k, side, 5]
+                    )
+
+
+@kernel
+def march_slabs(bodies, joints, springs, motion, space, h, count, extent, told):
+    """March up to ``count`` slabs from a prepared state; the number that was solved, and the iterations they took."""
+    iterations = 0
+    for slab in range(count):
+        space.kept[:] = motion.impulse
+        found = solve_motion(bodies, joints, springs, motion, space, h, extent)
+        if found == 0:
+            motion.impulse[:] = space.kept
+            return slab, iterations
+        iterations += found
+        end_slab(bodies, joints, springs, motion, space, h, told)
+    return count, iterations
+
+
+@kernel
+def begin(bodies, joints, springs, motion, space):
+    """Prepare the factor of the joints at a state, and the energies of the groups."""
+    for i in range(len(motion.place) - 1):
+        matrix_of(motion.turn, space.R0, i)
+    prepare_joints(bodies, joints, motion.place, space.R0, space)
+    motion.energy[:] = 0.0
+    kinetic_energy(bodies, motion, motion.energy)
+    potential_energy(bodies, springs, motion.place, space.R0, motion.energy)

@@ -1,0 +1,124 @@
+"""Arrays of a mechanism for the compiled slabs.  The ground is the last body: it has no inverse inertia."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from softway.arrays import Array, IntArray
+
+
+class Bodies(NamedTuple):
+    """Rigid bodies (b + 1,), the ground last.
+
+    ``mass`` (b + 1,) [kg], ``inertia`` (b + 1, 3, 3) about the centre in the axes of the body [kg m^2], and their
+    inverses, zero where there is none; ``gravity`` (3,) [m/s^2]; ``group`` (b,) numbers of the groups of connected
+    bodies, and for each group if it is ``jointed`` (g,) and ``supported`` (g,) by the ground.
+    """
+
+    mass: Array
+    inertia: Array
+    inverse_mass: Array
+    inverse_inertia: Array
+    gravity: Array
+    group: IntArray
+    jointed: IntArray
+    supported: IntArray
+
+
+class Joints(NamedTuple):
+    """Rows (r,) of the joints, see :mod:`~softway.kernels.multibody.joint_rows`.
+
+    ``pairs`` (p, 4) are rows i >= j that share a body, and their sides with it; ``width`` is the greatest i - j.
+    """
+
+    kind: IntArray
+    a: IntArray
+    b: IntArray
+    X: Array
+    Y: Array
+    N: Array
+    B: Array
+    value: Array
+    pairs: IntArray
+    width: int
+
+
+class Springs(NamedTuple):
+    """Springs with dampers (s,) between the points X of the bodies a and Y of b, and torques (t,) on bodies.
+
+    ``stiffness`` [N/m], ``rest`` length [m], ``damping`` [N s/m]; ``torque`` (t, 3) fixed in space on ``turned`` [N m].
+    """
+
+    a: IntArray
+    b: IntArray
+    X: Array
+    Y: Array
+    stiffness: Array
+    rest: Array
+    damping: Array
+    turned: IntArray
+    torque: Array
+
+
+class Motion(NamedTuple):
+    """State of the bodies (b + 1,): places (b + 1, 3), unit quaternions (b + 1, 4), velocities (b + 1, 3) and angular
+    velocities (b + 1, 3) in the axes of the bodies; ``impulse`` (r,) through the joints in the slab before, ``energy``
+    (g,) that each group has to have, and ``work`` (2,): of torques, and dissipated by dampers [J].
+    """
+
+    place: Array
+    turn: Array
+    velocity: Array
+    spin: Array
+    impulse: Array
+    energy: Array
+    work: Array
+
+
+class Space(NamedTuple):
+    """Work space of the slabs (n bodies with the ground, r rows).
+
+    ``R0``, ``R1`` (n, 3, 3) rotations at both ends, and ``place`` (n, 3) at the end; values ``g`` (r,) and Jacobians
+    ``G`` (r, 2, 6) of the rows, ``MG`` = M^-1 G^T at the start, with the ``mobility`` (n, 3, 3), the inverse inertia in
+    space; ``matrix`` and ``lower`` (r, w + 1), ``pivot`` (r,) of G M^-1 G^T; motions ``z`` and ``new`` (n, 6);
+    ``force`` (n, 6) times h; ``push`` (r,) of the rows; ``kept`` (r,) impulses of the slab before.
+    """
+
+    R0: Array
+    R1: Array
+    place: Array
+    G: Array
+    MG: Array
+    g: Array
+    mobility: Array
+    matrix: Array
+    lower: Array
+    pivot: Array
+    z: Array
+    new: Array
+    force: Array
+    push: Array
+    kept: Array
+
+
+def space(bodies: int, rows: int, width: int) -> Space:
+    """Work space for a number of ``bodies`` without the ground, and of joint ``rows``."""
+    n = bodies + 1
+    eye = np.tile(np.eye(3), (n, 1, 1))
+    return Space(
+        R0=eye.copy(),
+        R1=eye.copy(),
+        place=np.zeros((n, 3)),
+        G=np.zeros((rows, 2, 6)),
+        MG=np.zeros((rows, 2, 6)),
+        g=np.zeros(rows),
+        mobility=np.zeros((n, 3, 3)),
+        matrix=np.zeros((rows, width + 1)),
+        lower=np.zeros((rows, width + 1)),
+        pivot=np.zeros(rows),
+        z=np.zeros((n, 6)),
+        new=np.zeros((n, 6)),
+        force=np.zeros((n, 6)),
+        push=np.zeros(rows),
+        kept=np.zeros(rows),
+    )

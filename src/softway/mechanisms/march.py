@@ -1,0 +1,236 @@
+"""March of a mechanism: slabs (time steps) in compiled loops."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.errors import InputError, NumericsError
+from softway.kernels.multibody.energy import kinetic_energy, potential_energy
+from softway.kernels.multibody.slab import begin, end_slab, march_slabs, project_velocities
+from softway.kernels.multibody.tables import Space, space
+from softway.mechanisms.arrays import Arrays, arrays
+from softway.mechanisms.mechanism import Mechanism
+from softway.mechanisms.newton import newton_motion
+from softway.mechanisms.welds import Welded, welded
+from softway.units import Second
+
+HALVINGS = 12
+"""Halvings of a slab that cannot be solved."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class BodyState:
+    """State of a rigid body.
+
+    Parameters
+    ----------
+    centre
+        (d,) place of the centre [m].
+    rotation
+        (d, d) rotation from the start.
+    velocity
+        (d,) velocity of the centre [m/s].
+    spin
+        Angular velocity [rad/s], (1,) in the plane and (3,) in space.
+    """
+
+    centre: Array
+    rotation: Array
+    velocity: Array
+    spin: Array
+
+    def point(self, start: Array, centre: Array) -> Array:
+        """Place (d,) of the point that was at ``start`` when the centre was at ``centre``."""
+        return np.asarray(self.centre + self.rotation @ (np.asarray(start) - np.asarray(centre)))
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class MechanismStep:
+    """State of a mechanism after some slabs, with its balances.
+
+    Parameters
+    ----------
+    time
+        [s].
+    bodies
+        State of each body.
+    energy_kinetic, energy_potential
+        [J].
+    work, dissipation
+        Work of torques and energy dissipated by dampers since the start [J].
+    energy_error
+        Energy minus that at the start, minus work, plus dissipation [J].
+    momentum, spin
+        (3,) total momentum [kg m/s], and angular momentum about the origin [kg m^2/s].
+    joints, joint_velocity
+        Greatest error of the joints since the last step [m], and of their velocities [m/s]; directions count as such.
+    iterations
+        Iterations since the last step.
+    scalar
+        Greatest change of the scalar of the energy from 1 since the last step.
+    independent
+        Number of the joint rows that do not depend on others.
+    """
+
+    time: float
+    bodies: Mapping[str, BodyState]
+    energy_kinetic: float
+    energy_potential: float
+    work: float
+    dissipation: float
+    energy_error: float
+    momentum: Array
+    spin: Array
+    joints: float
+    joint_velocity: float
+    iterations: int
+    scalar: float
+    independent: int
+
+
+def march(mechanism: Mechanism, *, until: Second, step: Second, every: int = 1) -> Iterator[MechanismStep]:
+    """March a mechanism; yields the state at the start, and after every ``every`` slabs and at the end.
+
+    Positions and velocities satisfy the joints at the end of every slab.  The energy of conservative mechanisms,
+    momentum and angular momentum are kept.  Velocities at the start that the joints do not allow are replaced by the
+    nearest ones in the norm of the mass.
+
+    Parameters
+    ----------
+    mechanism
+        Bodies, joints and springs.
+    until
+        End [s].
+    step
+        Length of a slab [s], shortened to divide the duration evenly.
+    every
+        Slabs between two steps that are yielded.
+
+    Raises
+    ------
+    InputError
+        Before the first step: for wrong input.
+    NumericsError
+        If a slab has no solution at any length.
+
+    Examples
+    --------
+    >>> from softway.mechanisms import Mechanism, Rigid, Rod
+    >>> mass = Rigid(mass=1.0, centre=(1.0, 0.0))
+    >>> rod = Rod(between=("ground", "mass"), ends=((0.0, 0.0), (1.0, 0.0)))
+    >>> pendulum = Mechanism(bodies={"mass": mass}, joints={"rod": rod}, gravity=(0.0, -9.81))
+    >>> last = list(march(pendulum, until=1.0, step=0.01))[-1]
+    >>> abs(last.energy_error) < 1e-12, abs(float(np.hypot(*last.bodies["mass"].centre)) - 1.0) < 1e-13
+    (True, True)
+    """
+    if not (np.isfinite(until) and until > 0.0):
+        raise InputError("until", f"{until:g} s is not positive", "a time after the start")
+    if not (np.isfinite(step) and 0.0 < step <= until):
+        raise InputError("step", f"{step:g} s is not positive, or longer than the march", f"at most {until:g} s")
+    if every < 1:
+        raise InputError("every", f"{every}", "1 or more")
+    joined = welded(mechanism)
+    return _steps(mechanism, joined, arrays(joined.mechanism), until, int(np.ceil(until / step * (1.0 - 1e-12))), every)
+
+
+def _steps(
+    mechanism: Mechanism, joined: Welded, it: Arrays, until: float, slabs: int, every: int
+) -> Iterator[MechanismStep]:
+    """States of the march."""
+    room = space(len(it.names), len(it.joint_of), it.joints.width)
+    begin(it.bodies, it.joints, it.springs, it.motion, room)
+    project_velocities(it.bodies, it.joints, it.motion, room)
+    begin(it.bodies, it.joints, it.springs, it.motion, room)
+    initial = float(it.motion.energy.sum())
+    told, h, done = np.zeros(3), until / slabs, 0
+    yield _step(mechanism, joined, it, room, 0.0, initial, told, 0)
+    while done < slabs:
+        told[:] = 0.0
+        iterations, goal = 0, min(slabs, done + every)
+        while done < goal:
+            extent = _extent(it)
+            more, used = march_slabs(it.bodies, it.joints, it.springs, it.motion, room, h, goal - done, extent, told)
+            done, iterations = done + more, iterations + used
+            if done < goal:
+                iterations += _hard_slab(it, room, done * h, h, told)
+                done += 1
+        yield _step(mechanism, joined, it, room, until if done == slabs else done * h, initial, told, iterations)
+
+
+def _extent(it: Arrays) -> float:
+    """Extent of the mechanism, the scale of rounding [m]."""
+    return max(it.extent, float(np.abs(it.motion.place).max()), 1e-300)
+
+
+def _hard_slab(it: Arrays, room: Space, time: float, h: float, told: Array, halvings: int = 0) -> int:
+    """Solve a slab in which the fixed point fails by Newton's method, or else in two halves, and so on."""
+    found = newton_motion(it, room, h, _extent(it))
+    if found:
+        end_slab(it.bodies, it.joints, it.springs, it.motion, room, h, told)
+        return found
+    if halvings == HALVINGS:
+        worst = it.joint_of[int(np.argmax(np.abs(room.g)))] if it.joint_of else ""
+        what = f"a slab of {h:.3g} s has no solution" + (
+            f"; the joint {worst!r} is farthest from closed" if worst else ""
+        )
+        raise NumericsError(what, time, "a shorter step, or a mechanism that can move on from there")
+    iterations = 0
+    for k in range(2):
+        one, used = march_slabs(it.bodies, it.joints, it.springs, it.motion, room, 0.5 * h, 1, _extent(it), told)
+        iterations += used if one else _hard_slab(it, room, time + 0.5 * k * h, 0.5 * h, told, halvings + 1)
+    return iterations
+
+
+def _step(
+    mechanism: Mechanism,
+    joined: Welded,
+    it: Arrays,
+    room: Space,
+    time: float,
+    initial: float,
+    told: Array,
+    iterations: int,
+) -> MechanismStep:
+    """State as it is yielded."""
+    motion, groups = it.motion, len(it.bodies.jointed)
+    kinetic, potential = np.zeros(groups), np.zeros(groups)
+    kinetic_energy(it.bodies, motion, kinetic)
+    potential_energy(it.bodies, it.springs, motion.place, room.R0, potential)
+    total = float(kinetic.sum()), float(potential.sum())
+    mass = it.bodies.mass[:, None]
+    turned = np.einsum("nij,njk,nk->ni", room.R0, it.bodies.inertia, motion.spin)
+    return MechanismStep(
+        time=time,
+        bodies={name: _state(mechanism, joined, it, room, name) for name in mechanism.bodies},
+        energy_kinetic=total[0],
+        energy_potential=total[1],
+        work=float(motion.work[0]),
+        dissipation=float(motion.work[1]),
+        energy_error=total[0] + total[1] - initial - float(motion.work[0]) + float(motion.work[1]),
+        momentum=np.asarray((mass * motion.velocity).sum(axis=0)),
+        spin=np.asarray((mass * np.cross(motion.place, motion.velocity) + turned).sum(axis=0)),
+        joints=float(told[0]),
+        joint_velocity=float(told[1]),
+        iterations=iterations,
+        scalar=float(told[2]),
+        independent=int((room.pivot > 0.0).sum()),
+    )
+
+
+def _state(mechanism: Mechanism, joined: Welded, it: Arrays, room: Space, name: str) -> BodyState:
+    """State of a body, which may be welded to others or to the ground."""
+    dim, motion, whole = mechanism.dim, it.motion, joined.part_of[name]
+    k = it.names.index(whole) if whole in it.names else len(it.names)
+    spin, arm = room.R0[k] @ motion.spin[k], np.zeros(3)
+    arm[:dim] = mechanism.bodies[name].centre
+    if k < len(it.names):
+        arm[:dim] -= joined.mechanism.bodies[whole].centre
+    arm = room.R0[k] @ arm
+    return BodyState(
+        centre=(motion.place[k] + arm)[:dim],
+        rotation=room.R0[k, :dim, :dim].copy(),
+        velocity=(motion.velocity[k] + np.cross(spin, arm))[:dim],
+        spin=spin[2:] if dim == 2 else spin,
+    )

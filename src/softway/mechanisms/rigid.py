@@ -1,0 +1,114 @@
+"""Rigid bodies of a mechanism: mass, inertia, and motion at the start."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.errors import InputError
+from softway.units import Kilogram, KilogramSquareMetre, Metre, MetrePerSecond, RadianPerSecond
+
+ROUNDING = 1e-9
+"""Relative error of an inertia that is rounding."""
+
+Inertia = KilogramSquareMetre | tuple[KilogramSquareMetre, ...] | tuple[tuple[KilogramSquareMetre, ...], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rigid:
+    """Rigid body, in the plane or in space by the length of ``centre``.
+
+    Parameters
+    ----------
+    mass
+        Mass, positive [kg].
+    centre
+        Centre of mass at the start [m].
+    inertia
+        Moments of inertia about the centre along the axes of the scene at the start [kg m^2]: one in the plane, and in
+        space three principal ones or the tensor.  Zero about all axes is a point mass, which does not turn.
+    velocity
+        Velocity of the centre at the start [m/s].
+    spin
+        Angular velocity at the start [rad/s]: one component in the plane, three in space.
+
+    Raises
+    ------
+    InputError
+        If the mass is not positive, a shape does not fit, or no matter has these moments of inertia.
+
+    Examples
+    --------
+    >>> rod = Rigid(mass=2.0, centre=(0.5, 0.0), inertia=2.0 / 12.0)
+    >>> rod.dim, rod.tensor[2, 2].round(4).item()
+    (2, 0.1667)
+    """
+
+    mass: Kilogram
+    centre: tuple[Metre, ...]
+    inertia: Inertia = 0.0
+    velocity: tuple[MetrePerSecond, ...] | None = None
+    spin: RadianPerSecond | tuple[RadianPerSecond, ...] = 0.0
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.mass) and self.mass > 0.0):
+            raise InputError("mass", f"{self.mass:g} kg is not positive", "the mass of the body")
+        if len(self.centre) not in (2, 3) or not np.isfinite(np.asarray(self.centre, float)).all():
+            raise InputError("centre", f"{self.centre} is no place", "two coordinates in the plane, three in space")
+        if self.velocity is not None and np.shape(self.velocity) != (self.dim,):
+            raise InputError("velocity", f"{self.velocity} for a body in {self.dim}D", f"{self.dim} components")
+        shapes: tuple[tuple[int, ...], ...] = ((),) if self.dim == 2 else ((), (3,))
+        if np.shape(self.spin) not in shapes or (self.dim == 3 and np.shape(self.spin) == () and self.spin != 0.0):
+            what = "one component, about the normal of the plane" if self.dim == 2 else "three components"
+            raise InputError("spin", f"{self.spin} for a body in {self.dim}D", what)
+        _require_inertia(self.tensor)
+
+    @property
+    def dim(self) -> int:
+        """2 in the plane, 3 in space."""
+        return len(self.centre)
+
+    @property
+    def tensor(self) -> Array:
+        """Inertia (3, 3) about the centre [kg m^2]; in the plane only about its normal."""
+        given = np.asarray(self.inertia, float)
+        if self.dim == 2:
+            if given.shape != ():
+                raise InputError("inertia", f"{self.inertia} for a body in the plane", "one moment of inertia")
+            return np.diag([0.0, 0.0, float(given)])
+        if given.shape == () and not given.any():
+            return np.zeros((3, 3))
+        if given.shape not in ((3,), (3, 3)):
+            raise InputError("inertia", f"{self.inertia} for a body in space", "three principal moments, or the tensor")
+        return np.diag(given) if given.shape == (3,) else given
+
+    @property
+    def motion(self) -> tuple[Array, Array]:
+        """Velocity of the centre (3,) and angular velocity (3,) at the start, in space."""
+        velocity, spin = np.zeros(3), np.zeros(3)
+        velocity[: self.dim] = 0.0 if self.velocity is None else self.velocity
+        if self.dim == 2:
+            spin[2] = np.asarray(self.spin, float)
+        else:
+            spin[:] = self.spin
+        return velocity, spin
+
+
+def _require_inertia(tensor: Array) -> None:
+    """Refuse an inertia that no distribution of matter has."""
+    if not np.isfinite(tensor).all() or np.abs(tensor - tensor.T).max() > ROUNDING * np.abs(tensor).max():
+        raise InputError("inertia", "is not symmetric, or not finite", "a symmetric tensor of finite numbers")
+    a, b, c = np.linalg.eigvalsh(tensor)
+    if a < -ROUNDING * c:
+        raise InputError("inertia", f"the moment of inertia {a:g} kg m^2 is negative", "moments of zero or more")
+    if (tensor[0, 0] or tensor[1, 1]) and c > (a + b) * (1.0 + ROUNDING):
+        problem = f"principal moments {a:g}, {b:g}, {c:g} kg m^2: the greatest is more than the sum of the others"
+        raise InputError("inertia", problem, "moments of a distribution of matter")
+
+
+def inverse(tensor: Array) -> Array:
+    """Inverse (3, 3) of an inertia, zero about axes without inertia."""
+    values, axes = np.linalg.eigh(tensor)
+    there = values > ROUNDING * max(float(values.max()), 1e-300)
+    turned: Array = (axes * np.where(there, 1.0 / np.where(there, values, 1.0), 0.0)) @ axes.T
+    return turned

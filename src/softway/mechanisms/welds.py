@@ -1,0 +1,92 @@
+"""Welded rigid bodies, which become one body; bodies that are welded to the ground do not move."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.errors import InputError
+from softway.mechanisms.joints import GROUND, Weld
+from softway.mechanisms.mechanism import Mechanism
+from softway.mechanisms.rigid import Rigid
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Welded:
+    """Mechanism without welds, and for each of its given bodies the name of the body that it is part of."""
+
+    mechanism: Mechanism
+    part_of: Mapping[str, str]
+
+
+def welded(mechanism: Mechanism) -> Welded:
+    """Join the welded bodies of a mechanism: mass, momentum and spin are those of the parts.
+
+    Raises
+    ------
+    InputError
+        If all bodies are welded to the ground.
+    """
+    part_of = {name: name for name in [GROUND, *mechanism.bodies]}
+    for joint in mechanism.joints.values():
+        if isinstance(joint, Weld):
+            one, other = (part_of[name] for name in joint.between)
+            kept, gone = (other, one) if other == GROUND else (one, other)
+            part_of = {name: kept if part == gone else part for name, part in part_of.items()}
+    bodies = {}
+    for name in mechanism.bodies:
+        if part_of[name] == name:
+            parts = [body for part, body in mechanism.bodies.items() if part_of[part] == name]
+            bodies[name] = parts[0] if len(parts) == 1 else _one(parts)
+    if not bodies:
+        raise InputError("joints", "weld all bodies to the ground", "a joint that lets a body move")
+    joints = {}
+    for name, joint in mechanism.joints.items():
+        between = (part_of[joint.between[0]], part_of[joint.between[1]])
+        if not isinstance(joint, Weld) and between[0] != between[1]:
+            joints[name] = replace(joint, between=between)
+    return Welded(
+        mechanism=replace(
+            mechanism,
+            bodies=bodies,
+            joints=joints,
+            springs=tuple(
+                replace(s, between=(part_of[s.between[0]], part_of[s.between[1]]))
+                for s in mechanism.springs
+                if part_of[s.between[0]] != part_of[s.between[1]]
+            ),
+            torques=tuple(replace(t, on=part_of[t.on]) for t in mechanism.torques if part_of[t.on] != GROUND),
+        ),
+        part_of=part_of,
+    )
+
+
+def _one(parts: list[Rigid]) -> Rigid:
+    """Body of several parts, by Steiner's theorem."""
+    dim, mass = parts[0].dim, np.array([part.mass for part in parts])
+    places, velocities = _in_space([part.centre for part in parts]), np.array([part.motion[0] for part in parts])
+    centre, velocity = (mass @ places) / mass.sum(), (mass @ velocities) / mass.sum()
+    tensor, momentum = np.zeros((3, 3)), np.zeros(3)
+    for part, place, moved in zip(parts, places, velocities, strict=True):
+        arm = place - centre
+        tensor += part.tensor + part.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+        momentum += part.tensor @ part.motion[1] + part.mass * np.cross(arm, moved)
+    if dim == 2:
+        spin = float(momentum[2] / tensor[2, 2])
+        return Rigid(mass=float(mass.sum()), centre=_as_given(centre, 2), inertia=float(tensor[2, 2]),
+                     velocity=_as_given(velocity, 2), spin=spin)  # fmt: skip
+    turning: Array = np.asarray(np.linalg.lstsq(tensor, momentum, rcond=1e-12)[0], float)
+    return Rigid(mass=float(mass.sum()), centre=_as_given(centre, 3), inertia=tuple(map(tuple, tensor.tolist())),
+                 velocity=_as_given(velocity, 3), spin=_as_given(turning, 3))  # fmt: skip
+
+
+def _in_space(places: list[tuple[float, ...]]) -> Array:
+    """Places (k, 3) of those in the plane or in space."""
+    found = np.zeros((len(places), 3))
+    found[:, : len(places[0])] = places
+    return found
+
+
+def _as_given(vector: Array, dim: int) -> tuple[float, ...]:
+    return tuple(vector[:dim].tolist())
