@@ -57,6 +57,13 @@ CASES: Mapping[str, tuple[float, str]] = {
     "E04": (4.0, "forming.e04_viscous_slice"),
     "E05": (6.0, "forming.e05_necking_strip"),
     "E06": (1.5, "forming.e06_plastic_upsetting"),
+    "F01": (3.0, "mechanisms.f01_pendulum"),
+    "F02": (1.0, "mechanisms.f02_double_pendulum"),
+    "F03": (10.0, "mechanisms.f03_four_bar_loops"),
+    "F04": (4.0, "mechanisms.f04_slider_crank"),
+    "F05": (3.0, "mechanisms.f05_squeezer"),
+    "F11": (0.5, "mechanisms.f11_free_top"),
+    "F12": (3.0, "mechanisms.f12_bricard"),
     "classic": (1.0, "classic"),
     "peers": (3.0, "peers"),
 }

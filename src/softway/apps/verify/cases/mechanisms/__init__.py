@@ -1,0 +1,1 @@
+"""Cases of group F: rigid bodies and mechanisms."""

@@ -1,0 +1,12 @@
+"""Mechanisms of rigid bodies with known motions: every quantity is within its tolerance."""
+
+import pytest
+
+import results
+
+CASES = ("F01", "F02", "F03", "F04", "F05", "F11", "F12")
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_case(case: str) -> None:
+    assert results.missed(case) == set()
