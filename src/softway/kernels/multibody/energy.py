@@ -7,6 +7,7 @@ to the mean rigid motion of a group is scaled until the energy is that which the
 import numpy as np
 
 from softway.kernels.jit.compilation import kernel
+from softway.kernels.multibody.band import factor_band, solve_band
 from softway.kernels.multibody.forces import spring_vector
 from softway.kernels.multibody.joint_rows import turned_back
 from softway.kernels.multibody.rotations import in_space
@@ -95,11 +96,23 @@ def _mean_motion(bodies, motion, space, group, mean):
                 spin[j] += own[i, j, c] * turning
                 total[c, j] += own[i, c, j] - m * arm[c] * arm[j]
             total[c, c] += m * (x * x + y * y + z * z)
-    mean[2] = np.linalg.lstsq(total, spin, 1e-12)[0]
+    _solve(total, spin, mean[2])
     energy = 0.0
     for c in range(3):
         energy += 0.5 * mass * mean[1, c] ** 2 + 0.5 * spin[c] * mean[2, c]
     return energy
+
+
+@kernel
+def _solve(matrix, b, x):
+    """Solution x (3,) of a symmetric positive semidefinite system; zero along dependent rows."""
+    band, lower, pivot = np.zeros((3, 3)), np.zeros((3, 3)), np.zeros(3)
+    for i in range(3):
+        x[i] = b[i]
+        for j in range(i + 1):
+            band[i, i - j] = matrix[i, j]
+    factor_band(band, lower, pivot)
+    solve_band(lower, pivot, x)
 
 
 @kernel
