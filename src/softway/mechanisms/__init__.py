@@ -15,19 +15,25 @@ from softway.mechanisms.mechanism import Mechanism as Mechanism
 from softway.mechanisms.rigid import Rigid as Rigid
 from softway.mechanisms.springs import Spring as Spring
 from softway.mechanisms.springs import Torque as Torque
+from softway.mechanisms.stops import DistanceStop as DistanceStop
+from softway.mechanisms.stops import PlaneStop as PlaneStop
+from softway.mechanisms.stops import StopEvent as StopEvent
 
 __all__ = [
     "BallJoint",
     "BodyState",
     "Cylindrical",
+    "DistanceStop",
     "Hinge",
     "Mechanism",
     "MechanismStep",
     "PinSlot",
+    "PlaneStop",
     "Rigid",
     "Rod",
     "Slider",
     "Spring",
+    "StopEvent",
     "Torque",
     "Universal",
     "Weld",

@@ -49,6 +49,8 @@ def arrays(mechanism: Mechanism) -> Arrays:
     for name, joint in mechanism.joints.items():
         with within(f"joints.{name}"):
             rows += [(name, number[joint.between[0]], number[joint.between[1]], row) for row in joint.rows()]
+    for name, stop in mechanism.stops.items():
+        rows.append((name, number[stop.between[0]], number[stop.between[1]], stop.row()))
     joints, order = _joints(rows, centres)
     springs = _springs(mechanism, number, centres)
     bodies = _bodies(mechanism, joints, springs)

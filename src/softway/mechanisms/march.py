@@ -1,6 +1,6 @@
 """March of a mechanism: slabs (time steps) in compiled loops."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,8 +11,11 @@ from softway.kernels.multibody.energy import kinetic_energy, potential_energy
 from softway.kernels.multibody.slab import begin, end_slab, march_slabs, project_velocities
 from softway.kernels.multibody.tables import Space, space
 from softway.mechanisms.arrays import Arrays, arrays
+from softway.mechanisms.impacts import StopMarch
 from softway.mechanisms.mechanism import Mechanism
 from softway.mechanisms.newton import newton_motion
+from softway.mechanisms.stop_start import stop_march
+from softway.mechanisms.stops import StopEvent
 from softway.mechanisms.welds import Welded, welded
 from softway.units import Second
 
@@ -71,7 +74,11 @@ class MechanismStep:
     scalar
         Greatest change of the scalar of the energy from 1 since the last step.
     independent
-        Number of the joint rows that do not depend on others.
+        Number of the rows of joints and closed stops that do not depend on others.
+    events
+        Events of the stops since the last step.
+    closed
+        Names of the closed stops.
     """
 
     time: float
@@ -88,6 +95,8 @@ class MechanismStep:
     iterations: int
     scalar: float
     independent: int
+    events: tuple[StopEvent, ...] = ()
+    closed: tuple[str, ...] = ()
 
 
 def march(mechanism: Mechanism, *, until: Second, step: Second, every: int = 1) -> Iterator[MechanismStep]:
@@ -140,23 +149,31 @@ def _steps(
 ) -> Iterator[MechanismStep]:
     """States of the march."""
     room = space(len(it.names), len(it.joint_of), it.joints.width)
+    stops = stop_march(it, room, joined.mechanism.stops, mechanism.impacts) if joined.mechanism.stops else None
     begin(it.bodies, it.joints, it.springs, it.motion, room)
     project_velocities(it.bodies, it.joints, it.motion, room)
     begin(it.bodies, it.joints, it.springs, it.motion, room)
     initial = float(it.motion.energy.sum())
     told, h, done = np.zeros(3), until / slabs, 0
-    yield _step(mechanism, joined, it, room, 0.0, initial, told, 0)
+    events = [] if stops is None else stops.start(h, _extent(it))
+    yield _step(mechanism, joined, it, room, 0.0, initial, told, 0, stops, events)
     while done < slabs:
-        told[:] = 0.0
+        told[:], events = 0.0, []
         iterations, goal = 0, min(slabs, done + every)
         while done < goal:
             extent = _extent(it)
-            more, used = march_slabs(it.bodies, it.joints, it.springs, it.motion, room, h, goal - done, extent, told)
-            done, iterations = done + more, iterations + used
+            if stops is not None:
+                more, used = stops.slab(done * h, h, extent, told)
+                events += more
+                done, iterations = done + 1, iterations + used
+                continue
+            solved, used = march_slabs(it.bodies, it.joints, it.springs, it.motion, room, h, goal - done, extent, told)
+            done, iterations = done + solved, iterations + used
             if done < goal:
                 iterations += _hard_slab(it, room, done * h, h, told)
                 done += 1
-        yield _step(mechanism, joined, it, room, until if done == slabs else done * h, initial, told, iterations)
+        time = until if done == slabs else done * h
+        yield _step(mechanism, joined, it, room, time, initial, told, iterations, stops, events)
 
 
 def _extent(it: Arrays) -> float:
@@ -192,6 +209,8 @@ def _step(
     initial: float,
     told: Array,
     iterations: int,
+    stops: StopMarch | None,
+    events: Sequence[StopEvent],
 ) -> MechanismStep:
     """State as it is yielded."""
     motion, groups = it.motion, len(it.bodies.jointed)
@@ -216,6 +235,8 @@ def _step(
         iterations=iterations,
         scalar=float(told[2]),
         independent=int((room.pivot > 0.0).sum()),
+        events=tuple(events),
+        closed=() if stops is None else tuple(n for n, shut in zip(stops.names, stops.closed, strict=True) if shut),
     )
 
 

@@ -7,6 +7,7 @@ from softway.errors import InputError
 from softway.mechanisms.joints import GROUND, Joint, Rod
 from softway.mechanisms.rigid import Rigid
 from softway.mechanisms.springs import Spring, Torque
+from softway.mechanisms.stops import Impacts, Stop
 from softway.units import MetrePerSecondSquared
 
 
@@ -20,6 +21,11 @@ class Mechanism:
         Rigid bodies by name, all in the plane or all in space.
     joints
         Joints by name; ``ground`` is the body that does not move.
+    stops
+        Unilateral joints by name.
+    impacts
+        Law of impacts at several stops at once: ``simultaneous``, or ``sequential``, one after the other, each time
+        that with the greatest velocity of approach.
     springs
         Springs and dampers.
     torques
@@ -42,6 +48,8 @@ class Mechanism:
 
     bodies: Mapping[str, Rigid]
     joints: Mapping[str, Joint] = field(default_factory=dict)
+    stops: Mapping[str, Stop] = field(default_factory=dict)
+    impacts: Impacts = "simultaneous"
     springs: tuple[Spring, ...] = ()
     torques: tuple[Torque, ...] = ()
     gravity: tuple[MetrePerSecondSquared, ...] | None = None
@@ -59,6 +67,12 @@ class Mechanism:
         for name, joint in self.joints.items():
             points = joint.ends if isinstance(joint, Rod) else (joint.at,)
             self._require(f"joints.{name}", joint.between, points)
+        for name, stop in self.stops.items():
+            self._require(f"stops.{name}", stop.between, stop.places)
+        if self.impacts not in ("simultaneous", "sequential"):
+            raise InputError("impacts", f"{self.impacts!r}", "'simultaneous' or 'sequential'")
+        if twice := self.joints.keys() & self.stops.keys():
+            raise InputError("stops", f"{sorted(twice)} are names of joints, too", "other names")
         for k, spring in enumerate(self.springs):
             self._require(f"springs[{k}]", spring.between, spring.ends)
         for k, torque in enumerate(self.torques):

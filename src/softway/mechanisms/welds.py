@@ -51,6 +51,11 @@ def welded(mechanism: Mechanism) -> Welded:
             mechanism,
             bodies=bodies,
             joints=joints,
+            stops={
+                name: replace(s, between=(part_of[s.between[0]], part_of[s.between[1]]))
+                for name, s in mechanism.stops.items()
+                if part_of[s.between[0]] != part_of[s.between[1]]
+            },
             springs=tuple(
                 replace(s, between=(part_of[s.between[0]], part_of[s.between[1]]))
                 for s in mechanism.springs

@@ -53,6 +53,9 @@ def prepare_joints(bodies, joints, place, R, space):
         for c in range(6):
             total += G[i, si, c] * MG[j, sj, c]
         space.matrix[i, i - j] += total
+    for k in range(len(space.g)):
+        if space.active[k] == 0:  # a pivot of zero: the row takes no part
+            space.matrix[k, :] = 0.0
     factor_band(space.matrix, space.lower, space.pivot)
 
 
@@ -178,8 +181,9 @@ def end_slab(bodies, joints, springs, motion, space, h, told):
     project_velocities(bodies, joints, motion, space)
     told[2] = max(told[2], close_energy(bodies, springs, motion, space))
     for k in range(len(space.g)):
-        told[0] = max(told[0], abs(space.g[k]))
-        told[1] = max(told[1], abs(joint_velocity(joints, motion, space, k)))
+        if space.active[k] != 0:
+            told[0] = max(told[0], abs(space.g[k]))
+            told[1] = max(told[1], abs(joint_velocity(joints, motion, space, k)))
 
 
 @inlined
@@ -241,3 +245,45 @@ def begin(bodies, joints, springs, motion, space):
     motion.energy[:] = 0.0
     kinetic_energy(bodies, motion, motion.energy)
     potential_energy(bodies, springs, motion.place, space.R0, motion.energy)
+
+
+@kernel
+def try_slab(bodies, joints, springs, motion, space, h, extent):
+    """Solve a slab without taking it; ``space.g`` has the values of all rows at its end.  Iterations, 0 if it fails."""
+    space.kept[:] = motion.impulse
+    found = solve_motion(bodies, joints, springs, motion, space, h, extent)
+    if found == 0:
+        motion.impulse[:] = space.kept
+        return 0
+    place_ends(space.z, motion.place, space.R0, space.place, space.R1)
+    evaluate_rows(joints, motion.place, space.R0, space.place, space.R1, space.g, space.G)
+    return found
+
+
+@kernel
+def refactor(bodies, joints, motion, space):
+    """Factor of the rows that are active now, at the present state."""
+    prepare_joints(bodies, joints, motion.place, space.R0, space)
+
+
+@kernel
+def row_velocities(joints, motion, space, out):
+    """Velocities (r,) of all rows at a prepared state."""
+    for k in range(len(out)):
+        out[k] = joint_velocity(joints, motion, space, k)
+
+
+@kernel
+def push_rows(joints, motion, space, wanted):
+    """Change the velocities of the active rows by ``wanted`` (r,); afterwards ``wanted`` has the impulses."""
+    solve_band(space.lower, space.pivot, wanted)
+    for k in range(len(wanted)):
+        for side in range(2):
+            i = joints.a[k] if side == 0 else joints.b[k]
+            for c in range(3):
+                motion.velocity[i, c] += wanted[k] * space.MG[k, side, c]
+                motion.spin[i, c] += wanted[k] * (
+                    space.R0[i, 0, c] * space.MG[k, side, 3]
+                    + space.R0[i, 1, c] * space.MG[k, side, 4]
+                    + space.R0[i, 2, c] * space.MG[k, side, 5]
+                )

@@ -81,7 +81,8 @@ class Space(NamedTuple):
     ``R0``, ``R1`` (n, 3, 3) rotations at both ends, and ``place`` (n, 3) at the end; values ``g`` (r,) and Jacobians
     ``G`` (r, 2, 6) of the rows, ``MG`` = M^-1 G^T at the start, with the ``mobility`` (n, 3, 3), the inverse inertia in
     space; ``matrix`` and ``lower`` (r, w + 1), ``pivot`` (r,) of G M^-1 G^T; motions ``z`` and ``new`` (n, 6);
-    ``force`` (n, 6) times h; ``push`` (r,) of the rows; ``kept`` (r,) impulses of the slab before.
+    ``force`` (n, 6) times h; ``push`` (r,) of the rows; ``kept`` (r,) impulses of the slab before;
+    ``active`` (r,) rows that take part: all of the joints, and the closed ones of the stops.
     """
 
     R0: Array
@@ -99,6 +100,7 @@ class Space(NamedTuple):
     force: Array
     push: Array
     kept: Array
+    active: IntArray
 
 
 def space(bodies: int, rows: int, width: int) -> Space:
@@ -121,4 +123,5 @@ def space(bodies: int, rows: int, width: int) -> Space:
         force=np.zeros((n, 6)),
         push=np.zeros(rows),
         kept=np.zeros(rows),
+        active=np.ones(rows, dtype=np.int64),
     )
