@@ -120,7 +120,7 @@ class StopMarch:
         touching = ~self.closed & (np.abs(self._gaps()) <= NEAR * extent) if span < left else none
         end_slab(self.it.bodies, self.it.joints, self.it.springs, self.it.motion, self.room, span, told)
         for k in np.flatnonzero(self.closed & ~closed):
-            events.append(StopEvent(time=time, stop=self.names[k], kind="release"))
+            events.append(StopEvent(time=float(time), stop=self.names[k], kind="release"))
         self.closed[:] = closed
         return span, touching, iterations
 
@@ -185,7 +185,7 @@ class StopMarch:
                 "velocity_after": float(after[k]),
                 "impulse": float(impulse[k]),
             }
-            events.append(StopEvent(time=time + end, stop=self.names[k], kind=kind, **told))
+            events.append(StopEvent(time=float(time + end), stop=self.names[k], kind=kind, **told))
             self.touched[k] = time
         self.closed[:] = (self.closed | touching) & (np.abs(after) <= STILL * scale)
         lost = energy - self._energy()
