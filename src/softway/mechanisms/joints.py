@@ -212,7 +212,7 @@ class Rod:
 
     def rows(self) -> list[JointRow]:
         """Rows of the joint."""
-        first, second = (_in_space(end) for end in self.ends)
+        first, second = (in_space(end) for end in self.ends)
         length = float(np.linalg.norm(second - first))
         if not length > 0.0:
             raise InputError("ends", f"both at {self.ends[0]}", "two places, or a BallJoint")
@@ -223,7 +223,7 @@ class Rod:
 Joint = BallJoint | Hinge | Weld | Slider | Cylindrical | PinSlot | Universal | Rod
 
 
-def _in_space(point: Sequence[float]) -> Array:
+def in_space(point: Sequence[float]) -> Array:
     """Point or direction (3,) of one in the plane or in space."""
     out = np.zeros(3)
     out[: len(point)] = point
@@ -234,7 +234,7 @@ def _unit(direction: Sequence[float], dim: int, where: str) -> Array:
     """Unit vector (3,)."""
     if len(direction) != dim or not np.linalg.norm(direction) > 0.0:
         raise InputError(where, f"{direction} is no direction in {dim}D", f"{dim} components, not all zero")
-    found = _in_space(direction)
+    found = in_space(direction)
     return found / float(np.linalg.norm(found))
 
 
@@ -250,7 +250,7 @@ def _axes(axis: Direction | None, joint: object) -> tuple[Array, Array, Array]:
 
 def _pinned(at: Sequence[float]) -> list[JointRow]:
     """Rows that keep two points together."""
-    point = _in_space(at)
+    point = in_space(at)
     return [
         JointRow(kind=POINT, first=point, second=point, n=np.eye(3)[k], m=np.zeros(3), value=0.0)
         for k in range(len(at))
@@ -259,7 +259,7 @@ def _pinned(at: Sequence[float]) -> list[JointRow]:
 
 def _sliding(at: Sequence[float], axis: Direction, joint: object) -> list[JointRow]:
     """Rows that keep a point of the second body on an axis of the first."""
-    point = _in_space(at)
+    point = in_space(at)
     if len(at) == 2:
         one = _unit(axis, 2, "axis")
         normals = [np.array([-one[1], one[0], 0.0])]

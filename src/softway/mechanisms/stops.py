@@ -5,10 +5,9 @@ from typing import Literal
 
 import numpy as np
 
-from softway.arrays import Array
 from softway.errors import InputError
 from softway.kernels.multibody.joint_rows import ALONG, DISTANCE
-from softway.mechanisms.joints import JointRow
+from softway.mechanisms.joints import JointRow, in_space
 from softway.units import Metre, Pure
 
 
@@ -64,9 +63,9 @@ class PlaneStop:
 
     def row(self) -> JointRow:
         """Row of the stop."""
-        normal, zero = _in_space(self.normal), np.zeros(3)
+        normal, zero = in_space(self.normal), np.zeros(3)
         normal = normal / float(np.linalg.norm(normal))
-        first, second = _in_space(self.plane), _in_space(self.point)
+        first, second = in_space(self.plane), in_space(self.point)
         return JointRow(kind=ALONG, first=first, second=second, n=normal, m=zero, value=self.radius)
 
 
@@ -113,7 +112,7 @@ class DistanceStop:
 
     def row(self) -> JointRow:
         """Row of the stop."""
-        first, second = (_in_space(point) for point in self.points)
+        first, second = (in_space(point) for point in self.points)
         return JointRow(
             kind=DISTANCE, first=first, second=second, n=np.zeros(3), m=np.zeros(3), value=float(self.distance)
         )
@@ -153,10 +152,3 @@ def _require_restitution(value: float) -> None:
     """Refuse a coefficient that creates energy, or none."""
     if not 0.0 <= value <= 1.0:
         raise InputError("restitution", f"{value:g} is not between 0 and 1", "0 for no rebound, 1 for no loss")
-
-
-def _in_space(point: tuple[float, ...]) -> Array:
-    """Place or direction (3,) of one in the plane or in space."""
-    out = np.zeros(3)
-    out[: len(point)] = point
-    return out

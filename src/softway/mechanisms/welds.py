@@ -7,7 +7,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.errors import InputError
-from softway.mechanisms.joints import GROUND, Weld
+from softway.mechanisms.joints import GROUND, Weld, in_space
 from softway.mechanisms.mechanism import Mechanism
 from softway.mechanisms.rigid import Rigid
 
@@ -70,7 +70,10 @@ def welded(mechanism: Mechanism) -> Welded:
 def _one(parts: list[Rigid]) -> Rigid:
     """Body of several parts, by Steiner's theorem."""
     dim, mass = parts[0].dim, np.array([part.mass for part in parts])
-    places, velocities = _in_space([part.centre for part in parts]), np.array([part.motion[0] for part in parts])
+    places, velocities = (
+        np.array([in_space(part.centre) for part in parts]),
+        np.array([part.motion[0] for part in parts]),
+    )
     centre, velocity = (mass @ places) / mass.sum(), (mass @ velocities) / mass.sum()
     tensor, momentum = np.zeros((3, 3)), np.zeros(3)
     for part, place, moved in zip(parts, places, velocities, strict=True):
@@ -84,13 +87,6 @@ def _one(parts: list[Rigid]) -> Rigid:
     turning: Array = np.asarray(np.linalg.lstsq(tensor, momentum, rcond=1e-12)[0], float)
     return Rigid(mass=float(mass.sum()), centre=_as_given(centre, 3), inertia=tuple(map(tuple, tensor.tolist())),
                  velocity=_as_given(velocity, 3), spin=_as_given(turning, 3))  # fmt: skip
-
-
-def _in_space(places: list[tuple[float, ...]]) -> Array:
-    """Places (k, 3) of those in the plane or in space."""
-    found = np.zeros((len(places), 3))
-    found[:, : len(places[0])] = places
-    return found
 
 
 def _as_given(vector: Array, dim: int) -> tuple[float, ...]:

@@ -207,18 +207,24 @@ def project_velocities(bodies, joints, motion, space):
     """Nearest velocities in the norm of the mass that satisfy the joints: ``v - M^-1 G^T (G M^-1 G^T)^+ G v``."""
     for _ in range(2):
         for k in range(len(space.g)):
-            space.push[k] = joint_velocity(joints, motion, space, k)
-        solve_band(space.lower, space.pivot, space.push)
-        for k in range(len(space.g)):
-            for side in range(2):
-                i = joints.a[k] if side == 0 else joints.b[k]
-                for c in range(3):
-                    motion.velocity[i, c] -= space.push[k] * space.MG[k, side, c]
-                    motion.spin[i, c] -= space.push[k] * (
-                        space.R0[i, 0, c] * space.MG[k, side, 3]
-                        + space.R0[i, 1, c] * space.MG[k, side, 4]
-                        + space.R0[i, 2, c] * space.MG[k, side, 5]
-                    )
+            space.push[k] = -joint_velocity(joints, motion, space, k)
+        push_rows(joints, motion, space, space.push)
+
+
+@kernel
+def push_rows(joints, motion, space, wanted):
+    """Change the velocities of the active rows by ``wanted`` (r,); afterwards ``wanted`` has the impulses."""
+    solve_band(space.lower, space.pivot, wanted)
+    for k in range(len(wanted)):
+        for side in range(2):
+            i = joints.a[k] if side == 0 else joints.b[k]
+            for c in range(3):
+                motion.velocity[i, c] += wanted[k] * space.MG[k, side, c]
+                motion.spin[i, c] += wanted[k] * (
+                    space.R0[i, 0, c] * space.MG[k, side, 3]
+                    + space.R0[i, 1, c] * space.MG[k, side, 4]
+                    + space.R0[i, 2, c] * space.MG[k, side, 5]
+                )
 
 
 @kernel
@@ -271,19 +277,3 @@ def row_velocities(joints, motion, space, out):
     """Velocities (r,) of all rows at a prepared state."""
     for k in range(len(out)):
         out[k] = joint_velocity(joints, motion, space, k)
-
-
-@kernel
-def push_rows(joints, motion, space, wanted):
-    """Change the velocities of the active rows by ``wanted`` (r,); afterwards ``wanted`` has the impulses."""
-    solve_band(space.lower, space.pivot, wanted)
-    for k in range(len(wanted)):
-        for side in range(2):
-            i = joints.a[k] if side == 0 else joints.b[k]
-            for c in range(3):
-                motion.velocity[i, c] += wanted[k] * space.MG[k, side, c]
-                motion.spin[i, c] += wanted[k] * (
-                    space.R0[i, 0, c] * space.MG[k, side, 3]
-                    + space.R0[i, 1, c] * space.MG[k, side, 4]
-                    + space.R0[i, 2, c] * space.MG[k, side, 5]
-                )
