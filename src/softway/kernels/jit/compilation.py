@@ -32,6 +32,7 @@ _SHARED = (
     "multibody/forces.py",
     "multibody/joint_rows.py",
     "multibody/rotations.py",
+    "multibody/slab.py",
     "multibody/tables.py",
 )
 _SOURCES = b"".join((Path(__file__).parents[1] / name).read_bytes() for name in _SHARED)
