@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components, reverse_cuthill_mckee
 
-from softway.arrays import Array, IntArray
+from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError, within
 from softway.kernels.multibody.joint_rows import ALONG, DIRECTION
 from softway.kernels.multibody.tables import Bodies, Joints, Motion, Springs
@@ -53,7 +53,8 @@ def arrays(mechanism: Mechanism) -> Arrays:
         rows.append((name, number[stop.between[0]], number[stop.between[1]], stop.row()))
     joints, order = _joints(rows, centres)
     springs = _springs(mechanism, number, centres)
-    bodies = _bodies(mechanism, joints, springs)
+    fixed = np.array([rows[k][0] not in mechanism.stops for k in order], dtype=bool)
+    bodies = _bodies(mechanism, joints, springs, fixed)
     _require_inertia(mechanism, [rows[k] for k in order], centres, number)
     return Arrays(
         bodies=bodies,
@@ -140,17 +141,19 @@ def _rest(spring: Spring, length: float) -> float:
     return length if spring.rest is None else spring.rest
 
 
-def _bodies(mechanism: Mechanism, joints: Joints, springs: Springs) -> Bodies:
-    """Table of the bodies, and their groups: bodies connected by joints or springs."""
+def _bodies(mechanism: Mechanism, joints: Joints, springs: Springs, fixed: BoolArray) -> Bodies:
+    """Table of the bodies, and their groups: bodies connected by joints, stops or springs.
+
+    The ``fixed`` rows (r,), those of joints, hold their group if they lead to the ground; closed stops do, too.
+    """
     given, ground = list(mechanism.bodies.values()), len(mechanism.bodies)
     first, second = np.concatenate([joints.a, springs.a]), np.concatenate([joints.b, springs.b])
     inner = (first != ground) & (second != ground)
     links = sp.coo_array((np.ones(inner.sum()), (first[inner], second[inner])), shape=(ground, ground))
     groups, group = connected_components(links, directed=False)
     held = np.zeros(groups, dtype=np.int64)
-    for one, other in zip(first.tolist(), second.tolist(), strict=True):
-        if ground in (one, other):
-            held[group[min(one, other)]] = 1
+    holds = np.concatenate([fixed, np.ones(len(springs.a), bool)]) & ~inner
+    held[group[np.minimum(first, second)[holds]]] = 1
     jointed = np.zeros(groups, dtype=np.int64)
     jointed[group[np.minimum(joints.a, joints.b)]] = 1
     loaded = mechanism.gravity is not None and any(mechanism.gravity)

@@ -122,6 +122,7 @@ class StopMarch:
         for k in np.flatnonzero(self.closed & ~closed):
             events.append(StopEvent(time=float(time), stop=self.names[k], kind="release"))
         self.closed[:] = closed
+        self._hold(self.it.bodies.supported)
         return span, touching, iterations
 
     def _closed_in(self, span: float, extent: float) -> tuple[BoolArray | None, int]:

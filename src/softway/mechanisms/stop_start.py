@@ -4,7 +4,6 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from softway.arrays import IntArray
 from softway.kernels.multibody.tables import Space
 from softway.mechanisms.arrays import Arrays
 from softway.mechanisms.impacts import StopMarch
@@ -24,18 +23,7 @@ def stop_march(it: Arrays, room: Space, stops: Mapping[str, Stop], law: Impacts)
         restitution=np.array([stop.restitution for stop in given]),
         names=tuple(it.joint_of[k] for k in rows),
         law=law,
-        held=_held(it, rows),
+        held=it.bodies.supported.copy(),
         closed=np.zeros(len(rows), bool),
         touched=np.full(len(rows), -np.inf),
     )
-
-
-def _held(it: Arrays, stops: IntArray) -> IntArray:
-    """Groups (g,) that the ground holds by joints, springs or torques."""
-    ground, held = len(it.names), np.zeros(len(it.bodies.jointed), dtype=np.int64)
-    joints = np.setdiff1d(np.arange(len(it.joint_of)), stops)
-    for a, b in ((it.joints.a[joints], it.joints.b[joints]), (it.springs.a, it.springs.b)):
-        both = np.stack([a, b])
-        held[it.bodies.group[both.min(axis=0)[(both == ground).any(axis=0)]]] = 1
-    held[it.bodies.group[it.springs.turned]] = 1
-    return held

@@ -138,6 +138,21 @@ def test_a_hinged_door_that_hits_its_stop_loses_by_restitution() -> None:
     assert steps[-1].dissipation == pytest.approx(0.5 * (1.0 - 0.25), rel=1e-12)
 
 
+def test_an_open_stop_does_not_hold_a_free_mechanism() -> None:
+    """Two hinged bodies fly above a floor that they do not reach: momentum and spin stay."""
+    bodies = {
+        "a": Rigid(mass=1.0, centre=(0.0, 5.0), inertia=0.1, velocity=(1.0, 0.3), spin=4.0),
+        "b": Rigid(mass=2.0, centre=(1.0, 5.0), inertia=0.3, velocity=(-0.5, 0.1), spin=-3.0),
+    }
+    hinge = Hinge(between=("a", "b"), at=(0.4, 5.0))
+    floor = PlaneStop(between=("ground", "a"), point=(0.0, 5.0), plane=(0.0, 0.0), normal=(0.0, 1.0))
+    mechanism = Mechanism(bodies=bodies, joints={"hinge": hinge}, stops={"floor": floor})
+    found, steps = events(mechanism, 2.0, 0.02)
+    assert not found and max(s.scalar for s in steps) > 1e-9
+    np.testing.assert_allclose([s.momentum for s in steps], [steps[0].momentum] * len(steps), atol=1e-13)
+    np.testing.assert_allclose([s.spin for s in steps], [steps[0].spin] * len(steps), atol=1e-12)
+
+
 def test_an_overlap_at_the_start_is_refused() -> None:
     floor = PlaneStop(between=("ground", "b"), point=(0.0, 0.5), plane=(0.0, 0.0), normal=(0.0, 1.0), radius=0.6)
     mechanism = Mechanism(bodies={"b": Rigid(mass=1.0, centre=(0.0, 0.5))}, stops={"floor": floor})
