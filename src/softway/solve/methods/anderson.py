@@ -51,10 +51,13 @@ class Anderson:
         self.count, self.last = 0, None
 
     def mix(self, x: Array, value: Array) -> Array:
-        """Next argument (f,), from an argument ``x`` (f,) of the map and its ``value`` (f,)."""
+        """Next argument (g,), from an argument ``x`` (f,) of the map and its ``value`` (g,).
+
+        Entries of the value beyond those of ``x`` are mixed with the same weights.
+        """
         if self.depth == 0:
             return value
-        residual = value - x
+        residual = value[: len(x)] - x
         if self.last is not None:
             self._keep(residual - self.last[0], value - self.last[1])
         self.last = residual, value

@@ -146,7 +146,11 @@ def _starts_flowing(system: SlabEquations) -> bool:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Mixing:
-    """Accelerator of the velocities, and of the impulses too if the operator solves for contact approximately."""
+    """Accelerator of velocities and impulses: the residuals and closures of the map depend on both.
+
+    The residual to be minimised contains the impulses only if the operator solves for contact approximately: an exact
+    one gives those of the mixed velocities, up to higher order.
+    """
 
     accelerator: Anderson
     frozen: FrozenOperator
@@ -155,7 +159,8 @@ class _Mixing:
     def mixed(self, x: tuple[Array, Array], value: tuple[Array, Array]) -> tuple[Array, Array]:
         """Next velocities (f,) and impulses (m,), from the arguments ``x`` of the map and its ``value``."""
         if self.frozen.exact:
-            return self.accelerator.mix(x[0], value[0]), value[1]
+            found = self.accelerator.mix(x[0], np.concatenate(value))
+            return found[: len(x[0])], found[len(x[0]) :]
         unit = self.space.greatest(self.frozen.solve_push(np.ones(self.frozen.basis.directions.shape[1])))
         scale = np.concatenate([np.ones(len(x[0])), np.full(len(x[1]), unit)])
         found = self.accelerator.mix(scale * np.concatenate(x), scale * np.concatenate(value))

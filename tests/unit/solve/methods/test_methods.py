@@ -202,11 +202,12 @@ def test_an_iteration_at_the_rounding_level_is_accepted(block: Callable[..., Mod
     q = system.start.velocity
     scale = np.abs(q).max()
 
-    def stuck(change: float, sound_from: int = 0) -> Iterator[Iterate]:
+    def stuck(change: float, sound_from: int = 0, falls_at: int = 1000) -> Iterator[Iterate]:
         none = np.zeros(len(system.contact.conditions.target))
         for k in count():
+            left = change * scale * (1e-3 if k >= falls_at else 1.0)
             yield Iterate(
-                q=q, change=change * scale, impulse=none, active=none > 0, free=none, memory=OperatorMemory(),
+                q=q, change=left, impulse=none, active=none > 0, free=none, memory=OperatorMemory(),
                 system=system, sound=k >= sound_from,
             )  # fmt: skip
 
@@ -222,6 +223,8 @@ def test_an_iteration_at_the_rounding_level_is_accepted(block: Callable[..., Mod
         taken(5e-8, tolerance=1e-10)
     with pytest.raises(NoConvergence):
         next(iterate(system, stuck(5e-8), 1e-11, 60))
+    falling = iterate(system, stuck(5e-10, falls_at=9), 1e-11, 60)
+    assert [solution.iterations for solution in falling] == [7, 10], "refused at a standstill, it may still converge"
 
 
 def test_a_method_may_be_cancelled_after_any_iterate(block: Callable[..., Model]) -> None:
@@ -246,6 +249,18 @@ def test_values_that_add_nothing_do_not_disturb_the_mixing() -> None:
         for k in range(20):
             x = mixing.mix(x, matrix @ x + 1.0)
             assert k < 2 or x == pytest.approx(np.linalg.solve(np.eye(2) - matrix, np.ones(2)), rel=1e-12)
+
+
+def test_what_follows_from_the_unknowns_is_mixed_with_them() -> None:
+    """The map depends on its last value, too, as equations of velocities on impulses that its last step gave."""
+    matrix, follows = np.array([[0.5, 0.2], [0.0, -0.9]]), np.array([2.0, -1.0])
+    mixing, x, last = Anderson(2), np.zeros(2), 0.0
+    for _ in range(5):
+        value = matrix @ x + 0.3 * last + 1.0
+        mixed = mixing.mix(x, np.append(value, follows @ x))
+        x, last = mixed[:2], float(mixed[2])
+    whole = np.eye(2) - matrix - 0.3 * follows
+    assert x == pytest.approx(np.linalg.solve(whole, np.ones(2)), rel=1e-9)
 
 
 def test_a_lost_iterate_has_an_infinite_change(block: Callable[..., Model]) -> None:
