@@ -144,7 +144,7 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
             closest, end = it.change, it.system.evaluate(it.q, it.impulse)
             fell = contraction(first, it.change, count)
             yield Solution(last=it, end=end, predicted=predicted, iterations=count, contraction=fell)
-            if not near or it.change <= FINEST * scale:
+            if it.change <= FINEST * scale:
                 return
         if closest < np.inf and seen.since >= PATIENCE:
             return
