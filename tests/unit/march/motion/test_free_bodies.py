@@ -174,7 +174,10 @@ def test_bodies_do_not_feel_each_other(shop) -> None:
 
 
 def test_a_body_that_flies_unstrained_has_no_scalar(shop) -> None:
-    """Its forces are rounding errors, and a scalar that closed their work would be by chance, in every iterate."""
+    """Its forces are rounding errors, and a scalar that closed their work would be by chance, in every iterate.
+
+    Relative to the kinetic energy, their work in one slab is of the order eps E / (rho v^2); in many, a random walk.
+    """
     ring = Solid(
         mesh=Ring(inner=0.026, outer=0.03, cells=(2, 12)),
         material=NeoHookean(E=1e8, nu=0.4),
@@ -186,5 +189,6 @@ def test_a_body_that_flies_unstrained_has_no_scalar(shop) -> None:
     flight = shop.move(ring, {"wall": far}, tag="outer", until=4e-3, step=1e-4)
     assert len(flight.steps) == 40
     assert all(s.report.scalars["body"] == 0.0 for s in flight.steps)
-    assert abs(flight.last.ledger.energy_error) < 1e-12 * flight.last.ledger.energy_kinetic
+    rounding = np.finfo(float).eps * 1e8 / (1100.0 * (3.0**2 + 1.0**2))
+    assert abs(flight.last.ledger.energy_error) < np.sqrt(40) * rounding * flight.last.ledger.energy_kinetic
     assert max(s.report.iterations for s in flight.steps) <= 2
