@@ -10,10 +10,10 @@ from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError, within
 from softway.kernels.multibody.joint_rows import ALONG, DIRECTION
 from softway.kernels.multibody.tables import Bodies, Joints, Motion, Springs
-from softway.mechanisms.joints import GROUND, JointRow
-from softway.mechanisms.mechanism import Mechanism
-from softway.mechanisms.rigid import inverse
-from softway.mechanisms.springs import Spring
+from softway.mechanisms.members.joints import GROUND, JointRow
+from softway.mechanisms.members.mechanism import Mechanism
+from softway.mechanisms.members.rigid import inverse
+from softway.mechanisms.members.springs import Spring
 
 FELT = 1e-9
 """Arm about an axis without inertia, relative to the greatest, below which a joint does not turn about it."""

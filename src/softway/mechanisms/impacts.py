@@ -16,7 +16,7 @@ from softway.kernels.multibody.energy import kinetic_energy
 from softway.kernels.multibody.slab import end_slab, push_rows, refactor, row_velocities, try_slab
 from softway.kernels.multibody.tables import Space
 from softway.mechanisms.arrays import Arrays
-from softway.mechanisms.stops import Impacts, StopEvent
+from softway.mechanisms.members.stops import Impacts, StopEvent
 
 TOUCH = 1e-14
 """Gap relative to the extent that is rounding."""

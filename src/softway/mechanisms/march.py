@@ -12,10 +12,10 @@ from softway.kernels.multibody.slab import begin, end_slab, march_slabs, project
 from softway.kernels.multibody.tables import Space, space
 from softway.mechanisms.arrays import Arrays, arrays
 from softway.mechanisms.impacts import StopMarch
-from softway.mechanisms.mechanism import Mechanism
+from softway.mechanisms.members.mechanism import Mechanism
+from softway.mechanisms.members.stops import StopEvent
 from softway.mechanisms.newton import newton_motion
 from softway.mechanisms.stop_start import stop_march
-from softway.mechanisms.stops import StopEvent
 from softway.mechanisms.welds import Welded, welded
 from softway.units import Second
 

@@ -7,7 +7,7 @@ import numpy as np
 from softway.kernels.multibody.tables import Space
 from softway.mechanisms.arrays import Arrays
 from softway.mechanisms.impacts import StopMarch
-from softway.mechanisms.stops import Impacts, Stop
+from softway.mechanisms.members.stops import Impacts, Stop
 
 
 def stop_march(it: Arrays, room: Space, stops: Mapping[str, Stop], law: Impacts) -> StopMarch:

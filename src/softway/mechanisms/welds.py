@@ -7,9 +7,9 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.errors import InputError
-from softway.mechanisms.joints import GROUND, Weld, in_space
-from softway.mechanisms.mechanism import Mechanism
-from softway.mechanisms.rigid import Rigid
+from softway.mechanisms.members.joints import GROUND, Weld, in_space
+from softway.mechanisms.members.mechanism import Mechanism
+from softway.mechanisms.members.rigid import Rigid
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -20,7 +20,7 @@ from softway.mechanisms import (
     Weld,
     march,
 )
-from softway.mechanisms.joints import Joint
+from softway.mechanisms.members.joints import Joint
 
 AT = (0.6, 0.1, -0.2)
 AXIS = np.array([1.0, 2.0, 2.0]) / 3.0

@@ -18,7 +18,7 @@ from softway.mechanisms import (
     Torque,
     march,
 )
-from softway.mechanisms.joints import Joint
+from softway.mechanisms.members.joints import Joint
 
 GRAVITY = (0.0, -9.81)
 

@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from softway.errors import InputError
-from softway.mechanisms.joints import GROUND, Joint, Rod
-from softway.mechanisms.rigid import Rigid
-from softway.mechanisms.springs import Spring, Torque
-from softway.mechanisms.stops import Impacts, Stop
+from softway.mechanisms.members.joints import GROUND, Joint, Rod
+from softway.mechanisms.members.rigid import Rigid
+from softway.mechanisms.members.springs import Spring, Torque
+from softway.mechanisms.members.stops import Impacts, Stop
 from softway.units import MetrePerSecondSquared
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from softway.errors import InputError
 from softway.kernels.multibody.joint_rows import ALONG, DISTANCE
-from softway.mechanisms.joints import JointRow, in_space
+from softway.mechanisms.members.joints import JointRow, in_space
 from softway.units import Metre, Pure
 
 

@@ -1,0 +1,1 @@
+"""What a mechanism consists of: rigid bodies, joints, stops, springs and torques."""
