@@ -8,7 +8,7 @@ from scipy.sparse.csgraph import connected_components, reverse_cuthill_mckee
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError, within
-from softway.kernels.multibody.joint_rows import ALONG, DIRECTION
+from softway.kernels.multibody.joint_rows import ALONG, DIRECTION, SLIDE
 from softway.kernels.multibody.tables import Bodies, Joints, Motion, Springs
 from softway.mechanisms.members.joints import GROUND, JointRow
 from softway.mechanisms.members.mechanism import Mechanism
@@ -49,8 +49,10 @@ def arrays(mechanism: Mechanism) -> Arrays:
     for name, joint in mechanism.joints.items():
         with within(f"joints.{name}"):
             rows += [(name, number[joint.between[0]], number[joint.between[1]], row) for row in joint.rows()]
+    rough = any(stop.friction for stop in mechanism.stops.values())
     for name, stop in mechanism.stops.items():
-        rows.append((name, number[stop.between[0]], number[stop.between[1]], stop.row()))
+        found = [stop.row(), *(stop.tangential_rows() if rough else [])]
+        rows += [(name, number[stop.between[0]], number[stop.between[1]], row) for row in found]
     joints, order = _joints(rows, centres)
     springs = _springs(mechanism, number, centres)
     fixed = np.array([rows[k][0] not in mechanism.stops for k in order], dtype=bool)
@@ -199,7 +201,7 @@ def _require_inertia(
     names = list(number)
     for name, a, b, row in rows:
         for i, point, turning in (
-            (a, row.first, row.kind in (ALONG, DIRECTION)),
+            (a, row.first, row.kind in (ALONG, DIRECTION, SLIDE)),
             (b, row.second, row.kind == DIRECTION),
         ):
             if names[i] == GROUND:

@@ -1,7 +1,8 @@
-"""March of a mechanism with stops: touches at instants inside a slab (time step), impacts, rest, and release.
+"""March of a mechanism with stops: touches at instants inside a slab (time step), impacts, rest, release, friction.
 
-A gap that closes inside a slab ends a part of the slab at that instant, and the impact follows there.  Without friction
-the impulses of closed stops do no work (docs/theory/mechanisms.md).
+A gap that closes inside a slab ends a part of the slab at that instant, and the impact follows there.  The impulses of
+closed stops obey the laws of contact on places over the slab, and with those at its end on velocities
+(docs/theory/mechanisms.md).
 """
 
 from dataclasses import dataclass
@@ -12,8 +13,9 @@ from scipy.optimize import brentq
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError, NumericsError
-from softway.kernels.multibody.energy import kinetic_energy
-from softway.kernels.multibody.slab import end_slab, push_rows, refactor, row_velocities, try_slab
+from softway.kernels.multibody.contact import book_slab, collide, solve_contact_slab
+from softway.kernels.multibody.energy import close_energy, kinetic_energy
+from softway.kernels.multibody.slab import refactor, row_velocities, take_motion, tell_joints
 from softway.kernels.multibody.tables import Space
 from softway.mechanisms.arrays import Arrays
 from softway.mechanisms.members.stops import Impacts, StopEvent
@@ -26,12 +28,8 @@ STILL = 1e-9
 """Velocity relative to the greatest at which a stop is closed after an impact."""
 SHORT = 1e-4
 """Flight between two touches of a stop, relative to the slab, below which it comes to rest."""
-PULL = 1e-13
-"""Pull of a stop, relative to the greatest impulse or momentum, that is rounding."""
-ROUNDING = 4e-15
-"""Rounding error of a place relative to the extent, over half a slab."""
-EXCHANGES = 50
-"""Greatest number of exchanges of active stops in a slab or an impact."""
+SLIP = 1e-9
+"""Friction, relative to its limit, that is rounding below it."""
 BLOWS = 10_000
 """Greatest number of blows of a sequential impact, and of touches in a slab."""
 HALVINGS = 50
@@ -46,16 +44,19 @@ class StopMarch:
     ----------
     it, room
         Arrays of the mechanism, and work space.
-    rows, sign, restitution
-        (s,) rows of the stops in the table of the joints, signs of their gaps, and coefficients of restitution.
+    rows
+        (s, d) rows of the stops in the table of the joints: the normal one, and the tangential ones if there is
+        friction.
+    restitution, friction
+        (s,) coefficients.
     names
         Names of the stops.
     law
         Law of impacts at several stops at once.
     held
         (g,) groups that the ground holds by joints.
-    closed
-        (s,) stops that are closed.
+    closed, sliding
+        (s,) stops that are closed, and those whose places of contact slide.
     touched
         (s,) instants of the last touches [s].
     """
@@ -63,12 +64,13 @@ class StopMarch:
     it: Arrays
     room: Space
     rows: IntArray
-    sign: Array
     restitution: Array
+    friction: Array
     names: tuple[str, ...]
     law: Impacts
     held: IntArray
     closed: BoolArray
+    sliding: BoolArray
     touched: Array
 
     def start(self, h: float, extent: float) -> list[StopEvent]:
@@ -103,47 +105,64 @@ class StopMarch:
         """Take a part of the slab up to the next touch: its length, the touching stops, and the iterations."""
         span, iterations, none = left, 0, np.zeros(len(self.rows), bool)
         for _ in range(HALVINGS):
-            closed, used = self._closed_in(span, extent)
+            used = self._tried(span, extent)
             iterations += used
-            if closed is not None:
+            if used:
                 break
             span *= 0.5
         else:
             raise NumericsError(f"a slab of {span:.3g} s has no solution", time, "a shorter step")
-        tolerance = TOUCH * extent
-        if (self._gaps()[~self.closed] < -tolerance).any():
+        if (self._gaps()[~self.closed] < -TOUCH * extent).any():
             found = self._first_touch(span, extent)
             if found is None:
                 return 0.0, ~self.closed & (self._at_state() <= NEAR * extent), iterations
             span, used = found
             iterations += used
         touching = ~self.closed & (np.abs(self._gaps()) <= NEAR * extent) if span < left else none
-        end_slab(self.it.bodies, self.it.joints, self.it.springs, self.it.motion, self.room, span, told)
+        closed = self._taken(span, extent, told)
         for k in np.flatnonzero(self.closed & ~closed):
             events.append(StopEvent(time=float(time), stop=self.names[k], kind="release"))
         self.closed[:] = closed
         self._hold(self.it.bodies.supported)
         return span, touching, iterations
 
-    def _closed_in(self, span: float, extent: float) -> tuple[BoolArray | None, int]:
-        """Closed stops that push in a slab, of those that are closed at its start; None if it has no solution."""
-        closed, iterations = self.closed.copy(), 0
-        for _ in range(EXCHANGES):
-            self._activate(closed)
-            used = try_slab(*self._tables, span, extent)
-            iterations += used
-            if not used:
-                return None, iterations
-            push, gap = self.sign * self.it.motion.impulse[self.rows], self._gaps()
-            under = self.closed & ~closed & (gap < -TOUCH * extent)
-            pulled = closed & (push < -max(PULL * float(np.abs(push).max()), self._rounding(span, extent)))
-            if pulled.any():
-                closed[np.argmin(np.where(pulled, push, np.inf))] = False
-            elif under.any():
-                closed = closed | under
-            else:
-                return closed, iterations
-        return None, iterations
+    def _tried(self, span: float, extent: float) -> int:
+        """Solve a slab with the closed stops, without taking it; the number of iterations, 0 if it has no solution."""
+        rows, friction = self._closed_rows()
+        self.it.motion.impulse[self.rows[~self.closed].ravel()] = 0.0
+        used: int = solve_contact_slab(*self._tables, rows, friction, span, extent)
+        return used
+
+    def _taken(self, span: float, extent: float, told: Array) -> BoolArray:
+        """Take the slab that was tried; stops (s,) that are closed at its end.
+
+        The energy that joints and stops took from the velocities at the end is given back, but not that of stops that
+        slide or begin to stick.
+        """
+        it, (rows, friction) = self.it, self._closed_rows()
+        book_slab(it.bodies, it.joints, it.motion, self.room, rows, span)
+        take_motion(*self._tables, span)
+        through = it.motion.impulse[rows]
+        normal, tangential = self._split(through)
+        sticks = ~self.sliding[self.closed] & (tangential < (1.0 - SLIP) * friction * normal)
+        steady = bool(((normal > 0.0) & ((friction == 0.0) | sticks)).all())
+        if not steady:
+            told[2] = max(told[2], close_energy(it.bodies, it.springs, it.motion, self.room))
+        total, energy = through.copy(), self._energy()
+        if len(rows):
+            collide(it.bodies, it.joints, it.motion, self.room, rows, friction, through, 0.0 * friction, total)
+        if steady:
+            told[2] = max(told[2], close_energy(it.bodies, it.springs, it.motion, self.room))
+        else:
+            self._lose(energy - self._energy())
+        tell_joints(it.joints, it.motion, self.room, told)
+        closed, speed = self.closed.copy(), self._speeds()
+        self._see_sliding()
+        closed[self.closed] = (self._split(total)[0] > 0.0) | (
+            (self._gaps()[self.closed] <= NEAR * extent)
+            & (speed[self.closed] <= STILL * float(np.abs(it.motion.velocity).max()))
+        )
+        return closed
 
     def _first_touch(self, span: float, extent: float) -> tuple[float, int] | None:
         """Length at which the first gap closes, with its solution in the work space; None if none opens before."""
@@ -151,7 +170,7 @@ class StopMarch:
 
         def least(length: float) -> float:
             self.it.motion.impulse[:] = kept * length
-            used = try_slab(*self._tables, length, extent)
+            used = self._tried(length, extent)
             counted[0] += used
             return float(self._gaps()[~self.closed].min()) if used else -np.inf
 
@@ -168,15 +187,18 @@ class StopMarch:
 
     def _impact(self, time: float, h: float, touching: BoolArray, extent: float, events: list[StopEvent]) -> None:
         """Impact of the touching stops, with those that are closed."""
-        motion, bodies = self.it.motion, self.it.bodies
         before, energy = self._speeds(), self._energy()
         hits = touching & (before < 0.0)
         resting = hits & (time - self.touched < SHORT * h) & (self.restitution < 1.0)
         ratio = np.where(resting, 0.0, self.restitution)
+        impulse = np.zeros(len(self.rows))
         if self.law == "simultaneous":
-            impulse = self._simultaneous(hits, before, ratio)
+            solved = self._collide(self.closed | touching, np.where(hits, ratio, 0.0), impulse)
         else:
-            impulse = self._sequential(touching, ratio)
+            solved = self._sequential(touching, ratio, impulse)
+        if not solved:
+            names = ", ".join(self.names[k] for k in np.flatnonzero(self.closed | touching))
+            raise NumericsError(f"the impact of {names} has no solution", time, "less friction, or sequential impacts")
         after, scale = self._speeds(), float(np.abs(before).max())
         for k in np.flatnonzero(hits):
             end = (time - self.touched[k]) * self.restitution[k] / (1.0 - self.restitution[k]) if resting[k] else 0.0
@@ -189,79 +211,69 @@ class StopMarch:
             events.append(StopEvent(time=float(time + end), stop=self.names[k], kind=kind, **told))
             self.touched[k] = time
         self.closed[:] = (self.closed | touching) & (np.abs(after) <= STILL * scale)
-        lost = energy - self._energy()
-        motion.work[1] += float(lost.sum())
-        motion.energy[:] -= lost
-        motion.impulse[self.rows] = 0.0
-        self._hold(bodies.supported)
+        self._lose(energy - self._energy())
+        self._see_sliding()
+        self.it.motion.impulse[self.rows.ravel()] = 0.0
+        self._hold(self.it.bodies.supported)
 
-    def _simultaneous(self, hits: BoolArray, before: Array, ratio: Array) -> Array:
-        """All stops that push take part at once: each ends with the velocity of its restitution; impulses (s,)."""
-        motion = self.it.motion
-        velocity, spin, active = motion.velocity.copy(), motion.spin.copy(), self.closed | hits
-        for _ in range(EXCHANGES):
-            motion.velocity[:], motion.spin[:] = velocity, spin
-            self._activate(active)
-            wanted = np.zeros(len(self.room.g))
-            wanted[self.rows] = np.where(hits, -(1.0 + ratio) * before, -before) * self.sign
-            impulse = self._pushed(wanted)
-            pulled = active & (impulse < -PULL * float(np.abs(impulse).max()))
-            missed = (
-                (self.closed | hits)
-                & ~active
-                & (self._speeds() < -ratio * before - STILL * float(np.abs(before).max()))
-            )
-            if pulled.any():
-                active[np.argmin(np.where(pulled, impulse, np.inf))] = False
-            elif missed.any():
-                active = active | missed
-            else:
-                break
-        return np.where(active, impulse, 0.0)
+    def _collide(self, these: BoolArray, ratio: Array, impulse: Array) -> bool:
+        """Impact at some stops (s,) at once with ratios of their velocities; their normal impulses are added.
 
-    def _sequential(self, touching: BoolArray, ratio: Array) -> Array:
-        """One stop after the other, each time that with the greatest velocity of approach; impulses (s,)."""
-        total, near = np.zeros(len(self.rows)), self.closed | touching
-        scale = float(np.abs(self._speeds()).max())
+        False if it has no solution.
+        """
+        rows = self.rows[these].ravel()
+        found = np.zeros(len(rows))
+        solved = collide(
+            self.it.bodies,
+            self.it.joints,
+            self.it.motion,
+            self.room,
+            rows,
+            self.friction[these],
+            np.zeros(len(rows)),
+            ratio[these],
+            found,
+        )
+        impulse[these] += self._split(found)[0]
+        return bool(solved)
+
+    def _sequential(self, touching: BoolArray, ratio: Array, impulse: Array) -> bool:
+        """One stop after the other, each time that with the greatest velocity of approach."""
+        near, scale = self.closed | touching, float(np.abs(self._speeds()).max())
         for _ in range(BLOWS):
             speed = np.where(near, self._speeds(), 0.0)
             k = int(np.argmin(speed))
             if speed[k] >= -STILL * scale:
-                break
-            only = np.arange(len(self.rows)) == k
-            self._activate(only)
-            wanted = np.zeros(len(self.room.g))
-            wanted[self.rows[k]] = -(1.0 + ratio[k]) * speed[k] * self.sign[k]
-            total += np.where(only, self._pushed(wanted), 0.0)
-        return total
+                return True
+            if not self._collide(np.arange(len(self.rows)) == k, ratio, impulse):
+                return False
+        return False
 
     @property
     def _tables(self) -> tuple[object, ...]:
         return self.it.bodies, self.it.joints, self.it.springs, self.it.motion, self.room
 
-    def _pushed(self, wanted: Array) -> Array:
-        """Impulses (s,) of the stops after the velocities of the active rows were changed by ``wanted`` (r,)."""
-        push_rows(self.it.joints, self.it.motion, self.room, wanted)
-        return self.sign * wanted[self.rows]
+    def _closed_rows(self) -> tuple[IntArray, Array]:
+        """Rows (m,) of the closed stops, and their coefficients of friction."""
+        return self.rows[self.closed].ravel(), self.friction[self.closed]
 
-    def _activate(self, closed: BoolArray) -> None:
-        """Let these stops take part, and the joints."""
-        self.room.active[self.rows] = closed
-        self.it.motion.impulse[self.rows[~closed]] = 0.0
-        refactor(self.it.bodies, self.it.joints, self.it.motion, self.room)
+    def _split(self, impulse: Array) -> tuple[Array, Array]:
+        """Normal impulses of stops, and magnitudes of the tangential ones."""
+        table = impulse.reshape(-1, self.rows.shape[1])
+        return table[:, 0], np.linalg.norm(table[:, 1:], axis=1)
 
     def _hold(self, supported: IntArray) -> None:
         """Groups that the ground holds by joints or closed stops."""
         joints, ground = self.it.joints, len(self.it.names)
         supported[:] = self.held
-        for row in self.rows[self.closed]:
+        for row in self.rows[self.closed, 0]:
             a, b = int(joints.a[row]), int(joints.b[row])
             if ground in (a, b):
                 supported[self.it.bodies.group[min(a, b)]] = 1
 
     def _gaps(self) -> Array:
         """Gaps (s,) at the end of the part that was tried [m]."""
-        return self.sign * self.room.g[self.rows]
+        return self.room.g[self.rows[:, 0]]
 
     def _at_state(self) -> Array:
         """Gaps (s,) at the present state [m]."""
@@ -270,17 +282,26 @@ class StopMarch:
 
     def _speeds(self) -> Array:
         """Velocities (s,) of the gaps [m/s]."""
+        return self._velocities()[:, 0]
+
+    def _velocities(self) -> Array:
+        """Velocities (s, d) of the gaps and of the sliding [m/s]."""
         out = np.zeros(len(self.room.g))
         row_velocities(self.it.joints, self.it.motion, self.room, out)
-        return self.sign * out[self.rows]
+        return out[self.rows]
 
-    def _rounding(self, span: float, extent: float) -> float:
-        """Rounding error of an impulse [kg m/s]: of the momenta, and of the places divided by half the slab."""
-        mass, speed = self.it.bodies.mass, np.linalg.norm(self.it.motion.velocity, axis=1)
-        return PULL * float((mass * speed).max()) + ROUNDING * float(mass.max()) * extent / span
+    def _see_sliding(self) -> None:
+        """Note which stops slide."""
+        speed = np.linalg.norm(self._velocities()[:, 1:], axis=1)
+        self.sliding[:] = speed > STILL * float(np.abs(self.it.motion.velocity).max())
 
     def _energy(self) -> Array:
         """Kinetic energies (g,) of the groups [J]."""
         out = np.zeros(len(self.it.bodies.jointed))
         kinetic_energy(self.it.bodies, self.it.motion, out)
         return out
+
+    def _lose(self, lost: Array) -> None:
+        """Book energies (g,) of the groups that stops dissipated [J]."""
+        self.it.motion.work[1] += float(lost.sum())
+        self.it.motion.energy[:] -= lost

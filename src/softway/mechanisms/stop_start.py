@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from softway.kernels.multibody.joint_rows import SLIDE
 from softway.kernels.multibody.tables import Space
 from softway.mechanisms.arrays import Arrays
 from softway.mechanisms.impacts import StopMarch
@@ -12,18 +13,25 @@ from softway.mechanisms.members.stops import Impacts, Stop
 
 def stop_march(it: Arrays, room: Space, stops: Mapping[str, Stop], law: Impacts) -> StopMarch:
     """March with stops; all of them are open at first."""
-    rows = np.array([k for k, name in enumerate(it.joint_of) if name in stops], dtype=np.int64)
-    given = [stops[it.joint_of[k]] for k in rows]
-    room.active[rows] = 0
+    names = tuple(dict.fromkeys(name for name in it.joint_of if name in stops))
+    rows = np.array([_rows_of(it, name) for name in names], dtype=np.int64)
+    room.active[rows.ravel()] = 0
     return StopMarch(
         it=it,
         room=room,
         rows=rows,
-        sign=np.array([stop.sign for stop in given]),
-        restitution=np.array([stop.restitution for stop in given]),
-        names=tuple(it.joint_of[k] for k in rows),
+        restitution=np.array([stops[name].restitution for name in names], dtype=float),
+        friction=np.array([stops[name].friction for name in names], dtype=float),
+        names=names,
         law=law,
         held=it.bodies.supported.copy(),
         closed=np.zeros(len(rows), bool),
+        sliding=np.ones(len(rows), bool),
         touched=np.full(len(rows), -np.inf),
     )
+
+
+def _rows_of(it: Arrays, name: str) -> list[int]:
+    """Rows of a stop: the normal one first."""
+    mine = [k for k, other in enumerate(it.joint_of) if other == name]
+    return sorted(mine, key=lambda k: it.joints.kind[k] >= SLIDE)

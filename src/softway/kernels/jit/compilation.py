@@ -28,6 +28,7 @@ _SHARED = (
     "fused/inelastic.py",
     "fused/stages.py",
     "multibody/band.py",
+    "multibody/cone.py",
     "multibody/energy.py",
     "multibody/forces.py",
     "multibody/joint_rows.py",

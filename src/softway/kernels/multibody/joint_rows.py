@@ -5,6 +5,8 @@ Jacobian G at the means (docs/theory/mechanisms.md).  A row has the bodies a and
 the directions N of a and B of b, all in the axes of their bodies.
 """
 
+import numpy as np
+
 from softway.kernels.jit.compilation import inlined
 
 POINT = 0
@@ -15,6 +17,10 @@ DIRECTION = 2
 """``n . m = c`` for the directions n = N of body a and m = B of body b."""
 DISTANCE = 3
 """``(|p_b - p_a|^2 - c^2) / (2 c) = 0``."""
+SLIDE = 4
+"""Sliding along the direction B of body a at the place of contact ``p_b - c n`` with n = N of body a; no value."""
+ROLL = 5
+"""Sliding across the line between the points, at ``p_a + c (p_b - p_a)``; along the first or second direction B[0]."""
 
 
 @inlined
@@ -24,6 +30,9 @@ def joint_row(joints, k, place0, R0, place1, R1, g, G):
     X, Y, N = joints.X, joints.Y, joints.N
     if kind == DIRECTION:
         _direction_row(joints, k, R0, R1, g, G)
+        return
+    if kind >= SLIDE:
+        _sliding_row(joints, k, place0, R0, place1, R1, g, G)
         return
     # arms at the end and at the mean, and the vector between the points at the end and at the mean
     xa, ya, za = turned(R1, a, X, k)
@@ -68,6 +77,52 @@ def _direction_row(joints, k, R0, R1, g, G):
             G[k, side, i] = 0.0
     G[k, 0, 3], G[k, 0, 4], G[k, 0, 5] = px, py, pz
     G[k, 1, 3], G[k, 1, 4], G[k, 1, 5] = -px, -py, -pz
+
+
+@inlined
+def _sliding_row(joints, k, place0, R0, place1, R1, g, G):
+    """Row of the sliding of b against a along a tangential direction: equal forces at the mean place of contact."""
+    a, b, value = joints.a[k], joints.b[k], joints.value[k]
+    xa, ya, za = turned(R1, a, joints.X, k)
+    xb, yb, zb = turned(R1, b, joints.Y, k)
+    ax, ay, az = mean_turned(R0, a, joints.X, k, xa, ya, za)
+    bx, by, bz = mean_turned(R0, b, joints.Y, k, xb, yb, zb)
+    cx, cy, cz = (
+        0.5 * (place0[b, 0] + place1[b, 0] - place0[a, 0] - place1[a, 0]),
+        0.5 * (place0[b, 1] + place1[b, 1] - place0[a, 1] - place1[a, 1]),
+        0.5 * (place0[b, 2] + place1[b, 2] - place0[a, 2] - place1[a, 2]),
+    )
+    if joints.kind[k] == SLIDE:
+        nx, ny, nz = turned(R1, a, joints.N, k)
+        nx, ny, nz = mean_turned(R0, a, joints.N, k, nx, ny, nz)
+        tx, ty, tz = turned(R1, a, joints.B, k)
+        tx, ty, tz = mean_turned(R0, a, joints.B, k, tx, ty, tz)
+        bx, by, bz = bx - value * nx, by - value * ny, bz - value * nz
+    else:
+        sx, sy, sz = cx + bx - ax, cy + by - ay, cz + bz - az
+        tx, ty, tz = _across(sx, sy, sz, joints.B[k, 0])
+        bx, by, bz = bx - (1.0 - value) * sx, by - (1.0 - value) * sy, bz - (1.0 - value) * sz
+    ax, ay, az = cx + bx, cy + by, cz + bz  # the same place from the centre of a
+    g[k] = 0.0
+    G[k, 0, 0], G[k, 0, 1], G[k, 0, 2] = -tx, -ty, -tz
+    G[k, 1, 0], G[k, 1, 1], G[k, 1, 2] = tx, ty, tz
+    G[k, 0, 3], G[k, 0, 4], G[k, 0, 5] = az * ty - ay * tz, ax * tz - az * tx, ay * tx - ax * ty
+    G[k, 1, 3], G[k, 1, 4], G[k, 1, 5] = by * tz - bz * ty, bz * tx - bx * tz, bx * ty - by * tx
+
+
+@inlined
+def _across(x, y, z, second):
+    """First or second unit direction across a vector; in the plane the first is that of its right angle."""
+    length = np.sqrt(x * x + y * y + z * z)
+    x, y, z = x / length, y / length, z / length
+    u, v, w = -y, x, 0.0
+    if abs(z) > 0.9:
+        u, v, w = 0.0, -z, y
+    size = np.sqrt(u * u + v * v + w * w)
+    u, v, w = u / size, v / size, w / size
+    if second > 0.0:
+        return y * w - z * v, z * u - x * w, x * v - y * u
+    return u, v, w
 
 
 @inlined

@@ -167,6 +167,14 @@ def end_slab(bodies, joints, springs, motion, space, h, told):
 
     ``told`` (3,) takes the greatest joint value and joint velocity, and the greatest change of the scalars from 1.
     """
+    take_motion(bodies, joints, springs, motion, space, h)
+    told[2] = max(told[2], close_energy(bodies, springs, motion, space))
+    tell_joints(joints, motion, space, told)
+
+
+@kernel
+def take_motion(bodies, joints, springs, motion, space, h):
+    """Take the motion z: new state with the velocities of the joints, whose energy is a little too low."""
     n, z = len(motion.place) - 1, space.z
     place_ends(z, motion.place, space.R0, space.place, space.R1)
     work_of_slab(bodies, springs, motion, space, h)
@@ -179,7 +187,11 @@ def end_slab(bodies, joints, springs, motion, space, h, told):
         matrix_of(motion.turn, space.R0, i)
     prepare_joints(bodies, joints, motion.place, space.R0, space)
     project_velocities(bodies, joints, motion, space)
-    told[2] = max(told[2], close_energy(bodies, springs, motion, space))
+
+
+@kernel
+def tell_joints(joints, motion, space, told):
+    """Greatest value and velocity of the joints, in ``told``."""
     for k in range(len(space.g)):
         if space.active[k] != 0:
             told[0] = max(told[0], abs(space.g[k]))

@@ -1,12 +1,13 @@
-"""Stops of a mechanism: unilateral joints without friction, which bodies hit with a coefficient of restitution."""
+"""Stops of a mechanism: unilateral joints, which bodies hit with a coefficient of restitution, and friction."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.errors import InputError
-from softway.kernels.multibody.joint_rows import ALONG, DISTANCE
+from softway.kernels.multibody.joint_rows import ALONG, DISTANCE, ROLL, SLIDE
 from softway.mechanisms.members.joints import JointRow, in_space
 from softway.units import Metre, Pure
 
@@ -29,6 +30,8 @@ class PlaneStop:
         Radius of the ball around the point [m].
     restitution
         Ratio of the normal velocities after and before an impact (Newton), between 0 and 1.
+    friction
+        Coefficient of Coulomb's friction, at rest and in motion.
 
     Examples
     --------
@@ -43,9 +46,10 @@ class PlaneStop:
     normal: tuple[float, ...]
     radius: Metre = 0.0
     restitution: Pure = 0.0
+    friction: Pure = 0.0
 
     def __post_init__(self) -> None:
-        _require_restitution(self.restitution)
+        _require_coefficients(self.restitution, self.friction)
         if len(self.normal) != len(self.point) or not np.linalg.norm(self.normal) > 0.0:
             raise InputError("normal", f"{self.normal} is no direction", f"{len(self.point)} components, not all zero")
         if not self.radius >= 0.0:
@@ -56,17 +60,18 @@ class PlaneStop:
         """Places that the stop names."""
         return self.point, self.plane
 
-    @property
-    def sign(self) -> float:
-        """1: the value of the row is a gap."""
-        return 1.0
-
     def row(self) -> JointRow:
         """Row of the stop."""
         normal, zero = in_space(self.normal), np.zeros(3)
         normal = normal / float(np.linalg.norm(normal))
         first, second = in_space(self.plane), in_space(self.point)
         return JointRow(kind=ALONG, first=first, second=second, n=normal, m=zero, value=self.radius)
+
+    def tangential_rows(self) -> list[JointRow]:
+        """Rows of the sliding: one in the plane, two in space."""
+        row = self.row()
+        across = tangents(row.n, len(self.point))
+        return [replace(row, kind=SLIDE, m=one) for one in across]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,6 +90,10 @@ class DistanceStop:
         ``least`` or ``most``.
     restitution
         Ratio of the velocities along the line after and before an impact (Newton), between 0 and 1.
+    friction
+        Coefficient of Coulomb's friction, at rest and in motion.
+    contact
+        Place of the friction on the line between the points, as a part of it from the first: one half for equal balls.
     """
 
     between: tuple[str, str]
@@ -92,9 +101,11 @@ class DistanceStop:
     distance: Metre
     side: Literal["least", "most"] = "least"
     restitution: Pure = 0.0
+    friction: Pure = 0.0
+    contact: Pure = 0.5
 
     def __post_init__(self) -> None:
-        _require_restitution(self.restitution)
+        _require_coefficients(self.restitution, self.friction)
         if self.side not in ("least", "most"):
             raise InputError("side", f"{self.side!r}", "'least' or 'most'")
         if not self.distance > 0.0:
@@ -105,17 +116,26 @@ class DistanceStop:
         """Places that the stop names."""
         return self.points
 
-    @property
-    def sign(self) -> float:
-        """1 where the value of the row is a gap, -1 where it is the opposite."""
-        return 1.0 if self.side == "least" else -1.0
-
     def row(self) -> JointRow:
         """Row of the stop."""
         first, second = (in_space(point) for point in self.points)
-        return JointRow(
-            kind=DISTANCE, first=first, second=second, n=np.zeros(3), m=np.zeros(3), value=float(self.distance)
-        )
+        value = float(self.distance) if self.side == "least" else -float(self.distance)  # the sign of the gap
+        return JointRow(kind=DISTANCE, first=first, second=second, n=np.zeros(3), m=np.zeros(3), value=value)
+
+    def tangential_rows(self) -> list[JointRow]:
+        """Rows of the sliding: one in the plane, two in space."""
+        kinds = [np.array([float(k), 0.0, 0.0]) for k in range(len(self.points[0]) - 1)]
+        return [replace(self.row(), kind=ROLL, m=one, value=self.contact) for one in kinds]
+
+
+def tangents(normal: Array, dim: int) -> list[Array]:
+    """Unit vectors (3,) across a normal: one in the plane, two in space."""
+    if dim == 2:
+        return [np.array([normal[1], -normal[0], 0.0])]
+    least = np.eye(3)[int(np.argmin(np.abs(normal)))]
+    first = np.cross(normal, least)
+    first /= np.linalg.norm(first)
+    return [first, np.cross(normal, first)]
 
 
 Stop = PlaneStop | DistanceStop
@@ -148,7 +168,9 @@ class StopEvent:
     impulse: float = 0.0
 
 
-def _require_restitution(value: float) -> None:
-    """Refuse a coefficient that creates energy, or none."""
-    if not 0.0 <= value <= 1.0:
-        raise InputError("restitution", f"{value:g} is not between 0 and 1", "0 for no rebound, 1 for no loss")
+def _require_coefficients(restitution: float, friction: float) -> None:
+    """Refuse coefficients that create energy, or none."""
+    if not 0.0 <= restitution <= 1.0:
+        raise InputError("restitution", f"{restitution:g} is not between 0 and 1", "0 for no rebound, 1 for no loss")
+    if not 0.0 <= friction < np.inf:
+        raise InputError("friction", f"{friction:g} is negative, or not finite", "zero or more")

@@ -1,0 +1,234 @@
+"""Impulses of contacts with friction, from their compliance: unilateral normals, cones without convexification.
+
+``y = W x + b`` for the contacts i, with the normal impulse first and one or two tangential ones, or none:
+``0 <= x_n perp y_n >= 0``, and ``|x_t| <= r`` against the direction of ``y_t`` with ``r = max(mu x_n, least)``.
+"""
+
+import numpy as np
+
+from softway.kernels.jit.compilation import kernel
+
+ITERATIONS = 60
+"""Greatest number of Newton's steps."""
+EXACT = 4e-16
+"""Residual, relative to the impulses, below which nothing can be gained."""
+SOLVED = 1e-11
+"""Residual, relative to the impulses, at which iterates that improve no more are a solution."""
+DEPENDENT = 1e-12
+"""Pivot relative to the greatest entry of the matrix below which a row depends on others."""
+MOST = 5
+"""Greatest number of contacts whose modes are tried one by one."""
+SWEEPS = 2000
+"""Greatest number of sweeps over the contacts."""
+
+
+@kernel
+def solve_cone(W, b, friction, least, x):
+    """Impulses x (m,) in place, from a first guess; 1 if they are a solution, 0 if none was found."""
+    if len(x) == 0:
+        return 1
+    d = len(x) // len(friction)
+    rho = _steps(W, d, len(friction))
+    found = _newton(W, b, friction, least, rho, x)
+    if not found and d == 2 and len(friction) <= MOST:
+        found = _modes(W, b, friction, x)
+    if not found:
+        _sweeps(W, b, friction, least, rho, x)
+        found = _newton(W, b, friction, least, rho, x)
+    x[::d] = np.maximum(x[::d], 0.0)
+    return found
+
+
+@kernel
+def _steps(W, d, count):
+    """Inverse compliances (m,) of each row, one for the tangential rows of a contact."""
+    rho = np.empty(d * count)
+    for i in range(count):
+        tangential = 0.0
+        for c in range(1, d):
+            tangential = max(tangential, W[d * i + c, d * i + c])
+        rho[d * i] = 1.0 / max(W[d * i, d * i], 1e-300)
+        for c in range(1, d):
+            rho[d * i + c] = 1.0 / max(tangential, 1e-300)
+    return rho
+
+
+@kernel
+def _newton(W, b, friction, least, rho, x):
+    """Newton's method on the projections of the impulses; x is the best iterate.  1 if it is a solution."""
+    m = len(x)
+    F, J, tried = np.empty(m), np.empty((m, m)), np.empty(m)
+    size = _projected(W, b, friction, least, rho, x, F, J)
+    waited = 0
+    for _ in range(ITERATIONS):
+        scale = np.abs(x).max() + np.abs(rho * b).max()
+        if size <= EXACT * scale or (waited >= 2 and size <= SOLVED * scale):
+            return 1
+        step = -F
+        solve_dense(J, step)
+        length, found, before = 1.0, size, F.copy()
+        while True:
+            tried[:] = x + length * step
+            found = _projected(W, b, friction, least, rho, tried, F, J)
+            if found < size or length < 1e-3 or (length == 1.0 and size <= SOLVED * scale):
+                break
+            length *= 0.5
+        waited = waited + 1 if found > 0.5 * size else 0
+        if found >= size:
+            if size <= SOLVED * scale:
+                return 1
+            if waited >= 8:
+                return 0
+        if not np.isfinite(found):
+            F[:] = before
+            return 0
+        x[:], size = tried, found
+    return 1 if size <= SOLVED * (np.abs(x).max() + np.abs(rho * b).max()) else 0
+
+
+@kernel
+def _projected(W, b, friction, least, rho, x, F, J):
+    """Residual F (m,): impulses less their projections after a step against y; its derivative J; its greatest entry."""
+    y = W @ x + b
+    d = len(x) // len(friction)
+    for i in range(len(friction)):
+        n = d * i
+        ahead = x[n] - rho[n] * y[n]
+        J[n] = 0.0
+        if ahead > 0.0:
+            F[n] = rho[n] * y[n]
+            J[n] = rho[n] * W[n]
+        else:
+            F[n] = x[n]
+            J[n, n] = 1.0
+        if d > 1:
+            radius = max(friction[i] * max(ahead, 0.0), least[i])
+            turning = friction[i] if ahead > 0.0 and radius > least[i] else 0.0
+            _tangential(W, y, turning, radius, rho, x, F, J, n, d)
+    return np.abs(F).max()
+
+
+@kernel
+def _tangential(W, y, turning, radius, rho, x, F, J, n, d):
+    """Tangential rows of one contact: inside its disc it sticks, outside it slips."""
+    size = 0.0
+    for c in range(1, d):
+        size += (x[n + c] - rho[n + c] * y[n + c]) ** 2
+    size = np.sqrt(size)
+    for c in range(1, d):
+        t = n + c
+        J[t] = 0.0
+        if size <= radius:
+            F[t] = rho[t] * y[t]
+            J[t] = rho[t] * W[t]
+            continue
+        along = (x[t] - rho[t] * y[t]) / size
+        F[t] = x[t] - radius * along
+        J[t, t] = 1.0
+        if turning:  # the radius follows the normal impulse
+            J[t, n] -= along * turning
+            J[t] += along * turning * rho[n] * W[n]
+        for e in range(1, d):  # the direction turns, in space only
+            other = n + e
+            part = (1.0 if e == c else 0.0) - along * (x[other] - rho[other] * y[other]) / size
+            if d > 2:
+                J[t, other] -= radius / size * part
+                J[t] += radius / size * part * rho[other] * W[other]
+
+
+@kernel
+def solve_dense(A, x):
+    """Solve in place by elimination with row exchanges; A is overwritten, unknowns of dependent rows become 0."""
+    n, tiny = len(x), DEPENDENT * np.abs(A).max()
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if abs(A[i, k]) > abs(A[best, k]):
+                best = i
+        if best != k:
+            for j in range(n):
+                A[k, j], A[best, j] = A[best, j], A[k, j]
+            x[k], x[best] = x[best], x[k]
+        if abs(A[k, k]) <= tiny:
+            continue
+        for i in range(k + 1, n):
+            factor = A[i, k] / A[k, k]
+            if factor != 0.0:
+                for j in range(k, n):
+                    A[i, j] -= factor * A[k, j]
+                x[i] -= factor * x[k]
+    for k in range(n - 1, -1, -1):
+        if abs(A[k, k]) <= tiny:
+            x[k] = 0.0
+            continue
+        for j in range(k + 1, n):
+            x[k] -= A[k, j] * x[j]
+        x[k] /= A[k, k]
+
+
+@kernel
+def _modes(W, b, friction, x):
+    """Try all modes of a few contacts in the plane: open, sticking, slipping to either side.  1 if one fits."""
+    m, count = len(x), len(friction)
+    A, found = np.empty((m, m)), np.empty(m)
+    scale = np.abs(b).max()
+    for code in range(4**count):
+        left = code
+        for i in range(count):
+            mode, left, n = left % 4, left // 4, 2 * i
+            A[n], A[n + 1] = W[n], W[n + 1]
+            found[n], found[n + 1] = -b[n], -b[n + 1]
+            if mode == 0:
+                A[n], found[n] = 0.0, 0.0
+                A[n, n] = 1.0
+            if mode != 1:
+                A[n + 1], found[n + 1] = 0.0, 0.0
+                A[n + 1, n + 1] = 1.0
+            if mode > 1:
+                A[n + 1, n] = -friction[i] * (1.0 if mode == 2 else -1.0)
+        solve_dense(A, found)
+        if _fits(W @ found + b, found, friction, code, scale):
+            x[:] = found
+            return 1
+    return 0
+
+
+@kernel
+def _fits(y, x, friction, code, scale):
+    """True if impulses of given modes satisfy the inequalities."""
+    size = np.abs(x).max()
+    for i in range(len(friction)):
+        mode, code, n = code % 4, code // 4, 2 * i
+        rough = SOLVED * scale
+        if x[n] < -SOLVED * size or y[n] < -rough:
+            return False
+        if mode == 1 and abs(x[n + 1]) > friction[i] * x[n] + SOLVED * size:
+            return False
+        if (mode == 2 and y[n + 1] > rough) or (mode == 3 and y[n + 1] < -rough):
+            return False
+        if mode > 0 and abs(y[n]) > 1e3 * rough:
+            return False
+    return True
+
+
+@kernel
+def _sweeps(W, b, friction, least, rho, x):
+    """Projected steps of one contact after the other, as a guess for Newton's method."""
+    d = len(x) // len(friction)
+    for _ in range(SWEEPS):
+        change = 0.0
+        for i in range(len(friction)):
+            n = d * i
+            new = max(0.0, x[n] - rho[n] * (W[n] @ x + b[n]))
+            change, x[n] = max(change, abs(new - x[n])), new
+            radius, size = max(friction[i] * new, least[i]), 0.0
+            for c in range(1, d):
+                moved = x[n + c] - rho[n + c] * (W[n + c] @ x + b[n + c])
+                change, x[n + c] = max(change, abs(moved - x[n + c])), moved
+                size += moved * moved
+            size = np.sqrt(size)
+            if size > radius:
+                for c in range(1, d):
+                    x[n + c] *= radius / size
+        if change <= 1e-12 * np.abs(x).max():
+            return

@@ -1,0 +1,163 @@
+"""Contacts of rigid bodies with Coulomb's friction: the slab (time step), the velocities at its end, and collisions.
+
+Two impulses of a contact, through the slab on places and at its end on velocities, obey the laws of contact with their
+sum (docs/theory/mechanisms.md).  The rows of a contact are its normal one, and one or two tangential ones or none.
+"""
+
+import numpy as np
+
+from softway.kernels.jit.compilation import inlined, kernel
+from softway.kernels.multibody.band import solve_band
+from softway.kernels.multibody.cone import solve_cone
+from softway.kernels.multibody.joint_rows import SLIDE
+from softway.kernels.multibody.slab import (
+    CONVERGED,
+    ITERATIONS,
+    NEARLY,
+    SLOW,
+    evaluate_rows,
+    guess_motion,
+    joint_velocity,
+    motion_of,
+    place_ends,
+    project_velocities,
+)
+
+
+@inlined
+def _displacement(joints, space, z, k):
+    """``G z`` of a row."""
+    total = 0.0
+    for side in range(2):
+        i = joints.a[k] if side == 0 else joints.b[k]
+        for c in range(6):
+            total += space.G[k, side, c] * z[i, c]
+    return total
+
+
+@kernel
+def compliances(joints, space, rows):
+    """Compliance W (m, m) of contact rows through bodies and joints; C (r, m) to the joints, and the joints' U."""
+    m, r = len(rows), len(space.g)
+    W, C, U, column = np.zeros((m, m)), np.zeros((r, m)), np.zeros((r, m)), np.zeros(r)
+    for j in range(m):
+        for k in range(r):
+            column[k] = _product(joints, space, k, rows[j]) if space.active[k] else 0.0
+        C[:, j] = column
+        solve_band(space.lower, space.pivot, column)
+        U[:, j] = column
+    for i in range(m):
+        for j in range(m):
+            W[i, j] = _product(joints, space, rows[i], rows[j])
+            for k in range(r):
+                W[i, j] -= C[k, i] * U[k, j]
+    return W, C, U
+
+
+@inlined
+def _product(joints, space, i, j):
+    """``G_i M^-1 G_j^T`` of two rows."""
+    total = 0.0
+    for si in range(2):
+        p = joints.a[i] if si == 0 else joints.b[i]
+        for sj in range(2):
+            q = joints.a[j] if sj == 0 else joints.b[j]
+            if p == q:
+                for c in range(6):
+                    total += space.G[i, si, c] * space.MG[j, sj, c]
+    return total
+
+
+@kernel
+def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h, extent):
+    """Motion and impulses of a slab with closed contacts, as ``solve_motion``; the number of iterations, 0 if it fails.
+
+    Afterwards ``space.g`` has the values of all rows at its end, and ``space.G`` their means.
+    """
+    space.kept[:] = motion.impulse
+    W, C, U = compliances(joints, space, rows)
+    W *= 0.5 * h
+    x, b, none = np.zeros(len(rows)), np.zeros(len(rows)), np.zeros(len(friction))
+    guess_motion(bodies, joints, springs, motion, space, h)
+    z, new, P, before, slow = space.z, space.new, motion.impulse, np.inf, 0
+    for iteration in range(1, ITERATIONS + 1):
+        place_ends(z, motion.place, space.R0, space.place, space.R1)
+        evaluate_rows(joints, motion.place, space.R0, space.place, space.R1, space.g, space.G)
+        space.push[:] = space.g
+        solve_band(space.lower, space.pivot, space.push)
+        for i in range(len(rows)):
+            k = rows[i]
+            b[i] = _displacement(joints, space, z, k) if joints.kind[k] >= SLIDE else space.g[k]
+            x[i] = P[k]
+            for j in range(len(space.g)):
+                b[i] -= C[j, i] * space.push[j]
+        b -= W @ x
+        if not solve_cone(W, b, friction, none, x):
+            break
+        for j in range(len(P)):
+            P[j] -= 2.0 / h * space.push[j]
+            for i in range(len(rows)):
+                P[j] -= U[j, i] * (x[i] - P[rows[i]]) if space.active[j] else 0.0
+        for i in range(len(rows)):
+            P[rows[i]] = x[i]
+        motion_of(bodies, joints, springs, motion, space, h, P, z, new)
+        change = 0.0
+        for i in range(len(z) - 1):
+            for c in range(3):
+                change = max(change, abs(new[i, c] - z[i, c]) / extent, abs(new[i, 3 + c] - z[i, 3 + c]))
+                z[i, c], z[i, 3 + c] = new[i, c], new[i, 3 + c]
+        if change <= CONVERGED or (change <= NEARLY and change > 0.5 * before):
+            place_ends(z, motion.place, space.R0, space.place, space.R1)
+            evaluate_rows(joints, motion.place, space.R0, space.place, space.R1, space.g, space.G)
+            return iteration
+        slow = slow + 1 if change > SLOW * before else 0
+        if slow >= 2 or not np.isfinite(change):
+            break
+        before = change
+    P[:] = space.kept
+    return 0
+
+
+@kernel
+def book_slab(bodies, joints, motion, space, rows, h):
+    """Book the work of the contacts in a slab that is taken, with the rows at its means."""
+    ground = len(motion.place) - 1
+    for i in range(len(rows)):
+        k = rows[i]
+        lost = -motion.impulse[k] * _displacement(joints, space, space.z, k) / h
+        body = joints.a[k] if joints.a[k] != ground else joints.b[k]
+        motion.energy[bodies.group[body]] -= lost
+        motion.work[1] += lost
+
+
+@kernel
+def collide(bodies, joints, motion, space, rows, friction, through, ratio, x):
+    """Change the velocities at a prepared state by the contacts; x (m,) are the impulses, ``through`` (m,) included.
+
+    Normal velocities become at least ``-ratio`` times those before; the impulses that acted ``through`` the slab count
+    in the laws.  1 if a solution was found.
+    """
+    W = compliances(joints, space, rows)[0]
+    b, d = np.zeros(len(rows)), len(rows) // max(len(friction), 1)
+    least = np.zeros(len(friction))
+    for i in range(len(rows)):
+        b[i] = joint_velocity(joints, motion, space, rows[i])
+        if i % d == 0:
+            b[i] *= 1.0 + ratio[i // d]
+        else:
+            least[i // d] = np.sqrt(least[i // d] ** 2 + through[i] ** 2)
+    b -= W @ through
+    found = solve_cone(W, b, friction, least, x)
+    for i in range(len(rows)):
+        k, push = rows[i], x[i] - through[i]
+        for side in range(2):
+            body = joints.a[k] if side == 0 else joints.b[k]
+            for c in range(3):
+                motion.velocity[body, c] += push * space.MG[k, side, c]
+                motion.spin[body, c] += push * (
+                    space.R0[body, 0, c] * space.MG[k, side, 3]
+                    + space.R0[body, 1, c] * space.MG[k, side, 4]
+                    + space.R0[body, 2, c] * space.MG[k, side, 5]
+                )
+    project_velocities(bodies, joints, motion, space)
+    return found

@@ -1,0 +1,46 @@
+"""Impulses of contacts with friction: the laws hold for random bodies, also where their compliance is singular."""
+
+import numpy as np
+import pytest
+
+from softway.kernels.multibody.cone import solve_cone, solve_dense
+
+
+@pytest.mark.parametrize("d", [1, 2, 3])
+def test_the_laws_of_contact_hold(d: int) -> None:
+    rng = np.random.default_rng(d)
+    for trial in range(300):
+        count = int(rng.integers(1, 7))
+        rank = max(1, d * count + int(rng.integers(-3, 4)))
+        A = rng.normal(size=(d * count, rank))
+        W, b = A @ A.T, A @ rng.normal(size=rank)
+        friction, least, x = 0.6 * rng.random(count), np.zeros(count), np.zeros(d * count)
+        assert solve_cone(W, b, friction, least, x), trial
+        y = W @ x + b
+        normal, gap = x[::d], y[::d]
+        size, speed = np.abs(x).max() + 1e-30, np.abs(b).max()
+        assert normal.min() >= 0.0 and gap.min() >= -1e-9 * speed
+        assert np.abs(normal * gap).max() <= 1e-9 * size * speed
+        for push, slip, limit in zip(x.reshape(-1, d)[:, 1:], y.reshape(-1, d)[:, 1:], friction * normal, strict=True):
+            assert np.linalg.norm(push) <= limit + 1e-9 * size
+            along = np.linalg.norm(slip) * push + limit * slip
+            assert np.abs(along).max(initial=0.0) <= 1e-8 * size * speed, "friction is opposite to the slip"
+
+
+def test_a_rod_that_would_jam_gets_the_mode_that_fits() -> None:
+    """Painleve: sliding to the right alone has no solution, since W_nn - mu W_nt < 0; the tip stops at once."""
+    W, friction = np.array([[1.0, 0.9], [0.9, 2.0]]), np.array([1.5])
+    for b in ([-0.1, 1.0], [0.1, 1.0], [-1.0, -0.2]):
+        x = np.zeros(2)
+        assert solve_cone(W, np.array(b), friction, np.zeros(1), x)
+        y = W @ x + b
+        assert x[0] >= 0.0 and y[0] >= -1e-12 and abs(x[0] * y[0]) < 1e-12
+        assert abs(x[1]) <= 1.5 * x[0] + 1e-12 and x[1] * y[1] <= 1e-12
+
+
+def test_dependent_rows_of_a_consistent_system_take_no_part() -> None:
+    A = np.array([[2.0, 1.0, 3.0], [4.0, 2.0, 6.0], [1.0, 0.0, 1.0]])
+    b = A @ np.array([1.0, -2.0, 0.5])
+    x = b.copy()
+    solve_dense(A.copy(), x)
+    np.testing.assert_allclose(A @ x, b, atol=1e-14)
