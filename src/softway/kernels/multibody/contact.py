@@ -131,11 +131,11 @@ def book_slab(bodies, joints, motion, space, rows, h):
 
 
 @kernel
-def collide(bodies, joints, motion, space, rows, friction, through, ratio, x):
+def collide(bodies, joints, motion, space, rows, friction, through, rebound, x):
     """Change the velocities at a prepared state by the contacts; x (m,) are the impulses, ``through`` (m,) included.
 
-    Normal velocities become at least ``-ratio`` times those before; the impulses that acted ``through`` the slab count
-    in the laws.  1 if a solution was found.
+    Normal velocities become ``rebound`` (c,) at least; the impulses that acted ``through`` the slab count in the laws.
+    1 if a solution was found.
     """
     W = compliances(joints, space, rows)[0]
     b, d = np.zeros(len(rows)), len(rows) // max(len(friction), 1)
@@ -143,7 +143,7 @@ def collide(bodies, joints, motion, space, rows, friction, through, ratio, x):
     for i in range(len(rows)):
         b[i] = joint_velocity(joints, motion, space, rows[i])
         if i % d == 0:
-            b[i] *= 1.0 + ratio[i // d]
+            b[i] -= rebound[i // d]
         else:
             least[i // d] = np.sqrt(least[i // d] ** 2 + through[i] ** 2)
     b -= W @ through

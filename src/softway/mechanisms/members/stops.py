@@ -157,7 +157,9 @@ class StopEvent:
     velocity_before, velocity_after
         Velocity of the gap before and after an impact [m/s], negative while it closes.
     impulse
-        Impulse of the impact [N s].
+        Normal impulse of the impact [N s].
+    located
+        False for a touch beyond the number that is located in a time step: it acts at the end of the time step.
     """
 
     time: float
@@ -166,6 +168,7 @@ class StopEvent:
     velocity_before: float = 0.0
     velocity_after: float = 0.0
     impulse: float = 0.0
+    located: bool = True
 
 
 def _require_coefficients(restitution: float, friction: float) -> None:
