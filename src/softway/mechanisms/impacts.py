@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 from softway.arrays import Array, BoolArray
 from softway.errors import InputError, NumericsError
 from softway.mechanisms.members.stops import Impacts, StopEvent
-from softway.mechanisms.stop_rows import NEAR, STILL, StopRows
+from softway.mechanisms.stop_rows import NEAR, STILL, Stops
 
 TOUCH = 1e-14
 """Gap relative to the extent that is rounding."""
@@ -30,29 +30,38 @@ HALVINGS = 50
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class StopMarch(StopRows):
+class StopMarch:
     """March of a mechanism with stops from one state to the next.
 
     Parameters
     ----------
+    stops
+        The stops in the present state.
     law
         Law of impacts at several stops at once.
     touched
         (s,) instants of the last touches [s].
     """
 
+    stops: Stops
     law: Impacts
     touched: Array
 
+    @property
+    def closed(self) -> tuple[str, ...]:
+        """Names of the closed stops."""
+        return tuple(name for name, shut in zip(self.stops.names, self.stops.closed, strict=True) if shut)
+
     def start(self, h: float, extent: float) -> list[StopEvent]:
         """Close the stops that are touched at the start, with an impact if bodies approach there; its events."""
-        gaps, events = self.at_state(), list[StopEvent]()
+        gaps, events = self.stops.at_state(), list[StopEvent]()
         for k in np.flatnonzero(gaps < -NEAR * extent):
             problem = f"is overlapped by {-gaps[k]:.3g} m at the start"
-            raise InputError(f"stops.{self.names[k]}", problem, "places with a gap of zero or more")
+            raise InputError(f"stops.{self.stops.names[k]}", problem, "places with a gap of zero or more")
         touching = gaps <= NEAR * extent
         if touching.any():
             self._impact(0.0, h, touching, extent, events)
+        self.stops.see_sliding()
         return events
 
     def slab(self, time: float, h: float, extent: float, told: Array) -> tuple[list[StopEvent], int]:
@@ -64,7 +73,7 @@ class StopMarch(StopRows):
                 span, touching, used = self._flown(time + h - left, left, extent, told, events)
             else:
                 span, used = self._through(time + h - left, left, extent, told, events)
-                touching = np.zeros(len(self.rows), bool)
+                touching = np.zeros(len(self.stops.rows), bool)
             left, iterations = left - span, iterations + used
             if touching.any():
                 self._impact(time + h - left, h, touching, extent, events)
@@ -76,38 +85,40 @@ class StopMarch(StopRows):
         self, time: float, left: float, extent: float, told: Array, events: list[StopEvent]
     ) -> tuple[float, BoolArray, int]:
         """Take a part of the slab up to the next touch: its length, the touching stops, and the iterations."""
-        span, iterations, none = left, 0, np.zeros(len(self.rows), bool)
+        span, iterations, none = left, 0, np.zeros(len(self.stops.rows), bool)
+        for k in self.stops.jammed():
+            events.append(StopEvent(time=float(time), stop=self.stops.names[k], kind="jam"))
         for _ in range(HALVINGS):
-            used = self.tried(span, extent)
+            used = self.stops.tried(span, extent)
             iterations += used
             if used:
                 break
             span *= 0.5
         else:
             raise NumericsError(f"a slab of {span:.3g} s has no solution", time, "a shorter step")
-        if (self.gaps()[~self.closed] < -TOUCH * extent).any():
+        if (self.stops.gaps()[~self.stops.closed] < -TOUCH * extent).any():
             found = self._first_touch(span, extent)
             if found is None:
-                return 0.0, ~self.closed & (self.at_state() <= NEAR * extent), iterations
+                return 0.0, ~self.stops.closed & (self.stops.at_state() <= NEAR * extent), iterations
             span, used = found
             iterations += used
-        touching = ~self.closed & (np.abs(self.gaps()) <= NEAR * extent) if span < left else none
-        closed = self.taken(span, extent, told, np.zeros(len(self.rows)))
-        for k in np.flatnonzero(self.closed & ~closed):
-            events.append(StopEvent(time=float(time), stop=self.names[k], kind="release"))
-        self.closed[:] = closed
-        self.hold(self.it.bodies.supported)
+        touching = ~self.stops.closed & (np.abs(self.stops.gaps()) <= NEAR * extent) if span < left else none
+        closed = self.stops.taken(span, extent, told, np.zeros(len(self.stops.rows)))
+        for k in np.flatnonzero(self.stops.closed & ~closed):
+            events.append(StopEvent(time=float(time), stop=self.stops.names[k], kind="release"))
+        self.stops.closed[:] = closed
+        self.stops.hold(self.stops.it.bodies.supported)
         return span, touching, iterations
 
     def _first_touch(self, span: float, extent: float) -> tuple[float, int] | None:
         """Length at which the first gap closes, with its solution in the work space; None if none opens before."""
-        kept, counted = self.it.motion.impulse / span, [0]
+        kept, counted = self.stops.it.motion.impulse / span, [0]
 
         def least(length: float) -> float:
-            self.it.motion.impulse[:] = kept * length
-            used = self.tried(length, extent)
+            self.stops.it.motion.impulse[:] = kept * length
+            used = self.stops.tried(length, extent)
             counted[0] += used
-            return float(self.gaps()[~self.closed].min()) if used else -np.inf
+            return float(self.stops.gaps()[~self.stops.closed].min()) if used else -np.inf
 
         low, high = 0.5 * span, span
         for _ in range(HALVINGS):
@@ -127,69 +138,75 @@ class StopMarch(StopRows):
 
         They have no friction within it, since their impulse is up to twice that of the touch.
         """
-        gaps, span, iterations = self.at_state(), left, 0
-        before = self.speeds()
-        closed = self.closed.copy()
+        gaps, span, iterations = self.stops.at_state(), left, 0
+        before = self.stops.speeds()
+        closed = self.stops.closed.copy()
         for _ in range(HALVINGS):
-            self.closed[:] = closed
-            used = self.tried(span, extent)
+            self.stops.closed[:] = closed
+            used = self.stops.tried(span, extent)
             iterations += used
-            free = 2.0 * (self.gaps() - gaps) / span - before
-            while used and (more := ~self.closed & (self.gaps() < -TOUCH * extent)).any():
-                self.closed[:] |= more
-                used = self.tried(span, extent, smooth=self.closed & ~closed)
+            free = 2.0 * (self.stops.gaps() - gaps) / span - before
+            while used and (more := ~self.stops.closed & (self.stops.gaps() < -TOUCH * extent)).any():
+                self.stops.closed[:] |= more
+                used = self.stops.tried(span, extent, smooth=self.stops.closed & ~closed)
                 iterations += used
             if used:
                 break
             span *= 0.5
         else:
             raise NumericsError(f"a slab of {span:.3g} s has no solution", time, "a shorter step")
-        hits = self.closed & ~closed
+        hits = self.stops.closed & ~closed
         speed = np.sqrt(np.maximum(before**2 + 2.0 * gaps * (before - free) / span, 0.0))
-        rebound = np.where(hits & (self.restitution * speed > 0.5 * (before - free)), self.restitution * speed, 0.0)
-        after = self.taken(span, extent, told, rebound)
+        rebound = np.where(
+            hits & (self.stops.restitution * speed > 0.5 * (before - free)), self.stops.restitution * speed, 0.0
+        )
+        after = self.stops.taken(span, extent, told, rebound)
         for k in np.flatnonzero(hits):
-            one = StopEvent(time=float(time + span), stop=self.names[k], kind="touch", located=False)
+            one = StopEvent(time=float(time + span), stop=self.stops.names[k], kind="touch", located=False)
             events.append(replace(one, velocity_before=-float(speed[k]), velocity_after=float(rebound[k])))
-        self.closed[:] = after
-        self.hold(self.it.bodies.supported)
+        self.stops.closed[:] = after
+        self.stops.hold(self.stops.it.bodies.supported)
         return span, iterations
 
     def _impact(self, time: float, h: float, touching: BoolArray, extent: float, events: list[StopEvent]) -> None:
         """Impact of the touching stops, with those that are closed."""
-        before, energy = self.speeds(), self.energy()
+        before, energy = self.stops.speeds(), self.stops.energy()
         hits = touching & (before < 0.0)
-        resting = hits & (time - self.touched < SHORT * h) & (self.restitution < 1.0)
-        ratio = np.where(resting, 0.0, self.restitution)
-        impulse = np.zeros(len(self.rows))
+        resting = hits & (time - self.touched < SHORT * h) & (self.stops.restitution < 1.0)
+        ratio = np.where(resting, 0.0, self.stops.restitution)
+        impulse = np.zeros(len(self.stops.rows))
         if self.law == "simultaneous":
-            solved = self.collide(self.closed | touching, np.where(hits, -ratio * before, 0.0), impulse)
+            solved = self.stops.collide(self.stops.closed | touching, np.where(hits, -ratio * before, 0.0), impulse)
         else:
             solved = self._sequential(touching, ratio, impulse)
         if not solved:
-            names = ", ".join(self.names[k] for k in np.flatnonzero(self.closed | touching))
+            names = ", ".join(self.stops.names[k] for k in np.flatnonzero(self.stops.closed | touching))
             raise NumericsError(f"the impact of {names} has no solution", time, "less friction, or sequential impacts")
-        after, scale = self.speeds(), float(np.abs(before).max())
+        after, scale = self.stops.speeds(), float(np.abs(before).max())
         for k in np.flatnonzero(hits):
-            end = (time - self.touched[k]) * self.restitution[k] / (1.0 - self.restitution[k]) if resting[k] else 0.0
+            end = (
+                (time - self.touched[k]) * self.stops.restitution[k] / (1.0 - self.stops.restitution[k])
+                if resting[k]
+                else 0.0
+            )
             kind: Literal["touch", "rest"] = "rest" if resting[k] else "touch"
-            one = StopEvent(time=float(time + end), stop=self.names[k], kind=kind, impulse=float(impulse[k]))
+            one = StopEvent(time=float(time + end), stop=self.stops.names[k], kind=kind, impulse=float(impulse[k]))
             events.append(replace(one, velocity_before=float(before[k]), velocity_after=float(after[k])))
             self.touched[k] = time
-        self.closed[:] = (self.closed | touching) & (np.abs(after) <= STILL * scale)
-        self.lose(energy - self.energy())
-        self.see_sliding()
-        self.it.motion.impulse[self.rows.ravel()] = 0.0
-        self.hold(self.it.bodies.supported)
+        self.stops.closed[:] = (self.stops.closed | touching) & (np.abs(after) <= STILL * scale)
+        self.stops.lose(energy - self.stops.energy())
+        self.stops.see_sliding()
+        self.stops.it.motion.impulse[self.stops.rows.ravel()] = 0.0
+        self.stops.hold(self.stops.it.bodies.supported)
 
     def _sequential(self, touching: BoolArray, ratio: Array, impulse: Array) -> bool:
         """One stop after the other, each time that with the greatest velocity of approach."""
-        near, scale = self.closed | touching, float(np.abs(self.speeds()).max())
+        near, scale = self.stops.closed | touching, float(np.abs(self.stops.speeds()).max())
         for _ in range(BLOWS):
-            speed = np.where(near, self.speeds(), 0.0)
+            speed = np.where(near, self.stops.speeds(), 0.0)
             k = int(np.argmin(speed))
             if speed[k] >= -STILL * scale:
                 return True
-            if not self.collide(np.arange(len(self.rows)) == k, -ratio * speed, impulse):
+            if not self.stops.collide(np.arange(len(self.stops.rows)) == k, -ratio * speed, impulse):
                 return False
         return False

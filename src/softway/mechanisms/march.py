@@ -236,7 +236,9 @@ def _step(
         scalar=float(told[2]),
         independent=int((room.pivot > 0.0).sum()),
         events=tuple(events),
-        closed=() if stops is None else tuple(n for n, shut in zip(stops.names, stops.closed, strict=True) if shut),
+        closed=()
+        if stops is None
+        else tuple(n for n, shut in zip(stops.stops.names, stops.stops.closed, strict=True) if shut),
     )
 
 

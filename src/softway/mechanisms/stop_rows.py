@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
-from softway.kernels.multibody.contact import book_slab, collide, solve_contact_slab
+from softway.kernels.multibody.contact import book_slab, collide, compliances, solve_contact_slab
 from softway.kernels.multibody.energy import close_energy, kinetic_energy
 from softway.kernels.multibody.slab import refactor, row_velocities, take_motion, tell_joints
 from softway.kernels.multibody.tables import Space
@@ -28,7 +28,7 @@ REBOUNDS = (1.0, 0.75, 0.5, 0.25, 0.0)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class StopRows:
+class Stops:
     """Stops of a mechanism in its present state.
 
     Parameters
@@ -177,6 +177,20 @@ class StopRows:
         out = np.zeros(len(self.room.g))
         row_velocities(self.it.joints, self.it.motion, self.room, out)
         return out[self.rows]
+
+    def jammed(self) -> Array:
+        """Closed stops (k,) whose sliding has no continuous course at the present state.
+
+        A normal force with its friction would not push the places of contact apart, ``W_nn - mu W_nt <= 0`` (Painleve).
+        """
+        moving = np.flatnonzero(self.closed & self.sliding & (self.friction > 0.0))
+        found = []
+        for k in moving:
+            W = compliances(self.it.joints, self.room, self.rows[k])[0]
+            slip = self._velocities()[k, 1:]
+            if W[0, 0] - self.friction[k] * float(W[0, 1:] @ slip) / float(np.linalg.norm(slip)) <= 0.0:
+                found.append(k)
+        return np.array(found, dtype=np.int64)
 
     def see_sliding(self) -> None:
         """Note which stops slide."""

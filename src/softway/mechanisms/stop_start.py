@@ -9,6 +9,7 @@ from softway.kernels.multibody.tables import Space
 from softway.mechanisms.arrays import Arrays
 from softway.mechanisms.impacts import StopMarch
 from softway.mechanisms.members.stops import Impacts, Stop
+from softway.mechanisms.stop_rows import Stops
 
 
 def stop_march(it: Arrays, room: Space, stops: Mapping[str, Stop], law: Impacts) -> StopMarch:
@@ -16,19 +17,18 @@ def stop_march(it: Arrays, room: Space, stops: Mapping[str, Stop], law: Impacts)
     names = tuple(dict.fromkeys(name for name in it.joint_of if name in stops))
     rows = np.array([_rows_of(it, name) for name in names], dtype=np.int64)
     room.active[rows.ravel()] = 0
-    return StopMarch(
+    found = Stops(
         it=it,
         room=room,
         rows=rows,
         restitution=np.array([stops[name].restitution for name in names], dtype=float),
         friction=np.array([stops[name].friction for name in names], dtype=float),
         names=names,
-        law=law,
         held=it.bodies.supported.copy(),
         closed=np.zeros(len(rows), bool),
         sliding=np.ones(len(rows), bool),
-        touched=np.full(len(rows), -np.inf),
     )
+    return StopMarch(stops=found, law=law, touched=np.full(len(rows), -np.inf))
 
 
 def _rows_of(it: Arrays, name: str) -> list[int]:

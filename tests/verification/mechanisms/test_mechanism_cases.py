@@ -4,7 +4,7 @@ import pytest
 
 import results
 
-CASES = ("F01", "F02", "F03", "F04", "F05", "F06", "F08", "F11", "F12")
+CASES = ("F01", "F02", "F03", "F04", "F05", "F06", "F07", "F08", "F09", "F10", "F11", "F12")
 
 
 @pytest.mark.parametrize("case", CASES)

@@ -85,21 +85,11 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
         evaluate_rows(joints, motion.place, space.R0, space.place, space.R1, space.g, space.G)
         space.push[:] = space.g
         solve_band(space.lower, space.pivot, space.push)
-        for i in range(len(rows)):
-            k = rows[i]
-            b[i] = _displacement(joints, space, z, k) if joints.kind[k] >= SLIDE else space.g[k]
-            x[i] = P[k]
-            for j in range(len(space.g)):
-                b[i] -= C[j, i] * space.push[j]
+        _offsets(joints, space, P, rows, C, b, x)
         b -= W @ x
         if not solve_cone(W, b, friction, none, x):
             break
-        for j in range(len(P)):
-            P[j] -= 2.0 / h * space.push[j]
-            for i in range(len(rows)):
-                P[j] -= U[j, i] * (x[i] - P[rows[i]]) if space.active[j] else 0.0
-        for i in range(len(rows)):
-            P[rows[i]] = x[i]
+        _add_impulses(space, P, rows, U, x, h)
         motion_of(bodies, joints, springs, motion, space, h, P, z, new)
         change = 0.0
         for i in range(len(z) - 1):
@@ -116,6 +106,28 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
         before = change
     P[:] = space.kept
     return 0
+
+
+@kernel
+def _offsets(joints, space, P, rows, C, b, x):
+    """Gaps and slidings b (m,) with the joints closed, and the impulses x (m,) so far."""
+    for i in range(len(rows)):
+        k = rows[i]
+        b[i] = _displacement(joints, space, space.z, k) if joints.kind[k] >= SLIDE else space.g[k]
+        x[i] = P[k]
+        for j in range(len(space.g)):
+            b[i] -= C[j, i] * space.push[j]
+
+
+@kernel
+def _add_impulses(space, P, rows, U, x, h):
+    """Impulses x (m,) of the contacts, and those with which the joints answer and close their own values."""
+    for j in range(len(P)):
+        P[j] -= 2.0 / h * space.push[j]
+        for i in range(len(rows)):
+            P[j] -= U[j, i] * (x[i] - P[rows[i]]) if space.active[j] else 0.0
+    for i in range(len(rows)):
+        P[rows[i]] = x[i]
 
 
 @kernel

@@ -153,7 +153,8 @@ class StopEvent:
     stop
         Name of the stop.
     kind
-        ``touch``, ``rest`` or ``release``.
+        ``touch``, ``rest``, ``release``, or ``jam``: the sliding has no continuous course (Painleve), and its velocity
+        jumps without a touch.
     velocity_before, velocity_after
         Velocity of the gap before and after an impact [m/s], negative while it closes.
     impulse
@@ -164,7 +165,7 @@ class StopEvent:
 
     time: float
     stop: str
-    kind: Literal["touch", "rest", "release"]
+    kind: Literal["touch", "rest", "release", "jam"]
     velocity_before: float = 0.0
     velocity_after: float = 0.0
     impulse: float = 0.0

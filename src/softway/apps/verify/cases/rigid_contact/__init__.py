@@ -1,0 +1,1 @@
+"""Rigid bodies that touch: impacts, rest, friction."""
