@@ -103,7 +103,7 @@ class StopMarch:
             span, used = found
             iterations += used
         touching = ~self.stops.closed & (np.abs(self.stops.gaps()) <= NEAR * extent) if span < left else none
-        closed = self.stops.taken(span, extent, told, np.zeros(len(self.stops.rows)))
+        closed = self.stops.taken(time, span, extent, told, np.zeros(len(self.stops.rows)))
         for k in np.flatnonzero(self.stops.closed & ~closed):
             events.append(StopEvent(time=float(time), stop=self.stops.names[k], kind="release"))
         self.stops.closed[:] = closed
@@ -127,6 +127,8 @@ class StopMarch:
             low, high = 0.5 * low, low
         else:
             return None
+        if least(high) >= 0.0:
+            return high, counted[0]
         length = float(brentq(least, low, high, xtol=1e-15 * high, rtol=1e-15))
         least(length)
         return length, counted[0]
@@ -156,11 +158,12 @@ class StopMarch:
         else:
             raise NumericsError(f"a slab of {span:.3g} s has no solution", time, "a shorter step")
         hits = self.stops.closed & ~closed
+        self.stops.sliding[hits] = True  # what they take is dissipated
         speed = np.sqrt(np.maximum(before**2 + 2.0 * gaps * (before - free) / span, 0.0))
         rebound = np.where(
             hits & (self.stops.restitution * speed > 0.5 * (before - free)), self.stops.restitution * speed, 0.0
         )
-        after = self.stops.taken(span, extent, told, rebound)
+        after = self.stops.taken(time, span, extent, told, rebound)
         for k in np.flatnonzero(hits):
             one = StopEvent(time=float(time + span), stop=self.stops.names[k], kind="touch", located=False)
             events.append(replace(one, velocity_before=-float(speed[k]), velocity_after=float(rebound[k])))
@@ -176,9 +179,11 @@ class StopMarch:
         ratio = np.where(resting, 0.0, self.stops.restitution)
         impulse = np.zeros(len(self.stops.rows))
         if self.law == "simultaneous":
-            solved = self.stops.collide(self.stops.closed | touching, np.where(hits, -ratio * before, 0.0), impulse)
+            solved = self.stops.collide(
+                self.stops.closed | touching, np.where(hits, -ratio * before, 0.0), extent / h, impulse
+            )
         else:
-            solved = self._sequential(touching, ratio, impulse)
+            solved = self._sequential(touching, ratio, extent / h, impulse)
         if not solved:
             names = ", ".join(self.stops.names[k] for k in np.flatnonzero(self.stops.closed | touching))
             raise NumericsError(f"the impact of {names} has no solution", time, "less friction, or sequential impacts")
@@ -199,7 +204,7 @@ class StopMarch:
         self.stops.it.motion.impulse[self.stops.rows.ravel()] = 0.0
         self.stops.hold(self.stops.it.bodies.supported)
 
-    def _sequential(self, touching: BoolArray, ratio: Array, impulse: Array) -> bool:
+    def _sequential(self, touching: BoolArray, ratio: Array, rounding: float, impulse: Array) -> bool:
         """One stop after the other, each time that with the greatest velocity of approach."""
         near, scale = self.stops.closed | touching, float(np.abs(self.stops.speeds()).max())
         for _ in range(BLOWS):
@@ -207,6 +212,6 @@ class StopMarch:
             k = int(np.argmin(speed))
             if speed[k] >= -STILL * scale:
                 return True
-            if not self.stops.collide(np.arange(len(self.stops.rows)) == k, -ratio * speed, impulse):
+            if not self.stops.collide(np.arange(len(self.stops.rows)) == k, -ratio * speed, rounding, impulse):
                 return False
         return False

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.errors import NumericsError
 from softway.kernels.multibody.contact import book_slab, collide, compliances, solve_contact_slab
 from softway.kernels.multibody.energy import close_energy, kinetic_energy
 from softway.kernels.multibody.slab import refactor, row_velocities, take_motion, tell_joints
@@ -70,11 +71,16 @@ class Stops:
         used: int = solve_contact_slab(*self._tables, rows, friction, span, extent)
         return used
 
-    def taken(self, span: float, extent: float, told: Array, rebound: Array) -> BoolArray:
+    def taken(self, time: float, span: float, extent: float, told: Array, rebound: Array) -> BoolArray:
         """Take the slab that was tried; stops (s,) that are closed at its end, where they ``rebound`` (s,) [m/s].
 
         The energy that joints and stops took from the velocities at the end is given back, but not that of stops that
         slide or begin to stick.
+
+        Raises
+        ------
+        NumericsError
+            If no velocities at the end satisfy the laws of contact.
         """
         it, (rows, friction) = self.it, self._closed_rows()
         book_slab(it.bodies, it.joints, it.motion, self.room, rows, span)
@@ -86,7 +92,9 @@ class Stops:
         if not steady:
             told[2] = max(told[2], close_energy(it.bodies, it.springs, it.motion, self.room))
         energy = self.energy()
-        total = self._pushed(rows, friction, through, rebound[self.closed])
+        total = self._pushed(rows, friction, through, rebound[self.closed], extent / span)
+        if total is None:
+            raise NumericsError("no velocities satisfy the laws of contact at the closed stops", time, "a shorter step")
         if steady:
             told[2] = max(told[2], close_energy(it.bodies, it.springs, it.motion, self.room))
         else:
@@ -100,23 +108,23 @@ class Stops:
         )
         return closed & (rebound <= 0.0)
 
-    def _pushed(self, rows: IntArray, friction: Array, through: Array, rebound: Array) -> Array:
+    def _pushed(self, rows: IntArray, friction: Array, through: Array, rebound: Array, speed: float) -> Array | None:
         """Push the closed stops at the end of a slab: their impulses (m,), those that acted ``through`` it included.
 
-        If the energy grew, which rebounds with friction may cause, they are pushed with less rebound.
+        If the energy grew, which rebounds with friction may cause, they are pushed with less rebound.  None if there is
+        no solution.
         """
-        it, total = self.it, through.copy()
+        it = self.it
         kept, energy = (it.motion.velocity.copy(), it.motion.spin.copy()), float(self.energy().sum())
         for part in REBOUNDS if rebound.any() else REBOUNDS[-1:]:
             it.motion.velocity[:], it.motion.spin[:] = kept
-            total = through.copy()
-            if len(rows):
-                collide(it.bodies, it.joints, it.motion, self.room, rows, friction, through, part * rebound, total)
-            if float(self.energy().sum()) <= (1.0 + GAINED) * energy:
-                break
-        return total
+            total, tables = through.copy(), (it.bodies, it.joints, it.motion, self.room)
+            solved = collide(*tables, rows, friction, through, part * rebound, speed, total) if len(rows) else 1
+            if solved and float(self.energy().sum()) <= (1.0 + GAINED) * energy:
+                return total
+        return total if solved else None
 
-    def collide(self, these: BoolArray, rebound: Array, impulse: Array) -> bool:
+    def collide(self, these: BoolArray, rebound: Array, speed: float, impulse: Array) -> bool:
         """Impact at some stops (s,) at once which rebound with velocities (s,) [m/s]; their normal impulses are added.
 
         False if it has no solution.
@@ -132,6 +140,7 @@ class Stops:
             self.friction[these],
             np.zeros(len(rows)),
             rebound[these],
+            speed,
             found,
         )
         impulse[these] += self._split(found)[0]

@@ -27,7 +27,7 @@ def never_gains(steps: list[MechanismStep]) -> bool:
     scale = max(s.energy_kinetic + abs(s.energy_potential) + s.dissipation for s in steps)
     closed = max(abs(s.energy_error) for s in steps) <= 1e-12 * scale
     return closed and all(
-        b.dissipation >= a.dissipation - 1e-13 * scale for a, b in zip(steps, steps[1:], strict=False)
+        b.dissipation >= a.dissipation - 1e-12 * scale for a, b in zip(steps, steps[1:], strict=False)
     )
 
 
@@ -149,3 +149,26 @@ def test_a_box_that_is_thrown_tumbles_to_rest() -> None:
     assert last.bodies["b"].centre[1] == pytest.approx(0.05, abs=1e-12) or last.bodies["b"].centre[1] == pytest.approx(
         0.1, abs=1e-12
     )
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.3])
+def test_a_stack_that_was_pushed_comes_to_rest_and_stays(restitution: float) -> None:
+    """Three boxes on two corners each: four rows a face, of which three are independent."""
+    wide, high = 0.1, 0.05
+    bodies, stops = {}, {}
+    for k, speed in enumerate((0.25, -0.3, 0.4)):
+        level = high * (2 * k + 1)
+        inertia = (wide**2 + high**2) / 3.0
+        bodies[f"b{k}"] = Rigid(mass=1.0, centre=(0.0, level), inertia=inertia, velocity=(speed, 0.0))
+        below = "ground" if k == 0 else f"b{k - 1}"
+        for side, x in (("l", -wide), ("r", wide)):
+            foot = (x, level - high)
+            stops[f"s{k}{side}"] = PlaneStop(
+                between=(below, f"b{k}"), point=foot, plane=(0.0, level - high), normal=(0.0, 1.0), friction=0.5,
+                restitution=restitution,
+            )  # fmt: skip
+    steps = list(march(Mechanism(bodies=bodies, stops=stops, gravity=(0.0, -G)), until=2.0, step=0.01))
+    places = np.array([[body.centre for body in s.bodies.values()] for s in steps])
+    assert np.abs(places[-1] - places[0]).max() > 1e-3, "they have slid"
+    assert np.abs(places[100:] - places[100]).max() < 1e-12
+    assert never_gains(steps)

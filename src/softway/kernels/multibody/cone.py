@@ -14,8 +14,14 @@ EXACT = 4e-16
 """Residual, relative to the impulses, below which nothing can be gained."""
 SOLVED = 1e-11
 """Residual, relative to the impulses, at which iterates that improve no more are a solution."""
+ROUGHLY = 1e-9
+"""Residual, relative to the impulses, that is accepted where all else fails: dependent contacts, rounded velocities."""
 DEPENDENT = 1e-12
 """Pivot relative to the greatest entry of the matrix below which a row depends on others."""
+NEAR = (1e-4, 1e-3, 1e-2, 1e-1)
+"""Compliances added in the search near the last impulses, relative to those of each row."""
+SEARCHES = 30
+"""Greatest number of searches near the last impulses."""
 MOST = 5
 """Greatest number of contacts whose modes are tried one by one."""
 SWEEPS = 2000
@@ -23,18 +29,28 @@ SWEEPS = 2000
 
 
 @kernel
-def solve_cone(W, b, friction, least, x):
-    """Impulses x (m,) in place, from a first guess; 1 if they are a solution, 0 if none was found."""
+def solve_cone(W, b, friction, least, rounding, x):
+    """Impulses x (m,) in place, from a first guess; 1 if they are a solution, 0 if none was found.
+
+    Impulses below ``rounding`` are rounding errors.
+    """
     if len(x) == 0:
         return 1
     d = len(x) // len(friction)
     rho = _steps(W, d, len(friction))
-    found = _newton(W, b, friction, least, rho, x)
+    found = _newton(W, b, friction, least, rho, rounding, x)
     if not found and d == 2 and len(friction) <= MOST:
         found = _modes(W, b, friction, x)
     if not found:
         _sweeps(W, b, friction, least, rho, x)
-        found = _newton(W, b, friction, least, rho, x)
+        found = _newton(W, b, friction, least, rho, rounding, x)
+    for part in NEAR:
+        if not found:
+            found = _proximal(W, b, friction, least, rho, rounding, x, part)
+    if not found:
+        F, J = np.empty(len(x)), np.empty((len(x), len(x)))
+        size = _projected(W, b, friction, least, rho, x, F, J)
+        found = 1 if size <= ROUGHLY * np.abs(x).max() else 0
     x[::d] = np.maximum(x[::d], 0.0)
     return found
 
@@ -54,7 +70,7 @@ def _steps(W, d, count):
 
 
 @kernel
-def _newton(W, b, friction, least, rho, x):
+def _newton(W, b, friction, least, rho, rounding, x):
     """Newton's method on the projections of the impulses; x is the best iterate.  1 if it is a solution."""
     m = len(x)
     F, J, tried = np.empty(m), np.empty((m, m)), np.empty(m)
@@ -62,7 +78,8 @@ def _newton(W, b, friction, least, rho, x):
     waited = 0
     for _ in range(ITERATIONS):
         scale = np.abs(x).max() + np.abs(rho * b).max()
-        if size <= EXACT * scale or (waited >= 2 and size <= SOLVED * scale):
+        nearly = max(SOLVED * scale, rounding)
+        if size <= EXACT * scale or (waited >= 2 and size <= nearly):
             return 1
         step = -F
         solve_dense(J, step)
@@ -70,12 +87,12 @@ def _newton(W, b, friction, least, rho, x):
         while True:
             tried[:] = x + length * step
             found = _projected(W, b, friction, least, rho, tried, F, J)
-            if found < size or length < 1e-3 or (length == 1.0 and size <= SOLVED * scale):
+            if found < size or length < 1e-3 or (length == 1.0 and size <= nearly):
                 break
             length *= 0.5
         waited = waited + 1 if found > 0.5 * size else 0
         if found >= size:
-            if size <= SOLVED * scale:
+            if size <= nearly:
                 return 1
             if waited >= 8:
                 return 0
@@ -83,7 +100,24 @@ def _newton(W, b, friction, least, rho, x):
             F[:] = before
             return 0
         x[:], size = tried, found
-    return 1 if size <= SOLVED * (np.abs(x).max() + np.abs(rho * b).max()) else 0
+    return 1 if size <= nearly else 0
+
+
+@kernel
+def _proximal(W, b, friction, least, rho, rounding, x, part):
+    """Search near the last impulses, again and again: an added compliance makes every problem regular.  1 if solved."""
+    added, near, new = part / rho, W.copy(), np.zeros(len(x))
+    for i in range(len(x)):
+        near[i, i] += added[i]
+    for _ in range(SEARCHES):
+        new[:] = x
+        if not _newton(near, b - added * x, friction, least, rho, rounding, new):
+            return 0
+        change = np.abs(new - x).max()
+        x[:] = new
+        if change <= SOLVED * np.abs(x).max():
+            break
+    return _newton(W, b, friction, least, rho, rounding, x)
 
 
 @kernel

@@ -23,6 +23,9 @@ from softway.kernels.multibody.slab import (
     project_velocities,
 )
 
+ROUNDING = 1e-15
+"""Rounding error of impulses and places, relative to the greatest."""
+
 
 @inlined
 def _displacement(joints, space, z, k):
@@ -68,16 +71,30 @@ def _product(joints, space, i, j):
     return total
 
 
+@inlined
+def _rounding(bodies, motion, speed):
+    """Rounding error of an impulse, from the velocities of the bodies and that which rounds their places."""
+    greatest = speed
+    for i in range(len(motion.place) - 1):
+        for c in range(3):
+            greatest = max(greatest, abs(motion.velocity[i, c]))
+    return ROUNDING * greatest * bodies.mass.max()
+
+
 @kernel
 def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h, extent):
     """Motion and impulses of a slab with closed contacts, as ``solve_motion``; the number of iterations, 0 if it fails.
 
     Afterwards ``space.g`` has the values of all rows at its end, and ``space.G`` their means.
     """
-    space.kept[:] = motion.impulse
+    space.kept[:] = motion.impulse  # and the rows at the start, since another try left its means
+    evaluate_rows(
+        joints, motion.place, space.R0, motion.place, space.R0, space.g, space.G
+    )  # another try left its means
     W, C, U = compliances(joints, space, rows)
     W *= 0.5 * h
     x, b, none = np.zeros(len(rows)), np.zeros(len(rows)), np.zeros(len(friction))
+    rounding = _rounding(bodies, motion, extent / h)
     guess_motion(bodies, joints, springs, motion, space, h)
     z, new, P, before, slow = space.z, space.new, motion.impulse, np.inf, 0
     for iteration in range(1, ITERATIONS + 1):
@@ -87,7 +104,7 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
         solve_band(space.lower, space.pivot, space.push)
         _offsets(joints, space, P, rows, C, b, x)
         b -= W @ x
-        if not solve_cone(W, b, friction, none, x):
+        if not solve_cone(W, b, friction, none, rounding, x):
             break
         _add_impulses(space, P, rows, U, x, h)
         motion_of(bodies, joints, springs, motion, space, h, P, z, new)
@@ -143,11 +160,11 @@ def book_slab(bodies, joints, motion, space, rows, h):
 
 
 @kernel
-def collide(bodies, joints, motion, space, rows, friction, through, rebound, x):
+def collide(bodies, joints, motion, space, rows, friction, through, rebound, speed, x):
     """Change the velocities at a prepared state by the contacts; x (m,) are the impulses, ``through`` (m,) included.
 
     Normal velocities become ``rebound`` (c,) at least; the impulses that acted ``through`` the slab count in the laws.
-    1 if a solution was found.
+    ``speed`` is that of the extent in a slab, the scale of rounding.  1 if a solution was found.
     """
     W = compliances(joints, space, rows)[0]
     b, d = np.zeros(len(rows)), len(rows) // max(len(friction), 1)
@@ -159,7 +176,7 @@ def collide(bodies, joints, motion, space, rows, friction, through, rebound, x):
         else:
             least[i // d] = np.sqrt(least[i // d] ** 2 + through[i] ** 2)
     b -= W @ through
-    found = solve_cone(W, b, friction, least, x)
+    found = solve_cone(W, b, friction, least, _rounding(bodies, motion, speed), x)
     for i in range(len(rows)):
         k, push = rows[i], x[i] - through[i]
         for side in range(2):
