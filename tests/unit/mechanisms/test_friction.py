@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from softway.mechanisms import DistanceStop, Mechanism, MechanismStep, PlaneStop, Rigid, march
+from softway.mechanisms import DistanceStop, Hinge, Mechanism, MechanismStep, PlaneStop, Rigid, Slider, march
 
 G = 9.81
 
@@ -172,3 +172,37 @@ def test_a_stack_that_was_pushed_comes_to_rest_and_stays(restitution: float) -> 
     assert np.abs(places[-1] - places[0]).max() > 1e-3, "they have slid"
     assert np.abs(places[100:] - places[100]).max() < 1e-12
     assert never_gains(steps)
+
+
+def slider_crank(clearance: float) -> Mechanism:
+    """Slider-crank whose wrist pin of 10 mm radius has a clearance in its hole."""
+    bodies = {
+        "crank": Rigid(mass=0.1, centre=(0.05, 0.0), inertia=1e-4, velocity=(0.0, 4.0), spin=80.0),
+        "rod": Rigid(mass=0.2, centre=(0.225, 0.0), inertia=1e-3, velocity=(0.0, 4.0), spin=-32.0),
+        "slider": Rigid(mass=0.3, centre=(0.35, 0.0), inertia=1e-4),
+    }
+    pin = DistanceStop(
+        between=("slider", "rod"), points=((0.35, 0.0), (0.35, 0.0)), distance=clearance, side="most",
+        contact=1.0 + 0.01 / clearance, restitution=0.5, friction=0.1,
+    )  # fmt: skip
+    joints = {
+        "main": Hinge(between=("ground", "crank"), at=(0.0, 0.0)),
+        "big end": Hinge(between=("crank", "rod"), at=(0.1, 0.0)),
+        "guide": Slider(between=("ground", "slider"), at=(0.35, 0.0), axis=(1.0, 0.0)),
+    }
+    return Mechanism(bodies=bodies, joints=joints, stops={"wrist": pin})
+
+
+def test_a_slider_crank_with_a_clearance_rattles_without_a_gain_of_energy() -> None:
+    ends = []
+    for h in (4e-4, 2e-4, 1e-4, 2.5e-5):
+        steps = list(march(slider_crank(1e-3), until=0.02, step=h))
+        assert never_gains(steps)
+        assert max(s.joints for s in steps) < 1e-14
+        for s in steps:
+            rod, slider = s.bodies["rod"], s.bodies["slider"]
+            assert np.hypot(*(rod.point((0.35, 0.0), (0.225, 0.0)) - slider.centre)) < 1e-3 + 1e-14
+        assert sum(event.kind == "touch" for s in steps for event in s.events) > 5
+        ends.append(float(steps[-1].bodies["slider"].centre[0]))
+    errors = np.abs(np.array(ends[:3]) - ends[3])
+    assert errors[2] < 3e-6 and errors[2] < 0.3 * errors[0]

@@ -114,6 +114,8 @@ def _sliding_row(joints, k, place0, R0, place1, R1, g, G):
 def _across(x, y, z, second):
     """First or second unit direction across a vector; in the plane the first is that of its right angle."""
     length = np.sqrt(x * x + y * y + z * z)
+    if length == 0.0:  # the points coincide: the stop is open, and its rows do not matter
+        x, length = 1.0, 1.0
     x, y, z = x / length, y / length, z / length
     u, v, w = -y, x, 0.0
     if abs(z) > 0.9:
