@@ -13,8 +13,11 @@ from softway.mechanisms.members.joints import Universal as Universal
 from softway.mechanisms.members.joints import Weld as Weld
 from softway.mechanisms.members.mechanism import Mechanism as Mechanism
 from softway.mechanisms.members.rigid import Rigid as Rigid
+from softway.mechanisms.members.springs import HingeTorque as HingeTorque
+from softway.mechanisms.members.springs import PointForce as PointForce
 from softway.mechanisms.members.springs import Spring as Spring
 from softway.mechanisms.members.springs import Torque as Torque
+from softway.mechanisms.members.springs import TorsionSpring as TorsionSpring
 from softway.mechanisms.members.stops import DistanceStop as DistanceStop
 from softway.mechanisms.members.stops import PlaneStop as PlaneStop
 from softway.mechanisms.members.stops import StopEvent as StopEvent
@@ -25,16 +28,19 @@ __all__ = [
     "Cylindrical",
     "DistanceStop",
     "Hinge",
+    "HingeTorque",
     "Mechanism",
     "MechanismStep",
     "PinSlot",
     "PlaneStop",
+    "PointForce",
     "Rigid",
     "Rod",
     "Slider",
     "Spring",
     "StopEvent",
     "Torque",
+    "TorsionSpring",
     "Universal",
     "Weld",
     "march",

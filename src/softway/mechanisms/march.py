@@ -148,7 +148,7 @@ def _steps(
     mechanism: Mechanism, joined: Welded, it: Arrays, until: float, slabs: int, every: int
 ) -> Iterator[MechanismStep]:
     """States of the march."""
-    room = space(len(it.names), len(it.joint_of), it.joints.width)
+    room = space(it.joints, len(it.names), len(it.bodies.jointed))
     stops = stop_march(it, room, joined.mechanism.stops, mechanism.impacts) if joined.mechanism.stops else None
     begin(it.bodies, it.joints, it.springs, it.motion, room)
     project_velocities(it.bodies, it.joints, it.motion, room)
@@ -216,7 +216,7 @@ def _step(
     motion, groups = it.motion, len(it.bodies.jointed)
     kinetic, potential = np.zeros(groups), np.zeros(groups)
     kinetic_energy(it.bodies, motion, kinetic)
-    potential_energy(it.bodies, it.springs, motion.place, room.R0, potential)
+    potential_energy(it.bodies, it.springs, it.joints.angles, motion, room.R0, potential)
     total = float(kinetic.sum()), float(potential.sum())
     mass = it.bodies.mass[:, None]
     turned = np.einsum("nij,njk,nk->ni", room.R0, it.bodies.inertia, motion.spin)

@@ -5,7 +5,7 @@ Jacobian G at the means (docs/theory/mechanisms.md).  A row has the bodies a and
 the directions N of a and B of b, all in the axes of their bodies.
 """
 
-from softway.kernels.jit.compilation import inlined
+from softway.kernels.jit.compilation import uncounted
 
 POINT = 0
 """``e . (p_b - p_a) = c`` along the direction e = N, fixed in space."""
@@ -15,15 +15,20 @@ DIRECTION = 2
 """``n . m = c`` for the directions n = N of body a and m = B of body b."""
 DISTANCE = 3
 """``(|p_b - p_a|^2 - c^2) / (2 c) = 0``."""
+ANGLE = 4
+"""Only angles that :func:`add_angles` adds."""
 
 
-@inlined
+@uncounted
 def joint_row(joints, k, place0, R0, place1, R1, g, G):
     """Value ``g[k]`` at the end and Jacobian ``G[k]`` (2, 6) at the means: for the sides a and b, along d and theta."""
     kind, a, b, value = joints.kind[k], joints.a[k], joints.b[k], joints.value[k]
     X, Y, N = joints.X, joints.Y, joints.N
     if kind == DIRECTION:
         _direction_row(joints, k, R0, R1, g, G)
+        return
+    if kind == ANGLE:
+        _angle_row(joints, k, g, G)
         return
     # arms at the end and at the mean, and the vector between the points at the end and at the mean
     xa, ya, za = turned(R1, a, X, k)
@@ -53,7 +58,7 @@ def joint_row(joints, k, place0, R0, place1, R1, g, G):
     G[k, 1, 3], G[k, 1, 4], G[k, 1, 5] = by * tz - bz * ty, bz * tx - bx * tz, bx * ty - by * tx
 
 
-@inlined
+@uncounted
 def _direction_row(joints, k, R0, R1, g, G):
     """Row of two directions."""
     a, b, N, B = joints.a[k], joints.b[k], joints.N, joints.B
@@ -70,7 +75,31 @@ def _direction_row(joints, k, R0, R1, g, G):
     G[k, 1, 3], G[k, 1, 4], G[k, 1, 5] = -px, -py, -pz
 
 
-@inlined
+@uncounted
+def _angle_row(joints, k, g, G):
+    """Row without any places."""
+    g[k] = -joints.value[k]
+    for side in range(2):
+        for i in range(6):
+            G[k, side, i] = 0.0
+
+
+@uncounted
+def add_angles(joints, k, angle, turn, g, G):
+    """Add the angles of a row, with their factors, to its value and its Jacobian."""
+    for t in range(2):
+        q = joints.angle[k, t]
+        if q >= 0:
+            ratio = joints.ratio[k, t]
+            g[k] += ratio * angle[q]
+            for c in range(3):
+                if t == 1:
+                    G[k, 2, 3 + c], G[k, 3, 3 + c] = 0.0, 0.0
+                G[k, 2 * t, 3 + c] -= ratio * turn[q, c]
+                G[k, 2 * t + 1, 3 + c] += ratio * turn[q, c]
+
+
+@uncounted
 def turned(R, i, x, k):
     """``R[i] x[k]`` as three numbers."""
     u, v, w = x[k, 0], x[k, 1], x[k, 2]
@@ -81,7 +110,7 @@ def turned(R, i, x, k):
     )
 
 
-@inlined
+@uncounted
 def turned_back(R, i, u, v, w):
     """``R[i]^T (u, v, w)`` as three numbers."""
     return (
@@ -91,7 +120,7 @@ def turned_back(R, i, u, v, w):
     )
 
 
-@inlined
+@uncounted
 def mean_turned(R0, i, x, k, x1, y1, z1):
     """Mean of ``R0[i] x[k]`` and its value at the end."""
     x0, y0, z0 = turned(R0, i, x, k)

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from softway.errors import InputError
-from softway.mechanisms.members.joints import GROUND, Joint, Rod
+from softway.mechanisms.members.joints import GROUND, Joint, Rod, turning_axis
 from softway.mechanisms.members.rigid import Rigid
-from softway.mechanisms.members.springs import Spring, Torque
+from softway.mechanisms.members.springs import HingeTorque, PointForce, Spring, Torque, TorsionSpring
 from softway.mechanisms.members.stops import Impacts, Stop
 from softway.units import MetrePerSecondSquared
 
@@ -27,9 +27,11 @@ class Mechanism:
         Law of impacts at several stops at once: ``simultaneous``, or ``sequential``, one after the other, each time
         that with the greatest velocity of approach.
     springs
-        Springs and dampers.
+        Springs and dampers, between points or about the axes of joints.
     torques
-        Constant torques.
+        Constant torques, on a body or about the axes of joints.
+    forces
+        Constant forces at points of bodies.
     gravity
         Acceleration of gravity [m/s^2]; none by default.
 
@@ -50,8 +52,9 @@ class Mechanism:
     joints: Mapping[str, Joint] = field(default_factory=dict)
     stops: Mapping[str, Stop] = field(default_factory=dict)
     impacts: Impacts = "simultaneous"
-    springs: tuple[Spring, ...] = ()
-    torques: tuple[Torque, ...] = ()
+    springs: tuple[Spring | TorsionSpring, ...] = ()
+    torques: tuple[Torque | HingeTorque, ...] = ()
+    forces: tuple[PointForce, ...] = ()
     gravity: tuple[MetrePerSecondSquared, ...] | None = None
 
     def __post_init__(self) -> None:
@@ -74,14 +77,34 @@ class Mechanism:
         if twice := self.joints.keys() & self.stops.keys():
             raise InputError("stops", f"{sorted(twice)} are names of joints, too", "other names")
         for k, spring in enumerate(self.springs):
-            self._require(f"springs[{k}]", spring.between, spring.ends)
+            if isinstance(spring, TorsionSpring):
+                self._require_turning(f"springs[{k}]", spring.joint)
+            else:
+                self._require(f"springs[{k}]", spring.between, spring.ends)
         for k, torque in enumerate(self.torques):
-            self._require(f"torques[{k}]", (torque.on, GROUND), ())
+            if isinstance(torque, HingeTorque):
+                self._require_turning(f"torques[{k}]", torque.joint)
+            else:
+                self._require(f"torques[{k}]", (torque.on, GROUND), ())
+        for k, force in enumerate(self.forces):
+            self._require(f"forces[{k}]", (force.on, GROUND), (force.at,))
 
     @property
     def dim(self) -> int:
         """2 in the plane, 3 in space."""
         return next(iter(self.bodies.values())).dim
+
+    @property
+    def turning(self) -> frozenset[str]:
+        """Names of the joints whose angles other members need."""
+        springs = [spring.joint for spring in self.springs if isinstance(spring, TorsionSpring)]
+        return frozenset(springs + [torque.joint for torque in self.torques if isinstance(torque, HingeTorque)])
+
+    def _require_turning(self, where: str, joint: str) -> None:
+        """Refuse a joint that is not there, or has no axis to turn about."""
+        turning = [name for name, one in self.joints.items() if turning_axis(one) is not None]
+        if joint not in turning:
+            raise InputError(f"{where}.joint", f"{joint!r} is no joint that turns about an axis", f"one of {turning}")
 
     def _require(self, where: str, between: tuple[str, str], points: tuple[tuple[float, ...], ...]) -> None:
         """Refuse unknown or equal bodies, and points of another dimension."""
