@@ -12,6 +12,11 @@ from softway.mechanisms.members.joints import Slider as Slider
 from softway.mechanisms.members.joints import Universal as Universal
 from softway.mechanisms.members.joints import Weld as Weld
 from softway.mechanisms.members.mechanism import Mechanism as Mechanism
+from softway.mechanisms.members.motors import Motor as Motor
+from softway.mechanisms.members.motors import Polyline as Polyline
+from softway.mechanisms.members.motors import RatePolyline as RatePolyline
+from softway.mechanisms.members.motors import Sine as Sine
+from softway.mechanisms.members.motors import Steady as Steady
 from softway.mechanisms.members.rigid import Rigid as Rigid
 from softway.mechanisms.members.springs import HingeTorque as HingeTorque
 from softway.mechanisms.members.springs import PointForce as PointForce
@@ -31,13 +36,18 @@ __all__ = [
     "HingeTorque",
     "Mechanism",
     "MechanismStep",
+    "Motor",
     "PinSlot",
     "PlaneStop",
     "PointForce",
+    "Polyline",
+    "RatePolyline",
     "Rigid",
     "Rod",
+    "Sine",
     "Slider",
     "Spring",
+    "Steady",
     "StopEvent",
     "Torque",
     "TorsionSpring",

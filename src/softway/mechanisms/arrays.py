@@ -111,4 +111,5 @@ def _motion(mechanism: Mechanism, centres: Array, joints: Joints, groups: int) -
         impulse=np.zeros(len(joints.kind)),
         energy=np.zeros(groups),
         work=np.zeros(2),
+        time=np.zeros(2),
     )

@@ -1,7 +1,7 @@
 """March of a mechanism: slabs (time steps) in compiled loops."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from softway.kernels.multibody.energy import kinetic_energy, potential_energy
 from softway.kernels.multibody.slab import begin, end_slab, march_slabs, project_velocities
 from softway.kernels.multibody.tables import Space, space
 from softway.mechanisms.arrays import Arrays, arrays
+from softway.mechanisms.driven import require_free_motions
 from softway.mechanisms.impacts import StopMarch
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.stops import StopEvent
@@ -62,7 +63,7 @@ class MechanismStep:
     energy_kinetic, energy_potential
         [J].
     work, dissipation
-        Work of torques and energy dissipated by dampers since the start [J].
+        Work of forces, torques and motors, and energy dissipated by dampers since the start [J].
     energy_error
         Energy minus that at the start, minus work, plus dissipation [J].
     momentum, spin
@@ -79,6 +80,8 @@ class MechanismStep:
         Events of the stops since the last step.
     closed
         Names of the closed stops.
+    motors
+        Torque [N m] or force [N] of each motor, the mean over the last slab.
     """
 
     time: float
@@ -97,6 +100,7 @@ class MechanismStep:
     independent: int
     events: tuple[StopEvent, ...] = ()
     closed: tuple[str, ...] = ()
+    motors: Mapping[str, float] = field(default_factory=dict)
 
 
 def march(mechanism: Mechanism, *, until: Second, step: Second, every: int = 1) -> Iterator[MechanismStep]:
@@ -151,6 +155,7 @@ def _steps(
     room = space(it.joints, len(it.names), len(it.bodies.jointed))
     stops = stop_march(it, room, joined.mechanism.stops, mechanism.impacts) if joined.mechanism.stops else None
     begin(it.bodies, it.joints, it.springs, it.motion, room)
+    require_free_motions(it, room)
     project_velocities(it.bodies, it.joints, it.motion, room)
     begin(it.bodies, it.joints, it.springs, it.motion, room)
     initial = float(it.motion.energy.sum())
@@ -237,6 +242,9 @@ def _step(
         independent=int((room.pivot > 0.0).sum()),
         events=tuple(events),
         closed=() if stops is None else tuple(n for n, shut in zip(stops.names, stops.closed, strict=True) if shut),
+        motors={
+            it.joint_of[k]: force for k, force in zip(it.joints.drives.row, room.drive[:, 2].tolist(), strict=True)
+        },
     )
 
 

@@ -9,10 +9,11 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from softway.arrays import Array, IntArray
 from softway.errors import InputError, within
-from softway.kernels.multibody.joint_rows import ALONG, DIRECTION
-from softway.kernels.multibody.tables import Angles, Joints
-from softway.mechanisms.members.joints import GROUND, JointRow, turning_axis
+from softway.kernels.multibody.joint_rows import ALONG, ANGLE, DIRECTION
+from softway.kernels.multibody.tables import Angles, Drives, Joints
+from softway.mechanisms.members.joints import GROUND, JointRow, motor_row, turning_axis
 from softway.mechanisms.members.mechanism import Mechanism
+from softway.mechanisms.members.motors import Prescribed, Sine
 from softway.mechanisms.members.rows import axes
 
 FELT = 1e-9
@@ -24,7 +25,7 @@ class Row:
     """Row of a joint of this ``name`` between the numbers of its ``bodies``, two or four.
 
     Rows that are not ``fixed`` do not always take part.  ``angles`` are numbers of angles with their factors, the first
-    between the first two bodies and the second between the others.
+    between the first two bodies and the second between the others; ``motion`` is the prescribed one.
     """
 
     name: str
@@ -32,6 +33,7 @@ class Row:
     row: JointRow
     fixed: bool = True
     angles: tuple[tuple[int, float], ...] = ()
+    motion: Prescribed | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -58,7 +60,19 @@ def rows_of(mechanism: Mechanism, number: Mapping[str, int]) -> tuple[list[Row],
     for name, stop in mechanism.stops.items():
         two = number[stop.between[0]], number[stop.between[1]]
         rows.append(Row(name=name, bodies=two, row=stop.row(), fixed=False))
-    return rows, turnings
+    return rows + _motors(mechanism, number, list(turnings)), turnings
+
+
+def _motors(mechanism: Mechanism, number: Mapping[str, int], turning: Sequence[str]) -> list[Row]:
+    """Rows of the motors."""
+    rows = []
+    for name, motor in mechanism.motors.items():
+        joint = mechanism.joints[motor.joint]
+        if (row := motor_row(joint)) is not None:
+            two = number[joint.between[0]], number[joint.between[1]]
+            angles = ((turning.index(motor.joint), row.ratio),) if row.ratio else ()
+            rows.append(Row(name=name, bodies=two, row=row, angles=angles, motion=motor.motion))
+    return rows
 
 
 def joint_tables(rows: Sequence[Row], turnings: Mapping[str, Turning], centres: Array) -> tuple[Joints, IntArray]:
@@ -89,6 +103,7 @@ def joint_tables(rows: Sequence[Row], turnings: Mapping[str, Turning], centres: 
         angles=_angles(list(turnings.values())),
         angle=angle[order],
         ratio=ratio[order],
+        drives=_drives([rows[k].motion for k in order]),
     )
     return joints, order
 
@@ -127,6 +142,19 @@ def _angles(turnings: Sequence[Turning]) -> Angles:
     )
 
 
+def _drives(motions: Sequence[Prescribed | None]) -> Drives:
+    """Table of the prescribed motions."""
+    row = [k for k, motion in enumerate(motions) if motion is not None]
+    given = [motion for motion in motions if motion is not None]
+    knots = [motion.knots() for motion in given]
+    return Drives(
+        row=np.array(row, dtype=np.int64),
+        first=np.cumsum([0, *(len(one) for one in knots)], dtype=np.int64),
+        knots=np.concatenate([np.zeros((0, 4)), *knots]),
+        wave=_table([motion.wave() if isinstance(motion, Sine) else np.zeros(3) for motion in given]),
+    )
+
+
 def _table(vectors: Sequence[Array]) -> Array:
     return np.array(vectors, dtype=float).reshape(-1, 3)
 
@@ -137,8 +165,8 @@ def require_inertia(mechanism: Mechanism, rows: Sequence[Row], centres: Array) -
     for it in rows:
         (a, b), row = it.bodies[:2], it.row
         for i, point, turning in (
-            (a, row.first, row.kind in (ALONG, DIRECTION)),
-            (b, row.second, row.kind == DIRECTION),
+            (a, row.first, row.kind in (ALONG, DIRECTION, ANGLE)),
+            (b, row.second, row.kind in (DIRECTION, ANGLE)),
         ):
             if names[i] == GROUND:
                 continue

@@ -50,6 +50,9 @@ def welded(mechanism: Mechanism) -> Welded:
         if not isinstance(joint, Weld) and (moved := _between(joint, part_of)) is not None
     }
     stops = {n: held for n, stop in mechanism.stops.items() if (held := _between(stop, part_of)) is not None}
+    for name, motor in mechanism.motors.items():
+        if motor.joint not in joints:
+            raise InputError(f"motors.{name}.joint", f"{motor.joint!r} joins parts of one body", "no weld between them")
     turning = (TorsionSpring, HingeTorque)
     return Welded(
         mechanism=replace(

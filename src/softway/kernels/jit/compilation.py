@@ -32,12 +32,14 @@ _SHARED = (
     "multibody/angles.py",
     "multibody/band.py",
     "multibody/copies.py",
+    "multibody/drives.py",
     "multibody/energy.py",
     "multibody/forces.py",
     "multibody/joint_rows.py",
     "multibody/rotations.py",
     "multibody/slab.py",
     "multibody/tables.py",
+    "multibody/velocities.py",
 )
 _SOURCES = b"".join((Path(__file__).parents[1] / name).read_bytes() for name in _SHARED)
 _ENDING = f"_{sha256(_SOURCES).hexdigest()[:12]}"

@@ -2,9 +2,8 @@
 
 from softway.kernels.jit.compilation import uncounted, uncounted_kernel
 from softway.kernels.multibody.angles import evaluate_angles
-from softway.kernels.multibody.joint_rows import add_angles, joint_row
 from softway.kernels.multibody.rotations import cayley_turned
-from softway.kernels.multibody.slab import evaluate_rows, motion_of, place_ends, turning
+from softway.kernels.multibody.slab import evaluate_row, evaluate_rows, motion_of, place_ends, turning
 
 STEP = 1e-6
 """Difference of a rotation, or of a place relative to the extent of the mechanism."""
@@ -41,8 +40,7 @@ def linearised(bodies, joints, springs, motion, space, h, P, extent, missed, slo
                     slopes[6 * j + 3 + c, column] -= weight * space.new[j, 3 + c]
                 for row in range(len(P)):
                     if _has(joints, row, j):
-                        joint_row(joints, row, motion.place, space.R0, space.place, space.R1, space.g, space.G)
-                        add_angles(joints, row, space.angle, space.turn, space.g, space.G)
+                        evaluate_row(joints, motion, space, space.place, space.R1, row)
                         slopes[6 * n + row, column] += weight * space.g[row]
                         _add_motion(bodies, joints, space, row, -0.5 * h * P[row] * weight, slopes, column)
             z[j, k] = kept

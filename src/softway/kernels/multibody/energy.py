@@ -6,11 +6,12 @@ to the mean rigid motion of a group is scaled until the energy is that which the
 
 import numpy as np
 
-from softway.kernels.jit.compilation import uncounted_kernel
+from softway.kernels.jit.compilation import uncounted, uncounted_kernel
 from softway.kernels.multibody.band import factor_band, solve_band
 from softway.kernels.multibody.forces import spring_vector
 from softway.kernels.multibody.joint_rows import turned_back
 from softway.kernels.multibody.rotations import in_space
+from softway.kernels.multibody.velocities import push_rows
 
 AT_REST = 1e-13
 """Kinetic energy relative to the greatest energy below which a group is at rest: nothing is scaled."""
@@ -48,27 +49,47 @@ def potential_energy(bodies, springs, angles, motion, R, out):
 
 
 @uncounted_kernel
-def close_energy(bodies, springs, angles, motion, space):
-    """Scale the velocities of the jointed groups; the greatest change of a scalar from 1."""
+def close_energy(bodies, springs, joints, motion, space):
+    """Scale the velocities of the jointed groups; the greatest change of a scalar from 1.
+
+    The velocities that the drives prescribe are not scaled.  What a moving drive leaves open is its work.
+    """
     groups, worst = len(bodies.jointed), 0.0
     kinetic, potential, mean = space.kinetic, space.potential, space.mean
     kinetic[:], potential[:], mean[:] = 0.0, 0.0, 0.0
     kinetic_energy(bodies, motion, kinetic)
-    potential_energy(bodies, springs, angles, motion, space.R0, potential)
+    potential_energy(bodies, springs, joints.angles, motion, space.R0, potential)
+    _add_driven(joints, motion, space, -1.0)
+    space.rest[:] = 0.0
+    kinetic_energy(bodies, motion, space.rest)
     for k in range(groups):
         rigid = 0.0
         if bodies.jointed[k] == 0:
             continue
         if bodies.supported[k] == 0:
             rigid = _mean_motion(bodies, motion, space, k, mean[k])
-        moving, wanted = kinetic[k] - rigid, motion.energy[k] - potential[k] - rigid
+        driven = kinetic[k] - space.rest[k]
+        moving, wanted = space.rest[k] - rigid, motion.energy[k] - potential[k] - driven - rigid
         scale = abs(motion.energy[k]) + abs(potential[k]) + kinetic[k]
         if moving <= AT_REST * scale or abs(wanted - moving) > FAR * moving:
+            if space.driven[k]:
+                motion.work[0] += moving - wanted
+                motion.energy[k] += moving - wanted
             continue
         s = np.sqrt(wanted / moving)
         worst = max(worst, abs(s - 1.0))
         _scale(bodies, motion, space, k, mean[k], s)
+    _add_driven(joints, motion, space, 1.0)
     return worst
+
+
+@uncounted
+def _add_driven(joints, motion, space, sign):
+    """Add the velocities with the least energy that have the prescribed rates; the others are perpendicular to them."""
+    if len(joints.drives.row):
+        for k in range(len(space.rate)):
+            space.push[k] = sign * space.rate[k]
+        push_rows(joints, motion, space, space.push)
 
 
 @uncounted_kernel

@@ -9,10 +9,15 @@ from softway.kernels.jit.compilation import uncounted, uncounted_kernel
 from softway.kernels.multibody.angles import evaluate_angles
 from softway.kernels.multibody.band import factor_band, solve_band
 from softway.kernels.multibody.copies import copy_numbers, copy_rows, copy_tensors
+from softway.kernels.multibody.drives import pass_time, set_rates, set_targets, work_of_drives
 from softway.kernels.multibody.energy import close_energy, kinetic_energy, potential_energy
 from softway.kernels.multibody.forces import add_forces, add_torsion, work_of_slab
 from softway.kernels.multibody.joint_rows import add_angles, joint_row, turned_back
 from softway.kernels.multibody.rotations import cayley_turned, in_space, matrix_of, quaternion_turned
+from softway.kernels.multibody.velocities import joint_velocity
+from softway.kernels.multibody.velocities import project_velocities as project_velocities
+from softway.kernels.multibody.velocities import push_rows as push_rows
+from softway.kernels.multibody.velocities import row_velocities as row_velocities
 
 ITERATIONS = 60
 """Greatest number of iterations of a slab."""
@@ -25,12 +30,19 @@ SLOW = 0.7
 
 
 @uncounted
+def evaluate_row(joints, motion, space, place1, R1, k):
+    """Value of a row at an end minus the prescribed one, and its Jacobian; the angles at the end are in the space."""
+    joint_row(joints, k, motion.place, space.R0, place1, R1, space.g, space.G)
+    add_angles(joints, k, space.angle, space.turn, space.g, space.G)
+    space.g[k] -= space.target[k]
+
+
+@uncounted
 def evaluate_rows(joints, motion, space, place1, R1):
     """Values g (r,) of the rows at an end and Jacobians G (r, s, 6) at its means with the state, in the space."""
     evaluate_angles(joints.angles, motion.angle, space.R0, R1, space.angle, space.turn)
     for k in range(len(space.g)):
-        joint_row(joints, k, motion.place, space.R0, place1, R1, space.g, space.G)
-        add_angles(joints, k, space.angle, space.turn, space.g, space.G)
+        evaluate_row(joints, motion, space, place1, R1, k)
 
 
 @uncounted_kernel
@@ -123,6 +135,7 @@ def body_rate(R0, z, spin, h, i):
 def guess_motion(bodies, joints, springs, motion, space, h):
     """Motion z at the start: that of the velocities and of the impulses of the slab before."""
     z = space.z
+    set_targets(joints.drives, motion, space, h)
     z[:] = 0.0
     copy_rows(motion.place, space.place)
     copy_tensors(space.R0, space.R1)
@@ -177,6 +190,8 @@ def end_slab(bodies, joints, springs, motion, space, h, told):
     evaluate_angles(joints.angles, motion.angle, space.R0, space.R1, space.angle, space.turn)
     work_of_slab(bodies, springs, joints.angles, motion, space, h)
     copy_numbers(space.angle, motion.angle)
+    pass_time(motion, h)
+    set_rates(joints.drives, motion, space)
     for i in range(n):
         motion.spin[i, 0], motion.spin[i, 1], motion.spin[i, 2] = body_rate(space.R0, z, motion.spin, h, i)
         for c in range(3):
@@ -186,52 +201,12 @@ def end_slab(bodies, joints, springs, motion, space, h, told):
         matrix_of(motion.turn, space.R0, i)
     prepare_joints(bodies, joints, motion, space)
     project_velocities(bodies, joints, motion, space)
-    told[2] = max(told[2], close_energy(bodies, springs, joints.angles, motion, space))
+    work_of_drives(bodies, joints, motion, space, h)
+    told[2] = max(told[2], close_energy(bodies, springs, joints, motion, space))
     for k in range(len(space.g)):
         if space.active[k] != 0:
             told[0] = max(told[0], abs(space.g[k]))
             told[1] = max(told[1], abs(joint_velocity(joints, motion, space, k)))
-
-
-@uncounted
-def joint_velocity(joints, motion, space, k):
-    """Velocity of a joint row, ``G v``."""
-    total = 0.0
-    for side in range(space.G.shape[1]):
-        i = joints.sides[k, side]
-        for c in range(3):
-            spin = (
-                space.R0[i, c, 0] * motion.spin[i, 0]
-                + space.R0[i, c, 1] * motion.spin[i, 1]
-                + space.R0[i, c, 2] * motion.spin[i, 2]
-            )
-            total += space.G[k, side, c] * motion.velocity[i, c] + space.G[k, side, 3 + c] * spin
-    return total
-
-
-@uncounted_kernel
-def project_velocities(bodies, joints, motion, space):
-    """Nearest velocities in the norm of the mass that satisfy the joints: ``v - M^-1 G^T (G M^-1 G^T)^+ G v``."""
-    for _ in range(2):
-        for k in range(len(space.g)):
-            space.push[k] = -joint_velocity(joints, motion, space, k)
-        push_rows(joints, motion, space, space.push)
-
-
-@uncounted_kernel
-def push_rows(joints, motion, space, wanted):
-    """Change the velocities of the active rows by ``wanted`` (r,); afterwards ``wanted`` has the impulses."""
-    solve_band(space.lower, space.pivot, wanted)
-    for k in range(len(wanted)):
-        for side in range(space.G.shape[1]):
-            i = joints.sides[k, side]
-            for c in range(3):
-                motion.velocity[i, c] += wanted[k] * space.MG[k, side, c]
-                motion.spin[i, c] += wanted[k] * (
-                    space.R0[i, 0, c] * space.MG[k, side, 3]
-                    + space.R0[i, 1, c] * space.MG[k, side, 4]
-                    + space.R0[i, 2, c] * space.MG[k, side, 5]
-                )
 
 
 @uncounted_kernel
@@ -252,6 +227,7 @@ def march_slabs(bodies, joints, springs, motion, space, h, count, extent, told):
 @uncounted_kernel
 def begin(bodies, joints, springs, motion, space):
     """Prepare the factor of the joints at a state, and the energies of the groups."""
+    set_rates(joints.drives, motion, space)
     for i in range(len(motion.place) - 1):
         matrix_of(motion.turn, space.R0, i)
     prepare_joints(bodies, joints, motion, space)
@@ -277,10 +253,3 @@ def try_slab(bodies, joints, springs, motion, space, h, extent):
 def refactor(bodies, joints, motion, space):
     """Factor of the rows that are active now, at the present state."""
     prepare_joints(bodies, joints, motion, space)
-
-
-@uncounted_kernel
-def row_velocities(joints, motion, space, out):
-    """Velocities (r,) of all rows at a prepared state."""
-    for k in range(len(out)):
-        out[k] = joint_velocity(joints, motion, space, k)

@@ -39,6 +39,20 @@ class Angles(NamedTuple):
     W: Array
 
 
+class Drives(NamedTuple):
+    """Prescribed changes (m,) of the values of rows since the start, as functions of time.
+
+    ``row`` (m,) is the row of each; its knots are ``first[m]`` to ``first[m + 1]`` of ``knots`` (q, 4): time [s],
+    value, rate and acceleration from there on; ``wave`` (m, 3): amplitude, angular frequency [rad/s] and phase of a
+    sine.
+    """
+
+    row: IntArray
+    first: IntArray
+    knots: Array
+    wave: Array
+
+
 class Joints(NamedTuple):
     """Rows (r,) of the joints, see :mod:`~softway.kernels.multibody.joint_rows`.
 
@@ -62,6 +76,7 @@ class Joints(NamedTuple):
     angles: Angles
     angle: IntArray
     ratio: Array
+    drives: Drives
 
 
 class Springs(NamedTuple):
@@ -92,7 +107,7 @@ class Motion(NamedTuple):
     """State of the bodies (b + 1,): places (b + 1, 3), unit quaternions (b + 1, 4), velocities (b + 1, 3) and angular
     velocities (b + 1, 3) in the axes of the bodies; ``angle`` (q,) with all turns [rad]; ``impulse`` (r,) through the
     joints in the slab before, ``energy`` (g,) that each group has to have, and ``work`` (2,): of forces and torques,
-    and dissipated by dampers [J].
+    motors included, and dissipated by dampers [J]; ``time`` (2,) [s], with the rounding error of its sum.
     """
 
     place: Array
@@ -103,6 +118,7 @@ class Motion(NamedTuple):
     impulse: Array
     energy: Array
     work: Array
+    time: Array
 
 
 class Space(NamedTuple):
@@ -113,8 +129,11 @@ class Space(NamedTuple):
     G^T at the start, with the ``mobility`` (n, 3, 3), the inverse inertia in space; ``matrix`` and ``lower`` (r, w +
     1), ``pivot`` (r,) of G M^-1 G^T; motions ``z`` and ``new`` (n, 6); ``force`` (n, 6) times h; ``push`` (r,) of the
     rows; ``kept`` (r,) impulses of the slab before; ``active`` (r,) rows that take part: all of the joints, and the
-    closed ones of the stops; ``kinetic`` and ``potential`` (g,) energies, ``mean`` (g, 3, 3) motions, ``own`` (n, 3, 3)
-    inertia in space, and ``three`` (4, 3, 3) for systems of three equations.
+    closed ones of the stops; ``target`` (r,) prescribed changes of the values at the end, ``rate`` (r,) prescribed
+    rates at the present state, ``jump`` (r,) impulses of the projection, and ``drive`` (m, 3) of each drive: the change
+    in the slab, the rate at its start, and the mean force; ``driven`` (g,) groups whose drives move; ``kinetic``,
+    ``rest`` (without the drives) and ``potential`` (g,) energies, ``mean`` (g, 3, 3) motions, ``own`` (n, 3, 3) inertia
+    in space, ``three`` (4, 3, 3) for systems of three equations.
     """
 
     R0: Array
@@ -135,7 +154,13 @@ class Space(NamedTuple):
     push: Array
     kept: Array
     active: IntArray
+    target: Array
+    rate: Array
+    jump: Array
+    drive: Array
+    driven: IntArray
     kinetic: Array
+    rest: Array
     potential: Array
     mean: Array
     own: Array
@@ -165,7 +190,13 @@ def space(joints: Joints, bodies: int, groups: int) -> Space:
         push=np.zeros(rows),
         kept=np.zeros(rows),
         active=np.ones(rows, dtype=np.int64),
+        target=np.zeros(rows),
+        rate=np.zeros(rows),
+        jump=np.zeros(rows),
+        drive=np.zeros((len(joints.drives.row), 3)),
         kinetic=np.zeros(groups),
+        rest=np.zeros(groups),
+        driven=np.zeros(groups, dtype=np.int64),
         potential=np.zeros(groups),
         mean=np.zeros((groups, 3, 3)),
         own=np.zeros((n, 3, 3)),

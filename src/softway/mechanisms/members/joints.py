@@ -9,7 +9,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.errors import InputError
-from softway.kernels.multibody.joint_rows import DISTANCE
+from softway.kernels.multibody.joint_rows import ALONG, ANGLE, DISTANCE
 from softway.mechanisms.members.rows import Direction as Direction
 from softway.mechanisms.members.rows import JointRow as JointRow
 from softway.mechanisms.members.rows import axes, directions, not_turning, pinned, sliding, unit
@@ -215,4 +215,22 @@ def turning_axis(joint: Joint) -> Array | None:
     """Unit axis (3,) at the start about which a joint lets its second body turn; None if it has no such axis."""
     if isinstance(joint, Hinge | Cylindrical):
         return np.array([0.0, 0.0, 1.0]) if len(joint.at) == 2 else axes(joint.axis, joint)[0]
+    return None
+
+
+def travel_axis(joint: Joint) -> Array | None:
+    """Unit axis (3,) at the start along which a joint lets its second body slide; None if there is none."""
+    if isinstance(joint, Slider | PinSlot):
+        return unit(joint.axis, len(joint.at), "axis")
+    return None
+
+
+def motor_row(joint: Joint) -> JointRow | None:
+    """Row of the motion that a joint leaves, an angle or a travel; None if it leaves none or more than one."""
+    zero, along = np.zeros(3), travel_axis(joint)
+    if along is not None:
+        point = in_space(joint.at) if isinstance(joint, Slider | PinSlot) else zero
+        return JointRow(kind=ALONG, first=point, second=point, n=along, m=zero)
+    if isinstance(joint, Hinge):
+        return JointRow(kind=ANGLE, first=zero, second=zero, n=zero, m=zero, ratio=1.0)
     return None

@@ -2,9 +2,11 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import combinations
 
 from softway.errors import InputError
-from softway.mechanisms.members.joints import GROUND, Joint, Rod, turning_axis
+from softway.mechanisms.members.joints import GROUND, Joint, Rod, motor_row, turning_axis
+from softway.mechanisms.members.motors import Motor
 from softway.mechanisms.members.rigid import Rigid
 from softway.mechanisms.members.springs import HingeTorque, PointForce, Spring, Torque, TorsionSpring
 from softway.mechanisms.members.stops import Impacts, Stop
@@ -26,6 +28,8 @@ class Mechanism:
     impacts
         Law of impacts at several stops at once: ``simultaneous``, or ``sequential``, one after the other, each time
         that with the greatest velocity of approach.
+    motors
+        Prescribed motions of joints by name.
     springs
         Springs and dampers, between points or about the axes of joints.
     torques
@@ -52,6 +56,7 @@ class Mechanism:
     joints: Mapping[str, Joint] = field(default_factory=dict)
     stops: Mapping[str, Stop] = field(default_factory=dict)
     impacts: Impacts = "simultaneous"
+    motors: Mapping[str, Motor] = field(default_factory=dict)
     springs: tuple[Spring | TorsionSpring, ...] = ()
     torques: tuple[Torque | HingeTorque, ...] = ()
     forces: tuple[PointForce, ...] = ()
@@ -74,8 +79,12 @@ class Mechanism:
             self._require(f"stops.{name}", stop.between, stop.places)
         if self.impacts not in ("simultaneous", "sequential"):
             raise InputError("impacts", f"{self.impacts!r}", "'simultaneous' or 'sequential'")
-        if twice := self.joints.keys() & self.stops.keys():
-            raise InputError("stops", f"{sorted(twice)} are names of joints, too", "other names")
+        self._require_names()
+        for name, motor in self.motors.items():
+            moving = [one for one, joint in self.joints.items() if motor_row(joint) is not None]
+            if motor.joint not in moving:
+                problem = f"{motor.joint!r} is no joint with one motion, an angle or a travel"
+                raise InputError(f"motors.{name}.joint", problem, f"one of {moving}")
         for k, spring in enumerate(self.springs):
             if isinstance(spring, TorsionSpring):
                 self._require_turning(f"springs[{k}]", spring.joint)
@@ -98,7 +107,16 @@ class Mechanism:
     def turning(self) -> frozenset[str]:
         """Names of the joints whose angles other members need."""
         springs = [spring.joint for spring in self.springs if isinstance(spring, TorsionSpring)]
-        return frozenset(springs + [torque.joint for torque in self.torques if isinstance(torque, HingeTorque)])
+        torques = [torque.joint for torque in self.torques if isinstance(torque, HingeTorque)]
+        motors = [motor.joint for motor in self.motors.values() if turning_axis(self.joints[motor.joint]) is not None]
+        return frozenset(springs + torques + motors)
+
+    def _require_names(self) -> None:
+        """Refuse names that two members have."""
+        members = [("joints", self.joints), ("stops", self.stops), ("motors", self.motors)]
+        for (where, one), (which, other) in combinations(members, 2):
+            if twice := one.keys() & other.keys():
+                raise InputError(which, f"{sorted(twice)} are names of {where}, too", "other names")
 
     def _require_turning(self, where: str, joint: str) -> None:
         """Refuse a joint that is not there, or has no axis to turn about."""
