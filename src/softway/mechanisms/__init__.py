@@ -3,11 +3,13 @@
 from softway.mechanisms.march import BodyState as BodyState
 from softway.mechanisms.march import MechanismStep as MechanismStep
 from softway.mechanisms.march import march as march
+from softway.mechanisms.members.couplings import Gear as Gear
 from softway.mechanisms.members.joints import BallJoint as BallJoint
 from softway.mechanisms.members.joints import Cylindrical as Cylindrical
 from softway.mechanisms.members.joints import Hinge as Hinge
 from softway.mechanisms.members.joints import PinSlot as PinSlot
 from softway.mechanisms.members.joints import Rod as Rod
+from softway.mechanisms.members.joints import Screw as Screw
 from softway.mechanisms.members.joints import Slider as Slider
 from softway.mechanisms.members.joints import Universal as Universal
 from softway.mechanisms.members.joints import Weld as Weld
@@ -32,6 +34,7 @@ __all__ = [
     "BodyState",
     "Cylindrical",
     "DistanceStop",
+    "Gear",
     "Hinge",
     "HingeTorque",
     "Mechanism",
@@ -44,6 +47,7 @@ __all__ = [
     "RatePolyline",
     "Rigid",
     "Rod",
+    "Screw",
     "Sine",
     "Slider",
     "Spring",

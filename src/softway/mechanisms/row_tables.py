@@ -11,7 +11,7 @@ from softway.arrays import Array, IntArray
 from softway.errors import InputError, within
 from softway.kernels.multibody.joint_rows import ALONG, ANGLE, DIRECTION
 from softway.kernels.multibody.tables import Angles, Drives, Joints
-from softway.mechanisms.members.joints import GROUND, JointRow, motor_row, turning_axis
+from softway.mechanisms.members.joints import GROUND, JointRow, motor_row, travel_axis, turning_axis
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.motors import Prescribed, Sine
 from softway.mechanisms.members.rows import axes
@@ -60,7 +60,27 @@ def rows_of(mechanism: Mechanism, number: Mapping[str, int]) -> tuple[list[Row],
     for name, stop in mechanism.stops.items():
         two = number[stop.between[0]], number[stop.between[1]]
         rows.append(Row(name=name, bodies=two, row=stop.row(), fixed=False))
-    return rows + _motors(mechanism, number, list(turnings)), turnings
+    names = list(turnings)
+    return rows + _gears(mechanism, number, names) + _motors(mechanism, number, names), turnings
+
+
+def _gears(mechanism: Mechanism, number: Mapping[str, int], turning: Sequence[str]) -> list[Row]:
+    """Rows of the gears: of the travel, if there is one, and of the angles."""
+    rows, zero = [], np.zeros(3)
+    for name, gear in mechanism.gears.items():
+        first, second = gear.joints
+        ratio = gear.ratio
+        if travel_axis(mechanism.joints[first]) is not None:
+            first, second, ratio = second, first, 1.0 / ratio
+        one, other = mechanism.joints[second], mechanism.joints[first]
+        four = tuple(number[body] for body in (*one.between, *other.between))
+        driving = (turning.index(first), -ratio)
+        if travel_axis(one) is not None and (row := motor_row(one)) is not None:
+            rows.append(Row(name=name, bodies=four, row=row, angles=((-1, 0.0), driving)))
+        else:
+            row = JointRow(kind=ANGLE, first=zero, second=zero, n=zero, m=zero)
+            rows.append(Row(name=name, bodies=four, row=row, angles=((turning.index(second), 1.0), driving)))
+    return rows
 
 
 def _motors(mechanism: Mechanism, number: Mapping[str, int], turning: Sequence[str]) -> list[Row]:

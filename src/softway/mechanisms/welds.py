@@ -50,9 +50,7 @@ def welded(mechanism: Mechanism) -> Welded:
         if not isinstance(joint, Weld) and (moved := _between(joint, part_of)) is not None
     }
     stops = {n: held for n, stop in mechanism.stops.items() if (held := _between(stop, part_of)) is not None}
-    for name, motor in mechanism.motors.items():
-        if motor.joint not in joints:
-            raise InputError(f"motors.{name}.joint", f"{motor.joint!r} joins parts of one body", "no weld between them")
+    _require_joints(mechanism, joints)
     turning = (TorsionSpring, HingeTorque)
     return Welded(
         mechanism=replace(
@@ -74,6 +72,15 @@ def welded(mechanism: Mechanism) -> Welded:
         ),
         part_of=part_of,
     )
+
+
+def _require_joints(mechanism: Mechanism, joints: Mapping[str, object]) -> None:
+    """Refuse gears and motors of joints between welded parts."""
+    gears = [(f"gears.{name}.joints", joint) for name, gear in mechanism.gears.items() for joint in gear.joints]
+    motors = [(f"motors.{name}.joint", motor.joint) for name, motor in mechanism.motors.items()]
+    for where, joint in gears + motors:
+        if joint not in joints:
+            raise InputError(where, f"{joint!r} joins parts of one body", "no weld between them")
 
 
 def _bodies(mechanism: Mechanism, part_of: Mapping[str, str]) -> dict[str, Rigid]:

@@ -135,6 +135,42 @@ class Cylindrical:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Screw:
+    """Joint in space that lets one body turn about an axis of the other and slide along it by a pitch for each turn.
+
+    Parameters
+    ----------
+    between
+        Names of the two bodies; one may be ``ground``.  The axis belongs to the first.
+    at
+        Point on the axis at the start [m].
+    axis
+        Direction of the axis at the start.
+    pitch
+        Travel of a full turn [m], negative for a left-handed thread.
+
+    Examples
+    --------
+    >>> Screw(between=("ground", "nut"), at=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0), pitch=0.002).pitch
+    0.002
+    """
+
+    between: tuple[str, str]
+    at: tuple[Metre, Metre, Metre]
+    axis: Direction
+    pitch: Metre
+
+    def rows(self) -> list[JointRow]:
+        """Rows of the joint."""
+        if not (np.isfinite(self.pitch) and self.pitch != 0.0):
+            raise InputError("pitch", f"{self.pitch:g} m", "the travel of a full turn; a Hinge has none")
+        point, axis = in_space(self.at), axes(self.axis, self)[0]
+        ratio = -self.pitch / (2.0 * np.pi)
+        thread = JointRow(kind=ALONG, first=point, second=point, n=axis, m=np.zeros(3), ratio=ratio)
+        return [*Cylindrical(between=self.between, at=self.at, axis=self.axis).rows(), thread]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PinSlot:
     """Joint in the plane that lets a pin of the second body slide along an axis of the first, and turn in it.
 
@@ -208,12 +244,12 @@ class Rod:
         return [JointRow(kind=DISTANCE, first=first, second=second, n=zero, m=zero, value=length)]
 
 
-Joint = BallJoint | Hinge | Weld | Slider | Cylindrical | PinSlot | Universal | Rod
+Joint = BallJoint | Hinge | Weld | Slider | Cylindrical | Screw | PinSlot | Universal | Rod
 
 
 def turning_axis(joint: Joint) -> Array | None:
     """Unit axis (3,) at the start about which a joint lets its second body turn; None if it has no such axis."""
-    if isinstance(joint, Hinge | Cylindrical):
+    if isinstance(joint, Hinge | Cylindrical | Screw):
         return np.array([0.0, 0.0, 1.0]) if len(joint.at) == 2 else axes(joint.axis, joint)[0]
     return None
 
@@ -231,6 +267,6 @@ def motor_row(joint: Joint) -> JointRow | None:
     if along is not None:
         point = in_space(joint.at) if isinstance(joint, Slider | PinSlot) else zero
         return JointRow(kind=ALONG, first=point, second=point, n=along, m=zero)
-    if isinstance(joint, Hinge):
+    if isinstance(joint, Hinge | Screw):
         return JointRow(kind=ANGLE, first=zero, second=zero, n=zero, m=zero, ratio=1.0)
     return None

@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 from itertools import combinations
 
 from softway.errors import InputError
-from softway.mechanisms.members.joints import GROUND, Joint, Rod, motor_row, turning_axis
+from softway.mechanisms.members.couplings import Gear
+from softway.mechanisms.members.joints import GROUND, Joint, Rod, motor_row, travel_axis, turning_axis
 from softway.mechanisms.members.motors import Motor
 from softway.mechanisms.members.rigid import Rigid
 from softway.mechanisms.members.springs import HingeTorque, PointForce, Spring, Torque, TorsionSpring
@@ -28,6 +29,8 @@ class Mechanism:
     impacts
         Law of impacts at several stops at once: ``simultaneous``, or ``sequential``, one after the other, each time
         that with the greatest velocity of approach.
+    gears
+        Couplings of the motions of joints by name.
     motors
         Prescribed motions of joints by name.
     springs
@@ -56,6 +59,7 @@ class Mechanism:
     joints: Mapping[str, Joint] = field(default_factory=dict)
     stops: Mapping[str, Stop] = field(default_factory=dict)
     impacts: Impacts = "simultaneous"
+    gears: Mapping[str, Gear] = field(default_factory=dict)
     motors: Mapping[str, Motor] = field(default_factory=dict)
     springs: tuple[Spring | TorsionSpring, ...] = ()
     torques: tuple[Torque | HingeTorque, ...] = ()
@@ -80,6 +84,8 @@ class Mechanism:
         if self.impacts not in ("simultaneous", "sequential"):
             raise InputError("impacts", f"{self.impacts!r}", "'simultaneous' or 'sequential'")
         self._require_names()
+        for name, gear in self.gears.items():
+            self._require_geared(f"gears.{name}.joints", gear)
         for name, motor in self.motors.items():
             moving = [one for one, joint in self.joints.items() if motor_row(joint) is not None]
             if motor.joint not in moving:
@@ -108,15 +114,29 @@ class Mechanism:
         """Names of the joints whose angles other members need."""
         springs = [spring.joint for spring in self.springs if isinstance(spring, TorsionSpring)]
         torques = [torque.joint for torque in self.torques if isinstance(torque, HingeTorque)]
+        geared = [
+            name for gear in self.gears.values() for name in gear.joints if travel_axis(self.joints[name]) is None
+        ]
         motors = [motor.joint for motor in self.motors.values() if turning_axis(self.joints[motor.joint]) is not None]
-        return frozenset(springs + torques + motors)
+        return frozenset(springs + torques + geared + motors)
 
     def _require_names(self) -> None:
         """Refuse names that two members have."""
-        members = [("joints", self.joints), ("stops", self.stops), ("motors", self.motors)]
+        members = [("joints", self.joints), ("stops", self.stops), ("gears", self.gears), ("motors", self.motors)]
         for (where, one), (which, other) in combinations(members, 2):
             if twice := one.keys() & other.keys():
                 raise InputError(which, f"{sorted(twice)} are names of {where}, too", "other names")
+
+    def _require_geared(self, where: str, gear: Gear) -> None:
+        """Refuse joints that are not there or have neither an angle nor a travel, and two travels."""
+        turning = [name for name, joint in self.joints.items() if turning_axis(joint) is not None]
+        sliding = [name for name, joint in self.joints.items() if travel_axis(joint) is not None]
+        for name in gear.joints:
+            if name not in turning + sliding:
+                problem = f"{name!r} is no joint with an angle or a travel"
+                raise InputError(where, problem, f"two of {turning + sliding}")
+        if set(gear.joints) <= set(sliding):
+            raise InputError(where, f"{gear.joints} both slide", f"one joint with an angle, of {turning}")
 
     def _require_turning(self, where: str, joint: str) -> None:
         """Refuse a joint that is not there, or has no axis to turn about."""
