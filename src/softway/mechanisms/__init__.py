@@ -20,6 +20,12 @@ from softway.mechanisms.members.motors import RatePolyline as RatePolyline
 from softway.mechanisms.members.motors import Sine as Sine
 from softway.mechanisms.members.motors import Steady as Steady
 from softway.mechanisms.members.rigid import Rigid as Rigid
+from softway.mechanisms.members.solids import rigid_ball as rigid_ball
+from softway.mechanisms.members.solids import rigid_box as rigid_box
+from softway.mechanisms.members.solids import rigid_cylinder as rigid_cylinder
+from softway.mechanisms.members.solids import rigid_disc as rigid_disc
+from softway.mechanisms.members.solids import rigid_rectangle as rigid_rectangle
+from softway.mechanisms.members.solids import rigid_rod as rigid_rod
 from softway.mechanisms.members.springs import HingeTorque as HingeTorque
 from softway.mechanisms.members.springs import PointForce as PointForce
 from softway.mechanisms.members.springs import Spring as Spring
@@ -28,6 +34,9 @@ from softway.mechanisms.members.springs import TorsionSpring as TorsionSpring
 from softway.mechanisms.members.stops import DistanceStop as DistanceStop
 from softway.mechanisms.members.stops import PlaneStop as PlaneStop
 from softway.mechanisms.members.stops import StopEvent as StopEvent
+from softway.mechanisms.members.volumes import rigid_file as rigid_file
+from softway.mechanisms.members.volumes import rigid_mesh as rigid_mesh
+from softway.mechanisms.members.volumes import rigid_surface as rigid_surface
 
 __all__ = [
     "BallJoint",
@@ -58,4 +67,13 @@ __all__ = [
     "Universal",
     "Weld",
     "march",
+    "rigid_ball",
+    "rigid_box",
+    "rigid_cylinder",
+    "rigid_disc",
+    "rigid_file",
+    "rigid_mesh",
+    "rigid_rectangle",
+    "rigid_rod",
+    "rigid_surface",
 ]
