@@ -173,7 +173,7 @@ class StopMarch:
 
     def _impact(self, time: float, h: float, touching: BoolArray, extent: float, events: list[StopEvent]) -> None:
         """Impact of the touching stops, with those that are closed."""
-        before, energy = self.stops.speeds(), self.stops.energy()
+        before, excess = self.stops.speeds(), self.stops.excess()
         hits = touching & (before < 0.0)
         resting = hits & (time - self.touched < SHORT * h) & (self.stops.restitution < 1.0)
         ratio = np.where(resting, 0.0, self.stops.restitution)
@@ -199,7 +199,7 @@ class StopMarch:
             events.append(replace(one, velocity_before=float(before[k]), velocity_after=float(after[k])))
             self.touched[k] = time
         self.stops.closed[:] = (self.stops.closed | touching) & (np.abs(after) <= STILL * scale)
-        self.stops.lose(energy - self.stops.energy())
+        self.stops.lose(excess - self.stops.excess())
         self.stops.see_sliding()
         self.stops.it.motion.impulse[self.stops.rows.ravel()] = 0.0
         self.stops.hold(self.stops.it.bodies.supported)

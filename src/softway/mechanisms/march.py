@@ -1,7 +1,7 @@
 """March of a mechanism: slabs (time steps) in compiled loops."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from softway.kernels.multibody.energy import kinetic_energy, potential_energy
 from softway.kernels.multibody.slab import begin, end_slab, march_slabs, project_velocities
 from softway.kernels.multibody.tables import Space, space
 from softway.mechanisms.arrays import Arrays, arrays
+from softway.mechanisms.driven import require_free_motions
 from softway.mechanisms.impacts import StopMarch
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.stops import StopEvent
@@ -62,7 +63,7 @@ class MechanismStep:
     energy_kinetic, energy_potential
         [J].
     work, dissipation
-        Work of torques and energy dissipated by dampers since the start [J].
+        Work of forces, torques and motors, and energy dissipated by dampers since the start [J].
     energy_error
         Energy minus that at the start, minus work, plus dissipation [J].
     momentum, spin
@@ -79,6 +80,8 @@ class MechanismStep:
         Events of the stops since the last step.
     closed
         Names of the closed stops.
+    motors
+        Torque [N m] or force [N] of each motor, the mean over the last slab.
     """
 
     time: float
@@ -97,6 +100,7 @@ class MechanismStep:
     independent: int
     events: tuple[StopEvent, ...] = ()
     closed: tuple[str, ...] = ()
+    motors: Mapping[str, float] = field(default_factory=dict)
 
 
 def march(mechanism: Mechanism, *, until: Second, step: Second, every: int = 1) -> Iterator[MechanismStep]:
@@ -148,9 +152,10 @@ def _steps(
     mechanism: Mechanism, joined: Welded, it: Arrays, until: float, slabs: int, every: int
 ) -> Iterator[MechanismStep]:
     """States of the march."""
-    room = space(len(it.names), len(it.joint_of), it.joints.width)
+    room = space(it.joints, len(it.names), len(it.bodies.jointed))
     stops = stop_march(it, room, joined.mechanism.stops, mechanism.impacts) if joined.mechanism.stops else None
     begin(it.bodies, it.joints, it.springs, it.motion, room)
+    require_free_motions(it, room)
     project_velocities(it.bodies, it.joints, it.motion, room)
     begin(it.bodies, it.joints, it.springs, it.motion, room)
     initial = float(it.motion.energy.sum())
@@ -216,7 +221,7 @@ def _step(
     motion, groups = it.motion, len(it.bodies.jointed)
     kinetic, potential = np.zeros(groups), np.zeros(groups)
     kinetic_energy(it.bodies, motion, kinetic)
-    potential_energy(it.bodies, it.springs, motion.place, room.R0, potential)
+    potential_energy(it.bodies, it.springs, it.joints.angles, motion, room.R0, potential)
     total = float(kinetic.sum()), float(potential.sum())
     mass = it.bodies.mass[:, None]
     turned = np.einsum("nij,njk,nk->ni", room.R0, it.bodies.inertia, motion.spin)
@@ -236,9 +241,10 @@ def _step(
         scalar=float(told[2]),
         independent=int((room.pivot > 0.0).sum()),
         events=tuple(events),
-        closed=()
-        if stops is None
-        else tuple(n for n, shut in zip(stops.stops.names, stops.stops.closed, strict=True) if shut),
+        closed=() if stops is None else stops.closed,
+        motors={
+            it.joint_of[k]: force for k, force in zip(it.joints.drives.row, room.drive[:, 2].tolist(), strict=True)
+        },
     )
 
 

@@ -10,10 +10,11 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import NumericsError
-from softway.kernels.multibody.contact import book_slab, collide, compliances, solve_contact_slab
 from softway.kernels.multibody.energy import close_energy, kinetic_energy
-from softway.kernels.multibody.slab import refactor, row_velocities, take_motion, tell_joints
+from softway.kernels.multibody.slab import refactor, take_motion, tell_joints
 from softway.kernels.multibody.tables import Space
+from softway.kernels.multibody.velocities import row_velocities
+from softway.kernels.rigid_contact.contact import book_slab, collide, compliances, solve_contact_slab
 from softway.mechanisms.arrays import Arrays
 
 NEAR = 1e-10
@@ -90,15 +91,15 @@ class Stops:
         sticks = ~self.sliding[self.closed] & (tangential < (1.0 - SLIP) * friction * normal)
         steady = bool(((normal > 0.0) & ((friction == 0.0) | sticks)).all())
         if not steady:
-            told[2] = max(told[2], close_energy(it.bodies, it.springs, it.motion, self.room))
-        energy = self.energy()
+            told[2] = max(told[2], close_energy(it.bodies, it.springs, it.joints, it.motion, self.room))
+        excess = self.excess()
         total = self._pushed(rows, friction, through, rebound[self.closed], extent / span)
         if total is None:
             raise NumericsError("no velocities satisfy the laws of contact at the closed stops", time, "a shorter step")
         if steady:
-            told[2] = max(told[2], close_energy(it.bodies, it.springs, it.motion, self.room))
+            told[2] = max(told[2], close_energy(it.bodies, it.springs, it.joints, it.motion, self.room))
         else:
-            self.lose(energy - self.energy())
+            self.lose(excess - self.excess())
         tell_joints(it.joints, it.motion, self.room, told)
         closed, speed = self.closed.copy(), self.speeds()
         self.see_sliding()
@@ -115,12 +116,15 @@ class Stops:
         no solution.
         """
         it = self.it
-        kept, energy = (it.motion.velocity.copy(), it.motion.spin.copy()), float(self.energy().sum())
+        changed = (it.motion.velocity, it.motion.spin, it.motion.energy, it.motion.work)
+        kept, excess = [array.copy() for array in changed], float(self.excess().sum())
+        scale = excess + float(it.motion.energy.sum())
         for part in REBOUNDS if rebound.any() else REBOUNDS[-1:]:
-            it.motion.velocity[:], it.motion.spin[:] = kept
+            for array, before in zip(changed, kept, strict=True):
+                array[:] = before
             total, tables = through.copy(), (it.bodies, it.joints, it.motion, self.room)
             solved = collide(*tables, rows, friction, through, part * rebound, speed, total) if len(rows) else 1
-            if solved and float(self.energy().sum()) <= (1.0 + GAINED) * energy:
+            if solved and float(self.excess().sum()) <= excess + GAINED * scale:
                 return total
         return total if solved else None
 
@@ -206,9 +210,9 @@ class Stops:
         speed = np.linalg.norm(self._velocities()[:, 1:], axis=1)
         self.sliding[:] = speed > STILL * float(np.abs(self.it.motion.velocity).max())
 
-    def energy(self) -> Array:
-        """Kinetic energies (g,) of the groups [J]."""
-        out = np.zeros(len(self.it.bodies.jointed))
+    def excess(self) -> Array:
+        """Kinetic energies (g,) of the groups over the energies that they have to have, up to their potentials [J]."""
+        out = -self.it.motion.energy
         kinetic_energy(self.it.bodies, self.it.motion, out)
         return out
 

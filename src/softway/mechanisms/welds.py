@@ -2,14 +2,21 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
 from softway.arrays import Array
 from softway.errors import InputError
-from softway.mechanisms.members.joints import GROUND, Weld, in_space
+from softway.mechanisms.members.joints import GROUND, Joint, Weld, in_space
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.rigid import Rigid
+from softway.mechanisms.members.springs import HingeTorque, PointForce, Spring, Torque, TorsionSpring
+from softway.mechanisms.members.stops import Stop
+
+Between = TypeVar("Between", bound=Joint | Stop | Spring)
+On = TypeVar("On", bound=Torque | PointForce)
+About = TypeVar("About", bound=TorsionSpring | HingeTorque)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -34,37 +41,72 @@ def welded(mechanism: Mechanism) -> Welded:
             one, other = (part_of[name] for name in joint.between)
             kept, gone = (other, one) if other == GROUND else (one, other)
             part_of = {name: kept if part == gone else part for name, part in part_of.items()}
-    bodies = {}
-    for name in mechanism.bodies:
-        if part_of[name] == name:
-            parts = [body for part, body in mechanism.bodies.items() if part_of[part] == name]
-            bodies[name] = parts[0] if len(parts) == 1 else _one(parts)
+    bodies = _bodies(mechanism, part_of)
     if not bodies:
         raise InputError("joints", "weld all bodies to the ground", "a joint that lets a body move")
-    joints = {}
-    for name, joint in mechanism.joints.items():
-        between = (part_of[joint.between[0]], part_of[joint.between[1]])
-        if not isinstance(joint, Weld) and between[0] != between[1]:
-            joints[name] = replace(joint, between=between)
+    joints = {
+        name: moved
+        for name, joint in mechanism.joints.items()
+        if not isinstance(joint, Weld) and (moved := _between(joint, part_of)) is not None
+    }
+    stops = {n: held for n, stop in mechanism.stops.items() if (held := _between(stop, part_of)) is not None}
+    _require_joints(mechanism, joints)
+    turning = (TorsionSpring, HingeTorque)
     return Welded(
         mechanism=replace(
             mechanism,
             bodies=bodies,
             joints=joints,
-            stops={
-                name: replace(s, between=(part_of[s.between[0]], part_of[s.between[1]]))
-                for name, s in mechanism.stops.items()
-                if part_of[s.between[0]] != part_of[s.between[1]]
-            },
+            stops=stops,
             springs=tuple(
-                replace(s, between=(part_of[s.between[0]], part_of[s.between[1]]))
+                spring
                 for s in mechanism.springs
-                if part_of[s.between[0]] != part_of[s.between[1]]
+                if (spring := _about(s, joints) if isinstance(s, turning) else _between(s, part_of)) is not None
             ),
-            torques=tuple(replace(t, on=part_of[t.on]) for t in mechanism.torques if part_of[t.on] != GROUND),
+            torques=tuple(
+                torque
+                for t in mechanism.torques
+                if (torque := _about(t, joints) if isinstance(t, turning) else _on(t, part_of)) is not None
+            ),
+            forces=tuple(force for f in mechanism.forces if (force := _on(f, part_of)) is not None),
         ),
         part_of=part_of,
     )
+
+
+def _require_joints(mechanism: Mechanism, joints: Mapping[str, object]) -> None:
+    """Refuse gears and motors of joints between welded parts."""
+    gears = [(f"gears.{name}.joints", joint) for name, gear in mechanism.gears.items() for joint in gear.joints]
+    motors = [(f"motors.{name}.joint", motor.joint) for name, motor in mechanism.motors.items()]
+    for where, joint in gears + motors:
+        if joint not in joints:
+            raise InputError(where, f"{joint!r} joins parts of one body", "no weld between them")
+
+
+def _bodies(mechanism: Mechanism, part_of: Mapping[str, str]) -> dict[str, Rigid]:
+    """Bodies that move, of their parts."""
+    bodies = {}
+    for name in mechanism.bodies:
+        if part_of[name] == name:
+            parts = [body for part, body in mechanism.bodies.items() if part_of[part] == name]
+            bodies[name] = parts[0] if len(parts) == 1 else _one(parts)
+    return bodies
+
+
+def _between(it: Between, part_of: Mapping[str, str]) -> Between | None:
+    """Member between the bodies that its bodies are part of; None if they are one."""
+    one, other = (part_of[name] for name in it.between)
+    return None if one == other else replace(it, between=(one, other))
+
+
+def _on(it: On, part_of: Mapping[str, str]) -> On | None:
+    """Load on the body that its body is part of; None if that is the ground."""
+    return None if part_of[it.on] == GROUND else replace(it, on=part_of[it.on])
+
+
+def _about(it: About, joints: Mapping[str, object]) -> About | None:
+    """Member about the axis of a joint; None if the joint is welded."""
+    return it if it.joint in joints else None
 
 
 def _one(parts: list[Rigid]) -> Rigid:

@@ -18,6 +18,8 @@ Stage = Any
 _EXACT: dict[str, Any] = {"fastmath": {"contract"}, "error_model": "numpy"}
 _KERNEL = _EXACT | {"nogil": True, "no_cfunc_wrapper": True}
 _PART = _EXACT | {"forceinline": True, "no_cfunc_wrapper": True, "no_cpython_wrapper": True}
+# Numba counts references to arrays by atomic operations, which take longer than a slab of a small mechanism.
+_UNCOUNTED: dict[str, Any] = {"_nrt": False}
 _POINT = types.void(types.CPointer(types.float64), types.CPointer(types.float64))
 _SHARED = (
     "jit/compilation.py",
@@ -27,14 +29,18 @@ _SHARED = (
     "fused/history_stages.py",
     "fused/inelastic.py",
     "fused/stages.py",
+    "multibody/angles.py",
     "multibody/band.py",
-    "multibody/cone.py",
+    "rigid_contact/cone.py",
+    "multibody/copies.py",
+    "multibody/drives.py",
     "multibody/energy.py",
     "multibody/forces.py",
     "multibody/joint_rows.py",
     "multibody/rotations.py",
     "multibody/slab.py",
     "multibody/tables.py",
+    "multibody/velocities.py",
 )
 _SOURCES = b"".join((Path(__file__).parents[1] / name).read_bytes() for name in _SHARED)
 _ENDING = f"_{sha256(_SOURCES).hexdigest()[:12]}"
@@ -53,6 +59,16 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
 def inlined(function: Callable[..., Any]) -> Callable[..., Any]:
     """Make a function that is inlined in stages and kernels."""
     return njit(**_PART)(function)
+
+
+def uncounted_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Make a kernel that allocates no arrays and counts no references to them; its parts are ``uncounted``."""
+    return _kept(njit, function, _KERNEL | _UNCOUNTED)
+
+
+def uncounted(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Make a function that is inlined in kernels, allocates no arrays and counts no references to them."""
+    return njit(**_PART, **_UNCOUNTED)(function)
 
 
 def _kept(compiler: Callable[..., Any], function: Callable[..., Any], options: dict[str, Any]) -> Any:

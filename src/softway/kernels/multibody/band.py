@@ -1,12 +1,12 @@
 """Symmetric positive semidefinite systems in a band: a factor that leaves out dependent rows."""
 
-from softway.kernels.jit.compilation import kernel
+from softway.kernels.jit.compilation import uncounted_kernel
 
 DEPENDENT = 1e-11
 """Pivot relative to the diagonal below which a row depends on those before it."""
 
 
-@kernel
+@uncounted_kernel
 def factor_band(A, L, D):
     """Factor ``A = L D L^T``; A and L (n, w + 1) hold the entry (i, j) at ``[i, i - j]``.
 
@@ -27,7 +27,7 @@ def factor_band(A, L, D):
         D[i] = pivot if pivot > DEPENDENT * A[i, 0] else 0.0
 
 
-@kernel
+@uncounted_kernel
 def solve_band(L, D, x):
     """Solve in place with the factor; the values of dependent rows become 0."""
     n, w = L.shape[0], L.shape[1] - 1

@@ -1,15 +1,15 @@
 """Derivatives of the equations of a slab (time step) of rigid bodies by central differences, for Newton's method."""
 
-from softway.kernels.jit.compilation import kernel
-from softway.kernels.multibody.joint_rows import joint_row
+from softway.kernels.jit.compilation import uncounted, uncounted_kernel
+from softway.kernels.multibody.angles import evaluate_angles
 from softway.kernels.multibody.rotations import cayley_turned
-from softway.kernels.multibody.slab import evaluate_rows, motion_of, place_ends, turning
+from softway.kernels.multibody.slab import evaluate_row, evaluate_rows, motion_of, place_ends, turning
 
 STEP = 1e-6
 """Difference of a rotation, or of a place relative to the extent of the mechanism."""
 
 
-@kernel
+@uncounted_kernel
 def linearised(bodies, joints, springs, motion, space, h, P, extent, missed, slopes, pushes):
     """Equations of the slab at the motion ``space.z`` (n, 6) and the impulses P (r,), and their derivatives.
 
@@ -18,7 +18,7 @@ def linearised(bodies, joints, springs, motion, space, h, P, extent, missed, slo
     """
     n, z = len(space.z) - 1, space.z
     place_ends(z, motion.place, space.R0, space.place, space.R1)
-    evaluate_rows(joints, motion.place, space.R0, space.place, space.R1, space.g, space.G)
+    evaluate_rows(joints, motion, space, space.place, space.R1)
     motion_of(bodies, joints, springs, motion, space, h, P, z, space.new)
     slopes[:], pushes[:] = 0.0, 0.0
     for i in range(n):
@@ -33,33 +33,43 @@ def linearised(bodies, joints, springs, motion, space, h, P, extent, missed, slo
             column, kept, size = 6 * j + k, z[j, k], STEP * (extent if k < 3 else 1.0)
             for sign in (1.0, -1.0):
                 z[j, k] = kept + sign * size
-                _place_end(motion, space, j)
+                _place_end(joints, motion, space, j)
                 weight = sign / (2.0 * size)
                 turning(bodies, motion, space, h, z, j, space.force, space.new)
                 for c in range(3):
                     slopes[6 * j + 3 + c, column] -= weight * space.new[j, 3 + c]
                 for row in range(len(P)):
-                    if joints.a[row] == j or joints.b[row] == j:
-                        joint_row(joints, row, motion.place, space.R0, space.place, space.R1, space.g, space.G)
+                    if _has(joints, row, j):
+                        evaluate_row(joints, motion, space, space.place, space.R1, row)
                         slopes[6 * n + row, column] += weight * space.g[row]
                         _add_motion(bodies, joints, space, row, -0.5 * h * P[row] * weight, slopes, column)
             z[j, k] = kept
-            _place_end(motion, space, j)
+            _place_end(joints, motion, space, j)
 
 
-@kernel
-def _place_end(motion, space, j):
-    """Place and rotation of body j at the end of its motion."""
+@uncounted_kernel
+def _place_end(joints, motion, space, j):
+    """Place and rotation of body j at the end of its motion, and the angles there."""
     for c in range(3):
         space.place[j, c] = motion.place[j, c] + space.z[j, c]
     cayley_turned(space.z, space.R0, space.R1, j)
+    evaluate_angles(joints.angles, motion.angle, space.R0, space.R1, space.angle, space.turn)
 
 
-@kernel
+@uncounted
+def _has(joints, row, j):
+    """True if the row is one of body j."""
+    found = False
+    for side in range(joints.sides.shape[1]):
+        found |= joints.sides[row, side] == j
+    return found
+
+
+@uncounted_kernel
 def _add_motion(bodies, joints, space, row, weight, out, column):
     """Add ``weight M^-1 G^T`` of a row to a column."""
-    for side in range(2):
-        i = joints.a[row] if side == 0 else joints.b[row]
+    for side in range(space.G.shape[1]):
+        i = joints.sides[row, side]
         if i == len(space.z) - 1:
             continue
         for c in range(3):

@@ -1,16 +1,16 @@
-"""Forces on rigid bodies in a slab (time step): gravity, springs with dampers, torques; and their work.
+"""Forces on rigid bodies in a slab (time step): gravity, springs with dampers, point forces, torques; and their work.
 
 The force of a spring is the exact difference of its potential, ``-k (1 - l/Lm) rm`` with the means of the length and of
-the vector between its ends.
+the vector between its ends; the moment of a torsion spring belongs to the mean of the angle.
 """
 
 import numpy as np
 
-from softway.kernels.jit.compilation import inlined, kernel
+from softway.kernels.jit.compilation import uncounted, uncounted_kernel
 from softway.kernels.multibody.joint_rows import mean_turned, turned
 
 
-@inlined
+@uncounted
 def spring_vector(springs, k, place, R):
     """Vector from the first end of a spring to the second, as three numbers, and its length."""
     a, b = springs.a[k], springs.b[k]
@@ -24,7 +24,7 @@ def spring_vector(springs, k, place, R):
     return x, y, z, np.sqrt(x * x + y * y + z * z)
 
 
-@inlined
+@uncounted
 def add_forces(bodies, springs, place0, R0, place1, R1, z, h, force):
     """Add h times the forces (n, 6) of the slab."""
     gx, gy, gz = h * bodies.gravity[0], h * bodies.gravity[1], h * bodies.gravity[2]
@@ -45,9 +45,24 @@ def add_forces(bodies, springs, place0, R0, place1, R1, z, h, force):
         i, factor = springs.turned[k], h * angle_factor(z, springs.turned[k])
         for c in range(3):
             force[i, 3 + c] += factor * springs.torque[k, c]
+    for k in range(len(springs.pushed)):
+        f = springs.force
+        _pull_at(R0, R1, springs.pushed[k], springs.F, k, h * f[k, 0], h * f[k, 1], h * f[k, 2], force)
 
 
-@inlined
+@uncounted
+def add_torsion(springs, angles, start, angle, turn, h, force):
+    """Add h times the moments (n, 6) of the torsion springs, with the angles at the start and the end of the slab."""
+    for k in range(len(springs.about)):
+        q = springs.about[k]
+        moment = springs.torsion[k, 3] - springs.torsion[k, 0] * (0.5 * (start[q] + angle[q]) - springs.torsion[k, 1])
+        moment = h * moment - springs.torsion[k, 2] * (angle[q] - start[q])
+        for c in range(3):
+            force[angles.a[q], 3 + c] -= moment * turn[q, c]
+            force[angles.b[q], 3 + c] += moment * turn[q, c]
+
+
+@uncounted
 def _pull_at(R0, R1, i, X, k, fx, fy, fz, force):
     """Add a force (times h) at the mean place of the point ``X[k]`` of body i."""
     x, y, z = turned(R1, i, X, k)
@@ -60,28 +75,45 @@ def _pull_at(R0, R1, i, X, k, fx, fy, fz, force):
     force[i, 5] += x * fy - y * fx
 
 
-@inlined
+@uncounted
 def angle_factor(z, i):
     """Angle of a rotation over the magnitude of its vector theta, ``2 atan(|theta|/2)/|theta|``."""
     size = np.sqrt(z[i, 3] * z[i, 3] + z[i, 4] * z[i, 4] + z[i, 5] * z[i, 5])
     return 1.0 if size < 1e-8 else 2.0 * np.arctan(0.5 * size) / size
 
 
-@kernel
-def work_of_slab(bodies, springs, motion, space, h):
-    """Add the work of torques to the energies that the groups have to have, and take what dampers dissipate."""
+@uncounted_kernel
+def work_of_slab(bodies, springs, angles, motion, space, h):
+    """Add the work of forces and torques to the energies that the groups have to have; take what dampers dissipate."""
     z = space.z
     for k in range(len(springs.a)):
         if springs.damping[k] != 0.0:
             l0 = spring_vector(springs, k, motion.place, space.R0)[3]
             l1 = spring_vector(springs, k, space.place, space.R1)[3]
-            lost = springs.damping[k] * (l1 - l0) ** 2 / h
-            i = springs.a[k] if springs.a[k] < len(z) - 1 else springs.b[k]
-            motion.energy[bodies.group[i]] -= lost
-            motion.work[1] += lost
+            _book(bodies, motion, springs.a[k], springs.b[k], 0.0, springs.damping[k] * (l1 - l0) ** 2 / h)
     for k in range(len(springs.turned)):
         i, done = springs.turned[k], 0.0
         for c in range(3):
             done += angle_factor(z, i) * z[i, 3 + c] * springs.torque[k, c]
-        motion.energy[bodies.group[i]] += done
-        motion.work[0] += done
+        _book(bodies, motion, i, i, done, 0.0)
+    for k in range(len(springs.pushed)):
+        i = springs.pushed[k]
+        new, old = turned(space.R1, i, springs.F, k), turned(space.R0, i, springs.F, k)
+        done = 0.0
+        for c in range(3):
+            done += (z[i, c] + new[c] - old[c]) * springs.force[k, c]
+        _book(bodies, motion, i, i, done, 0.0)
+    for k in range(len(springs.about)):
+        q = springs.about[k]
+        change = space.angle[q] - motion.angle[q]
+        done, lost = springs.torsion[k, 3] * change, springs.torsion[k, 2] * change**2 / h
+        _book(bodies, motion, angles.a[q], angles.b[q], done, lost)
+
+
+@uncounted
+def _book(bodies, motion, a, b, done, lost):
+    """Book work and dissipation between two bodies."""
+    i = a if a < len(motion.place) - 1 else b
+    motion.energy[bodies.group[i]] += done - lost
+    motion.work[0] += done
+    motion.work[1] += lost

@@ -7,7 +7,7 @@ the directions N of a and B of b, all in the axes of their bodies.
 
 import numpy as np
 
-from softway.kernels.jit.compilation import inlined
+from softway.kernels.jit.compilation import uncounted
 
 POINT = 0
 """``e . (p_b - p_a) = c`` along the direction e = N, fixed in space."""
@@ -17,19 +17,24 @@ DIRECTION = 2
 """``n . m = c`` for the directions n = N of body a and m = B of body b."""
 DISTANCE = 3
 """``(|p_b - p_a|^2 - c^2) / (2 c) = 0``."""
-SLIDE = 4
+ANGLE = 4
+"""Only angles that :func:`add_angles` adds."""
+SLIDE = 5
 """Sliding along the direction B of body a at the place of contact ``p_b - c n`` with n = N of body a; no value."""
-ROLL = 5
+ROLL = 6
 """Sliding across the line between the points, at ``p_a + c (p_b - p_a)``; along the first or second direction B[0]."""
 
 
-@inlined
+@uncounted
 def joint_row(joints, k, place0, R0, place1, R1, g, G):
     """Value ``g[k]`` at the end and Jacobian ``G[k]`` (2, 6) at the means: for the sides a and b, along d and theta."""
     kind, a, b, value = joints.kind[k], joints.a[k], joints.b[k], joints.value[k]
     X, Y, N = joints.X, joints.Y, joints.N
     if kind == DIRECTION:
         _direction_row(joints, k, R0, R1, g, G)
+        return
+    if kind == ANGLE:
+        _angle_row(joints, k, g, G)
         return
     if kind >= SLIDE:
         _sliding_row(joints, k, place0, R0, place1, R1, g, G)
@@ -62,7 +67,7 @@ def joint_row(joints, k, place0, R0, place1, R1, g, G):
     G[k, 1, 3], G[k, 1, 4], G[k, 1, 5] = by * tz - bz * ty, bz * tx - bx * tz, bx * ty - by * tx
 
 
-@inlined
+@uncounted
 def _direction_row(joints, k, R0, R1, g, G):
     """Row of two directions."""
     a, b, N, B = joints.a[k], joints.b[k], joints.N, joints.B
@@ -79,7 +84,31 @@ def _direction_row(joints, k, R0, R1, g, G):
     G[k, 1, 3], G[k, 1, 4], G[k, 1, 5] = -px, -py, -pz
 
 
-@inlined
+@uncounted
+def _angle_row(joints, k, g, G):
+    """Row without any places."""
+    g[k] = -joints.value[k]
+    for side in range(2):
+        for i in range(6):
+            G[k, side, i] = 0.0
+
+
+@uncounted
+def add_angles(joints, k, angle, turn, g, G):
+    """Add the angles of a row, with their factors, to its value and its Jacobian."""
+    for t in range(2):
+        q = joints.angle[k, t]
+        if q >= 0:
+            ratio = joints.ratio[k, t]
+            g[k] += ratio * angle[q]
+            for c in range(3):
+                if t == 1:
+                    G[k, 2, 3 + c], G[k, 3, 3 + c] = 0.0, 0.0
+                G[k, 2 * t, 3 + c] -= ratio * turn[q, c]
+                G[k, 2 * t + 1, 3 + c] += ratio * turn[q, c]
+
+
+@uncounted
 def _sliding_row(joints, k, place0, R0, place1, R1, g, G):
     """Row of the sliding of b against a along a tangential direction: equal forces at the mean place of contact."""
     a, b, value = joints.a[k], joints.b[k], joints.value[k]
@@ -110,7 +139,7 @@ def _sliding_row(joints, k, place0, R0, place1, R1, g, G):
     G[k, 1, 3], G[k, 1, 4], G[k, 1, 5] = by * tz - bz * ty, bz * tx - bx * tz, bx * ty - by * tx
 
 
-@inlined
+@uncounted
 def _across(x, y, z, second):
     """First or second unit direction across a vector; in the plane the first is that of its right angle."""
     length = np.sqrt(x * x + y * y + z * z)
@@ -127,7 +156,7 @@ def _across(x, y, z, second):
     return u, v, w
 
 
-@inlined
+@uncounted
 def turned(R, i, x, k):
     """``R[i] x[k]`` as three numbers."""
     u, v, w = x[k, 0], x[k, 1], x[k, 2]
@@ -138,7 +167,7 @@ def turned(R, i, x, k):
     )
 
 
-@inlined
+@uncounted
 def turned_back(R, i, u, v, w):
     """``R[i]^T (u, v, w)`` as three numbers."""
     return (
@@ -148,7 +177,7 @@ def turned_back(R, i, u, v, w):
     )
 
 
-@inlined
+@uncounted
 def mean_turned(R0, i, x, k, x1, y1, z1):
     """Mean of ``R0[i] x[k]`` and its value at the end."""
     x0, y0, z0 = turned(R0, i, x, k)

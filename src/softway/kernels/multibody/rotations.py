@@ -6,10 +6,10 @@ of its ends (docs/theory/mechanisms.md).
 
 import numpy as np
 
-from softway.kernels.jit.compilation import inlined
+from softway.kernels.jit.compilation import uncounted
 
 
-@inlined
+@uncounted
 def cayley_turned(z, R0, R1, i):
     """``R1[i] = cay(theta) R0[i]``; the rotation vector ``theta = z[i, 3:]`` has the magnitude ``2 tan(angle/2)``."""
     x, y, z = 0.5 * z[i, 3], 0.5 * z[i, 4], 0.5 * z[i, 5]
@@ -22,7 +22,7 @@ def cayley_turned(z, R0, R1, i):
         R1[i, 2, j] = c + scale * (r + x * q - y * p)
 
 
-@inlined
+@uncounted
 def quaternion_turned(z, turn, i):
     """Turn the unit quaternion ``turn[i]``, scalar first, by ``cay(z[i, 3:])``."""
     x, y, z = 0.5 * z[i, 3], 0.5 * z[i, 4], 0.5 * z[i, 5]
@@ -33,7 +33,7 @@ def quaternion_turned(z, turn, i):
     turn[i, 0], turn[i, 1], turn[i, 2], turn[i, 3] = p / size, q / size, r / size, s / size
 
 
-@inlined
+@uncounted
 def matrix_of(turn, R, i):
     """Rotation matrix ``R[i]`` of the unit quaternion ``turn[i]``."""
     a, b, c, d = turn[i, 0], turn[i, 1], turn[i, 2], turn[i, 3]
@@ -42,7 +42,7 @@ def matrix_of(turn, R, i):
     R[i, 2, 0], R[i, 2, 1], R[i, 2, 2] = 2.0 * (b * d - a * c), 2.0 * (c * d + a * b), 1.0 - 2.0 * (b * b + c * c)
 
 
-@inlined
+@uncounted
 def in_space(R, own, i, out):
     """``out[i] = R[i] own[i] R[i]^T``: a tensor in the axes of the body, turned into those of space."""
     for j in range(3):

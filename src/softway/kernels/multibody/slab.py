@@ -5,12 +5,19 @@ The unknown is the motion ``z = (d, theta) = h/2 (v0 + v1, R0 (W0 + W1))`` of ea
 
 import numpy as np
 
-from softway.kernels.jit.compilation import inlined, kernel
+from softway.kernels.jit.compilation import uncounted, uncounted_kernel
+from softway.kernels.multibody.angles import evaluate_angles
 from softway.kernels.multibody.band import factor_band, solve_band
+from softway.kernels.multibody.copies import copy_numbers, copy_rows, copy_tensors
+from softway.kernels.multibody.drives import pass_time, set_rates, set_targets, work_of_drives
 from softway.kernels.multibody.energy import close_energy, kinetic_energy, potential_energy
-from softway.kernels.multibody.forces import add_forces, work_of_slab
-from softway.kernels.multibody.joint_rows import joint_row, turned_back
+from softway.kernels.multibody.forces import add_forces, add_torsion, work_of_slab
+from softway.kernels.multibody.joint_rows import add_angles, joint_row, turned_back
 from softway.kernels.multibody.rotations import cayley_turned, in_space, matrix_of, quaternion_turned
+from softway.kernels.multibody.velocities import joint_velocity
+from softway.kernels.multibody.velocities import project_velocities as project_velocities
+from softway.kernels.multibody.velocities import push_rows as push_rows
+from softway.kernels.multibody.velocities import row_velocities as row_velocities
 
 ITERATIONS = 60
 """Greatest number of iterations of a slab."""
@@ -22,24 +29,32 @@ SLOW = 0.7
 """Ratio of successive changes above which an iteration is not worth its time, if it happens twice."""
 
 
-@inlined
-def evaluate_rows(joints, place0, R0, place1, R1, g, G):
-    """Values g (r,) at the end and Jacobians G (r, 2, 6) at the means of two configurations."""
-    for k in range(len(g)):
-        joint_row(joints, k, place0, R0, place1, R1, g, G)
+@uncounted
+def evaluate_row(joints, motion, space, place1, R1, k):
+    """Value of a row at an end minus the prescribed one, and its Jacobian; the angles at the end are in the space."""
+    joint_row(joints, k, motion.place, space.R0, place1, R1, space.g, space.G)
+    add_angles(joints, k, space.angle, space.turn, space.g, space.G)
+    space.g[k] -= space.target[k]
 
 
-@kernel
-def prepare_joints(bodies, joints, place, R, space):
-    """Jacobians at a configuration, ``M^-1 G^T``, and the factor of ``G M^-1 G^T``."""
-    n = len(place)
-    for i in range(n):
-        in_space(R, bodies.inverse_inertia, i, space.mobility)
-    evaluate_rows(joints, place, R, place, R, space.g, space.G)
+@uncounted
+def evaluate_rows(joints, motion, space, place1, R1):
+    """Values g (r,) of the rows at an end and Jacobians G (r, s, 6) at its means with the state, in the space."""
+    evaluate_angles(joints.angles, motion.angle, space.R0, R1, space.angle, space.turn)
+    for k in range(len(space.g)):
+        evaluate_row(joints, motion, space, place1, R1, k)
+
+
+@uncounted_kernel
+def prepare_joints(bodies, joints, motion, space):
+    """Jacobians at the present state, ``M^-1 G^T``, and the factor of ``G M^-1 G^T``."""
+    for i in range(len(motion.place)):
+        in_space(space.R0, bodies.inverse_inertia, i, space.mobility)
+    evaluate_rows(joints, motion, space, motion.place, space.R0)
     G, MG = space.G, space.MG
     for k in range(len(space.g)):
-        for side in range(2):
-            i = joints.a[k] if side == 0 else joints.b[k]
+        for side in range(G.shape[1]):
+            i = joints.sides[k, side]
             for c in range(3):
                 MG[k, side, c] = bodies.inverse_mass[i] * G[k, side, c]
                 total = 0.0
@@ -59,7 +74,7 @@ def prepare_joints(bodies, joints, place, R, space):
     factor_band(space.matrix, space.lower, space.pivot)
 
 
-@inlined
+@uncounted
 def place_ends(z, place0, R0, place1, R1):
     """Places and rotations at the end of the motion z (n, 6)."""
     for i in range(len(z) - 1):
@@ -68,25 +83,26 @@ def place_ends(z, place0, R0, place1, R1):
         cayley_turned(z, R0, R1, i)
 
 
-@inlined
+@uncounted
 def motion_of(bodies, joints, springs, motion, space, h, P, z, new):
     """Motion ``new`` (n, 6) by the forces and impulses P at the motion z; Jacobians and ends at z are in the space."""
     n = len(z) - 1
     force = space.force
     force[:] = 0.0
     for k in range(len(P)):
-        for side in range(2):
-            i = joints.a[k] if side == 0 else joints.b[k]
+        for side in range(space.G.shape[1]):
+            i = joints.sides[k, side]
             for c in range(6):
                 force[i, c] += P[k] * space.G[k, side, c]
     add_forces(bodies, springs, motion.place, space.R0, space.place, space.R1, z, h, force)
+    add_torsion(springs, joints.angles, motion.angle, space.angle, space.turn, h, force)
     for i in range(n):
         for c in range(3):
             new[i, c] = h * (motion.velocity[i, c] + 0.5 * bodies.inverse_mass[i] * force[i, c])
         turning(bodies, motion, space, h, z, i, force, new)
 
 
-@inlined
+@uncounted
 def turning(bodies, motion, space, h, z, i, force, new):
     """Rotation ``new[i, 3:]``: ``theta = h R0 (W0 + W1)/2`` with ``W1 = W0 + J^-1 R0^T (h tau - (R1 - R0) J W1)``."""
     R0, R1, own, inverse, s = space.R0, space.R1, bodies.inertia, bodies.inverse_inertia, motion.spin
@@ -108,20 +124,22 @@ def turning(bodies, motion, space, h, z, i, force, new):
         new[i, 3 + c] = h * (R0[i, c, 0] * u0 + R0[i, c, 1] * u1 + R0[i, c, 2] * u2)
 
 
-@inlined
+@uncounted
 def body_rate(R0, z, spin, h, i):
     """Angular velocity ``W1 = 2/h R0^T theta - W0`` at the end in the axes of the body, as three numbers."""
     x, y, w = turned_back(R0, i, 2.0 / h * z[i, 3], 2.0 / h * z[i, 4], 2.0 / h * z[i, 5])
     return x - spin[i, 0], y - spin[i, 1], w - spin[i, 2]
 
 
-@kernel
+@uncounted_kernel
 def guess_motion(bodies, joints, springs, motion, space, h):
     """Motion z at the start: that of the velocities and of the impulses of the slab before."""
     z = space.z
+    set_targets(joints.drives, motion, space, h)
     z[:] = 0.0
-    space.place[:] = motion.place
-    space.R1[:] = space.R0
+    copy_rows(motion.place, space.place)
+    copy_tensors(space.R0, space.R1)
+    evaluate_angles(joints.angles, motion.angle, space.R0, space.R0, space.angle, space.turn)
     for i in range(len(z) - 1):
         for c in range(3):
             z[i, c] = h * motion.velocity[i, c]
@@ -131,18 +149,18 @@ def guess_motion(bodies, joints, springs, motion, space, h):
                 + space.R0[i, c, 2] * motion.spin[i, 2]
             )
     motion_of(bodies, joints, springs, motion, space, h, motion.impulse, z, space.new)
-    z[:] = space.new
+    copy_rows(space.new, z)
 
 
-@kernel
+@uncounted_kernel
 def solve_motion(bodies, joints, springs, motion, space, h, extent):
     """Fixed point for the motion and the impulses with the factor of the start; number of iterations, 0 if it fails."""
     guess_motion(bodies, joints, springs, motion, space, h)
     z, new, P, before, slow = space.z, space.new, motion.impulse, np.inf, 0
     for iteration in range(1, ITERATIONS + 1):
         place_ends(z, motion.place, space.R0, space.place, space.R1)
-        evaluate_rows(joints, motion.place, space.R0, space.place, space.R1, space.g, space.G)
-        space.push[:] = space.g
+        evaluate_rows(joints, motion, space, space.place, space.R1)
+        copy_numbers(space.g, space.push)
         solve_band(space.lower, space.pivot, space.push)
         for k in range(len(P)):
             P[k] -= 2.0 / h * space.push[k]
@@ -161,23 +179,27 @@ def solve_motion(bodies, joints, springs, motion, space, h, extent):
     return 0
 
 
-@kernel
+@uncounted_kernel
 def end_slab(bodies, joints, springs, motion, space, h, told):
     """Take the motion z: new state with the velocities of the joints, and the energy that each group has to have.
 
     ``told`` (3,) takes the greatest joint value and joint velocity, and the greatest change of the scalars from 1.
     """
     take_motion(bodies, joints, springs, motion, space, h)
-    told[2] = max(told[2], close_energy(bodies, springs, motion, space))
+    told[2] = max(told[2], close_energy(bodies, springs, joints, motion, space))
     tell_joints(joints, motion, space, told)
 
 
-@kernel
+@uncounted_kernel
 def take_motion(bodies, joints, springs, motion, space, h):
     """Take the motion z: new state with the velocities of the joints, whose energy is a little too low."""
     n, z = len(motion.place) - 1, space.z
     place_ends(z, motion.place, space.R0, space.place, space.R1)
-    work_of_slab(bodies, springs, motion, space, h)
+    evaluate_angles(joints.angles, motion.angle, space.R0, space.R1, space.angle, space.turn)
+    work_of_slab(bodies, springs, joints.angles, motion, space, h)
+    copy_numbers(space.angle, motion.angle)
+    pass_time(motion, h)
+    set_rates(joints.drives, motion, space)
     for i in range(n):
         motion.spin[i, 0], motion.spin[i, 1], motion.spin[i, 2] = body_rate(space.R0, z, motion.spin, h, i)
         for c in range(3):
@@ -185,11 +207,12 @@ def take_motion(bodies, joints, springs, motion, space, h):
             motion.place[i, c] = space.place[i, c]
         quaternion_turned(z, motion.turn, i)
         matrix_of(motion.turn, space.R0, i)
-    prepare_joints(bodies, joints, motion.place, space.R0, space)
+    prepare_joints(bodies, joints, motion, space)
     project_velocities(bodies, joints, motion, space)
+    work_of_drives(bodies, joints, motion, space, h)
 
 
-@kernel
+@uncounted_kernel
 def tell_joints(joints, motion, space, told):
     """Greatest value and velocity of the joints, in ``told``."""
     for k in range(len(space.g)):
@@ -198,94 +221,47 @@ def tell_joints(joints, motion, space, told):
             told[1] = max(told[1], abs(joint_velocity(joints, motion, space, k)))
 
 
-@inlined
-def joint_velocity(joints, motion, space, k):
-    """Velocity of a joint row, ``G v``."""
-    total = 0.0
-    for side in range(2):
-        i = joints.a[k] if side == 0 else joints.b[k]
-        for c in range(3):
-            spin = (
-                space.R0[i, c, 0] * motion.spin[i, 0]
-                + space.R0[i, c, 1] * motion.spin[i, 1]
-                + space.R0[i, c, 2] * motion.spin[i, 2]
-            )
-            total += space.G[k, side, c] * motion.velocity[i, c] + space.G[k, side, 3 + c] * spin
-    return total
-
-
-@kernel
-def project_velocities(bodies, joints, motion, space):
-    """Nearest velocities in the norm of the mass that satisfy the joints: ``v - M^-1 G^T (G M^-1 G^T)^+ G v``."""
-    for _ in range(2):
-        for k in range(len(space.g)):
-            space.push[k] = -joint_velocity(joints, motion, space, k)
-        push_rows(joints, motion, space, space.push)
-
-
-@kernel
-def push_rows(joints, motion, space, wanted):
-    """Change the velocities of the active rows by ``wanted`` (r,); afterwards ``wanted`` has the impulses."""
-    solve_band(space.lower, space.pivot, wanted)
-    for k in range(len(wanted)):
-        for side in range(2):
-            i = joints.a[k] if side == 0 else joints.b[k]
-            for c in range(3):
-                motion.velocity[i, c] += wanted[k] * space.MG[k, side, c]
-                motion.spin[i, c] += wanted[k] * (
-                    space.R0[i, 0, c] * space.MG[k, side, 3]
-                    + space.R0[i, 1, c] * space.MG[k, side, 4]
-                    + space.R0[i, 2, c] * space.MG[k, side, 5]
-                )
-
-
-@kernel
+@uncounted_kernel
 def march_slabs(bodies, joints, springs, motion, space, h, count, extent, told):
     """March up to ``count`` slabs from a prepared state; the number that was solved, and the iterations they took."""
     iterations = 0
     for slab in range(count):
-        space.kept[:] = motion.impulse
+        copy_numbers(motion.impulse, space.kept)
         found = solve_motion(bodies, joints, springs, motion, space, h, extent)
         if found == 0:
-            motion.impulse[:] = space.kept
+            copy_numbers(space.kept, motion.impulse)
             return slab, iterations
         iterations += found
         end_slab(bodies, joints, springs, motion, space, h, told)
     return count, iterations
 
 
-@kernel
+@uncounted_kernel
 def begin(bodies, joints, springs, motion, space):
     """Prepare the factor of the joints at a state, and the energies of the groups."""
+    set_rates(joints.drives, motion, space)
     for i in range(len(motion.place) - 1):
         matrix_of(motion.turn, space.R0, i)
-    prepare_joints(bodies, joints, motion.place, space.R0, space)
+    prepare_joints(bodies, joints, motion, space)
     motion.energy[:] = 0.0
     kinetic_energy(bodies, motion, motion.energy)
-    potential_energy(bodies, springs, motion.place, space.R0, motion.energy)
+    potential_energy(bodies, springs, joints.angles, motion, space.R0, motion.energy)
 
 
-@kernel
+@uncounted_kernel
 def try_slab(bodies, joints, springs, motion, space, h, extent):
     """Solve a slab without taking it; ``space.g`` has the values of all rows at its end.  Iterations, 0 if it fails."""
-    space.kept[:] = motion.impulse
+    copy_numbers(motion.impulse, space.kept)
     found = solve_motion(bodies, joints, springs, motion, space, h, extent)
     if found == 0:
-        motion.impulse[:] = space.kept
+        copy_numbers(space.kept, motion.impulse)
         return 0
     place_ends(space.z, motion.place, space.R0, space.place, space.R1)
-    evaluate_rows(joints, motion.place, space.R0, space.place, space.R1, space.g, space.G)
+    evaluate_rows(joints, motion, space, space.place, space.R1)
     return found
 
 
-@kernel
+@uncounted_kernel
 def refactor(bodies, joints, motion, space):
     """Factor of the rows that are active now, at the present state."""
-    prepare_joints(bodies, joints, motion.place, space.R0, space)
-
-
-@kernel
-def row_velocities(joints, motion, space, out):
-    """Velocities (r,) of all rows at a prepared state."""
-    for k in range(len(out)):
-        out[k] = joint_velocity(joints, motion, space, k)
+    prepare_joints(bodies, joints, motion, space)

@@ -3,34 +3,21 @@
 A joint is a list of rows, equations at most bilinear in places and directions (docs/theory/mechanisms.md).
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from softway.arrays import Array
 from softway.errors import InputError
-from softway.kernels.multibody.joint_rows import ALONG, DIRECTION, DISTANCE, POINT
+from softway.kernels.multibody.joint_rows import ALONG, ANGLE, DISTANCE
+from softway.mechanisms.members.rows import Direction as Direction
+from softway.mechanisms.members.rows import JointRow as JointRow
+from softway.mechanisms.members.rows import axes, directions, not_turning, pinned, sliding, unit
+from softway.mechanisms.members.rows import in_space as in_space
 from softway.units import Metre
 
 GROUND = "ground"
 """Name of the body that does not move, in ``between``."""
-Direction = tuple[float, ...]
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class JointRow:
-    """Row of a joint at the start: points ``first`` and ``second`` (3,) of the bodies, directions ``n`` and ``m`` (3,).
-
-    See :mod:`~softway.kernels.multibody.joint_rows` for the kinds.
-    """
-
-    kind: int
-    first: Array
-    second: Array
-    n: Array
-    m: Array
-    value: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,7 +37,7 @@ class BallJoint:
 
     def rows(self) -> list[JointRow]:
         """Rows of the joint."""
-        return _pinned(self.at)
+        return pinned(self.at)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,7 +51,8 @@ class Hinge:
     at
         Point on the axis at the start [m].
     axis
-        Direction of the axis at the start; in the plane it is the normal.
+        Direction of the axis at the start; in the plane it is the normal.  Angles are those of the second body against
+        the first, zero at the start, and positive by the right-hand rule.
     """
 
     between: tuple[str, str]
@@ -74,9 +62,9 @@ class Hinge:
     def rows(self) -> list[JointRow]:
         """Rows of the joint."""
         if len(self.at) == 2:
-            return _pinned(self.at)
-        axis, first, second = _axes(self.axis, self)
-        return [*_pinned(self.at), _directions(first, axis), _directions(second, axis)]
+            return pinned(self.at)
+        axis, first, second = axes(self.axis, self)
+        return [*pinned(self.at), directions(first, axis), directions(second, axis)]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -119,7 +107,7 @@ class Slider:
 
     def rows(self) -> list[JointRow]:
         """Rows of the joint."""
-        return [*_sliding(self.at, self.axis, self), *_not_turning(len(self.at))]
+        return [*sliding(self.at, self.axis, self), *not_turning(len(self.at))]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,8 +130,44 @@ class Cylindrical:
 
     def rows(self) -> list[JointRow]:
         """Rows of the joint."""
-        axis, first, second = _axes(self.axis, self)
-        return [*_sliding(self.at, self.axis, self), _directions(first, axis), _directions(second, axis)]
+        axis, first, second = axes(self.axis, self)
+        return [*sliding(self.at, self.axis, self), directions(first, axis), directions(second, axis)]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Screw:
+    """Joint in space that lets one body turn about an axis of the other and slide along it by a pitch for each turn.
+
+    Parameters
+    ----------
+    between
+        Names of the two bodies; one may be ``ground``.  The axis belongs to the first.
+    at
+        Point on the axis at the start [m].
+    axis
+        Direction of the axis at the start.
+    pitch
+        Travel of a full turn [m], negative for a left-handed thread.
+
+    Examples
+    --------
+    >>> Screw(between=("ground", "nut"), at=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0), pitch=0.002).pitch
+    0.002
+    """
+
+    between: tuple[str, str]
+    at: tuple[Metre, Metre, Metre]
+    axis: Direction
+    pitch: Metre
+
+    def rows(self) -> list[JointRow]:
+        """Rows of the joint."""
+        if not (np.isfinite(self.pitch) and self.pitch != 0.0):
+            raise InputError("pitch", f"{self.pitch:g} m", "the travel of a full turn; a Hinge has none")
+        point, axis = in_space(self.at), axes(self.axis, self)[0]
+        ratio = -self.pitch / (2.0 * np.pi)
+        thread = JointRow(kind=ALONG, first=point, second=point, n=axis, m=np.zeros(3), ratio=ratio)
+        return [*Cylindrical(between=self.between, at=self.at, axis=self.axis).rows(), thread]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -166,7 +190,7 @@ class PinSlot:
 
     def rows(self) -> list[JointRow]:
         """Rows of the joint."""
-        return _sliding(self.at, self.axis, self)
+        return sliding(self.at, self.axis, self)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -189,10 +213,10 @@ class Universal:
 
     def rows(self) -> list[JointRow]:
         """Rows of the joint."""
-        one, other = (_unit(axis, 3, "axes") for axis in self.axes)
+        one, other = (unit(axis, 3, "axes") for axis in self.axes)
         if abs(one @ other) > 1e-9:
             raise InputError("axes", f"{self.axes} are not perpendicular", "two perpendicular directions")
-        return [*_pinned(self.at), _directions(one, other)]
+        return [*pinned(self.at), directions(one, other)]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -220,60 +244,29 @@ class Rod:
         return [JointRow(kind=DISTANCE, first=first, second=second, n=zero, m=zero, value=length)]
 
 
-Joint = BallJoint | Hinge | Weld | Slider | Cylindrical | PinSlot | Universal | Rod
+Joint = BallJoint | Hinge | Weld | Slider | Cylindrical | Screw | PinSlot | Universal | Rod
 
 
-def in_space(point: Sequence[float]) -> Array:
-    """Point or direction (3,) of one in the plane or in space."""
-    out = np.zeros(3)
-    out[: len(point)] = point
-    return out
+def turning_axis(joint: Joint) -> Array | None:
+    """Unit axis (3,) at the start about which a joint lets its second body turn; None if it has no such axis."""
+    if isinstance(joint, Hinge | Cylindrical | Screw):
+        return np.array([0.0, 0.0, 1.0]) if len(joint.at) == 2 else axes(joint.axis, joint)[0]
+    return None
 
 
-def _unit(direction: Sequence[float], dim: int, where: str) -> Array:
-    """Unit vector (3,)."""
-    if len(direction) != dim or not np.linalg.norm(direction) > 0.0:
-        raise InputError(where, f"{direction} is no direction in {dim}D", f"{dim} components, not all zero")
-    found = in_space(direction)
-    return found / float(np.linalg.norm(found))
+def travel_axis(joint: Joint) -> Array | None:
+    """Unit axis (3,) at the start along which a joint lets its second body slide; None if there is none."""
+    if isinstance(joint, Slider | PinSlot):
+        return unit(joint.axis, len(joint.at), "axis")
+    return None
 
 
-def _axes(axis: Direction | None, joint: object) -> tuple[Array, Array, Array]:
-    """Unit axis (3,) in space and two directions perpendicular to it."""
-    if axis is None:
-        raise InputError("axis", f"{type(joint).__name__} in space without an axis", "its direction, such as (0, 0, 1)")
-    one = _unit(axis, 3, "axis")
-    first = np.cross(one, np.eye(3)[int(np.argmin(np.abs(one)))])
-    first = first / float(np.linalg.norm(first))
-    return one, first, np.cross(one, first)
-
-
-def _pinned(at: Sequence[float]) -> list[JointRow]:
-    """Rows that keep two points together."""
-    point = in_space(at)
-    return [
-        JointRow(kind=POINT, first=point, second=point, n=np.eye(3)[k], m=np.zeros(3), value=0.0)
-        for k in range(len(at))
-    ]
-
-
-def _sliding(at: Sequence[float], axis: Direction, joint: object) -> list[JointRow]:
-    """Rows that keep a point of the second body on an axis of the first."""
-    point = in_space(at)
-    if len(at) == 2:
-        one = _unit(axis, 2, "axis")
-        normals = [np.array([-one[1], one[0], 0.0])]
-    else:
-        normals = list(_axes(axis, joint)[1:])
-    return [JointRow(kind=ALONG, first=point, second=point, n=n, m=np.zeros(3)) for n in normals]
-
-
-def _directions(n: Array, m: Array) -> JointRow:
-    """Row that keeps a direction of the first body perpendicular to one of the second."""
-    return JointRow(kind=DIRECTION, first=np.zeros(3), second=np.zeros(3), n=n, m=m)
-
-
-def _not_turning(dim: int) -> list[JointRow]:
-    """Rows that keep two bodies from turning against each other."""
-    x, y, z = np.eye(3)
-    return [_directions(x, y)] if dim == 2 else [_directions(x, y), _directions(y, z), _directions(z, x)]
+def motor_row(joint: Joint) -> JointRow | None:
+    """Row of the motion that a joint leaves, an angle or a travel; None if it leaves none or more than one."""
+    zero, along = np.zeros(3), travel_axis(joint)
+    if along is not None:
+        point = in_space(joint.at) if isinstance(joint, Slider | PinSlot) else zero
+        return JointRow(kind=ALONG, first=point, second=point, n=along, m=zero)
+    if isinstance(joint, Hinge | Screw):
+        return JointRow(kind=ANGLE, first=zero, second=zero, n=zero, m=zero, ratio=1.0)
+    return None

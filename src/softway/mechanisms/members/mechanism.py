@@ -2,11 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import combinations
 
 from softway.errors import InputError
-from softway.mechanisms.members.joints import GROUND, Joint, Rod
+from softway.mechanisms.members.couplings import Gear
+from softway.mechanisms.members.joints import GROUND, Joint, Rod, motor_row, travel_axis, turning_axis
+from softway.mechanisms.members.motors import Motor
 from softway.mechanisms.members.rigid import Rigid
-from softway.mechanisms.members.springs import Spring, Torque
+from softway.mechanisms.members.springs import HingeTorque, PointForce, Spring, Torque, TorsionSpring
 from softway.mechanisms.members.stops import Impacts, Stop
 from softway.units import MetrePerSecondSquared
 
@@ -26,10 +29,16 @@ class Mechanism:
     impacts
         Law of impacts at several stops at once: ``simultaneous``, or ``sequential``, one after the other, each time
         that with the greatest velocity of approach.
+    gears
+        Couplings of the motions of joints by name.
+    motors
+        Prescribed motions of joints by name.
     springs
-        Springs and dampers.
+        Springs and dampers, between points or about the axes of joints.
     torques
-        Constant torques.
+        Constant torques, on a body or about the axes of joints.
+    forces
+        Constant forces at points of bodies.
     gravity
         Acceleration of gravity [m/s^2]; none by default.
 
@@ -50,8 +59,11 @@ class Mechanism:
     joints: Mapping[str, Joint] = field(default_factory=dict)
     stops: Mapping[str, Stop] = field(default_factory=dict)
     impacts: Impacts = "simultaneous"
-    springs: tuple[Spring, ...] = ()
-    torques: tuple[Torque, ...] = ()
+    gears: Mapping[str, Gear] = field(default_factory=dict)
+    motors: Mapping[str, Motor] = field(default_factory=dict)
+    springs: tuple[Spring | TorsionSpring, ...] = ()
+    torques: tuple[Torque | HingeTorque, ...] = ()
+    forces: tuple[PointForce, ...] = ()
     gravity: tuple[MetrePerSecondSquared, ...] | None = None
 
     def __post_init__(self) -> None:
@@ -71,17 +83,66 @@ class Mechanism:
             self._require(f"stops.{name}", stop.between, stop.places)
         if self.impacts not in ("simultaneous", "sequential"):
             raise InputError("impacts", f"{self.impacts!r}", "'simultaneous' or 'sequential'")
-        if twice := self.joints.keys() & self.stops.keys():
-            raise InputError("stops", f"{sorted(twice)} are names of joints, too", "other names")
+        self._require_names()
+        for name, gear in self.gears.items():
+            self._require_geared(f"gears.{name}.joints", gear)
+        for name, motor in self.motors.items():
+            moving = [one for one, joint in self.joints.items() if motor_row(joint) is not None]
+            if motor.joint not in moving:
+                problem = f"{motor.joint!r} is no joint with one motion, an angle or a travel"
+                raise InputError(f"motors.{name}.joint", problem, f"one of {moving}")
         for k, spring in enumerate(self.springs):
-            self._require(f"springs[{k}]", spring.between, spring.ends)
+            if isinstance(spring, TorsionSpring):
+                self._require_turning(f"springs[{k}]", spring.joint)
+            else:
+                self._require(f"springs[{k}]", spring.between, spring.ends)
         for k, torque in enumerate(self.torques):
-            self._require(f"torques[{k}]", (torque.on, GROUND), ())
+            if isinstance(torque, HingeTorque):
+                self._require_turning(f"torques[{k}]", torque.joint)
+            else:
+                self._require(f"torques[{k}]", (torque.on, GROUND), ())
+        for k, force in enumerate(self.forces):
+            self._require(f"forces[{k}]", (force.on, GROUND), (force.at,))
 
     @property
     def dim(self) -> int:
         """2 in the plane, 3 in space."""
         return next(iter(self.bodies.values())).dim
+
+    @property
+    def turning(self) -> frozenset[str]:
+        """Names of the joints whose angles other members need."""
+        springs = [spring.joint for spring in self.springs if isinstance(spring, TorsionSpring)]
+        torques = [torque.joint for torque in self.torques if isinstance(torque, HingeTorque)]
+        geared = [
+            name for gear in self.gears.values() for name in gear.joints if travel_axis(self.joints[name]) is None
+        ]
+        motors = [motor.joint for motor in self.motors.values() if turning_axis(self.joints[motor.joint]) is not None]
+        return frozenset(springs + torques + geared + motors)
+
+    def _require_names(self) -> None:
+        """Refuse names that two members have."""
+        members = [("joints", self.joints), ("stops", self.stops), ("gears", self.gears), ("motors", self.motors)]
+        for (where, one), (which, other) in combinations(members, 2):
+            if twice := one.keys() & other.keys():
+                raise InputError(which, f"{sorted(twice)} are names of {where}, too", "other names")
+
+    def _require_geared(self, where: str, gear: Gear) -> None:
+        """Refuse joints that are not there or have neither an angle nor a travel, and two travels."""
+        turning = [name for name, joint in self.joints.items() if turning_axis(joint) is not None]
+        sliding = [name for name, joint in self.joints.items() if travel_axis(joint) is not None]
+        for name in gear.joints:
+            if name not in turning + sliding:
+                problem = f"{name!r} is no joint with an angle or a travel"
+                raise InputError(where, problem, f"two of {turning + sliding}")
+        if set(gear.joints) <= set(sliding):
+            raise InputError(where, f"{gear.joints} both slide", f"one joint with an angle, of {turning}")
+
+    def _require_turning(self, where: str, joint: str) -> None:
+        """Refuse a joint that is not there, or has no axis to turn about."""
+        turning = [name for name, one in self.joints.items() if turning_axis(one) is not None]
+        if joint not in turning:
+            raise InputError(f"{where}.joint", f"{joint!r} is no joint that turns about an axis", f"one of {turning}")
 
     def _require(self, where: str, between: tuple[str, str], points: tuple[tuple[float, ...], ...]) -> None:
         """Refuse unknown or equal bodies, and points of another dimension."""

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from softway.kernels.multibody.cone import solve_cone, solve_dense
+from softway.kernels.rigid_contact.cone import solve_cone, solve_dense
 
 
 @pytest.mark.parametrize("d", [1, 2, 3])

@@ -8,7 +8,7 @@ import numpy as np
 
 from softway.kernels.jit.compilation import inlined, kernel
 from softway.kernels.multibody.band import solve_band
-from softway.kernels.multibody.cone import solve_cone
+from softway.kernels.multibody.drives import work_of_jumps
 from softway.kernels.multibody.joint_rows import SLIDE
 from softway.kernels.multibody.slab import (
     CONVERGED,
@@ -17,11 +17,11 @@ from softway.kernels.multibody.slab import (
     SLOW,
     evaluate_rows,
     guess_motion,
-    joint_velocity,
     motion_of,
     place_ends,
-    project_velocities,
 )
+from softway.kernels.multibody.velocities import joint_velocity, project_velocities
+from softway.kernels.rigid_contact.cone import solve_cone
 
 ROUNDING = 1e-15
 """Rounding error of impulses and places, relative to the greatest."""
@@ -31,8 +31,8 @@ ROUNDING = 1e-15
 def _displacement(joints, space, z, k):
     """``G z`` of a row."""
     total = 0.0
-    for side in range(2):
-        i = joints.a[k] if side == 0 else joints.b[k]
+    for side in range(space.G.shape[1]):
+        i = joints.sides[k, side]
         for c in range(6):
             total += space.G[k, side, c] * z[i, c]
     return total
@@ -61,11 +61,9 @@ def compliances(joints, space, rows):
 def _product(joints, space, i, j):
     """``G_i M^-1 G_j^T`` of two rows."""
     total = 0.0
-    for si in range(2):
-        p = joints.a[i] if si == 0 else joints.b[i]
-        for sj in range(2):
-            q = joints.a[j] if sj == 0 else joints.b[j]
-            if p == q:
+    for si in range(space.G.shape[1]):
+        for sj in range(space.G.shape[1]):
+            if joints.sides[i, si] == joints.sides[j, sj]:
                 for c in range(6):
                     total += space.G[i, si, c] * space.MG[j, sj, c]
     return total
@@ -88,9 +86,7 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
     Afterwards ``space.g`` has the values of all rows at its end, and ``space.G`` their means.
     """
     space.kept[:] = motion.impulse  # and the rows at the start, since another try left its means
-    evaluate_rows(
-        joints, motion.place, space.R0, motion.place, space.R0, space.g, space.G
-    )  # another try left its means
+    evaluate_rows(joints, motion, space, motion.place, space.R0)  # another try left its means
     W, C, U = compliances(joints, space, rows)
     W *= 0.5 * h
     x, b, none = np.zeros(len(rows)), np.zeros(len(rows)), np.zeros(len(friction))
@@ -99,7 +95,7 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
     z, new, P, before, slow = space.z, space.new, motion.impulse, np.inf, 0
     for iteration in range(1, ITERATIONS + 1):
         place_ends(z, motion.place, space.R0, space.place, space.R1)
-        evaluate_rows(joints, motion.place, space.R0, space.place, space.R1, space.g, space.G)
+        evaluate_rows(joints, motion, space, space.place, space.R1)
         space.push[:] = space.g
         solve_band(space.lower, space.pivot, space.push)
         _offsets(joints, space, P, rows, C, b, x)
@@ -115,7 +111,7 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
                 z[i, c], z[i, 3 + c] = new[i, c], new[i, 3 + c]
         if change <= CONVERGED or (change <= NEARLY and change > 0.5 * before):
             place_ends(z, motion.place, space.R0, space.place, space.R1)
-            evaluate_rows(joints, motion.place, space.R0, space.place, space.R1, space.g, space.G)
+            evaluate_rows(joints, motion, space, space.place, space.R1)
             return iteration
         slow = slow + 1 if change > SLOW * before else 0
         if slow >= 2 or not np.isfinite(change):
@@ -164,7 +160,8 @@ def collide(bodies, joints, motion, space, rows, friction, through, rebound, spe
     """Change the velocities at a prepared state by the contacts; x (m,) are the impulses, ``through`` (m,) included.
 
     Normal velocities become ``rebound`` (c,) at least; the impulses that acted ``through`` the slab count in the laws.
-    ``speed`` is that of the extent in a slab, the scale of rounding.  1 if a solution was found.
+    The work of motors is booked; ``speed`` is that of the extent in a slab, the scale of rounding.  1 if a solution was
+    found.
     """
     W = compliances(joints, space, rows)[0]
     b, d = np.zeros(len(rows)), len(rows) // max(len(friction), 1)
@@ -180,7 +177,7 @@ def collide(bodies, joints, motion, space, rows, friction, through, rebound, spe
     for i in range(len(rows)):
         k, push = rows[i], x[i] - through[i]
         for side in range(2):
-            body = joints.a[k] if side == 0 else joints.b[k]
+            body = joints.sides[k, side]
             for c in range(3):
                 motion.velocity[body, c] += push * space.MG[k, side, c]
                 motion.spin[body, c] += push * (
@@ -189,4 +186,5 @@ def collide(bodies, joints, motion, space, rows, friction, through, rebound, spe
                     + space.R0[body, 2, c] * space.MG[k, side, 5]
                 )
     project_velocities(bodies, joints, motion, space)
+    work_of_jumps(bodies, joints, motion, space)
     return found

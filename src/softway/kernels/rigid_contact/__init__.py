@@ -1,0 +1,1 @@
+"""Compiled contact of rigid bodies with friction."""

@@ -1,0 +1,24 @@
+"""Motors whose motion others determine already."""
+
+from softway.errors import InputError
+from softway.kernels.multibody.slab import refactor
+from softway.kernels.multibody.tables import Space
+from softway.mechanisms.arrays import Arrays
+
+
+def require_free_motions(it: Arrays, room: Space) -> None:
+    """Refuse motors of motions that the joints, or other motors, determine at the start."""
+    rows = it.joints.drives.row
+    if not len(rows):
+        return
+    kept = room.active.copy()
+    room.active[rows] = 0
+    refactor(it.bodies, it.joints, it.motion, room)
+    rank = int((room.pivot > 0.0).sum())
+    for row in rows:
+        room.active[row] = kept[row]
+        refactor(it.bodies, it.joints, it.motion, room)
+        if int((room.pivot > 0.0).sum()) == rank:
+            problem = "prescribes a motion that joints or other motors determine at the start"
+            raise InputError(f"motors.{it.joint_of[row]}", problem, "one motor for each motion that the joints leave")
+        rank += 1
