@@ -1,0 +1,61 @@
+"""mechanism.json: names and places of the parts of a mechanism at the start, from which pictures are drawn."""
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any
+
+from softway.mechanisms.members.joints import Cylindrical, PinSlot, Rod, Slider
+from softway.mechanisms.members.mechanism import Mechanism
+from softway.mechanisms.members.stops import DistanceStop, PlaneStop
+from softway.record.write.mechanism.probes import TURNING, BodyReading
+
+FILE = "mechanism.json"
+ENTRIES: Mapping[str, type] = MappingProxyType({"dim": int, "bodies": dict, "joints": list, "stops": list, "springs": list})
+"""Entries of every file, and their types."""
+
+
+def outline(mechanism: Mechanism, readings: Sequence[BodyReading] = ()) -> dict[str, Any]:
+    """Parts of a mechanism as plain data: centres of the bodies, and points that joints, stops and springs name.
+
+    Examples
+    --------
+    >>> from softway.mechanisms import Hinge, Rigid
+    >>> arm = Mechanism(bodies={"arm": Rigid(mass=1.0, centre=(1.0, 0.0), inertia=0.3)},
+    ...                 joints={"pivot": Hinge(between=("ground", "arm"), at=(0.0, 0.0))})
+    >>> outline(arm)["joints"]
+    [{'name': 'pivot', 'kind': 'Hinge', 'between': ['ground', 'arm'], 'points': [[0.0, 0.0], [0.0, 0.0]]}]
+    """
+    joints = [
+        _part(name, joint, joint.between, joint.ends if isinstance(joint, Rod) else (joint.at, joint.at))
+        for name, joint in mechanism.joints.items()
+    ]
+    for found, joint in zip(joints, mechanism.joints.values(), strict=True):
+        if isinstance(joint, Slider | Cylindrical | PinSlot):
+            found["axis"] = [float(x) for x in joint.axis]
+    return {
+        "dim": mechanism.dim,
+        "bodies": {name: list(body.centre) for name, body in mechanism.bodies.items()},
+        "joints": joints,
+        "stops": [_stop(name, stop) for name, stop in mechanism.stops.items()],
+        "springs": [_part(f"springs[{k}]", s, s.between, s.ends) for k, s in enumerate(mechanism.springs)],
+        "probes": [
+            {"name": r.name, "body": r.body, "at": r.start.tolist()} for r in readings if r.quantity not in TURNING
+        ],
+    }
+
+
+def _part(name: str, part: object, between: Sequence[str], points: Sequence[Sequence[float]]) -> dict[str, Any]:
+    return {
+        "name": name,
+        "kind": type(part).__name__,
+        "between": list(between),
+        "points": [[float(x) for x in point] for point in points],
+    }
+
+
+def _stop(name: str, stop: PlaneStop | DistanceStop) -> dict[str, Any]:
+    """Stop as plain data; the first point lies on the first body."""
+    if isinstance(stop, PlaneStop):
+        found = _part(name, stop, stop.between, (stop.plane, stop.point))
+        return {**found, "normal": list(stop.normal), "radius": float(stop.radius)}
+    return {**_part(name, stop, stop.between, stop.points), "distance": float(stop.distance), "side": stop.side}
