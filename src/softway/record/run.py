@@ -94,7 +94,7 @@ class Run:
     def fields(self) -> Fields:
         """Frames of the fields: ``len``, ``[k]``, ``times``, ``cells``, ``to_pyvista(k)``."""
         if self.of_mechanism:
-            raise InputError(str(self.path), "is the run of a mechanism, which has no fields", "run.motion, a table")
+            raise InputError(str(self.path), "is the run of a mechanism, which has no fields", "its motion: motion.csv")
         return Fields(self.path / fields.FILE, self.keep)
 
     @property

@@ -65,7 +65,8 @@ def run(
         Callback with a :class:`Progress` after each accepted time step (slab), or with a
         :class:`~softway.record.write.progress.MechanismProgress` after each stored instant of a mechanism.
     cancel
-        Function called in every iteration, of a mechanism at every stored instant, such as ``threading.Event().is_set``; the run stops when it returns True.
+        Function called in every iteration, and at every stored instant of a mechanism, such as
+        ``threading.Event().is_set``; the run stops when it returns True.
     tell
         Function that receives a line if one attempt at a slab takes five seconds, and every five seconds from then on:
         what is being tried, and how far it is.  By default the line is logged.

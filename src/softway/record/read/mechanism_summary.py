@@ -25,8 +25,7 @@ def summarise_mechanism(history: Table, events: Table, stops: Sequence[str] = ()
     if history.rows == 0:
         return {"slabs": 0, "contacts": {}, "stops": {}, "findings": []}
     worst = float(np.abs(history["energy_error"]).max())
-    changes = (history["energy_kinetic"], np.ptp(history["energy_potential"]), history["work_external"])
-    scale = max(float(np.abs(values).max()) for values in changes)
+    scale = energy_scale(history)
     names = dict.fromkeys([*stops, *(str(name) for name in events["contact"])])
     return {
         "slabs": int(history["slabs"][-1]),
@@ -43,6 +42,12 @@ def summarise_mechanism(history: Table, events: Table, stops: Sequence[str] = ()
         "findings": [],
         "units": {"time": "s", "energy": "J", "joint": "m", "impulse": "N s"},
     }
+
+
+def energy_scale(history: Table) -> float:
+    """Largest kinetic energy, change of the potential energy, or work of torques, whichever is larger [J]."""
+    changes = (history["energy_kinetic"], np.ptp(history["energy_potential"]), history["work_external"])
+    return max(float(np.abs(values).max()) for values in changes)
 
 
 def _stop(name: str, events: Table) -> dict[str, Any]:
@@ -91,13 +96,11 @@ def told(found: Mapping[str, Any]) -> tuple[str, ...]:
 def _of_stop(name: str, stop: Mapping[str, Any]) -> str:
     """Sentence on a stop."""
     if not stop["touches"] and not stop["rests"]:
-        return f"The stop '{name}' was not touched."
+        return f"The stop '{name}' had no touch: what was open or closed there stayed so."
     parts = []
     if stop["touches"]:
         first = f", first at {stop['first_touch']:.6g} s" if stop["touches"] > 1 else f" at {stop['first_touch']:.6g} s"
-        parts.append(
-            f"was touched {_times(stop['touches'])}{first}, with impulses of {stop['impulse']:.4g} N s in all"
-        )
+        parts.append(f"was touched {_times(stop['touches'])}{first}, with impulses of {stop['impulse']:.4g} N s in all")
     if stop["rests"]:
         parts.append(f"{'it ' if parts else ''}came to rest {_times(stop['rests'])}")
     if stop["releases"]:

@@ -10,7 +10,9 @@ from softway.mechanisms.members.stops import DistanceStop, PlaneStop
 from softway.record.write.mechanism.probes import TURNING, BodyReading
 
 FILE = "mechanism.json"
-ENTRIES: Mapping[str, type] = MappingProxyType({"dim": int, "bodies": dict, "joints": list, "stops": list, "springs": list})
+ENTRIES: Mapping[str, type] = MappingProxyType(
+    {"dim": int, "bodies": dict, "joints": list, "stops": list, "springs": list}
+)
 """Entries of every file, and their types."""
 
 

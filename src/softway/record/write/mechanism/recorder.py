@@ -54,7 +54,9 @@ def _cells(event: StopEvent) -> list[str | int | float]:
     return [float(event.time), event.stop, event.kind, -1, NAN, NAN, NAN, *numbers, 0.0, ""]
 
 
-def open_mechanism(folder: Path, names: Sequence[str], dim: int, readings: tuple[BodyReading, ...]) -> MechanismRecorder:
+def open_mechanism(
+    folder: Path, names: Sequence[str], dim: int, readings: tuple[BodyReading, ...]
+) -> MechanismRecorder:
     """Create the files of a mechanism of the bodies ``names`` in ``dim`` dimensions, with their headers."""
     heads = {
         history.FILE: (("time", "s"), SLABS, *((c.name, c.unit) for c in HISTORY[1:])),
