@@ -91,8 +91,7 @@ def is_mechanism(scenario: Scenario) -> bool:
     if rigid and others:
         kind = type(scenario.bodies[others[0]]).__name__
         problem = f"kind 'Rigid' together with the {kind} {others[0]!r}: they are not marched together yet"
-        remedy = 'kind = "Rigid" for all bodies, or kind = "Tool" for a body with a prescribed motion'
-        raise InputError(f"bodies.{rigid[0]}.kind", problem, remedy)
+        raise InputError(f"bodies.{rigid[0]}.kind", problem, 'kind = "Rigid" for all bodies, or for none of them')
     if not rigid:
         _require_no_parts(scenario)
     return bool(rigid)
