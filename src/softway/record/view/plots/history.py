@@ -131,7 +131,9 @@ def gaps(axis: "Axes", time: Array, table: Table, contacts: tuple[str, ...]) -> 
 
 
 def _probes(axis: "Axes", time: Array, table: Table, names: list[str]) -> None:
-    factor, unit = scaled(np.concatenate([table[n] for n in names]), table.units[names[0]])
+    factor, unit = 1.0, table.units[names[0]]
+    if not unit.startswith("rad"):
+        factor, unit = scaled(np.concatenate([table[n] for n in names]), unit)
     for name, color in zip(names, _cycle(len(names)), strict=True):
         axis.plot(time, factor * table[name], color=color, label=name)
     word = WORDS[table.units[names[0]]]
