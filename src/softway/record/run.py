@@ -115,8 +115,7 @@ class Run:
     def numbers(self) -> dict[str, Any]:
         """Numbers of the summary, computed from the tables in their present state."""
         if self.of_mechanism:
-            stops = [str(stop["name"]) for stop in self.outline["stops"]]
-            return summarise_mechanism(self.history, self.events, stops)
+            return summarise_mechanism(self.history, self.motion, self.events, self.outline)
         return summary.summarise(self.history, self.events)
 
     @property

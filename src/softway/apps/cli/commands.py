@@ -236,9 +236,7 @@ def race(
         Allow module:name in the scenario to run code of installed modules, not only of modules next to the file.
     """
     folder, console = out or free(Path("races") / file.stem), Console(quiet=quiet)
-    checked = examined(file, set_, console, allow_python=allow_python)
-    if isinstance(checked, CheckedMechanism):
-        raise InputError(str(file), "is a scenario of rigid bodies: there are no methods to compare", "softway run")
+    checked = _of_solids(file, examined(file, set_, console, allow_python=allow_python))
     scenario = checked.scenario
     if (folder / RACE).exists() and not overwrite:
         raise InputError("--out", f"'{folder}' already holds a race", "another folder, or --overwrite")
@@ -263,6 +261,13 @@ def race(
     ranking(found, console)
     for made in save_race(found, folder):
         console.print(escape(str(made)), soft_wrap=True, highlight=False)
+
+
+def _of_solids(file: Path, checked: Checked | CheckedMechanism) -> Checked:
+    """Refuse a scenario of rigid bodies."""
+    if isinstance(checked, CheckedMechanism):
+        raise InputError(str(file), "is a scenario of rigid bodies: there are no methods to compare", "softway run")
+    return checked
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

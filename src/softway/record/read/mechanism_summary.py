@@ -12,21 +12,27 @@ KINDS = MappingProxyType({"touches": "touch", "rests": "rest", "releases": "rele
 BALANCED = 1e-9
 """Error of the energy balance relative to the energies that passes for rounding."""
 
+ROUNDED = 1e-6
+"""Change of a velocity at the start relative to the greatest one that passes for rounding of what is given."""
 
-def summarise_mechanism(history: Table, events: Table, stops: Sequence[str] = ()) -> dict[str, Any]:
+
+def summarise_mechanism(history: Table, motion: Table, events: Table, outline: Mapping[str, Any]) -> dict[str, Any]:
     """Summarise the finished or unfinished run of a mechanism in a few numbers.
 
-    ``energy_error_worst`` is the largest ``|energy_error|`` [J]; ``energy_error_relative`` is its ratio to the largest
-    kinetic energy, or change of the potential energy or work, whichever is larger.  ``joint_error_worst`` [m] and
-    ``joint_velocity_error_worst`` [m/s] are the largest errors of the joints.  ``stops`` counts the events of each
-    stop, with the instants of the first touch and of the last release [s], and the sum of the impulses of its impacts
-    [N s].
+    ``outline`` names the stops and the given velocities.  ``energy_error_worst`` is the largest ``|energy_error|`` [J];
+    ``energy_error_relative`` is its ratio to the largest kinetic energy, or change of the potential energy or work,
+    whichever is larger.  ``joint_error_worst`` [m] and ``joint_velocity_error_worst`` [m/s] are the largest errors of
+    the joints.  ``velocity_change_start`` is the largest change of a given velocity by the joints and impacts at the
+    start [m/s].  ``stops`` counts the events of each stop, with the instants of the first touch and of the last release
+    [s], and the sum of the impulses of its impacts [N s].
     """
     if history.rows == 0:
         return {"slabs": 0, "contacts": {}, "stops": {}, "findings": []}
     worst = float(np.abs(history["energy_error"]).max())
     scale = energy_scale(history)
-    names = dict.fromkeys([*stops, *(str(name) for name in events["contact"])])
+    names = dict.fromkeys(
+        [*(str(stop["name"]) for stop in outline["stops"]), *(str(name) for name in events["contact"])]
+    )
     return {
         "slabs": int(history["slabs"][-1]),
         "time_end": float(history["time"][-1]),
@@ -37,11 +43,24 @@ def summarise_mechanism(history: Table, events: Table, stops: Sequence[str] = ()
         "work_external": float(history["work_external"][-1]),
         "joint_error_worst": float(history["joint_error"].max()),
         "joint_velocity_error_worst": float(history["joint_velocity_error"].max()),
+        "velocity_change_start": _changed(motion, outline["velocities"]),
         "contacts": {},
         "stops": {name: _stop(name, events) for name in names},
         "findings": [],
         "units": {"time": "s", "energy": "J", "joint": "m", "impulse": "N s"},
     }
+
+
+def _changed(motion: Table, given: Mapping[str, Sequence[float]]) -> float:
+    """Largest change of a given velocity at the start [m/s]; zero where it is rounding."""
+    if not motion.rows:
+        return 0.0
+    pairs = [
+        (np.asarray(velocity, float), np.array([motion[f"{name}.velocity_{a}"][0] for a in "xyz"[: len(velocity)]]))
+        for name, velocity in given.items()
+    ]
+    change = max(float(np.linalg.norm(after - before)) for before, after in pairs)
+    return change if change > ROUNDED * max(float(np.linalg.norm(before)) for before, _ in pairs) else 0.0
 
 
 def energy_scale(history: Table) -> float:
@@ -68,7 +87,7 @@ def told(found: Mapping[str, Any]) -> tuple[str, ...]:
     >>> stop = {"touches": 2, "rests": 1, "releases": 0, "first_touch": 0.25, "last_release": None, "impulse": 1.5}
     >>> for sentence in told({"slabs": 10, "time_end": 0.5, "energy_error_worst": 0.0, "energy_error_relative": 0.0,
     ...                       "dissipation": 2.0, "work_external": 0.0, "joint_error_worst": 1e-17,
-    ...                       "stops": {"floor": stop}}):
+    ...                       "velocity_change_start": 0.0, "stops": {"floor": stop}}):
     ...     print(sentence)
     The mechanism moved for 0.5 s in 10 slabs (time steps).
     The joints hold to 1e-17 m.
@@ -86,6 +105,9 @@ def told(found: Mapping[str, Any]) -> tuple[str, ...]:
         f"The joints hold to {found['joint_error_worst']:.2g} m.",
         f"The energy balance {holds} to {found['energy_error_worst']:.2g} J{share}.",
     ]
+    if found["velocity_change_start"]:
+        change = f"changed by up to {found['velocity_change_start']:.4g} m/s"
+        sentences.insert(0, f"The velocities at the start were {change}: joints or stops do not allow those given.")
     if abs(found["dissipation"]) > found["energy_error_worst"]:
         sentences.append(f"Impacts and dampers dissipated {found['dissipation']:.4g} J.")
     if found["work_external"]:

@@ -10,6 +10,7 @@ import softway as sw
 from softway.apps.cli.commands import main
 from softway.mechanisms import DistanceStop, Hinge, Mechanism, Rigid, Slider, march
 from softway.record.conduct_mechanism import MechanismRun, record_mechanism
+from softway.record.read.mechanism_summary import told
 from softway.record.storage.run_folder import RunFolder
 from softway.record.write.mechanism.columns import rotation_of, rotation_vector
 from softway.scenario.checks.mechanism import CheckedMechanism
@@ -55,8 +56,8 @@ def test_the_motion_is_that_of_python_bit_for_bit(crank):
     for k, step in enumerate(steps):
         assert (motion["time"][k], history["energy_kinetic"][k]) == (step.time, step.energy_kinetic)
         for name, state in step.bodies.items():
-            told = [motion[f"{name}.{c}"][k] for c in ("x", "y", "velocity_x", "velocity_y", "spin")]
-            assert told == [*state.centre.tolist(), *state.velocity.tolist(), *state.spin.tolist()]
+            row = [motion[f"{name}.{c}"][k] for c in ("x", "y", "velocity_x", "velocity_y", "spin")]
+            assert row == [*state.centre.tolist(), *state.velocity.tolist(), *state.spin.tolist()]
             assert motion[f"{name}.angle"][k] == rotation_vector(state.rotation)[0]
 
 
@@ -197,9 +198,9 @@ def test_the_command_line_checks_runs_shows_and_draws(tmp_path, capsys):
     assert "1000 slabs" in capsys.readouterr().out
     assert main(["run", file, "--out", out]) == 0
     assert main(["show", out]) == 0
-    told = capsys.readouterr().out
+    out_text = capsys.readouterr().out
     for sentence in ("moved for 1 s in 1000 slabs", "The joints hold to", "it came to rest once", "dissipated 1.57 J"):
-        assert sentence in told
+        assert sentence in out_text
     assert main(["plot", out]) == 0
     assert (tmp_path / "run" / "bodies.png").stat().st_size > 10_000
     assert main(["plot", out, "--film", str(tmp_path / "film.gif"), "--times", "0 ms, 3 ms"]) == 0
@@ -207,6 +208,15 @@ def test_the_command_line_checks_runs_shows_and_draws(tmp_path, capsys):
     assert main(["view", out]) == 2 and "--film" in capsys.readouterr().err
     assert main(["race", file]) == 2 and "rigid bodies" in capsys.readouterr().err
     assert main(["audit", out]) == 2
+
+
+def test_a_velocity_that_joints_do_not_allow_is_told(crank, tmp_path):
+    """The slider cannot move while the crank and the rod are in line."""
+    assert crank.summary["velocity_change_start"] == 0.0
+    scenario = sw.load(FOLDER / "slider_crank.toml", (*SHORT, "bodies.slider.velocity=['1 m/s', 0]"))
+    run = sw.run(scenario, tmp_path / "run")
+    assert run.summary["velocity_change_start"] == pytest.approx(1.0)
+    assert "changed by up to 1 m/s" in told(run.summary)[0]
 
 
 def test_a_sweep_runs_mechanisms(tmp_path):

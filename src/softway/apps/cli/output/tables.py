@@ -35,6 +35,7 @@ UNITS = {
     "distance": "m",
     "joint_error_worst": "m",
     "joint_velocity_error_worst": "m/s",
+    "velocity_change_start": "m/s",
     "mass": "kg",
     "speed": "m/s",
     "spin": "rad/s",

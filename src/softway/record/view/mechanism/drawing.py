@@ -110,7 +110,7 @@ def _spring(axis: "Axes", poses: Poses, spring: Mapping[str, Any], row: int, siz
     one, other = (poses.point(body, at, row) for body, at in zip(spring["between"], spring["points"], strict=True))
     way = other - one
     length = float(np.linalg.norm(way)) or 1.0
-    across = np.array([-way[1], way[0]]) / length * SMALL * size
+    across = np.array([-way[1], way[0]]) / length * max(SMALL * size, 0.04 * length)
     along = np.concatenate([[0.0], np.linspace(0.15, 0.85, 2 * COILS + 1), [1.0]])
     side = np.concatenate([[0.0, 0.0], np.tile([1.0, -1.0], COILS)[: 2 * COILS - 1], [0.0, 0.0]])
     axis.plot(*(one + along[:, None] * way + side[:, None] * across).T, color=BLACK, lw=1.0, alpha=alpha, zorder=3)
@@ -118,7 +118,7 @@ def _spring(axis: "Axes", poses: Poses, spring: Mapping[str, Any], row: int, siz
 
 def _plane(axis: "Axes", poses: Poses, stop: Mapping[str, Any], row: int, size: float) -> None:
     """Line of a plane with strokes behind it."""
-    body, at = stop["between"][0], stop["points"][0]
+    body, at = stop["between"][0], poses.feet.get(stop["name"], stop["points"][0])
     normal = poses.direction(body, stop["normal"], row)
     length = float(np.linalg.norm(normal))
     if length == 0.0:

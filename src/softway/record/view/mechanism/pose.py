@@ -12,7 +12,7 @@ from softway.record.storage.table import Table
 from softway.record.write.mechanism.columns import placed
 
 GROUND = "ground"
-CORNER = np.array([[-0.5, 0.866, 0.0], [-0.433, -0.25, 0.866]])
+CORNER = ((-0.5, 0.866, 0.0), (-0.433, -0.25, 0.866))
 """View (2, 3) from a corner: z points upwards."""
 
 
@@ -26,10 +26,13 @@ class Poses:
         Outline of the mechanism.
     motion
         Table of the motion.
+    feet
+        For each stop with a plane of the ground, the place on the plane that its point comes nearest to.
     """
 
     parts: Mapping[str, Any]
     motion: Table
+    feet: Mapping[str, Array]
 
     @property
     def times(self) -> Array:
@@ -73,9 +76,22 @@ class Poses:
 
 def seen(place: Array) -> Array:
     """Place or direction (2,) in the picture of one in the plane or in space."""
-    return place if len(place) == 2 else np.asarray(CORNER @ place)
+    return place if len(place) == 2 else np.array(CORNER) @ place
 
 
 def poses(run: Records) -> Poses:
     """Places of a recorded mechanism."""
-    return Poses(parts=run.outline, motion=run.motion)
+    parts, motion = run.outline, run.motion
+    planes = [stop for stop in parts["stops"] if stop["kind"] == "PlaneStop" and stop["between"][0] == GROUND]
+    return Poses(parts=parts, motion=motion, feet={stop["name"]: _foot(parts, motion, stop) for stop in planes})
+
+
+def _foot(parts: Mapping[str, Any], motion: Table, stop: Mapping[str, Any]) -> Array:
+    """Place (d,) on the plane of a stop that its point comes nearest to."""
+    at, normal = (np.asarray(x, float) for x in (stop["points"][0], stop["normal"]))
+    body, start = stop["between"][1], np.asarray(stop["points"][1], float)
+    arm, normal = start - np.asarray(parts["bodies"][body], float), normal / np.linalg.norm(normal)
+    places = np.array([c + r @ arm for c, r in (placed(motion, body, row) for row in range(motion.rows))])
+    gaps = (places - at) @ normal
+    nearest = int(np.argmin(gaps))
+    return np.asarray(places[nearest] - gaps[nearest] * normal)

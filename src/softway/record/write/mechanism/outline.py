@@ -1,4 +1,4 @@
-"""mechanism.json: names and places of the parts of a mechanism at the start, from which pictures are drawn."""
+"""mechanism.json: names, places and given velocities of the parts of a mechanism at the start, for pictures."""
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
@@ -11,13 +11,13 @@ from softway.record.write.mechanism.probes import TURNING, BodyReading
 
 FILE = "mechanism.json"
 ENTRIES: Mapping[str, type] = MappingProxyType(
-    {"dim": int, "bodies": dict, "joints": list, "stops": list, "springs": list}
+    {"dim": int, "bodies": dict, "velocities": dict, "joints": list, "stops": list, "springs": list}
 )
 """Entries of every file, and their types."""
 
 
 def outline(mechanism: Mechanism, readings: Sequence[BodyReading] = ()) -> dict[str, Any]:
-    """Parts of a mechanism as plain data: centres of the bodies, and points that joints, stops and springs name.
+    """Parts of a mechanism as plain data: centres and given velocities of the bodies, and points of the other parts.
 
     Examples
     --------
@@ -36,7 +36,8 @@ def outline(mechanism: Mechanism, readings: Sequence[BodyReading] = ()) -> dict[
             found["axis"] = [float(x) for x in joint.axis]
     return {
         "dim": mechanism.dim,
-        "bodies": {name: list(body.centre) for name, body in mechanism.bodies.items()},
+        "bodies": {name: [float(x) for x in body.centre] for name, body in mechanism.bodies.items()},
+        "velocities": {name: body.motion[0][: body.dim].tolist() for name, body in mechanism.bodies.items()},
         "joints": joints,
         "stops": [_stop(name, stop) for name, stop in mechanism.stops.items()],
         "springs": [_part(f"springs[{k}]", s, s.between, s.ends) for k, s in enumerate(mechanism.springs)],
