@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from softway.record.view.pictures import Picture
 
 SCENARIO = "scenario.toml"
+REMEDY = "the unchanged run folder"
 
 
 @dataclass(frozen=True, slots=True, eq=False, init=False)
@@ -62,7 +63,7 @@ class Run:
     @property
     def of_mechanism(self) -> bool:
         """True if the bodies of the run are rigid bodies of a mechanism."""
-        return (self.path / columns.MOTION).is_file()
+        return (self.path / outline.FILE).is_file()
 
     @property
     def motion(self) -> Table:
@@ -83,7 +84,10 @@ class Run:
     @property
     def outline(self) -> Mapping[str, Any]:
         """Names and places of the parts of a mechanism at the start."""
-        return _notes(self.path / outline.FILE, "the unchanged run folder", outline.ENTRIES)
+        found, file = _notes(self.path / outline.FILE, REMEDY, outline.ENTRIES), self.path / outline.FILE
+        if not outline.sound(found):
+            raise InputError(str(file), "does not tell the parts of a mechanism", REMEDY)
+        return found
 
     @property
     def events(self) -> Table:
@@ -100,7 +104,7 @@ class Run:
     @property
     def provenance(self) -> Mapping[str, Any]:
         """Versions, platform, start and stop of the run, and the reason of the stop."""
-        return _notes(self.path / provenance.FILE, "the unchanged run folder", provenance.ENTRIES)
+        return _notes(self.path / provenance.FILE, REMEDY, provenance.ENTRIES)
 
     @property
     def summary(self) -> Mapping[str, Any]:

@@ -161,8 +161,16 @@ class Scenario:
         Solution method for a time step.
     output
         Stored frames, probes and checkpoints.
-    joints, stops, springs, torques, impacts
-        Parts of a mechanism, as in :class:`~softway.mechanisms.Mechanism`.
+    joints
+        Joints between rigid bodies by name, as in :class:`~softway.mechanisms.Mechanism`.
+    stops
+        Stops, unilateral joints between rigid bodies, by name.
+    springs
+        Springs and dampers between rigid bodies.
+    torques
+        Constant torques on rigid bodies.
+    impacts
+        Law of impacts at several stops at once: ``simultaneous``, or ``sequential``, one after the other.
     """
 
     bodies: Mapping[str, Solid | Tool | Rigid]
@@ -191,11 +199,21 @@ class Scenario:
             )
             or "none",
             "loads": ", ".join(type(load).__name__ for load in self.loads) or "none",
+            **self._links(),
             "time": f"{self.time.end:.4g} s, step {step}",
             "solver": type(self.solver).__name__,
             "inertia": type(self.inertia).__name__,
         }
         return html_table(self.title or "Scenario", rows)
+
+    def _links(self) -> dict[str, str]:
+        """Rows of joints and stops for notebooks; none for solids."""
+        rows = {"joints": self.joints, "stops": self.stops}
+        return {
+            key: "\n".join(f"{n}: {type(p).__name__} of {p.between[0]} and {p.between[1]}" for n, p in parts.items())
+            for key, parts in rows.items()
+            if parts
+        }
 
     @property
     def scene(self) -> Scene:

@@ -2,6 +2,8 @@
 
 from itertools import islice
 from pathlib import Path
+from shutil import copytree
+from threading import Event
 
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ import pytest
 import softway as sw
 from softway.apps.cli.commands import main
 from softway.mechanisms import DistanceStop, Hinge, Mechanism, Rigid, Slider, march
+from softway.record import conduct_mechanism
 from softway.record.conduct_mechanism import MechanismRun, record_mechanism
 from softway.record.read.mechanism_summary import told
 from softway.record.storage.run_folder import RunFolder
@@ -185,6 +188,31 @@ def test_balls_are_drawn_and_the_notebook_shows_a_run(crank, tmp_path):
         len(run.fields)
 
 
+def test_a_damaged_outline_is_refused(crank, tmp_path):
+    folder = tmp_path / "run"
+    copytree(crank.path, folder)
+    text = (folder / "mechanism.json").read_text(encoding="utf-8")
+    for old, new in (("0.05", '"x"'), ('"crank"', '"crunk"'), ('"joints"', '"jonts"'), ("2", "3"), ("{", "")):
+        (folder / "mechanism.json").write_text(text.replace(old, new, 1), encoding="utf-8")
+        with pytest.raises(sw.InputError, match="mechanism.json"):
+            sw.Run(folder).plot()
+
+
+def test_compiling_is_told(tmp_path, monkeypatch):
+    monkeypatch.setattr(conduct_mechanism, "PATIENCE", 0.0)
+    said = Event()
+
+    def waiting():
+        assert said.wait(60.0)
+        yield from march(engine(), until=1e-3, step=1e-4)
+
+    opening = MechanismRun(mechanism=engine(), readings=(), until=1e-3, slabs=10, every=1, title="", texts={})
+    run = record_mechanism(
+        waiting(), opening, RunFolder(), tell=lambda line: said.set() if "compiling" in line else None
+    )
+    assert run.history.rows == 11
+
+
 def test_solids_have_no_motion(tmp_path):
     run = sw.run(sw.load(FOLDER / "paper_bar.toml", ["time.end=0.05 s"]), tmp_path / "run")
     assert not run.of_mechanism
@@ -228,6 +256,7 @@ def test_a_sweep_runs_mechanisms(tmp_path):
         jobs=1,
     )
     assert not found.failed and len(found.rows) == 2
+    assert found.table["stops.anvil.touches"].tolist() == [1, 1] and found.table.units["joint_error_worst"] == "m"
 
 
 def test_the_check_tells_the_scales():

@@ -4,7 +4,9 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
-from softway.mechanisms.members.joints import Cylindrical, PinSlot, Rod, Slider
+import numpy as np
+
+from softway.mechanisms.members.joints import GROUND, Cylindrical, PinSlot, Rod, Slider
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.stops import DistanceStop, PlaneStop
 from softway.record.write.mechanism.probes import TURNING, BodyReading
@@ -62,3 +64,31 @@ def _stop(name: str, stop: PlaneStop | DistanceStop) -> dict[str, Any]:
         found = _part(name, stop, stop.between, (stop.plane, stop.point))
         return {**found, "normal": list(stop.normal), "radius": float(stop.radius)}
     return {**_part(name, stop, stop.between, stop.points), "distance": float(stop.distance), "side": stop.side}
+
+
+def sound(parts: Mapping[str, Any]) -> bool:
+    """True if what a file says has the form that :func:`outline` writes.
+
+    Examples
+    --------
+    >>> from softway.mechanisms import Rigid
+    >>> found = outline(Mechanism(bodies={"a": Rigid(mass=1.0, centre=(1.0, 0.0))}))
+    >>> sound(found), sound({**found, "bodies": {"a": [1.0]}})
+    (True, False)
+    """
+    try:
+        dim, names = parts["dim"], {*parts["bodies"], GROUND}
+        places = [*parts["bodies"].values(), *parts["velocities"].values(), *(p["at"] for p in parts["probes"])]
+        linked = [*parts["joints"], *parts["stops"], *parts["springs"]]
+        for part in linked:
+            places += [*part["points"], *(part[key] for key in ("axis", "normal") if key in part)]
+        known = all(len(part["points"]) == len(part["between"]) == 2 for part in linked)
+        known &= all({*part["between"]} <= names and isinstance(part["name"], str) for part in linked)
+        known &= all(p["body"] in names for p in parts["probes"]) and parts["velocities"].keys() <= names
+        known &= all(part["kind"] != "PlaneStop" or "normal" in part for part in parts["stops"])
+        sizes = [s["radius"] if s["kind"] == "PlaneStop" else s["distance"] for s in parts["stops"]]
+        numbers = np.array([float(x) for x in (*sizes, *(x for place in places for x in place))])
+        known &= dim in (2, 3) and all(len(place) == dim for place in places)
+        return bool(known and np.isfinite(numbers).all())
+    except (TypeError, ValueError, KeyError, AttributeError):
+        return False
