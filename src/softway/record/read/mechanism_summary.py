@@ -13,18 +13,18 @@ BALANCED = 1e-9
 """Error of the energy balance relative to the energies that passes for rounding."""
 
 ROUNDED = 1e-6
-"""Change of a velocity at the start relative to the greatest one that passes for rounding of what is given."""
+"""Change of a velocity or spin at the start relative to the greatest one that passes for rounding of what is given."""
 
 
 def summarise_mechanism(history: Table, motion: Table, events: Table, outline: Mapping[str, Any]) -> dict[str, Any]:
     """Summarise the finished or unfinished run of a mechanism in a few numbers.
 
-    ``outline`` names the stops and the given velocities.  ``energy_error_worst`` is the largest ``|energy_error|`` [J];
+    ``outline`` names the stops and the given motion.  ``energy_error_worst`` is the largest ``|energy_error|`` [J];
     ``energy_error_relative`` is its ratio to the largest kinetic energy, or change of the potential energy or work,
     whichever is larger.  ``joint_error_worst`` [m] and ``joint_velocity_error_worst`` [m/s] are the largest errors of
-    the joints.  ``velocity_change_start`` is the largest change of a given velocity by the joints and impacts at the
-    start [m/s].  ``stops`` counts the events of each stop, with the instants of the first touch and of the last release
-    [s], and the sum of the impulses of its impacts [N s].
+    the joints.  ``velocity_change_start`` [m/s] and ``spin_change_start`` [rad/s] are the largest changes of given
+    velocities and spins by joints and impacts at the start.  ``stops`` counts the events of each stop, with the
+    instants of the first touch and of the last release [s], and the sum of the impulses of its impacts [N s].
     """
     if history.rows == 0:
         return {"slabs": 0, "contacts": {}, "stops": {}, "findings": []}
@@ -43,7 +43,7 @@ def summarise_mechanism(history: Table, motion: Table, events: Table, outline: M
         "work_external": float(history["work_external"][-1]),
         "joint_error_worst": float(history["joint_error"].max()),
         "joint_velocity_error_worst": float(history["joint_velocity_error"].max()),
-        "velocity_change_start": _changed(motion, outline["velocities"]),
+        **_changes(motion, outline),
         "contacts": {},
         "stops": {name: _stop(name, events) for name in names},
         "findings": [],
@@ -51,16 +51,33 @@ def summarise_mechanism(history: Table, motion: Table, events: Table, outline: M
     }
 
 
-def _changed(motion: Table, given: Mapping[str, Sequence[float]]) -> float:
-    """Largest change of a given velocity at the start [m/s]; zero where it is rounding."""
+def _changes(motion: Table, outline: Mapping[str, Any]) -> dict[str, float]:
+    """Largest changes of the given velocities [m/s] and spins [rad/s] at the start; zero where they are rounding."""
     if not motion.rows:
-        return 0.0
+        return {"velocity_change_start": 0.0, "spin_change_start": 0.0}
+    axes = "xyz"[: outline["dim"]]
+    size = float(np.ptp([*outline["bodies"].values(), *_points(outline)], axis=0).max())
+    velocity, quick = _change(motion, outline["velocities"], [f"velocity_{a}" for a in axes])
+    spin, turning = _change(motion, outline["spins"], ["spin"] if len(axes) == 2 else [f"spin_{a}" for a in axes])
+    return {
+        "velocity_change_start": velocity if velocity > ROUNDED * max(quick, turning * size) else 0.0,
+        "spin_change_start": spin if spin > ROUNDED * max(turning, quick / size if size else 0.0) else 0.0,
+    }
+
+
+def _points(outline: Mapping[str, Any]) -> list[list[float]]:
+    """Points of the joints, stops and springs."""
+    return [point for key in ("joints", "stops", "springs") for part in outline[key] for point in part["points"]]
+
+
+def _change(motion: Table, given: Mapping[str, Sequence[float]], columns: Sequence[str]) -> tuple[float, float]:
+    """Largest change of a vector of a body at the start, and the largest vector."""
     pairs = [
-        (np.asarray(velocity, float), np.array([motion[f"{name}.velocity_{a}"][0] for a in "xyz"[: len(velocity)]]))
-        for name, velocity in given.items()
+        (np.asarray(vector, float), np.array([motion[f"{name}.{column}"][0] for column in columns]))
+        for name, vector in given.items()
     ]
     change = max(float(np.linalg.norm(after - before)) for before, after in pairs)
-    return change if change > ROUNDED * max(float(np.linalg.norm(before)) for before, _ in pairs) else 0.0
+    return change, max(float(np.linalg.norm(vector)) for pair in pairs for vector in pair)
 
 
 def energy_scale(history: Table) -> float:
@@ -87,7 +104,7 @@ def told(found: Mapping[str, Any]) -> tuple[str, ...]:
     >>> stop = {"touches": 2, "rests": 1, "releases": 0, "first_touch": 0.25, "last_release": None, "impulse": 1.5}
     >>> for sentence in told({"slabs": 10, "time_end": 0.5, "energy_error_worst": 0.0, "energy_error_relative": 0.0,
     ...                       "dissipation": 2.0, "work_external": 0.0, "joint_error_worst": 1e-17,
-    ...                       "velocity_change_start": 0.0, "stops": {"floor": stop}}):
+    ...                       "velocity_change_start": 0.0, "spin_change_start": 0.0, "stops": {"floor": stop}}):
     ...     print(sentence)
     The mechanism moved for 0.5 s in 10 slabs (time steps).
     The joints hold to 1e-17 m.
@@ -105,9 +122,13 @@ def told(found: Mapping[str, Any]) -> tuple[str, ...]:
         f"The joints hold to {found['joint_error_worst']:.2g} m.",
         f"The energy balance {holds} to {found['energy_error_worst']:.2g} J{share}.",
     ]
-    if found["velocity_change_start"]:
-        change = f"changed by up to {found['velocity_change_start']:.4g} m/s"
-        sentences.insert(0, f"The velocities at the start were {change}: joints or stops do not allow those given.")
+    changes = [
+        f"{word} by up to {found[key]:.4g} {unit}"
+        for key, word, unit in (("velocity_change_start", "velocities", "m/s"), ("spin_change_start", "spins", "rad/s"))
+        if found[key]
+    ]
+    if changes:
+        sentences.insert(0, f"Joints or stops changed the motion given at the start: {' and '.join(changes)}.")
     if abs(found["dissipation"]) > found["energy_error_worst"]:
         sentences.append(f"Impacts and dampers dissipated {found['dissipation']:.4g} J.")
     if found["work_external"]:

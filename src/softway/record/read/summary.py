@@ -42,6 +42,7 @@ UNITS: Mapping[str, str] = MappingProxyType(
         "joint_error_worst": "m",
         "joint_velocity_error_worst": "m/s",
         "velocity_change_start": "m/s",
+        "spin_change_start": "rad/s",
     }
 )
 """Units of all numbers that are not counts."""

@@ -1,6 +1,6 @@
 """Figure of a mechanism: its position at an instant, earlier ones in pale, and the paths of its points."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -29,16 +29,14 @@ def positions(run: Records, look: PictureOptions = STANDARD) -> "Figure":
         raise InputError("--field", f"'{look.field}': rigid bodies have no fields", "omit this option")
     shown = poses(run)
     rows = [_row(shown, time) for time in look.times] or [shown.motion.rows - 1]
-    box = _box(shown)
+    paths = _paths(shown)
+    box = _box(shown, paths)
     width, height = _size(box, 2.0 if len(shown.parts["bodies"]) > 1 else 0.9)
     figure = canvas(*(look.inches or (width * len(rows), height)))
     axes = figure.subplots(1, len(rows), squeeze=False)[0]
     pale = [] if look.times else _spread(shown, rows[0])
-    paths = _paths(shown)
     for axis, row in zip(axes, rows, strict=True):
-        _scene(axis, shown, row, box, paths)
-        for one in pale:
-            draw(axis, shown, one, float(np.linalg.norm(np.ptp(box, axis=0))), 0.18)
+        _scene(axis, shown, row, box, paths, pale)
     title = run.provenance.get("title", "")
     figure.suptitle(title or "Mechanism", x=0.01, ha="left", fontsize=12, fontweight="bold")
     return figure
@@ -54,11 +52,10 @@ def _spread(shown: Poses, last: int) -> list[int]:
 def film_of(run: Records, look: PictureOptions) -> "tuple[Figure, Callable[[int], None]]":
     """Figure of a film, and the function that draws a stored instant into it."""
     shown = poses(run)
-    figure, box = canvas(*(look.inches or (8.0, 4.5))), _box(shown)
+    figure, paths = canvas(*(look.inches or (8.0, 4.5))), _paths(shown)
+    box = _box(shown, paths)
     axis = figure.subplots()
     figure.suptitle(run.provenance.get("title", "") or "Mechanism", x=0.01, ha="left", fontsize=12, fontweight="bold")
-
-    paths = _paths(shown)
 
     def drawn(number: int) -> None:
         axis.clear()
@@ -74,19 +71,24 @@ def _paths(shown: Poses) -> list[tuple[str, Array]]:
     return [(name, shown.path(name, start)) for name, start in traced]
 
 
-def _scene(axis: "Axes", shown: Poses, row: int, box: Array, paths: list[tuple[str, Array]]) -> None:
-    """Draw one position and the paths."""
+def _scene(
+    axis: "Axes", shown: Poses, row: int, box: Array, paths: list[tuple[str, Array]], pale: Sequence[int] = ()
+) -> None:
+    """Draw one position, some pale ones, and the paths."""
     size, of = float(np.linalg.norm(np.ptp(box, axis=0))), colours(shown)
     for name, path in paths:
         axis.plot(*path.T, color=of[name], lw=1.0, alpha=0.6, zorder=0)
+    for one in pale:
+        draw(axis, shown, one, size, 0.18)
     draw(axis, shown, row, size)
     for name, colour in of.items():
         axis.plot([], [], "o", ms=5.0, color=colour, label=name)
     factor, unit = scaled(shown.times, "s")
     metre, length = scaled(box, "m")
     margin = MARGIN * size
-    axis.set(xlim=(box[0, 0] - margin, box[1, 0] + margin), ylim=(box[0, 1] - margin, box[1, 1] + margin))
-    axis.set_aspect("equal")
+    axis.set_xlim(box[0, 0] - margin, box[1, 0] + margin, auto=True)
+    axis.set_ylim(box[0, 1] - margin, box[1, 1] + margin, auto=True)
+    axis.set_aspect("equal", adjustable="datalim")
     axis.set_title(f"t = {factor * shown.times[row]:.4g} {unit}")
     plane = shown.parts["dim"] == 2
     axis.xaxis.set_major_formatter(lambda value, _: f"{metre * value:.4g}")
@@ -97,8 +99,8 @@ def _scene(axis: "Axes", shown: Poses, row: int, box: Array, paths: list[tuple[s
         axis.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), labelcolor=BLACK)
 
 
-def _box(shown: Poses) -> Array:
-    """Corners (2, 2) of a box around all positions."""
+def _box(shown: Poses, paths: list[tuple[str, Array]]) -> Array:
+    """Corners (2, 2) of a box around all positions and paths."""
     count = shown.motion.rows
     some = np.unique(np.linspace(0, count - 1, min(count, 60)).round().astype(int))
     points = [shown.points(name, int(row)) for name in shown.parts["bodies"] for row in some]
@@ -107,7 +109,7 @@ def _box(shown: Poses) -> Array:
         for part in (*shown.parts["joints"], *shown.parts["springs"])
         for body, at in zip(part["between"], part["points"], strict=True)
     ]
-    every = np.vstack([*points, *ends])
+    every = np.vstack([*points, *ends, *(path for _, path in paths)])
     reach = max((radius_of(stop) for stop in shown.parts["stops"]), default=0.0)
     box = np.array([every.min(axis=0) - reach, every.max(axis=0) + reach])
     least = 0.25 * max(float(np.ptp(box, axis=0).max()), 1e-9)

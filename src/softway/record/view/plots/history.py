@@ -34,7 +34,7 @@ WORDS = {
 WORKS = (("dissipation", ORANGE, "dissipated", "-"), ("work_external", GREEN, "external work", (0, (4, 4))))
 """Columns with colours, labels and line styles; the external work is dashed, since dissipation often covers it."""
 NOISE = 1e-9
-"""Gaps below this size are rounding errors [m]."""
+"""Gaps and coordinates below this size are rounding errors [m]."""
 
 
 def history(run: Records, look: PictureOptions = STANDARD) -> "Figure":
@@ -144,7 +144,10 @@ def _probes(axis: "Axes", time: Array, table: Table, names: list[str]) -> None:
 def _centres(axis: "Axes", time: Array, table: Table, motion: Table, letter: str) -> None:
     """Draw a coordinate of the centres of rigid bodies."""
     names = [name for name in motion if name.endswith(f".{letter}")]
-    factor, unit = scaled(np.concatenate([motion[n] for n in names]), "m")
+    every = np.concatenate([motion[n] for n in names])
+    factor, unit = scaled(np.append(every, NOISE), "m")
+    if np.abs(every).max() < NOISE:
+        axis.set_ylim(-factor * NOISE, factor * NOISE)
     rows = min(len(time), motion.rows)
     for name, color in zip(names, _cycle(len(names)), strict=True):
         axis.plot(time[:rows], factor * motion[name][:rows], color=color, label=name.rpartition(".")[0])

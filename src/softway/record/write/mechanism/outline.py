@@ -13,13 +13,13 @@ from softway.record.write.mechanism.probes import TURNING, BodyReading
 
 FILE = "mechanism.json"
 ENTRIES: Mapping[str, type] = MappingProxyType(
-    {"dim": int, "bodies": dict, "velocities": dict, "joints": list, "stops": list, "springs": list}
+    {"dim": int, "bodies": dict, "velocities": dict, "spins": dict, "joints": list, "stops": list, "springs": list}
 )
 """Entries of every file, and their types."""
 
 
 def outline(mechanism: Mechanism, readings: Sequence[BodyReading] = ()) -> dict[str, Any]:
-    """Parts of a mechanism as plain data: centres and given velocities of the bodies, and points of the other parts.
+    """Parts of a mechanism as plain data: centres and given motions of the bodies, and points of the other parts.
 
     Examples
     --------
@@ -40,6 +40,9 @@ def outline(mechanism: Mechanism, readings: Sequence[BodyReading] = ()) -> dict[
         "dim": mechanism.dim,
         "bodies": {name: [float(x) for x in body.centre] for name, body in mechanism.bodies.items()},
         "velocities": {name: body.motion[0][: body.dim].tolist() for name, body in mechanism.bodies.items()},
+        "spins": {
+            name: body.motion[1][2 if body.dim == 2 else 0 :].tolist() for name, body in mechanism.bodies.items()
+        },
         "joints": joints,
         "stops": [_stop(name, stop) for name, stop in mechanism.stops.items()],
         "springs": [_part(f"springs[{k}]", s, s.between, s.ends) for k, s in enumerate(mechanism.springs)],
@@ -84,10 +87,14 @@ def sound(parts: Mapping[str, Any]) -> bool:
             places += [*part["points"], *(part[key] for key in ("axis", "normal") if key in part)]
         known = all(len(part["points"]) == len(part["between"]) == 2 for part in linked)
         known &= all({*part["between"]} <= names and isinstance(part["name"], str) for part in linked)
-        known &= all(p["body"] in names for p in parts["probes"]) and parts["velocities"].keys() <= names
+        known &= all(p["body"] in names for p in parts["probes"])
+        known &= parts["velocities"].keys() == parts["spins"].keys() == parts["bodies"].keys()
+        known &= all(len(spin) == 2 * dim - 3 for spin in parts["spins"].values())
         known &= all(part["kind"] != "PlaneStop" or "normal" in part for part in parts["stops"])
         sizes = [s["radius"] if s["kind"] == "PlaneStop" else s["distance"] for s in parts["stops"]]
-        numbers = np.array([float(x) for x in (*sizes, *(x for place in places for x in place))])
+        numbers = np.array(
+            [float(x) for x in (*sizes, *(x for place in (*places, *parts["spins"].values()) for x in place))]
+        )
         known &= dim in (2, 3) and all(len(place) == dim for place in places)
         return bool(known and np.isfinite(numbers).all())
     except (TypeError, ValueError, KeyError, AttributeError):
