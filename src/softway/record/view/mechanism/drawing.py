@@ -39,6 +39,10 @@ def draw(axis: "Axes", poses: Poses, row: int, size: float, alpha: float = 1.0) 
             _ball(axis, poses.point(name, start, row), radius, colour, alpha)
     for spring in poses.parts["springs"]:
         _spring(axis, poses, spring, row, size, alpha)
+    for stop in poses.parts["stops"]:
+        if stop.get("side") == "most":
+            ends = [poses.point(body, at, row) for body, at in zip(stop["between"], stop["points"], strict=True)]
+            axis.plot(*np.array(ends).T, color=BLACK, lw=0.9, ls=(0, (1, 2)), alpha=alpha, zorder=3)
     for joint in poses.parts["joints"]:
         _joint(axis, poses, joint, row, size, alpha)
 
