@@ -34,7 +34,7 @@ def main(file: Path) -> None:
     run: sw.Run = sw.run(scenario, "out", progress=watch, cancel=off.is_set, overwrite=True)
     run = sw.resume(run.path, scenario=scenario, progress=watch, cancel=lambda: False)
     print(run.history["time"].max(), run.summary["slabs"], run.stop.reason, len(run.fields))
-    scene = sw.Scene(bodies=scenario.bodies, contacts=scenario.contacts)
+    scene = sw.Scene(bodies=scenario.scene.bodies, contacts=scenario.contacts)
     for step in sw.march(sw.build(scene), until=1.0, step="auto", method=sw.Newton(), cancel=off.is_set):
         print(step.after.time, step.march_state.slabs)
     table: sw.studies.Sweep = sw.sweep(file, {"time.end": ["1 s", "2 s"]}, jobs=2, cancel=off.is_set)

@@ -8,6 +8,8 @@ from softway.scenario.files import load
 from softway.scenario.scenario import Scenario
 
 SCENARIOS = Path(__file__).parents[2] / "scenarios"
+MECHANISMS = ("hammer_on_stop", "newtons_cradle", "slider_crank", "toggle_snap")
+"""Scenarios of rigid bodies: they have no cells, nodes or resumption, and tests/unit/scenario/mechanisms runs them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,8 +128,8 @@ VARIANTS: Mapping[str, Variant] = {
 
 
 def names() -> list[str]:
-    """Names of the shipped scenarios."""
-    return sorted(file.stem for file in SCENARIOS.glob("*.toml"))
+    """Names of the shipped scenarios of solids."""
+    return sorted(file.stem for file in SCENARIOS.glob("*.toml") if file.stem not in MECHANISMS)
 
 
 def whole(name: str) -> Scenario:

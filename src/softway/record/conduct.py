@@ -3,18 +3,20 @@
 import logging
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
+from contextlib import AbstractContextManager, ExitStack, suppress
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 
-from softway.errors import Cancelled, Note, NumericsError, StorageError
+from softway.errors import Cancelled, Note, NumericsError
 from softway.march.results.step import Step
 from softway.record.audit.watch import watcher
 from softway.record.read import summary
 from softway.record.run import Run
 from softway.record.storage import checkpoint, provenance
 from softway.record.storage.checkpoint import Checkpoint, Checkpoints
-from softway.record.storage.provenance import CANCELLED, DONE, INTERRUPTED, Stop
+from softway.record.storage.ending import ending, stored
+from softway.record.storage.provenance import DONE, Stop
 from softway.record.storage.run_folder import RunFolder
 from softway.record.write import events, fields, history
 from softway.record.write.checkpoint_schedule import CheckpointWriter
@@ -142,39 +144,13 @@ def _carried_on(
     steps: Iterator[Step], run: Run, keeper: CheckpointWriter, record: Mapping[str, object], meter: Meter | None
 ) -> Run:
     """Record all steps and finish the run."""
-    stop = Stop("failed", "unexpected error")
-    try:
+    with ending(partial(_finish, run, keeper, record)):
         for step in steps:
             with _stored(run.path):
                 _take(keeper, step)
             if meter is not None:
                 meter.took(step)
-        stop = DONE
-    except KeyboardInterrupt:
-        stop = INTERRUPTED
-        raise
-    except Cancelled:
-        stop = CANCELLED
-        raise
-    except (NumericsError, StorageError) as error:
-        stop = Stop("failed", str(error))
-        raise
-    except Exception as error:  # from the progress callback, or a defect: it propagates unchanged
-        if _of_interruption(error):
-            stop = INTERRUPTED
-            raise KeyboardInterrupt from error
-        stop = Stop("failed", f"{type(error).__name__}: {error}")
-        raise
-    finally:
-        _finish(run, keeper, record, stop)
     return run
-
-
-def _of_interruption(error: BaseException | None) -> bool:
-    """True if an exception was raised while an interruption went up, as the clean-up of a library may do."""
-    while error is not None and not isinstance(error, KeyboardInterrupt):
-        error = error.__context__
-    return error is not None
 
 
 def _opened(folder: Path, opening: RunStart, marks: Mapping[str, int]) -> dict[str, Recorder]:
@@ -210,15 +186,9 @@ def _take(keeper: CheckpointWriter, step: Step) -> None:
     keeper.took(step.march_state)
 
 
-@contextmanager
-def _stored(place: Path | None) -> Iterator[None]:
+def _stored(place: Path | None) -> AbstractContextManager[None]:
     """Turn an OSError into a StorageError that names the folder and the way to resume the run."""
-    try:
-        yield
-    except OSError as error:
-        name = str(place or "temporary folder")
-        problem = f"cannot be written: {error.strerror or error}"
-        raise StorageError(name, problem, f"free some disk space, then softway resume {name}") from error
+    return stored(place, f"free some disk space, then softway resume {place or 'temporary folder'}")
 
 
 def _finish(run: Run, keeper: CheckpointWriter, record: Mapping[str, object], stop: Stop) -> None:

@@ -22,8 +22,9 @@ def shown(run: Records, found: Mapping[str, Any], status: str, message: str) -> 
         rows |= {
             "slabs": f"{found['slabs']} until {found['time_end']:.4g} s, {found['iterations']} iterations",
             "energy error": "-" if relative is None else f"{relative:.1e} of the largest energy",
-            "deepest penetration": f"{found['penetration_worst']:.2g} m",
         }
+        if "penetration_worst" in found:
+            rows["deepest penetration"] = f"{found['penetration_worst']:.2g} m"
     if found.get("findings"):
         rows["findings"] = "\n".join(sentences(found["findings"]))
     events = run.events["kind"]
@@ -35,7 +36,8 @@ def shown(run: Records, found: Mapping[str, Any], status: str, message: str) -> 
 def _picture(run: Records) -> str:
     """Picture of the bodies as an embedded image; empty if it cannot be drawn."""
     try:
-        data = picture(run, look=SMALL)._repr_png_() if run.history.rows > 1 and len(run.fields) else b""
+        there = run.history.rows > 1 and (run.of_mechanism or len(run.fields))
+        data = picture(run, look=SMALL)._repr_png_() if there else b""
     except InputError:
         return ""
     return f'<img src="data:image/png;base64,{base64.b64encode(data).decode()}">' if data else ""

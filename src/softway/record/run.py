@@ -9,17 +9,20 @@ from typing import TYPE_CHECKING, Any, Literal
 from softway.errors import InputError
 from softway.record.read import summary
 from softway.record.read.frames import Fields
+from softway.record.read.mechanism_summary import summarise_mechanism
 from softway.record.storage import provenance, table
 from softway.record.storage.gate.own_files import plain_file, readable_file
 from softway.record.storage.provenance import RUNNING, Stop
 from softway.record.storage.table import Table
 from softway.record.write import events, fields, history
 from softway.record.write.history_columns import COLUMNS
+from softway.record.write.mechanism import columns, outline
 
 if TYPE_CHECKING:
     from softway.record.view.pictures import Picture
 
 SCENARIO = "scenario.toml"
+REMEDY = "the unchanged run folder"
 
 
 @dataclass(frozen=True, slots=True, eq=False, init=False)
@@ -50,8 +53,41 @@ class Run:
 
     @property
     def history(self) -> Table:
-        """History with one row per accepted time step (slab); the first row is the initial state."""
-        return table.read(self.path / history.FILE, [(c.name, c.unit) for c in COLUMNS])
+        """History with one row per accepted time step (slab); the first row is the initial state.
+
+        Of a mechanism there is one row per stored instant.
+        """
+        needed = columns.NEEDED if self.of_mechanism else [(c.name, c.unit) for c in COLUMNS]
+        return table.read(self.path / history.FILE, needed)
+
+    @property
+    def of_mechanism(self) -> bool:
+        """True if the bodies of the run are rigid bodies of a mechanism."""
+        return (self.path / outline.FILE).is_file()
+
+    @property
+    def motion(self) -> Table:
+        """Motion of the rigid bodies of a mechanism, with one row per stored instant.
+
+        Places of the centres [m], angles, or in space rotation vectors (angle times axis), up to half a turn [rad],
+        velocities [m/s] and spins (angular velocities) [rad/s].
+
+        Raises
+        ------
+        InputError
+            If the run is not one of a mechanism.
+        """
+        if not self.of_mechanism:
+            raise InputError(str(self.path), "is not the run of a mechanism", "run.fields, the frames of solids")
+        return table.read(self.path / columns.MOTION, [("time", "s")])
+
+    @property
+    def outline(self) -> Mapping[str, Any]:
+        """Names and places of the parts of a mechanism at the start."""
+        found, file = _notes(self.path / outline.FILE, REMEDY, outline.ENTRIES), self.path / outline.FILE
+        if not outline.sound(found):
+            raise InputError(str(file), "does not tell the parts of a mechanism", REMEDY)
+        return found
 
     @property
     def events(self) -> Table:
@@ -61,12 +97,14 @@ class Run:
     @property
     def fields(self) -> Fields:
         """Frames of the fields: ``len``, ``[k]``, ``times``, ``cells``, ``to_pyvista(k)``."""
+        if self.of_mechanism:
+            raise InputError(str(self.path), "is the run of a mechanism, which has no fields", "its motion: motion.csv")
         return Fields(self.path / fields.FILE, self.keep)
 
     @property
     def provenance(self) -> Mapping[str, Any]:
         """Versions, platform, start and stop of the run, and the reason of the stop."""
-        return _notes(self.path / provenance.FILE, "the unchanged run folder", provenance.ENTRIES)
+        return _notes(self.path / provenance.FILE, REMEDY, provenance.ENTRIES)
 
     @property
     def summary(self) -> Mapping[str, Any]:
@@ -75,7 +113,14 @@ class Run:
         if written.is_file():
             remedy = "delete this file: its numbers are computed again from history.csv"
             return _notes(written, remedy, summary.ENTRIES)
-        return {**summary.summarise(self.history, self.events), "notes": self.provenance.get("notes", [])}
+        return {**self.numbers, "notes": self.provenance.get("notes", [])}
+
+    @property
+    def numbers(self) -> dict[str, Any]:
+        """Numbers of the summary, computed from the tables in their present state."""
+        if self.of_mechanism:
+            return summarise_mechanism(self.history, self.motion, self.events, self.outline)
+        return summary.summarise(self.history, self.events)
 
     @property
     def scenario(self) -> str:

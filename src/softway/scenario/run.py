@@ -5,6 +5,7 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from functools import partial
 from pathlib import Path
+from typing import cast
 
 from softway.arrays import Array
 from softway.bodies.discretised import DiscreteSolid
@@ -28,10 +29,12 @@ from softway.record.storage.lock import locked
 from softway.record.storage.provenance import DONE
 from softway.record.storage.run_folder import RunFolder
 from softway.record.write.probes import readings
-from softway.record.write.progress import Heartbeat, Tell, Watch
+from softway.record.write.progress import Heartbeat, MechanismWatch, Tell, Watch
 from softway.record.write.recorder import RunStart
 from softway.scenario.checks.check import Checked, check
+from softway.scenario.checks.mechanism import CheckedMechanism
 from softway.scenario.files import dumps, load
+from softway.scenario.run_mechanism import not_resumed, run_mechanism
 from softway.scenario.scenario import Scenario
 from softway.scenario.text.user_modules import own_sources
 
@@ -41,10 +44,10 @@ FRAMES = 100
 
 
 def run(
-    scenario: Scenario | Checked,
+    scenario: Scenario | Checked | CheckedMechanism,
     out: str | Path | None = None,
     *,
-    progress: Watch | None = None,
+    progress: Watch | MechanismWatch | None = None,
     cancel: Cancel | None = None,
     tell: Tell = LOG.info,
     overwrite: bool = False,
@@ -54,14 +57,16 @@ def run(
     Parameters
     ----------
     scenario
-        Scenario to compute; a :class:`~softway.scenario.checks.check.Checked` if it has been checked before.
+        Scenario to compute, or what :func:`softway.check` has made of it.
     out
         Folder of the records.  Without it the records are in a temporary folder that lives as long as the returned
         object.
     progress
-        Callback with a :class:`Progress` after each accepted time step (slab).
+        Callback with a :class:`Progress` after each accepted time step (slab), or with a
+        :class:`~softway.record.write.progress.MechanismProgress` after each stored instant of a mechanism.
     cancel
-        Function called in every iteration, such as ``threading.Event().is_set``; the run stops when it returns True.
+        Function called in every iteration, and at every stored instant of a mechanism, such as
+        ``threading.Event().is_set``; the run stops when it returns True.
     tell
         Function that receives a line if one attempt at a slab takes five seconds, and every five seconds from then on:
         what is being tried, and how far it is.  By default the line is logged.
@@ -73,24 +78,27 @@ def run(
     InputError
         If the scenario is wrong; no folder is left.
     NumericsError, Cancelled, KeyboardInterrupt, StorageError
-        The folder ``out`` contains all results up to the stop, and :func:`resume` can continue the run.  No folder
-        exists if the run is cancelled during the first equilibrium.  Exceptions of ``progress`` propagate in the same
-        way.
+        The folder ``out`` contains all results up to the stop, and :func:`resume` can continue the run of solids.  No
+        folder exists if the run is cancelled during the first equilibrium.  Exceptions of ``progress`` propagate in
+        the same way.
     """
     place = RunFolder(out=None if out is None else Path(out), overwrite=overwrite)
     place.check()
-    checked = scenario if isinstance(scenario, Checked) else check(scenario, cancel=cancel)
+    checked = check(scenario, cancel=cancel) if isinstance(scenario, Scenario) else scenario
+    if isinstance(checked, CheckedMechanism):
+        watch = cast(MechanismWatch | None, progress)
+        return run_mechanism(checked, place, _texts(checked.scenario), progress=watch, cancel=cancel, tell=tell)
     given, opening = checked.scenario, _opening(checked)
     steps = _steps(checked, opening.initial, cancel, tell)
-    plan = given.output.checkpoints
+    plan, watched = given.output.checkpoints, cast(Watch | None, progress)
     texts, notes = _texts(given), checked.notes
-    return record_run(steps, opening, place, title=given.title, texts=texts, notes=notes, plan=plan, progress=progress)
+    return record_run(steps, opening, place, title=given.title, texts=texts, notes=notes, plan=plan, progress=watched)
 
 
 def resume(
     folder: str | Path,
     *,
-    scenario: Scenario | Checked | None = None,
+    scenario: Scenario | Checked | CheckedMechanism | None = None,
     progress: Watch | None = None,
     cancel: Cancel | None = None,
     tell: Tell = LOG.info,
@@ -115,7 +123,8 @@ def resume(
     Raises
     ------
     InputError
-        If ``folder`` contains no run, a run that is still going on, a changed scenario, or incomplete records.
+        If ``folder`` contains no run, a run that is still going on, a changed scenario, incomplete records, or the run
+        of a mechanism.
     NumericsError, Cancelled, KeyboardInterrupt, StorageError
         As for :func:`run`.
     """
@@ -126,7 +135,9 @@ def resume(
     with locked(stopped.path):
         require_own(stopped.path)
         given = stored(stopped.path, allow_python) if scenario is None else scenario
-        checked = given if isinstance(given, Checked) else check(given, cancel=cancel)
+        checked = check(given, cancel=cancel) if isinstance(given, Scenario) else given
+        if isinstance(checked, CheckedMechanism):
+            raise not_resumed(stopped.path)
         provenance.require_same(stopped.path, stopped.provenance, _texts(checked.scenario))
         opening = _opening(checked)
         pattern = join_states(checked.model, opening.initial)

@@ -1,7 +1,7 @@
 """Scenario: bodies, contacts, loads, start, time, solver and output of a run as plain data."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import isfinite
 from typing import Literal
 
@@ -13,6 +13,10 @@ from softway.contact.contact import Contact
 from softway.errors import InputError, real
 from softway.html_tables import table as html_table
 from softway.march.step_control import StepControl
+from softway.mechanisms.members.joints import Joint
+from softway.mechanisms.members.rigid import Rigid
+from softway.mechanisms.members.springs import Spring, Torque
+from softway.mechanisms.members.stops import Impacts, Stop
 from softway.meshes.files.listed_mesh import LeftOut
 from softway.meshes.files.mesh_files import FileMesh
 from softway.meshes.generators.recipes import MeshFile, MeshSource
@@ -76,11 +80,12 @@ class Probe:
     tag
         Tag of the nodes; the mean over the nodes is recorded, or the sum for a reaction.
     at
-        Reference point whose nearest node is recorded, instead of a tag [m].
+        Reference point whose nearest node is recorded, instead of a tag; of a rigid body the point itself, by default
+        its centre [m].
     quantity
-        Recorded quantity.
+        Recorded quantity; rotation and spin (angular velocity) belong to rigid bodies.
     component
-        Recorded component; ``norm`` is the magnitude of the vector.
+        Recorded component; ``norm`` is the magnitude of the vector.  A rigid body in the plane turns about ``z``.
 
     Examples
     --------
@@ -92,7 +97,7 @@ class Probe:
     of: str
     tag: str | None = None
     at: tuple[Metre, ...] | None = None
-    quantity: Literal["displacement", "velocity", "position", "reaction"] = "displacement"
+    quantity: Literal["displacement", "velocity", "position", "reaction", "rotation", "spin"] = "displacement"
     component: Literal["x", "y", "z", "norm"] = "x"
 
 
@@ -103,7 +108,8 @@ class Output:
     Parameters
     ----------
     fields_every
-        Time between two stored frames of the fields [s]; ``auto`` stores about one hundred frames in total.
+        Time between two stored frames of the fields [s]; ``auto`` stores about one hundred frames in total.  Of a
+        mechanism it is the time between two lines of its tables, and ``auto`` stores at most one thousand.
     probes
         Further columns of the history.
     checkpoints
@@ -137,7 +143,8 @@ class Scenario:
     Parameters
     ----------
     bodies
-        Solids and rigid tools by name, as in :class:`~softway.model.scene.Scene`.
+        Solids and tools by name, as in :class:`~softway.model.scene.Scene`; or the rigid bodies of a mechanism, as in
+        :class:`~softway.mechanisms.Mechanism`.
     time
         End time and time steps.
     title
@@ -154,9 +161,19 @@ class Scenario:
         Solution method for a time step.
     output
         Stored frames, probes and checkpoints.
+    joints
+        Joints between rigid bodies by name, as in :class:`~softway.mechanisms.Mechanism`.
+    stops
+        Stops, unilateral joints between rigid bodies, by name.
+    springs
+        Springs and dampers between rigid bodies.
+    torques
+        Constant torques on rigid bodies.
+    impacts
+        Law of impacts at several stops at once: ``simultaneous``, or ``sequential``, one after the other.
     """
 
-    bodies: Mapping[str, Solid | Tool]
+    bodies: Mapping[str, Solid | Tool | Rigid]
     time: Time
     title: str = ""
     contacts: tuple[Contact, ...] = ()
@@ -165,6 +182,11 @@ class Scenario:
     inertia: Inertia = Full()
     solver: FixedPoint | Newton | Explicit = FixedPoint()
     output: Output = Output()
+    joints: Mapping[str, Joint] = field(default_factory=dict)
+    stops: Mapping[str, Stop] = field(default_factory=dict)
+    springs: tuple[Spring, ...] = ()
+    torques: tuple[Torque, ...] = ()
+    impacts: Impacts = "simultaneous"
 
     def _repr_html_(self) -> str:
         """HTML table for notebooks."""
@@ -177,17 +199,27 @@ class Scenario:
             )
             or "none",
             "loads": ", ".join(type(load).__name__ for load in self.loads) or "none",
+            **self._links(),
             "time": f"{self.time.end:.4g} s, step {step}",
             "solver": type(self.solver).__name__,
             "inertia": type(self.inertia).__name__,
         }
         return html_table(self.title or "Scenario", rows)
 
+    def _links(self) -> dict[str, str]:
+        """Rows of joints and stops for notebooks; none for solids."""
+        rows = {"joints": self.joints, "stops": self.stops}
+        return {
+            key: "\n".join(f"{n}: {type(p).__name__} of {p.between[0]} and {p.between[1]}" for n, p in parts.items())
+            for key, parts in rows.items()
+            if parts
+        }
+
     @property
     def scene(self) -> Scene:
-        """Scene of the scenario; its meshes are still recipes."""
+        """Scene of solids and tools; its meshes are still recipes."""
         return Scene(
-            bodies=self.bodies,
+            bodies={name: body for name, body in self.bodies.items() if not isinstance(body, Rigid)},
             contacts=self.contacts,
             loads=self.loads,
             start=self.start,
@@ -195,8 +227,10 @@ class Scenario:
         )
 
 
-def _described(name: str, body: Solid | Tool) -> str:
+def _described(name: str, body: Solid | Tool | Rigid) -> str:
     """Description of a body for notebooks."""
+    if isinstance(body, Rigid):
+        return f"{name}: Rigid, {body.mass:.4g} kg"
     if isinstance(body, Tool):
         return f"{name}: {type(body.shape).__name__}, {type(body.motion).__name__}"
     size = f" of {body.mesh.n_nodes} nodes" if isinstance(body.mesh, Mesh) else ""
@@ -218,7 +252,7 @@ def built_and_left_out(scenario: Scenario) -> tuple[Scene, dict[str, tuple[LeftO
     """Scene with all meshes built and placed, and the cards of mesh files that the meshes do not hold, by body."""
     bodies: dict[str, Solid | Tool] = {}
     left_out: dict[str, tuple[LeftOut, ...]] = {}
-    for name, body in scenario.bodies.items():
+    for name, body in scenario.scene.bodies.items():
         bodies[name] = body
         if isinstance(body, Solid):
             bodies[name], cards = _built(body, f"bodies.{name}")

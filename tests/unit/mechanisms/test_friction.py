@@ -3,7 +3,19 @@
 import numpy as np
 import pytest
 
-from softway.mechanisms import DistanceStop, Hinge, Mechanism, MechanismStep, PlaneStop, Rigid, Slider, march
+from softway.mechanisms import (
+    DistanceStop,
+    Hinge,
+    Mechanism,
+    MechanismStep,
+    Motor,
+    PlaneStop,
+    Rigid,
+    Slider,
+    Spring,
+    Steady,
+    march,
+)
 
 G = 9.81
 
@@ -206,3 +218,34 @@ def test_a_slider_crank_with_a_clearance_rattles_without_a_gain_of_energy() -> N
         ends.append(float(steps[-1].bodies["slider"].centre[0]))
     errors = np.abs(np.array(ends[:3]) - ends[3])
     assert errors[2] < 3e-6 and errors[2] < 0.3 * errors[0]
+
+
+def test_a_sprung_mass_on_a_belt_that_a_motor_drives() -> None:
+    """It goes with the belt until the spring pulls as much as friction, and then swings once about that place."""
+    k, m, friction, speed = 100.0, 1.0, 0.4, 0.1
+    bodies = {
+        "belt": Rigid(mass=5.0, centre=(0.0, -0.1), inertia=1.0, velocity=(speed, 0.0)),
+        "mass": Rigid(mass=m, centre=(0.0, 0.0), velocity=(speed, 0.0)),
+    }
+    mechanism = Mechanism(
+        bodies=bodies,
+        joints={"rollers": Slider(between=("ground", "belt"), at=(0.0, -0.1), axis=(1.0, 0.0))},
+        motors={"drive": Motor(joint="rollers", motion=Steady(rate=speed))},
+        stops={
+            "top": PlaneStop(
+                between=("belt", "mass"), point=(0.0, 0.0), plane=(0.0, 0.0), normal=(0.0, 1.0), friction=friction
+            )
+        },
+        springs=(Spring(between=("ground", "mass"), ends=((-1.0, 0.0), (0.0, 0.0)), stiffness=k, rest=1.0),),
+        gravity=(0.0, -G),
+    )
+    steps = list(march(mechanism, until=1.0, step=1e-3))
+    sticks = friction * m * G / k / speed
+    for s in steps:
+        exact = speed * min(s.time, sticks) + speed / np.sqrt(k / m) * np.sin(
+            np.sqrt(k / m) * max(0.0, s.time - sticks)
+        )
+        if s.time < sticks + 2.0 * np.pi / np.sqrt(k / m):
+            assert s.bodies["mass"].centre[0] == pytest.approx(exact, abs=2e-6)
+    assert never_gains(steps)
+    assert steps[-1].work > 0.1

@@ -31,6 +31,8 @@ from softway.apps.cli.sweep import sweep
 from softway.apps.cli.verify import verify
 from softway.apps.cli.view import view
 from softway.errors import InputError, NumericsError, StorageError
+from softway.scenario.checks.check import Checked
+from softway.scenario.checks.mechanism import CheckedMechanism
 from softway.scenario.files import dumps
 from softway.scenario.run import run as execute
 from softway.scenario.text.templates import headline, templates
@@ -177,7 +179,8 @@ def run(
         if folder.is_dir():
             name = escape(str(folder))
             Console(stderr=True).print(f"results until then: {name}", soft_wrap=True)
-            Console(stderr=True).print(f"resume with: softway resume {name}", soft_wrap=True)
+            if isinstance(checked, Checked):
+                Console(stderr=True).print(f"resume with: softway resume {name}", soft_wrap=True)
         raise
     summary(done, console)
     return audited(done, strict=strict, quiet=quiet)
@@ -233,7 +236,7 @@ def race(
         Allow module:name in the scenario to run code of installed modules, not only of modules next to the file.
     """
     folder, console = out or free(Path("races") / file.stem), Console(quiet=quiet)
-    checked = examined(file, set_, console, allow_python=allow_python)
+    checked = _of_solids(file, examined(file, set_, console, allow_python=allow_python))
     scenario = checked.scenario
     if (folder / RACE).exists() and not overwrite:
         raise InputError("--out", f"'{folder}' already holds a race", "another folder, or --overwrite")
@@ -258,6 +261,13 @@ def race(
     ranking(found, console)
     for made in save_race(found, folder):
         console.print(escape(str(made)), soft_wrap=True, highlight=False)
+
+
+def _of_solids(file: Path, checked: Checked | CheckedMechanism) -> Checked:
+    """Refuse a scenario of rigid bodies."""
+    if isinstance(checked, CheckedMechanism):
+        raise InputError(str(file), "is a scenario of rigid bodies: there are no methods to compare", "softway run")
+    return checked
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

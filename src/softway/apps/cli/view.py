@@ -35,10 +35,13 @@ def view(
     """
     if not 0 <= port <= 65535:
         raise InputError("--port", f"{port}", "a number from 1 to 65535, or 0 for any free port")
-    console = Console()
+    console, run = Console(), Run(folder)
+    if run.of_mechanism:
+        remedy = f"softway plot {folder}, or softway plot {folder} --film film.mp4"
+        raise InputError(str(folder), "is the run of a mechanism, which has no page yet", remedy)
 
     def ready(address: str) -> None:
         console.print(f"{address}  (Ctrl-C to stop)", soft_wrap=True, highlight=False)
 
     with suppress(KeyboardInterrupt):
-        serve(Run(folder), port=port, browser=browser, live=live, ready=ready)
+        serve(run, port=port, browser=browser, live=live, ready=ready)

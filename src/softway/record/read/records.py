@@ -32,6 +32,21 @@ class Records(Protocol):
         ...
 
     @property
+    def of_mechanism(self) -> bool:
+        """True if the run is that of a mechanism, which has a motion and an outline instead of fields."""
+        ...
+
+    @property
+    def motion(self) -> Table:
+        """Motion of the rigid bodies of a mechanism."""
+        ...
+
+    @property
+    def outline(self) -> Mapping[str, Any]:
+        """Parts of a mechanism at the start."""
+        ...
+
+    @property
     def provenance(self) -> Mapping[str, Any]:
         """Title, versions and times of the run."""
         ...

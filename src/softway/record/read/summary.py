@@ -39,6 +39,10 @@ UNITS: Mapping[str, str] = MappingProxyType(
         "impulse": "N s",
         "peak_force": "N",
         "peak_force_time": "s",
+        "joint_error_worst": "m",
+        "joint_velocity_error_worst": "m/s",
+        "velocity_change_start": "m/s",
+        "spin_change_start": "rad/s",
     }
 )
 """Units of all numbers that are not counts."""

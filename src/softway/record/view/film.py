@@ -16,6 +16,7 @@ from softway.record.read.records import Records
 from softway.record.view.bodies.bodies import caption, stage_of
 from softway.record.view.bodies.colour_field import colour_of
 from softway.record.view.bodies.surroundings import ruler
+from softway.record.view.mechanism.positions import film_of
 from softway.record.view.options import STANDARD, PictureOptions
 from softway.record.view.plots.paths import diagrams
 from softway.record.view.style import BLACK, canvas, library, styled
@@ -73,8 +74,7 @@ def film(
 
         file, writer = _writer(animation, file)
         look = replace(look, size=look.size or SIZE, dpi=look.dpi if look != STANDARD else DPI)
-        bars = set(run.fields.cells.blocks()) <= {"bar2", "bar3"}
-        figure, draw = (_bars if bars else _solids)(run, look, numbers)
+        figure, draw = _drawn(run, look, numbers)
         part = file.with_name(f".{file.stem}.part{file.suffix}")
         try:
             file.parent.mkdir(parents=True, exist_ok=True)
@@ -96,7 +96,7 @@ def film(
 
 def _numbers(run: Records, look: PictureOptions) -> list[int]:
     """Numbers of the frames to show; evenly spaced frames are chosen if there are too many."""
-    times = run.fields.times
+    times = run.motion["time"] if run.of_mechanism else run.fields.times
     if look.times and len(look.times) != 2:
         raise InputError("--times", f"{len(look.times)} instants for a film", "two: the first and the last one")
     begin, end = look.times or (times[0], times[-1])
@@ -125,6 +125,14 @@ def _writer(animation: Any, file: Path) -> tuple[Path, Any]:
     if file.suffix.lower() == ".mp4":
         log.warning("ffmpeg was not found (pip install 'softway[film]'): a GIF is written instead of an MP4")
     return file.with_suffix(".gif"), animation.PillowWriter(fps=FAST)
+
+
+def _drawn(run: Records, look: PictureOptions, numbers: list[int]) -> "tuple[Figure, Draw]":
+    """Figure of the bodies, and the function that draws a frame into it."""
+    if run.of_mechanism:
+        return film_of(run, look)
+    bars = set(run.fields.cells.blocks()) <= {"bar2", "bar3"}
+    return (_bars if bars else _solids)(run, look, numbers)
 
 
 def _solids(run: Records, look: PictureOptions, numbers: list[int]) -> "tuple[Figure, Draw]":

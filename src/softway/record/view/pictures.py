@@ -1,6 +1,7 @@
 """Pictures of a run: its history, the paths of bars, the deformed bodies with a field."""
 
 import io
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,6 +10,7 @@ from softway.errors import InputError
 from softway.record.read.findings import gathered, sentences, stored
 from softway.record.read.records import Records
 from softway.record.view.bodies.bodies import bodies
+from softway.record.view.mechanism.positions import positions
 from softway.record.view.options import STANDARD, PictureOptions
 from softway.record.view.plots.history import history
 from softway.record.view.plots.paths import paths
@@ -31,7 +33,7 @@ def pictures(run: Records, out: Path | None = None, look: PictureOptions = STAND
     look
         Field, instants and size of the pictures.
     """
-    bars = is_bars(run)
+    bars = not run.of_mechanism and is_bars(run)
     if bars and (look.times or look.field is not None):
         raise InputError("--field, --at", "the picture of bars shows all times and no field", "omit these options")
     first = out or run.path / "bodies.png"
@@ -86,11 +88,18 @@ def picture(run: Records, what: str = "bodies", look: PictureOptions = STANDARD)
     """
     if what not in ("bodies", "history"):
         raise InputError("what", f"no picture {what!r}", "bodies or history")
-    if run.history.rows == 0 or not len(run.fields):
+    if run.history.rows == 0 or not (run.motion.rows if run.of_mechanism else len(run.fields)):
         raise InputError(str(run.path), "nothing has been recorded yet", "a run with recorded steps")
     with styled():
-        figure = (history if what == "history" else paths if is_bars(run) else bodies)(run, look)
+        figure = (history if what == "history" else _scene_of(run))(run, look)
         found = sentences(gathered(stored(run.events)))
         if found:
             figure.supxlabel("\n".join(found), x=0.01, ha="left", fontsize=8, color=RED)
         return Picture(figure, look.dpi)
+
+
+def _scene_of(run: Records) -> "Callable[[Records, PictureOptions], Figure]":
+    """Function that draws the bodies of a run."""
+    if run.of_mechanism:
+        return positions
+    return paths if is_bars(run) else bodies

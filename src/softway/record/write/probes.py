@@ -113,6 +113,12 @@ def readings(probes: Sequence[Probe], meshes: Mapping[str, Mesh]) -> tuple[Readi
     InputError
         For an unknown body, a tag without nodes or a component that does not exist; the path is ``output.probes[k]``.
     """
+    require_names(probes)
+    return tuple(_resolve(f"output.probes[{k}]", probe, meshes) for k, probe in enumerate(probes))
+
+
+def require_names(probes: Sequence[Probe]) -> None:
+    """Refuse names that cannot be columns, and names that two probes have."""
     names = [p.name for p in probes]
     for k, name in enumerate(names):
         if not name or name in names[:k] or not set(name).isdisjoint(',"[]\n'):
@@ -121,7 +127,6 @@ def readings(probes: Sequence[Probe], meshes: Mapping[str, Mesh]) -> tuple[Readi
                 f"'{name}' cannot be the name of a column",
                 "a name that no other probe has, without commas, quotes and brackets",
             )
-    return tuple(_resolve(f"output.probes[{k}]", probe, meshes) for k, probe in enumerate(probes))
 
 
 def _resolve(path: str, probe: Probe, meshes: Mapping[str, Mesh]) -> Reading:

@@ -8,6 +8,7 @@ from math import inf
 
 from softway.march.results.step import Step
 from softway.march.results.trying import Trying
+from softway.mechanisms.march import MechanismStep
 
 RECENT = 30.0
 """Wall-clock window over which the pace is measured [s]: slabs in contact take longer than slabs in free flight."""
@@ -56,8 +57,44 @@ class Progress:
         return max(0.0, self.until - self.time) / self.pace if self.pace > 0.0 else inf
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class MechanismProgress:
+    """Progress of the run of a mechanism after a recorded step, with the entries of :class:`Progress`.
+
+    Parameters
+    ----------
+    step
+        The recorded step of some slabs (time steps).
+    until, slabs, wall, pace
+        As in :class:`Progress`.
+    """
+
+    step: MechanismStep
+    until: float
+    slabs: int
+    wall: float
+    pace: float
+
+    @property
+    def time(self) -> float:
+        """Time of the step [s]."""
+        return self.step.time
+
+    @property
+    def fraction(self) -> float:
+        """Completed fraction of the simulated time, 0 to 1."""
+        return min(1.0, self.time / self.until)
+
+    @property
+    def left(self) -> float:
+        """Estimated wall-clock time until the end at the present pace [s]; infinite while the pace is unknown."""
+        return max(0.0, self.until - self.time) / self.pace if self.pace > 0.0 else inf
+
+
 Watch = Callable[[Progress], None]
 """Callback after every slab, in the thread of the run; an exception that it raises ends the run and propagates."""
+MechanismWatch = Callable[[MechanismProgress], None]
+"""Callback after every recorded step of a mechanism, as :data:`Watch`."""
 
 
 Tell = Callable[[str], None]
@@ -103,6 +140,32 @@ class Heartbeat:
             self._tell(f"after {now - self._begun:.0f} s: {trying}")
 
 
+class Pace:
+    """Pace of a march: simulated time per wall-clock time of the last ``RECENT`` seconds.
+
+    Parameters
+    ----------
+    start
+        Time at which the march starts or continues [s].
+    """
+
+    __slots__ = ("_begun", "_marks")
+
+    def __init__(self, start: float) -> None:
+        self._begun = clock.perf_counter()
+        self._marks = deque([(0.0, start)])
+
+    def at(self, time: float) -> tuple[float, float]:
+        """Wall-clock time since the start [s], and the recent pace, when the march has reached a time [s]."""
+        now = clock.perf_counter() - self._begun
+        while len(self._marks) > 1 and self._marks[1][0] <= now - RECENT:
+            self._marks.popleft()
+        since, before = self._marks[0]
+        if now - self._marks[-1][0] > 1e-2 * RECENT:
+            self._marks.append((now, time))
+        return now, (time - before) / (now - since) if now > since else 0.0
+
+
 class Meter:
     """Meter of the progress of a run, which calls a watch after each slab.
 
@@ -118,21 +181,13 @@ class Meter:
         Number of slabs accepted before that time.
     """
 
-    __slots__ = ("_begun", "_marks", "_slabs", "_until", "_watch")
+    __slots__ = ("_pace", "_slabs", "_until", "_watch")
 
     def __init__(self, watch: Watch, until: float, start: float, slabs: int = 0) -> None:
-        self._watch, self._until, self._slabs = watch, until, slabs
-        self._begun = clock.perf_counter()
-        self._marks = deque([(0.0, start)])
+        self._watch, self._until, self._slabs, self._pace = watch, until, slabs, Pace(start)
 
     def took(self, step: Step) -> None:
         """Take a recorded slab and report the progress."""
-        now, time = clock.perf_counter() - self._begun, step.after.time
-        while len(self._marks) > 1 and self._marks[1][0] <= now - RECENT:
-            self._marks.popleft()
-        since, before = self._marks[0]
-        if now - self._marks[-1][0] > 1e-2 * RECENT:
-            self._marks.append((now, time))
+        now, pace = self._pace.at(step.after.time)
         self._slabs += 1
-        pace = (time - before) / (now - since) if now > since else 0.0
         self._watch(Progress(step=step, until=self._until, slabs=self._slabs, wall=now, pace=pace))

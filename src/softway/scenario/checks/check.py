@@ -17,6 +17,7 @@ from softway.model.build import build
 from softway.model.model import Model
 from softway.model.scene import StaticStart
 from softway.record.write.probes import readings
+from softway.scenario.checks.mechanism import CheckedMechanism, check_mechanism, is_mechanism
 from softway.scenario.checks.names import (
     check_contact,
     check_contacts,
@@ -80,10 +81,11 @@ class Checked:
     left_out: Mapping[str, tuple[LeftOut, ...]] = field(default_factory=dict)
 
 
-def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked:
+def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked | CheckedMechanism:
     """Build the model, check all names, signs and dimensions, and prepare the march up to its first time step (slab).
 
-    Everything that a run refuses before its first slab is refused here, with the same message.
+    Everything that a run refuses before its first slab is refused here, with the same message.  A scenario of rigid
+    bodies is checked as a mechanism.
 
     Parameters
     ----------
@@ -103,7 +105,12 @@ def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked:
     """
     _require_scenario(scenario)
     check_names(scenario.bodies)
-    for name, body in scenario.bodies.items():
+    return check_mechanism(scenario) if is_mechanism(scenario) else check_solids(scenario, cancel=cancel)
+
+
+def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked:
+    """Check a scenario of solids and tools, as :func:`check` does."""
+    for name, body in scenario.scene.bodies.items():
         if isinstance(body, Solid):
             check_density(body.density, f"bodies.{name}.density")
     scene, left_out = built_and_left_out(scenario)
@@ -113,7 +120,7 @@ def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked:
     check_dimensions(scene, solids)
     _require_edges(solids)
     fixed = {n: check_solid(s, f"bodies.{n}") for n, s in solids.items()}
-    notes = (*file_notes(left_out), *unit_notes(scenario.bodies, solids), *body_notes(solids, fixed))
+    notes = (*file_notes(left_out), *unit_notes(scenario.scene.bodies, solids), *body_notes(solids, fixed))
     check_loads(scenario.loads, "loads", solids)
     check_contacts(scene.contacts)
     factor, bodies = scenario.inertia.factor or 1.0, {}

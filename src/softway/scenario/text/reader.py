@@ -22,7 +22,7 @@ from softway.scenario.hints.type_hints import (
 from softway.scenario.hints.units_text import Units, example
 from softway.scenario.text.user_modules import Modules
 
-TOP = ("contacts", "loads", "time", "start", "inertia", "solver", "output")
+TOP = ("contacts", "loads", "time", "start", "inertia", "solver", "output", "joints", "stops", "springs", "torques")
 """Top-level keys of a scenario that users may put inside a body by mistake."""
 
 

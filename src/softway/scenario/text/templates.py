@@ -5,15 +5,16 @@ from importlib import resources
 
 
 def templates() -> Mapping[str, str]:
-    """TOML texts of the templates by name: a bar on a wall, a block on a floor, a part from a mesh file.
+    """TOML texts of the templates by name: a bar on a wall, a block on a floor, a part from a mesh file, a mechanism.
 
     Examples
     --------
     >>> list(templates())
-    ['bar', 'block', 'part']
+    ['bar', 'block', 'part', 'mechanism']
     """
     folder = resources.files("softway.scenario.text") / "templates"
-    return {name: (folder / f"{name}.toml").read_text(encoding="utf-8") for name in ("bar", "block", "part")}
+    names = ("bar", "block", "part", "mechanism")
+    return {name: (folder / f"{name}.toml").read_text(encoding="utf-8") for name in names}
 
 
 def headline(text: str) -> str:

@@ -13,6 +13,7 @@ import remedy_files
 import table_bodies
 import table_contacts
 import table_laws
+import table_mechanisms
 import table_meshes
 import table_obstacles
 import table_python
@@ -27,6 +28,7 @@ TABLES: tuple[ModuleType, ...] = (
     table_bodies,
     table_contacts,
     table_laws,
+    table_mechanisms,
     table_meshes,
     table_obstacles,
     table_python,
@@ -36,8 +38,13 @@ TABLES: tuple[ModuleType, ...] = (
 CASES: Mapping[str, Try | Call] = {
     f"{module.__name__}: {name}": case for module in TABLES for name, case in module.TABLE.items()
 }
-PARTS = ("bodies", "contact", "laws", "march", "meshes", "model", "obstacles", "scenario", "solve")
-MODULES = ("errors.py", "record/write/probes.py", "record/storage/checkpoint.py")
+PARTS = ("bodies", "contact", "laws", "march", "mechanisms", "meshes", "model", "obstacles", "scenario", "solve")
+MODULES = (
+    "errors.py",
+    "record/write/mechanism/probes.py",
+    "record/write/probes.py",
+    "record/storage/checkpoint.py",
+)
 INNER = "called inside only, after the check of what the user has given"
 REASONS = {
     "bodies/inertia/mass_matrix.py: body_of": INNER,
@@ -51,6 +58,7 @@ REASONS = {
     "march/rules/slab_rule.py: require_nodal": "unknowns from Python: tests/contracts/test_own_dofs.py",
     "march/rules/slab_rule.py: require_motion_alone": "companion fields from Python",
     "march/start/stored_state.py: _require": "damaged checkpoints",
+    "mechanisms/impacts.py: start": "the check of a scenario has refused it: tests/unit/mechanisms/test_stops.py",
     "meshes/files/abaqus/lexer.py: _lines": "millions of lines: tests/unit/meshes/files/abaqus/test_lexer.py",
     "meshes/files/abaqus/lexer.py: _admit": "many files: tests/unit/meshes/files/abaqus/test_lexer.py",
     "model/build.py: with_dofs": "unknowns from Python: tests/contracts/test_own_dofs.py",

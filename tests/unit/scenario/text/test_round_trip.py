@@ -15,6 +15,7 @@ from softway.contact.contact import Contact
 from softway.contact.impact_rule import Energy, Impulse, Paper
 from softway.laws.bulk import Hencky, LinearElastic, LinearOrthotropic, MooneyRivlin, NeoHookean, StVenantKirchhoff
 from softway.laws.strain_measures import Green, Small
+from softway.mechanisms import DistanceStop, Hinge, PlaneStop, Rigid, Rod, Slider, Spring, Torque, Universal
 from softway.meshes.generators.recipes import Ball, Box, Cylinder, Disc, Interval, MeshFile, Rectangle
 from softway.model.scene import AsGiven, StaticStart
 from softway.model.time_weight import Collocation, EndPeaks, Momentum
@@ -137,10 +138,33 @@ probes = st.one_of(
 outputs = st.builds(
     Output, fields_every=st.one_of(st.just("auto"), positive), probes=st.lists(probes, max_size=2).map(tuple)
 )
+flat = st.tuples(real, real)
+names = st.tuples(word, word)
+rigid = st.one_of(
+    st.builds(Rigid, mass=positive, centre=flat, inertia=positive, velocity=flat, spin=real),
+    st.builds(Rigid, mass=positive, centre=triple, inertia=st.just((1.0, 1.0, 1.0)), spin=triple),
+)
+joints = st.one_of(
+    st.builds(Hinge, between=names, at=flat),
+    st.builds(Hinge, between=names, at=triple, axis=triple),
+    st.builds(Slider, between=names, at=flat, axis=flat),
+    st.builds(Universal, between=names, at=triple, axes=st.just(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)))),
+    st.builds(Rod, between=names, ends=st.tuples(flat, flat)),
+)
+stops = st.one_of(
+    st.builds(PlaneStop, between=names, point=flat, plane=flat, normal=st.just((0.0, 1.0)), radius=positive),
+    st.builds(DistanceStop, between=names, points=st.tuples(flat, flat), distance=positive),
+)
+springs = st.builds(Spring, between=names, ends=st.tuples(flat, flat), rest=st.one_of(st.none(), positive))
 scenarios = st.builds(
     Scenario,
     title=title,
-    bodies=st.dictionaries(word, st.one_of(solids, tools), max_size=3),
+    bodies=st.dictionaries(word, st.one_of(solids, tools, rigid), max_size=3),
+    joints=st.dictionaries(word, joints, max_size=2),
+    stops=st.dictionaries(word, stops, max_size=2),
+    springs=st.lists(springs, max_size=2).map(tuple),
+    torques=st.lists(st.builds(Torque, on=word, value=st.one_of(real, triple)), max_size=2).map(tuple),
+    impacts=st.sampled_from(["simultaneous", "sequential"]),
     time=times,
     contacts=st.lists(contacts, max_size=2).map(tuple),
     loads=loads,

@@ -19,8 +19,10 @@ from rich.progress import (
 )
 from rich.progress import Progress as Display
 
-from softway.record.write.progress import Progress, Tell
+from softway.mechanisms.march import MechanismStep
+from softway.record.write.progress import MechanismProgress, Progress, Tell
 from softway.scenario.checks.check import Checked
+from softway.scenario.checks.mechanism import CheckedMechanism
 
 PATIENCE = 1.0
 """Seconds after which the progress of a run is shown."""
@@ -65,30 +67,34 @@ def waiting(console: Console, what: str) -> Iterator[None]:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Watch:
-    """Progress display of a run."""
+    """Progress display of a run, of solids or of a mechanism."""
 
     display: Display
     task: TaskID
 
-    def __call__(self, progress: Progress) -> None:
+    def __call__(self, progress: Progress | MechanismProgress) -> None:
         """Show one step."""
         if progress.wall < PATIENCE:
             return
         if not self.display.live.is_started:
             self.display.start()
-        ledger = progress.step.ledger
+        step = progress.step
+        if isinstance(step, MechanismStep):
+            error, closed = step.energy_error, len(step.closed)
+        else:
+            error, closed = step.ledger.energy_error, sum(c.count for c in step.ledger.contacts.values())
         self.display.update(
             self.task,
             description="",
             completed=progress.time,
             left=_clock(progress.left),
-            error=f"{ledger.energy_error:.1e} J",
-            closed=sum(c.count for c in ledger.contacts.values()),
+            error=f"{error:.1e} J",
+            closed=closed,
         )
 
 
 @contextmanager
-def progress_of(checked: Checked, console: Console) -> Iterator[Watch | None]:
+def progress_of(checked: Checked | CheckedMechanism, console: Console) -> Iterator[Watch | None]:
     """Function to call after each step; ``None`` without an interactive terminal."""
     if console.quiet or not console.is_terminal:
         yield None

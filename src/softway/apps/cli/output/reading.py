@@ -8,12 +8,13 @@ from rich.console import Console
 from softway.apps.cli.output.progress import waiting
 from softway.errors import InputError
 from softway.scenario.checks.check import Checked, check
+from softway.scenario.checks.mechanism import CheckedMechanism
 from softway.scenario.files import load
 
 
 def examined(
     file: Path, changes: Iterable[str], console: Console, *, allow_python: bool, strict: bool = False
-) -> Checked:
+) -> Checked | CheckedMechanism:
     """Read and check a scenario file; return it with its meshes and scales.
 
     Raises
@@ -29,7 +30,7 @@ def examined(
         except MemoryError as error:
             problem = f"too large for the memory of this machine: {error or 'out of memory'}"
             raise InputError("bodies", problem, "fewer cells: bodies.NAME.mesh.cells") from None
-    if strict:
+    if strict and isinstance(checked, Checked):
         _require_all(checked)
     return checked
 

@@ -10,6 +10,7 @@ from rich.table import Table as Grid
 
 from softway.errors import Note
 from softway.record.read.findings import sentences
+from softway.record.read.mechanism_summary import told
 from softway.record.read.summary import UNITS as NUMBERS
 from softway.record.run import Run
 from softway.record.storage.provenance import CANCELLED, INTERRUPTED
@@ -32,6 +33,9 @@ UNITS = {
     "penetration": "m",
     "least_force": "N",
     "distance": "m",
+    "mass": "kg",
+    "speed": "m/s",
+    "spin": "rad/s",
 }
 WORDS = {
     "stable_step": "stable step (Momentum)",
@@ -73,7 +77,7 @@ def scales(checked: Any, console: Console, most: int | None = None) -> None:
     if title:
         console.print(title, style="bold", markup=False)
     _columns({f"body {n}": _numbers(b) for n, b in checked.bodies.items()}, console)
-    _columns({f"contact {n}": _numbers(c) for n, c in checked.contacts.items()}, console)
+    _columns({f"contact {n}": _numbers(c) for n, c in getattr(checked, "contacts", {}).items()}, console)
     end = checked.scenario.time.end
     some = f"{most} of " if most is not None and most < checked.slabs else ""
     console.print(f"{some}{checked.slabs} slabs of {checked.step:.6g} s until {end:.6g} s\n", markup=False)
@@ -88,12 +92,15 @@ def summary(run: Run, console: Console) -> None:
     plain = {k: v for k, v in found.items() if isinstance(v, int | float) and not isinstance(v, bool)}
     _columns({"run": plain}, console)
     _columns({f"contact {n}": c for n, c in found["contacts"].items()}, console)
+    _columns({f"stop {n}": c for n, c in found.get("stops", {}).items()}, console)
     if found.get("certificate"):
         _columns({"certificate (worst slab)": found["certificate"]}, console)
     _notes((Note(**note) for note in found.get("notes", ())), console)
     findings(found.get("findings", ()), console)
+    for sentence in told(found) if run.of_mechanism else ():
+        console.print(sentence, markup=False, soft_wrap=True, highlight=False)
     console.print(f"{run.status}{': ' if stop.message else ''}{stop.message}", markup=False, soft_wrap=True)
-    if stop in (INTERRUPTED, CANCELLED):
+    if stop in (INTERRUPTED, CANCELLED) and not run.of_mechanism:
         console.print(f"resume with: softway resume {run.path}", markup=False, soft_wrap=True, highlight=False)
     console.print(f"records: {run.path}", markup=False, soft_wrap=True, highlight=False)
 

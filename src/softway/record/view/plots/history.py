@@ -7,26 +7,34 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from softway.arrays import Array
+from softway.record.read.mechanism_summary import energy_scale
 from softway.record.read.records import Records
 from softway.record.read.summary import contacts_of
 from softway.record.storage.table import Table
 from softway.record.view.options import STANDARD, PictureOptions
 from softway.record.view.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, PURPLE, RED, canvas, scaled
 from softway.record.write.history_columns import CERTIFICATE, COLUMNS
+from softway.record.write.mechanism.columns import NEEDED
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
-WORDS = {"m": "position or displacement", "m/s": "velocity", "N": "reaction"}
+WORDS = {
+    "m": "position or displacement",
+    "m/s": "velocity",
+    "N": "reaction",
+    "rad": "rotation",
+    "rad/s": "angular velocity",
+}
 """Quantities of probes by unit."""
 
 
 WORKS = (("dissipation", ORANGE, "dissipated", "-"), ("work_external", GREEN, "external work", (0, (4, 4))))
 """Columns with colours, labels and line styles; the external work is dashed, since dissipation often covers it."""
 NOISE = 1e-9
-"""Gaps below this size are rounding errors [m]."""
+"""Gaps and coordinates below this size are rounding errors [m]."""
 
 
 def history(run: Records, look: PictureOptions = STANDARD) -> "Figure":
@@ -34,6 +42,8 @@ def history(run: Records, look: PictureOptions = STANDARD) -> "Figure":
     table, title = run.history, run.provenance.get("title", "")
     factor, unit = scaled(table["time"], "s")
     time, panels = factor * table["time"], _panels(table)
+    if run.of_mechanism:
+        panels += [partial(_centres, motion=run.motion, letter=letter) for letter in "xyz"[: run.outline["dim"]]]
     rows = -(-len(panels) // 2)
     figure = canvas(*(look.inches or (9.0, 3.1 * rows + 0.2)))
     axes = figure.subplots(rows, 2, sharex=True, squeeze=False).ravel()
@@ -55,7 +65,7 @@ def _panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
     panels: list[Callable[[Axes, Array, Table], None]] = [energies, balance]
     if contacts:
         panels += [partial(forces, contacts=contacts), partial(gaps, contacts=contacts)]
-    known = {column.name for column in (*COLUMNS, *CERTIFICATE)}
+    known = {column.name for column in (*COLUMNS, *CERTIFICATE)} | {name for name, _ in NEEDED}
     probes = [n for n in table if n not in known and not n.startswith("contact.")]
     units = dict.fromkeys(table.units[n] for n in probes)
     return panels + [partial(_probes, names=[n for n in probes if table.units[n] == unit]) for unit in units]
@@ -63,12 +73,13 @@ def _panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
 
 def energies(axis: "Axes", time: Array, table: Table) -> None:
     """Draw the energies, and dissipation and external work where they are not negligible."""
-    kinetic, strain = table["energy_kinetic"], table["energy_strain"]
-    total = kinetic + strain
+    word = "strain" if "energy_strain" in table else "potential"
+    kinetic, stored = table["energy_kinetic"], table[f"energy_{word}"]
+    total = kinetic + stored
     curves: list[tuple[str, Array, str, Any]] = [
         ("kinetic", kinetic, BLUE, "-"),
-        ("strain", strain, RED, "-"),
-        ("kinetic + strain", total, BLACK, "--"),
+        (word, stored, RED, "-"),
+        (f"kinetic + {word}", total, BLACK, "--"),
     ]
     for name, color, label, style in WORKS:
         if np.abs(table[name]).max() > 1e-3 * np.abs(total).max():
@@ -82,7 +93,10 @@ def energies(axis: "Axes", time: Array, table: Table) -> None:
 
 def balance(axis: "Axes", time: Array, table: Table) -> None:
     """Draw the error of the energy balance relative to the largest energy."""
-    scale = float((table["energy_kinetic"] + table["energy_strain"]).max()) or 1.0
+    if "energy_strain" in table:
+        scale = float((table["energy_kinetic"] + table["energy_strain"]).max()) or 1.0
+    else:
+        scale = energy_scale(table) or 1.0
     relative = np.maximum(np.abs(table["energy_error"]) / scale, 1e-17)
     axis.semilogy(time, relative, color=PURPLE, lw=1.2)
     axis.set_ylim(min(1e-17, relative.min()), max(1e-11, 10.0 * relative.max()))
@@ -117,11 +131,27 @@ def gaps(axis: "Axes", time: Array, table: Table, contacts: tuple[str, ...]) -> 
 
 
 def _probes(axis: "Axes", time: Array, table: Table, names: list[str]) -> None:
-    factor, unit = scaled(np.concatenate([table[n] for n in names]), table.units[names[0]])
+    factor, unit = 1.0, table.units[names[0]]
+    if not unit.startswith("rad"):
+        factor, unit = scaled(np.concatenate([table[n] for n in names]), unit)
     for name, color in zip(names, _cycle(len(names)), strict=True):
         axis.plot(time, factor * table[name], color=color, label=name)
     word = WORDS[table.units[names[0]]]
     axis.set(title=f"Probes: {word}", ylabel=f"{word} [{unit}]")
+    axis.legend(loc="best")
+
+
+def _centres(axis: "Axes", time: Array, table: Table, motion: Table, letter: str) -> None:
+    """Draw a coordinate of the centres of rigid bodies."""
+    names = [name for name in motion if name.endswith(f".{letter}")]
+    every = np.concatenate([motion[n] for n in names])
+    factor, unit = scaled(np.append(every, NOISE), "m")
+    if np.abs(every).max() < NOISE:
+        axis.set_ylim(-factor * NOISE, factor * NOISE)
+    rows = min(len(time), motion.rows)
+    for name, color in zip(names, _cycle(len(names)), strict=True):
+        axis.plot(time[:rows], factor * motion[name][:rows], color=color, label=name.rpartition(".")[0])
+    axis.set(title=f"Centres: {letter}", ylabel=f"{letter} [{unit}]")
     axis.legend(loc="best")
 
 

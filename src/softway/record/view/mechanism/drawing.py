@@ -1,0 +1,136 @@
+"""Drawing of a mechanism at one instant: bodies, joints, stops and springs."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+
+from softway.arrays import Array
+from softway.record.view.mechanism.pose import GROUND, Poses
+from softway.record.view.style import BLACK, CYCLE
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+COILS = 7
+"""Windings of a drawn spring."""
+SMALL = 0.012
+"""Size of a drawn mark relative to the picture."""
+HATCHES = 14
+"""Strokes behind a drawn plane."""
+
+
+def colours(poses: Poses) -> dict[str, str]:
+    """Colour of each body."""
+    return {name: CYCLE[k % len(CYCLE)] for k, name in enumerate(poses.parts["bodies"])}
+
+
+def draw(axis: "Axes", poses: Poses, row: int, size: float, alpha: float = 1.0) -> None:
+    """Draw the mechanism of a row of the table into a picture of a size [m]; paler with a smaller ``alpha``."""
+    of = colours(poses)
+    if alpha == 1.0:
+        for stop in poses.parts["stops"]:
+            if stop["kind"] == "PlaneStop":
+                _plane(axis, poses, stop, row, size)
+    for name, colour in of.items():
+        _body(axis, poses, name, row, colour, size, alpha)
+        for radius, start in _radii(poses, name):
+            _ball(axis, poses.point(name, start, row), radius, colour, alpha)
+    for spring in poses.parts["springs"]:
+        _spring(axis, poses, spring, row, size, alpha)
+    for stop in poses.parts["stops"]:
+        if stop.get("side") == "most":
+            ends = [poses.point(body, at, row) for body, at in zip(stop["between"], stop["points"], strict=True)]
+            axis.plot(*np.array(ends).T, color=BLACK, lw=0.9, ls=(0, (1, 2)), alpha=alpha, zorder=3)
+    for joint in poses.parts["joints"]:
+        _joint(axis, poses, joint, row, size, alpha)
+
+
+def _body(axis: "Axes", poses: Poses, name: str, row: int, colour: str, size: float, alpha: float) -> None:
+    """Hull of the points of a body, the line between two of them, or a block, and its centre."""
+    points, centre = poses.points(name, row), poses.point(name, poses.parts["bodies"][name], row)
+    axis.plot(*centre, "o", ms=4.0, color=colour, alpha=alpha, mec="white", mew=0.6, zorder=4)
+    if len(points) == 1 and not _radii(poses, name):
+        corner = 2.0 * SMALL * size * poses.direction(name, [1.0, 0.7, 0.0][: poses.parts["dim"]], row)
+        other = 2.0 * SMALL * size * poses.direction(name, [-1.0, 0.7, 0.0][: poses.parts["dim"]], row)
+        points = points[0] + np.array([corner, other, -corner, -other])
+    if len(points) > 2:
+        try:
+            hull = points[ConvexHull(points).vertices]
+        except QhullError:  # the points lie on a line
+            hull = None
+        if hull is not None:
+            axis.fill(*hull.T, facecolor=colour, edgecolor=colour, lw=2.0, alpha=0.35 * alpha, zorder=2)
+            axis.plot(*np.vstack([hull, hull[:1]]).T, color=colour, lw=2.0, alpha=alpha, zorder=2)
+            return
+        along = points[-1] - points[0]
+        points = points[np.argsort(points @ along)]
+    axis.plot(*points.T, color=colour, lw=5.0, alpha=0.75 * alpha, solid_capstyle="round", zorder=2)
+
+
+def _radii(poses: Poses, name: str) -> list[tuple[float, list[float]]]:
+    """Radii [m] and places at the start of the balls that stops put around points of a body."""
+    found: dict[tuple[float, ...], float] = {}
+    for stop in poses.parts["stops"]:
+        for body, point in zip(stop["between"], stop["points"], strict=True):
+            if body != name:
+                continue
+            if stop["kind"] == "PlaneStop" and stop["radius"] and point is stop["points"][1]:
+                found[tuple(point)] = stop["radius"]
+            if stop["kind"] == "DistanceStop" and stop["side"] == "least" and GROUND not in stop["between"]:
+                found[tuple(point)] = 0.5 * stop["distance"]
+    return [(radius, list(point)) for point, radius in found.items()]
+
+
+def _ball(axis: "Axes", centre: Array, radius: float, colour: str, alpha: float) -> None:
+    angle = np.linspace(0.0, 2.0 * np.pi, 73)
+    circle = centre + radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    axis.fill(*circle.T, facecolor=colour, edgecolor=colour, alpha=0.4 * alpha, lw=1.2, zorder=2)
+
+
+def _joint(axis: "Axes", poses: Poses, joint: Mapping[str, Any], row: int, size: float, alpha: float) -> None:
+    """Pins as rings, rods as lines, guides as rails, supports as triangles on the ground."""
+    places = [poses.point(body, at, row) for body, at in zip(joint["between"], joint["points"], strict=True)]
+    if joint["kind"] == "Rod":
+        axis.plot(*np.array(places).T, color=BLACK, lw=1.2, alpha=alpha, zorder=3)
+    if "axis" in joint and alpha == 1.0:
+        way = poses.direction(joint["between"][0], joint["axis"], row)
+        length = float(np.linalg.norm(way))
+        if length > 0.0:
+            reach = max(float(np.linalg.norm(places[1] - places[0])), 6.0 * SMALL * size)
+            middle = 0.5 * (places[0] + places[1])
+            ends = middle + 1.3 * reach * np.array([[-1.0], [1.0]]) * way / length
+            axis.plot(*ends.T, color=BLACK, lw=0.9, ls=(0, (6, 3)), alpha=0.7, zorder=1)
+    shape = "s" if joint["kind"] in ("Slider", "PinSlot", "Cylindrical") else "o"
+    for body, place in zip(joint["between"], places, strict=True):
+        if body == GROUND:
+            axis.plot(*place, "^", ms=9.0, color=BLACK, alpha=0.6 * alpha, zorder=1)
+        else:
+            axis.plot(*place, shape, ms=5.5, mfc="white", mec=BLACK, mew=1.2, alpha=alpha, zorder=5)
+
+
+def _spring(axis: "Axes", poses: Poses, spring: Mapping[str, Any], row: int, size: float, alpha: float) -> None:
+    one, other = (poses.point(body, at, row) for body, at in zip(spring["between"], spring["points"], strict=True))
+    way = other - one
+    length = float(np.linalg.norm(way)) or 1.0
+    across = np.array([-way[1], way[0]]) / length * max(SMALL * size, 0.04 * length)
+    along = np.concatenate([[0.0], np.linspace(0.15, 0.85, 2 * COILS + 1), [1.0]])
+    side = np.concatenate([[0.0, 0.0], np.tile([1.0, -1.0], COILS)[: 2 * COILS - 1], [0.0, 0.0]])
+    axis.plot(*(one + along[:, None] * way + side[:, None] * across).T, color=BLACK, lw=1.0, alpha=alpha, zorder=3)
+
+
+def _plane(axis: "Axes", poses: Poses, stop: Mapping[str, Any], row: int, size: float) -> None:
+    """Line of a plane with strokes behind it."""
+    body, at = stop["between"][0], poses.feet.get(stop["name"], stop["points"][0])
+    normal = poses.direction(body, stop["normal"], row)
+    length = float(np.linalg.norm(normal))
+    if length == 0.0:
+        return
+    normal, place = normal / length, poses.point(body, at, row)
+    along, half = np.array([-normal[1], normal[0]]), 0.12 * size
+    ends = place + half * np.array([[-1.0], [1.0]]) * along
+    axis.plot(*ends.T, color=BLACK, lw=1.8, zorder=1)
+    for share in np.linspace(-1.0, 1.0, HATCHES):
+        foot = place + share * half * along
+        axis.plot(*np.array([foot, foot - SMALL * size * (normal + along)]).T, color=BLACK, lw=0.7, alpha=0.7, zorder=1)

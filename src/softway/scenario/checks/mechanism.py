@@ -1,0 +1,224 @@
+"""Check of a scenario of rigid bodies, which are marched as a mechanism."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.bodies.setup.amplitude import Ramp
+from softway.bodies.setup.loads import Gravity
+from softway.errors import InputError, Note, within
+from softway.kernels.multibody.joint_rows import ALONG
+from softway.mechanisms.arrays import arrays
+from softway.mechanisms.impacts import NEAR
+from softway.mechanisms.members.joints import GROUND
+from softway.mechanisms.members.mechanism import Mechanism
+from softway.mechanisms.members.rigid import Rigid
+from softway.mechanisms.members.stops import Stop
+from softway.mechanisms.welds import welded
+from softway.record.storage.checkpoint import Checkpoints
+from softway.record.write.mechanism.probes import BodyReading, body_readings
+from softway.scenario.hints.type_hints import nearest
+from softway.scenario.scenario import Scenario, Time
+
+MOST = 1_000_000_000
+"""Maximum number of time steps (slabs) in a run."""
+ROWS = 1000
+"""Number of stored instants when the scenario does not prescribe it, at most."""
+PARTS = ("joints", "stops", "springs", "torques", "impacts")
+"""Keys that only a mechanism has."""
+FOREIGN = {
+    "contacts": "[stops.NAME] with a PlaneStop or a DistanceStop: rigid bodies touch at declared stops only",
+    "start": "omit it: a mechanism starts with the places and velocities of its bodies",
+    "inertia": "omit it: rigid bodies always have their full mass",
+    "solver": "omit it: the march of a mechanism has its own solution method",
+}
+"""Keys that a mechanism does not have, and remedies."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RigidScales:
+    """Scales of a rigid body: its mass [kg], and the magnitudes of its velocity [m/s] and spin [rad/s] at the start."""
+
+    mass: float
+    speed: float
+    spin: float
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class CheckedMechanism:
+    """Scenario of rigid bodies that has passed all checks.
+
+    Parameters
+    ----------
+    scenario
+        Scenario as given.
+    mechanism
+        Mechanism of the scenario, ready to march.
+    bodies
+        Scales of the bodies by name.
+    readings
+        Resolved probes.
+    step, slabs
+        Length of a time step (slab) [s] and number of slabs.
+    every
+        Number of slabs between two stored instants.
+    notes
+        Notes on parts of the scenario that are computed, although their results may be wrong.
+    """
+
+    scenario: Scenario
+    mechanism: Mechanism
+    bodies: Mapping[str, RigidScales]
+    readings: tuple[BodyReading, ...]
+    step: float
+    slabs: int
+    every: int
+    notes: tuple[Note, ...] = ()
+
+
+def is_mechanism(scenario: Scenario) -> bool:
+    """True if the bodies of a scenario are rigid.
+
+    Raises
+    ------
+    InputError
+        If a Rigid is together with bodies of other kinds, or parts of a mechanism are given without a Rigid.
+    """
+    rigid = [name for name, body in scenario.bodies.items() if isinstance(body, Rigid)]
+    others = [name for name in scenario.bodies if name not in rigid]
+    if rigid and others:
+        kind = type(scenario.bodies[others[0]]).__name__
+        problem = f"kind 'Rigid' together with the {kind} {others[0]!r}: they are not marched together yet"
+        raise InputError(f"bodies.{rigid[0]}.kind", problem, 'kind = "Rigid" for all bodies, or for none of them')
+    if not rigid:
+        _require_no_parts(scenario)
+    return bool(rigid)
+
+
+def _require_no_parts(scenario: Scenario) -> None:
+    """Refuse joints, stops, springs and torques in a scenario without rigid bodies."""
+    remedy = 'bodies of kind = "Rigid" only; solids have supports, contacts and loads instead'
+    for key in PARTS:
+        given = getattr(scenario, key)
+        if isinstance(given, str):
+            if given != "simultaneous":
+                raise InputError(key, f"{given!r} without a Rigid among the bodies", remedy)
+        elif given:
+            first = f"{key}.{next(iter(given))}" if isinstance(given, Mapping) else f"{key}[0]"
+            raise InputError(first, f"no body among {list(scenario.bodies)} is a Rigid", remedy)
+
+
+def check_mechanism(scenario: Scenario) -> CheckedMechanism:
+    """Build the mechanism of a scenario and check all that a run refuses before its first slab (time step).
+
+    Raises
+    ------
+    InputError
+        With the path in the scenario, the value, and a remedy.
+    """
+    _require_own_keys(scenario)
+    mechanism = _built(scenario)
+    joined = welded(mechanism)
+    extent = arrays(joined.mechanism).extent
+    for name, stop in mechanism.stops.items():
+        _require_open(name, stop, extent)
+    span, slabs = _slabs(scenario.time)
+    every = scenario.output.fields_every
+    between = slabs / ROWS if isinstance(every, str) else every / span
+    return CheckedMechanism(
+        scenario=scenario,
+        mechanism=mechanism,
+        bodies={name: _scales(body) for name, body in mechanism.bodies.items()},
+        readings=body_readings(scenario.output.probes, mechanism),
+        step=span,
+        slabs=slabs,
+        every=int(np.ceil(between)) if isinstance(every, str) else max(1, round(between)),
+    )
+
+
+def _require_own_keys(scenario: Scenario) -> None:
+    """Refuse keys that mean nothing for a mechanism."""
+    default = {f.name: f.default for f in fields(Scenario)}
+    for key, remedy in FOREIGN.items():
+        given = getattr(scenario, key)
+        if given != default[key]:
+            where, kind = (f"{key}[0]", list(given[0].between)) if key == "contacts" else (key, type(given).__name__)
+            raise InputError(where, f"{kind} in a scenario of rigid bodies", remedy)
+    standard = Time(end=1.0)
+    for key in ("weight", "control"):
+        if getattr(scenario.time, key) != getattr(standard, key):
+            problem = f"{type(getattr(scenario.time, key)).__name__} in a scenario of rigid bodies"
+            raise InputError(f"time.{key}", problem, "omit it: only solids use it")
+    if scenario.output.checkpoints != Checkpoints():
+        problem = "in a scenario of rigid bodies, which is not resumed"
+        raise InputError("output.checkpoints", problem, "omit it: run an interrupted scenario again")
+
+
+def _built(scenario: Scenario) -> Mechanism:
+    """Mechanism of the scenario."""
+    bodies = {name: body for name, body in scenario.bodies.items() if isinstance(body, Rigid)}
+    named: list[tuple[str, Iterable[str]]] = [(f"joints.{n}.between", j.between) for n, j in scenario.joints.items()]
+    named += [(f"stops.{n}.between", s.between) for n, s in scenario.stops.items()]
+    named += [(f"springs[{k}].between", s.between) for k, s in enumerate(scenario.springs)]
+    for where, names in named:
+        for name in names:
+            if name not in bodies and name != GROUND:
+                raise InputError(where, f"there is no body {name!r}", nearest(name, [*bodies, GROUND]))
+    for k, torque in enumerate(scenario.torques):
+        if torque.on not in bodies:
+            raise InputError(f"torques[{k}].on", f"there is no body {torque.on!r}", nearest(torque.on, bodies))
+    return Mechanism(
+        bodies=bodies,
+        joints=scenario.joints,
+        stops=scenario.stops,
+        impacts=scenario.impacts,
+        springs=scenario.springs,
+        torques=scenario.torques,
+        gravity=_gravity(scenario, next(iter(bodies.values())).dim),
+    )
+
+
+def _gravity(scenario: Scenario, dim: int) -> tuple[float, ...] | None:
+    """Sum of the accelerations of gravity [m/s^2]; None without any."""
+    found: list[Array] = []
+    for k, load in enumerate(scenario.loads):
+        if not isinstance(load, Gravity):
+            problem = f"{type(load).__name__} on {load.on!r} in a scenario of rigid bodies"
+            raise InputError(f"loads[{k}]", problem, "Gravity, [[springs]] or [[torques]]")
+        if load.ramp != Ramp():
+            problem = "gravity that changes with time in a scenario of rigid bodies"
+            raise InputError(f"loads[{k}].ramp", problem, "omit it: gravity is constant there")
+        with within(f"loads[{k}]"):
+            found.append(load.vector(dim))
+    return tuple(np.sum(found, axis=0).tolist()) if found else None
+
+
+def _require_open(name: str, stop: Stop, extent: float) -> None:
+    """Refuse a stop that is overlapped at the start."""
+    row = stop.row()
+    apart = row.second - row.first
+    gap = float(row.n @ apart if row.kind == ALONG else np.linalg.norm(apart)) - row.value
+    if stop.sign * gap < -NEAR * extent:
+        problem = f"is overlapped by {-stop.sign * gap:.3g} m at the start"
+        raise InputError(f"stops.{name}", problem, "places with a gap of zero or more")
+
+
+def _slabs(time: Time) -> tuple[float, int]:
+    """Length [s] and number of the slabs."""
+    if isinstance(time.step, str):
+        remedy = f'a time such as "{time.end / 1000:.3g} s"; half of it tells how accurate the motion is'
+        raise InputError("time.step", "'auto' in a scenario of rigid bodies", remedy)
+    if time.step > time.end:
+        raise InputError("time.step", f"{time.step:g} s is longer than time.end = {time.end:g} s", "a shorter step")
+    slabs = int(np.ceil(time.end / time.step * (1.0 - 1e-12)))
+    if slabs > MOST:
+        raise InputError("time.end", f"needs {slabs:.3g} slabs of {time.step:.3g} s", "an earlier end, or longer slabs")
+    return time.end / slabs, slabs
+
+
+def _scales(body: Rigid) -> RigidScales:
+    """Scales of a body."""
+    velocity, spin = body.motion
+    return RigidScales(mass=body.mass, speed=float(np.linalg.norm(velocity)), spin=float(np.linalg.norm(spin)))
