@@ -60,6 +60,12 @@ class PlaneStop:
         """Places that the stop names."""
         return self.point, self.plane
 
+    @property
+    def gap(self) -> float:
+        """Gap at the start [m]."""
+        row = self.row()
+        return float(row.n @ (row.second - row.first)) - self.radius
+
     def row(self) -> JointRow:
         """Row of the stop."""
         normal, zero = in_space(self.normal), np.zeros(3)
@@ -115,6 +121,12 @@ class DistanceStop:
     def places(self) -> tuple[tuple[float, ...], ...]:
         """Places that the stop names."""
         return self.points
+
+    @property
+    def gap(self) -> float:
+        """Gap at the start [m]."""
+        apart = float(np.linalg.norm(np.subtract(*self.points))) - self.distance
+        return apart if self.side == "least" else -apart
 
     def row(self) -> JointRow:
         """Row of the stop."""

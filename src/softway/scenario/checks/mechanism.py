@@ -9,13 +9,12 @@ from softway.arrays import Array
 from softway.bodies.setup.amplitude import Ramp
 from softway.bodies.setup.loads import Gravity
 from softway.errors import InputError, Note, within
-from softway.kernels.multibody.joint_rows import ALONG
 from softway.mechanisms.arrays import arrays
-from softway.mechanisms.impacts import NEAR
 from softway.mechanisms.members.joints import GROUND
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.rigid import Rigid
 from softway.mechanisms.members.stops import Stop
+from softway.mechanisms.stop_rows import NEAR
 from softway.mechanisms.welds import welded
 from softway.record.storage.checkpoint import Checkpoints
 from softway.record.write.mechanism.probes import BodyReading, body_readings
@@ -197,11 +196,8 @@ def _gravity(scenario: Scenario, dim: int) -> tuple[float, ...] | None:
 
 def _require_open(name: str, stop: Stop, extent: float) -> None:
     """Refuse a stop that is overlapped at the start."""
-    row = stop.row()
-    apart = row.second - row.first
-    gap = float(row.n @ apart if row.kind == ALONG else np.linalg.norm(apart)) - row.value
-    if stop.sign * gap < -NEAR * extent:
-        problem = f"is overlapped by {-stop.sign * gap:.3g} m at the start"
+    if stop.gap < -NEAR * extent:
+        problem = f"is overlapped by {-stop.gap:.3g} m at the start"
         raise InputError(f"stops.{name}", problem, "places with a gap of zero or more")
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from softway.mechanisms.members.joints import GROUND, Cylindrical, PinSlot, Rod, Slider
 from softway.mechanisms.members.mechanism import Mechanism
+from softway.mechanisms.members.springs import Spring
 from softway.mechanisms.members.stops import DistanceStop, PlaneStop
 from softway.record.write.mechanism.probes import TURNING, BodyReading
 
@@ -45,7 +46,7 @@ def outline(mechanism: Mechanism, readings: Sequence[BodyReading] = ()) -> dict[
         },
         "joints": joints,
         "stops": [_stop(name, stop) for name, stop in mechanism.stops.items()],
-        "springs": [_part(f"springs[{k}]", s, s.between, s.ends) for k, s in enumerate(mechanism.springs)],
+        "springs": [_part(f"springs[{k}]", s, s.between, s.ends) for k, s in enumerate(mechanism.springs) if isinstance(s, Spring)],
         "probes": [
             {"name": r.name, "body": r.body, "at": r.start.tolist()} for r in readings if r.quantity not in TURNING
         ],
