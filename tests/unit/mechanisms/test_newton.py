@@ -48,6 +48,28 @@ def test_newton_and_the_fixed_point_find_the_same_slab() -> None:
     np.testing.assert_allclose(found[0][1], found[1][1], atol=1e-9)
 
 
+def test_the_slab_by_itself_closes_the_energy() -> None:
+    """Before the projection of the velocities: energies, work of the motor, and what the damper takes."""
+    for h in (0.02, 0.1):
+        it = arrays(geared())
+        room = space(it.joints, len(it.names), len(it.bodies.jointed))
+        for _ in range(2):
+            begin(it.bodies, it.joints, it.springs, it.motion, room)
+            project_velocities(it.bodies, it.joints, it.motion, room)
+        start, angle, rotation = it.motion.energy.sum(), it.motion.angle.copy(), room.R0.copy()
+        assert newton_motion(it, room, h, 1.0)
+        velocity = 2.0 / h * room.z[:, :3] - it.motion.velocity
+        spin = np.einsum("nji,nj->ni", rotation, 2.0 / h * room.z[:, 3:]) - it.motion.spin
+        kinetic = 0.5 * (it.bodies.mass @ (velocity**2).sum(axis=1))
+        kinetic += 0.5 * np.einsum("ni,nij,nj->", spin, it.bodies.inertia, spin)
+        stiffness, rest, damping, _ = it.springs.torsion[0]
+        new, old = room.angle[it.springs.about[0]], angle[it.springs.about[0]]
+        lost = damping * (new - old) ** 2 / h
+        work = it.motion.impulse[it.joints.drives.row[0]] * 0.8 * np.sin(3.0 * np.pi * h) / h
+        assert abs(new - old) > 2.0 * h and abs(work) > 0.01
+        np.testing.assert_allclose(kinetic + 0.5 * stiffness * (new - rest) ** 2, start + work - lost, rtol=1e-12)
+
+
 def test_a_motor_drives_a_crank_through_dead_centres() -> None:
     """Crank and rod of equal length fold flat, where the slider passes the axle."""
     bodies = {
