@@ -48,6 +48,7 @@ DOORS = {
     "sksparse": ("softway.solve.linear.backends.cholmod",),
     "distributed": ("softway.studies.sweep.cluster",),
     "mumps": ("softway.solve.linear.backends.mumps",),
+    "mujoco": ("softway.mechanisms.robots.robot_file",),
     "gmsh": (),
     "numba": ("softway.kernels.*",),
     "llvmlite": ("softway.kernels.jit.simd",),

@@ -37,6 +37,8 @@ from softway.mechanisms.members.stops import StopEvent as StopEvent
 from softway.mechanisms.members.volumes import rigid_file as rigid_file
 from softway.mechanisms.members.volumes import rigid_mesh as rigid_mesh
 from softway.mechanisms.members.volumes import rigid_surface as rigid_surface
+from softway.mechanisms.robots.robot_file import RobotFile as RobotFile
+from softway.mechanisms.robots.robot_file import read_robot as read_robot
 
 __all__ = [
     "BallJoint",
@@ -55,6 +57,7 @@ __all__ = [
     "Polyline",
     "RatePolyline",
     "Rigid",
+    "RobotFile",
     "Rod",
     "Screw",
     "Sine",
@@ -67,6 +70,7 @@ __all__ = [
     "Universal",
     "Weld",
     "march",
+    "read_robot",
     "rigid_ball",
     "rigid_box",
     "rigid_cylinder",

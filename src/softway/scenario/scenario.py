@@ -13,9 +13,11 @@ from softway.contact.contact import Contact
 from softway.errors import InputError, real
 from softway.html_tables import table as html_table
 from softway.march.step_control import StepControl
+from softway.mechanisms.members.couplings import Gear
 from softway.mechanisms.members.joints import Joint
+from softway.mechanisms.members.motors import Motor
 from softway.mechanisms.members.rigid import Rigid
-from softway.mechanisms.members.springs import Spring, Torque
+from softway.mechanisms.members.springs import HingeTorque, PointForce, Spring, Torque, TorsionSpring
 from softway.mechanisms.members.stops import Impacts, Stop
 from softway.meshes.files.listed_mesh import LeftOut
 from softway.meshes.files.mesh_files import FileMesh
@@ -166,9 +168,13 @@ class Scenario:
     stops
         Stops, unilateral joints between rigid bodies, by name.
     springs
-        Springs and dampers between rigid bodies.
+        Springs and dampers between rigid bodies, or about hinges.
     torques
-        Constant torques on rigid bodies.
+        Constant torques on rigid bodies, or about hinges.
+    forces
+        Constant forces at points of rigid bodies.
+    gears, motors
+        Gears between joints and motors that prescribe the motion of joints, by name.
     impacts
         Law of impacts at several stops at once: ``simultaneous``, or ``sequential``, one after the other.
     """
@@ -184,8 +190,11 @@ class Scenario:
     output: Output = Output()
     joints: Mapping[str, Joint] = field(default_factory=dict)
     stops: Mapping[str, Stop] = field(default_factory=dict)
-    springs: tuple[Spring, ...] = ()
-    torques: tuple[Torque, ...] = ()
+    springs: tuple[Spring | TorsionSpring, ...] = ()
+    torques: tuple[Torque | HingeTorque, ...] = ()
+    forces: tuple[PointForce, ...] = ()
+    gears: Mapping[str, Gear] = field(default_factory=dict)
+    motors: Mapping[str, Motor] = field(default_factory=dict)
     impacts: Impacts = "simultaneous"
 
     def _repr_html_(self) -> str:

@@ -13,6 +13,7 @@ from softway.mechanisms.arrays import arrays
 from softway.mechanisms.members.joints import GROUND
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.rigid import Rigid
+from softway.mechanisms.members.springs import Spring, Torque
 from softway.mechanisms.members.stops import Stop
 from softway.mechanisms.stop_rows import NEAR
 from softway.mechanisms.welds import welded
@@ -25,7 +26,7 @@ MOST = 1_000_000_000
 """Maximum number of time steps (slabs) in a run."""
 ROWS = 1000
 """Number of stored instants when the scenario does not prescribe it, at most."""
-PARTS = ("joints", "stops", "springs", "torques", "impacts")
+PARTS = ("joints", "stops", "springs", "torques", "forces", "gears", "motors", "impacts")
 """Keys that only a mechanism has."""
 FOREIGN = {
     "contacts": "[stops.NAME] with a PlaneStop or a DistanceStop: rigid bodies touch at declared stops only",
@@ -160,14 +161,16 @@ def _built(scenario: Scenario) -> Mechanism:
     bodies = {name: body for name, body in scenario.bodies.items() if isinstance(body, Rigid)}
     named: list[tuple[str, Iterable[str]]] = [(f"joints.{n}.between", j.between) for n, j in scenario.joints.items()]
     named += [(f"stops.{n}.between", s.between) for n, s in scenario.stops.items()]
-    named += [(f"springs[{k}].between", s.between) for k, s in enumerate(scenario.springs)]
+    named += [(f"springs[{k}].between", s.between) for k, s in enumerate(scenario.springs) if isinstance(s, Spring)]
     for where, names in named:
         for name in names:
             if name not in bodies and name != GROUND:
                 raise InputError(where, f"there is no body {name!r}", nearest(name, [*bodies, GROUND]))
-    for k, torque in enumerate(scenario.torques):
-        if torque.on not in bodies:
-            raise InputError(f"torques[{k}].on", f"there is no body {torque.on!r}", nearest(torque.on, bodies))
+    pushed = [(f"torques[{k}].on", t.on) for k, t in enumerate(scenario.torques) if isinstance(t, Torque)]
+    pushed += [(f"forces[{k}].on", force.on) for k, force in enumerate(scenario.forces)]
+    for where, on in pushed:
+        if on not in bodies:
+            raise InputError(where, f"there is no body {on!r}", nearest(on, bodies))
     return Mechanism(
         bodies=bodies,
         joints=scenario.joints,
@@ -175,6 +178,9 @@ def _built(scenario: Scenario) -> Mechanism:
         impacts=scenario.impacts,
         springs=scenario.springs,
         torques=scenario.torques,
+        forces=scenario.forces,
+        gears=scenario.gears,
+        motors=scenario.motors,
         gravity=_gravity(scenario, next(iter(bodies.values())).dim),
     )
 
@@ -185,7 +191,7 @@ def _gravity(scenario: Scenario, dim: int) -> tuple[float, ...] | None:
     for k, load in enumerate(scenario.loads):
         if not isinstance(load, Gravity):
             problem = f"{type(load).__name__} on {load.on!r} in a scenario of rigid bodies"
-            raise InputError(f"loads[{k}]", problem, "Gravity, [[springs]] or [[torques]]")
+            raise InputError(f"loads[{k}]", problem, "Gravity, [[forces]], [[springs]] or [[torques]]")
         if load.ramp != Ramp():
             problem = "gravity that changes with time in a scenario of rigid bodies"
             raise InputError(f"loads[{k}].ramp", problem, "omit it: gravity is constant there")

@@ -22,7 +22,8 @@ from softway.scenario.hints.type_hints import (
 from softway.scenario.hints.units_text import Units, example
 from softway.scenario.text.user_modules import Modules
 
-TOP = ("contacts", "loads", "time", "start", "inertia", "solver", "output", "joints", "stops", "springs", "torques")
+SOLIDS = ("contacts", "loads", "time", "start", "inertia", "solver", "output")
+TOP = (*SOLIDS, "joints", "stops", "springs", "torques", "forces", "gears", "motors")
 """Top-level keys of a scenario that users may put inside a body by mistake."""
 
 

@@ -46,7 +46,11 @@ def outline(mechanism: Mechanism, readings: Sequence[BodyReading] = ()) -> dict[
         },
         "joints": joints,
         "stops": [_stop(name, stop) for name, stop in mechanism.stops.items()],
-        "springs": [_part(f"springs[{k}]", s, s.between, s.ends) for k, s in enumerate(mechanism.springs) if isinstance(s, Spring)],
+        "springs": [
+            _part(f"springs[{k}]", s, s.between, s.ends)
+            for k, s in enumerate(mechanism.springs)
+            if isinstance(s, Spring)
+        ],
         "probes": [
             {"name": r.name, "body": r.body, "at": r.start.tolist()} for r in readings if r.quantity not in TURNING
         ],

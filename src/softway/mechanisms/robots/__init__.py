@@ -1,0 +1,1 @@
+"""Mechanisms from files of robots, URDF and MJCF."""
