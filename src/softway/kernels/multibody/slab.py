@@ -23,6 +23,8 @@ ITERATIONS = 60
 """Greatest number of iterations of a slab."""
 CONVERGED = 1e-15
 """Change of the motion, relative to the extent of the mechanism or to a radian, at the level of rounding."""
+CLOSED = 1e-13
+"""Value of a joint, relative to the extent or one, at which a motion that does not change has converged."""
 NEARLY = 1e-12
 """Change below which an iteration that does not improve any more has converged."""
 SLOW = 0.7
@@ -162,15 +164,19 @@ def solve_motion(bodies, joints, springs, motion, space, h, extent):
         evaluate_rows(joints, motion, space, space.place, space.R1)
         copy_numbers(space.g, space.push)
         solve_band(space.lower, space.pivot, space.push)
+        missed = 0.0
         for k in range(len(P)):
             P[k] -= 2.0 / h * space.push[k]
+            if space.active[k] != 0:
+                missed = max(missed, abs(space.g[k]))
         motion_of(bodies, joints, springs, motion, space, h, P, z, new)
         change = 0.0
         for i in range(len(z) - 1):
             for c in range(3):
                 change = max(change, abs(new[i, c] - z[i, c]) / extent, abs(new[i, 3 + c] - z[i, 3 + c]))
                 z[i, c], z[i, 3 + c] = new[i, c], new[i, 3 + c]
-        if change <= CONVERGED or (change <= NEARLY and change > 0.5 * before):
+        still = change <= CONVERGED and missed <= CLOSED * max(1.0, extent)
+        if still or (change <= NEARLY and change > 0.5 * before):
             return iteration
         slow = slow + 1 if change > SLOW * before else 0
         if slow >= 2 or not np.isfinite(change):
