@@ -11,6 +11,7 @@ from softway.kernels.multibody.band import solve_band
 from softway.kernels.multibody.drives import work_of_jumps
 from softway.kernels.multibody.joint_rows import SLIDE
 from softway.kernels.multibody.slab import (
+    CLOSED,
     CONVERGED,
     ITERATIONS,
     NEARLY,
@@ -109,7 +110,8 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
             for c in range(3):
                 change = max(change, abs(new[i, c] - z[i, c]) / extent, abs(new[i, 3 + c] - z[i, 3 + c]))
                 z[i, c], z[i, 3 + c] = new[i, c], new[i, 3 + c]
-        if change <= CONVERGED or (change <= NEARLY and change > 0.5 * before):
+        still = change <= CONVERGED and _missed(space) <= CLOSED * max(1.0, extent)
+        if still or (change <= NEARLY and change > 0.5 * before):
             place_ends(z, motion.place, space.R0, space.place, space.R1)
             evaluate_rows(joints, motion, space, space.place, space.R1)
             return iteration
@@ -119,6 +121,16 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
         before = change
     P[:] = space.kept
     return 0
+
+
+@inlined
+def _missed(space):
+    """Greatest value of the joints."""
+    worst = 0.0
+    for k in range(len(space.g)):
+        if space.active[k] != 0:
+            worst = max(worst, abs(space.g[k]))
+    return worst
 
 
 @kernel

@@ -109,7 +109,7 @@ def told(found: Mapping[str, Any]) -> tuple[str, ...]:
     The mechanism moved for 0.5 s in 10 slabs (time steps).
     The joints hold to 1e-17 m.
     The energy balance holds to 0 J, 0 of the energies.
-    Impacts and dampers dissipated 2 J.
+    Impacts, friction and dampers dissipated 2 J.
     The stop 'floor' was touched 2 times, first at 0.25 s, with impulses of 1.5 N s in all; it came to rest once.
     """
     if not found["slabs"]:
@@ -130,9 +130,9 @@ def told(found: Mapping[str, Any]) -> tuple[str, ...]:
     if changes:
         sentences.insert(0, f"Joints or stops changed the motion given at the start: {' and '.join(changes)}.")
     if abs(found["dissipation"]) > found["energy_error_worst"]:
-        sentences.append(f"Impacts and dampers dissipated {found['dissipation']:.4g} J.")
+        sentences.append(f"Impacts, friction and dampers dissipated {found['dissipation']:.4g} J.")
     if found["work_external"]:
-        sentences.append(f"Torques did work of {found['work_external']:.4g} J.")
+        sentences.append(f"Forces, torques and motors did work of {found['work_external']:.4g} J.")
     return (*sentences, *(_of_stop(name, stop) for name, stop in found["stops"].items()))
 
 
