@@ -10,6 +10,7 @@ from softway.bodies.setup.amplitude import Ramp
 from softway.bodies.setup.loads import Gravity
 from softway.errors import InputError, Note, within
 from softway.mechanisms.arrays import arrays
+from softway.mechanisms.driven import check_motions
 from softway.mechanisms.members.joints import GROUND
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.rigid import Rigid
@@ -121,7 +122,9 @@ def check_mechanism(scenario: Scenario) -> CheckedMechanism:
     _require_own_keys(scenario)
     mechanism = _built(scenario)
     joined = welded(mechanism)
-    extent = arrays(joined.mechanism).extent
+    tables = arrays(joined.mechanism)
+    check_motions(tables, mechanism.stops)
+    extent = tables.extent
     for name, stop in mechanism.stops.items():
         _require_open(name, stop, extent)
     span, slabs = _slabs(scenario.time)

@@ -14,6 +14,7 @@ import table_bodies
 import table_contacts
 import table_laws
 import table_mechanisms
+import table_members
 import table_meshes
 import table_obstacles
 import table_python
@@ -29,6 +30,7 @@ TABLES: tuple[ModuleType, ...] = (
     table_contacts,
     table_laws,
     table_mechanisms,
+    table_members,
     table_meshes,
     table_obstacles,
     table_python,
@@ -45,6 +47,7 @@ MODULES = (
     "record/write/probes.py",
     "record/storage/checkpoint.py",
 )
+ROBOTS = "an extra that is not always installed: tests/unit/mechanisms/test_robot_files.py"
 INNER = "called inside only, after the check of what the user has given"
 REASONS = {
     "bodies/inertia/mass_matrix.py: body_of": INNER,
@@ -59,6 +62,11 @@ REASONS = {
     "march/rules/slab_rule.py: require_motion_alone": "companion fields from Python",
     "march/start/stored_state.py: _require": "damaged checkpoints",
     "mechanisms/impacts.py: start": "the check of a scenario has refused it: tests/unit/mechanisms/test_stops.py",
+    "mechanisms/robots/model_members.py: _joint": ROBOTS,
+    "mechanisms/robots/model_members.py: model_bodies": ROBOTS,
+    "mechanisms/robots/robot_file.py: _compiled": ROBOTS,
+    "mechanisms/robots/robot_file.py: _mujoco": ROBOTS,
+    "mechanisms/robots/robot_file.py: read_robot": ROBOTS,
     "meshes/files/abaqus/lexer.py: _lines": "millions of lines: tests/unit/meshes/files/abaqus/test_lexer.py",
     "meshes/files/abaqus/lexer.py: _admit": "many files: tests/unit/meshes/files/abaqus/test_lexer.py",
     "model/build.py: with_dofs": "unknowns from Python: tests/contracts/test_own_dofs.py",
