@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 from softway.arrays import Array, BoolArray
 from softway.errors import InputError, NumericsError
-from softway.mechanisms.members.stops import Impacts, StopEvent
+from softway.mechanisms.members.stops import Impacts, Restitution, StopEvent
 from softway.mechanisms.stop_rows import NEAR, STILL, Stops
 
 TOUCH = 1e-14
@@ -39,12 +39,15 @@ class StopMarch:
         The stops in the present state.
     law
         Law of impacts at several stops at once.
+    restitution
+        What the coefficients of restitution are ratios of.
     touched
         (s,) instants of the last touches [s].
     """
 
     stops: Stops
     law: Impacts
+    restitution: Restitution
     touched: Array
 
     @property
@@ -179,9 +182,8 @@ class StopMarch:
         ratio = np.where(resting, 0.0, self.stops.restitution)
         impulse = np.zeros(len(self.stops.rows))
         if self.law == "simultaneous":
-            solved = self.stops.collide(
-                self.stops.closed | touching, np.where(hits, -ratio * before, 0.0), extent / h, impulse
-            )
+            ratio_of_hits = np.where(hits, ratio, 0.0)
+            solved = self._struck(self.stops.closed | touching, ratio_of_hits, before, extent / h, impulse)
         else:
             solved = self._sequential(touching, ratio, extent / h, impulse)
         if not solved:
@@ -204,6 +206,12 @@ class StopMarch:
         self.stops.it.motion.impulse[self.stops.rows.ravel()] = 0.0
         self.stops.hold(self.stops.it.bodies.supported)
 
+    def _struck(self, these: BoolArray, ratio: Array, before: Array, rounding: float, impulse: Array) -> bool:
+        """Impact at some stops (s,) at once with the velocities ``before`` (s,); False if it has no solution."""
+        if self.restitution == "Poisson":
+            return self.stops.compress_and_expand(these, ratio, rounding, impulse)
+        return self.stops.collide(these, -ratio * before, 0.0 * ratio, rounding, impulse)
+
     def _sequential(self, touching: BoolArray, ratio: Array, rounding: float, impulse: Array) -> bool:
         """One stop after the other, each time that with the greatest velocity of approach."""
         near, scale = self.stops.closed | touching, float(np.abs(self.stops.speeds()).max())
@@ -212,6 +220,6 @@ class StopMarch:
             k = int(np.argmin(speed))
             if speed[k] >= -STILL * scale:
                 return True
-            if not self.stops.collide(np.arange(len(self.stops.rows)) == k, -ratio * speed, rounding, impulse):
+            if not self._struck(np.arange(len(self.stops.rows)) == k, ratio, speed, rounding, impulse):
                 return False
         return False

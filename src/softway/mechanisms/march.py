@@ -153,7 +153,9 @@ def _steps(
 ) -> Iterator[MechanismStep]:
     """States of the march."""
     room = space(it.joints, len(it.names), len(it.bodies.jointed))
-    stops = stop_march(it, room, joined.mechanism.stops, mechanism.impacts) if joined.mechanism.stops else None
+    stops = None
+    if joined.mechanism.stops:
+        stops = stop_march(it, room, joined.mechanism.stops, mechanism.impacts, mechanism.restitution)
     begin(it.bodies, it.joints, it.springs, it.motion, room)
     require_free_motions(it, room)
     project_velocities(it.bodies, it.joints, it.motion, room)

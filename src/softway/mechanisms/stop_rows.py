@@ -14,7 +14,7 @@ from softway.kernels.multibody.energy import close_energy, kinetic_energy
 from softway.kernels.multibody.slab import refactor, take_motion, tell_joints
 from softway.kernels.multibody.tables import Space
 from softway.kernels.multibody.velocities import row_velocities
-from softway.kernels.rigid_contact.contact import book_slab, collide, compliances, solve_contact_slab
+from softway.kernels.rigid_contact.contact import book_slab, collide, collide_at_once, compliances, solve_contact_slab
 from softway.mechanisms.arrays import Arrays
 
 NEAR = 1e-10
@@ -123,32 +123,46 @@ class Stops:
             for array, before in zip(changed, kept, strict=True):
                 array[:] = before
             total, tables = through.copy(), (it.bodies, it.joints, it.motion, self.room)
-            solved = collide(*tables, rows, friction, through, part * rebound, speed, total) if len(rows) else 1
+            solved = (
+                collide(*tables, rows, friction, through, part * rebound, 0.0 * rebound, speed, total)
+                if len(rows)
+                else 1
+            )
             if solved and float(self.excess().sum()) <= excess + GAINED * scale:
                 return total
         return total if solved else None
 
-    def collide(self, these: BoolArray, rebound: Array, speed: float, impulse: Array) -> bool:
-        """Impact at some stops (s,) at once which rebound with velocities (s,) [m/s]; their normal impulses are added.
+    def collide(self, these: BoolArray, rebound: Array, lower: Array, speed: float, impulse: Array) -> bool:
+        """Impact at some stops (s,) at once, which rebound with velocities (s,) [m/s] at least.
 
-        False if it has no solution.
+        Their normal impulses are ``lower`` (s,) at least, and are added to ``impulse`` (s,).  False if it has no
+        solution.
         """
         rows = self.rows[these].ravel()
-        found = np.zeros(len(rows))
-        solved = collide(
-            self.it.bodies,
-            self.it.joints,
-            self.it.motion,
-            self.room,
-            rows,
-            self.friction[these],
-            np.zeros(len(rows)),
-            rebound[these],
-            speed,
-            found,
-        )
+        none, found = np.zeros(len(rows)), np.zeros(len(rows))
+        laws = self.friction[these], none, rebound[these], lower[these], speed
+        solved = collide(self.it.bodies, self.it.joints, self.it.motion, self.room, rows, *laws, found)
         impulse[these] += self._split(found)[0]
         return bool(solved)
+
+    def compress_and_expand(self, these: BoolArray, ratio: Array, speed: float, impulse: Array) -> bool:
+        """Impact at some stops (s,) with ratios of the impulses of expansion and compression (Poisson).
+
+        A single one in the plane is followed through its sliding.  False if it has no solution.
+        """
+        none, rows = np.zeros(len(self.rows)), self.rows[these].ravel()
+        if len(rows) == 2 and these.sum() == 1:
+            found = np.zeros(2)
+            k = int(np.argmax(these))
+            tables = self.it.bodies, self.it.joints, self.it.motion, self.room
+            solved = collide_at_once(*tables, rows, self.friction[k], ratio[k], found)
+            impulse[k] += found[0]
+            return bool(solved)
+        compression = np.zeros(len(self.rows))
+        if not self.collide(these, none, none, speed, compression):
+            return False
+        impulse += compression
+        return self.collide(these, none, ratio * compression, speed, impulse)
 
     @property
     def _tables(self) -> tuple[object, ...]:

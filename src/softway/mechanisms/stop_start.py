@@ -8,11 +8,11 @@ from softway.kernels.multibody.joint_rows import SLIDE
 from softway.kernels.multibody.tables import Space
 from softway.mechanisms.arrays import Arrays
 from softway.mechanisms.impacts import StopMarch
-from softway.mechanisms.members.stops import Impacts, Stop
+from softway.mechanisms.members.stops import Impacts, Restitution, Stop
 from softway.mechanisms.stop_rows import Stops
 
 
-def stop_march(it: Arrays, room: Space, stops: Mapping[str, Stop], law: Impacts) -> StopMarch:
+def stop_march(it: Arrays, room: Space, stops: Mapping[str, Stop], law: Impacts, restitution: Restitution) -> StopMarch:
     """March with stops; all of them are open at first."""
     names = tuple(dict.fromkeys(name for name in it.joint_of if name in stops))
     rows = np.array([_rows_of(it, name) for name in names], dtype=np.int64)
@@ -28,7 +28,7 @@ def stop_march(it: Arrays, room: Space, stops: Mapping[str, Stop], law: Impacts)
         closed=np.zeros(len(rows), bool),
         sliding=np.ones(len(rows), bool),
     )
-    return StopMarch(stops=found, law=law, touched=np.full(len(rows), -np.inf))
+    return StopMarch(stops=found, law=law, restitution=restitution, touched=np.full(len(rows), -np.inf))
 
 
 def _rows_of(it: Arrays, name: str) -> list[int]:

@@ -18,7 +18,7 @@ from softway.mechanisms.members.joints import Joint
 from softway.mechanisms.members.motors import Motor
 from softway.mechanisms.members.rigid import Rigid
 from softway.mechanisms.members.springs import HingeTorque, PointForce, Spring, Torque, TorsionSpring
-from softway.mechanisms.members.stops import Impacts, Stop
+from softway.mechanisms.members.stops import Impacts, Restitution, Stop
 from softway.meshes.files.listed_mesh import LeftOut
 from softway.meshes.files.mesh_files import FileMesh
 from softway.meshes.generators.recipes import MeshFile, MeshSource
@@ -177,6 +177,8 @@ class Scenario:
         Gears between joints and motors that prescribe the motion of joints, by name.
     impacts
         Law of impacts at several stops at once: ``simultaneous``, or ``sequential``, one after the other.
+    restitution
+        What the coefficients of restitution are ratios of: velocities (``Newton``) or impulses (``Poisson``).
     """
 
     bodies: Mapping[str, Solid | Tool | Rigid]
@@ -196,6 +198,7 @@ class Scenario:
     gears: Mapping[str, Gear] = field(default_factory=dict)
     motors: Mapping[str, Motor] = field(default_factory=dict)
     impacts: Impacts = "simultaneous"
+    restitution: Restitution = "Newton"
 
     def _repr_html_(self) -> str:
         """HTML table for notebooks."""

@@ -29,29 +29,29 @@ SWEEPS = 2000
 
 
 @kernel
-def solve_cone(W, b, friction, least, rounding, x):
+def solve_cone(W, b, friction, least, lower, rounding, x):
     """Impulses x (m,) in place, from a first guess; 1 if they are a solution, 0 if none was found.
 
-    Impulses below ``rounding`` are rounding errors.
+    Normal impulses are ``lower`` (c,) at least, instead of zero; impulses below ``rounding`` are rounding errors.
     """
     if len(x) == 0:
         return 1
     d = len(x) // len(friction)
     rho = _steps(W, d, len(friction))
-    found = _newton(W, b, friction, least, rho, rounding, x)
-    if not found and d == 2 and len(friction) <= MOST:
+    found = _newton(W, b, friction, least, lower, rho, rounding, x)
+    if not found and d == 2 and len(friction) <= MOST and lower.max() == 0.0:
         found = _modes(W, b, friction, x)
     if not found:
-        _sweeps(W, b, friction, least, rho, x)
-        found = _newton(W, b, friction, least, rho, rounding, x)
+        _sweeps(W, b, friction, least, lower, rho, x)
+        found = _newton(W, b, friction, least, lower, rho, rounding, x)
     for part in NEAR:
         if not found:
-            found = _proximal(W, b, friction, least, rho, rounding, x, part)
+            found = _proximal(W, b, friction, least, lower, rho, rounding, x, part)
     if not found:
         F, J = np.empty(len(x)), np.empty((len(x), len(x)))
-        size = _projected(W, b, friction, least, rho, x, F, J)
+        size = _projected(W, b, friction, least, lower, rho, x, F, J)
         found = 1 if size <= ROUGHLY * np.abs(x).max() else 0
-    x[::d] = np.maximum(x[::d], 0.0)
+    x[::d] = np.maximum(x[::d], lower)
     return found
 
 
@@ -70,11 +70,11 @@ def _steps(W, d, count):
 
 
 @kernel
-def _newton(W, b, friction, least, rho, rounding, x):
+def _newton(W, b, friction, least, lower, rho, rounding, x):
     """Newton's method on the projections of the impulses; x is the best iterate.  1 if it is a solution."""
     m = len(x)
     F, J, tried = np.empty(m), np.empty((m, m)), np.empty(m)
-    size = _projected(W, b, friction, least, rho, x, F, J)
+    size = _projected(W, b, friction, least, lower, rho, x, F, J)
     waited = 0
     for _ in range(ITERATIONS):
         scale = np.abs(x).max() + np.abs(rho * b).max()
@@ -86,7 +86,7 @@ def _newton(W, b, friction, least, rho, rounding, x):
         length, found, before = 1.0, size, F.copy()
         while True:
             tried[:] = x + length * step
-            found = _projected(W, b, friction, least, rho, tried, F, J)
+            found = _projected(W, b, friction, least, lower, rho, tried, F, J)
             if found < size or length < 1e-3 or (length == 1.0 and size <= nearly):
                 break
             length *= 0.5
@@ -104,24 +104,24 @@ def _newton(W, b, friction, least, rho, rounding, x):
 
 
 @kernel
-def _proximal(W, b, friction, least, rho, rounding, x, part):
+def _proximal(W, b, friction, least, lower, rho, rounding, x, part):
     """Search near the last impulses, again and again: an added compliance makes every problem regular.  1 if solved."""
     added, near, new = part / rho, W.copy(), np.zeros(len(x))
     for i in range(len(x)):
         near[i, i] += added[i]
     for _ in range(SEARCHES):
         new[:] = x
-        if not _newton(near, b - added * x, friction, least, rho, rounding, new):
+        if not _newton(near, b - added * x, friction, least, lower, rho, rounding, new):
             return 0
         change = np.abs(new - x).max()
         x[:] = new
         if change <= SOLVED * np.abs(x).max():
             break
-    return _newton(W, b, friction, least, rho, rounding, x)
+    return _newton(W, b, friction, least, lower, rho, rounding, x)
 
 
 @kernel
-def _projected(W, b, friction, least, rho, x, F, J):
+def _projected(W, b, friction, least, lower, rho, x, F, J):
     """Residual F (m,): impulses less their projections after a step against y; its derivative J; its greatest entry."""
     y = W @ x + b
     d = len(x) // len(friction)
@@ -129,15 +129,15 @@ def _projected(W, b, friction, least, rho, x, F, J):
         n = d * i
         ahead = x[n] - rho[n] * y[n]
         J[n] = 0.0
-        if ahead > 0.0:
+        if ahead > lower[i]:
             F[n] = rho[n] * y[n]
             J[n] = rho[n] * W[n]
         else:
-            F[n] = x[n]
+            F[n] = x[n] - lower[i]
             J[n, n] = 1.0
         if d > 1:
-            radius = max(friction[i] * max(ahead, 0.0), least[i])
-            turning = friction[i] if ahead > 0.0 and radius > least[i] else 0.0
+            radius = max(friction[i] * max(ahead, lower[i]), least[i])
+            turning = friction[i] if ahead > lower[i] and radius > least[i] else 0.0
             _tangential(W, y, turning, radius, rho, x, F, J, n, d)
     return np.abs(F).max()
 
@@ -246,14 +246,14 @@ def _fits(y, x, friction, code, scale):
 
 
 @kernel
-def _sweeps(W, b, friction, least, rho, x):
+def _sweeps(W, b, friction, least, lower, rho, x):
     """Projected steps of one contact after the other, as a guess for Newton's method."""
     d = len(x) // len(friction)
     for _ in range(SWEEPS):
         change = 0.0
         for i in range(len(friction)):
             n = d * i
-            new = max(0.0, x[n] - rho[n] * (W[n] @ x + b[n]))
+            new = max(lower[i], x[n] - rho[n] * (W[n] @ x + b[n]))
             change, x[n] = max(change, abs(new - x[n])), new
             radius, size = max(friction[i] * new, least[i]), 0.0
             for c in range(1, d):

@@ -23,6 +23,7 @@ from softway.kernels.multibody.slab import (
 )
 from softway.kernels.multibody.velocities import joint_velocity, project_velocities
 from softway.kernels.rigid_contact.cone import solve_cone
+from softway.kernels.rigid_contact.routh import impulses_in_order
 
 ROUNDING = 1e-15
 """Rounding error of impulses and places, relative to the greatest."""
@@ -101,7 +102,7 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
         solve_band(space.lower, space.pivot, space.push)
         _offsets(joints, space, P, rows, C, b, x)
         b -= W @ x
-        if not solve_cone(W, b, friction, none, rounding, x):
+        if not solve_cone(W, b, friction, none, none, rounding, x):
             break
         _add_impulses(space, P, rows, U, x, h)
         motion_of(bodies, joints, springs, motion, space, h, P, z, new)
@@ -168,10 +169,11 @@ def book_slab(bodies, joints, motion, space, rows, h):
 
 
 @kernel
-def collide(bodies, joints, motion, space, rows, friction, through, rebound, speed, x):
+def collide(bodies, joints, motion, space, rows, friction, through, rebound, lower, speed, x):
     """Change the velocities at a prepared state by the contacts; x (m,) are the impulses, ``through`` (m,) included.
 
-    Normal velocities become ``rebound`` (c,) at least; the impulses that acted ``through`` the slab count in the laws.
+    Normal velocities become ``rebound`` (c,) at least, and normal impulses are ``lower`` (c,) at least; impulses that
+    acted ``through`` the slab count in the laws.
     The work of motors is booked; ``speed`` is that of the extent in a slab, the scale of rounding.  1 if a solution was
     found.
     """
@@ -185,9 +187,16 @@ def collide(bodies, joints, motion, space, rows, friction, through, rebound, spe
         else:
             least[i // d] = np.sqrt(least[i // d] ** 2 + through[i] ** 2)
     b -= W @ through
-    found = solve_cone(W, b, friction, least, _rounding(bodies, motion, speed), x)
+    found = solve_cone(W, b, friction, least, lower, _rounding(bodies, motion, speed), x)
+    push_contacts(bodies, joints, motion, space, rows, x - through)
+    return found
+
+
+@kernel
+def push_contacts(bodies, joints, motion, space, rows, impulse):
+    """Change the velocities by impulses (m,) of contact rows, with the joints; the work of motors is booked."""
     for i in range(len(rows)):
-        k, push = rows[i], x[i] - through[i]
+        k, push = rows[i], impulse[i]
         for side in range(2):
             body = joints.sides[k, side]
             for c in range(3):
@@ -199,4 +208,19 @@ def collide(bodies, joints, motion, space, rows, friction, through, rebound, spe
                 )
     project_velocities(bodies, joints, motion, space)
     work_of_jumps(bodies, joints, motion, space)
+
+
+@kernel
+def collide_at_once(bodies, joints, motion, space, rows, friction, ratio, x):
+    """Collision at one contact in the plane, followed through its sliding (Routh); 1 if it ends."""
+    W = compliances(joints, space, rows)[0]
+    found = impulses_in_order(
+        W,
+        joint_velocity(joints, motion, space, rows[0]),
+        joint_velocity(joints, motion, space, rows[1]),
+        friction,
+        ratio,
+        x,
+    )
+    push_contacts(bodies, joints, motion, space, rows, x)
     return found

@@ -10,7 +10,7 @@ from softway.mechanisms.members.joints import GROUND, Joint, Rod, motor_row, tra
 from softway.mechanisms.members.motors import Motor
 from softway.mechanisms.members.rigid import Rigid
 from softway.mechanisms.members.springs import HingeTorque, PointForce, Spring, Torque, TorsionSpring
-from softway.mechanisms.members.stops import Impacts, Stop
+from softway.mechanisms.members.stops import Impacts, Restitution, Stop
 from softway.units import MetrePerSecondSquared
 
 
@@ -29,6 +29,10 @@ class Mechanism:
     impacts
         Law of impacts at several stops at once: ``simultaneous``, or ``sequential``, one after the other, each time
         that with the greatest velocity of approach.
+    restitution
+        What the coefficients of restitution of stops are ratios of: ``Newton``, of the velocities of the gap after and
+        before an impact; ``Poisson``, of the impulses of expansion and compression.  Without friction a single impact
+        is the same.  With friction Poisson's law creates no energy at a single impact that slides back.
     gears
         Couplings of the motions of joints by name.
     motors
@@ -59,6 +63,7 @@ class Mechanism:
     joints: Mapping[str, Joint] = field(default_factory=dict)
     stops: Mapping[str, Stop] = field(default_factory=dict)
     impacts: Impacts = "simultaneous"
+    restitution: Restitution = "Newton"
     gears: Mapping[str, Gear] = field(default_factory=dict)
     motors: Mapping[str, Motor] = field(default_factory=dict)
     springs: tuple[Spring | TorsionSpring, ...] = ()
@@ -83,6 +88,8 @@ class Mechanism:
             self._require(f"stops.{name}", stop.between, stop.places)
         if self.impacts not in ("simultaneous", "sequential"):
             raise InputError("impacts", f"{self.impacts!r}", "'simultaneous' or 'sequential'")
+        if self.restitution not in ("Newton", "Poisson"):
+            raise InputError("restitution", f"{self.restitution!r}", "'Newton' or 'Poisson'")
         self._require_names()
         for name, gear in self.gears.items():
             self._require_geared(f"gears.{name}.joints", gear)

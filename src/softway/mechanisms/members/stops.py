@@ -29,7 +29,7 @@ class PlaneStop:
     radius
         Radius of the ball around the point [m].
     restitution
-        Ratio of the normal velocities after and before an impact (Newton), between 0 and 1.
+        Coefficient of restitution, between 0 and 1: see ``restitution`` of :class:`~softway.mechanisms.Mechanism`.
     friction
         Coefficient of Coulomb's friction, at rest and in motion.
 
@@ -95,7 +95,7 @@ class DistanceStop:
     side
         ``least`` or ``most``.
     restitution
-        Ratio of the velocities along the line after and before an impact (Newton), between 0 and 1.
+        Coefficient of restitution, between 0 and 1: see ``restitution`` of :class:`~softway.mechanisms.Mechanism`.
     friction
         Coefficient of Coulomb's friction, at rest and in motion.
     contact
@@ -152,6 +152,7 @@ def tangents(normal: Array, dim: int) -> list[Array]:
 
 Stop = PlaneStop | DistanceStop
 Impacts = Literal["simultaneous", "sequential"]
+Restitution = Literal["Newton", "Poisson"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -27,7 +27,7 @@ MOST = 1_000_000_000
 """Maximum number of time steps (slabs) in a run."""
 ROWS = 1000
 """Number of stored instants when the scenario does not prescribe it, at most."""
-PARTS = ("joints", "stops", "springs", "torques", "forces", "gears", "motors", "impacts")
+PARTS = ("joints", "stops", "springs", "torques", "forces", "gears", "motors", "impacts", "restitution")
 """Keys that only a mechanism has."""
 FOREIGN = {
     "contacts": "[stops.NAME] with a PlaneStop or a DistanceStop: rigid bodies touch at declared stops only",
@@ -104,7 +104,7 @@ def _require_no_parts(scenario: Scenario) -> None:
     for key in PARTS:
         given = getattr(scenario, key)
         if isinstance(given, str):
-            if given != "simultaneous":
+            if given not in ("simultaneous", "Newton"):
                 raise InputError(key, f"{given!r} without a Rigid among the bodies", remedy)
         elif given:
             first = f"{key}.{next(iter(given))}" if isinstance(given, Mapping) else f"{key}[0]"
@@ -179,6 +179,7 @@ def _built(scenario: Scenario) -> Mechanism:
         joints=scenario.joints,
         stops=scenario.stops,
         impacts=scenario.impacts,
+        restitution=scenario.restitution,
         springs=scenario.springs,
         torques=scenario.torques,
         forces=scenario.forces,

@@ -15,7 +15,7 @@ def test_the_laws_of_contact_hold(d: int) -> None:
         A = rng.normal(size=(d * count, rank))
         W, b = A @ A.T, A @ rng.normal(size=rank)
         friction, least, x = 0.6 * rng.random(count), np.zeros(count), np.zeros(d * count)
-        assert solve_cone(W, b, friction, least, 0.0, x), trial
+        assert solve_cone(W, b, friction, least, np.zeros(count), 0.0, x), trial
         y = W @ x + b
         normal, gap = x[::d], y[::d]
         size, speed = np.abs(x).max() + 1e-30, np.abs(b).max()
@@ -32,7 +32,7 @@ def test_a_rod_that_would_jam_gets_the_mode_that_fits() -> None:
     W, friction = np.array([[1.0, 0.9], [0.9, 2.0]]), np.array([1.5])
     for b in ([-0.1, 1.0], [0.1, 1.0], [-1.0, -0.2]):
         x = np.zeros(2)
-        assert solve_cone(W, np.array(b), friction, np.zeros(1), 0.0, x)
+        assert solve_cone(W, np.array(b), friction, np.zeros(1), np.zeros(1), 0.0, x)
         y = W @ x + b
         assert x[0] >= 0.0 and y[0] >= -1e-12 and abs(x[0] * y[0]) < 1e-12
         assert abs(x[1]) <= 1.5 * x[0] + 1e-12 and x[1] * y[1] <= 1e-12

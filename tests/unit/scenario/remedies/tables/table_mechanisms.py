@@ -206,6 +206,9 @@ TABLE: Table = {
     ),
     "no bodies": Call(lambda _: Mechanism(bodies={}), "at least one", lambda _: one()),
     "gravity": Call(lambda _: one(gravity=(1.0,)), "2 components", lambda _: one(gravity=(1.0, 0.0))),
+    "restitution of impacts": Call(
+        lambda _: one(restitution="none"), "'Poisson'", lambda _: one(restitution="Poisson")
+    ),
     "impacts": Call(lambda _: one(impacts="none"), "'sequential'", lambda _: one(impacts="sequential")),
     "unknown body": Call(
         lambda _: one(stops={"s": floor(between=("ground", "b"))}),
