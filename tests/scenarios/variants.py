@@ -8,7 +8,7 @@ from softway.scenario.files import load
 from softway.scenario.scenario import Scenario
 
 SCENARIOS = Path(__file__).parents[2] / "scenarios"
-MECHANISMS = ("hammer_on_stop", "newtons_cradle", "slider_crank", "toggle_snap")
+MECHANISMS = ("hammer_on_stop", "newtons_cradle", "rocking_block", "slider_crank", "toggle_snap")
 """Scenarios of rigid bodies: they have no cells, nodes or resumption, and tests/unit/scenario/mechanisms runs them."""
 
 

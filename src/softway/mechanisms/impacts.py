@@ -200,7 +200,10 @@ class StopMarch:
             one = StopEvent(time=float(time + end), stop=self.stops.names[k], kind=kind, impulse=float(impulse[k]))
             events.append(replace(one, velocity_before=float(before[k]), velocity_after=float(after[k])))
             self.touched[k] = time
-        self.stops.closed[:] = (self.stops.closed | touching) & (np.abs(after) <= STILL * scale)
+        closed = (self.stops.closed | touching) & (np.abs(after) <= STILL * scale)
+        for k in np.flatnonzero(self.stops.closed & ~closed):
+            events.append(StopEvent(time=float(time), stop=self.stops.names[k], kind="release"))
+        self.stops.closed[:] = closed
         self.stops.lose(excess - self.stops.excess())
         self.stops.see_sliding()
         self.stops.it.motion.impulse[self.stops.rows.ravel()] = 0.0

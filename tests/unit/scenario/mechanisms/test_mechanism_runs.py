@@ -19,7 +19,7 @@ from softway.record.write.mechanism.columns import rotation_of, rotation_vector
 from softway.scenario.checks.mechanism import CheckedMechanism
 
 FOLDER = Path(__file__).parents[4] / "scenarios"
-NAMES = ("hammer_on_stop", "newtons_cradle", "slider_crank", "toggle_snap")
+NAMES = ("hammer_on_stop", "newtons_cradle", "rocking_block", "slider_crank", "toggle_snap")
 TABLES = ("history.csv", "motion.csv", "events.csv")
 SHORT = ("time.end=5 ms",)
 
