@@ -89,8 +89,7 @@ class StopMarch:
     ) -> tuple[float, BoolArray, int]:
         """Take a part of the slab up to the next touch: its length, the touching stops, and the iterations."""
         span, iterations, none = left, 0, np.zeros(len(self.stops.rows), bool)
-        for k in self.stops.jammed():
-            events.append(StopEvent(time=float(time), stop=self.stops.names[k], kind="jam"))
+        jammed = self.stops.jammed()
         for _ in range(HALVINGS):
             used = self.stops.tried(span, extent)
             iterations += used
@@ -107,6 +106,8 @@ class StopMarch:
             iterations += used
         touching = ~self.stops.closed & (np.abs(self.stops.gaps()) <= NEAR * extent) if span < left else none
         closed = self.stops.taken(time, span, extent, told, np.zeros(len(self.stops.rows)))
+        for k in jammed[~self.stops.sliding[jammed]]:
+            events.append(StopEvent(time=float(time), stop=self.stops.names[k], kind="jam"))
         for k in np.flatnonzero(self.stops.closed & ~closed):
             events.append(StopEvent(time=float(time), stop=self.stops.names[k], kind="release"))
         self.stops.closed[:] = closed

@@ -8,7 +8,7 @@ import numpy as np
 
 from softway.record.storage.table import Table
 
-KINDS = MappingProxyType({"touches": "touch", "rests": "rest", "releases": "release"})
+KINDS = MappingProxyType({"touches": "touch", "rests": "rest", "releases": "release", "jams": "jam"})
 BALANCED = 1e-9
 """Error of the energy balance relative to the energies that passes for rounding."""
 
@@ -101,7 +101,8 @@ def told(found: Mapping[str, Any]) -> tuple[str, ...]:
 
     Examples
     --------
-    >>> stop = {"touches": 2, "rests": 1, "releases": 0, "first_touch": 0.25, "last_release": None, "impulse": 1.5}
+    >>> stop = {"touches": 2, "rests": 1, "releases": 0, "jams": 0, "first_touch": 0.25, "last_release": None,
+    ...         "impulse": 1.5}
     >>> for sentence in told({"slabs": 10, "time_end": 0.5, "energy_error_worst": 0.0, "energy_error_relative": 0.0,
     ...                       "dissipation": 2.0, "work_external": 0.0, "joint_error_worst": 1e-17,
     ...                       "velocity_change_start": 0.0, "spin_change_start": 0.0, "stops": {"floor": stop}}):
@@ -138,9 +139,9 @@ def told(found: Mapping[str, Any]) -> tuple[str, ...]:
 
 def _of_stop(name: str, stop: Mapping[str, Any]) -> str:
     """Sentence on a stop."""
-    if not stop["touches"] and not stop["rests"]:
-        return f"The stop '{name}' had no touch: what was open or closed there stayed so."
     parts = []
+    if not stop["touches"] and not stop["rests"]:
+        parts.append("had no touch" + ("" if stop["releases"] else ": what was open or closed there stayed so"))
     if stop["touches"]:
         first = f", first at {stop['first_touch']:.6g} s" if stop["touches"] > 1 else f" at {stop['first_touch']:.6g} s"
         parts.append(f"was touched {_times(stop['touches'])}{first}, with impulses of {stop['impulse']:.4g} N s in all")
@@ -148,6 +149,8 @@ def _of_stop(name: str, stop: Mapping[str, Any]) -> str:
         parts.append(f"{'it ' if parts else ''}came to rest {_times(stop['rests'])}")
     if stop["releases"]:
         parts.append(f"it was released {_times(stop['releases'])}, last at {stop['last_release']:.6g} s")
+    if stop.get("jams"):
+        parts.append(f"its sliding jammed {_times(stop['jams'])}: it ended at once, without a touch")
     return f"The stop '{name}' {'; '.join(parts)}."
 
 

@@ -10,7 +10,7 @@ import pytest
 
 import softway as sw
 from softway.apps.cli.commands import main
-from softway.mechanisms import DistanceStop, Hinge, Mechanism, Rigid, Slider, march
+from softway.mechanisms import DistanceStop, Hinge, Mechanism, PlaneStop, Rigid, Slider, march
 from softway.record import conduct_mechanism
 from softway.record.conduct_mechanism import MechanismRun, record_mechanism
 from softway.record.read.mechanism_summary import told
@@ -218,6 +218,16 @@ def test_solids_have_no_motion(tmp_path):
     assert not run.of_mechanism
     with pytest.raises(sw.InputError, match="not the run of a mechanism"):
         len(run.motion)
+
+
+def test_a_rod_that_jams_is_told(tmp_path):
+    rod = Rigid(mass=1.0, centre=(-0.5, 0.75**0.5), inertia=1.0 / 3.0, velocity=(1.0, 0.0))
+    tip = PlaneStop(between=("ground", "rod"), point=(0, 0), plane=(0, 0), normal=(0, 1), friction=1.8)
+    weight = sw.Gravity(acceleration=(0.0, -9.81))
+    scenario = sw.Scenario(bodies={"rod": rod}, stops={"tip": tip}, loads=(weight,), time=sw.Time(end=0.01, step=0.001))
+    run = sw.run(scenario, tmp_path / "run")
+    assert run.summary["stops"]["tip"]["jams"] == 1
+    assert "its sliding jammed once" in "".join(told(run.summary))
 
 
 def test_the_command_line_checks_runs_shows_and_draws(tmp_path, capsys):
