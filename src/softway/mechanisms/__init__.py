@@ -31,6 +31,7 @@ from softway.mechanisms.members.springs import PointForce as PointForce
 from softway.mechanisms.members.springs import Spring as Spring
 from softway.mechanisms.members.springs import Torque as Torque
 from softway.mechanisms.members.springs import TorsionSpring as TorsionSpring
+from softway.mechanisms.members.stops import AngleStop as AngleStop
 from softway.mechanisms.members.stops import DistanceStop as DistanceStop
 from softway.mechanisms.members.stops import PlaneStop as PlaneStop
 from softway.mechanisms.members.stops import StopEvent as StopEvent
@@ -41,6 +42,7 @@ from softway.mechanisms.robots.robot_file import RobotFile as RobotFile
 from softway.mechanisms.robots.robot_file import read_robot as read_robot
 
 __all__ = [
+    "AngleStop",
     "BallJoint",
     "BodyState",
     "Cylindrical",

@@ -15,6 +15,7 @@ from softway.mechanisms.members.joints import GROUND, JointRow, motor_row, trave
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.motors import Prescribed, Sine
 from softway.mechanisms.members.rows import axes
+from softway.mechanisms.members.stops import AngleStop
 
 FELT = 1e-9
 """Arm about an axis without inertia, relative to the greatest, below which a joint does not turn about it."""
@@ -59,9 +60,12 @@ def rows_of(mechanism: Mechanism, number: Mapping[str, int]) -> tuple[list[Row],
             rows.append(Row(name=name, bodies=(a, b), row=row, angles=own))
     rough = any(stop.friction for stop in mechanism.stops.values())
     for name, stop in mechanism.stops.items():
-        two = number[stop.between[0]], number[stop.between[1]]
-        all_of_it = [stop.row(), *(stop.tangential_rows() if rough else [])]
-        rows += [Row(name=name, bodies=two, row=row, fixed=False) for row in all_of_it]
+        between = mechanism.joints[stop.joint].between if isinstance(stop, AngleStop) else stop.between
+        two = number[between[0]], number[between[1]]
+        angles = ((list(turnings).index(stop.joint), stop.sign),) if isinstance(stop, AngleStop) else ()
+        rows.append(Row(name=name, bodies=two, row=stop.row(), fixed=False, angles=angles))
+        if rough:
+            rows += [Row(name=name, bodies=two, row=row, fixed=False) for row in stop.tangential_rows(mechanism.dim)]
     names = list(turnings)
     return rows + _gears(mechanism, number, names) + _motors(mechanism, number, names), turnings
 

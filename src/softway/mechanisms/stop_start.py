@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from softway.kernels.multibody.joint_rows import SLIDE
+from softway.kernels.multibody.joint_rows import ANGLE, SLIDE
 from softway.kernels.multibody.tables import Space
 from softway.mechanisms.arrays import Arrays
 from softway.mechanisms.impacts import StopMarch
@@ -34,4 +34,5 @@ def stop_march(it: Arrays, room: Space, stops: Mapping[str, Stop], law: Impacts,
 def _rows_of(it: Arrays, name: str) -> list[int]:
     """Rows of a stop: the normal one first."""
     mine = [k for k, other in enumerate(it.joint_of) if other == name]
-    return sorted(mine, key=lambda k: it.joints.kind[k] >= SLIDE)
+    without_value = (it.joints.kind >= SLIDE) | ((it.joints.kind == ANGLE) & (it.joints.angle[:, 0] < 0))
+    return sorted(mine, key=lambda k: bool(without_value[k]))

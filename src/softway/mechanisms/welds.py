@@ -12,11 +12,11 @@ from softway.mechanisms.members.joints import GROUND, Joint, Weld, in_space
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.rigid import Rigid
 from softway.mechanisms.members.springs import HingeTorque, PointForce, Spring, Torque, TorsionSpring
-from softway.mechanisms.members.stops import Stop
+from softway.mechanisms.members.stops import AngleStop, DistanceStop, PlaneStop, Stop
 
-Between = TypeVar("Between", bound=Joint | Stop | Spring)
+Between = TypeVar("Between", bound=Joint | PlaneStop | DistanceStop | Spring)
 On = TypeVar("On", bound=Torque | PointForce)
-About = TypeVar("About", bound=TorsionSpring | HingeTorque)
+About = TypeVar("About", bound=TorsionSpring | HingeTorque | AngleStop)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -49,7 +49,6 @@ def welded(mechanism: Mechanism) -> Welded:
         for name, joint in mechanism.joints.items()
         if not isinstance(joint, Weld) and (moved := _between(joint, part_of)) is not None
     }
-    stops = {n: held for n, stop in mechanism.stops.items() if (held := _between(stop, part_of)) is not None}
     _require_joints(mechanism, joints)
     turning = (TorsionSpring, HingeTorque)
     return Welded(
@@ -57,7 +56,7 @@ def welded(mechanism: Mechanism) -> Welded:
             mechanism,
             bodies=bodies,
             joints=joints,
-            stops=stops,
+            stops=_stops(mechanism, joints, part_of),
             springs=tuple(
                 spring
                 for s in mechanism.springs
@@ -72,6 +71,16 @@ def welded(mechanism: Mechanism) -> Welded:
         ),
         part_of=part_of,
     )
+
+
+def _stops(mechanism: Mechanism, joints: Mapping[str, object], part_of: Mapping[str, str]) -> dict[str, Stop]:
+    """Stops between different parts, and at the angles of joints between them."""
+    stops: dict[str, Stop] = {}
+    for name, stop in mechanism.stops.items():
+        held = _about(stop, joints) if isinstance(stop, AngleStop) else _between(stop, part_of)
+        if held is not None:
+            stops[name] = held
+    return stops
 
 
 def _require_joints(mechanism: Mechanism, joints: Mapping[str, object]) -> None:

@@ -18,7 +18,7 @@ from softway.mechanisms.members.joints import Joint
 from softway.mechanisms.members.motors import Motor
 from softway.mechanisms.members.rigid import Rigid
 from softway.mechanisms.members.springs import HingeTorque, PointForce, Spring, Torque, TorsionSpring
-from softway.mechanisms.members.stops import Impacts, Restitution, Stop
+from softway.mechanisms.members.stops import AngleStop, Impacts, Restitution, Stop
 from softway.meshes.files.listed_mesh import LeftOut
 from softway.meshes.files.mesh_files import FileMesh
 from softway.meshes.generators.recipes import MeshFile, MeshSource
@@ -222,7 +222,7 @@ class Scenario:
         """Rows of joints and stops for notebooks; none for solids."""
         rows = {"joints": self.joints, "stops": self.stops}
         return {
-            key: "\n".join(f"{n}: {type(p).__name__} of {p.between[0]} and {p.between[1]}" for n, p in parts.items())
+            key: "\n".join(f"{n}: {type(p).__name__} of {_linked(p)}" for n, p in parts.items())
             for key, parts in rows.items()
             if parts
         }
@@ -237,6 +237,11 @@ class Scenario:
             start=self.start,
             inertia=self.inertia,
         )
+
+
+def _linked(part: Joint | Stop) -> str:
+    """What a joint or a stop connects."""
+    return part.joint if isinstance(part, AngleStop) else " and ".join(part.between)
 
 
 def _described(name: str, body: Solid | Tool | Rigid) -> str:

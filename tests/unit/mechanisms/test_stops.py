@@ -5,6 +5,7 @@ import pytest
 
 import softway as sw
 from softway.mechanisms import (
+    AngleStop,
     DistanceStop,
     Hinge,
     Mechanism,
@@ -184,3 +185,36 @@ def test_an_overlap_at_the_start_is_refused() -> None:
 def test_wrong_stops_are_refused(make, told: str) -> None:
     with pytest.raises(sw.InputError, match=told):
         make()
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.5])
+def test_a_hinge_that_turns_between_two_limits(friction: float) -> None:
+    """An arm without weight at a constant rate: beyond a turn, and back from each limit with the ratio."""
+    arm = Rigid(mass=2.0, centre=(0.5, 0.0), inertia=0.5, velocity=(0.0, 2.0), spin=4.0)
+    hinge = Hinge(between=("ground", "arm"), at=(0.0, 0.0))
+    stops: dict = {
+        "open": AngleStop(joint="hinge", limit=7.0, restitution=0.5),
+        "shut": AngleStop(joint="hinge", limit=-1.0, side="least", restitution=1.0),
+    }
+    if friction:  # another stop with friction, far away
+        stops["wall"] = PlaneStop(
+            between=("ground", "arm"), point=(1.0, 0.0), plane=(5.0, 0.0), normal=(-1.0, 0.0), friction=friction
+        )
+    found, steps = events(Mechanism(bodies={"arm": arm}, joints={"hinge": hinge}, stops=stops), 6.0, 0.01)
+    assert [(event.stop, event.kind) for event in found] == [("open", "touch"), ("shut", "touch")]
+    np.testing.assert_allclose([event.time for event in found], [7.0 / 4.0, 7.0 / 4.0 + 8.0 / 2.0], rtol=3e-4)
+    assert found[0].velocity_after == pytest.approx(2.0, rel=1e-12)
+    assert float(steps[-1].bodies["arm"].spin[0]) == pytest.approx(2.0, rel=1e-12)
+    assert max(abs(s.energy_error) for s in steps) < 1e-13 and steps[-1].dissipation == pytest.approx(6.0, rel=1e-12)
+
+
+def test_a_weight_rests_on_the_limit_of_its_hinge() -> None:
+    arm = Rigid(mass=2.0, centre=(0.5, 0.0), inertia=0.05)
+    hinge = Hinge(between=("ground", "arm"), at=(0.0, 0.0))
+    limit = AngleStop(joint="hinge", limit=-0.3, side="least", restitution=0.4)
+    mechanism = Mechanism(bodies={"arm": arm}, joints={"hinge": hinge}, stops={"limit": limit}, gravity=(0.0, -9.81))
+    found, steps = events(mechanism, 2.0, 0.005)
+    assert found[-1].kind == "rest" and steps[-1].closed == ("limit",)
+    x, y = steps[-1].bodies["arm"].centre
+    assert np.arctan2(y, x) == pytest.approx(-0.3, abs=1e-12)
+    assert steps[-1].dissipation == pytest.approx(2.0 * 9.81 * 0.5 * np.sin(0.3), rel=1e-9)

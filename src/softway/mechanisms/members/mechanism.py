@@ -10,7 +10,7 @@ from softway.mechanisms.members.joints import GROUND, Joint, Rod, motor_row, tra
 from softway.mechanisms.members.motors import Motor
 from softway.mechanisms.members.rigid import Rigid
 from softway.mechanisms.members.springs import HingeTorque, PointForce, Spring, Torque, TorsionSpring
-from softway.mechanisms.members.stops import Impacts, Restitution, Stop
+from softway.mechanisms.members.stops import AngleStop, Impacts, Restitution, Stop
 from softway.units import MetrePerSecondSquared
 
 
@@ -84,12 +84,7 @@ class Mechanism:
         for name, joint in self.joints.items():
             points = joint.ends if isinstance(joint, Rod) else (joint.at,)
             self._require(f"joints.{name}", joint.between, points)
-        for name, stop in self.stops.items():
-            self._require(f"stops.{name}", stop.between, stop.places)
-        if self.impacts not in ("simultaneous", "sequential"):
-            raise InputError("impacts", f"{self.impacts!r}", "'simultaneous' or 'sequential'")
-        if self.restitution not in ("Newton", "Poisson"):
-            raise InputError("restitution", f"{self.restitution!r}", "'Newton' or 'Poisson'")
+        self._require_stops()
         self._require_names()
         for name, gear in self.gears.items():
             self._require_geared(f"gears.{name}.joints", gear)
@@ -125,7 +120,20 @@ class Mechanism:
             name for gear in self.gears.values() for name in gear.joints if travel_axis(self.joints[name]) is None
         ]
         motors = [motor.joint for motor in self.motors.values() if turning_axis(self.joints[motor.joint]) is not None]
-        return frozenset(springs + torques + geared + motors)
+        stops = [stop.joint for stop in self.stops.values() if isinstance(stop, AngleStop)]
+        return frozenset(springs + torques + geared + motors + stops)
+
+    def _require_stops(self) -> None:
+        """Refuse stops of unknown bodies or joints, and unknown laws of impacts."""
+        for name, stop in self.stops.items():
+            if isinstance(stop, AngleStop):
+                self._require_turning(f"stops.{name}", stop.joint)
+            else:
+                self._require(f"stops.{name}", stop.between, stop.places)
+        if self.impacts not in ("simultaneous", "sequential"):
+            raise InputError("impacts", f"{self.impacts!r}", "'simultaneous' or 'sequential'")
+        if self.restitution not in ("Newton", "Poisson"):
+            raise InputError("restitution", f"{self.restitution!r}", "'Newton' or 'Poisson'")
 
     def _require_names(self) -> None:
         """Refuse names that two members have."""

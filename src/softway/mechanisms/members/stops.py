@@ -7,9 +7,9 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.errors import InputError
-from softway.kernels.multibody.joint_rows import ALONG, DISTANCE, ROLL, SLIDE
+from softway.kernels.multibody.joint_rows import ALONG, ANGLE, DISTANCE, ROLL, SLIDE
 from softway.mechanisms.members.joints import JointRow, in_space
-from softway.units import Metre, Pure
+from softway.units import Metre, Pure, Radian
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,10 +73,10 @@ class PlaneStop:
         first, second = in_space(self.plane), in_space(self.point)
         return JointRow(kind=ALONG, first=first, second=second, n=normal, m=zero, value=self.radius)
 
-    def tangential_rows(self) -> list[JointRow]:
+    def tangential_rows(self, dim: int) -> list[JointRow]:
         """Rows of the sliding: one in the plane, two in space."""
         row = self.row()
-        across = tangents(row.n, len(self.point))
+        across = tangents(row.n, dim)
         return [replace(row, kind=SLIDE, m=one) for one in across]
 
 
@@ -134,10 +134,68 @@ class DistanceStop:
         value = float(self.distance) if self.side == "least" else -float(self.distance)  # the sign of the gap
         return JointRow(kind=DISTANCE, first=first, second=second, n=np.zeros(3), m=np.zeros(3), value=value)
 
-    def tangential_rows(self) -> list[JointRow]:
+    def tangential_rows(self, dim: int) -> list[JointRow]:
         """Rows of the sliding: one in the plane, two in space."""
-        kinds = [np.array([float(k), 0.0, 0.0]) for k in range(len(self.points[0]) - 1)]
+        kinds = [np.array([float(k), 0.0, 0.0]) for k in range(dim - 1)]
         return [replace(self.row(), kind=ROLL, m=one, value=self.contact) for one in kinds]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AngleStop:
+    """Stop at a limit of the angle of a joint; the angle counts beyond a turn.
+
+    Parameters
+    ----------
+    joint
+        Name of a joint that turns about an axis, such as a :class:`~softway.mechanisms.Hinge`.
+    limit
+        Angle from the start at which the stop acts [rad].
+    side
+        ``least`` or ``most``.
+    restitution
+        Coefficient of restitution, between 0 and 1: see ``restitution`` of :class:`~softway.mechanisms.Mechanism`.
+
+    Examples
+    --------
+    >>> AngleStop(joint="hinge", limit=1.5).gap
+    1.5
+    """
+
+    joint: str
+    limit: Radian
+    side: Literal["least", "most"] = "most"
+    restitution: Pure = 0.0
+
+    def __post_init__(self) -> None:
+        _require_coefficients(self.restitution, 0.0)
+        if self.side not in ("least", "most"):
+            raise InputError("side", f"{self.side!r}", "'least' or 'most'")
+        if not np.isfinite(self.limit):
+            raise InputError("limit", f"{self.limit:g} is not finite", "an angle")
+
+    @property
+    def friction(self) -> float:
+        """None."""
+        return 0.0
+
+    @property
+    def sign(self) -> float:
+        """Sign of the angle in the gap."""
+        return 1.0 if self.side == "least" else -1.0
+
+    @property
+    def gap(self) -> float:
+        """Gap at the start [rad]."""
+        return -self.sign * self.limit
+
+    def row(self) -> JointRow:
+        """Row of the stop, without the angle."""
+        zero = np.zeros(3)
+        return JointRow(kind=ANGLE, first=zero, second=zero, n=zero, m=zero, value=self.sign * self.limit)
+
+    def tangential_rows(self, dim: int) -> list[JointRow]:
+        """Rows of no sliding, as many as other stops have."""
+        return [replace(self.row(), value=0.0) for _ in range(dim - 1)]
 
 
 def tangents(normal: Array, dim: int) -> list[Array]:
@@ -150,7 +208,7 @@ def tangents(normal: Array, dim: int) -> list[Array]:
     return [first, np.cross(normal, first)]
 
 
-Stop = PlaneStop | DistanceStop
+Stop = PlaneStop | DistanceStop | AngleStop
 Impacts = Literal["simultaneous", "sequential"]
 Restitution = Literal["Newton", "Poisson"]
 
@@ -169,9 +227,9 @@ class StopEvent:
         ``touch``, ``rest``, ``release``, or ``jam``: the sliding has no continuous course (Painleve), and its velocity
         jumps without a touch.
     velocity_before, velocity_after
-        Velocity of the gap before and after an impact [m/s], negative while it closes.
+        Velocity of the gap before and after an impact [m/s], negative while it closes; of an angle [rad/s].
     impulse
-        Normal impulse of the impact [N s].
+        Normal impulse of the impact [N s]; of an angle [N m s].
     located
         False for a touch beyond the number that is located in a time step: it acts at the end of the time step.
     """

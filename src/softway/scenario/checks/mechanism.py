@@ -15,7 +15,7 @@ from softway.mechanisms.members.joints import GROUND
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.rigid import Rigid
 from softway.mechanisms.members.springs import Spring, Torque
-from softway.mechanisms.members.stops import Stop
+from softway.mechanisms.members.stops import AngleStop, Stop
 from softway.mechanisms.stop_rows import NEAR
 from softway.mechanisms.welds import welded
 from softway.record.storage.checkpoint import Checkpoints
@@ -163,7 +163,7 @@ def _built(scenario: Scenario) -> Mechanism:
     """Mechanism of the scenario."""
     bodies = {name: body for name, body in scenario.bodies.items() if isinstance(body, Rigid)}
     named: list[tuple[str, Iterable[str]]] = [(f"joints.{n}.between", j.between) for n, j in scenario.joints.items()]
-    named += [(f"stops.{n}.between", s.between) for n, s in scenario.stops.items()]
+    named += [(f"stops.{n}.between", s.between) for n, s in scenario.stops.items() if not isinstance(s, AngleStop)]
     named += [(f"springs[{k}].between", s.between) for k, s in enumerate(scenario.springs) if isinstance(s, Spring)]
     for where, names in named:
         for name in names:
@@ -207,7 +207,8 @@ def _gravity(scenario: Scenario, dim: int) -> tuple[float, ...] | None:
 def _require_open(name: str, stop: Stop, extent: float) -> None:
     """Refuse a stop that is overlapped at the start."""
     if stop.gap < -NEAR * extent:
-        problem = f"is overlapped by {-stop.gap:.3g} m at the start"
+        unit = "rad" if isinstance(stop, AngleStop) else "m"
+        problem = f"is overlapped by {-stop.gap:.3g} {unit} at the start"
         raise InputError(f"stops.{name}", problem, "places with a gap of zero or more")
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from softway.mechanisms.members.joints import GROUND, Cylindrical, PinSlot, Rod, Slider
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.springs import Spring
-from softway.mechanisms.members.stops import DistanceStop, PlaneStop
+from softway.mechanisms.members.stops import AngleStop, DistanceStop, PlaneStop
 from softway.record.write.mechanism.probes import TURNING, BodyReading
 
 FILE = "mechanism.json"
@@ -45,7 +45,7 @@ def outline(mechanism: Mechanism, readings: Sequence[BodyReading] = ()) -> dict[
             name: body.motion[1][2 if body.dim == 2 else 0 :].tolist() for name, body in mechanism.bodies.items()
         },
         "joints": joints,
-        "stops": [_stop(name, stop) for name, stop in mechanism.stops.items()],
+        "stops": [_stop(name, stop) for name, stop in mechanism.stops.items() if not isinstance(stop, AngleStop)],
         "springs": [
             _part(f"springs[{k}]", s, s.between, s.ends)
             for k, s in enumerate(mechanism.springs)

@@ -7,6 +7,7 @@ from table_mechanisms import FREE, LINKS
 from try_it import Call, Table, Try
 
 from softway.mechanisms import (
+    AngleStop,
     HingeTorque,
     PointForce,
     Polyline,
@@ -34,6 +35,15 @@ EDGES = np.array([[0, 1], [1, 2], [2, 3], [3, 0]])
 
 TABLE: Table = {
     "friction": Try(LINKS, "stops.s.friction=-0.1", "zero or more", "stops.s.friction=0.1"),
+    "limit of no joint": Try(
+        LINKS, "stops.t={kind='AngleStop', joint='i', limit=1}", "one of ['j', 'k']", "stops.t.joint=j"
+    ),
+    "limit": Call(lambda _: AngleStop(joint="j", limit=inf), "an angle", lambda _: AngleStop(joint="j", limit=1.0)),
+    "side of a limit": Call(
+        lambda _: AngleStop(joint="j", limit=1.0, side="up"),
+        "'most'",
+        lambda _: AngleStop(joint="j", limit=1.0, side="most"),
+    ),
     "motor of no joint": Try(LINKS, DRIVE.format("i"), "one of ['j', 'k']", "motors.m.joint=j"),
     "two motors of one motion": Try(
         LINKS,
