@@ -20,6 +20,8 @@ from softway.mechanisms.stop_start import stop_march
 from softway.mechanisms.welds import Welded, welded
 from softway.units import Second
 
+MOST = 1e15
+"""Number of slabs that no march takes."""
 HALVINGS = 12
 """Halvings of a slab that cannot be solved."""
 
@@ -144,6 +146,8 @@ def march(mechanism: Mechanism, *, until: Second, step: Second, every: int = 1) 
         raise InputError("step", f"{step:g} s is not positive, or longer than the march", f"at most {until:g} s")
     if every < 1:
         raise InputError("every", f"{every}", "1 or more")
+    if not until / step < MOST:
+        raise InputError("step", f"{until / step:.3g} slabs of {step:.3g} s", "an earlier end, or longer slabs")
     joined = welded(mechanism)
     return _steps(mechanism, joined, arrays(joined.mechanism), until, int(np.ceil(until / step * (1.0 - 1e-12))), every)
 

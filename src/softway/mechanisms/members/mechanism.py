@@ -8,7 +8,7 @@ from softway.errors import InputError
 from softway.mechanisms.members.couplings import Gear
 from softway.mechanisms.members.joints import GROUND, Joint, Rod, motor_row, travel_axis, turning_axis
 from softway.mechanisms.members.motors import Motor
-from softway.mechanisms.members.rigid import Rigid
+from softway.mechanisms.members.rigid import FAR, Rigid
 from softway.mechanisms.members.springs import HingeTorque, PointForce, Spring, Torque, TorsionSpring
 from softway.mechanisms.members.stops import AngleStop, Impacts, Restitution, Stop
 from softway.units import MetrePerSecondSquared
@@ -167,5 +167,5 @@ class Mechanism:
         if between[0] == between[1]:
             raise InputError(f"{where}.between", f"{between[0]!r} twice", "two different bodies")
         for point in points:
-            if len(point) != self.dim:
+            if len(point) != self.dim or not max(map(abs, point)) < FAR:
                 raise InputError(where, f"the place {point} in {self.dim}D", f"{self.dim} coordinates")

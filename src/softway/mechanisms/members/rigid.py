@@ -8,6 +8,8 @@ from softway.arrays import Array
 from softway.errors import InputError
 from softway.units import Kilogram, KilogramSquareMetre, Metre, MetrePerSecond, RadianPerSecond
 
+FAR = 1e100
+"""Coordinate beyond which nothing can be computed [m]."""
 ROUNDING = 1e-9
 """Relative error of an inertia that is rounding."""
 
@@ -53,7 +55,7 @@ class Rigid:
     def __post_init__(self) -> None:
         if not (np.isfinite(self.mass) and self.mass > 0.0):
             raise InputError("mass", f"{self.mass:g} kg is not positive", "the mass of the body")
-        if len(self.centre) not in (2, 3) or not np.isfinite(np.asarray(self.centre, float)).all():
+        if len(self.centre) not in (2, 3) or not (np.abs(np.asarray(self.centre, float)) < FAR).all():
             raise InputError("centre", f"{self.centre} is no place", "two coordinates in the plane, three in space")
         if self.velocity is not None and np.shape(self.velocity) != (self.dim,):
             raise InputError("velocity", f"{self.velocity} for a body in {self.dim}D", f"{self.dim} components")
@@ -61,6 +63,8 @@ class Rigid:
         if np.shape(self.spin) not in shapes or (self.dim == 3 and np.shape(self.spin) == () and self.spin != 0.0):
             what = "one component, about the normal of the plane" if self.dim == 2 else "three components"
             raise InputError("spin", f"{self.spin} for a body in {self.dim}D", what)
+        if not max(float(np.abs(part).max()) for part in self.motion) < FAR:
+            raise InputError("velocity", f"{self.velocity} with the spin {self.spin}", "velocities of a motion")
         _require_inertia(self.tensor)
 
     @property

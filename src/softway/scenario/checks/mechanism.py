@@ -219,9 +219,10 @@ def _slabs(time: Time) -> tuple[float, int]:
         raise InputError("time.step", "'auto' in a scenario of rigid bodies", remedy)
     if time.step > time.end:
         raise InputError("time.step", f"{time.step:g} s is longer than time.end = {time.end:g} s", "a shorter step")
-    slabs = int(np.ceil(time.end / time.step * (1.0 - 1e-12)))
-    if slabs > MOST:
-        raise InputError("time.end", f"needs {slabs:.3g} slabs of {time.step:.3g} s", "an earlier end, or longer slabs")
+    count = time.end / time.step
+    if count > MOST:
+        raise InputError("time.end", f"needs {count:.3g} slabs of {time.step:.3g} s", "an earlier end, or longer slabs")
+    slabs = int(np.ceil(count * (1.0 - 1e-12)))
     return time.end / slabs, slabs
 
 

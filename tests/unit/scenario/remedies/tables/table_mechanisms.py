@@ -128,6 +128,7 @@ TABLE: Table = {
     "mass": Try(LINKS, "bodies.a.mass=0", "the mass of the body", "bodies.a.mass=1"),
     "centre": Try(LINKS, "bodies.a.centre=[1]", "two coordinates", "bodies.a.centre=[0.5, 0]"),
     "velocity": Try(LINKS, "bodies.a.velocity=[1]", "2 components", "bodies.a.velocity=[1, 0]"),
+    "great velocity": Try(LINKS, "bodies.a.velocity=[1e200, 0]", "of a motion", "bodies.a.velocity=[1, 0]"),
     "spin": Try(LINKS, "bodies.a.spin=[1, 1, 1]", "one component", "bodies.a.spin=1"),
     "inertia in the plane": Try(LINKS, "bodies.a.inertia=[1, 1, 1]", "one moment", "bodies.a.inertia=1"),
     "inertia in space": Try(FREE, "bodies.a.inertia=1", "three principal", "bodies.a.inertia=[1, 1, 1]"),
@@ -217,6 +218,9 @@ TABLE: Table = {
     ),
     "until": Call(
         lambda _: march(one(), until=0.0, step=1.0), "after the start", lambda _: march(one(), until=1.0, step=1.0)
+    ),
+    "short step": Call(
+        lambda _: march(one(), until=1.0, step=1e-300), "longer", lambda _: march(one(), until=1.0, step=1e-3)
     ),
     "step": Call(
         lambda _: march(one(), until=1.0, step=2.0), "at most 1 s", lambda _: march(one(), until=1.0, step=1.0)
