@@ -8,6 +8,7 @@ import numpy as np
 from softway.arrays import Array, IntArray
 from softway.bodies.discretised import DiscreteSolid
 from softway.contact.surfaces.boundary import ContactSurface
+from softway.errors import within
 from softway.meshes.cells import FLAT
 from softway.model.model import Model
 from softway.obstacles.triangulated import Facets
@@ -108,7 +109,8 @@ def _distance(part: DiscreteSolid, corners: Array, x: Array) -> Array:
     cells: list[IntArray] = [f[:, list(s)] for name, f in boundary.items() for s in FLAT.get(name, ())]
     if not cells:
         return np.full(len(x), np.inf)
-    surface = Facets(points=corners, cells=np.concatenate(cells))
+    with within(f"bodies.{part.name}.mesh"):
+        surface = Facets(points=corners, cells=np.concatenate(cells))
     return surface.gap(x) if surface.closed else np.full(len(x), np.inf)
 
 

@@ -1,11 +1,14 @@
 """Bodies that overlap at the start: which nodes are looked at, and from which depth on."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import softway as sw
 from softway.errors import InputError
 from softway.march.start.initial_state import initial_state
+from softway.meshes.generators.shapes import rectangle
 
 LAW = sw.LinearElastic(E=1.0, nu=0.3)
 
@@ -116,3 +119,15 @@ def test_remedies_of_a_deep_press_fit_give_the_right_force() -> None:
     driven = sw.build(pressed_blocks(0.0, (4, 5), None, "apart"))
     *_, last = sw.march(driven, until=1.0, step=0.1)
     assert last.after.pressure["c"].sum() == pytest.approx(0.15, rel=1e-6)
+
+
+def test_the_refusal_of_a_body_with_a_crack_names_it() -> None:
+    """Two halves beside each other that share no nodes: their facets coincide, and inside is not defined."""
+    scene = pointed(0.1)
+    left, right = (rectangle((1.0, 2.0), (3, 4), origin=(x, 0.0)) for x in (0.0, 1.0))
+    cells = np.concatenate([left.blocks["quad4"], right.blocks["quad4"] + len(left.points)])
+    mesh = sw.meshes.Mesh(points=np.concatenate([left.points, right.points]), blocks={"quad4": cells})
+    cracked = sw.Solid(mesh=mesh, material=LAW, density=1.0)
+    with pytest.raises(InputError, match="facets coincide") as caught:
+        initial_state(sw.build(replace(scene, bodies={**scene.bodies, "low": cracked})))
+    assert caught.value.where == "bodies.low.mesh"
