@@ -273,9 +273,8 @@ def _one_cell(made: Mutant, rng: Rng) -> None:
     for holder, cls, _ in tables(made.data, Scenario):
         if "cells" in holder and cls.__name__ != "MeshFile":
             holder["cells"] = [1] * len(holder["cells"]) if isinstance(holder["cells"], list) else 1
-        if "between" in holder and made.dim > 1 and rng.random() < 0.5:
-            hint = hints(cls)["friction"]
-            holder["friction"] = drawn("friction", hint, None, made.names, rng, made.dim)
+        if "between" in holder and "friction" in hints(cls) and made.dim > 1 and rng.random() < 0.5:
+            holder["friction"] = drawn("friction", hints(cls)["friction"], None, made.names, rng, made.dim)
 
 
 def _supported(made: Mutant, rng: Rng) -> None:
