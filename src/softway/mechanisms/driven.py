@@ -3,7 +3,7 @@
 from collections.abc import Collection
 
 from softway.errors import InputError
-from softway.kernels.multibody.slab import begin, refactor
+from softway.kernels.multibody.slab import begin, prepare_joints
 from softway.kernels.multibody.tables import Space, space
 from softway.mechanisms.arrays import Arrays
 
@@ -15,11 +15,11 @@ def require_free_motions(it: Arrays, room: Space) -> None:
         return
     kept = room.active.copy()
     room.active[rows] = 0
-    refactor(it.bodies, it.joints, it.motion, room)
+    prepare_joints(it.bodies, it.joints, it.motion, room)
     rank = int((room.pivot > 0.0).sum())
     for row in rows:
         room.active[row] = kept[row]
-        refactor(it.bodies, it.joints, it.motion, room)
+        prepare_joints(it.bodies, it.joints, it.motion, room)
         if int((room.pivot > 0.0).sum()) == rank:
             problem = "prescribes a motion that joints or other motors determine at the start"
             raise InputError(f"motors.{it.joint_of[row]}", problem, "one motor for each motion that the joints leave")

@@ -108,11 +108,15 @@ class StopMarch:
         closed = self.stops.taken(time, span, extent, told, np.zeros(len(self.stops.rows)))
         for k in jammed[~self.stops.sliding[jammed]]:
             events.append(StopEvent(time=float(time), stop=self.stops.names[k], kind="jam"))
+        self._close(closed, time, events)
+        return span, touching, iterations
+
+    def _close(self, closed: BoolArray, time: float, events: list[StopEvent]) -> None:
+        """Close these stops (s,), and release the others."""
         for k in np.flatnonzero(self.stops.closed & ~closed):
             events.append(StopEvent(time=float(time), stop=self.stops.names[k], kind="release"))
         self.stops.closed[:] = closed
         self.stops.hold(self.stops.it.bodies.supported)
-        return span, touching, iterations
 
     def _first_touch(self, span: float, extent: float) -> tuple[float, int] | None:
         """Length at which the first gap closes, with its solution in the work space; None if none opens before."""
@@ -192,23 +196,16 @@ class StopMarch:
             raise NumericsError(f"the impact of {names} has no solution", time, "less friction, or sequential impacts")
         after, scale = self.stops.speeds(), float(np.abs(before).max())
         for k in np.flatnonzero(hits):
-            end = (
-                (time - self.touched[k]) * self.stops.restitution[k] / (1.0 - self.stops.restitution[k])
-                if resting[k]
-                else 0.0
-            )
+            e = self.stops.restitution[k]
+            end = (time - self.touched[k]) * e / (1.0 - e) if resting[k] else 0.0
             kind: Literal["touch", "rest"] = "rest" if resting[k] else "touch"
             one = StopEvent(time=float(time + end), stop=self.stops.names[k], kind=kind, impulse=float(impulse[k]))
             events.append(replace(one, velocity_before=float(before[k]), velocity_after=float(after[k])))
             self.touched[k] = time
-        closed = (self.stops.closed | touching) & (np.abs(after) <= STILL * scale)
-        for k in np.flatnonzero(self.stops.closed & ~closed):
-            events.append(StopEvent(time=float(time), stop=self.stops.names[k], kind="release"))
-        self.stops.closed[:] = closed
+        self._close((self.stops.closed | touching) & (np.abs(after) <= STILL * scale), time, events)
         self.stops.lose(excess - self.stops.excess())
         self.stops.see_sliding()
         self.stops.it.motion.impulse[self.stops.rows.ravel()] = 0.0
-        self.stops.hold(self.stops.it.bodies.supported)
 
     def _struck(self, these: BoolArray, ratio: Array, before: Array, rounding: float, impulse: Array) -> bool:
         """Impact at some stops (s,) at once with the velocities ``before`` (s,); False if it has no solution."""

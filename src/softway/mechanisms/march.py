@@ -8,8 +8,9 @@ import numpy as np
 from softway.arrays import Array
 from softway.errors import InputError, NumericsError
 from softway.kernels.multibody.energy import kinetic_energy, potential_energy
-from softway.kernels.multibody.slab import begin, end_slab, march_slabs, project_velocities
+from softway.kernels.multibody.slab import begin, end_slab, march_slabs
 from softway.kernels.multibody.tables import Space, space
+from softway.kernels.multibody.velocities import project_velocities
 from softway.mechanisms.arrays import Arrays, arrays
 from softway.mechanisms.driven import require_free_motions
 from softway.mechanisms.impacts import StopMarch
@@ -65,7 +66,7 @@ class MechanismStep:
     energy_kinetic, energy_potential
         [J].
     work, dissipation
-        Work of forces, torques and motors, and energy dissipated by dampers since the start [J].
+        Work of forces, torques and motors, and energy dissipated by dampers, impacts and friction since the start [J].
     energy_error
         Energy minus that at the start, minus work, plus dissipation [J].
     momentum, spin
@@ -77,7 +78,7 @@ class MechanismStep:
     scalar
         Greatest change of the scalar of the energy from 1 since the last step.
     independent
-        Number of the rows of joints and closed stops that do not depend on others.
+        Number of the rows of joints that do not depend on others.
     events
         Events of the stops since the last step.
     closed

@@ -11,7 +11,7 @@ import numpy as np
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import NumericsError
 from softway.kernels.multibody.energy import close_energy, kinetic_energy
-from softway.kernels.multibody.slab import refactor, take_motion, tell_joints
+from softway.kernels.multibody.slab import prepare_joints, take_motion, tell_joints
 from softway.kernels.multibody.tables import Space
 from softway.kernels.multibody.velocities import row_velocities
 from softway.kernels.rigid_contact.contact import book_slab, collide, collide_at_once, compliances, solve_contact_slab
@@ -192,7 +192,7 @@ class Stops:
 
     def at_state(self) -> Array:
         """Gaps (s,) at the present state [m]."""
-        refactor(self.it.bodies, self.it.joints, self.it.motion, self.room)
+        prepare_joints(self.it.bodies, self.it.joints, self.it.motion, self.room)
         return self.gaps()
 
     def speeds(self) -> Array:
@@ -205,16 +205,17 @@ class Stops:
         row_velocities(self.it.joints, self.it.motion, self.room, out)
         return out[self.rows]
 
-    def jammed(self) -> Array:
+    def jammed(self) -> IntArray:
         """Closed stops (k,) whose sliding has no continuous course at the present state.
 
         A normal force with its friction would not push the places of contact apart, ``W_nn - mu W_nt <= 0`` (Painleve).
         """
         moving = np.flatnonzero(self.closed & self.sliding & (self.friction > 0.0))
+        if not len(moving):
+            return moving
         found = []
-        for k in moving:
+        for k, slip in zip(moving, self._velocities()[moving, 1:], strict=True):
             W = compliances(self.it.joints, self.room, self.rows[k])[0]
-            slip = self._velocities()[k, 1:]
             if W[0, 0] - self.friction[k] * float(W[0, 1:] @ slip) / float(np.linalg.norm(slip)) <= 0.0:
                 found.append(k)
         return np.array(found, dtype=np.int64)

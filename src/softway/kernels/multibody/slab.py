@@ -14,10 +14,7 @@ from softway.kernels.multibody.energy import close_energy, kinetic_energy, poten
 from softway.kernels.multibody.forces import add_forces, add_torsion, work_of_slab
 from softway.kernels.multibody.joint_rows import add_angles, joint_row, turned_back
 from softway.kernels.multibody.rotations import cayley_turned, in_space, matrix_of, quaternion_turned
-from softway.kernels.multibody.velocities import joint_velocity
-from softway.kernels.multibody.velocities import project_velocities as project_velocities
-from softway.kernels.multibody.velocities import push_rows as push_rows
-from softway.kernels.multibody.velocities import row_velocities as row_velocities
+from softway.kernels.multibody.velocities import joint_velocity, project_velocities
 
 ITERATIONS = 60
 """Greatest number of iterations of a slab."""
@@ -164,25 +161,45 @@ def solve_motion(bodies, joints, springs, motion, space, h, extent):
         evaluate_rows(joints, motion, space, space.place, space.R1)
         copy_numbers(space.g, space.push)
         solve_band(space.lower, space.pivot, space.push)
-        missed = 0.0
         for k in range(len(P)):
             P[k] -= 2.0 / h * space.push[k]
-            if space.active[k] != 0:
-                missed = max(missed, abs(space.g[k]))
         motion_of(bodies, joints, springs, motion, space, h, P, z, new)
-        change = 0.0
-        for i in range(len(z) - 1):
-            for c in range(3):
-                change = max(change, abs(new[i, c] - z[i, c]) / extent, abs(new[i, 3 + c] - z[i, 3 + c]))
-                z[i, c], z[i, 3 + c] = new[i, c], new[i, 3 + c]
-        still = change <= CONVERGED and missed <= CLOSED * max(1.0, extent)
-        if still or (change <= NEARLY and change > 0.5 * before):
+        change = move_on(z, new, extent)
+        if has_converged(change, before, missed_joints(space), extent):
             return iteration
         slow = slow + 1 if change > SLOW * before else 0
         if slow >= 2 or not np.isfinite(change):
             return 0
         before = change
     return 0
+
+
+@uncounted
+def move_on(z, new, extent):
+    """Take the motion ``new`` (n, 6) as z; the greatest change, of places relative to the extent."""
+    change = 0.0
+    for i in range(len(z) - 1):
+        for c in range(3):
+            change = max(change, abs(new[i, c] - z[i, c]) / extent, abs(new[i, 3 + c] - z[i, 3 + c]))
+            z[i, c], z[i, 3 + c] = new[i, c], new[i, 3 + c]
+    return change
+
+
+@uncounted
+def missed_joints(space):
+    """Greatest value of the joints."""
+    worst = 0.0
+    for k in range(len(space.g)):
+        if space.active[k] != 0:
+            worst = max(worst, abs(space.g[k]))
+    return worst
+
+
+@uncounted
+def has_converged(change, before, missed, extent):
+    """True if a motion has changed by rounding only, or improves no more, and the joints are closed."""
+    still = change <= CONVERGED and missed <= CLOSED * max(1.0, extent)
+    return still or (change <= NEARLY and change > 0.5 * before)
 
 
 @uncounted_kernel
@@ -252,22 +269,3 @@ def begin(bodies, joints, springs, motion, space):
     motion.energy[:] = 0.0
     kinetic_energy(bodies, motion, motion.energy)
     potential_energy(bodies, springs, joints.angles, motion, space.R0, motion.energy)
-
-
-@uncounted_kernel
-def try_slab(bodies, joints, springs, motion, space, h, extent):
-    """Solve a slab without taking it; ``space.g`` has the values of all rows at its end.  Iterations, 0 if it fails."""
-    copy_numbers(motion.impulse, space.kept)
-    found = solve_motion(bodies, joints, springs, motion, space, h, extent)
-    if found == 0:
-        copy_numbers(space.kept, motion.impulse)
-        return 0
-    place_ends(space.z, motion.place, space.R0, space.place, space.R1)
-    evaluate_rows(joints, motion, space, space.place, space.R1)
-    return found
-
-
-@uncounted_kernel
-def refactor(bodies, joints, motion, space):
-    """Factor of the rows that are active now, at the present state."""
-    prepare_joints(bodies, joints, motion, space)

@@ -37,15 +37,21 @@ def push_rows(joints, motion, space, wanted):
     """Change the velocities of the active rows by ``wanted`` (r,); afterwards ``wanted`` has the impulses."""
     solve_band(space.lower, space.pivot, wanted)
     for k in range(len(wanted)):
-        for side in range(space.G.shape[1]):
-            i = joints.sides[k, side]
-            for c in range(3):
-                motion.velocity[i, c] += wanted[k] * space.MG[k, side, c]
-                motion.spin[i, c] += wanted[k] * (
-                    space.R0[i, 0, c] * space.MG[k, side, 3]
-                    + space.R0[i, 1, c] * space.MG[k, side, 4]
-                    + space.R0[i, 2, c] * space.MG[k, side, 5]
-                )
+        push_row(joints, motion, space, k, wanted[k])
+
+
+@uncounted
+def push_row(joints, motion, space, k, impulse):
+    """Change the velocities of the bodies by an impulse of a row."""
+    for side in range(space.G.shape[1]):
+        i = joints.sides[k, side]
+        for c in range(3):
+            motion.velocity[i, c] += impulse * space.MG[k, side, c]
+            motion.spin[i, c] += impulse * (
+                space.R0[i, 0, c] * space.MG[k, side, 3]
+                + space.R0[i, 1, c] * space.MG[k, side, 4]
+                + space.R0[i, 2, c] * space.MG[k, side, 5]
+            )
 
 
 @uncounted_kernel

@@ -11,17 +11,17 @@ from softway.kernels.multibody.band import solve_band
 from softway.kernels.multibody.drives import work_of_jumps
 from softway.kernels.multibody.joint_rows import SLIDE
 from softway.kernels.multibody.slab import (
-    CLOSED,
-    CONVERGED,
     ITERATIONS,
-    NEARLY,
     SLOW,
     evaluate_rows,
     guess_motion,
+    has_converged,
+    missed_joints,
     motion_of,
+    move_on,
     place_ends,
 )
-from softway.kernels.multibody.velocities import joint_velocity, project_velocities
+from softway.kernels.multibody.velocities import joint_velocity, project_velocities, push_row
 from softway.kernels.rigid_contact.cone import solve_cone
 from softway.kernels.rigid_contact.routh import impulses_in_order
 
@@ -87,7 +87,7 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
 
     Afterwards ``space.g`` has the values of all rows at its end, and ``space.G`` their means.
     """
-    space.kept[:] = motion.impulse  # and the rows at the start, since another try left its means
+    space.kept[:] = motion.impulse
     evaluate_rows(joints, motion, space, motion.place, space.R0)  # another try left its means
     W, C, U = compliances(joints, space, rows)
     W *= 0.5 * h
@@ -106,13 +106,8 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
             break
         _add_impulses(space, P, rows, U, x, h)
         motion_of(bodies, joints, springs, motion, space, h, P, z, new)
-        change = 0.0
-        for i in range(len(z) - 1):
-            for c in range(3):
-                change = max(change, abs(new[i, c] - z[i, c]) / extent, abs(new[i, 3 + c] - z[i, 3 + c]))
-                z[i, c], z[i, 3 + c] = new[i, c], new[i, 3 + c]
-        still = change <= CONVERGED and _missed(space) <= CLOSED * max(1.0, extent)
-        if still or (change <= NEARLY and change > 0.5 * before):
+        change = move_on(z, new, extent)
+        if has_converged(change, before, missed_joints(space), extent):
             place_ends(z, motion.place, space.R0, space.place, space.R1)
             evaluate_rows(joints, motion, space, space.place, space.R1)
             return iteration
@@ -122,16 +117,6 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
         before = change
     P[:] = space.kept
     return 0
-
-
-@inlined
-def _missed(space):
-    """Greatest value of the joints."""
-    worst = 0.0
-    for k in range(len(space.g)):
-        if space.active[k] != 0:
-            worst = max(worst, abs(space.g[k]))
-    return worst
 
 
 @kernel
@@ -196,16 +181,7 @@ def collide(bodies, joints, motion, space, rows, friction, through, rebound, low
 def push_contacts(bodies, joints, motion, space, rows, impulse):
     """Change the velocities by impulses (m,) of contact rows, with the joints; the work of motors is booked."""
     for i in range(len(rows)):
-        k, push = rows[i], impulse[i]
-        for side in range(2):
-            body = joints.sides[k, side]
-            for c in range(3):
-                motion.velocity[body, c] += push * space.MG[k, side, c]
-                motion.spin[body, c] += push * (
-                    space.R0[body, 0, c] * space.MG[k, side, 3]
-                    + space.R0[body, 1, c] * space.MG[k, side, 4]
-                    + space.R0[body, 2, c] * space.MG[k, side, 5]
-                )
+        push_row(joints, motion, space, rows[i], impulse[i])
     project_velocities(bodies, joints, motion, space)
     work_of_jumps(bodies, joints, motion, space)
 
