@@ -48,12 +48,12 @@ class Turning:
 
 def rows_of(mechanism: Mechanism, number: Mapping[str, int]) -> tuple[list[Row], Mapping[str, Turning]]:
     """Rows of the joints and stops, and the angles of the joints that turn about an axis."""
-    rows, turnings = [], {}
+    rows, turnings, counted = [], {}, mechanism.turning
     for name, joint in mechanism.joints.items():
         a, b = number[joint.between[0]], number[joint.between[1]]
         with within(f"joints.{name}"):
             found, axis = joint.rows(), turning_axis(joint)
-        if axis is not None and (name in mechanism.turning or any(row.ratio for row in found)):
+        if axis is not None and (name in counted or any(row.ratio for row in found)):
             turnings[name] = Turning(a=a, b=b, axis=axis)
         for row in found:
             own = ((list(turnings).index(name), row.ratio),) if row.ratio else ()

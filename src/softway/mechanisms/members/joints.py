@@ -12,7 +12,7 @@ from softway.errors import InputError
 from softway.kernels.multibody.joint_rows import ALONG, ANGLE, DISTANCE
 from softway.mechanisms.members.rows import Direction as Direction
 from softway.mechanisms.members.rows import JointRow as JointRow
-from softway.mechanisms.members.rows import axes, directions, not_turning, pinned, sliding, unit
+from softway.mechanisms.members.rows import axes, directions, not_turning, perpendicular, pinned, sliding, unit
 from softway.mechanisms.members.rows import in_space as in_space
 from softway.units import Metre
 
@@ -213,10 +213,7 @@ class Universal:
 
     def rows(self) -> list[JointRow]:
         """Rows of the joint."""
-        one, other = (unit(axis, 3, "axes") for axis in self.axes)
-        if abs(one @ other) > 1e-9:
-            raise InputError("axes", f"{self.axes} are not perpendicular", "two perpendicular directions")
-        return [*pinned(self.at), directions(one, other)]
+        return [*pinned(self.at), directions(*perpendicular(self.axes, "axes"))]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

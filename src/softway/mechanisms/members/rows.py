@@ -9,6 +9,8 @@ from softway.arrays import Array
 from softway.errors import InputError
 from softway.kernels.multibody.joint_rows import ALONG, DIRECTION, POINT
 
+SQUARE = 1e-9
+"""Cosine of the angle of two directions below which they are perpendicular."""
 Direction = tuple[float, ...]
 
 
@@ -48,9 +50,22 @@ def axes(axis: Direction | None, joint: object) -> tuple[Array, Array, Array]:
     if axis is None:
         raise InputError("axis", f"{type(joint).__name__} in space without an axis", "its direction, such as (0, 0, 1)")
     one = unit(axis, 3, "axis")
+    return one, *across(one)
+
+
+def across(one: Array) -> tuple[Array, Array]:
+    """Two unit directions (3,) in space that are perpendicular to each other and to a unit vector (3,)."""
     first = np.cross(one, np.eye(3)[int(np.argmin(np.abs(one)))])
     first = first / float(np.linalg.norm(first))
-    return one, first, np.cross(one, first)
+    return first, np.cross(one, first)
+
+
+def perpendicular(pair: tuple[Direction, Direction], where: str) -> tuple[Array, Array]:
+    """Unit vectors (3,) of two directions in space that are perpendicular to each other."""
+    one, other = (unit(direction, 3, where) for direction in pair)
+    if abs(one @ other) > SQUARE:
+        raise InputError(where, f"{pair} are not perpendicular", "two perpendicular directions")
+    return one, other
 
 
 def pinned(at: Sequence[float]) -> list[JointRow]:

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from softway.errors import InputError
+from softway.errors import InputError, positive
 from softway.mechanisms.members.rigid import Rigid
-from softway.mechanisms.members.rows import Direction, axes, unit
+from softway.mechanisms.members.rows import Direction, axes, perpendicular
 from softway.mechanisms.members.volumes import Spin, Velocity
 from softway.units import KilogramPerCubicMetre, Metre
 
@@ -25,7 +25,7 @@ def rigid_ball(
     >>> round(ball.mass, 4), round(ball.inertia[0], 6)
     (32.6726, 0.13069)
     """
-    _require_positive(radius=radius, density=density)
+    positive(radius=radius, density=density)
     mass = density * 4.0 / 3.0 * np.pi * radius**3
     return Rigid(mass=mass, centre=centre, inertia=(0.4 * mass * radius**2,) * 3, velocity=velocity, spin=spin)
 
@@ -48,7 +48,7 @@ def rigid_cylinder(
     >>> round(shaft.mass, 4), round(shaft.tensor[2, 2].item(), 4)
     (0.7854, 0.0982)
     """
-    _require_positive(radius=radius, length=length, density=density)
+    positive(radius=radius, length=length, density=density)
     mass = density * np.pi * radius**2 * length
     along, across = 0.5 * mass * radius**2, mass * (radius**2 / 4.0 + length**2 / 12.0)
     return Rigid(mass=mass, centre=centre, inertia=_about(axis, along, across), velocity=velocity, spin=spin)
@@ -70,10 +70,8 @@ def rigid_box(
     >>> rigid_box(size=(1.0, 2.0, 3.0), density=2.0, centre=(0.0, 0.0, 0.0)).tensor.diagonal().tolist()
     [13.0, 10.0, 5.0]
     """
-    _require_positive(size=min(size), density=density)
-    first, second = (unit(edge, 3, "edges") for edge in edges)
-    if abs(first @ second) > 1e-9:
-        raise InputError("edges", f"{edges} are not perpendicular", "two perpendicular directions")
+    positive(size=min(size), density=density)
+    first, second = perpendicular(edges, "edges")
     mass, turn = density * float(np.prod(size)), np.stack([first, second, np.cross(first, second)], axis=1)
     square = mass / 12.0 * np.square(size)
     tensor = (turn * (square.sum() - square)) @ turn.T
@@ -102,7 +100,7 @@ def rigid_rod(
     length = float(np.linalg.norm(end - start)) if start.shape == end.shape else 0.0
     if not length > 0.0:
         raise InputError("ends", f"{ends} are no two places", "two different places of as many coordinates")
-    _require_positive(line_density=line_density)
+    positive(line_density=line_density)
     mass, across = line_density * length, line_density * length**3 / 12.0
     inertia = across if len(start) == 2 else _about(tuple((end - start).tolist()), 0.0, across)
     centre = tuple((0.5 * (start + end)).tolist())
@@ -125,7 +123,7 @@ def rigid_disc(
     >>> round(rigid_disc(radius=1.0, density=2.0, centre=(0.0, 0.0)).inertia, 6)
     3.141593
     """
-    _require_positive(radius=radius, density=density, thickness=thickness)
+    positive(radius=radius, density=density, thickness=thickness)
     mass = density * thickness * np.pi * radius**2
     return Rigid(mass=mass, centre=centre, inertia=0.5 * mass * radius**2, velocity=velocity, spin=spin)
 
@@ -146,7 +144,7 @@ def rigid_rectangle(
     >>> rigid_rectangle(size=(2.0, 1.0), density=6.0, centre=(0.0, 0.0)).inertia
     5.0
     """
-    _require_positive(size=min(size), density=density, thickness=thickness)
+    positive(size=min(size), density=density, thickness=thickness)
     mass = density * thickness * size[0] * size[1]
     inertia = mass / 12.0 * (size[0] ** 2 + size[1] ** 2)
     return Rigid(mass=mass, centre=centre, inertia=inertia, velocity=velocity, spin=spin)
@@ -157,10 +155,3 @@ def _about(axis: Direction, along: float, across: float) -> tuple[tuple[float, .
     one = axes(axis, rigid_cylinder)[0]
     tensor = across * np.eye(3) + (along - across) * np.outer(one, one)
     return tuple(map(tuple, tensor.tolist()))
-
-
-def _require_positive(**values: float) -> None:
-    """Refuse sizes and densities that are not positive."""
-    for name, value in values.items():
-        if not (np.isfinite(value) and value > 0.0):
-            raise InputError(name, f"{value:g} is not positive", "a positive number")

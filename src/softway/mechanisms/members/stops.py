@@ -8,7 +8,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.errors import InputError
 from softway.kernels.multibody.joint_rows import ALONG, ANGLE, DISTANCE, ROLL, SLIDE
-from softway.mechanisms.members.joints import JointRow, in_space
+from softway.mechanisms.members.rows import JointRow, across, in_space
 from softway.units import Metre, Pure, Radian
 
 
@@ -202,10 +202,7 @@ def tangents(normal: Array, dim: int) -> list[Array]:
     """Unit vectors (3,) across a normal: one in the plane, two in space."""
     if dim == 2:
         return [np.array([normal[1], -normal[0], 0.0])]
-    least = np.eye(3)[int(np.argmin(np.abs(normal)))]
-    first = np.cross(normal, least)
-    first /= np.linalg.norm(first)
-    return [first, np.cross(normal, first)]
+    return list(across(normal))
 
 
 Stop = PlaneStop | DistanceStop | AngleStop
