@@ -49,12 +49,12 @@ class Progress:
     @property
     def fraction(self) -> float:
         """Completed fraction of the simulated time, 0 to 1."""
-        return min(1.0, self.time / self.until)
+        return _fraction(self.time, self.until)
 
     @property
     def left(self) -> float:
         """Estimated wall-clock time until the end at the present pace [s]; infinite while the pace is unknown."""
-        return max(0.0, self.until - self.time) / self.pace if self.pace > 0.0 else inf
+        return _left(self.time, self.until, self.pace)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -83,12 +83,20 @@ class MechanismProgress:
     @property
     def fraction(self) -> float:
         """Completed fraction of the simulated time, 0 to 1."""
-        return min(1.0, self.time / self.until)
+        return _fraction(self.time, self.until)
 
     @property
     def left(self) -> float:
         """Estimated wall-clock time until the end at the present pace [s]; infinite while the pace is unknown."""
-        return max(0.0, self.until - self.time) / self.pace if self.pace > 0.0 else inf
+        return _left(self.time, self.until, self.pace)
+
+
+def _fraction(time: float, until: float) -> float:
+    return min(1.0, time / until)
+
+
+def _left(time: float, until: float, pace: float) -> float:
+    return max(0.0, until - time) / pace if pace > 0.0 else inf
 
 
 Watch = Callable[[Progress], None]

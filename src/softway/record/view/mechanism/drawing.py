@@ -7,7 +7,8 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from softway.arrays import Array
-from softway.record.view.mechanism.pose import GROUND, Poses
+from softway.mechanisms.members.joints import GROUND
+from softway.record.view.mechanism.pose import Poses
 from softway.record.view.style import BLACK, CYCLE
 
 if TYPE_CHECKING:

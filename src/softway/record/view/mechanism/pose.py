@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from softway.arrays import Array
+from softway.mechanisms.members.joints import GROUND
 from softway.record.read.records import Records
 from softway.record.storage.table import Table
 from softway.record.write.mechanism.columns import placed
 
-GROUND = "ground"
 CORNER = ((-0.5, 0.866, 0.0), (-0.433, -0.25, 0.866))
 """View (2, 3) from a corner: z points upwards."""
 
