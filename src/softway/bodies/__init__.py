@@ -29,6 +29,7 @@ from softway.bodies.setup.loads import Gravity as Gravity
 from softway.bodies.setup.loads import Traction as Traction
 from softway.bodies.setup.placement import Placement as Placement
 from softway.bodies.setup.placement import Rotation as Rotation
+from softway.bodies.solid import Carried as Carried
 from softway.bodies.solid import Driven as Driven
 from softway.bodies.solid import Fixed as Fixed
 from softway.bodies.solid import Solid as Solid
@@ -40,6 +41,7 @@ __all__ = [
     "Axisymmetric",
     "Bar",
     "BulkViscosity",
+    "Carried",
     "Consistent",
     "DiscreteGradient",
     "Driven",

@@ -15,13 +15,16 @@ from softway.bodies.internal_force.elastic.elastic_force import elastic_force
 from softway.bodies.internal_force.inelastic.inelastic_force import inelastic_force
 from softway.bodies.internal_force.material_state import MaterialState
 from softway.bodies.internal_force.slab_average import SlabForce
+from softway.bodies.rigid_motion import CarriedNodes, RigidMotion
 from softway.bodies.setup.initial_fields import sample
-from softway.bodies.solid import Driven, Solid, Support
+from softway.bodies.solid import Carried, Driven, Solid, Support
 from softway.errors import InputError, within
 from softway.laws.law import Material, RateLaw
 from softway.meshes.cells import CELLS
 from softway.meshes.mesh import Mesh
 
+MOVING = Driven, Carried
+"""Supports that move their nodes."""
 UNSTRAINED = 1e-14
 """Strain below which a body is taken as undeformed."""
 
@@ -164,7 +167,7 @@ def _require_effect(supports: tuple[Support, ...], masks: Sequence[BoolArray]) -
     for k, support in enumerate(supports):
         over = np.zeros_like(masks[k])
         for j, other in enumerate(supports):
-            if isinstance(other, Driven) and other != support and (j > k or not isinstance(support, Driven)):
+            if isinstance(other, MOVING) and other != support and (j > k or not isinstance(support, MOVING)):
                 over |= masks[j]
         if not (masks[k] & ~over).any():
             problem = f"all components on {support.on!r} are driven by other supports"
@@ -192,16 +195,64 @@ def supported_components(support: Support, mesh: Mesh) -> BoolArray:
     return supported
 
 
+Moved = tuple[Driven | CarriedNodes, BoolArray]
+"""Support that moves nodes, with the mask (n, d) of the components that it moves."""
+
+
 def driven_components(
-    parts: Sequence[DiscreteSolid], solids: Mapping[str, Solid], shape: tuple[int, ...]
-) -> tuple[tuple[Driven, BoolArray], ...]:
-    """Driven supports with the masks (n, d) of the components that they move; later supports have precedence."""
-    found = []
+    parts: Sequence[DiscreteSolid],
+    solids: Mapping[str, Solid],
+    displacement: Array,
+    motions: Mapping[str, RigidMotion],
+) -> tuple[Moved, ...]:
+    """Driven supports, and nodes that rigid bodies carry, with the components that they move; later supports have
+    precedence.
+
+    Parameters
+    ----------
+    displacement
+        (n, d) initial displacement of all nodes [m].
+    motions
+        Motions of the rigid bodies at the start.
+
+    Raises
+    ------
+    InputError
+        If a rigid body does not exist, or nodes that it carries have other driven supports.
+    """
+    found: list[Moved] = []
     for part in parts:
         for k, support in enumerate(solids[part.name].supports):
-            if isinstance(support, Driven):
+            if isinstance(support, MOVING):
                 with within(f"bodies.{part.name}.supports[{k}]"):
-                    where = np.zeros(shape, bool)
+                    where = np.zeros(displacement.shape, bool)
                     where[part.nodes] = supported_components(support, part.mesh)
-                found.append((support, where))
+                    found.append((_moving(support, part, where, displacement, motions), where))
+                    _require_apart(found)
     return tuple(found)
+
+
+def _moving(
+    support: Driven | Carried,
+    part: DiscreteSolid,
+    where: BoolArray,
+    displacement: Array,
+    motions: Mapping[str, RigidMotion],
+) -> Driven | CarriedNodes:
+    """Support as the model has it: of a rigid body with the nodes (k,) that it carries."""
+    if isinstance(support, Driven):
+        return support
+    if support.by not in motions:
+        problem, remedy = f"there is no rigid body {support.by!r}", f"one of {sorted(motions)}"
+        raise InputError("by", problem, remedy if motions else "a Rigid among the bodies")
+    nodes = np.flatnonzero(where.any(axis=1))
+    place = (part.mesh.points + displacement[part.nodes])[nodes - part.nodes.start]
+    return CarriedNodes(by=support.by, nodes=nodes, place=place, motion=motions[support.by])
+
+
+def _require_apart(found: Sequence[Moved]) -> None:
+    """Refuse nodes that a rigid body carries and another support drives."""
+    last, where = found[-1]
+    for other, there in found[:-1]:
+        if (where & there).any() and (isinstance(last, CarriedNodes) or isinstance(other, CarriedNodes)):
+            raise InputError("on", "nodes of a second driven support", "tags without common nodes")

@@ -6,6 +6,7 @@ A pose maps the points y of a shape into space, ``x = R y + s``.
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -197,6 +198,14 @@ class Turning:
 Motion = Still | Translation | Table | Turning
 
 
+class Posed(Protocol):
+    """Motion of a rigid shape."""
+
+    def at(self, time: float) -> Pose:
+        """Pose at a time [s]."""
+        ...
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class PlacedShape:
     """Shape in a pose, with its distances and normals in space.
@@ -231,7 +240,7 @@ class PlacedShape:
         return gap, self.pose.turn(normal)
 
 
-def carried_tool(motion: Motion, start: float, end: float, x: Array) -> Array:
+def carried_tool(motion: Posed, start: float, end: float, x: Array) -> Array:
     """Displacement (p, d) [m] between two times [s] of the material points of a tool that are at x (p, d) at the end.
 
     Examples

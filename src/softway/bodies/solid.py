@@ -2,7 +2,7 @@
 
 from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 
@@ -109,7 +109,29 @@ class Driven:
         return tuple((float(t), float(c)) for t, c, bent in zip(tau[1:-1], changes, real, strict=True) if bent)
 
 
-Support = Fixed | Driven
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Carried:
+    """Support that holds the nodes of a tag on a rigid body, which carries them: a weld of a solid to the body.
+
+    Parameters
+    ----------
+    on
+        Tag of the nodes.
+    by
+        Name of the rigid body.
+
+    Examples
+    --------
+    >>> Carried(on="left", by="crank").components
+    'all'
+    """
+
+    on: str
+    by: str
+    components: ClassVar[str] = "all"
+
+
+Support = Fixed | Driven | Carried
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -131,7 +153,7 @@ class Solid:
     velocity, displacement
         Initial fields.  Driven supports keep the displacement; under fixed ones it has to be zero.
     supports
-        Fixed and driven nodes.
+        Fixed and driven nodes, and nodes that rigid bodies carry.
     force
         Average of the internal force over a time step (slab).
     dilatation

@@ -8,6 +8,7 @@ import numpy as np
 from softway.arrays import Array, IntArray
 from softway.bodies.assembled.vector_space import VectorSpace
 from softway.bodies.discretised import DiscreteSolid
+from softway.bodies.rigid_motion import RigidShape
 from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact, DualMortar, NodeToSurface
 from softway.contact.contact_set import ContactSet, SurfacePair
@@ -20,6 +21,8 @@ from softway.contact.surfaces.boundary import ContactSurface, Edges, outward
 from softway.contact.surfaces.wall_thickness import nodal_thickness
 from softway.contact.tangential_rows import TangentialRows
 from softway.errors import InputError, within
+
+Body = Solid | Tool | RigidShape
 
 REACH = 1.0
 """Distance, in mean edges of the coarser surface, within which surfaces are paired before a slab."""
@@ -48,7 +51,7 @@ class ContactAssembly:
 
 
 def assemble_contacts(
-    contacts: Sequence[Contact], bodies: Mapping[str, Solid | Tool], parts: Sequence[DiscreteSolid], space: VectorSpace
+    contacts: Sequence[Contact], bodies: Mapping[str, Body], parts: Sequence[DiscreteSolid], space: VectorSpace
 ) -> ContactAssembly:
     """Assemble the contact methods and friction laws of the declared contacts.
 
@@ -135,10 +138,10 @@ def _of(contact: IntArray, methods: Sequence[NodeToTool | SurfacePair], k: int) 
     return [m for m, s in zip(methods, starts, strict=True) if len(m.node) and contact[s] == k]
 
 
-def _check_shape(contact: Contact, bodies: Mapping[str, Solid | Tool], points: Array) -> None:
+def _check_shape(contact: Contact, bodies: Mapping[str, Body], points: Array) -> None:
     """Refuse a tool whose dimension differs from that of the solids."""
     tool = bodies.get(contact.opponent)
-    if isinstance(tool, Tool):
+    if isinstance(tool, Tool | RigidShape):
         with within(f"bodies.{contact.opponent}.shape"):
             tool.shape.gap(points[:1])
 
@@ -176,7 +179,7 @@ def _thickness(contacts: Sequence[Contact], parts: Sequence[DiscreteSolid], poin
 
 def _methods(
     contact: Contact,
-    bodies: Mapping[str, Solid | Tool],
+    bodies: Mapping[str, Body],
     parts: Sequence[DiscreteSolid],
     points: Array,
     thickness: Array,
@@ -185,12 +188,12 @@ def _methods(
     one = _part(parts, contact.body, "between")
     names = [p.name for p in parts]
     tool = bodies.get(contact.opponent)
-    if isinstance(tool, Tool):
+    if isinstance(tool, Tool | RigidShape):
         if contact.method is not None and not isinstance(contact.method, NodeToSurface):
             raise InputError("method", f"{contact.method} against a tool", "NodeToSurface, or nothing")
         with within("between"):
             nodes = one.mesh.nodes(contact.tag) + one.nodes.start
-        return [NodeToTool(node=nodes, tool=tool)], (names.index(one.name), -1), nodes, []
+        return [NodeToTool(node=nodes, tool=tool, name=contact.opponent)], (names.index(one.name), -1), nodes, []
     other = _part(parts, contact.opponent, "between")
     if other is one:
         raise InputError("between", f"{one.name!r} against itself", "two bodies")

@@ -1,7 +1,7 @@
 """All contacts of a model, with the contact search of every slab (time step)."""
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -10,6 +10,7 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
 from softway.bodies.assembled.vector_space import LocalSpace, VectorSpace
+from softway.bodies.rigid_motion import RigidShape
 from softway.contact.contact_rows import ContactRows
 from softway.contact.node_to_surface.edge_to_edge import EdgeContact
 from softway.contact.node_to_surface.kept_facets import KeptEdges, keep_facets
@@ -125,6 +126,14 @@ class ContactSet:
         )
         overlap = tuple(m.meet(x0, x1, self.reach) for m in self.overlap_methods)
         return SlabContacts(contacts=self, surfaces=found, overlap_surfaces=overlap, node=self.node, fixed_rows=None)
+
+    def with_shapes(self, shapes: Mapping[str, RigidShape]) -> "ContactSet":
+        """Contacts with other motions of rigid bodies, by the name of the body."""
+        methods = tuple(
+            replace(m, tool=shapes[m.name]) if isinstance(m, NodeToTool) and m.name in shapes else m
+            for m in self.methods
+        )
+        return replace(self, methods=methods)
 
     def with_fixed_rows(self) -> "ContactSet":
         """Contacts with their rows computed in advance if these never change."""

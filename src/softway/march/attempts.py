@@ -18,7 +18,7 @@ from softway.march.results.slab_result import SlabResult
 from softway.march.results.step import Certificate, Ledger
 from softway.march.results.trying import watched
 from softway.march.rules.slab_rule import Attempt
-from softway.march.slab_step import Stepper, advance
+from softway.march.slab.slab_step import Stepper, advance
 from softway.march.start.slab_length import proposed
 from softway.march.step_control import CRAWL, ENDLESS
 from softway.model.model import Model

@@ -14,7 +14,7 @@ from softway.march.model_state import ModelState, split_states
 from softway.march.results.step import Report, Step
 from softway.march.results.trying import TryWatch
 from softway.march.rules.slab_rule import Method
-from softway.march.slab_step import Stepper
+from softway.march.slab.slab_step import Stepper
 from softway.march.start.preparation import prepare
 from softway.march.step_control import StepControl, crushing, may_grow
 from softway.model.build import build

@@ -11,6 +11,7 @@ from softway.bodies.assembled import material_states
 from softway.contact.contact_rows import ContactRows
 from softway.errors import InputError
 from softway.model.model import Model
+from softway.model.rigid_bodies import RigidState
 from softway.model.scene import State
 from softway.solve.equations.slab_values import SlabStart
 
@@ -24,7 +25,7 @@ class ModelState:
     ``start`` contains displacement, velocity, internal force and stored energy; ``acceleration`` (n, d) is the slope of
     the velocity in the previous slab; ``closed`` (m,) are the rows in contact, ``pressure`` (m,) and ``traction``
     (m, d) their normal and tangential forces, ``sliding`` (m,) the slipping rows; ``rows`` are the rows of these
-    forces, None if a search finds the same rows.
+    forces, None if a search finds the same rows; ``rigid`` is the state of the rigid bodies.
     """
 
     time: float
@@ -35,6 +36,7 @@ class ModelState:
     traction: Array
     sliding: BoolArray
     rows: ContactRows | None = None
+    rigid: RigidState | None = None
 
     def force_rows(self, rows: ContactRows) -> ContactRows:
         """Rows of the contact forces at the start of a slab; ``rows`` are those found by its search.
@@ -88,6 +90,7 @@ def join_states(model: Model, state: State, span: float = 1.0) -> ModelState:
         pressure=np.concatenate([state.pressure[n] for n in labels]) if labels else np.zeros(0),
         traction=np.concatenate([state.traction[n] for n in labels]) if rough else np.zeros((count, model.shape[1])),
         sliding=np.concatenate([state.sliding[n] for n in labels]) if rough else np.zeros(count, bool),
+        rigid=None if model.rigid is None else model.rigid.state_of(state.rigid, state.time),
     )
 
 
@@ -124,6 +127,7 @@ def split_states(model: Model, state: ModelState) -> State:
         traction=_by_contact(model, state.traction),
         sliding=_by_contact(model, state.sliding),
         fields={c.field.name: model.split(f.values) for c, f in zip(model.companions, state.start.fields, strict=True)},
+        rigid={} if model.rigid is None or state.rigid is None else model.rigid.bodies(state.rigid),
     )
 
 

@@ -167,35 +167,51 @@ def _steps(
     begin(it.bodies, it.joints, it.springs, it.motion, room)
     initial = float(it.motion.energy.sum())
     told, h, done = np.zeros(3), until / slabs, 0
-    events = [] if stops is None else stops.start(h, _extent(it))
+    events = [] if stops is None else stops.start(h, extent_of(it))
     yield _step(mechanism, joined, it, room, 0.0, initial, told, 0, stops, events)
     while done < slabs:
         told[:], events = 0.0, []
         iterations, goal = 0, min(slabs, done + every)
         while done < goal:
-            extent = _extent(it)
+            extent = extent_of(it)
             if stops is not None:
                 more, used = stops.slab(done * h, h, extent, told)
                 events += more
                 done, iterations = done + 1, iterations + used
                 continue
-            solved, used = march_slabs(it.bodies, it.joints, it.springs, it.motion, room, h, goal - done, extent, told)
-            done, iterations = done + solved, iterations + used
-            if done < goal:
-                iterations += _hard_slab(it, room, done * h, h, told)
-                done += 1
+            iterations += march_on(it, room, done * h, h, goal - done, told)
+            done = goal
         time = until if done == slabs else done * h
         yield _step(mechanism, joined, it, room, time, initial, told, iterations, stops, events)
 
 
-def _extent(it: Arrays) -> float:
+def extent_of(it: Arrays) -> float:
     """Extent of the mechanism, the scale of rounding [m]."""
     return max(it.extent, float(np.abs(it.motion.place).max()), 1e-300)
 
 
+def march_on(it: Arrays, room: Space, time: float, h: float, count: int, told: Array) -> int:
+    """March a number of slabs from a time; their iterations.
+
+    Raises
+    ------
+    NumericsError
+        If a slab has no solution at any length.
+    """
+    done = iterations = 0
+    while done < count:
+        tables = it.bodies, it.joints, it.springs, it.motion, room
+        solved, used = march_slabs(*tables, h, count - done, extent_of(it), told)
+        done, iterations = done + solved, iterations + used
+        if done < count:
+            iterations += _hard_slab(it, room, time + done * h, h, told)
+            done += 1
+    return iterations
+
+
 def _hard_slab(it: Arrays, room: Space, time: float, h: float, told: Array, halvings: int = 0) -> int:
     """Solve a slab in which the fixed point fails by Newton's method, or else in two halves, and so on."""
-    found = newton_motion(it, room, h, _extent(it))
+    found = newton_motion(it, room, h, extent_of(it))
     if found:
         end_slab(it.bodies, it.joints, it.springs, it.motion, room, h, told)
         return found
@@ -207,7 +223,7 @@ def _hard_slab(it: Arrays, room: Space, time: float, h: float, told: Array, halv
         raise NumericsError(what, time, "a shorter step, or a mechanism that can move on from there")
     iterations = 0
     for k in range(2):
-        one, used = march_slabs(it.bodies, it.joints, it.springs, it.motion, room, 0.5 * h, 1, _extent(it), told)
+        one, used = march_slabs(it.bodies, it.joints, it.springs, it.motion, room, 0.5 * h, 1, extent_of(it), told)
         iterations += used if one else _hard_slab(it, room, time + 0.5 * k * h, 0.5 * h, told, halvings + 1)
     return iterations
 
@@ -234,7 +250,7 @@ def _step(
     turned = np.einsum("nij,njk,nk->ni", room.R0, it.bodies.inertia, motion.spin)
     return MechanismStep(
         time=time,
-        bodies={name: _state(mechanism, joined, it, room, name) for name in mechanism.bodies},
+        bodies={name: body_state(mechanism, joined, it, room, name) for name in mechanism.bodies},
         energy_kinetic=total[0],
         energy_potential=total[1],
         work=float(motion.work[0]),
@@ -255,7 +271,7 @@ def _step(
     )
 
 
-def _state(mechanism: Mechanism, joined: Welded, it: Arrays, room: Space, name: str) -> BodyState:
+def body_state(mechanism: Mechanism, joined: Welded, it: Arrays, room: Space, name: str) -> BodyState:
     """State of a body, which may be welded to others or to the ground."""
     dim, motion, whole = mechanism.dim, it.motion, joined.part_of[name]
     k = it.names.index(whole) if whole in it.names else len(it.names)

@@ -7,20 +7,33 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from softway.arrays import Array, BoolArray, IntArray
+from softway.arrays import Array, IntArray
 from softway.bodies.assembled.nodal_loads import dead_load
 from softway.bodies.assembled.nodal_masses import solid_following, solid_mass
 from softway.bodies.assembled.vector_space import LocalSpace
-from softway.bodies.discretised import DiscreteSolid, discretise, driven_components, initial, supported_components
+from softway.bodies.discretised import (
+    MOVING,
+    DiscreteSolid,
+    Moved,
+    discretise,
+    driven_components,
+    initial,
+    supported_components,
+)
 from softway.bodies.dof_map import DofMap, MatrixSum, joined
-from softway.bodies.solid import Driven, Solid
+from softway.bodies.rigid_motion import CarriedNodes, RigidMotion, RigidShape
+from softway.bodies.solid import Solid, Tool
 from softway.contact.assemble import assemble_contacts
 from softway.contact.impact_rule import Energy, ImpactRule
 from softway.errors import InputError, within
 from softway.model.field import FieldEquations
 from softway.model.model import Model, assembled_tangent
+from softway.model.rigid_bodies import RigidBodies, rigid_bodies
 from softway.model.scene import Scene, StaticStart
 from softway.tolerances import MOTION
+
+SOON = 1e-6
+"""Time over which rigid bodies coast at the start [s]."""
 
 
 def build(scene: Scene) -> Model:
@@ -32,17 +45,15 @@ def build(scene: Scene) -> Model:
         With the place in the scene: if a tag matches nothing, a body does not exist, or dimensions are mixed.
     """
     solids, timing, factor = _solids(scene), _timing(scene), scene.inertia.factor
-    parts = _parts(solids)
-    met = assemble_contacts(scene.contacts, scene.bodies, parts, LocalSpace(tuple(p.nodes for p in parts)))
-    light = met.nodes if timing.massless and factor > 0.0 else np.zeros(0, int)
-    weight, follow = _inertia(parts, solids, light, timing.spread)
-    mass = sp.csr_array(factor * weight) if factor > 0.0 else sp.csr_array(weight.shape)
-    fields = [initial(p, solids[p.name]) for p in parts]
+    parts, (rigid, motions) = _parts(solids), _rigid(scene)
+    tools, space = _tools(scene, rigid, motions), LocalSpace(tuple(p.nodes for p in parts))
+    met = assemble_contacts(scene.contacts, {**solids, **tools}, parts, space)
+    fields, velocity = _initial_fields(parts, solids)
+    driven = driven_components(parts, solids, np.concatenate(fields), motions)
     dofs = joined([p.dofs for p in parts])
-    weights = np.asarray(weight.sum(axis=1)).ravel()
-    driven = driven_components(parts, solids, dofs.free.shape)
-    displacement = _displacement(parts, solids, [u for u, _ in fields], driven)
-    loads = dead_load(parts, weights, scene.loads, "loads")
+    light = _light(met.nodes if timing.massless else met.nodes[:0], driven)[: None if factor > 0.0 else 0]
+    mass, weights, follow = _inertia(parts, solids, light, timing.spread, factor)
+    displacement, loads = _displacement(parts, solids, fields, driven), dead_load(parts, weights, scene.loads, "loads")
     return Model(
         scene=scene,
         parts=parts,
@@ -58,7 +69,7 @@ def build(scene: Scene) -> Model:
         loads=loads,
         weight=weights,
         displacement=displacement,
-        velocity=np.concatenate([v for _, v in fields]) * dofs.free,
+        velocity=velocity * dofs.free,
         contacts=met.contacts.cleared(displacement, [c.start == "apart" for c in scene.contacts]),
         opponents=met.opponents,
         touchable=met.nodes,
@@ -69,14 +80,22 @@ def build(scene: Scene) -> Model:
         timing=timing,
         friction=met.friction,
         space=met.contacts.space,
+        tools=tools,
+        rigid=rigid,
     )
+
+
+def _initial_fields(parts: Sequence[DiscreteSolid], solids: Mapping[str, Solid]) -> tuple[list[Array], Array]:
+    """Given initial displacements (n, d) of the parts, and the velocity (n, d) of all nodes."""
+    fields = [initial(p, solids[p.name]) for p in parts]
+    return [u for u, _ in fields], np.concatenate([v for _, v in fields])
 
 
 def _displacement(
     parts: Sequence[DiscreteSolid],
     solids: Mapping[str, Solid],
     fields: Sequence[Array],
-    driven: Sequence[tuple[Driven, BoolArray]],
+    driven: Sequence[Moved],
 ) -> Array:
     """Initial displacement (n, d) from those of the parts; driven components keep theirs, fixed ones are zero.
 
@@ -89,7 +108,7 @@ def _displacement(
     moved = np.logical_or.reduce([where for _, where in driven], initial=False) | np.zeros(out.shape, bool)
     for part, field in zip(parts, fields, strict=True):
         for k, support in enumerate(solids[part.name].supports):
-            if isinstance(support, Driven):
+            if isinstance(support, MOVING):
                 continue
             held = supported_components(support, part.mesh) & ~moved[part.nodes]
             wrong = held & (np.abs(field) > MOTION * np.abs(field).max())
@@ -103,15 +122,23 @@ def _displacement(
     return out
 
 
+def _light(touching: IntArray, driven: Sequence[Moved]) -> IntArray:
+    """Nodes (k,) without inertia: those that touch, and those that rigid bodies carry."""
+    return np.unique(np.concatenate([touching, *(s.nodes for s, _ in driven if isinstance(s, CarriedNodes))]))
+
+
 def _inertia(
-    parts: Sequence[DiscreteSolid], solids: Mapping[str, Solid], light: IntArray, spread: int
-) -> tuple[sp.csr_array, sp.csr_array]:
-    """Mass (n, n) with massless nodes ``light`` (k,), and velocities (n, n) of all nodes from the others."""
+    parts: Sequence[DiscreteSolid], solids: Mapping[str, Solid], light: IntArray, spread: int, factor: float
+) -> tuple[sp.csr_array, Array, sp.csr_array]:
+    """Mass (n, n) with massless nodes ``light`` (k,) times the ``factor``, nodal mass (n,) for the weight, and
+    velocities (n, n) of all nodes from those with mass.
+    """
     own = [light[(light >= p.nodes.start) & (light < p.nodes.stop)] - p.nodes.start for p in parts]
     masses = [solid_mass(p, solids[p.name], nodes, spread) for p, nodes in zip(parts, own, strict=True)]
     follow = [solid_following(p, nodes) for p, nodes in zip(parts, own, strict=True)]
-    mass, following = (sp.csr_array(sp.block_diag(blocks, format="csr")) for blocks in (masses, follow))
-    return mass, following
+    weight, following = (sp.csr_array(sp.block_diag(blocks, format="csr")) for blocks in (masses, follow))
+    mass = sp.csr_array(factor * weight) if factor > 0.0 else sp.csr_array(weight.shape)
+    return mass, np.asarray(weight.sum(axis=1)).ravel(), following
 
 
 def _solids(scene: Scene) -> dict[str, Solid]:
@@ -129,6 +156,30 @@ def _parts(solids: Mapping[str, Solid]) -> tuple[DiscreteSolid, ...]:
     if len({p.mesh.dim for p in parts}) > 1:
         raise InputError("bodies", "solids of different space dimension in one scene", "meshes of one dimension")
     return tuple(parts)
+
+
+def _rigid(scene: Scene) -> tuple[RigidBodies | None, dict[str, RigidMotion]]:
+    """Rigid bodies of the scene, and their motions at the start; None without."""
+    if scene.mechanism is None:
+        return None, {}
+    found = rigid_bodies(scene.mechanism)
+    return found, found.coasting_motions(SOON)
+
+
+def _tools(scene: Scene, rigid: RigidBodies | None, motions: Mapping[str, RigidMotion]) -> dict[str, Tool | RigidShape]:
+    """Tools, and the shapes of the rigid bodies in their motion at the start."""
+    tools: dict[str, Tool | RigidShape] = {n: b for n, b in scene.bodies.items() if isinstance(b, Tool)}
+    if rigid is None:
+        return tools
+    twice = sorted(scene.bodies.keys() & rigid.mechanism.bodies.keys())
+    if twice:
+        raise InputError(f"mechanism.bodies.{twice[0]}", "is the name of another body of the scene", "another name")
+    for k, contact in enumerate(scene.contacts):
+        body = rigid.mechanism.bodies.get(contact.opponent)
+        if body is not None and body.shape is None:
+            problem = f"{contact.opponent!r} has no surface"
+            raise InputError(f"contacts[{k}].between", problem, f"a shape of bodies.{contact.opponent}")
+    return tools | rigid.shapes(motions)
 
 
 def _total(mass: sp.csr_array, parts: Sequence[DiscreteSolid], dofs: DofMap) -> MatrixSum:

@@ -1,7 +1,7 @@
 """Model: constant data of a march as arrays."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -10,17 +10,19 @@ from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent, during
 from softway.bodies.assembled.nodal_loads import DeadLoads
 from softway.bodies.assembled.vector_space import VectorSpace
-from softway.bodies.discretised import DiscreteSolid
+from softway.bodies.discretised import DiscreteSolid, Moved
 from softway.bodies.dof_map import DofMap, MatrixSum
 from softway.bodies.elements.section import wave_speed
 from softway.bodies.internal_force.material_state import MaterialState
-from softway.bodies.solid import Driven
+from softway.bodies.rigid_motion import CarriedNodes, RigidMotion, RigidShape
+from softway.bodies.solid import Tool
 from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import ContactSet
 from softway.contact.friction_rows import FrictionRows
 from softway.contact.impact_rule import ImpactRule
 from softway.meshes.mesh import Mesh
 from softway.model.field import Field, FieldEquations
+from softway.model.rigid_bodies import RigidBodies
 from softway.model.scene import Scene
 
 
@@ -64,7 +66,7 @@ class Model:
     edge
         (n,) shortest edge at each node [m].
     driven
-        Driven supports with the components (n, d) that they move.
+        Driven supports, and nodes that rigid bodies carry, with the components (n, d) that they move.
     floor
         (parts,) stored energy below which a body is undeformed: a uniform strain of 1e-14 [J].
     total
@@ -77,6 +79,10 @@ class Model:
         Sums, inner products and greatest values of nodal fields.
     companions
         Equations of the fields that are solved together with the displacement.
+    tools
+        Tools, and shapes of rigid bodies in their motions, by name.
+    rigid
+        Rigid bodies; None without.
     """
 
     scene: Scene
@@ -98,13 +104,15 @@ class Model:
     opponents: IntArray
     touchable: IntArray
     edge: Array
-    driven: tuple[tuple[Driven, BoolArray], ...]
+    driven: tuple[Moved, ...]
     floor: Array
     total: MatrixSum
     timing: ImpactRule
     friction: FrictionRows
     space: VectorSpace
     companions: tuple[FieldEquations, ...] = ()
+    tools: Mapping[str, Tool | RigidShape] = field(default_factory=dict)
+    rigid: RigidBodies | None = None
 
     @property
     def free(self) -> BoolArray:
@@ -149,8 +157,8 @@ class Model:
         """
         found: list[tuple[float, Array]] = []
         for support, where in self.driven:
-            for _, field in found:
-                field[where] = 0.0
+            for _, earlier in found:
+                earlier[where] = 0.0
             found += [(tau, np.where(where, change, 0.0)) for tau, change in support.bends(start, end)]
         return tuple(found)
 
@@ -179,6 +187,15 @@ class Model:
         mean, still = self.loads.mean(start, end), ~self.massive[:, None]
         before, after = (np.where(still, self.loads.at(t), mean) for t in (start, end))
         return replace(self, load=after, load_before=before)
+
+    def with_motions(self, motions: Mapping[str, RigidMotion]) -> "Model":
+        """Model whose rigid bodies have these motions."""
+        shapes = {} if self.rigid is None else self.rigid.shapes(motions)
+        driven = tuple(
+            (replace(s, motion=motions[s.by]) if isinstance(s, CarriedNodes) else s, where) for s, where in self.driven
+        )
+        contacts = self.contacts.with_shapes(shapes)
+        return replace(self, tools={**self.tools, **shapes}, contacts=contacts, driven=driven)
 
     def slab_load(self, scalar: Array) -> Array:
         """Mean loads (n, d) over the slab; the scalars (parts,) weight the ends for massless nodes [N]."""

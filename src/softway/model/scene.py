@@ -9,6 +9,8 @@ from softway.bodies.internal_force.material_state import MaterialState
 from softway.bodies.setup.loads import Load
 from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact
+from softway.mechanisms.march import BodyState
+from softway.mechanisms.members.mechanism import Mechanism
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,6 +58,8 @@ class Scene:
         Initial fields as given, or static equilibrium.
     inertia
         Full, off (quasi-static) or scaled inertia.
+    mechanism
+        Rigid bodies with their joints; contacts name those that have a shape like tools.
     """
 
     bodies: Mapping[str, Solid | Tool]
@@ -63,6 +67,7 @@ class Scene:
     loads: tuple[Load, ...] = ()
     start: AsGiven | StaticStart = AsGiven()
     inertia: Inertia = Full()
+    mechanism: Mechanism | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -86,6 +91,8 @@ class State:
         both empty without friction.
     fields
         Companion field -> body name -> (n, components).
+    rigid
+        Name of a rigid body -> its state.
     """
 
     time: float
@@ -98,3 +105,4 @@ class State:
     traction: Mapping[str, Array] = field(default_factory=dict)
     sliding: Mapping[str, BoolArray] = field(default_factory=dict)
     fields: Mapping[str, Mapping[str, Array]] = field(default_factory=dict)
+    rigid: Mapping[str, BodyState] = field(default_factory=dict)

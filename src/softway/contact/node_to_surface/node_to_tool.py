@@ -6,6 +6,7 @@ import numpy as np
 
 from softway.arrays import Array, IntArray
 from softway.bodies.prescribed_motion import Still, carried_tool
+from softway.bodies.rigid_motion import RigidShape
 from softway.bodies.solid import Tool
 from softway.contact.contact_rows import on_nodes
 from softway.contact.stencils import Stencils
@@ -14,10 +15,11 @@ from softway.obstacles.half_space import HalfSpace
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class NodeToTool:
-    """Contact with a tool: one row for each of the nodes (m,) that may touch it."""
+    """Contact with a tool or rigid body of this ``name``: one row for each of the nodes (m,) that may touch it."""
 
     node: IntArray
-    tool: Tool
+    tool: Tool | RigidShape
+    name: str = ""
 
     @property
     def fixed(self) -> bool:
@@ -34,7 +36,7 @@ class ToolContact:
     """Contact with a tool at one end of a slab, ``now``; ``other`` is the other end, ``sign`` is 1 at the later end."""
 
     node: IntArray
-    tool: Tool
+    tool: Tool | RigidShape
     now: float
     other: float
     sign: float

@@ -63,6 +63,21 @@ def add_torsion(springs, angles, start, angle, turn, h, force):
 
 
 @uncounted
+def add_given(space, h):
+    """Add h times the forces by solids, at the mean places of the points of the bodies that they act on."""
+    R0, R1, force, given = space.R0, space.R1, space.force, space.given
+    for i in range(len(given)):
+        for c in range(3):
+            force[i, c] += h * given[i, 0, c]
+        for k in range(3):
+            x, y, z = R0[i, 0, k] + R1[i, 0, k], R0[i, 1, k] + R1[i, 1, k], R0[i, 2, k] + R1[i, 2, k]
+            fx, fy, fz = 0.5 * h * given[i, k + 1, 0], 0.5 * h * given[i, k + 1, 1], 0.5 * h * given[i, k + 1, 2]
+            force[i, 3] += y * fz - z * fy
+            force[i, 4] += z * fx - x * fz
+            force[i, 5] += x * fy - y * fx
+
+
+@uncounted
 def _pull_at(R0, R1, i, X, k, fx, fy, fz, force):
     """Add a force (times h) at the mean place of the point ``X[k]`` of body i."""
     x, y, z = turned(R1, i, X, k)
@@ -84,8 +99,18 @@ def angle_factor(z, i):
 
 @uncounted_kernel
 def work_of_slab(bodies, springs, angles, motion, space, h):
-    """Add the work of forces and torques to the energies that the groups have to have; take what dampers dissipate."""
+    """Add the work of forces and torques to the energies that the groups have to have; take what dampers dissipate.
+
+    What solids do is an exchange of energy with them, and not booked as work.
+    """
     z = space.z
+    for i in range(len(space.given)):
+        done = 0.0
+        for c in range(3):
+            done += z[i, c] * space.given[i, 0, c]
+            for k in range(3):
+                done += (space.R1[i, c, k] - space.R0[i, c, k]) * space.given[i, k + 1, c]
+        motion.energy[bodies.group[i]] += done
     for k in range(len(springs.a)):
         if springs.damping[k] != 0.0:
             l0 = spring_vector(springs, k, motion.place, space.R0)[3]

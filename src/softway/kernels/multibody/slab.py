@@ -11,7 +11,7 @@ from softway.kernels.multibody.band import factor_band, solve_band
 from softway.kernels.multibody.copies import copy_numbers, copy_rows, copy_tensors
 from softway.kernels.multibody.drives import pass_time, set_rates, set_targets, work_of_drives
 from softway.kernels.multibody.energy import close_energy, kinetic_energy, potential_energy
-from softway.kernels.multibody.forces import add_forces, add_torsion, work_of_slab
+from softway.kernels.multibody.forces import add_forces, add_given, add_torsion, work_of_slab
 from softway.kernels.multibody.joint_rows import add_angles, joint_row, turned_back
 from softway.kernels.multibody.rotations import cayley_turned, in_space, matrix_of, quaternion_turned
 from softway.kernels.multibody.velocities import joint_velocity, project_velocities
@@ -95,6 +95,7 @@ def motion_of(bodies, joints, springs, motion, space, h, P, z, new):
                 force[i, c] += P[k] * space.G[k, side, c]
     add_forces(bodies, springs, motion.place, space.R0, space.place, space.R1, z, h, force)
     add_torsion(springs, joints.angles, motion.angle, space.angle, space.turn, h, force)
+    add_given(space, h)
     for i in range(n):
         for c in range(3):
             new[i, c] = h * (motion.velocity[i, c] + 0.5 * bodies.inverse_mass[i] * force[i, c])

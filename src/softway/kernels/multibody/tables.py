@@ -128,12 +128,13 @@ class Space(NamedTuple):
     moments on b that belong to the angles; values ``g`` (r,) and Jacobians ``G`` (r, s, 6) of the rows, ``MG`` = M^-1
     G^T at the start, with the ``mobility`` (n, 3, 3), the inverse inertia in space; ``matrix`` and ``lower`` (r, w +
     1), ``pivot`` (r,) of G M^-1 G^T; motions ``z`` and ``new`` (n, 6); ``force`` (n, 6) times h; ``push`` (r,) of the
-    rows; ``kept`` (r,) impulses of the slab before; ``active`` (r,) rows that take part: all of the joints, and the
-    closed ones of the stops; ``target`` (r,) prescribed changes of the values at the end, ``rate`` (r,) prescribed
-    rates at the present state, ``jump`` (r,) impulses of the projection, and ``drive`` (m, 3) of each drive: the change
-    in the slab, the rate at its start, and the mean force; ``driven`` (g,) groups whose drives move; ``kinetic``,
-    ``rest`` (without the drives) and ``potential`` (g,) energies, ``mean`` (g, 3, 3) motions, ``own`` (n, 3, 3) inertia
-    in space, ``three`` (4, 3, 3) for systems of three equations.
+    rows; ``given`` (n - 1, 4, 3), or none: mean force on each body by solids, and its products ``Y f`` with the places
+    Y in the body that it acts on; ``kept`` (r,) impulses of the slab before; ``active`` (r,) rows that take part: all
+    of the joints, and the closed ones of the stops; ``target`` (r,) prescribed changes of the values at the end,
+    ``rate`` (r,) prescribed rates at the present state, ``jump`` (r,) impulses of the projection, and ``drive`` (m, 3)
+    of each drive: the change in the slab, the rate at its start, and the mean force; ``driven`` (g,) groups whose
+    drives move; ``kinetic``, ``rest`` (without the drives) and ``potential`` (g,) energies, ``mean`` (g, 3, 3) motions,
+    ``own`` (n, 3, 3) inertia in space, ``three`` (4, 3, 3) for systems of three equations.
     """
 
     R0: Array
@@ -151,6 +152,7 @@ class Space(NamedTuple):
     z: Array
     new: Array
     force: Array
+    given: Array
     push: Array
     kept: Array
     active: IntArray
@@ -167,8 +169,10 @@ class Space(NamedTuple):
     three: Array
 
 
-def space(joints: Joints, bodies: int, groups: int) -> Space:
-    """Work space for joints of a number of ``bodies`` without the ground, in a number of groups."""
+def space(joints: Joints, bodies: int, groups: int, given: bool = False) -> Space:
+    """Work space for joints of a number of ``bodies`` without the ground, in a number of groups; ``given`` with forces
+    by solids.
+    """
     n, (rows, sides), angles = bodies + 1, joints.sides.shape, len(joints.angles.a)
     eye = np.tile(np.eye(3), (n, 1, 1))
     return Space(
@@ -187,6 +191,7 @@ def space(joints: Joints, bodies: int, groups: int) -> Space:
         z=np.zeros((n, 6)),
         new=np.zeros((n, 6)),
         force=np.zeros((n, 6)),
+        given=np.zeros((n - 1 if given else 0, 4, 3)),
         push=np.zeros(rows),
         kept=np.zeros(rows),
         active=np.ones(rows, dtype=np.int64),

@@ -8,6 +8,7 @@ from softway.arrays import Array, BoolArray
 from softway.bodies.assembled import material_states
 from softway.bodies.assembled.vector_space import VectorSpace
 from softway.bodies.elements.section import Axisymmetric
+from softway.march.audit.rigid_balances import rigid_balances
 from softway.march.march_state import EnergyAccount
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
@@ -30,14 +31,15 @@ def initial_ledger(model: Model, now: ModelState) -> Ledger:
         )
         for k, name in enumerate(rows.labels)
     }
+    rigid = rigid_balances(model, now, now)
     return Ledger(
-        energy_kinetic=0.5 * model.space.dot(now.start.velocity, momenta),
-        energy_strain=float(now.start.energy.sum()),
+        energy_kinetic=0.5 * model.space.dot(now.start.velocity, momenta) + rigid.kinetic,
+        energy_strain=float(now.start.energy.sum()) + rigid.springs,
         work_external=0.0,
         dissipation=0.0,
         energy_error=0.0,
-        momentum=momentum(model.space, momenta),
-        spin=spin(model, now.start.displacement, momenta),
+        momentum=momentum(model.space, momenta) + rigid.momentum,
+        spin=spin(model, now.start.displacement, momenta) + rigid.spin,
         contacts=contacts,
     )
 
@@ -98,16 +100,18 @@ def audit(model: Model, last: EnergyAccount, before: ModelState, out: SlabResult
         model.parts, before.start.states
     )
     momenta = model.mass @ after.start.velocity
-    kinetic = 0.5 * model.space.dot(after.start.velocity, momenta)
-    strain = float(after.start.energy.sum())
+    rigid = rigid_balances(model, before, after)
+    kinetic = 0.5 * model.space.dot(after.start.velocity, momenta) + rigid.kinetic
+    strain = float(after.start.energy.sum()) + rigid.springs
+    work, lost = work + rigid.work, lost + rigid.dissipation
     return Ledger(
         energy_kinetic=kinetic,
         energy_strain=strain,
         work_external=work,
         dissipation=lost,
         energy_error=kinetic + strain - last.energy_start - work + lost,
-        momentum=momentum(model.space, momenta),
-        spin=spin(model, after.start.displacement, momenta),
+        momentum=momentum(model.space, momenta) + rigid.momentum,
+        spin=spin(model, after.start.displacement, momenta) + rigid.spin,
         contacts=_contacts(model, before, out, after),
     )
 

@@ -7,7 +7,6 @@ from typing import Literal
 import numpy as np
 
 from softway.arrays import Array, BoolArray
-from softway.bodies.solid import Tool
 from softway.contact.contact_rows import ContactRows
 from softway.contact.slab_motion.trajectory import Trajectory, bent
 from softway.march.model_state import ModelState
@@ -138,8 +137,8 @@ def contact_event(
     part = model.parts[model.part_of[node]]
     u0 = now.start.displacement[node]
     time, place = slab.start + tau * slab.span, model.points[node] + u0 + tau * (end[node] - u0)
-    opponent = model.scene.bodies[model.scene.contacts[contact].opponent]
-    if isinstance(opponent, Tool):
+    opponent = model.tools.get(model.scene.contacts[contact].opponent)
+    if opponent is not None:
         gap, normal = opponent.at(time).gap_and_normal(place[None])
         place = place - gap[0] * normal[0]
     return Event(

@@ -51,14 +51,22 @@ class Equilibrated:
         pairs = model.contacts.meet(start.displacement, coasting, slab.start, slab.end)
         require_slow(model, pairs, start.displacement, coasting, attempt.approach)
         system = equations(self.contact, model, now, slab, pairs, attempt)
-        guess = np.where(model.free, np.where(model.massive[:, None], rate, 2.0 * rate), system.given)
-        impulse, active = first_impulses(now, slab, system.path.rows)
+        guess = attempt.guess or _guess(model, now, slab, system, rate, memory)
         method = cancellable(self.method, attempt.cancel, slab.start)
-        iterates = method.iterate(system, Guess(q=guess, impulse=impulse, active=active, memory=memory))
-        for solution in iterate(system, iterates, method.tolerance, method.limit):
+        iterates = method.iterate(system, guess)
+        for solution in iterate(system, iterates, max(method.tolerance, attempt.tolerance), method.limit):
             velocity = end_velocity(model, slab, solution.last.q)
             out = slab_result(self.contact, model, now, slab, system, solution, pairs.found, velocity)
             yield out, solution.last.memory
+
+
+def _guess(
+    model: Model, now: ModelState, slab: Slab, system: SlabEquations, rate: Array, memory: OperatorMemory
+) -> Guess:
+    """Solution expected if the velocity goes on to ``rate`` (n, d) at the end."""
+    q = np.where(model.free, np.where(model.massive[:, None], rate, 2.0 * rate), system.given)
+    impulse, active = first_impulses(now, slab, system.path.rows)
+    return Guess(q=q, impulse=impulse, active=active, memory=memory)
 
 
 @dataclass(frozen=True, slots=True)

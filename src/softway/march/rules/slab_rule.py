@@ -15,6 +15,7 @@ from softway.model.time_weight import TimeWeight
 from softway.solve.effort import Effort
 from softway.solve.methods.central_difference import Explicit
 from softway.solve.methods.fixed_point import FixedPoint
+from softway.solve.methods.iteration import Guess
 from softway.solve.methods.newton import Newton
 from softway.solve.operators.operator_memory import OperatorMemory
 
@@ -40,6 +41,10 @@ class Attempt:
         Counted work of the attempt.
     positive_definite
         True if the operators have to be positive definite.
+    guess
+        Solution of the slab with rigid bodies in nearly the same motion; None without.
+    tolerance
+        Least tolerance of the iteration, relative to the greatest velocity.
     """
 
     approach: float = np.inf
@@ -48,6 +53,8 @@ class Attempt:
     cancel: Cancel | None = None
     effort: Effort = field(default_factory=Effort)
     positive_definite: bool = False
+    guess: Guess | None = None
+    tolerance: float = 0.0
 
 
 class SlabRule(Protocol):

@@ -39,7 +39,7 @@ def require_of_model(model: Model, pattern: ModelState, found: MarchState) -> No
     found.fitting(model)
     with within("state"):
         _start(pattern.start, found.state.start)
-        for name in ("acceleration", "closed", "pressure", "traction", "sliding"):
+        for name in ("acceleration", "closed", "pressure", "traction", "sliding", "rigid"):
             with within(name):
                 _alike(getattr(pattern, name), getattr(found.state, name))
         if found.state.rows is not None:

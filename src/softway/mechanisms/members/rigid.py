@@ -6,6 +6,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.errors import InputError
+from softway.obstacles.primitives import Shape
 from softway.units import Kilogram, KilogramSquareMetre, Metre, MetrePerSecond, RadianPerSecond
 
 FAR = 1e100
@@ -33,6 +34,8 @@ class Rigid:
         Velocity of the centre at the start [m/s].
     spin
         Angular velocity at the start [rad/s]: one component in the plane, three in space.
+    shape
+        Surface at its place at the start, for contact with solids; none by default.
 
     Raises
     ------
@@ -51,6 +54,7 @@ class Rigid:
     inertia: Inertia = 0.0
     velocity: tuple[MetrePerSecond, ...] | None = None
     spin: RadianPerSecond | tuple[RadianPerSecond, ...] = 0.0
+    shape: Shape | None = None
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.mass) and self.mass > 0.0):
@@ -65,6 +69,8 @@ class Rigid:
             raise InputError("spin", f"{self.spin} for a body in {self.dim}D", what)
         if not max(float(np.abs(part).max()) for part in self.motion) < FAR:
             raise InputError("velocity", f"{self.velocity} with the spin {self.spin}", "velocities of a motion")
+        if self.shape is not None and self.shape.dim != self.dim:
+            raise InputError("shape", f"in {self.shape.dim}D for a body in {self.dim}D", f"a shape in {self.dim}D")
         _require_inertia(self.tensor)
 
     @property

@@ -21,6 +21,7 @@ from softway.march.march_state import EnergyAccount, MarchState, Settings, StepH
 from softway.march.model_state import ModelState
 from softway.march.step_control import StepControl
 from softway.model.field import FieldState
+from softway.model.rigid_bodies import RigidState
 from softway.model.time_weight import Collocation, EndPeaks, Momentum
 from softway.record.storage.gate.stored_types import require_fields
 from softway.solve.equations.slab_values import SlabStart
@@ -41,6 +42,7 @@ KINDS: Mapping[str, type] = MappingProxyType(
                 Settings,
                 ModelState,
                 SlabStart,
+                RigidState,
                 FieldState,
                 MaterialState,
                 EnergyAccount,

@@ -76,7 +76,7 @@ class FixedPoint:
     def iterate(self, system: SlabEquations, guess: Guess) -> Iterator[Iterate]:
         """Iterates from a guess; where they contract poorly, first with nodes kept on their facets, then by Newton.
 
-        As in Newton's method, the first step has no scalar: the guess is no solution, and its missing work has no
+        As in Newton's method, the first step has no scalar where the guess is no solution: its missing work has no
         meaning.  So one step solves a linear law on fixed rows (docs/theory/solver/solver.md).
         """
         newton = Newton(tolerance=self.tolerance, limit=self.limit)
@@ -84,7 +84,7 @@ class FixedPoint:
             yield from newton.iterate(system, guess)
             return
         guess = replace(guess, memory=refreshed(system, guess.q, guess.memory, self.operator))
-        end = system.without_closure().evaluate(guess.q, guess.impulse)
+        end = (system if guess.near else system.without_closure()).evaluate(guess.q, guess.impulse)
         window, poor = (WINDOW, POOR) if system.model.inert else (FLOWING, PACE)
         while True:
             changes: list[float] = []

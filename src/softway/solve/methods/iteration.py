@@ -19,13 +19,14 @@ log = logging.getLogger(__name__)
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Guess:
     """Initial values of an iteration: ``q`` (n, d), multipliers ``impulse`` (m,) of the contact rows, the
-    ``active`` rows (m,), and the operator of the slab before.
+    ``active`` rows (m,), and the operator of the slab before; ``near`` if the values nearly solve the equations.
     """
 
     q: Array
     impulse: Array
     active: BoolArray
     memory: OperatorMemory
+    near: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -1,7 +1,7 @@
 """One slab (time step): from a state to the next, by the contact rule of the model."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from softway.arrays import Array
 from softway.bodies.assembled import material_states
@@ -11,6 +11,7 @@ from softway.march.results.slab_result import SlabResult
 from softway.march.results.trying import TryWatch
 from softway.march.rules.declared import slab_rule
 from softway.march.rules.slab_rule import Attempt, Method, SlabRule
+from softway.march.slab.with_rigid import coupled_slabs
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import TimeWeight
@@ -63,8 +64,12 @@ def advance(
         If the method does not converge, the slab is too long for the approach, or the energy balance cannot be closed.
     """
     model = stepper.model.during(now.start.states, slab.span).pushed(slab.start, slab.end)
-    for out, after in stepper.rule.solve(model, now, slab, memory, attempt):
-        yield _state(slab, out), out, after
+    if model.rigid is None:
+        for out, after in stepper.rule.solve(model, now, slab, memory, attempt):
+            yield _state(slab, out), out, after
+        return
+    for found in coupled_slabs(stepper.rule, model, now, slab, memory, attempt):
+        yield replace(_state(slab, found.out), rigid=found.rigid), found.out, found.memory
 
 
 def _state(slab: Slab, out: SlabResult) -> ModelState:

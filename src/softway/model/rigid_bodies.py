@@ -1,0 +1,264 @@
+"""Rigid bodies of a model: their state, and their slabs (time steps) under the forces of the solids.
+
+The solids see a rigid body as a tool with a motion; the rigid bodies feel minus the same mean forces at the mean places
+of the points that these act on (docs/theory/contact/rigid_bodies.md).
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from softway.arrays import Array
+from softway.bodies.rigid_motion import RigidMotion, RigidShape, rotation_vector
+from softway.errors import InputError, NoConvergence, NumericsError
+from softway.kernels.multibody.energy import kinetic_energy, potential_energy
+from softway.kernels.multibody.slab import begin
+from softway.kernels.multibody.tables import Motion, Space, space
+from softway.kernels.multibody.velocities import project_velocities
+from softway.mechanisms.arrays import Arrays, arrays
+from softway.mechanisms.driven import require_free_motions
+from softway.mechanisms.march import BodyState, body_state, march_on
+from softway.mechanisms.members.joints import GROUND
+from softway.mechanisms.members.mechanism import Mechanism
+from softway.mechanisms.welds import Welded, welded
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class RigidState:
+    """State of the rigid bodies of a model, the ground being the last of the n.
+
+    Parameters
+    ----------
+    place, turn
+        (n, 3) places of the centres [m], and (n, 4) unit quaternions.
+    velocity, spin
+        (n, 3) velocities [m/s], and angular velocities in the axes of the bodies [rad/s].
+    angle
+        (q,) angles of joints with all turns [rad].
+    impulse
+        (r,) impulses through the joints in the slab before.
+    energy
+        (g,) energies that the groups of connected bodies have to have [J].
+    work
+        (2,) work of forces, torques and motors, and energy dissipated by dampers [J].
+    time
+        (2,) time, with the rounding error of its sum [s].
+    given
+        (n - 1, 4, 3) mean forces by solids in the slab before, see
+        :class:`~softway.kernels.multibody.tables.Space`.
+    joints
+        (2,) greatest error of the joints and of their velocities in the slab before [m], [m/s].
+    """
+
+    place: Array
+    turn: Array
+    velocity: Array
+    spin: Array
+    angle: Array
+    impulse: Array
+    energy: Array
+    work: Array
+    time: Array
+    given: Array
+    joints: Array
+
+    def motion(self) -> Motion:
+        """Copy of the state for the compiled slabs."""
+        return Motion(*(getattr(self, name).copy() for name in Motion._fields))
+
+
+def _state(motion: Motion, given: Array, joints: Array) -> RigidState:
+    """State from the arrays of the compiled slabs."""
+    return RigidState(**motion._asdict(), given=given, joints=joints)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class RigidEnergies:
+    """Energies of rigid bodies [J]: kinetic, stored in springs, and the potential of their weight."""
+
+    kinetic: float
+    springs: float
+    weight: float
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class RigidBodies:
+    """Rigid bodies with their joints, springs and motors; ``it`` are the arrays of the ``joined`` mechanism."""
+
+    mechanism: Mechanism
+    joined: Welded
+    it: Arrays
+
+    def start(self) -> RigidState:
+        """State at the start; velocities satisfy the joints."""
+        it = replace(self.it, motion=Motion(*(array.copy() for array in self.it.motion)))
+        room = self._room()
+        begin(it.bodies, it.joints, it.springs, it.motion, room)
+        require_free_motions(it, room)
+        project_velocities(it.bodies, it.joints, it.motion, room)
+        begin(it.bodies, it.joints, it.springs, it.motion, room)
+        return _state(it.motion, room.given, np.zeros(2))
+
+    def state_of(self, found: Mapping[str, BodyState], time: float) -> RigidState:
+        """State with these states of the bodies at a time [s].
+
+        Raises
+        ------
+        InputError
+            If bodies are missing, or joints count turns, which the states of bodies do not tell.
+        """
+        names, start = self.mechanism.bodies.keys(), self.start()
+        if found.keys() != names:
+            raise InputError("state", f"rigid bodies {sorted(found)}", f"a state with {sorted(names)}")
+        if len(start.angle):
+            problem = "joints whose angles count turns, which a State does not tell"
+            raise InputError("state", problem, "the march_state of a step")
+        for name in names:
+            k, own, body = self.number(name), found[name], self.mechanism.bodies[name]
+            if k == len(self.it.names):
+                continue
+            turn, spin, d = np.eye(3), np.zeros(3), self.mechanism.dim
+            turn[:d, :d] = own.rotation
+            spin[3 - len(own.spin) :] = own.spin
+            whole = self.joined.mechanism.bodies[self.it.names[k]]
+            arm = np.zeros(3)
+            arm[:d] = np.subtract(whole.centre, body.centre)
+            start.place[k, :d] = own.centre + (turn @ arm)[:d]
+            start.velocity[k, :d] = own.velocity + np.cross(spin, turn @ arm)[:d]
+            start.turn[k], start.spin[k] = quaternion(turn), turn.T @ spin
+        it, room = replace(self.it, motion=start.motion()), self._room()
+        begin(it.bodies, it.joints, it.springs, it.motion, room)
+        it.motion.time[0] = time
+        return _state(it.motion, room.given, np.zeros(2))
+
+    def slab(self, state: RigidState, time: float, span: float, given: Array) -> RigidState:
+        """State after a slab of length ``span`` [s] with the mean forces ``given`` (n - 1, 4, 3) by solids.
+
+        Raises
+        ------
+        NoConvergence
+            If the slab has no solution.
+        """
+        it, room, told = replace(self.it, motion=state.motion()), self._room(), np.zeros(3)
+        room.given[:] = given
+        self._prepare(it, room)
+        try:
+            march_on(it, room, time, span, 1, told)
+        except NumericsError as error:
+            raise NoConvergence(str(error)) from None
+        return _state(it.motion, room.given, told[:2])
+
+    def motions(self, before: RigidState, moved: Array, start: float, end: float) -> dict[str, RigidMotion]:
+        """Motion of each body over a slab from a state, with the displacements and rotation vectors (n, 6)."""
+        rotations, out = self.rotations(before), {}
+        for name in self.mechanism.bodies:
+            k, whole = self.number(name), self.joined.part_of[name]
+            centre = np.zeros(3)
+            if whole != GROUND:
+                centre[: self.mechanism.dim] = self.joined.mechanism.bodies[whole].centre
+            rate = np.concatenate([before.velocity[k], rotations[k] @ before.spin[k]])
+            out[name] = RigidMotion(
+                begin=start,
+                end=end,
+                centre=centre,
+                place=before.place[k],
+                rotation=rotations[k],
+                moved=moved[k],
+                rate=rate,
+                dim=self.mechanism.dim,
+            )
+        return out
+
+    def moved(self, before: RigidState, after: RigidState) -> Array:
+        """Displacements and rotation vectors (n, 6) from one state to another."""
+        first, last = self.rotations(before), self.rotations(after)
+        turns = [rotation_vector(b @ a.T) for a, b in zip(first, last, strict=True)]
+        return np.concatenate([after.place - before.place, np.array(turns)], axis=1)
+
+    def coasting_motions(self, span: float) -> dict[str, RigidMotion]:
+        """Motions of the bodies over a time ``span`` [s] from the start, with the velocities there."""
+        state = self.start()
+        spins = np.einsum("nij,nj->ni", self.rotations(state), state.spin)
+        return self.motions(state, span * np.concatenate([state.velocity, spins], axis=1), 0.0, span)
+
+    def shapes(self, motions: Mapping[str, RigidMotion]) -> dict[str, RigidShape]:
+        """Shapes of the bodies that have one, in their motions."""
+        bodies = self.mechanism.bodies
+        return {n: RigidShape(shape=s, motion=m) for n, m in motions.items() if (s := bodies[n].shape) is not None}
+
+    def number(self, name: str) -> int:
+        """Number of the body that a body is part of; the last for the ground."""
+        whole = self.joined.part_of[name]
+        return len(self.it.names) if whole == GROUND else self.it.names.index(whole)
+
+    def extent(self, state: RigidState) -> float:
+        """Extent of the rigid bodies, the scale of rounding [m]."""
+        return max(self.it.extent, float(np.abs(state.place).max()), 1e-300)
+
+    def bodies(self, state: RigidState) -> dict[str, BodyState]:
+        """State of each body."""
+        it, room = replace(self.it, motion=state.motion()), self._room()
+        self._prepare(it, room)
+        return {name: body_state(self.mechanism, self.joined, it, room, name) for name in self.mechanism.bodies}
+
+    def energies(self, state: RigidState) -> RigidEnergies:
+        """Energies in a state."""
+        it, motion, groups = self.it, state.motion(), len(self.it.bodies.jointed)
+        kinetic, both = np.zeros(groups), np.zeros(groups)
+        kinetic_energy(it.bodies, motion, kinetic)
+        potential_energy(it.bodies, it.springs, it.joints.angles, motion, self.rotations(state), both)
+        weight = -float((it.bodies.mass[:, None] * state.place @ it.bodies.gravity[:, None]).sum())
+        return RigidEnergies(kinetic=float(kinetic.sum()), springs=float(both.sum()) - weight, weight=weight)
+
+    def momentum(self, state: RigidState) -> tuple[Array, Array]:
+        """Momentum (3,) [kg m/s], and angular momentum (3,) about the origin [kg m^2/s]."""
+        it, mass = self.it, self.it.bodies.mass[:, None]
+        turned = np.einsum("nij,njk,nk->ni", self.rotations(state), it.bodies.inertia, state.spin)
+        spin = (mass * np.cross(state.place, state.velocity) + turned).sum(axis=0)
+        return (mass * state.velocity).sum(axis=0), np.asarray(spin)
+
+    def _room(self) -> Space:
+        return space(self.it.joints, len(self.it.names), len(self.it.bodies.jointed), given=True)
+
+    def _prepare(self, it: Arrays, room: Space) -> None:
+        """Prepare the work space for a state, without changing its energies."""
+        energy = it.motion.energy.copy()
+        begin(it.bodies, it.joints, it.springs, it.motion, room)
+        it.motion.energy[:] = energy
+
+    def rotations(self, state: RigidState) -> Array:
+        """Rotations (n, 3, 3)."""
+        a, v = state.turn[:, 0], state.turn[:, 1:]
+        zero = np.zeros(len(a))
+        cross = np.array([[zero, -v[:, 2], v[:, 1]], [v[:, 2], zero, -v[:, 0]], [-v[:, 1], v[:, 0], zero]])
+        skew = np.moveaxis(cross, 2, 0)
+        return np.asarray(np.eye(3) + 2.0 * (a[:, None, None] * skew + skew @ skew))
+
+
+def quaternion(rotation: Array) -> Array:
+    """Unit quaternion (4,), scalar first, of a rotation (3, 3).
+
+    Examples
+    --------
+    >>> quaternion(np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])).round(6).tolist()
+    [0.707107, 0.0, 0.0, 0.707107]
+    """
+    return np.asarray(Rotation.from_matrix(rotation).as_quat(canonical=True)[[3, 0, 1, 2]])
+
+
+def rigid_bodies(mechanism: Mechanism) -> RigidBodies:
+    """Prepare the rigid bodies of a scene.
+
+    Raises
+    ------
+    InputError
+        For what a mechanism refuses, and for stops.
+    """
+    if mechanism.stops:
+        name = next(iter(mechanism.stops))
+        problem = "a stop between rigid bodies in a scene with solids"
+        raise InputError(f"stops.{name}", problem, "contacts with solids, or a mechanism without solids")
+    joined = welded(mechanism)
+    return RigidBodies(mechanism=mechanism, joined=joined, it=arrays(joined.mechanism))
