@@ -29,6 +29,7 @@ from softway.errors import InputError, within
 from softway.model.field import FieldEquations
 from softway.model.model import Model, assembled_tangent
 from softway.model.rigid_bodies import RigidBodies, rigid_bodies
+from softway.model.rigid_refusals import require_fitting
 from softway.model.scene import Scene, StaticStart
 from softway.tolerances import MOTION
 
@@ -45,7 +46,7 @@ def build(scene: Scene) -> Model:
         With the place in the scene: if a tag matches nothing, a body does not exist, or dimensions are mixed.
     """
     solids, timing, factor = _solids(scene), _timing(scene), scene.inertia.factor
-    parts, (rigid, motions) = _parts(solids), _rigid(scene)
+    parts, (rigid, motions) = _parts(solids), _rigid(scene, tuple(solids.values()))
     tools, space = _tools(scene, rigid, motions), LocalSpace(tuple(p.nodes for p in parts))
     met = assemble_contacts(scene.contacts, {**solids, **tools}, parts, space)
     fields, velocity = _initial_fields(parts, solids)
@@ -158,11 +159,12 @@ def _parts(solids: Mapping[str, Solid]) -> tuple[DiscreteSolid, ...]:
     return tuple(parts)
 
 
-def _rigid(scene: Scene) -> tuple[RigidBodies | None, dict[str, RigidMotion]]:
+def _rigid(scene: Scene, solids: Sequence[Solid]) -> tuple[RigidBodies | None, dict[str, RigidMotion]]:
     """Rigid bodies of the scene, and their motions at the start; None without."""
     if scene.mechanism is None:
         return None, {}
     found = rigid_bodies(scene.mechanism)
+    require_fitting(scene, found, solids)
     return found, found.coasting_motions(SOON)
 
 
@@ -171,14 +173,6 @@ def _tools(scene: Scene, rigid: RigidBodies | None, motions: Mapping[str, RigidM
     tools: dict[str, Tool | RigidShape] = {n: b for n, b in scene.bodies.items() if isinstance(b, Tool)}
     if rigid is None:
         return tools
-    twice = sorted(scene.bodies.keys() & rigid.mechanism.bodies.keys())
-    if twice:
-        raise InputError(f"mechanism.bodies.{twice[0]}", "is the name of another body of the scene", "another name")
-    for k, contact in enumerate(scene.contacts):
-        body = rigid.mechanism.bodies.get(contact.opponent)
-        if body is not None and body.shape is None:
-            problem = f"{contact.opponent!r} has no surface"
-            raise InputError(f"contacts[{k}].between", problem, f"a shape of bodies.{contact.opponent}")
     return tools | rigid.shapes(motions)
 
 

@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from softway.arrays import Array
 from softway.bodies.rigid_motion import RigidMotion, RigidShape, rotation_vector
 from softway.errors import InputError, NoConvergence, NumericsError
+from softway.kernels.multibody.angles import angles_at
 from softway.kernels.multibody.energy import kinetic_energy, potential_energy
 from softway.kernels.multibody.slab import begin
 from softway.kernels.multibody.tables import Motion, Space, space
@@ -101,20 +102,27 @@ class RigidBodies:
         begin(it.bodies, it.joints, it.springs, it.motion, room)
         return _state(it.motion, room.given, np.zeros(2))
 
+    def allowed(self, velocity: Array, spin: Array) -> Array:
+        """Velocities and angular velocities (n, 6) that the joints leave of these (3,) of all bodies, at the start."""
+        it = replace(self.it, motion=Motion(*(array.copy() for array in self.it.motion)))
+        room = self._room()
+        it.motion.velocity[:-1], it.motion.spin[:-1] = velocity, spin
+        begin(it.bodies, it.joints, it.springs, it.motion, room)
+        room.rate[:] = 0.0
+        project_velocities(it.bodies, it.joints, it.motion, room)
+        return np.concatenate([it.motion.velocity, it.motion.spin], axis=1)
+
     def state_of(self, found: Mapping[str, BodyState], time: float) -> RigidState:
-        """State with these states of the bodies at a time [s].
+        """State with these states of the bodies at a time [s]; angles of joints are within half a turn.
 
         Raises
         ------
         InputError
-            If bodies are missing, or joints count turns, which the states of bodies do not tell.
+            If bodies are missing.
         """
         names, start = self.mechanism.bodies.keys(), self.start()
         if found.keys() != names:
             raise InputError("state", f"rigid bodies {sorted(found)}", f"a state with {sorted(names)}")
-        if len(start.angle):
-            problem = "joints whose angles count turns, which a State does not tell"
-            raise InputError("state", problem, "the march_state of a step")
         for name in names:
             k, own, body = self.number(name), found[name], self.mechanism.bodies[name]
             if k == len(self.it.names):
@@ -129,6 +137,8 @@ class RigidBodies:
             start.velocity[k, :d] = own.velocity + np.cross(spin, turn @ arm)[:d]
             start.turn[k], start.spin[k] = quaternion(turn), turn.T @ spin
         it, room = replace(self.it, motion=start.motion()), self._room()
+        still = np.tile(np.eye(3), (len(start.place), 1, 1))
+        angles_at(it.joints.angles, still, self.rotations(start), it.motion.angle, room.turn)
         begin(it.bodies, it.joints, it.springs, it.motion, room)
         it.motion.time[0] = time
         return _state(it.motion, room.given, np.zeros(2))
@@ -212,12 +222,11 @@ class RigidBodies:
         weight = -float((it.bodies.mass[:, None] * state.place @ it.bodies.gravity[:, None]).sum())
         return RigidEnergies(kinetic=float(kinetic.sum()), springs=float(both.sum()) - weight, weight=weight)
 
-    def momentum(self, state: RigidState) -> tuple[Array, Array]:
-        """Momentum (3,) [kg m/s], and angular momentum (3,) about the origin [kg m^2/s]."""
+    def momenta(self, state: RigidState) -> tuple[Array, Array]:
+        """Momenta (n, 3) [kg m/s], and angular momenta (n, 3) about the origin [kg m^2/s]."""
         it, mass = self.it, self.it.bodies.mass[:, None]
         turned = np.einsum("nij,njk,nk->ni", self.rotations(state), it.bodies.inertia, state.spin)
-        spin = (mass * np.cross(state.place, state.velocity) + turned).sum(axis=0)
-        return (mass * state.velocity).sum(axis=0), np.asarray(spin)
+        return mass * state.velocity, np.asarray(mass * np.cross(state.place, state.velocity) + turned)
 
     def _room(self) -> Space:
         return space(self.it.joints, len(self.it.names), len(self.it.bodies.jointed), given=True)

@@ -20,14 +20,20 @@ from softway.record.storage.provenance import DONE, Stop
 from softway.record.storage.run_folder import RunFolder
 from softway.record.write import events, fields, history
 from softway.record.write.checkpoint_schedule import CheckpointWriter
+from softway.record.write.mechanism import rigid_table
 from softway.record.write.progress import Meter, Watch
 from softway.record.write.recorder import Opener, Recorder, RunStart
 
 LOG = logging.getLogger(__name__)
 STANDARD: Mapping[str, Opener] = MappingProxyType(
-    {history.FILE: history.open_history, events.FILE: events.open_events, fields.FILE: fields.open_fields}
+    {
+        history.FILE: history.open_history,
+        events.FILE: events.open_events,
+        fields.FILE: fields.open_fields,
+        rigid_table.FILE: rigid_table.open_rigid_table,
+    }
 )
-"""Openers of the records of every run, by file name."""
+"""Openers of the records of a run, by file name; the last one only with rigid bodies."""
 NO_CHECKPOINTS = Checkpoints(keep=0)
 
 
@@ -158,6 +164,8 @@ def _opened(folder: Path, opening: RunStart, marks: Mapping[str, int]) -> dict[s
     found: dict[str, Recorder] = {}
     with ExitStack() as failing:
         for name, start in STANDARD.items():
+            if name == rigid_table.FILE and opening.scene.mechanism is None:
+                continue
             found[name] = start(folder, opening, marks.get(name))
             failing.callback(found[name].close)
         failing.pop_all()

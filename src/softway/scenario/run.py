@@ -28,11 +28,11 @@ from softway.record.storage.gate.own_files import require_own
 from softway.record.storage.lock import locked
 from softway.record.storage.provenance import DONE
 from softway.record.storage.run_folder import RunFolder
-from softway.record.write.probes import readings
 from softway.record.write.progress import Heartbeat, MechanismWatch, Tell, Watch
 from softway.record.write.recorder import RunStart
 from softway.scenario.checks.check import Checked, check
 from softway.scenario.checks.mechanism import CheckedMechanism
+from softway.scenario.checks.probes import probe_readings
 from softway.scenario.files import dumps, load
 from softway.scenario.run_mechanism import not_resumed, run_mechanism
 from softway.scenario.scenario import Scenario
@@ -183,7 +183,7 @@ def _opening(checked: Checked) -> RunStart:
         ledger=audit(model, start),
         until=given.time.end,
         fields_every=_every(given),
-        readings=readings(given.output.probes, model.meshes),
+        readings=probe_readings(given, model.meshes, model.scene.mechanism),
         fields=model.fields,
         audit=given.output.audit,
         balances=partial(balances, model),

@@ -7,7 +7,7 @@ exactly (docs/theory/mechanisms.md).
 
 import numpy as np
 
-from softway.kernels.jit.compilation import uncounted
+from softway.kernels.jit.compilation import uncounted, uncounted_kernel
 from softway.kernels.multibody.joint_rows import mean_turned, turned
 
 SMALL = 1e-8
@@ -33,3 +33,10 @@ def evaluate_angles(angles, start, R0, R1, angle, turn):
         wx, wy, wz = mean_turned(R0, b, angles.W, k, w[0], w[1], w[2])
         x, y, z = s * ux - c * vx, s * uy - c * vy, s * uz - c * vz
         turn[k, 0], turn[k, 1], turn[k, 2] = y * wz - z * wy, z * wx - x * wz, x * wy - y * wx
+
+
+@uncounted_kernel
+def angles_at(angles, R0, R1, angle, turn):
+    """Angles (q,) within half a turn at rotations R1, from those at the start, R0, where they are zero."""
+    angle[:] = 0.0
+    evaluate_angles(angles, angle, R0, R1, angle, turn)

@@ -9,8 +9,10 @@ from softway.arrays import Array
 from softway.bodies.discretised import UNSTRAINED
 from softway.bodies.elements.section import Axisymmetric
 from softway.march.audit.ledger import momentum, spin
+from softway.march.audit.rigid_balances import rigid_balances
 from softway.march.model_state import join_states
 from softway.march.results.step import Step
+from softway.mechanisms.members.springs import TorsionSpring
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.solve.equations.spin_balance import moment
@@ -26,7 +28,7 @@ class Balances:
     Parameters
     ----------
     kinetic, strain
-        Energies [J].
+        Energies [J]; no strain with torsion springs, whose turns a state does not tell.
     momentum, moving
         Momentum (3,), and sum of the sizes of the momenta of all nodes [kg m/s].
     spin, turning
@@ -34,7 +36,7 @@ class Balances:
     """
 
     kinetic: float
-    strain: float
+    strain: float | None
     momentum: Array
     moving: float
     spin: Array
@@ -43,15 +45,18 @@ class Balances:
 
 def balances(model: Model, state: State) -> Balances:
     """Balances of the bodies of a model: the strain energy is evaluated from the displacements and the memory."""
-    now = join_states(model, state).start
+    joined = join_states(model, state)
+    now, rigid = joined.start, rigid_balances(model, joined, joined)
     momenta = model.mass @ now.velocity
+    members = () if model.scene.mechanism is None else model.scene.mechanism.springs
+    told = not any(isinstance(spring, TorsionSpring) for spring in members)
     return Balances(
-        kinetic=0.5 * model.space.dot(now.velocity, momenta),
-        strain=float(now.energy.sum()),
-        momentum=momentum(model.space, momenta),
-        moving=model.space.total(np.abs(momenta)),
-        spin=spin(model, now.displacement, momenta),
-        turning=_turning(model, model.points + now.displacement, momenta),
+        kinetic=0.5 * model.space.dot(now.velocity, momenta) + rigid.kinetic,
+        strain=float(now.energy.sum()) + rigid.springs if told else None,
+        momentum=momentum(model.space, momenta) + rigid.momentum,
+        moving=model.space.total(np.abs(momenta)) + rigid.moving,
+        spin=spin(model, now.displacement, momenta) + rigid.spin,
+        turning=_turning(model, model.points + now.displacement, momenta) + rigid.turning,
     )
 
 

@@ -25,6 +25,8 @@ class RigidBalances:
         Energy dissipated by dampers over the slab [J].
     momentum, spin
         Momentum (3,) [kg m/s], and angular momentum (3,) about the origin [kg m^2/s].
+    moving, turning
+        Sums of the sizes of their parts.
     """
 
     kinetic: float = 0.0
@@ -33,6 +35,8 @@ class RigidBalances:
     dissipation: float = 0.0
     momentum: Array | float = 0.0
     spin: Array | float = 0.0
+    moving: float = 0.0
+    turning: float = 0.0
 
 
 def rigid_balances(model: Model, before: ModelState, after: ModelState) -> RigidBalances:
@@ -40,7 +44,7 @@ def rigid_balances(model: Model, before: ModelState, after: ModelState) -> Rigid
     rigid, first, last = model.rigid, before.rigid, after.rigid
     if rigid is None or first is None or last is None:
         return RigidBalances()
-    now, momentum = rigid.energies(last), rigid.momentum(last)
+    now, (momentum, spin) = rigid.energies(last), rigid.momenta(last)
     done, lost = (last.work - first.work).tolist()
     return RigidBalances(
         kinetic=now.kinetic,
@@ -50,8 +54,10 @@ def rigid_balances(model: Model, before: ModelState, after: ModelState) -> Rigid
         - now.weight
         + (_from_solids(rigid, first, last) if first is not last else 0.0),
         dissipation=lost,
-        momentum=momentum[0],
-        spin=momentum[1],
+        momentum=momentum.sum(axis=0),
+        spin=spin.sum(axis=0),
+        moving=float(np.abs(momentum).sum()),
+        turning=float(np.abs(spin).sum()),
     )
 
 

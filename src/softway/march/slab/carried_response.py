@@ -66,7 +66,7 @@ class Probing:
         return out
 
     def _field(self, carried: list[CarriedNodes], c: int) -> Array:
-        """Displacement (n, d) of carried nodes by a unit motion ``c`` of their body: one metre, or the angle 1 m / extent."""
+        """Displacement (n, d) of carried nodes by a motion ``c`` of their body: a metre, or the angle 1 m / extent."""
         out, d = np.zeros(self.model.shape), self.model.shape[1]
         for one in carried:
             axis, arm = np.zeros(3), self._mean_arms(one)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from softway.arrays import Array
 from softway.bodies.assembled import material_states
-from softway.errors import Cancel, Unbalanced
+from softway.errors import Cancel, InputError, Unbalanced
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.results.trying import TryWatch
@@ -16,6 +16,7 @@ from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import TimeWeight
 from softway.solve.equations.slab_values import SlabStart
+from softway.solve.methods.central_difference import Explicit
 from softway.solve.methods.fixed_point import FixedPoint
 from softway.solve.methods.newton import Newton
 from softway.solve.operators.operator_memory import OperatorMemory
@@ -47,6 +48,8 @@ def stepper(
     InputError
         If the contact rule does not fit the material, the method or the time weight.
     """
+    if model.rigid is not None and isinstance(method, Explicit):
+        raise InputError("solver", "Explicit with rigid bodies", "FixedPoint or Newton")
     rule, second = slab_rule(model, method, weight), None
     if isinstance(method, Newton) and method.handover:
         second = slab_rule(model, FixedPoint(tolerance=method.tolerance), weight)

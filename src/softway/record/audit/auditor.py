@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from softway.arrays import Array, BoolArray
-from softway.bodies.solid import Tool
+from softway.bodies.prescribed_motion import PlacedShape
 from softway.march.results.step import Event
 from softway.record.audit.geometry.inverted import inverted
 from softway.record.audit.geometry.overlap import overlaps
@@ -61,20 +61,20 @@ class Auditor:
     solids
         Deformable bodies.
     tools
-        Rigid tools by name.
+        Rigid tools and bodies by name, at the start.
     """
 
     solids: Solids
-    tools: Mapping[str, Tool]
+    tools: Mapping[str, PlacedShape]
 
     @cached_property
     def _behind(self) -> dict[str, BoolArray]:
         """Nodes (n,) behind each tool that is an open surface."""
-        return {name: behind(self.solids, tool.at(0.0)) for name, tool in self.tools.items()}
+        return {name: behind(self.solids, tool) for name, tool in self.tools.items()}
 
-    def look(self, time: float, x: Array) -> Depths:
-        """Overlaps and inverted cells at a time [s] with the nodes at x (n, d) [m]."""
-        found = [*self._bodies(x), *self._tools(time, x)]
+    def look(self, time: float, x: Array, tools: Mapping[str, PlacedShape]) -> Depths:
+        """Overlaps and inverted cells at a time [s] with the nodes at x (n, d) [m], and the tools at their places."""
+        found = [*self._bodies(x), *self._tools(tools, x)]
         nodes = max((f.depth for f in found if f.at_node), default=0.0)
         between = max((f.depth for f in found), default=0.0)
         seen = (self._told(time, f) for f in found if f.depth > self._limit(f))
@@ -102,10 +102,10 @@ class Auditor:
                     own, other = self.solids.names[first[k]], self.solids.names[inside.body[k]]
                     yield Overlap(own, other, int(node[k]), kind, inside.place[k], float(inside.depth[k]))
 
-    def _tools(self, time: float, x: Array) -> Iterator[Overlap]:
+    def _tools(self, tools: Mapping[str, PlacedShape], x: Array) -> Iterator[Overlap]:
         """Deepest overlap of each body with each tool, at nodes and between them."""
-        for name, tool in self.tools.items():
-            for s in sunk(self.solids, x, tool.at(time), self._behind[name]):
+        for name, tool in tools.items():
+            for s in sunk(self.solids, x, tool, self._behind[name]):
                 yield Overlap(self.solids.names[s.body], name, s.node, s.at_node, s.place, s.depth)
 
     def _told(self, time: float, found: Overlap) -> Event:
@@ -142,7 +142,7 @@ class Auditor:
         return node - int(self.solids.first[self.solids.names.index(body)])
 
 
-def auditor(cells: Grid, tools: Mapping[str, Tool]) -> Auditor:
-    """Auditor of the solids of a grid, and of rigid tools by name."""
+def auditor(cells: Grid, tools: Mapping[str, PlacedShape]) -> Auditor:
+    """Auditor of the solids of a grid, and of rigid tools and bodies by name, at their places at the start."""
     reference = cells.reference[:, : cells.dimension]
     return Auditor(solids=solids(cells.bodies, reference, blocks(cells), owners(cells)), tools=tools)

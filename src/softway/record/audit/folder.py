@@ -19,10 +19,10 @@ DEEPER = 1e-9
 def frames_audited(fields: Fields) -> Iterator[Depths]:
     """Depths and findings of each stored frame after the first."""
     cells = fields.cells
-    judge = auditor(cells, cells.tools)
+    judge = auditor(cells, cells.obstacles(0.0))
     for k in range(1, len(fields)):
         frame = fields[k]
-        yield judge.look(frame.time, frame.points[:, : cells.dimension])
+        yield judge.look(frame.time, frame.points[:, : cells.dimension], cells.obstacles(frame.time))
 
 
 def history_audited(history: Table) -> list[Event]:

@@ -1,12 +1,13 @@
 """Audit of a march: its slabs with the findings at the stored frames and at the end."""
 
 import itertools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.prescribed_motion import PlacedShape
 from softway.bodies.solid import Tool
 from softway.march.results.step import Event, Step
 from softway.model.scene import State
@@ -15,6 +16,7 @@ from softway.record.audit.energy_watch import ENERGIES, EnergyWatch, given_back,
 from softway.record.read.findings import ENERGY, MOMENTUM, SPIN, finding
 from softway.record.storage.table import Table
 from softway.record.write.grid_layout import layout
+from softway.record.write.mechanism.rigid_table import placed_bodies
 from softway.record.write.recorder import RunStart
 
 APART = 10
@@ -41,14 +43,22 @@ class Watcher:
         Geometric audit.
     positions
         Positions (n, d) of the nodes of all bodies in a state [m].
+    obstacles
+        Tools and rigid bodies at their places in a state.
     opening
         Start of the run: when frames are stored, and the balances of a state.
     """
 
-    __slots__ = ("_audited", "_energy", "_slabs", "auditor", "opening", "positions")
+    __slots__ = ("_audited", "_energy", "_slabs", "auditor", "obstacles", "opening", "positions")
 
-    def __init__(self, auditor: Auditor, positions: Callable[[State], Array], opening: RunStart) -> None:
-        self.auditor, self.positions, self.opening = auditor, positions, opening
+    def __init__(
+        self,
+        auditor: Auditor,
+        positions: Callable[[State], Array],
+        obstacles: Callable[[State], Mapping[str, PlacedShape]],
+        opening: RunStart,
+    ) -> None:
+        self.auditor, self.positions, self.obstacles, self.opening = auditor, positions, obstacles, opening
         self._slabs = self._audited = 0
         start = opening.ledger
         self._energy = EnergyWatch(start.energy_kinetic + start.energy_strain, opening.rounding)
@@ -70,7 +80,7 @@ class Watcher:
             found = list(given_back(self._energy, gained, step.after.time, step.slab.span))
             seen = step.certificate
             if self._counted(step.before.time, step.after.time):
-                depths = self.auditor.look(step.after.time, self.positions(step.after))
+                depths = self.auditor.look(step.after.time, self.positions(step.after), self.obstacles(step.after))
                 seen = replace(seen, gap_nodes=0.0 - depths.nodes, gap_between=0.0 - depths.between)
                 found += [*depths.findings, *self._balanced(step), *self._pushed(step)]
             yield replace(step, certificate=seen, events=(*step.events, *found))
@@ -95,7 +105,7 @@ class Watcher:
         again = self.opening.balances(step.after)
         energies = (("kinetic", again.kinetic, ledger.energy_kinetic), ("strain", again.strain, ledger.energy_strain))
         for name, found, given in energies:
-            if not abs(found - given) <= AGREED * self._energy.scale + self.opening.rounding:
+            if found is not None and not abs(found - given) <= AGREED * self._energy.scale + self.opening.rounding:
                 text = f"the {name} energy of the fields is {found:.9g} J, that of the ledger {given:.9g} J"
                 yield finding(time, ENERGY, ("all",), text)
         vectors = (
@@ -139,4 +149,9 @@ def watcher(opening: RunStart) -> Watcher:
     def positions(state: State) -> Array:
         return np.asarray(reference + cells.nodal(state.displacement)[:, : cells.dimension])
 
-    return Watcher(auditor(cells, tools), positions, opening)
+    rigid = {} if opening.scene.mechanism is None else opening.scene.mechanism.bodies
+
+    def obstacles(state: State) -> Mapping[str, PlacedShape]:
+        return {**{name: tool.at(state.time) for name, tool in tools.items()}, **placed_bodies(rigid, state)}
+
+    return Watcher(auditor(cells, obstacles(opening.initial)), positions, obstacles, opening)

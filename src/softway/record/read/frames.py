@@ -13,6 +13,7 @@ from softway.bodies.prescribed_motion import PlacedShape
 from softway.bodies.solid import Tool
 from softway.errors import InputError
 from softway.meshes.cells import CELLS
+from softway.record.read.recorded_bodies import RecordedBody, recorded_bodies
 from softway.record.storage.gate.hdf5_file import BROKEN, reading
 from softway.record.write.fields import CELL_DATA, FILE, POINT_DATA, SIZES
 from softway.record.write.grid_layout import VTK, blocks
@@ -42,6 +43,8 @@ class Cells:
         (n, 3) reference coordinates [m].
     connectivity, offsets, types, body
         Cells in the format of VTK: (k,), (e + 1,), (e,); and (e,) number of the solid of each cell.
+    rigid
+        Rigid bodies that have a shape, by name.
     """
 
     bodies: tuple[str, ...]
@@ -53,14 +56,16 @@ class Cells:
     offsets: IntArray
     types: IntArray
     body: IntArray
+    rigid: Mapping[str, RecordedBody] = field(default_factory=dict)
 
     def blocks(self) -> dict[str, IntArray]:
         """Connectivity (cells, nodes) by cell name."""
         return blocks(self)
 
     def obstacles(self, time: float) -> dict[str, PlacedShape]:
-        """Rigid obstacles in their positions at a time [s]."""
-        return {name: tool.at(time) for name, tool in self.tools.items()}
+        """Rigid obstacles and rigid bodies in their positions at a time [s]."""
+        tools = {name: tool.at(time) for name, tool in self.tools.items()}
+        return {**tools, **{name: body.at(time) for name, body in self.rigid.items()}}
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -173,13 +178,16 @@ class Fields:
             whole = {name: np.asarray(root[name.title()][:], int) for name in ("connectivity", "offsets", "types")}
             dimension = int(file.attrs["dimension"])
             tools = {name: _tool(data, dimension) for name, data in json.loads(file["tools"][()]).items()}
+            rigid = json.loads(file["rigid"][()]) if "rigid" in file else {}
+            bodies = {name: _tool(data, dimension) for name, data in rigid.items()}
             found = Cells(
                 bodies=tuple(json.loads(file.attrs["bodies"])),
                 tools={n: tool for n, tool in tools.items() if tool is not None},
-                lost=tuple(n for n, tool in tools.items() if tool is None),
+                lost=tuple(n for n, tool in (*tools.items(), *bodies.items()) if tool is None),
                 dimension=dimension,
                 reference=file["reference"][:],
                 body=np.asarray(root["CellData/body"][:], int),
+                rigid=recorded_bodies(self.path.parent, bodies),
                 **whole,
             )
             _require_cells(found)

@@ -246,6 +246,9 @@ def _write_cells(
     points = cells.reference[:, : cells.dimension]
     tools = {name: stored(body, points) for name, body in scene.bodies.items() if isinstance(body, Tool)}
     file["tools"] = json.dumps(tools)
+    rigid = {} if scene.mechanism is None else scene.mechanism.bodies
+    shapes = {name: stored(Tool(shape=body.shape), points) for name, body in rigid.items() if body.shape is not None}
+    file["rigid"] = json.dumps(shapes)
     steps.attrs["NSteps"] = np.int64(0)
 
 

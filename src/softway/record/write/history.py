@@ -7,8 +7,7 @@ from softway.march.results.step import Step
 from softway.record.storage import table
 from softway.record.storage.table import Lines
 from softway.record.write.history_columns import Column, columns
-from softway.record.write.probes import Reading
-from softway.record.write.recorder import RunStart
+from softway.record.write.recorder import Readable, RunStart
 
 FILE = "history.csv"
 
@@ -19,7 +18,7 @@ class History:
 
     lines: Lines
     columns: tuple[Column, ...]
-    readings: tuple[Reading, ...]
+    readings: tuple[Readable, ...]
 
     def take(self, step: Step) -> None:
         """Write the line of one slab: its energy and momentum audit, and the probes at its end."""

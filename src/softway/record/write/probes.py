@@ -114,7 +114,7 @@ def readings(probes: Sequence[Probe], meshes: Mapping[str, Mesh]) -> tuple[Readi
         For an unknown body, a tag without nodes or a component that does not exist; the path is ``output.probes[k]``.
     """
     require_names(probes)
-    return tuple(_resolve(f"output.probes[{k}]", probe, meshes) for k, probe in enumerate(probes))
+    return tuple(solid_reading(f"output.probes[{k}]", probe, meshes) for k, probe in enumerate(probes))
 
 
 def require_names(probes: Sequence[Probe]) -> None:
@@ -129,10 +129,17 @@ def require_names(probes: Sequence[Probe]) -> None:
             )
 
 
-def _resolve(path: str, probe: Probe, meshes: Mapping[str, Mesh]) -> Reading:
+def solid_reading(path: str, probe: Probe, meshes: Mapping[str, Mesh], others: tuple[str, ...] = ()) -> Reading:
+    """Resolve one probe, whose path in the scenario is given; ``others`` are further bodies that may be named.
+
+    Raises
+    ------
+    InputError
+        As for :func:`readings`.
+    """
     mesh = meshes.get(probe.of)
     if mesh is None:
-        raise InputError(f"{path}.of", f"no solid '{probe.of}'", f"one of {list(meshes)}")
+        raise InputError(f"{path}.of", f"no solid '{probe.of}'", f"one of {[*meshes, *others]}")
     if probe.quantity not in UNITS:
         raise InputError(f"{path}.quantity", f"'{probe.quantity}' is not recorded", f"one of {list(UNITS)}")
     allowed = (*COMPONENTS[: mesh.dim], "norm")

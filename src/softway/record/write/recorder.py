@@ -12,7 +12,24 @@ from softway.march.results.step import Ledger, Step
 from softway.meshes.mesh import Mesh
 from softway.model.field import Field
 from softway.model.scene import Scene, State
-from softway.record.write.probes import Reading
+
+
+class Readable(Protocol):
+    """Probe that has been resolved: a column of the history."""
+
+    @property
+    def name(self) -> str:
+        """Name of the column."""
+        ...
+
+    @property
+    def unit(self) -> str:
+        """Unit of the column."""
+        ...
+
+    def value(self, state: State, reactions: Mapping[str, Array]) -> float:
+        """Value at ``state``."""
+        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -61,7 +78,7 @@ class RunStart:
     ledger: Ledger
     until: float
     fields_every: float
-    readings: tuple[Reading, ...] = ()
+    readings: tuple[Readable, ...] = ()
     remembered: Mapping[str, Callable[[State], Mapping[str, Array]]] = field(default_factory=dict)
     spread: Callable[[State, Array], Array] | None = None
     fields: tuple[Field, ...] = ()

@@ -1,7 +1,7 @@
 """Check of a scenario before the computation, and the scales of its bodies and contacts."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -16,8 +16,14 @@ from softway.meshes.files.listed_mesh import LeftOut
 from softway.model.build import build
 from softway.model.model import Model
 from softway.model.scene import StaticStart
-from softway.record.write.probes import readings
-from softway.scenario.checks.mechanism import CheckedMechanism, check_mechanism, is_mechanism
+from softway.scenario.checks.mechanism import (
+    CheckedMechanism,
+    RigidScales,
+    check_mechanism,
+    is_mechanism,
+    mechanism_among_solids,
+    rigid_scales,
+)
 from softway.scenario.checks.names import (
     check_contact,
     check_contacts,
@@ -29,6 +35,7 @@ from softway.scenario.checks.names import (
     mesh_of,
 )
 from softway.scenario.checks.notes import body_notes, contact_notes, file_notes
+from softway.scenario.checks.probes import probe_readings
 from softway.scenario.checks.scales import (
     BodyScales,
     ContactScales,
@@ -59,7 +66,7 @@ class Checked:
     model
         Scene as arrays, ready to march.
     bodies, contacts
-        Scales of the bodies by name and of the contacts by label.
+        Scales of the bodies by name, rigid ones last, and of the contacts by label.
     march_state
         State at the start of the march.
     step, slabs
@@ -72,7 +79,7 @@ class Checked:
 
     scenario: Scenario
     model: Model
-    bodies: Mapping[str, BodyScales]
+    bodies: Mapping[str, BodyScales | RigidScales]
     contacts: Mapping[str, ContactScales]
     march_state: MarchState
     step: float
@@ -114,10 +121,11 @@ def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked
         if isinstance(body, Solid):
             check_density(body.density, f"bodies.{name}.density")
     scene, left_out = built_and_left_out(scenario)
+    scene = replace(scene, mechanism=mechanism_among_solids(scenario))
     solids = {n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}
     if not solids:
         raise InputError("bodies", f"no Solid among {list(scene.bodies)}", 'at least one body of kind = "Solid"')
-    check_dimensions(scene, solids)
+    check_dimensions(scenario.bodies, solids)
     _require_edges(solids)
     fixed = {n: check_solid(s, f"bodies.{n}") for n, s in solids.items()}
     notes = (*file_notes(left_out), *unit_notes(scenario.scene.bodies, solids), *body_notes(solids, fixed))
@@ -128,8 +136,8 @@ def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked
         with within(f"bodies.{name}"):
             bodies[name] = body_scales(solid, mesh_of(solid), int((~fixed[name]).sum()), factor)
     for k, contact in enumerate(scene.contacts):
-        check_contact(scene.bodies, contact, f"contacts[{k}]")
-    readings(scenario.output.probes, {n: mesh_of(s) for n, s in solids.items()})
+        check_contact({**scenario.bodies, **solids}, contact, f"contacts[{k}]")
+    probe_readings(scenario, {n: mesh_of(s) for n, s in solids.items()}, scene.mechanism)
     if isinstance(scenario.start, StaticStart):
         check_loads(scenario.start.loads, "start.loads", solids)
     model = build(scene)
@@ -139,7 +147,7 @@ def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked
     return Checked(
         scenario=scenario,
         model=model,
-        bodies=bodies,
+        bodies={**bodies, **rigid_scales(scene.mechanism)},
         contacts=contacts,
         march_state=march_state,
         step=step,

@@ -8,6 +8,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.bodies.setup.amplitude import Ramp
 from softway.bodies.setup.loads import Gravity
+from softway.bodies.solid import Tool
 from softway.errors import InputError, Note, within
 from softway.mechanisms.arrays import arrays
 from softway.mechanisms.driven import check_motions
@@ -80,22 +81,37 @@ class CheckedMechanism:
 
 
 def is_mechanism(scenario: Scenario) -> bool:
-    """True if the bodies of a scenario are rigid.
+    """True if all bodies of a scenario are rigid.
 
     Raises
     ------
     InputError
-        If a Rigid is together with bodies of other kinds, or parts of a mechanism are given without a Rigid.
+        If rigid bodies are together with tools only, or parts of a mechanism are given without a Rigid.
     """
     rigid = [name for name, body in scenario.bodies.items() if isinstance(body, Rigid)]
-    others = [name for name in scenario.bodies if name not in rigid]
-    if rigid and others:
-        kind = type(scenario.bodies[others[0]]).__name__
-        problem = f"kind 'Rigid' together with the {kind} {others[0]!r}: they are not marched together yet"
-        raise InputError(f"bodies.{rigid[0]}.kind", problem, 'kind = "Rigid" for all bodies, or for none of them')
+    tools = [name for name, body in scenario.bodies.items() if isinstance(body, Tool)]
     if not rigid:
         _require_no_parts(scenario)
-    return bool(rigid)
+    elif tools and len(rigid) + len(tools) == len(scenario.bodies):
+        problem = f"the Tool {tools[0]!r} with rigid bodies only: no solid would touch it"
+        remedy = '[stops.NAME] against ground, or a body of kind = "Solid"'
+        raise InputError(f"bodies.{tools[0]}.kind", problem, remedy)
+    return bool(rigid) and not tools and len(rigid) == len(scenario.bodies)
+
+
+def mechanism_among_solids(scenario: Scenario) -> Mechanism | None:
+    """Rigid bodies of a scenario of solids, with their joints; None without.
+
+    Raises
+    ------
+    InputError
+        With the path in the scenario, the value, and a remedy.
+    """
+    if not any(isinstance(body, Rigid) for body in scenario.bodies.values()):
+        return None
+    found = mechanism_of(scenario)
+    check_motions(arrays(welded(found).mechanism), found.stops)
+    return found
 
 
 def _require_no_parts(scenario: Scenario) -> None:
@@ -120,7 +136,11 @@ def check_mechanism(scenario: Scenario) -> CheckedMechanism:
         With the path in the scenario, the value, and a remedy.
     """
     _require_own_keys(scenario)
-    mechanism = _built(scenario)
+    for k, load in enumerate(scenario.loads):
+        if not isinstance(load, Gravity):
+            problem = f"{type(load).__name__} on {load.on!r} in a scenario of rigid bodies"
+            raise InputError(f"loads[{k}]", problem, "Gravity, [[forces]], [[springs]] or [[torques]]")
+    mechanism = mechanism_of(scenario)
     joined = welded(mechanism)
     tables = arrays(joined.mechanism)
     check_motions(tables, mechanism.stops)
@@ -133,7 +153,7 @@ def check_mechanism(scenario: Scenario) -> CheckedMechanism:
     return CheckedMechanism(
         scenario=scenario,
         mechanism=mechanism,
-        bodies={name: _scales(body) for name, body in mechanism.bodies.items()},
+        bodies=rigid_scales(mechanism),
         readings=body_readings(scenario.output.probes, mechanism),
         step=span,
         slabs=slabs,
@@ -159,8 +179,8 @@ def _require_own_keys(scenario: Scenario) -> None:
         raise InputError("output.checkpoints", problem, "omit it: run an interrupted scenario again")
 
 
-def _built(scenario: Scenario) -> Mechanism:
-    """Mechanism of the scenario."""
+def mechanism_of(scenario: Scenario) -> Mechanism:
+    """Mechanism of the rigid bodies of a scenario."""
     bodies = {name: body for name, body in scenario.bodies.items() if isinstance(body, Rigid)}
     named: list[tuple[str, Iterable[str]]] = [(f"joints.{n}.between", j.between) for n, j in scenario.joints.items()]
     named += [(f"stops.{n}.between", s.between) for n, s in scenario.stops.items() if not isinstance(s, AngleStop)]
@@ -194,10 +214,9 @@ def _gravity(scenario: Scenario, dim: int) -> tuple[float, ...] | None:
     found: list[Array] = []
     for k, load in enumerate(scenario.loads):
         if not isinstance(load, Gravity):
-            problem = f"{type(load).__name__} on {load.on!r} in a scenario of rigid bodies"
-            raise InputError(f"loads[{k}]", problem, "Gravity, [[forces]], [[springs]] or [[torques]]")
+            continue
         if load.ramp != Ramp():
-            problem = "gravity that changes with time in a scenario of rigid bodies"
+            problem = "gravity that changes with time in a scenario with rigid bodies"
             raise InputError(f"loads[{k}].ramp", problem, "omit it: gravity is constant there")
         with within(f"loads[{k}]"):
             found.append(load.vector(dim))
@@ -226,7 +245,10 @@ def _slabs(time: Time) -> tuple[float, int]:
     return time.end / slabs, slabs
 
 
-def _scales(body: Rigid) -> RigidScales:
-    """Scales of a body."""
-    velocity, spin = body.motion
-    return RigidScales(mass=body.mass, speed=float(np.linalg.norm(velocity)), spin=float(np.linalg.norm(spin)))
+def rigid_scales(mechanism: Mechanism | None) -> dict[str, RigidScales]:
+    """Scales of the rigid bodies; none without a mechanism."""
+    found = {}
+    for name, body in ({} if mechanism is None else mechanism.bodies).items():
+        speed, spin = (float(np.linalg.norm(part)) for part in body.motion)
+        found[name] = RigidScales(mass=body.mass, speed=speed, spin=spin)
+    return found

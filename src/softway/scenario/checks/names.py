@@ -11,10 +11,12 @@ from softway.bodies.setup.loads import Gravity, Load, Traction
 from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact
 from softway.errors import InputError, within
+from softway.mechanisms.members.rigid import Rigid
 from softway.meshes.mesh import Mesh
-from softway.model.scene import Scene
 from softway.scenario.checks.scales import section_of
 from softway.scenario.hints.type_hints import nearest
+
+Body = Solid | Tool | Rigid
 
 
 def mesh_of(solid: Solid) -> Mesh:
@@ -24,14 +26,14 @@ def mesh_of(solid: Solid) -> Mesh:
     return solid.mesh
 
 
-def solid_named(bodies: Mapping[str, Solid | Tool], name: str, where: str) -> Solid:
+def solid_named(bodies: Mapping[str, Body], name: str, where: str) -> Solid:
     """Deformable body with a given name."""
     solids = [n for n, b in bodies.items() if isinstance(b, Solid)]
     if name not in bodies:
         raise InputError(where, f"there is no body {name!r}", nearest(name, solids))
     body = bodies[name]
     if not isinstance(body, Solid):
-        raise InputError(where, f"{name!r} is a Tool, which has no nodes", nearest(name, solids))
+        raise InputError(where, f"{name!r} is a {type(body).__name__}, which has no nodes", nearest(name, solids))
     return body
 
 
@@ -43,20 +45,24 @@ def check_names(bodies: Iterable[str]) -> None:
             raise InputError("bodies", problem, "letters, digits and blanks; a dot stands between a body and its tag")
 
 
-def check_contact(bodies: Mapping[str, Solid | Tool], contact: Contact, where: str) -> None:
+def check_contact(bodies: Mapping[str, Body], contact: Contact, where: str) -> None:
     """Refuse a contact with unknown bodies or tags, with a tool in the first place, or with a tag of a tool."""
     path, (first, second) = f"{where}.between", contact.between
     opponent = bodies.get(contact.opponent)
-    if isinstance(bodies.get(contact.body), Tool) and isinstance(opponent, Solid):
-        raise InputError(
-            path, f"{contact.body!r} is a Tool, which has no nodes", f'the solid first: ["{second}", "{first}"]'
-        )
+    one = bodies.get(contact.body)
+    if isinstance(one, Tool | Rigid) and isinstance(opponent, Solid):
+        problem = f"{contact.body!r} is a {type(one).__name__}, which has no nodes"
+        raise InputError(path, problem, f'the solid first: ["{second}", "{first}"]')
     solid_named(bodies, contact.body, path)
     if opponent is None:
         others = [n for n in bodies if n != contact.body]
         raise InputError(path, f"there is no body {contact.opponent!r}", nearest(contact.opponent, others))
-    if isinstance(opponent, Tool) and second != contact.opponent:
-        raise InputError(path, f"{second!r}: a Tool has no tags", f'its name: ["{first}", "{contact.opponent}"]')
+    if isinstance(opponent, Tool | Rigid) and second != contact.opponent:
+        problem = f"{second!r}: a {type(opponent).__name__} has no tags"
+        raise InputError(path, problem, f'its name: ["{first}", "{contact.opponent}"]')
+    if isinstance(opponent, Rigid) and opponent.shape is None:
+        remedy = f"bodies.{contact.opponent}.shape, a surface at the place of the body"
+        raise InputError(path, f"{contact.opponent!r} has no surface", remedy)
     for name, tag in ((contact.body, contact.tag), (contact.opponent, contact.opponent_tag)):
         body = bodies[name]
         if isinstance(body, Solid):
@@ -70,7 +76,7 @@ def check_density(density: float, where: str) -> None:
         raise InputError(where, f"{density:g} kg/m^3 is not positive", 'a density such as "7850 kg/m^3"')
 
 
-def check_dimensions(scene: Scene, solids: Mapping[str, Solid]) -> None:
+def check_dimensions(bodies: Mapping[str, Body], solids: Mapping[str, Solid]) -> None:
     """Refuse bodies and obstacles of different space dimensions."""
     first = next(iter(solids))
     dim = mesh_of(solids[first]).dim
@@ -78,7 +84,10 @@ def check_dimensions(scene: Scene, solids: Mapping[str, Solid]) -> None:
         if mesh_of(solid).dim != dim:
             problem = f"a mesh in {mesh_of(solid).dim}D together with {first!r} in {dim}D"
             raise InputError(f"bodies.{name}.mesh", problem, "all bodies in the same space")
-    for name, body in scene.bodies.items():
+    for name, body in bodies.items():
+        if isinstance(body, Rigid) and body.dim != dim:
+            problem = f"a Rigid in {body.dim}D together with {first!r} in {dim}D"
+            raise InputError(f"bodies.{name}.centre", problem, f"{dim} coordinates")
         if isinstance(body, Tool) and body.shape.dim != dim:
             problem = f"{type(body.shape).__name__} in {body.shape.dim}D together with {first!r} in {dim}D"
             raise InputError(f"bodies.{name}.shape", problem, f"{dim} coordinates")

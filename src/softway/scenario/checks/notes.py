@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from softway.arrays import BoolArray
-from softway.bodies.solid import Solid, Tool
+from softway.bodies.solid import Solid
 from softway.contact.contact import Contact, NodeToSurface
 from softway.contact.surfaces.boundary import ContactSurface
 from softway.contact.surfaces.sagitta import CurvedSurface, Misfit, curved_surface, misfit
@@ -73,9 +73,9 @@ def contact_notes(model: Model) -> tuple[Note, ...]:
     for k, contact in enumerate(model.scene.contacts):
         one, other = model.opponents[k]
         mortar = contact.timing.massless and not isinstance(contact.method, NodeToSurface)
-        tool = model.scene.bodies[contact.opponent]
-        second = curved_tool(tool) if isinstance(tool, Tool) else None
-        if model.shape[1] == 1 or (isinstance(tool, Tool) and second is None):
+        tool = model.tools.get(contact.opponent)
+        second = None if tool is None else curved_tool(tool)
+        if model.shape[1] == 1 or (tool is not None and second is None):
             continue
         first = _curved(model, int(one), contact.tag, mortar)
         if second is None:
@@ -86,7 +86,7 @@ def contact_notes(model: Model) -> tuple[Note, ...]:
         found = misfit(first, second, fit)
         least = ROUNDING * min(float(model.edge[model.parts[part].nodes].min()) for part in (one, other) if part >= 0)
         if found is not None and found.off > max(least, SHARE * abs(found.gap)):
-            notes.append(_off(k, contact, found, isinstance(tool, Tool)))
+            notes.append(_off(k, contact, found, tool is not None))
     return tuple(notes)
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.rigid_motion import RigidShape
 from softway.bodies.solid import Solid, Tool
 from softway.contact.surfaces.boundary import ContactSurface
 from softway.contact.surfaces.sagitta import CurvedSurface, curved_surface
@@ -23,7 +24,7 @@ SEGMENT = {2: "bar2", 3: "tri3"}
 """Facets of a tool by the dimension of space."""
 
 
-def curved_tool(tool: Tool) -> CurvedSurface | None:
+def curved_tool(tool: Tool | RigidShape) -> CurvedSurface | None:
     """Curvature of a tool of flat facets at its place at the start; None for another tool."""
     hollow = isinstance(tool.shape, Cavity)
     shape = tool.shape.of if isinstance(tool.shape, Cavity) else tool.shape

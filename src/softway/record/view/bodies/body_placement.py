@@ -33,9 +33,11 @@ class BodyPlacement:
 def body_placement(cells: Cells, frame: Frame, tools: Mapping[str, PlacedShape], most: float = np.inf) -> BodyPlacement:
     """Enlarge the deformation of all bodies by one factor until it is visible, and restore the gaps between them.
 
-    The factor is ``most`` at most.  The bodies are shifted to their real gaps to the obstacles and to each other.
+    The factor is ``most`` at most, and one beside rigid bodies, which are where they are.  The bodies are shifted to
+    their real gaps to the obstacles and to each other.
     """
     real, shape = frame.points, frame.points.copy()
+    most = min(most, 1.0) if cells.rigid else most
     members = [_nodes_of(cells, number) for number in range(len(cells.bodies))]
     shaped = np.zeros(len(shape), bool)
     factors = [np.inf]

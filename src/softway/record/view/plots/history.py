@@ -13,7 +13,7 @@ from softway.record.read.summary import contacts_of
 from softway.record.storage.table import Table
 from softway.record.view.options import STANDARD, PictureOptions
 from softway.record.view.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, PURPLE, RED, canvas, scaled
-from softway.record.write.history_columns import CERTIFICATE, COLUMNS
+from softway.record.write.history_columns import CERTIFICATE, COLUMNS, EXTRA
 from softway.record.write.mechanism.columns import NEEDED
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def _panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
     panels: list[Callable[[Axes, Array, Table], None]] = [energies, balance]
     if contacts:
         panels += [partial(forces, contacts=contacts), partial(gaps, contacts=contacts)]
-    known = {column.name for column in (*COLUMNS, *CERTIFICATE)} | {name for name, _ in NEEDED}
+    known = {column.name for column in (*COLUMNS, *CERTIFICATE, *EXTRA)} | {name for name, _ in NEEDED}
     probes = [n for n in table if n not in known and not n.startswith("contact.")]
     units = dict.fromkeys(table.units[n] for n in probes)
     return panels + [partial(_probes, names=[n for n in probes if table.units[n] == unit]) for unit in units]

@@ -1,6 +1,6 @@
 """Probes of a mechanism: one number of a body, or of one of its points."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -42,7 +42,11 @@ class BodyReading:
 
     def value(self, step: MechanismStep) -> float:
         """Value after a step."""
-        vector = self._vector(step.bodies[self.body])
+        return self.at(step.bodies)
+
+    def at(self, bodies: Mapping[str, BodyState]) -> float:
+        """Value with the bodies in these states."""
+        vector = self._vector(bodies[self.body])
         if self.component == "norm":
             return float(np.linalg.norm(vector))
         return float(vector[0 if len(vector) == 1 else "xyz".index(self.component)])
@@ -77,10 +81,17 @@ def body_readings(probes: Sequence[Probe], mechanism: Mechanism) -> tuple[BodyRe
     for k, probe in enumerate(probes):
         if probe.name in known:
             raise InputError(f"output.probes[{k}].name", f"'{probe.name}' is a column already", "another name")
-    return tuple(_resolve(f"output.probes[{k}]", probe, mechanism) for k, probe in enumerate(probes))
+    return tuple(body_reading(f"output.probes[{k}]", probe, mechanism) for k, probe in enumerate(probes))
 
 
-def _resolve(path: str, probe: Probe, mechanism: Mechanism) -> BodyReading:
+def body_reading(path: str, probe: Probe, mechanism: Mechanism) -> BodyReading:
+    """Resolve one probe, whose path in the scenario is given.
+
+    Raises
+    ------
+    InputError
+        As for :func:`body_readings`.
+    """
     body, dim = mechanism.bodies.get(probe.of), mechanism.dim
     if body is None:
         raise InputError(f"{path}.of", f"no rigid body '{probe.of}'", f"one of {list(mechanism.bodies)}")

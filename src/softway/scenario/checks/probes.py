@@ -1,0 +1,34 @@
+"""Probes of a scenario of solids and rigid bodies, resolved on their meshes and bodies."""
+
+from collections.abc import Mapping
+
+from softway.mechanisms.members.mechanism import Mechanism
+from softway.meshes.mesh import Mesh
+from softway.record.write.mechanism.probes import body_reading
+from softway.record.write.mechanism.rigid_table import RigidReading
+from softway.record.write.probes import Reading, readings, require_names, solid_reading
+from softway.scenario.scenario import Scenario
+
+
+def probe_readings(
+    scenario: Scenario, meshes: Mapping[str, Mesh], mechanism: Mechanism | None
+) -> tuple[Reading | RigidReading, ...]:
+    """Resolve the probes of a scenario.
+
+    Raises
+    ------
+    InputError
+        With the path ``output.probes[k]``.
+    """
+    probes = scenario.output.probes
+    if mechanism is None:
+        return readings(probes, meshes)
+    require_names(probes)
+    found: list[Reading | RigidReading] = []
+    for k, probe in enumerate(probes):
+        path = f"output.probes[{k}]"
+        if probe.of in mechanism.bodies:
+            found.append(RigidReading(body_reading(path, probe, mechanism)))
+        else:
+            found.append(solid_reading(path, probe, meshes, tuple(mechanism.bodies)))
+    return tuple(found)
