@@ -81,6 +81,14 @@ VARIANTS: Mapping[str, Variant] = {
         same="same mesh and slabs; the rod rides on the cam and leaves it before the top; only the flight is left out",
         held={"rod": {"tip": (0, 1), "guide": (0,)}},  # contact that starts closed, guide
     ),
+    "flexible_crank": Variant(
+        changes=("bodies.rod.mesh.cells=[6, 1]", "time.end=8 ms", "time.step=1 ms"),
+        same="same crank, rod and slider; the first twentieth of a turn",
+    ),
+    "hammer_on_beam": Variant(
+        changes=("bodies.beam.mesh.cells=[20, 2]", "time.end=4 ms", "time.step=0.16 ms"),
+        same="the same hammer hits the same beam; fewer cells, and the first hit only",
+    ),
     "oblique_blocks": Variant(
         changes=(
             'contacts[0].between=["thrown.bottom", "still.top"]',

@@ -13,7 +13,8 @@ from softway.obstacles.primitives import Shape
 class RigidMotion:
     """Motion of a rigid body from one place to another.
 
-    In between, the velocity of its centre and the rate of its rotation vector are linear in time.
+    In between, the velocity of its centre and the rate of its rotation vector are linear in time.  If ``end`` is
+    ``begin``, the body coasts.
 
     Parameters
     ----------
@@ -52,12 +53,17 @@ class RigidMotion:
 
     def at(self, time: float) -> Pose:
         """Pose of the shape at a time [s]."""
-        span = self.end - self.begin
-        tau = (time - self.begin) / span if span > 0.0 else 0.0
-        moved = tau * span * self.rate + tau**2 * (self.moved - span * self.rate) if tau != 1.0 else self.moved
+        moved = self.moved if time == self.end > self.begin else self._moved(time)
         rotation = cayley(moved[3:]) @ self.rotation
         shift, d = self.place + moved[:3] - rotation @ self.centre, self.dim
         return Pose(rotation=rotation[:d, :d], shift=shift[:d])
+
+    def _moved(self, time: float) -> Array:
+        """Displacement and rotation vector (6,) up to a time."""
+        span = self.end - self.begin
+        coasted = (time - self.begin) * self.rate
+        bent = self.moved - span * self.rate
+        return np.asarray(coasted + ((time - self.begin) / span) ** 2 * bent if span > 0.0 else coasted)
 
     def turned(self, time: float) -> Array:
         """Rotation (3, 3) from the start of the scene, at the begin or at the end [s]."""
@@ -109,10 +115,16 @@ class CarriedNodes:
         return float(np.abs(self.at(0.0)).max(initial=0.0))
 
     def at(self, time: float) -> Array:
-        """Mean velocities (k d,) of the components over the slab [m/s], at any time of it."""
-        first, last = (self.motion.at(t) for t in (self.motion.begin, self.motion.end))
+        """Mean velocities (k d,) of the components over the slab [m/s], at any time of it; where the body coasts,
+        those of the start.
+        """
+        motion, d = self.motion, self.motion.dim
+        if motion.end == motion.begin:
+            arms = motion.arms(self.place) @ motion.rotation.T
+            return np.asarray((motion.rate[:3] + np.cross(motion.rate[3:], arms))[:, :d].ravel())
+        first, last = (motion.at(t) for t in (motion.begin, motion.end))
         moved = np.dot(self.place, (last.rotation - first.rotation).T) + (last.shift - first.shift)
-        return np.asarray(moved.ravel() / (self.motion.end - self.motion.begin))
+        return np.asarray(moved.ravel() / (motion.end - motion.begin))
 
     def bends(self, start: float, end: float) -> tuple[tuple[float, Array], ...]:
         """No bends."""

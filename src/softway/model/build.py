@@ -1,7 +1,7 @@
 """Model of a scene: meshes, tables, mass, degrees of freedom and contacts."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -33,9 +33,6 @@ from softway.model.rigid_refusals import require_fitting
 from softway.model.scene import Scene, StaticStart
 from softway.tolerances import MOTION
 
-SOON = 1e-6
-"""Time over which rigid bodies coast at the start [s]."""
-
 
 def build(scene: Scene) -> Model:
     """Build the model of a scene: meshes, tables, mass and contacts.
@@ -52,8 +49,8 @@ def build(scene: Scene) -> Model:
     fields, velocity = _initial_fields(parts, solids)
     driven = driven_components(parts, solids, np.concatenate(fields), motions)
     dofs = joined([p.dofs for p in parts])
-    light = _light(met.nodes if timing.massless else met.nodes[:0], driven)[: None if factor > 0.0 else 0]
-    mass, weights, follow = _inertia(parts, solids, light, timing.spread, factor)
+    light = _Massless(met.nodes if timing.massless and factor > 0.0 else met.nodes[:0], _carried(driven), timing.spread)
+    mass, weights, follow = _inertia(parts, solids, light, factor)
     displacement, loads = _displacement(parts, solids, fields, driven), dead_load(parts, weights, scene.loads, "loads")
     return Model(
         scene=scene,
@@ -123,20 +120,37 @@ def _displacement(
     return out
 
 
-def _light(touching: IntArray, driven: Sequence[Moved]) -> IntArray:
-    """Nodes (k,) without inertia: those that touch, and those that rigid bodies carry."""
-    return np.unique(np.concatenate([touching, *(s.nodes for s, _ in driven if isinstance(s, CarriedNodes))]))
+@dataclass(frozen=True, slots=True, eq=False)
+class _Massless:
+    """Nodes without inertia: those ``touching`` (k,), whose mass is spread over some layers of cells, and those that
+    rigid bodies carry, ``carried`` (c,).
+    """
+
+    touching: IntArray
+    carried: IntArray
+    spread: int
+
+    def of(self, nodes: slice) -> tuple[IntArray, int]:
+        """Numbers of those of a solid in it, and the layers of cells."""
+        both = self.touching, self.carried
+        mine = [some[(some >= nodes.start) & (some < nodes.stop)] - nodes.start for some in both]
+        return np.unique(np.concatenate(mine)), self.spread if len(mine[0]) else 1
+
+
+def _carried(driven: Sequence[Moved]) -> IntArray:
+    """Nodes (c,) that rigid bodies carry."""
+    return np.concatenate([np.zeros(0, int), *(s.nodes for s, _ in driven if isinstance(s, CarriedNodes))])
 
 
 def _inertia(
-    parts: Sequence[DiscreteSolid], solids: Mapping[str, Solid], light: IntArray, spread: int, factor: float
+    parts: Sequence[DiscreteSolid], solids: Mapping[str, Solid], light: _Massless, factor: float
 ) -> tuple[sp.csr_array, Array, sp.csr_array]:
-    """Mass (n, n) with massless nodes ``light`` (k,) times the ``factor``, nodal mass (n,) for the weight, and
-    velocities (n, n) of all nodes from those with mass.
+    """Mass (n, n) times the ``factor``, nodal mass (n,) for the weight, and velocities (n, n) of all nodes from those
+    with mass.
     """
-    own = [light[(light >= p.nodes.start) & (light < p.nodes.stop)] - p.nodes.start for p in parts]
-    masses = [solid_mass(p, solids[p.name], nodes, spread) for p, nodes in zip(parts, own, strict=True)]
-    follow = [solid_following(p, nodes) for p, nodes in zip(parts, own, strict=True)]
+    own = [light.of(p.nodes) for p in parts]
+    masses = [solid_mass(p, solids[p.name], nodes, layers) for p, (nodes, layers) in zip(parts, own, strict=True)]
+    follow = [solid_following(p, nodes) for p, (nodes, _) in zip(parts, own, strict=True)]
     weight, following = (sp.csr_array(sp.block_diag(blocks, format="csr")) for blocks in (masses, follow))
     mass = sp.csr_array(factor * weight) if factor > 0.0 else sp.csr_array(weight.shape)
     return mass, np.asarray(weight.sum(axis=1)).ravel(), following
@@ -165,7 +179,7 @@ def _rigid(scene: Scene, solids: Sequence[Solid]) -> tuple[RigidBodies | None, d
         return None, {}
     found = rigid_bodies(scene.mechanism)
     require_fitting(scene, found, solids)
-    return found, found.coasting_motions(SOON)
+    return found, found.coasting_motions()
 
 
 def _tools(scene: Scene, rigid: RigidBodies | None, motions: Mapping[str, RigidMotion]) -> dict[str, Tool | RigidShape]:

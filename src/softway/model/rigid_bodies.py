@@ -187,11 +187,10 @@ class RigidBodies:
         turns = [rotation_vector(b @ a.T) for a, b in zip(first, last, strict=True)]
         return np.concatenate([after.place - before.place, np.array(turns)], axis=1)
 
-    def coasting_motions(self, span: float) -> dict[str, RigidMotion]:
-        """Motions of the bodies over a time ``span`` [s] from the start, with the velocities there."""
+    def coasting_motions(self) -> dict[str, RigidMotion]:
+        """Motions of the bodies from the start on, with the velocities there."""
         state = self.start()
-        spins = np.einsum("nij,nj->ni", self.rotations(state), state.spin)
-        return self.motions(state, span * np.concatenate([state.velocity, spins], axis=1), 0.0, span)
+        return self.motions(state, np.zeros((len(state.place), 6)), 0.0, 0.0)
 
     def shapes(self, motions: Mapping[str, RigidMotion]) -> dict[str, RigidShape]:
         """Shapes of the bodies that have one, in their motions."""
