@@ -18,7 +18,7 @@ from softway import record as record
 from softway import solve as solve
 from softway import studies as studies
 from softway.bodies.setup.loads import Gravity, Traction
-from softway.bodies.solid import Driven, Fixed, Solid, Tool
+from softway.bodies.solid import Carried, Driven, Fixed, Solid, Tool
 from softway.contact.contact import Contact
 from softway.errors import Cancelled, InputError, NumericsError, SoftwayError, StorageError
 from softway.laws.bulk import J2, Hypoelastic, LinearElastic, NeoHookean
@@ -50,6 +50,7 @@ logging.getLogger(__name__).addHandler(logging.NullHandler())
 __all__ = [
     "J2",
     "Cancelled",
+    "Carried",
     "Certificate",
     "Contact",
     "Coulomb",
