@@ -19,7 +19,19 @@ from softway.record.write.mechanism.columns import rotation_of, rotation_vector
 from softway.scenario.checks.mechanism import CheckedMechanism
 
 FOLDER = Path(__file__).parents[4] / "scenarios"
-NAMES = ("hammer_on_stop", "newtons_cradle", "rocking_block", "slider_crank", "toggle_snap")
+NAMES = (
+    "bearing_clearance",
+    "flat_follower",
+    "hammer_on_stop",
+    "newtons_cradle",
+    "rocking_block",
+    "slider_crank",
+    "squeezer",
+    "thrown_ball",
+    "tippe_top",
+    "toggle_snap",
+    "woodpecker",
+)
 TABLES = ("history.csv", "motion.csv", "events.csv")
 SHORT = ("time.end=5 ms",)
 
