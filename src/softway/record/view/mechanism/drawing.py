@@ -170,9 +170,9 @@ def _plane(axis: "Axes", poses: Poses, stop: Mapping[str, Any], row: int, size: 
     places = poses.floors[name] if name in poses.floors else poses.point(body, stop["points"][0], row)[None]
     ways = (places - places[0]) @ along
     low, high = float(ways.min()) - half, float(ways.max()) + half
-    count = round(HATCHES * (high - low) / (2.0 * half))
+    start, apart = float(places[0] @ along), 2.0 * half / HATCHES  # stops on one plane have the same strokes
     axis.plot(*np.array([places[0] + low * along, places[0] + high * along]).T, color=BLACK, lw=1.8, zorder=1)
-    for way in np.linspace(low, high, count):
+    for way in apart * np.arange(np.ceil((start + low) / apart), (start + high) / apart) - start:
         foot = places[0] + way * along
         axis.plot(*np.array([foot, foot - SMALL * size * (normal + along)]).T, color=BLACK, lw=0.7, alpha=0.7, zorder=1)
 
