@@ -1,4 +1,4 @@
-"""Commands show and audit: the summary of a run, and its geometry, looked at independently of its contact."""
+"""Commands show, export and audit: the summary of a run, its motion, and its geometry apart from its contact."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -9,10 +9,13 @@ from rich.markup import escape
 from rich.progress import Progress
 
 from softway.apps.cli.output.tables import findings, summary
+from softway.errors import InputError
 from softway.record.audit.auditor import Depths
 from softway.record.audit.folder import frames_audited, history_audited, unsaid
+from softway.record.read.body_motion import export as write_motion
 from softway.record.read.findings import gathered, stored
 from softway.record.run import Run
+from softway.record.write.fields import FILE as FIELDS
 
 FINDINGS = 4
 """Exit code of a run with findings under --strict."""
@@ -27,6 +30,25 @@ def show(folder: Path, /) -> None:
         Run folder.
     """
     summary(Run(folder), Console())
+
+
+def export(folder: Path, /, *, to: Path) -> None:
+    """Write the motion of the bodies of a mechanism to a file: places, rotations, velocities, angular velocities.
+
+    Parameters
+    ----------
+    folder
+        Run folder of a mechanism.
+    to
+        File to write: .csv, .json or .npz (NumPy), by the end of its name.
+    """
+    run = Run(folder)
+    if not run.of_mechanism:
+        remedy = f"open {folder / FIELDS} in ParaView, or read sw.Run('{folder}').fields in Python"
+        raise InputError(str(folder), "is the run of solids: their frames need no export", remedy)
+    written = write_motion(run, to)
+    bodies, rows = len(run.outline["bodies"]), run.motion.rows
+    Console().print(escape(f"{written}: {bodies} bodies at {rows} instants"), soft_wrap=True, highlight=False)
 
 
 def audited(done: Run, *, strict: bool, quiet: bool) -> int:

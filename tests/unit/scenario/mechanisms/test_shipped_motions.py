@@ -162,9 +162,7 @@ def test_woodpecker_flies_and_swings_as_lagrange_says():
         return q[1], moment / (INERTIA[2] + M * ARM**2)
 
     times = motion["time"][first:last]
-    swung = solve_ivp(
-        swing, times[[0, -1]], pose(motion, first, start)[[2, 5]], t_eval=times, rtol=1e-11, atol=1e-13
-    )
+    swung = solve_ivp(swing, times[[0, -1]], pose(motion, first, start)[[2, 5]], t_eval=times, rtol=1e-11, atol=1e-13)
     assert motion["bird.angle"][first:last] - 0.2788 == pytest.approx(swung.y[0], abs=1.5e-5)
 
 
