@@ -180,8 +180,7 @@ def run(
         if folder.is_dir():
             name = escape(str(folder))
             Console(stderr=True).print(f"results until then: {name}", soft_wrap=True)
-            if isinstance(checked, Checked):
-                Console(stderr=True).print(f"resume with: softway resume {name}", soft_wrap=True)
+            Console(stderr=True).print(f"resume with: softway resume {name}", soft_wrap=True)
         raise
     summary(done, console)
     return audited(done, strict=strict, quiet=quiet)
