@@ -165,7 +165,8 @@ def march(
     tables = changing(it, room, {} if stops is None else stops.changing)
     if state is not None:
         restore(tables, state, until / slabs)
-    told_of = partial(_step, mechanism, joined, it, room, stops, tables, until / slabs)
+    capture = partial(_march_state, it, tables, until / slabs)
+    told_of = partial(_step, mechanism, joined, it, room, stops, capture)
     return _steps(it, room, stops, until, slabs, every, state, told_of)
 
 
@@ -219,8 +220,7 @@ def _step(
     it: Arrays,
     room: Space,
     stops: StopMarch | None,
-    tables: Mapping[str, Array | IntArray | BoolArray],
-    span: float,
+    capture: Callable[..., MechanismState],
     slabs: int,
     time: float,
     initial: float,
@@ -229,11 +229,7 @@ def _step(
     events: Sequence[StopEvent],
 ) -> MechanismStep:
     """State as it is yielded."""
-    motion, groups = it.motion, len(it.bodies.jointed)
-    kinetic, potential = np.zeros(groups), np.zeros(groups)
-    kinetic_energy(it.bodies, motion, kinetic)
-    potential_energy(it.bodies, it.springs, it.joints.angles, motion, room.R0, potential)
-    total = float(kinetic.sum()), float(potential.sum())
+    motion, total = it.motion, _energies(it, room)
     mass = it.bodies.mass[:, None]
     turned = np.einsum("nij,njk,nk->ni", room.R0, it.bodies.inertia, motion.spin)
     return MechanismStep(
@@ -256,17 +252,25 @@ def _step(
         motors={
             it.joint_of[k]: force for k, force in zip(it.joints.drives.row, room.drive[:, 2].tolist(), strict=True)
         },
-        march_state=partial(_march_state, it, float(motion.time[0]), tables, slabs, time, span, initial),
+        march_state=partial(capture, float(motion.time[0]), slabs, time, initial),
     )
+
+
+def _energies(it: Arrays, room: Space) -> tuple[float, float]:
+    """Kinetic and potential energy [J]."""
+    kinetic, potential = (np.zeros(len(it.bodies.jointed)) for _ in range(2))
+    kinetic_energy(it.bodies, it.motion, kinetic)
+    potential_energy(it.bodies, it.springs, it.joints.angles, it.motion, room.R0, potential)
+    return float(kinetic.sum()), float(potential.sum())
 
 
 def _march_state(
     it: Arrays,
-    now: float,
     tables: Mapping[str, Array | IntArray | BoolArray],
+    span: float,
+    now: float,
     slabs: int,
     time: float,
-    span: float,
     energy: float,
 ) -> MechanismState:
     """State of the march, if it has not gone on."""

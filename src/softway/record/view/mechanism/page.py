@@ -40,7 +40,8 @@ img { max-width: 100%; display: block; } #bar { display: flex; gap: .8rem; align
 #bar input { flex: 1; } button { font: inherit; padding: .15rem .8rem; } #now { min-width: 8rem; text-align: right; }
 table { border-collapse: collapse; font-size: .88rem; } .tall { max-height: 24rem; overflow-y: auto; }
 th, td { padding: .15rem .8rem; text-align: right; border-bottom: 1px solid #e4e4e4; }
-thead th { position: sticky; top: 0; background: #fff; } tbody tr { cursor: pointer; } tbody tr:hover { background: #eef; }
+thead th { position: sticky; top: 0; background: #fff; }
+tbody tr { cursor: pointer; } tbody tr:hover { background: #eef; }
 """
 SCRIPT = """
 const frames = document.querySelectorAll('#motion img'), bar = document.querySelector('#bar input');
