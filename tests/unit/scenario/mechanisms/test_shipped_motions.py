@@ -175,6 +175,21 @@ def test_woodpecker_dissipates_what_its_weight_gives():
     assert len(pecks) == 8 and lost[-1] - lost[2] == pytest.approx(fallen, rel=0.01)
 
 
+def test_woodpecker_at_rest_holds_from_a_friction_on_that_statics_gives():
+    """Moments about the middle of the sleeve give the normal force at the edge that carries the weight."""
+    toy = sw.load(FOLDER / "woodpecker.toml")
+    (x, y), bird, whole = toy.stops["lower"].point, toy.bodies["bird"], 4.8e-3
+    limit = whole * -y / (bird.mass * bird.centre[0] - whole * x)
+    moment = M * G * (bird.centre[0] - toy.joints["hinge"].at[0])
+    still = ("bodies.sleeve.velocity=[0, 0]", "bodies.bird.velocity=[0, 0]", "bodies.bird.spin=0", "time.end=0.1 s")
+    rest = (*still, f"springs[0].rest={moment / SPRING}")
+    fallen = [
+        abs(motion_of("woodpecker", *rest, f"stops.lower.friction={part * limit}").motion["sleeve.y"][-1])
+        for part in (0.999, 1.001)
+    ]
+    assert fallen[0] > 1e-4 and fallen[1] < 1e-12
+
+
 def jellett(run: sw.Run) -> Array:
     """Angular momentum of the tippe top times the arm from its centre of mass to the floor."""
     motion, axis = run.motion, np.array([np.sin(0.1), 0.0, np.cos(0.1)])

@@ -39,6 +39,10 @@ def positions(run: Records, look: PictureOptions = STANDARD) -> "Figure":
     pale = [] if look.times else _spread(shown, rows[0])
     for axis, row in zip(axes, rows, strict=True):
         _scene(axis, shown, row, box, paths, pale)
+        if axis is not axes[0]:
+            axis.set_ylabel("")
+        if axis is not axes[-1] and (names := axis.get_legend()) is not None:
+            names.remove()
     title = run.provenance.get("title", "")
     figure.suptitle(title or "Mechanism", x=0.01, ha="left", fontsize=12, fontweight="bold")
     return figure
