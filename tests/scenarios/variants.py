@@ -8,7 +8,19 @@ from softway.scenario.files import load
 from softway.scenario.scenario import Scenario
 
 SCENARIOS = Path(__file__).parents[2] / "scenarios"
-MECHANISMS = ("hammer_on_stop", "newtons_cradle", "rocking_block", "slider_crank", "toggle_snap")
+MECHANISMS = (
+    "bearing_clearance",
+    "flat_follower",
+    "hammer_on_stop",
+    "newtons_cradle",
+    "rocking_block",
+    "slider_crank",
+    "squeezer",
+    "thrown_ball",
+    "tippe_top",
+    "toggle_snap",
+    "woodpecker",
+)
 """Scenarios of rigid bodies: they have no cells, nodes or resumption, and tests/unit/scenario/mechanisms runs them."""
 
 

@@ -1,5 +1,6 @@
 """Mechanisms: rigid bodies with joints, springs and torques, and their march."""
 
+from softway.mechanisms.arrays import MechanismState as MechanismState
 from softway.mechanisms.march import BodyState as BodyState
 from softway.mechanisms.march import MechanismStep as MechanismStep
 from softway.mechanisms.march import march as march
@@ -51,6 +52,7 @@ __all__ = [
     "Hinge",
     "HingeTorque",
     "Mechanism",
+    "MechanismState",
     "MechanismStep",
     "Motor",
     "PinSlot",

@@ -1,5 +1,6 @@
 """Arrays of a mechanism for the compiled slabs (time steps)."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -7,8 +8,9 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from softway.arrays import Array, BoolArray
-from softway.kernels.multibody.tables import Bodies, Joints, Motion, Springs
+from softway.arrays import Array, BoolArray, IntArray
+from softway.errors import InputError
+from softway.kernels.multibody.tables import Bodies, Joints, Motion, Space, Springs
 from softway.mechanisms.force_tables import spring_tables
 from softway.mechanisms.members.joints import GROUND
 from softway.mechanisms.members.mechanism import Mechanism
@@ -27,6 +29,71 @@ class Arrays:
     names: tuple[str, ...]
     joint_of: tuple[str, ...]
     extent: float
+
+    @property
+    def reach(self) -> float:
+        """Extent of the mechanism with its places, the scale of rounding [m]."""
+        return max(self.extent, float(np.abs(self.motion.place).max()), 1e-300)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class MechanismState:
+    """State of the march of a mechanism at the end of a slab (time step), from which it goes on with the same bits.
+
+    Parameters
+    ----------
+    slabs
+        Number of slabs marched so far.
+    time, span
+        Time, and length of the slabs [s].
+    energy
+        Energy at the start of the march [J].
+    numbers, flags
+        Arrays of the march by name.
+    """
+
+    slabs: int
+    time: float
+    span: float
+    energy: float
+    numbers: Mapping[str, Array]
+    flags: Mapping[str, IntArray]
+
+
+def changing(
+    it: Arrays, room: Space, stops: Mapping[str, Array | BoolArray]
+) -> dict[str, Array | IntArray | BoolArray]:
+    """Arrays that a march changes, by name; those of its ``stops`` among them."""
+    tables = [("motion", it.motion._asdict()), ("space", room._asdict()), ("stops", stops)]
+    found = {f"{table}.{name}": array for table, arrays in tables for name, array in arrays.items()}
+    return {**found, "supported": it.bodies.supported}
+
+
+def captured(
+    tables: Mapping[str, Array | IntArray | BoolArray], slabs: int, time: float, span: float, energy: float
+) -> MechanismState:
+    """State of a march, with copies of the arrays that it changes."""
+    numbers = {name: array.astype(np.float64) for name, array in tables.items() if array.dtype.kind == "f"}
+    flags = {name: array.astype(np.int64) for name, array in tables.items() if array.dtype.kind != "f"}
+    return MechanismState(slabs=slabs, time=time, span=span, energy=energy, numbers=numbers, flags=flags)
+
+
+def restore(tables: Mapping[str, Array | IntArray | BoolArray], state: MechanismState, span: float) -> None:
+    """Set the arrays that a march changes to those of a state.
+
+    Raises
+    ------
+    InputError
+        If the state is not one of this mechanism, or has slabs of another length.
+    """
+    stored: dict[str, Array | IntArray] = {**state.numbers, **state.flags}
+    if {name: array.shape for name, array in stored.items()} != {name: a.shape for name, a in tables.items()}:
+        raise InputError("state", "is one of another mechanism", "a state of a march of this mechanism")
+    if state.span != span:
+        problem = f"has slabs of {state.span:.17g} s instead of {span:.17g} s"
+        raise InputError("state", problem, "the end and the step of the march that it comes from")
+    for name, array in tables.items():
+        array[:] = stored[name]
 
 
 def arrays(mechanism: Mechanism) -> Arrays:

@@ -55,6 +55,11 @@ class StopMarch:
         """Names of the closed stops."""
         return tuple(name for name, shut in zip(self.stops.names, self.stops.closed, strict=True) if shut)
 
+    @property
+    def changing(self) -> dict[str, Array | BoolArray]:
+        """Arrays that the march changes, by name."""
+        return {"closed": self.stops.closed, "sliding": self.stops.sliding, "touched": self.touched}
+
     def start(self, h: float, extent: float) -> list[StopEvent]:
         """Close the stops that are touched at the start, with an impact if bodies approach there; its events."""
         gaps, events = self.stops.at_state(), list[StopEvent]()

@@ -1,30 +1,29 @@
 """March of a mechanism: slabs (time steps) in compiled loops."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 
-from softway.arrays import Array
-from softway.errors import InputError, NumericsError
+from softway.arrays import Array, BoolArray, IntArray
+from softway.errors import InputError
 from softway.kernels.multibody.energy import kinetic_energy, potential_energy
-from softway.kernels.multibody.slab import begin, end_slab, march_slabs
+from softway.kernels.multibody.slab import begin
 from softway.kernels.multibody.tables import Space, space
 from softway.kernels.multibody.velocities import project_velocities
-from softway.mechanisms.arrays import Arrays, arrays
+from softway.mechanisms.arrays import Arrays, MechanismState, arrays, captured, changing, restore
 from softway.mechanisms.driven import require_free_motions
 from softway.mechanisms.impacts import StopMarch
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.stops import StopEvent
-from softway.mechanisms.newton import newton_motion
+from softway.mechanisms.newton import march_on
 from softway.mechanisms.stop_start import stop_march
 from softway.mechanisms.welds import Welded, welded
 from softway.units import Second
 
 MOST = 1e15
 """Number of slabs that no march takes."""
-HALVINGS = 12
-"""Halvings of a slab that cannot be solved."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -85,6 +84,9 @@ class MechanismStep:
         Names of the closed stops.
     motors
         Torque [N m] or force [N] of each motor, the mean over the last slab.
+    march_state
+        Function that returns the state from which :func:`march` continues with the same bits; to be called before the
+        next step is computed.
     """
 
     time: float
@@ -104,9 +106,12 @@ class MechanismStep:
     events: tuple[StopEvent, ...] = ()
     closed: tuple[str, ...] = ()
     motors: Mapping[str, float] = field(default_factory=dict)
+    march_state: Callable[[], MechanismState]
 
 
-def march(mechanism: Mechanism, *, until: Second, step: Second, every: int = 1) -> Iterator[MechanismStep]:
+def march(
+    mechanism: Mechanism, *, until: Second, step: Second, every: int = 1, state: MechanismState | None = None
+) -> Iterator[MechanismStep]:
     """March a mechanism; yields the state at the start, and after every ``every`` slabs and at the end.
 
     Positions and velocities satisfy the joints at the end of every slab.  The energy of conservative mechanisms,
@@ -123,11 +128,14 @@ def march(mechanism: Mechanism, *, until: Second, step: Second, every: int = 1) 
         Length of a slab [s], shortened to divide the duration evenly.
     every
         Slabs between two steps that are yielded.
+    state
+        State of an earlier march of the mechanism with the same ``until`` and ``step``, ``march_state()`` of one of its
+        steps: the march continues from there, and yields only later states.
 
     Raises
     ------
     InputError
-        Before the first step: for wrong input.
+        Before the first step: for wrong input, or the state of another march.
     NumericsError
         If a slab has no solution at any length.
 
@@ -149,31 +157,41 @@ def march(mechanism: Mechanism, *, until: Second, step: Second, every: int = 1) 
         raise InputError("every", f"{every}", "1 or more")
     if not until / step < MOST:
         raise InputError("step", f"{until / step:.3g} slabs of {step:.3g} s", "an earlier end, or longer slabs")
-    joined = welded(mechanism)
-    return _steps(mechanism, joined, arrays(joined.mechanism), until, int(np.ceil(until / step * (1.0 - 1e-12))), every)
+    joined, slabs = welded(mechanism), int(np.ceil(until / step * (1.0 - 1e-12)))
+    it = arrays(joined.mechanism)
+    room, stops = space(it.joints, len(it.names), len(it.bodies.jointed)), None
+    if joined.mechanism.stops:
+        stops = stop_march(it, room, joined.mechanism.stops, mechanism.impacts, mechanism.restitution)
+    tables = changing(it, room, {} if stops is None else stops.changing)
+    if state is not None:
+        restore(tables, state, until / slabs)
+    capture = partial(_march_state, it, tables, until / slabs)
+    told_of = partial(_step, mechanism, joined, it, room, stops, capture)
+    return _steps(it, room, stops, until, slabs, every, state, told_of)
 
 
 def _steps(
-    mechanism: Mechanism, joined: Welded, it: Arrays, until: float, slabs: int, every: int
+    it: Arrays,
+    room: Space,
+    stops: StopMarch | None,
+    until: float,
+    slabs: int,
+    every: int,
+    state: MechanismState | None,
+    told_of: Callable[..., MechanismStep],
 ) -> Iterator[MechanismStep]:
     """States of the march."""
-    room = space(it.joints, len(it.names), len(it.bodies.jointed))
-    stops = None
-    if joined.mechanism.stops:
-        stops = stop_march(it, room, joined.mechanism.stops, mechanism.impacts, mechanism.restitution)
-    begin(it.bodies, it.joints, it.springs, it.motion, room)
-    require_free_motions(it, room)
-    project_velocities(it.bodies, it.joints, it.motion, room)
-    begin(it.bodies, it.joints, it.springs, it.motion, room)
-    initial = float(it.motion.energy.sum())
-    told, h, done = np.zeros(3), until / slabs, 0
-    events = [] if stops is None else stops.start(h, extent_of(it))
-    yield _step(mechanism, joined, it, room, 0.0, initial, told, 0, stops, events)
+    told, h, done, iterations = np.zeros(3), until / slabs, 0, 0
+    if state is None:
+        initial = _begun(it, room)
+        yield told_of(0, 0.0, initial, told, 0, [] if stops is None else stops.start(h, it.reach))
+    else:
+        initial, done = state.energy, state.slabs
     while done < slabs:
-        told[:], events = 0.0, []
+        told[:], events = 0.0, list[StopEvent]()
         iterations, goal = 0, min(slabs, done + every)
         while done < goal:
-            extent = extent_of(it)
+            extent = it.reach
             if stops is not None:
                 more, used = stops.slab(done * h, h, extent, told)
                 events += more
@@ -181,51 +199,16 @@ def _steps(
                 continue
             iterations += march_on(it, room, done * h, h, goal - done, told)
             done = goal
-        time = until if done == slabs else done * h
-        yield _step(mechanism, joined, it, room, time, initial, told, iterations, stops, events)
+        yield told_of(done, until if done == slabs else done * h, initial, told, iterations, events)
 
 
-def extent_of(it: Arrays) -> float:
-    """Extent of the mechanism, the scale of rounding [m]."""
-    return max(it.extent, float(np.abs(it.motion.place).max()), 1e-300)
-
-
-def march_on(it: Arrays, room: Space, time: float, h: float, count: int, told: Array) -> int:
-    """March a number of slabs from a time; their iterations.
-
-    Raises
-    ------
-    NumericsError
-        If a slab has no solution at any length.
-    """
-    done = iterations = 0
-    while done < count:
-        tables = it.bodies, it.joints, it.springs, it.motion, room
-        solved, used = march_slabs(*tables, h, count - done, extent_of(it), told)
-        done, iterations = done + solved, iterations + used
-        if done < count:
-            iterations += _hard_slab(it, room, time + done * h, h, told)
-            done += 1
-    return iterations
-
-
-def _hard_slab(it: Arrays, room: Space, time: float, h: float, told: Array, halvings: int = 0) -> int:
-    """Solve a slab in which the fixed point fails by Newton's method, or else in two halves, and so on."""
-    found = newton_motion(it, room, h, extent_of(it))
-    if found:
-        end_slab(it.bodies, it.joints, it.springs, it.motion, room, h, told)
-        return found
-    if halvings == HALVINGS:
-        worst = it.joint_of[int(np.argmax(np.abs(room.g)))] if it.joint_of else ""
-        what = f"a slab of {h:.3g} s has no solution" + (
-            f"; the joint {worst!r} is farthest from closed" if worst else ""
-        )
-        raise NumericsError(what, time, "a shorter step, or a mechanism that can move on from there")
-    iterations = 0
-    for k in range(2):
-        one, used = march_slabs(it.bodies, it.joints, it.springs, it.motion, room, 0.5 * h, 1, extent_of(it), told)
-        iterations += used if one else _hard_slab(it, room, time + 0.5 * k * h, 0.5 * h, told, halvings + 1)
-    return iterations
+def _begun(it: Arrays, room: Space) -> float:
+    """Bring the velocities at the start to what the joints allow; the energy [J]."""
+    begin(it.bodies, it.joints, it.springs, it.motion, room)
+    require_free_motions(it, room)
+    project_velocities(it.bodies, it.joints, it.motion, room)
+    begin(it.bodies, it.joints, it.springs, it.motion, room)
+    return float(it.motion.energy.sum())
 
 
 def _step(
@@ -233,19 +216,17 @@ def _step(
     joined: Welded,
     it: Arrays,
     room: Space,
+    stops: StopMarch | None,
+    capture: Callable[..., MechanismState],
+    slabs: int,
     time: float,
     initial: float,
     told: Array,
     iterations: int,
-    stops: StopMarch | None,
     events: Sequence[StopEvent],
 ) -> MechanismStep:
     """State as it is yielded."""
-    motion, groups = it.motion, len(it.bodies.jointed)
-    kinetic, potential = np.zeros(groups), np.zeros(groups)
-    kinetic_energy(it.bodies, motion, kinetic)
-    potential_energy(it.bodies, it.springs, it.joints.angles, motion, room.R0, potential)
-    total = float(kinetic.sum()), float(potential.sum())
+    motion, total = it.motion, _energies(it, room)
     mass = it.bodies.mass[:, None]
     turned = np.einsum("nij,njk,nk->ni", room.R0, it.bodies.inertia, motion.spin)
     return MechanismStep(
@@ -268,7 +249,31 @@ def _step(
         motors={
             it.joint_of[k]: force for k, force in zip(it.joints.drives.row, room.drive[:, 2].tolist(), strict=True)
         },
+        march_state=partial(capture, float(motion.time[0]), slabs, time, initial),
     )
+
+
+def _energies(it: Arrays, room: Space) -> tuple[float, float]:
+    """Kinetic and potential energy [J]."""
+    kinetic, potential = (np.zeros(len(it.bodies.jointed)) for _ in range(2))
+    kinetic_energy(it.bodies, it.motion, kinetic)
+    potential_energy(it.bodies, it.springs, it.joints.angles, it.motion, room.R0, potential)
+    return float(kinetic.sum()), float(potential.sum())
+
+
+def _march_state(
+    it: Arrays,
+    tables: Mapping[str, Array | IntArray | BoolArray],
+    span: float,
+    now: float,
+    slabs: int,
+    time: float,
+    energy: float,
+) -> MechanismState:
+    """State of the march, if it has not gone on."""
+    if it.motion.time[0] != now:
+        raise InputError("march_state", f"the march has gone on since {time:g} s", "ask before the next step")
+    return captured(tables, slabs, time, span, energy)
 
 
 def body_state(mechanism: Mechanism, joined: Welded, it: Arrays, room: Space, name: str) -> BodyState:

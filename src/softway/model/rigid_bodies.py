@@ -20,9 +20,10 @@ from softway.kernels.multibody.tables import Motion, Space, space
 from softway.kernels.multibody.velocities import project_velocities
 from softway.mechanisms.arrays import Arrays, arrays
 from softway.mechanisms.driven import require_free_motions
-from softway.mechanisms.march import BodyState, body_state, march_on
+from softway.mechanisms.march import BodyState, body_state
 from softway.mechanisms.members.joints import GROUND
 from softway.mechanisms.members.mechanism import Mechanism
+from softway.mechanisms.newton import march_on
 from softway.mechanisms.welds import Welded, welded
 
 

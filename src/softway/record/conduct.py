@@ -96,7 +96,7 @@ def record_run(
             raise
         keeper = CheckpointWriter(folder.path, kept, recorders, 0.0)
         meter = None if progress is None else Meter(progress, opening.until, opening.initial.time)
-        return _carried_on(_chain(first, early, steps), run, keeper, run.provenance, meter)
+        return _carried_on(_chain(first, early, steps), run, recorders, keeper, run.provenance, meter)
 
 
 def continue_run(
@@ -134,7 +134,7 @@ def continue_run(
     """
     with _stored(run.path):
         recorders = _opened(run.path, opening, {} if found is None else found.marks)
-        slabs, time = (0, 0.0) if found is None else (found.march_state.slabs, found.march_state.state.time)
+        slabs, time = (0, 0.0) if found is None else (found.march_state.slabs, found.time)
         record = provenance.resume(run.path, run.provenance, slabs, time)
         (run.path / summary.FILE).unlink(missing_ok=True)
     keeper = CheckpointWriter(run.path, plan, recorders, 0.0 if found is None else found.wall)
@@ -143,17 +143,22 @@ def continue_run(
         audit = watcher(opening)
         audit.past(run.history)
         steps = audit.watched(steps)
-    return _carried_on(steps, run, keeper, record, meter)
+    return _carried_on(steps, run, recorders, keeper, record, meter)
 
 
 def _carried_on(
-    steps: Iterator[Step], run: Run, keeper: CheckpointWriter, record: Mapping[str, object], meter: Meter | None
+    steps: Iterator[Step],
+    run: Run,
+    recorders: Mapping[str, Recorder],
+    keeper: CheckpointWriter,
+    record: Mapping[str, object],
+    meter: Meter | None,
 ) -> Run:
     """Record all steps and finish the run."""
-    with ending(partial(_finish, run, keeper, record)):
+    with ending(partial(_finish, run, recorders, keeper, record)):
         for step in steps:
             with _stored(run.path):
-                _take(keeper, step)
+                _take(recorders, keeper, step)
             if meter is not None:
                 meter.took(step)
     return run
@@ -188,8 +193,8 @@ def _chain(first: Step | None, early: BaseException | None, rest: Iterator[Step]
         yield from rest
 
 
-def _take(keeper: CheckpointWriter, step: Step) -> None:
-    for recorder in keeper.recorders.values():
+def _take(recorders: Mapping[str, Recorder], keeper: CheckpointWriter, step: Step) -> None:
+    for recorder in recorders.values():
         recorder.take(step)
     keeper.took(step.march_state)
 
@@ -199,14 +204,16 @@ def _stored(place: Path | None) -> AbstractContextManager[None]:
     return stored(place, f"free some disk space, then softway resume {place or 'temporary folder'}")
 
 
-def _finish(run: Run, keeper: CheckpointWriter, record: Mapping[str, object], stop: Stop) -> None:
+def _finish(
+    run: Run, recorders: Mapping[str, Recorder], keeper: CheckpointWriter, record: Mapping[str, object], stop: Stop
+) -> None:
     """Write a last checkpoint, or remove all of them after success; close the records; write summary and provenance."""
 
     def storing() -> AbstractContextManager[None]:  # after a failure the first exception is the one that is raised
         return _stored(run.path) if stop is DONE else suppress(OSError)
 
     with storing(), ExitStack() as closing:
-        for recorder in keeper.recorders.values():
+        for recorder in recorders.values():
             closing.callback(recorder.close)
         if stop is not DONE:
             keeper.write()

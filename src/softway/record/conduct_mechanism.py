@@ -4,12 +4,11 @@ import json
 import logging
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack, suppress
+from contextlib import AbstractContextManager, ExitStack, suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from threading import Timer
-from time import perf_counter
 from typing import Any
 
 from softway.errors import Cancel, Cancelled, Note, NumericsError, heed
@@ -17,20 +16,22 @@ from softway.mechanisms.march import MechanismStep
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.record.read import summary
 from softway.record.run import Run
-from softway.record.storage import provenance
+from softway.record.storage import checkpoint, provenance
+from softway.record.storage.checkpoint import Checkpoint, Checkpoints
 from softway.record.storage.ending import ending, stored
 from softway.record.storage.provenance import DONE, Stop
 from softway.record.storage.run_folder import RunFolder
+from softway.record.write.checkpoint_schedule import CheckpointWriter
 from softway.record.write.mechanism import outline
 from softway.record.write.mechanism.probes import BodyReading
 from softway.record.write.mechanism.recorder import MechanismRecorder, open_mechanism
 from softway.record.write.progress import MechanismProgress, MechanismWatch, Pace, Tell
 
 LOG = logging.getLogger(__name__)
+NO_CHECKPOINTS = Checkpoints(keep=0)
 PATIENCE = 2.0
 """Seconds of the first step after which a line tells that it is being compiled."""
 COMPILING = "compiling the march of the mechanism: about 15 s, once on this machine"
-REMEDY = "free some disk space, then run the scenario again"
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -49,6 +50,8 @@ class MechanismRun:
         Title, and texts of further files by name: the resolved scenario.
     notes
         Notes on the scenario, which the summary repeats.
+    plan
+        Schedule of the checkpoints; a temporary folder has none.
     """
 
     mechanism: Mechanism
@@ -59,6 +62,7 @@ class MechanismRun:
     title: str
     texts: Mapping[str, str]
     notes: Sequence[Note] = ()
+    plan: Checkpoints = NO_CHECKPOINTS
 
 
 def record_mechanism(
@@ -104,26 +108,96 @@ def record_mechanism(
         provenance.begin(folder, opening.title, opening.texts, opening.notes)
 
     with ExitStack() as held:
-        with stored(place.out, REMEDY):
+        with _stored(place.out):
             folder = held.enter_context(place.made(fill))
         run = Run(folder.path, folder if place.out is None else None)
-        mechanism = opening.mechanism
         try:
-            with stored(place.out, REMEDY):
-                recorder = open_mechanism(folder.path, tuple(mechanism.bodies), mechanism.dim, opening.readings)
+            recorder = _opened(run, opening, {})
         except BaseException:
             shutil.rmtree(folder.path, ignore_errors=True)
             raise
-        begun, pace = perf_counter(), Pace(0.0)
-        with ending(partial(_finish, run, recorder, begun, opening)):
-            for k, step in enumerate(_chain(first, early, steps)):
-                slabs = min(k * opening.every, opening.slabs)
-                with stored(run.path, REMEDY):
-                    recorder.take(step, slabs)
-                if progress is not None:
-                    wall, speed = pace.at(step.time)
-                    progress(MechanismProgress(step=step, until=opening.until, slabs=slabs, wall=wall, pace=speed))
-                heed(cancel, step.time)
+        plan = NO_CHECKPOINTS if place.out is None else opening.plan
+        keeper = CheckpointWriter(folder.path, plan, recorder.files, 0.0)
+        chain = _chain(first, early, steps)
+        return _carried_on(chain, opening, run, recorder, keeper, run.provenance, (0, 0.0), progress, cancel)
+
+
+def continue_mechanism(
+    steps: Iterator[MechanismStep],
+    opening: MechanismRun,
+    run: Run,
+    found: Checkpoint | None,
+    *,
+    progress: MechanismWatch | None = None,
+    cancel: Cancel | None = None,
+    tell: Tell = LOG.info,
+) -> Run:
+    """Continue the records of a stopped run from its checkpoint, or from the start if there is no checkpoint.
+
+    The records are truncated to their lengths at the checkpoint.  The caller holds the lock of the folder.
+
+    Parameters
+    ----------
+    steps
+        Steps of the march from the checkpoint on.
+    opening
+        What the records need to know.
+    run
+        The stopped run.
+    found
+        Its last checkpoint, if any.
+    progress, cancel, tell
+        As for :func:`record_mechanism`.
+
+    Raises
+    ------
+    InputError
+        If a record is shorter than it was at the checkpoint.
+    NumericsError, Cancelled, KeyboardInterrupt, StorageError, and any exception of ``progress``
+        As for :func:`record_mechanism`.
+    """
+    recorder = _opened(run, opening, {} if found is None else found.marks)
+    at = (0, 0.0) if found is None else (found.march_state.slabs + opening.every, found.time)
+    with _stored(run.path):
+        record = provenance.resume(run.path, run.provenance, 0 if found is None else found.march_state.slabs, at[1])
+        (run.path / summary.FILE).unlink(missing_ok=True)
+    keeper = CheckpointWriter(run.path, opening.plan, recorder.files, 0.0 if found is None else found.wall)
+    chain = _chain(*_first(steps, tell), steps)
+    return _carried_on(chain, opening, run, recorder, keeper, record, at, progress, cancel)
+
+
+def _opened(run: Run, opening: MechanismRun, marks: Mapping[str, int]) -> MechanismRecorder:
+    """Open the records, truncated to their marks."""
+    mechanism = opening.mechanism
+    with _stored(run.path):
+        return open_mechanism(run.path, tuple(mechanism.bodies), mechanism.dim, opening.readings, marks)
+
+
+def _carried_on(
+    steps: Iterator[MechanismStep],
+    opening: MechanismRun,
+    run: Run,
+    recorder: MechanismRecorder,
+    keeper: CheckpointWriter,
+    record: Mapping[str, Any],
+    at: tuple[int, float],
+    progress: MechanismWatch | None,
+    cancel: Cancel | None,
+) -> Run:
+    """Record all steps, the first of them ``at`` a number of slabs, and finish the run."""
+    first, time = at
+    pace = Pace(time)
+    with ending(partial(_finish, run, recorder, keeper, record)):
+        for k, step in enumerate(steps):
+            slabs = min(first + k * opening.every, opening.slabs)
+            with _stored(run.path):
+                recorder.take(step, slabs)
+                if keeper.plan.keep:
+                    keeper.took(step.march_state())
+            if progress is not None:
+                wall, speed = pace.at(step.time)
+                progress(MechanismProgress(step=step, until=opening.until, slabs=slabs, wall=wall, pace=speed))
+            heed(cancel, step.time)
     return run
 
 
@@ -150,18 +224,30 @@ def _chain(
         yield from rest
 
 
-def _finish(run: Run, recorder: MechanismRecorder, begun: float, opening: MechanismRun, stop: Stop) -> None:
-    """Close the records; write summary and provenance."""
+def _stored(place: Path | None) -> AbstractContextManager[None]:
+    """Turn an OSError into a StorageError that names the folder and the way to resume the run."""
+    return stored(place, f"free some disk space, then softway resume {place or 'temporary folder'}")
 
-    def storing() -> Any:  # after a failure the first exception is the one that is raised
-        return stored(run.path, REMEDY) if stop is DONE else suppress(OSError)
 
+def _finish(
+    run: Run, recorder: MechanismRecorder, keeper: CheckpointWriter, record: Mapping[str, Any], stop: Stop
+) -> None:
+    """Write a last checkpoint, or remove all of them after success; close the records; write summary and provenance."""
+
+    def storing() -> AbstractContextManager[None]:  # after a failure the first exception is the one that is raised
+        return _stored(run.path) if stop is DONE else suppress(OSError)
+
+    with storing(), ExitStack() as closing:
+        closing.callback(recorder.close)
+        if stop is not DONE:
+            keeper.write()
+    numbers = run.numbers
     with storing():
-        recorder.close()
-    numbers, wall = run.numbers, perf_counter() - begun
-    with storing():
-        record = run.provenance
-        ended = {"wall_time": wall, "notes": record.get("notes", []), "stop_reason": stop.reason, "status": stop.reason}
-        provenance.save_json(run.path / summary.FILE, {**numbers, **ended})
+        ended = {"wall_time": keeper.wall, "notes": record.get("notes", [])}
+        provenance.save_json(
+            run.path / summary.FILE, {**numbers, **ended, "stop_reason": stop.reason, "status": stop.reason}
+        )
         provenance.end(run.path, record, stop)
-    LOG.info("run '%s' %s after %d slabs, %.3g s wall time", run.path, stop.reason, numbers["slabs"], wall)
+        if stop is DONE:
+            checkpoint.forget(run.path)
+    LOG.info("run '%s' %s after %d slabs, %.3g s wall time", run.path, stop.reason, numbers["slabs"], keeper.wall)

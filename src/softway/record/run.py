@@ -19,6 +19,7 @@ from softway.record.write.history_columns import COLUMNS
 from softway.record.write.mechanism import columns, outline
 
 if TYPE_CHECKING:
+    from softway.record.read.body_motion import BodyMotion
     from softway.record.view.pictures import Picture
 
 SCENARIO = "scenario.toml"
@@ -80,6 +81,30 @@ class Run:
         if not self.of_mechanism:
             raise InputError(str(self.path), "is not the run of a mechanism", "run.fields, the frames of solids")
         return table.read(self.path / columns.MOTION, [("time", "s")])
+
+    @property
+    def bodies(self) -> Mapping[str, "BodyMotion"]:
+        """Motion of each rigid body of a mechanism as arrays: places, rotations, velocities, angular velocities."""
+        from softway.record.read.body_motion import body_motions
+
+        return body_motions(self)
+
+    def export(self, file: str | Path) -> Path:
+        """Write the motion of the bodies of a mechanism to a file.
+
+        Parameters
+        ----------
+        file
+            ``.csv``, a line for each instant and body; ``.json``; or ``.npz``, arrays of NumPy.
+
+        Raises
+        ------
+        InputError
+            For another kind of file, a file that cannot be written, or the run of solids.
+        """
+        from softway.record.read.body_motion import export
+
+        return export(self, file)
 
     @property
     def outline(self) -> Mapping[str, Any]:

@@ -15,7 +15,7 @@ from softway.march.audit.balances import balances, contact_forces
 from softway.march.audit.ledger import initial_ledger as audit
 from softway.march.march import march
 from softway.march.march_state import MarchState
-from softway.march.model_state import join_states, split_states
+from softway.march.model_state import ModelState, join_states, split_states
 from softway.march.results.step import Step
 from softway.march.start.stored_state import require_of_model
 from softway.model.model import Model
@@ -34,7 +34,7 @@ from softway.scenario.checks.check import Checked, check
 from softway.scenario.checks.mechanism import CheckedMechanism
 from softway.scenario.checks.probes import probe_readings
 from softway.scenario.files import dumps, load
-from softway.scenario.run_mechanism import not_resumed, run_mechanism
+from softway.scenario.run_mechanism import resume_mechanism, run_mechanism
 from softway.scenario.scenario import Scenario
 from softway.scenario.text.user_modules import own_sources
 
@@ -78,8 +78,8 @@ def run(
     InputError
         If the scenario is wrong; no folder is left.
     NumericsError, Cancelled, KeyboardInterrupt, StorageError
-        The folder ``out`` contains all results up to the stop, and :func:`resume` can continue the run of solids.  No
-        folder exists if the run is cancelled during the first equilibrium.  Exceptions of ``progress`` propagate in
+        The folder ``out`` contains all results up to the stop, and :func:`resume` can continue the run.  No folder
+        exists if the run is cancelled during the first equilibrium.  Exceptions of ``progress`` propagate in
         the same way.
     """
     place = RunFolder(out=None if out is None else Path(out), overwrite=overwrite)
@@ -99,7 +99,7 @@ def resume(
     folder: str | Path,
     *,
     scenario: Scenario | Checked | CheckedMechanism | None = None,
-    progress: Watch | None = None,
+    progress: Watch | MechanismWatch | None = None,
     cancel: Cancel | None = None,
     tell: Tell = LOG.info,
     allow_python: bool = False,
@@ -123,8 +123,7 @@ def resume(
     Raises
     ------
     InputError
-        If ``folder`` contains no run, a run that is still going on, a changed scenario, incomplete records, or the run
-        of a mechanism.
+        If ``folder`` contains no run, a run that is still going on, a changed scenario, or incomplete records.
     NumericsError, Cancelled, KeyboardInterrupt, StorageError
         As for :func:`run`.
     """
@@ -136,14 +135,24 @@ def resume(
         require_own(stopped.path)
         given = stored(stopped.path, allow_python) if scenario is None else scenario
         checked = check(given, cancel=cancel) if isinstance(given, Scenario) else given
+        texts = _texts(checked.scenario)
+        provenance.require_same(stopped.path, stopped.provenance, texts)
         if isinstance(checked, CheckedMechanism):
-            raise not_resumed(stopped.path)
-        provenance.require_same(stopped.path, stopped.provenance, _texts(checked.scenario))
+            heard = cast(MechanismWatch | None, progress)
+            return resume_mechanism(checked, stopped, texts, progress=heard, cancel=cancel, tell=tell)
         opening = _opening(checked)
         pattern = join_states(checked.model, opening.initial)
-        found = last(stopped.path, partial(require_of_model, checked.model, pattern))
-        steps = _steps(checked, opening.initial if found is None else found.march_state, cancel, tell)
-        return continue_run(steps, opening, stopped, found, plan=checked.scenario.output.checkpoints, progress=progress)
+        found = last(stopped.path, partial(_require_state, checked.model, pattern))
+        begin = opening.initial if found is None else cast(MarchState, found.march_state)
+        steps, plan = _steps(checked, begin, cancel, tell), checked.scenario.output.checkpoints
+        return continue_run(steps, opening, stopped, found, plan=plan, progress=cast(Watch | None, progress))
+
+
+def _require_state(model: Model, pattern: ModelState, state: object) -> None:
+    """Refuse a state that is not one of this model."""
+    if not isinstance(state, MarchState):
+        raise InputError("state", f"is a {type(state).__name__}", "a checkpoint of this run")
+    require_of_model(model, pattern, state)
 
 
 def of_same_input(folder: Path, scenario: Scenario) -> bool:

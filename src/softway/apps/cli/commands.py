@@ -26,7 +26,7 @@ from softway.apps.cli.output.tables import ranking, scales, summary
 from softway.apps.cli.plot import plot
 from softway.apps.cli.resume import resume
 from softway.apps.cli.schema import schema
-from softway.apps.cli.show import audit, audited, show
+from softway.apps.cli.show import audit, audited, export, show
 from softway.apps.cli.sweep import sweep
 from softway.apps.cli.verify import verify
 from softway.apps.cli.view import view
@@ -60,6 +60,7 @@ app = App(
 )
 app.command(audit)
 app.command(show)
+app.command(export)
 app.command(check_law)
 app.command(materials)
 app.command(verify)
@@ -179,8 +180,7 @@ def run(
         if folder.is_dir():
             name = escape(str(folder))
             Console(stderr=True).print(f"results until then: {name}", soft_wrap=True)
-            if isinstance(checked, Checked):
-                Console(stderr=True).print(f"resume with: softway resume {name}", soft_wrap=True)
+            Console(stderr=True).print(f"resume with: softway resume {name}", soft_wrap=True)
         raise
     summary(done, console)
     return audited(done, strict=strict, quiet=quiet)

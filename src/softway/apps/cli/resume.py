@@ -14,7 +14,6 @@ from softway.record.storage.provenance import DONE
 from softway.scenario.checks.check import check
 from softway.scenario.run import resume as go_on
 from softway.scenario.run import stored
-from softway.scenario.run_mechanism import not_resumed
 
 
 def resume(
@@ -43,8 +42,6 @@ def resume(
     if stopped.stop == DONE:
         console.print(f"already done: nothing is left to compute in {folder}", markup=False, soft_wrap=True)
         return
-    if stopped.of_mechanism:
-        raise not_resumed(stopped.path)
     with waiting(console, "reading the scenario and building the meshes"):
         checked = check(stored(folder, allow_python))
     with progress_of(checked, console) as progress:

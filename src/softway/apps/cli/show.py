@@ -1,5 +1,6 @@
-"""Commands show and audit: the summary of a run, and its geometry, looked at independently of its contact."""
+"""Commands show, export and audit: the summary of a run, its motion, and its geometry apart from its contact."""
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -9,10 +10,17 @@ from rich.markup import escape
 from rich.progress import Progress
 
 from softway.apps.cli.output.tables import findings, summary
+from softway.errors import InputError
 from softway.record.audit.auditor import Depths
 from softway.record.audit.folder import frames_audited, history_audited, unsaid
+from softway.record.audit.mechanism import audited_mechanism
+from softway.record.read.body_motion import export as write_motion
 from softway.record.read.findings import gathered, stored
-from softway.record.run import Run
+from softway.record.run import SCENARIO, Run
+from softway.record.write.fields import FILE as FIELDS
+from softway.scenario.checks.check import check
+from softway.scenario.checks.mechanism import CheckedMechanism
+from softway.scenario.run import stored as stored_scenario
 
 FINDINGS = 4
 """Exit code of a run with findings under --strict."""
@@ -27,6 +35,25 @@ def show(folder: Path, /) -> None:
         Run folder.
     """
     summary(Run(folder), Console())
+
+
+def export(folder: Path, /, *, to: Path) -> None:
+    """Write the motion of the bodies of a mechanism to a file: places, rotations, velocities, angular velocities.
+
+    Parameters
+    ----------
+    folder
+        Run folder of a mechanism.
+    to
+        File to write: .csv, .json or .npz (NumPy), by the end of its name.
+    """
+    run = Run(folder)
+    if not run.of_mechanism:
+        remedy = f"open {folder / FIELDS} in ParaView, or read sw.Run('{folder}').fields in Python"
+        raise InputError(str(folder), "is the run of solids: their frames need no export", remedy)
+    written = write_motion(run, to)
+    bodies, rows = len(run.outline["bodies"]), run.motion.rows
+    Console().print(escape(f"{written}: {bodies} bodies at {rows} instants"), soft_wrap=True, highlight=False)
 
 
 def audited(done: Run, *, strict: bool, quiet: bool) -> int:
@@ -53,7 +80,8 @@ def audit(
     Every body is compared with every other one, with all tools and with itself, whether they are in contact or not, at
     the nodes and between them. A run does the same while it is computed, at most at every tenth slab (time step). The
     error of the energy balance is computed again from the energies in history.csv. Warnings name findings, also those
-    of the run, that its summary does not tell.
+    of the run, that its summary does not tell. Of a mechanism all joints, the gaps of its stops, the energies, momentum
+    and angular momentum are computed again from the motion of its bodies.
 
     Parameters
     ----------
@@ -65,6 +93,8 @@ def audit(
         Print the findings only.
     """
     run, console = Run(folder), Console(quiet=quiet)
+    if run.of_mechanism:
+        return FINDINGS if _mechanism_audited(run, console) and strict else 0
     fields = run.fields
     for name in fields.cells.lost:
         Console(stderr=True).print(f"'{name}' is not stored as data: it is left out", highlight=False)
@@ -82,3 +112,21 @@ def audit(
     for sentence in unsaid([*seen, *stored(run.events)], run.summary.get("findings", ())):
         Console(stderr=True).print(f"[bold yellow]warning[/] {escape(sentence)}", soft_wrap=True, highlight=False)
     return FINDINGS if strict and told else 0
+
+
+def _mechanism_audited(run: Run, console: Console) -> int:
+    """Audit the run of a mechanism and tell what is found; the number of findings."""
+    checked = check(stored_scenario(run.path))
+    if not isinstance(checked, CheckedMechanism):
+        raise InputError(str(run.path / SCENARIO), "is no scenario of a mechanism", "the unchanged run folder")
+    told = audited_mechanism(run, checked.mechanism)
+    say = partial(console.print, markup=False, soft_wrap=True, highlight=False)
+    worst, deepest = (max(found.values(), default=0.0) for found in (told.joints, told.overlaps))
+    say(f"{told.instants} instants audited; joints hold to {worst:.2g} m, deepest overlap of a stop {deepest:.2g} m")
+    parts = ", ".join(f"{name.removeprefix('the ')} to {error:.1e}" for name, error in told.balances.items())
+    say(f"history.csv tells what the motion gives: {parts}")
+    if told.left_out:
+        say(f"not looked at: {', '.join(told.left_out)}")
+    for sentence in told.findings:
+        Console().print(f"finding: {sentence}", markup=False, soft_wrap=True, highlight=False)
+    return len(told.findings)

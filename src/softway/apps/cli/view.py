@@ -1,5 +1,6 @@
 """Command view: a run in the browser."""
 
+import webbrowser
 from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
@@ -9,7 +10,13 @@ from rich.console import Console
 
 from softway.apps.viewer.serve import serve
 from softway.errors import InputError
+from softway.record.read.mechanism_summary import told
 from softway.record.run import Run
+from softway.record.storage.atomic_file import replaced
+from softway.record.view.mechanism.page import page
+
+PAGE = "view.html"
+"""File of the page of a mechanism."""
 
 
 def view(
@@ -21,6 +28,8 @@ def view(
     live: Annotated[bool, Parameter(negative=())] = False,
 ) -> None:
     """Show a run in the browser: moving mesh, fields, curves, events. Only this machine can open the page.
+
+    Of a mechanism the page is a file, view.html in the run folder, with its positions, curves and events.
 
     Parameters
     ----------
@@ -37,11 +46,28 @@ def view(
         raise InputError("--port", f"{port}", "a number from 1 to 65535, or 0 for any free port")
     console, run = Console(), Run(folder)
     if run.of_mechanism:
-        remedy = f"softway plot {folder}, or softway plot {folder} --film film.mp4"
-        raise InputError(str(folder), "is the run of a mechanism, which has no page yet", remedy)
+        if live or port:
+            problem = "a page of its own is made of a mechanism, without a server"
+            raise InputError("--live, --port", problem, "omit them; softway view again for what is new")
+        _mechanism_page(run, console, browser)
+        return
 
     def ready(address: str) -> None:
         console.print(f"{address}  (Ctrl-C to stop)", soft_wrap=True, highlight=False)
 
     with suppress(KeyboardInterrupt):
         serve(run, port=port, browser=browser, live=live, ready=ready)
+
+
+def _mechanism_page(run: Run, console: Console, browser: bool) -> None:
+    """Write the page of a mechanism into its folder, and open it."""
+    file = run.path / PAGE
+    with console.status("first picture") as status:
+        text = page(run, told(run.summary), lambda done, of: status.update(f"picture {done} of {of}"))
+    try:
+        replaced(file, text.encode())
+    except OSError as error:
+        raise InputError(str(file), f"cannot be written: {error.strerror}", "a copy of the run folder") from None
+    console.print(file.resolve().as_uri(), soft_wrap=True, highlight=False)
+    if browser:
+        webbrowser.open(file.resolve().as_uri())

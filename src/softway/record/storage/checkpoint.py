@@ -17,6 +17,7 @@ import numpy as np
 
 from softway.errors import InputError
 from softway.march.march_state import MarchState
+from softway.mechanisms.arrays import MechanismState
 from softway.record.storage.atomic_file import replaced
 from softway.record.storage.gate.archive import packed_arrays, unpacked_arrays
 from softway.record.storage.gate.own_files import plain_file
@@ -66,9 +67,15 @@ class Checkpoints:
 class Checkpoint:
     """State of a run: the state of the march, the length of each record, and the wall-clock time so far [s]."""
 
-    march_state: MarchState
+    march_state: MarchState | MechanismState
     marks: Mapping[str, int]
     wall: float
+
+    @property
+    def time(self) -> float:
+        """Time that the march has reached [s]."""
+        reached = self.march_state
+        return reached.time if isinstance(reached, MechanismState) else reached.state.time
 
 
 class Damaged(Exception):
@@ -101,7 +108,9 @@ def listed(folder: Path) -> list[Path]:
     return sorted((folder / FOLDER).glob("slab-*"), reverse=True)
 
 
-def last(folder: Path, require: Callable[[MarchState], object] = lambda state: None) -> Checkpoint | None:
+def last(
+    folder: Path, require: Callable[[MarchState | MechanismState], object] = lambda state: None
+) -> Checkpoint | None:
     """Last usable checkpoint of a run folder; a warning names each other one.
 
     Parameters

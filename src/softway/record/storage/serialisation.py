@@ -20,6 +20,7 @@ from softway.errors import InputError
 from softway.march.march_state import EnergyAccount, MarchState, Settings, StepHistory
 from softway.march.model_state import ModelState
 from softway.march.step_control import StepControl
+from softway.mechanisms.arrays import MechanismState
 from softway.model.field import FieldState
 from softway.model.rigid_bodies import RigidState
 from softway.model.time_weight import Collocation, EndPeaks, Momentum
@@ -39,6 +40,7 @@ KINDS: Mapping[str, type] = MappingProxyType(
         for kind in (
             *(
                 MarchState,
+                MechanismState,
                 Settings,
                 ModelState,
                 SlabStart,

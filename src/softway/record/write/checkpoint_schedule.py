@@ -3,11 +3,25 @@
 import time as clock
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Protocol
 
 from softway.march.march_state import MarchState
+from softway.mechanisms.arrays import MechanismState
 from softway.record.storage.checkpoint import RARE, Checkpoint, Checkpoints, save
 from softway.record.storage.uninterrupted import uninterrupted
-from softway.record.write.recorder import Recorder
+
+
+class Marked(Protocol):
+    """Record with a length, as :class:`~softway.record.write.recorder.Recorder`."""
+
+    @property
+    def mark(self) -> int:
+        """Length of the record."""
+        ...
+
+    def sync(self) -> None:
+        """Flush the record to the disk."""
+        ...
 
 
 class CheckpointWriter:
@@ -27,11 +41,11 @@ class CheckpointWriter:
 
     __slots__ = ("_latest", "_saved", "before", "begun", "due", "folder", "plan", "recorders")
 
-    def __init__(self, folder: Path, plan: Checkpoints, recorders: Mapping[str, Recorder], before: float) -> None:
+    def __init__(self, folder: Path, plan: Checkpoints, recorders: Mapping[str, Marked], before: float) -> None:
         self.folder, self.plan, self.recorders, self.before = folder, plan, recorders, before
         self.begun = clock.perf_counter()
         self.due = self.begun + plan.every
-        self._latest: tuple[MarchState, dict[str, int]] | None = None
+        self._latest: tuple[MarchState | MechanismState, dict[str, int]] | None = None
         self._saved = -1
 
     @property
@@ -39,7 +53,7 @@ class CheckpointWriter:
         """Wall-clock time of the run so far [s]."""
         return self.before + clock.perf_counter() - self.begun
 
-    def took(self, march_state: MarchState) -> None:
+    def took(self, march_state: MarchState | MechanismState) -> None:
         """Take the state of the march after its last step was recorded, and write a checkpoint if one is due.
 
         Raises

@@ -19,7 +19,6 @@ from softway.mechanisms.members.springs import Spring, Torque
 from softway.mechanisms.members.stops import AngleStop, Stop
 from softway.mechanisms.stop_rows import NEAR
 from softway.mechanisms.welds import welded
-from softway.record.storage.checkpoint import Checkpoints
 from softway.record.write.mechanism.probes import BodyReading, body_readings
 from softway.scenario.hints.type_hints import nearest
 from softway.scenario.scenario import Scenario, Time
@@ -174,9 +173,6 @@ def _require_own_keys(scenario: Scenario) -> None:
         if getattr(scenario.time, key) != getattr(standard, key):
             problem = f"{type(getattr(scenario.time, key)).__name__} in a scenario of rigid bodies"
             raise InputError(f"time.{key}", problem, "omit it: only solids use it")
-    if scenario.output.checkpoints != Checkpoints():
-        problem = "in a scenario of rigid bodies, which is not resumed"
-        raise InputError("output.checkpoints", problem, "omit it: run an interrupted scenario again")
 
 
 def mechanism_of(scenario: Scenario) -> Mechanism:

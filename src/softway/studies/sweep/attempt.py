@@ -7,7 +7,6 @@ from softway.errors import InputError
 from softway.record.run import Run
 from softway.record.storage.provenance import DONE, FILE, Stop
 from softway.scenario.checks.check import check
-from softway.scenario.checks.mechanism import CheckedMechanism
 from softway.scenario.files import load
 from softway.scenario.run import of_same_input, resume, run
 from softway.studies.sweep.plan import Trial
@@ -62,7 +61,7 @@ class Attempt:
 
 
 def carried_out(attempt: Attempt) -> None:
-    """Compute the run or resume it; a failed run and one of a mechanism start again.
+    """Compute the run or resume it; a failed run starts again.
 
     Raises
     ------
@@ -71,7 +70,7 @@ def carried_out(attempt: Attempt) -> None:
     """
     checked = check(load(attempt.file, attempt.every_change, allow_python=attempt.allow_python))
     stop = attempt.stop
-    if stop is None or stop.reason == "failed" or isinstance(checked, CheckedMechanism):
+    if stop is None or stop.reason == "failed":
         run(checked, attempt.folder, overwrite=True)
     else:
         resume(attempt.folder, scenario=checked)

@@ -19,7 +19,19 @@ from softway.record.write.mechanism.columns import rotation_of, rotation_vector
 from softway.scenario.checks.mechanism import CheckedMechanism
 
 FOLDER = Path(__file__).parents[4] / "scenarios"
-NAMES = ("hammer_on_stop", "newtons_cradle", "rocking_block", "slider_crank", "toggle_snap")
+NAMES = (
+    "bearing_clearance",
+    "flat_follower",
+    "hammer_on_stop",
+    "newtons_cradle",
+    "rocking_block",
+    "slider_crank",
+    "squeezer",
+    "thrown_ball",
+    "tippe_top",
+    "toggle_snap",
+    "woodpecker",
+)
 TABLES = ("history.csv", "motion.csv", "events.csv")
 SHORT = ("time.end=5 ms",)
 
@@ -128,7 +140,7 @@ def test_a_mechanism_in_space(tmp_path):
     assert run.plot().save(tmp_path / "top.png").stat().st_size > 10_000
 
 
-def test_an_interrupted_run_is_read_and_not_resumed(tmp_path):
+def test_an_interrupted_run_is_read(tmp_path):
     seen = []
 
     def stop(progress):
@@ -136,17 +148,11 @@ def test_an_interrupted_run_is_read_and_not_resumed(tmp_path):
         if progress.slabs == 7:
             raise KeyboardInterrupt
 
-    scenario = sw.load(FOLDER / "slider_crank.toml", SHORT)
     with pytest.raises(KeyboardInterrupt):
-        sw.run(scenario, tmp_path / "run", progress=stop)
+        sw.run(sw.load(FOLDER / "slider_crank.toml", SHORT), tmp_path / "run", progress=stop)
     run = sw.Run(tmp_path / "run")
     assert [slabs for slabs, *_ in seen] == list(range(8)) and seen[-1][1] == pytest.approx(0.14)
     assert (run.status, run.history.rows, run.motion.rows, run.summary["slabs"]) == ("interrupted", 8, 8, 7)
-    with pytest.raises(sw.InputError, match="cannot be resumed") as found:
-        sw.resume(run.path)
-    assert found.value.remedy == f"compute it again: softway run {run.path}/scenario.toml --out {run.path} --overwrite"
-    assert main(["run", str(run.path / "scenario.toml"), "--out", str(run.path), "--overwrite", "-q"]) == 0
-    assert sw.Run(run.path).status == "done"
 
 
 def test_a_cancelled_run_is_read(tmp_path):
@@ -243,9 +249,8 @@ def test_the_command_line_checks_runs_shows_and_draws(tmp_path, capsys):
     assert (tmp_path / "run" / "bodies.png").stat().st_size > 10_000
     assert main(["plot", out, "--film", str(tmp_path / "film.gif"), "--times", "0 ms, 3 ms"]) == 0
     assert (tmp_path / "film.gif").stat().st_size > 10_000
-    assert main(["view", out]) == 2 and "--film" in capsys.readouterr().err
     assert main(["race", file]) == 2 and "rigid bodies" in capsys.readouterr().err
-    assert main(["audit", out]) == 2
+    assert main(["audit", out]) == 0 and "1001 instants audited" in capsys.readouterr().out
 
 
 def test_a_velocity_that_joints_do_not_allow_is_told(crank, tmp_path):

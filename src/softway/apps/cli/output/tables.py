@@ -100,7 +100,7 @@ def summary(run: Run, console: Console) -> None:
     for sentence in told(found) if run.of_mechanism else ():
         console.print(sentence, markup=False, soft_wrap=True, highlight=False)
     console.print(f"{run.status}{': ' if stop.message else ''}{stop.message}", markup=False, soft_wrap=True)
-    if stop in (INTERRUPTED, CANCELLED) and not run.of_mechanism:
+    if stop in (INTERRUPTED, CANCELLED):
         console.print(f"resume with: softway resume {run.path}", markup=False, soft_wrap=True, highlight=False)
     console.print(f"records: {run.path}", markup=False, soft_wrap=True, highlight=False)
 

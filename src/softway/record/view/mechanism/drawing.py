@@ -8,7 +8,8 @@ from scipy.spatial import ConvexHull, QhullError
 
 from softway.arrays import Array
 from softway.mechanisms.members.joints import GROUND
-from softway.record.view.mechanism.pose import Poses
+from softway.mechanisms.members.stops import tangents
+from softway.record.view.mechanism.pose import CORNER, Poses, seen
 from softway.record.view.style import BLACK, CYCLE
 
 if TYPE_CHECKING:
@@ -18,13 +19,22 @@ COILS = 7
 """Windings of a drawn spring."""
 SMALL = 0.012
 """Size of a drawn mark relative to the picture."""
+SLENDER = 0.03
+"""Area of a hull, relative to the square of its length, below which it is drawn as a line."""
 HATCHES = 14
 """Strokes behind a drawn plane."""
 
 
 def colours(poses: Poses) -> dict[str, str]:
     """Colour of each body."""
-    return {name: CYCLE[k % len(CYCLE)] for k, name in enumerate(poses.parts["bodies"])}
+    return {name: _colour(k) for k, name in enumerate(poses.parts["bodies"])}
+
+
+def _colour(k: int) -> str:
+    """Colour of the body with a number; they become lighter where the cycle of colours begins again."""
+    first = CYCLE[k % len(CYCLE)].lstrip("#")
+    dark = 0.6 ** (k // len(CYCLE))
+    return "#" + "".join(f"{round(255 - dark * (255 - int(first[i : i + 2], 16))):02x}" for i in (0, 2, 4))
 
 
 def draw(axis: "Axes", poses: Poses, row: int, size: float, alpha: float = 1.0) -> None:
@@ -38,6 +48,7 @@ def draw(axis: "Axes", poses: Poses, row: int, size: float, alpha: float = 1.0) 
         _body(axis, poses, name, row, colour, size, alpha)
         for radius, start in _radii(poses, name):
             _ball(axis, poses.point(name, start, row), radius, colour, alpha)
+            _marks(axis, poses, name, start, row, radius, colour, alpha)
     for spring in poses.parts["springs"]:
         _spring(axis, poses, spring, row, size, alpha)
     for stop in poses.parts["stops"]:
@@ -57,10 +68,7 @@ def _body(axis: "Axes", poses: Poses, name: str, row: int, colour: str, size: fl
         other = 2.0 * SMALL * size * poses.direction(name, [-1.0, 0.7, 0.0][: poses.parts["dim"]], row)
         points = points[0] + np.array([corner, other, -corner, -other])
     if len(points) > 2:
-        try:
-            hull = points[ConvexHull(points).vertices]
-        except QhullError:  # the points lie on a line
-            hull = None
+        hull = _hull(points)
         if hull is not None:
             axis.fill(*hull.T, facecolor=colour, edgecolor=colour, lw=2.0, alpha=0.35 * alpha, zorder=2)
             axis.plot(*np.vstack([hull, hull[:1]]).T, color=colour, lw=2.0, alpha=alpha, zorder=2)
@@ -68,6 +76,16 @@ def _body(axis: "Axes", poses: Poses, name: str, row: int, colour: str, size: fl
         along = points[-1] - points[0]
         points = points[np.argsort(points @ along)]
     axis.plot(*points.T, color=colour, lw=5.0, alpha=0.75 * alpha, solid_capstyle="round", zorder=2)
+
+
+def _hull(points: Array) -> Array | None:
+    """Corners (k, 2) of the convex hull of points, None if they lie nearly on a line."""
+    try:
+        found = ConvexHull(points)
+    except QhullError:
+        return None
+    length = 0.5 * found.area  # of two dimensions: half of the circumference
+    return np.asarray(points[found.vertices]) if found.volume > SLENDER * length**2 else None
 
 
 def _radii(poses: Poses, name: str) -> list[tuple[float, list[float]]]:
@@ -88,6 +106,22 @@ def _ball(axis: "Axes", centre: Array, radius: float, colour: str, alpha: float)
     angle = np.linspace(0.0, 2.0 * np.pi, 73)
     circle = centre + radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     axis.fill(*circle.T, facecolor=colour, edgecolor=colour, alpha=0.4 * alpha, lw=1.2, zorder=2)
+
+
+def _marks(
+    axis: "Axes", poses: Poses, name: str, start: list[float], row: int, radius: float, colour: str, alpha: float
+) -> None:
+    """Lines that turn with a ball: a radius in the plane; in space the visible halves of two great circles."""
+    middle, turned = poses.point(name, start, row), poses.turned(name, row)
+    if poses.parts["dim"] == 2:
+        axis.plot(*np.array([middle, middle + radius * turned[:, 0]]).T, color=colour, lw=1.2, alpha=alpha, zorder=3)
+        return
+    angle = np.linspace(0.0, 2.0 * np.pi, 121)
+    for one, other in ((0, 1), (0, 2)):
+        circle = radius * (np.cos(angle)[:, None] * turned[:, one] + np.sin(angle)[:, None] * turned[:, other])
+        drawn = middle + seen(circle.T).T
+        drawn[circle @ np.cross(*CORNER) < 0.0] = np.nan  # behind the ball
+        axis.plot(*drawn.T, color=colour, lw=1.2, alpha=alpha, zorder=3)
 
 
 def _joint(axis: "Axes", poses: Poses, joint: Mapping[str, Any], row: int, size: float, alpha: float) -> None:
@@ -122,16 +156,32 @@ def _spring(axis: "Axes", poses: Poses, spring: Mapping[str, Any], row: int, siz
 
 
 def _plane(axis: "Axes", poses: Poses, stop: Mapping[str, Any], row: int, size: float) -> None:
-    """Line of a plane with strokes behind it."""
-    body, at = stop["between"][0], poses.feet.get(stop["name"], stop["points"][0])
+    """Line of a plane with strokes behind it; in space a part of the plane of the ground."""
+    body, name = stop["between"][0], stop["name"]
     normal = poses.direction(body, stop["normal"], row)
     length = float(np.linalg.norm(normal))
+    if poses.parts["dim"] == 3 and name in poses.floors:
+        _patch(axis, poses.floors[name], stop["normal"], 0.1 * size)
+        return
     if length == 0.0:
         return
-    normal, place = normal / length, poses.point(body, at, row)
+    normal = normal / length
     along, half = np.array([-normal[1], normal[0]]), 0.12 * size
-    ends = place + half * np.array([[-1.0], [1.0]]) * along
-    axis.plot(*ends.T, color=BLACK, lw=1.8, zorder=1)
-    for share in np.linspace(-1.0, 1.0, HATCHES):
-        foot = place + share * half * along
+    places = poses.floors[name] if name in poses.floors else poses.point(body, stop["points"][0], row)[None]
+    ways = (places - places[0]) @ along
+    low, high = float(ways.min()) - half, float(ways.max()) + half
+    start, apart = float(places[0] @ along), 2.0 * half / HATCHES  # stops on one plane have the same strokes
+    axis.plot(*np.array([places[0] + low * along, places[0] + high * along]).T, color=BLACK, lw=1.8, zorder=1)
+    for way in apart * np.arange(np.ceil((start + low) / apart), (start + high) / apart) - start:
+        foot = places[0] + way * along
         axis.plot(*np.array([foot, foot - SMALL * size * (normal + along)]).T, color=BLACK, lw=0.7, alpha=0.7, zorder=1)
+
+
+def _patch(axis: "Axes", corners: Array, normal: list[float], margin: float) -> None:
+    """Part (4, 3) of a plane in space, with a margin around it."""
+    across = np.array(tangents(np.asarray(normal, float) / float(np.linalg.norm(normal)), 3))
+    middle = corners.mean(axis=0)
+    reach = np.abs((corners - middle) @ across.T).max(axis=0) + margin
+    signs = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    outline = middle + (signs * reach) @ across
+    axis.fill(*seen(outline.T), facecolor=BLACK, edgecolor=BLACK, alpha=0.08, lw=1.0, zorder=0)

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 PALE = 6
 """Number of pale positions."""
+DENSE = 10.0
+"""Length of a path relative to the picture from which on it is drawn thin."""
 MARGIN = 0.08
 """Margin around the mechanism, relative to its size."""
 
@@ -37,6 +39,10 @@ def positions(run: Records, look: PictureOptions = STANDARD) -> "Figure":
     pale = [] if look.times else _spread(shown, rows[0])
     for axis, row in zip(axes, rows, strict=True):
         _scene(axis, shown, row, box, paths, pale)
+        if axis is not axes[0]:
+            axis.set_ylabel("")
+        if axis is not axes[-1] and (names := axis.get_legend()) is not None:
+            names.remove()
     title = run.provenance.get("title", "")
     figure.suptitle(title or "Mechanism", x=0.01, ha="left", fontsize=12, fontweight="bold")
     return figure
@@ -74,10 +80,12 @@ def _paths(shown: Poses) -> list[tuple[str, Array]]:
 def _scene(
     axis: "Axes", shown: Poses, row: int, box: Array, paths: list[tuple[str, Array]], pale: Sequence[int] = ()
 ) -> None:
-    """Draw one position, some pale ones, and the paths."""
+    """Draw one position, some pale ones, and the paths until then."""
     size, of = float(np.linalg.norm(np.ptp(box, axis=0))), colours(shown)
     for name, path in paths:
-        axis.plot(*path.T, color=of[name], lw=1.0, alpha=0.6, zorder=0)
+        trail = path[: row + 1]
+        dense = float(np.linalg.norm(np.diff(trail, axis=0), axis=1).sum()) > DENSE * size
+        axis.plot(*trail.T, color=of[name], lw=0.5 if dense else 1.0, alpha=0.3 if dense else 0.6, zorder=0)
     for one in pale:
         draw(axis, shown, one, size, 0.18)
     draw(axis, shown, row, size)

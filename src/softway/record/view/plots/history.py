@@ -29,6 +29,8 @@ WORDS = {
     "rad/s": "angular velocity",
 }
 """Quantities of probes by unit."""
+LONG = 20
+"""Letters from which on a quantity does not fit beside an axis."""
 
 
 WORKS = (("dissipation", ORANGE, "dissipated", "-"), ("work_external", GREEN, "external work", (0, (4, 4))))
@@ -137,7 +139,7 @@ def _probes(axis: "Axes", time: Array, table: Table, names: list[str]) -> None:
     for name, color in zip(names, _cycle(len(names)), strict=True):
         axis.plot(time, factor * table[name], color=color, label=name)
     word = WORDS[table.units[names[0]]]
-    axis.set(title=f"Probes: {word}", ylabel=f"{word} [{unit}]")
+    axis.set(title=f"Probes: {word}", ylabel=f"{word if len(word) < LONG else 'length'} [{unit}]")
     axis.legend(loc="best")
 
 

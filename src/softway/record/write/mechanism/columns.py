@@ -78,15 +78,21 @@ def rotation_vector(rotation: Array) -> Array:
     """
     if len(rotation) == 2:
         return np.array([np.arctan2(rotation[1, 0], rotation[0, 0])])
-    quaternion = _quaternion(rotation)
-    length = float(np.linalg.norm(quaternion[1:]))
+    turn = quaternion(rotation)
+    length = float(np.linalg.norm(turn[1:]))
     if length == 0.0:
         return np.zeros(3)
-    return np.asarray(2.0 * np.arctan2(length, quaternion[0]) / length * quaternion[1:])
+    return np.asarray(2.0 * np.arctan2(length, turn[0]) / length * turn[1:])
 
 
-def _quaternion(r: Array) -> Array:
-    """Unit quaternion (4,) of a rotation (3, 3), with its scalar first and not negative."""
+def quaternion(r: Array) -> Array:
+    """Unit quaternion (4,) of a rotation (3, 3), with its scalar first and not negative.
+
+    Examples
+    --------
+    >>> quaternion(np.diag([-1.0, -1.0, 1.0])).tolist()
+    [0.0, 0.0, 0.0, 1.0]
+    """
     trace = float(np.trace(r))
     full = np.array(
         [

@@ -1,9 +1,10 @@
 """Recorder of a mechanism: it takes the steps of a march in order, and its files are valid after each of them."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 from softway.mechanisms.march import MechanismStep
 from softway.mechanisms.members.stops import StopEvent
@@ -33,6 +34,11 @@ class MechanismRecorder:
     events: Lines
     readings: tuple[BodyReading, ...]
 
+    @property
+    def files(self) -> Mapping[str, Lines]:
+        """The files by name."""
+        return {history.FILE: self.history, MOTION: self.motion, events.FILE: self.events}
+
     def take(self, step: MechanismStep, slabs: int) -> None:
         """Write the lines of a step after a number of slabs (time steps)."""
         probes = [reading.value(step) for reading in self.readings]
@@ -44,7 +50,7 @@ class MechanismRecorder:
     def close(self) -> None:
         """Close the files."""
         with ExitStack() as closing:
-            for lines in (self.history, self.motion, self.events):
+            for lines in self.files.values():
                 closing.callback(lines.close)
 
 
@@ -55,9 +61,16 @@ def _cells(event: StopEvent) -> list[str | int | float]:
 
 
 def open_mechanism(
-    folder: Path, names: Sequence[str], dim: int, readings: tuple[BodyReading, ...]
+    folder: Path,
+    names: Sequence[str],
+    dim: int,
+    readings: tuple[BodyReading, ...],
+    marks: Mapping[str, int] = MappingProxyType({}),
 ) -> MechanismRecorder:
-    """Create the files of a mechanism of the bodies ``names`` in ``dim`` dimensions, with their headers."""
+    """Create the files of a mechanism of the bodies ``names`` in ``dim`` dimensions, with their headers.
+
+    Those with ``marks`` exist: they are truncated to these lengths, and continued.
+    """
     heads = {
         history.FILE: (("time", "s"), SLABS, *((c.name, c.unit) for c in HISTORY[1:])),
         MOTION: (("time", "s"), *(column for name in names for column in motion_columns(name, dim))),
@@ -67,9 +80,10 @@ def open_mechanism(
     with ExitStack() as failing:
         opened = {}
         for name, columns in heads.items():
-            opened[name] = table.lines(folder / name)
+            opened[name] = table.lines(folder / name, marks.get(name))
             failing.callback(opened[name].close)
-            opened[name].write(table.header(columns))
+            if name not in marks:
+                opened[name].write(table.header(columns))
         failing.pop_all()
     return MechanismRecorder(
         history=opened[history.FILE], motion=opened[MOTION], events=opened[events.FILE], readings=readings
