@@ -12,12 +12,12 @@ from softway.kernels.multibody.slab import begin, end_slab, march_slabs
 from softway.kernels.multibody.tables import Space, space
 from softway.kernels.multibody.velocities import project_velocities
 from softway.mechanisms.arrays import Arrays, arrays
+from softway.mechanisms.contacts.impacts import StopMarch
+from softway.mechanisms.contacts.stop_start import stop_march
 from softway.mechanisms.driven import require_free_motions
-from softway.mechanisms.impacts import StopMarch
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.stops import StopEvent
 from softway.mechanisms.newton import newton_motion
-from softway.mechanisms.stop_start import stop_march
 from softway.mechanisms.welds import Welded, welded
 from softway.units import Second
 

@@ -7,9 +7,9 @@ import numpy as np
 from softway.kernels.multibody.joint_rows import ANGLE, SLIDE
 from softway.kernels.multibody.tables import Space
 from softway.mechanisms.arrays import Arrays
-from softway.mechanisms.impacts import StopMarch
+from softway.mechanisms.contacts.impacts import StopMarch
+from softway.mechanisms.contacts.stop_rows import Stops
 from softway.mechanisms.members.stops import Impacts, Restitution, Stop
-from softway.mechanisms.stop_rows import Stops
 
 
 def stop_march(it: Arrays, room: Space, stops: Mapping[str, Stop], law: Impacts, restitution: Restitution) -> StopMarch:

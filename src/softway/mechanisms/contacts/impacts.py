@@ -14,8 +14,8 @@ from scipy.optimize import brentq
 
 from softway.arrays import Array, BoolArray
 from softway.errors import InputError, NumericsError
+from softway.mechanisms.contacts.stop_rows import NEAR, STILL, Stops
 from softway.mechanisms.members.stops import Impacts, Restitution, StopEvent
-from softway.mechanisms.stop_rows import NEAR, STILL, Stops
 
 TOUCH = 1e-14
 """Gap relative to the extent that is rounding."""
