@@ -18,7 +18,10 @@ from softway.mechanisms.row_tables import joint_tables, require_inertia, rows_of
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Arrays:
-    """Tables of a mechanism, its motion at the start, the name of the joint of each row, and the extent [m]."""
+    """Tables of a mechanism, its motion at the start, and the extent [m].
+
+    ``joint_of`` are the names of the joints of the rows, and ``rank`` their numbers among those of a stop.
+    """
 
     bodies: Bodies
     joints: Joints
@@ -26,6 +29,7 @@ class Arrays:
     motion: Motion
     names: tuple[str, ...]
     joint_of: tuple[str, ...]
+    rank: tuple[int, ...]
     extent: float
 
 
@@ -54,6 +58,7 @@ def arrays(mechanism: Mechanism) -> Arrays:
         motion=_motion(mechanism, centres, joints, len(bodies.jointed)),
         names=names,
         joint_of=tuple(rows[k].name for k in order),
+        rank=tuple(rows[k].rank for k in order),
         extent=float(
             max(np.abs(joints.X).max(initial=0.0), np.abs(joints.Y).max(initial=0.0), np.ptp(centres, 0).max())
         ),

@@ -160,20 +160,20 @@ def _steps(
     room = space(it.joints, len(it.names), len(it.bodies.jointed))
     stops = None
     if joined.mechanism.stops:
-        stops = stop_march(it, room, joined.mechanism.stops, mechanism.impacts, mechanism.restitution)
+        stops = stop_march(it, room, joined.mechanism)
     begin(it.bodies, it.joints, it.springs, it.motion, room)
     require_free_motions(it, room)
     project_velocities(it.bodies, it.joints, it.motion, room)
     begin(it.bodies, it.joints, it.springs, it.motion, room)
     initial = float(it.motion.energy.sum())
     told, h, done = np.zeros(3), until / slabs, 0
-    events = [] if stops is None else stops.start(h, _extent(it))
+    events = [] if stops is None else stops.start(h, _extent(it, h))
     yield _step(mechanism, joined, it, room, 0.0, initial, told, 0, stops, events)
     while done < slabs:
         told[:], events = 0.0, []
         iterations, goal = 0, min(slabs, done + every)
         while done < goal:
-            extent = _extent(it)
+            extent = _extent(it, h)
             if stops is not None:
                 more, used = stops.slab(done * h, h, extent, told)
                 events += more
@@ -188,14 +188,15 @@ def _steps(
         yield _step(mechanism, joined, it, room, time, initial, told, iterations, stops, events)
 
 
-def _extent(it: Arrays) -> float:
-    """Extent of the mechanism, the scale of rounding [m]."""
-    return max(it.extent, float(np.abs(it.motion.place).max()), 1e-300)
+def _extent(it: Arrays, h: float) -> float:
+    """Extent of the mechanism, or the way in a slab of length h at the origin: the scale of rounding [m]."""
+    way = h * (float(np.abs(it.motion.velocity).max()) + h * float(np.abs(it.bodies.gravity).max()))
+    return max(it.extent, float(np.abs(it.motion.place).max()), way, 1e-300)
 
 
 def _hard_slab(it: Arrays, room: Space, time: float, h: float, told: Array, halvings: int = 0) -> int:
     """Solve a slab in which the fixed point fails by Newton's method, or else in two halves, and so on."""
-    found = newton_motion(it, room, h, _extent(it))
+    found = newton_motion(it, room, h, _extent(it, h))
     if found:
         end_slab(it.bodies, it.joints, it.springs, it.motion, room, h, told)
         return found
@@ -207,7 +208,7 @@ def _hard_slab(it: Arrays, room: Space, time: float, h: float, told: Array, halv
         raise NumericsError(what, time, "a shorter step, or a mechanism that can move on from there")
     iterations = 0
     for k in range(2):
-        one, used = march_slabs(it.bodies, it.joints, it.springs, it.motion, room, 0.5 * h, 1, _extent(it), told)
+        one, used = march_slabs(it.bodies, it.joints, it.springs, it.motion, room, 0.5 * h, 1, _extent(it, h), told)
         iterations += used if one else _hard_slab(it, room, time + 0.5 * k * h, 0.5 * h, told, halvings + 1)
     return iterations
 

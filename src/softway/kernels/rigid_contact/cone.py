@@ -1,12 +1,13 @@
 """Impulses of contacts with friction, from their compliance: unilateral normals, cones without convexification.
 
-``y = W x + b`` for the contacts i, with the normal impulse first and one or two tangential ones, or none:
-``0 <= x_n perp y_n >= 0``, and ``|x_t| <= r`` against the direction of ``y_t`` with ``r = max(mu x_n, least)``.
+``y = W x + b`` for the contacts i, with the normal impulse first and blocks of others, of friction against sliding, and
+of moments against rolling and drilling: ``0 <= x_n perp y_n >= 0``, and for each block t ``|x_t| <= r`` against the
+direction of ``y_t`` with ``r = max(mu x_n, least)``, where mu is a coefficient or, for moments, a length.
 """
 
 import numpy as np
 
-from softway.kernels.jit.compilation import kernel
+from softway.kernels.jit.compilation import inlined, kernel
 
 ITERATIONS = 60
 """Greatest number of Newton's steps."""
@@ -32,12 +33,13 @@ SWEEPS = 2000
 def solve_cone(W, b, friction, least, lower, rounding, x):
     """Impulses x (m,) in place, from a first guess; 1 if they are a solution, 0 if none was found.
 
+    ``friction`` (c, q) are the coefficients of the q blocks of each contact, and ``least`` (c, q) their least limits.
     Normal impulses are ``lower`` (c,) at least, instead of zero; impulses below ``rounding`` are rounding errors.
     """
     if len(x) == 0:
         return 1
     d = len(x) // len(friction)
-    rho = _steps(W, d, len(friction))
+    rho = _steps(W, d, friction)
     found = _newton(W, b, friction, least, lower, rho, rounding, x)
     if not found and d == 2 and len(friction) <= MOST and lower.max() == 0.0:
         found = _modes(W, b, friction, x)
@@ -55,17 +57,30 @@ def solve_cone(W, b, friction, least, lower, rounding, x):
     return found
 
 
+@inlined
+def block(d, q, k):
+    """First row of the block k of q in a contact of d rows, and the row after it."""
+    if q == 1:  # sliding
+        return 1, d
+    if q == 2:  # in the plane: sliding, rolling
+        return 1 + k, 2 + k
+    return 1 + 2 * k, min(3 + 2 * k, 6)  # in space: sliding, rolling, drilling
+
+
 @kernel
-def _steps(W, d, count):
-    """Inverse compliances (m,) of each row, one for the tangential rows of a contact."""
-    rho = np.empty(d * count)
-    for i in range(count):
-        tangential = 0.0
-        for c in range(1, d):
-            tangential = max(tangential, W[d * i + c, d * i + c])
-        rho[d * i] = 1.0 / max(W[d * i, d * i], 1e-300)
-        for c in range(1, d):
-            rho[d * i + c] = 1.0 / max(tangential, 1e-300)
+def _steps(W, d, friction):
+    """Inverse compliances (m,) of each row, one for the rows of a block."""
+    rho = np.empty(len(W))
+    for i in range(len(friction)):
+        n = d * i
+        rho[n] = 1.0 / max(W[n, n], 1e-300)
+        for k in range(friction.shape[1]):
+            first, last = block(d, friction.shape[1], k)
+            most = 0.0
+            for t in range(n + first, n + last):
+                most = max(most, W[t, t])
+            for t in range(n + first, n + last):
+                rho[t] = 1.0 / max(most, 1e-300)
     return rho
 
 
@@ -135,37 +150,36 @@ def _projected(W, b, friction, least, lower, rho, x, F, J):
         else:
             F[n] = x[n] - lower[i]
             J[n, n] = 1.0
-        if d > 1:
-            radius = max(friction[i] * max(ahead, lower[i]), least[i])
-            turning = friction[i] if ahead > lower[i] and radius > least[i] else 0.0
-            _tangential(W, y, turning, radius, rho, x, F, J, n, d)
+        for k in range(friction.shape[1]):
+            first, last = block(d, friction.shape[1], k)
+            radius = max(friction[i, k] * max(ahead, lower[i]), least[i, k])
+            turning = friction[i, k] if ahead > lower[i] and radius > least[i, k] else 0.0
+            _tangential(W, y, turning, radius, rho, x, F, J, n, n + first, n + last)
     return np.abs(F).max()
 
 
 @kernel
-def _tangential(W, y, turning, radius, rho, x, F, J, n, d):
-    """Tangential rows of one contact: inside its disc it sticks, outside it slips."""
+def _tangential(W, y, turning, radius, rho, x, F, J, n, first, last):
+    """Rows from ``first`` to before ``last``, a block of a contact: inside its disc it sticks, outside it slips."""
     size = 0.0
-    for c in range(1, d):
-        size += (x[n + c] - rho[n + c] * y[n + c]) ** 2
+    for t in range(first, last):
+        size += (x[t] - rho[t] * y[t]) ** 2
     size = np.sqrt(size)
-    for c in range(1, d):
-        t = n + c
+    for t in range(first, last):
         J[t] = 0.0
-        if size <= radius:
+        if size <= radius and radius > 0.0:
             F[t] = rho[t] * y[t]
             J[t] = rho[t] * W[t]
             continue
-        along = (x[t] - rho[t] * y[t]) / size
+        along = (x[t] - rho[t] * y[t]) / size if size > 0.0 else 0.0
         F[t] = x[t] - radius * along
         J[t, t] = 1.0
         if turning:  # the radius follows the normal impulse
             J[t, n] -= along * turning
             J[t] += along * turning * rho[n] * W[n]
-        for e in range(1, d):  # the direction turns, in space only
-            other = n + e
-            part = (1.0 if e == c else 0.0) - along * (x[other] - rho[other] * y[other]) / size
-            if d > 2:
+        for other in range(first, last):  # the direction turns, in space only
+            if last - first > 1 and size > 0.0:
+                part = (1.0 if other == t else 0.0) - along * (x[other] - rho[other] * y[other]) / size
                 J[t, other] -= radius / size * part
                 J[t] += radius / size * part * rho[other] * W[other]
 
@@ -219,7 +233,7 @@ def _modes(W, b, friction, x):
                 A[n + 1], found[n + 1] = 0.0, 0.0
                 A[n + 1, n + 1] = 1.0
             if mode > 1:
-                A[n + 1, n] = -friction[i] * (1.0 if mode == 2 else -1.0)
+                A[n + 1, n] = -friction[i, 0] * (1.0 if mode == 2 else -1.0)
         solve_dense(A, found)
         if _fits(W @ found + b, found, friction, code, scale):
             x[:] = found
@@ -236,7 +250,7 @@ def _fits(y, x, friction, code, scale):
         rough = SOLVED * scale
         if x[n] < -SOLVED * size or y[n] < -rough:
             return False
-        if mode == 1 and abs(x[n + 1]) > friction[i] * x[n] + SOLVED * size:
+        if mode == 1 and abs(x[n + 1]) > friction[i, 0] * x[n] + SOLVED * size:
             return False
         if (mode == 2 and y[n + 1] > rough) or (mode == 3 and y[n + 1] < -rough):
             return False
@@ -255,14 +269,16 @@ def _sweeps(W, b, friction, least, lower, rho, x):
             n = d * i
             new = max(lower[i], x[n] - rho[n] * (W[n] @ x + b[n]))
             change, x[n] = max(change, abs(new - x[n])), new
-            radius, size = max(friction[i] * new, least[i]), 0.0
-            for c in range(1, d):
-                moved = x[n + c] - rho[n + c] * (W[n + c] @ x + b[n + c])
-                change, x[n + c] = max(change, abs(moved - x[n + c])), moved
-                size += moved * moved
-            size = np.sqrt(size)
-            if size > radius:
-                for c in range(1, d):
-                    x[n + c] *= radius / size
+            for k in range(friction.shape[1]):
+                first, last = block(d, friction.shape[1], k)
+                radius, size = max(friction[i, k] * new, least[i, k]), 0.0
+                for t in range(n + first, n + last):
+                    moved = x[t] - rho[t] * (W[t] @ x + b[t])
+                    change, x[t] = max(change, abs(moved - x[t])), moved
+                    size += moved * moved
+                size = np.sqrt(size)
+                if size > radius:
+                    for t in range(n + first, n + last):
+                        x[t] *= radius / size
         if change <= 1e-12 * np.abs(x).max():
             return
