@@ -26,8 +26,8 @@ class Row:
     """Row of a joint of this ``name`` between the numbers of its ``bodies``, two or four.
 
     Rows that are not ``fixed`` do not always take part.  ``angles`` are numbers of angles with their factors, the first
-    between the first two bodies and the second between the others; ``motion`` is the prescribed one.  The ``rank`` is the
-    number of a row among those of its stop.
+    between the first two bodies and the second between the others; ``motion`` is the prescribed one.  The ``rank`` is
+    the number of a row among those of its stop.
     """
 
     name: str

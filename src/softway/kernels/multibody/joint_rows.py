@@ -174,8 +174,9 @@ def _turning_row(joints, k, place0, R0, place1, R1, g, G):
 
 @uncounted
 def _across(x, y, z, which):
-    """Unit direction across a vector, the first (0) or second (1), or along it (2); in the plane the first is that of its
-    right angle, and the second that of the normal of the plane.
+    """Unit direction across a vector, the first (0) or second (1), or along it (2).
+
+    In the plane the first is that of its right angle, and the second that of the normal of the plane.
     """
     length = np.sqrt(x * x + y * y + z * z)
     if length == 0.0:  # the points coincide: the stop is open, and its rows do not matter

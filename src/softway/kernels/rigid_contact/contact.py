@@ -1,9 +1,9 @@
 """Contacts of rigid bodies with Coulomb's friction: the slab (time step), the velocities at its end, and collisions.
 
 Two impulses of a contact, through the slab on places and at its end on velocities, obey the laws of contact with their
-sum (docs/theory/mechanisms.md).  The rows of a contact are its normal one, and blocks of friction: one or two tangential
-ones or none, and those of the turning, if any stop of the mechanism has friction against rolling or drilling.  Surfaces
-that move like a belt have prescribed rates of their tangential rows.
+sum (docs/theory/mechanisms.md).  The rows of a contact are its normal one, and blocks of friction: one or two
+tangential ones or none, and those of the turning, if any stop of the mechanism has friction against it.  Surfaces that
+move like a belt have prescribed rates of their tangential rows.
 """
 
 import numpy as np
@@ -172,10 +172,10 @@ def _group_of(bodies, joints, motion, k):
 def collide(bodies, joints, motion, space, rows, friction, through, rebound, lower, speed, x):
     """Change the velocities at a prepared state by the contacts; x (m,) are the impulses, ``through`` (m,) included.
 
-    ``friction`` (c, q) are the coefficients of the blocks.  Normal velocities become ``rebound`` (c,) at least, and normal impulses are ``lower`` (c,) at least; impulses that
-    acted ``through`` the slab count in the laws.
-    The work of motors and belts is booked; ``speed`` is that of the extent in a slab, the scale of rounding.  1 if a solution was
-    found.
+    ``friction`` (c, q) are the coefficients of the blocks.  Normal velocities become ``rebound`` (c,) at least, and
+    normal impulses are ``lower`` (c,) at least; impulses that acted ``through`` the slab count in the laws.
+    The work of motors and belts is booked; ``speed`` is that of the extent in a slab, the scale of rounding.  1 if a
+    solution was found.
     """
     W = compliances(joints, space, rows)[0]
     b, d = np.zeros(len(rows)), len(rows) // max(len(friction), 1)
@@ -197,7 +197,7 @@ def collide(bodies, joints, motion, space, rows, friction, through, rebound, low
 
 @kernel
 def push_contacts(bodies, joints, motion, space, rows, impulse):
-    """Change the velocities by impulses (m,) of contact rows, with the joints; the work of motors and belts is booked."""
+    """Change the velocities by impulses (m,) of contact rows, with the joints; book the work of motors and belts."""
     for i in range(len(rows)):
         done = impulse[i] * space.rate[rows[i]]
         motion.energy[_group_of(bodies, joints, motion, rows[i])] += done

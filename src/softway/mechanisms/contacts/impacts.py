@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 from softway.arrays import Array, BoolArray
 from softway.errors import InputError, NumericsError
-from softway.mechanisms.contacts.slipping import next_change, tell_sliding
+from softway.mechanisms.contacts.slipping import jammed, next_change, tell_sliding
 from softway.mechanisms.contacts.stop_rows import NEAR, NOISE, STILL, Stops
 from softway.mechanisms.members.stops import Impacts, Restitution, StopEvent
 
@@ -91,7 +91,7 @@ class StopMarch:
     ) -> tuple[float, BoolArray, int]:
         """Take a part of the slab up to the next touch: its length, the touching stops, and the iterations."""
         stops, iterations, change = self.stops, 0, None
-        jammed, before, begun = stops.jammed(), stops.slips(), np.zeros(len(stops.rows), bool)
+        jamming, before, begun = jammed(stops), stops.slips(), np.zeros(len(stops.rows), bool)
         while True:
             span, used = self._up_to_touch(time, left, extent)
             iterations += used
@@ -109,7 +109,7 @@ class StopMarch:
         closed = stops.taken(time, span, extent, told, np.zeros(len(stops.rows)))
         if change is not None:
             stops.sliding[change.ending], stops.sliding[change.starting] = False, True
-        for k in jammed[~stops.sliding[jammed]]:
+        for k in jamming[~stops.sliding[jamming]]:
             events.append(StopEvent(time=float(time), stop=stops.names[k], kind="jam"))
         self._close(closed, time, events)
         return span, touching, iterations

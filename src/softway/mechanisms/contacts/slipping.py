@@ -1,4 +1,4 @@
-"""Instants inside a slab (time step) at which the sliding of stops begins or ends, if friction is greater at rest.
+"""Sliding of stops: instants inside a slab (time step) at which it begins or ends, if friction is greater at rest.
 
 The force of a stop at an instant is the mean over a slab of twice the length up to it, and the velocity of the sliding
 at the end of a slab is twice its mean less that at the start: both are exact for forces that are linear in time, or
@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from softway.arrays import Array, BoolArray
+from softway.arrays import Array, BoolArray, IntArray
+from softway.kernels.rigid_contact.contact import compliances
 from softway.mechanisms.contacts.stop_rows import NOISE, Stops
 from softway.mechanisms.members.stops import StopEvent
 
@@ -23,6 +24,8 @@ LATE = 1.0 - 1e-9
 """Part of a slab after which an instant is its end."""
 FINE = 1e-10
 """Accuracy of the instant at which sliding begins, relative to the slab."""
+ROUNDED, PUSHED = 1e-14, 1e-10
+"""Sliding that is rounding, relative to the motion, and to the displacement by friction alone."""
 SLOWED = 1e-6
 """Velocity relative to that at the start of a slab at which sliding has ended."""
 
@@ -114,15 +117,32 @@ def _first_end(
     return length, left(length) <= SLOWED
 
 
+def _breaking(stops: Stops, span: float) -> BoolArray:
+    """Stops (s,) at rest that slide in a slab of this length that was tried, with the greatest friction.
+
+    Of several stops on one body some may have their greatest friction before it slides.
+    """
+    rows, friction = stops.closed_rows()
+    found = stops.located & stops.closed & ~stops.sliding
+    found[stops.closed] &= ~stops.below_limit(stops.it.motion.impulse[rows], friction)[:, 0]
+    moved = np.linalg.norm(stops.slid(span), axis=1)
+    rounding = ROUNDED * float(np.abs(stops.room.z[:, :3]).max())
+    for k in np.flatnonzero(found):
+        mine = stops.rows[k, stops.tangential]
+        W, pushed = compliances(stops.it.joints, stops.room, mine)[0], stops.it.motion.impulse[mine]
+        found[k] = moved[k] > max(rounding, PUSHED * 0.5 * span * float(np.linalg.norm(W @ pushed)))
+    return found
+
+
 def _first_start(stops: Stops, solved: Callable[[float], bool], span: float) -> tuple[float, BoolArray]:
-    """Length after which a stop at rest begins to slide, and the stops (s,) that do; the whole ``span`` if none does."""
-    factor, found = 1.0, stops.breaking(span)
-    if solved(2.0 * span) and (more := stops.breaking(2.0 * span)).any():
+    """Length after which a stop at rest begins to slide, and the stops (s,); the whole ``span`` if none does."""
+    factor, found = 1.0, _breaking(stops, span)
+    if solved(2.0 * span) and (more := _breaking(stops, 2.0 * span)).any():
         factor, found = 2.0, more
     low, high = 0.0, span
     while found.any() and high - low > FINE * span:
         middle = 0.5 * (low + high)
-        more = stops.breaking(factor * middle) if solved(factor * middle) else found
+        more = _breaking(stops, factor * middle) if solved(factor * middle) else found
         if more.any():
             high, found = middle, more
         else:
@@ -137,3 +157,19 @@ def tell_sliding(stops: Stops, time: float, events: list[StopEvent]) -> None:
         if min(now, int(stops.told[k])) >= 0 and now != stops.told[k]:
             events.append(StopEvent(time=float(time), stop=stops.names[k], kind="slip" if now else "stick"))
         stops.told[k] = now
+
+
+def jammed(stops: Stops) -> IntArray:
+    """Closed stops (k,) whose sliding has no continuous course at the present state.
+
+    A normal force with its friction would not push the places of contact apart, ``W_nn - mu W_nt <= 0`` (Painleve).
+    """
+    moving = np.flatnonzero(stops.closed & stops.sliding & (stops.friction[:, 0] > 0.0))
+    if not len(moving):
+        return moving
+    found = []
+    for k, slip in zip(moving, stops.slips()[moving], strict=True):
+        W, speed = compliances(stops.it.joints, stops.room, stops.rows[k])[0][0], float(np.linalg.norm(slip))
+        if W[0] * speed - stops.friction[k, 0] * float(W[stops.tangential] @ slip) <= 0.0 < speed:
+            found.append(k)
+    return np.array(found, dtype=np.int64)

@@ -15,13 +15,11 @@ from softway.kernels.multibody.energy import close_energy, kinetic_energy
 from softway.kernels.multibody.slab import prepare_joints, take_motion, tell_joints
 from softway.kernels.multibody.tables import Space
 from softway.kernels.multibody.velocities import row_velocities
-from softway.kernels.rigid_contact.contact import book_slab, collide, collide_at_once, compliances, solve_contact_slab
+from softway.kernels.rigid_contact.contact import book_slab, collide, collide_at_once, solve_contact_slab
 from softway.mechanisms.arrays import Arrays
 
 NEAR = 1e-10
 """Gap relative to the extent at which a stop takes part in an impact."""
-ROUNDED, PUSHED = 1e-14, 1e-10
-"""Sliding that is rounding, relative to the motion, and to the displacement by friction alone."""
 STILL = 1e-9
 """Velocity relative to the greatest at which a stop is closed after an impact."""
 SLIP = 1e-9
@@ -58,6 +56,8 @@ class Stops:
         (g,) groups that the ground holds by joints.
     closed, sliding
         (s,) stops that are closed, and those whose places of contact slide.
+    turning
+        (s, q - 1) stops whose bodies roll, and drill.
     told
         (s,) sliding of the closed located stops as the events say: 1, at rest 0, and -1 of open ones.
     """
@@ -73,6 +73,7 @@ class Stops:
     held: IntArray
     closed: BoolArray
     sliding: BoolArray
+    turning: BoolArray
     told: IntArray
 
     def tried(self, span: float, extent: float, smooth: BoolArray | None = None) -> int:
@@ -80,7 +81,7 @@ class Stops:
 
         Those that are ``smooth`` (s,) have no friction in it.
         """
-        rows, friction = self._closed_rows()
+        rows, friction = self.closed_rows()
         if smooth is not None:
             friction = np.where(smooth[self.closed, None], 0.0, friction)
         self.it.motion.impulse[self.rows[~self.closed].ravel()] = 0.0
@@ -98,12 +99,12 @@ class Stops:
         NumericsError
             If no velocities at the end satisfy the laws of contact.
         """
-        it, (rows, friction) = self.it, self._closed_rows()
+        it, (rows, friction) = self.it, self.closed_rows()
         book_slab(it.bodies, it.joints, it.motion, self.room, rows, span)
         take_motion(*self._tables, span)
         through = it.motion.impulse[rows]
-        held = self._held(through, friction)
-        held[:, 0] &= ~self.sliding[self.closed] | (friction[:, 0] == 0.0)
+        held = self.below_limit(through, friction)
+        held &= (friction == 0.0) | ~np.column_stack([self.sliding, self.turning])[self.closed]
         steady = bool((held.all(axis=1) & (self._table(through)[:, 0] > 0.0)).all() and not self.room.rate[rows].any())
         if not steady:
             told[2] = max(told[2], close_energy(it.bodies, it.springs, it.joints, it.motion, self.room))
@@ -117,7 +118,7 @@ class Stops:
             self.lose(excess - self.excess())
         tell_joints(it.joints, it.motion, self.room, told)
         closed, speed = self.closed.copy(), self.speeds()
-        self.see_sliding(NOISE * extent / span, self._held(through, friction)[:, 0])
+        self.see_sliding(NOISE * extent / span, self.below_limit(through, friction)[:, 0])
         closed[self.closed] = (self._table(total)[:, 0] > 0.0) | (
             (self.gaps()[self.closed] <= NEAR * extent)
             & (speed[self.closed] <= STILL * float(np.abs(it.motion.velocity).max()))
@@ -183,7 +184,7 @@ class Stops:
     def _tables(self) -> tuple[object, ...]:
         return self.it.bodies, self.it.joints, self.it.springs, self.it.motion, self.room
 
-    def _closed_rows(self) -> tuple[IntArray, Array]:
+    def closed_rows(self) -> tuple[IntArray, Array]:
         """Rows (m,) of the closed stops, and their coefficients of friction (c, q)."""
         return self.rows[self.closed].ravel(), self.coefficients()[self.closed]
 
@@ -201,18 +202,21 @@ class Stops:
         return impulse.reshape(-1, self.rows.shape[1])
 
     @property
-    def _tangential(self) -> slice:
+    def tangential(self) -> slice:
         """Numbers of the rows of the sliding among those of a stop."""
         d, q = self.rows.shape[1], self.friction.shape[1]
         return slice(1, d if q == 1 else q)
 
-    def _held(self, impulse: Array, friction: Array) -> BoolArray:
+    def below_limit(self, impulse: Array, friction: Array) -> BoolArray:
         """Closed stops and blocks (c, q) whose friction is below its limit, or that have none."""
-        table, d, q = self._table(impulse), self.rows.shape[1], friction.shape[1]
+        table = self._table(impulse)
+        return (self._sizes(table) < (1.0 - SLIP) * friction * table[:, :1]) | (friction == 0.0)
+
+    def _sizes(self, table: Array) -> Array:
+        """Magnitudes (c, q) of the blocks of rows (c, d) of stops."""
+        d, q = self.rows.shape[1], self.friction.shape[1]
         edges = {1: (1, d), 2: (1, 2, 3), 3: (1, 3, 5, 6)}[q]
-        sizes = [np.linalg.norm(table[:, i:j], axis=1) for i, j in itertools.pairwise(edges)]
-        below = np.stack(sizes, axis=1) < (1.0 - SLIP) * friction * table[:, :1]
-        return np.asarray(below | (friction == 0.0))
+        return np.stack([np.linalg.norm(table[:, i:j], axis=1) for i, j in itertools.pairwise(edges)], axis=1)
 
     def hold(self, supported: IntArray) -> None:
         """Groups that the ground holds by joints or closed stops."""
@@ -242,54 +246,25 @@ class Stops:
         row_velocities(self.it.joints, self.it.motion, self.room, out)
         return out[self.rows]
 
-    def jammed(self) -> IntArray:
-        """Closed stops (k,) whose sliding has no continuous course at the present state.
-
-        A normal force with its friction would not push the places of contact apart, ``W_nn - mu W_nt <= 0`` (Painleve).
-        """
-        moving = np.flatnonzero(self.closed & self.sliding & (self.friction[:, 0] > 0.0))
-        if not len(moving):
-            return moving
-        found = []
-        for k, slip in zip(moving, self.slips()[moving], strict=True):
-            W, speed = compliances(self.it.joints, self.room, self.rows[k])[0][0], float(np.linalg.norm(slip))
-            if W[0] * speed - self.friction[k, 0] * float(W[self._tangential] @ slip) <= 0.0 < speed:
-                found.append(k)
-        return np.array(found, dtype=np.int64)
-
     def slips(self) -> Array:
         """Velocities (s, t) of the sliding, against surfaces that may move themselves [m/s]."""
-        return self._velocities()[:, self._tangential]
+        return self._velocities()[:, self.tangential]
 
     def slid(self, span: float) -> Array:
         """Displacements (s, t) of the sliding in a slab of this length that was tried [m]."""
-        rows, out = self.rows[:, self._tangential], np.zeros(self.rows[:, self._tangential].shape)
+        rows, out = self.rows[:, self.tangential], np.zeros(self.rows[:, self.tangential].shape)
         for side in range(self.room.G.shape[1]):
             out += np.einsum("stc,stc->st", self.room.G[rows, side], self.room.z[self.it.joints.sides[rows, side]])
         return out - span * self.room.rate[rows]
 
-    def breaking(self, span: float) -> BoolArray:
-        """Stops (s,) at rest that slide in a slab of this length that was tried, with the greatest friction.
-
-        Of several stops on one body some may have their greatest friction before it slides.
-        """
-        rows, friction = self._closed_rows()
-        found = self.located & self.closed & ~self.sliding
-        found[self.closed] &= ~self._held(self.it.motion.impulse[rows], friction)[:, 0]
-        moved = np.linalg.norm(self.slid(span), axis=1)
-        rounding = ROUNDED * float(np.abs(self.room.z[:, :3]).max())
-        for k in np.flatnonzero(found):
-            mine = self.rows[k, self._tangential]
-            W, pushed = compliances(self.it.joints, self.room, mine)[0], self.it.motion.impulse[mine]
-            found[k] = moved[k] > max(rounding, PUSHED * 0.5 * span * float(np.linalg.norm(W @ pushed)))
-        return found
-
     def see_sliding(self, noise: float, held: BoolArray | None = None) -> None:
-        """Note which stops slide; velocities below ``noise`` [m/s] are none of located stops.
+        """Note which stops slide or turn; velocities below ``noise`` [m/s] are none of located stops.
 
         After a slab these go on sliding, at whatever velocity, if friction has not ``held`` (c,) them.
         """
-        speed = np.linalg.norm(self.slips(), axis=1)
+        sizes = self._sizes(self._velocities())
+        speed = sizes[:, 0]
+        self.turning[:] = sizes[:, 1:] > STILL * float(np.abs(self.it.motion.spin).max())
         moving = speed > STILL * float(np.abs(self.it.motion.velocity).max())
         found = np.where(self.located, moving & (speed > noise), moving)
         if held is not None:

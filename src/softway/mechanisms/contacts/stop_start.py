@@ -22,19 +22,21 @@ def stop_march(it: Arrays, room: Space, mechanism: Mechanism) -> StopMarch:
         if isinstance(stop, PlaneStop) and stop.velocity is not None:
             sliding = mine[1:dim]
             room.rate[sliding] = it.joints.B[sliding] @ in_space(stop.velocity)
+    blocks = 1 if rows.shape[1] <= dim else dim
     coefficients = [[law.friction, law.rolling, law.drilling] for law in laws]
     found = Stops(
         it=it,
         room=room,
         rows=rows,
         restitution=np.array([stops[name].restitution for name in names], dtype=float),
-        friction=np.array(coefficients, dtype=float)[:, : 1 if rows.shape[1] <= dim else dim],
+        friction=np.array(coefficients, dtype=float)[:, :blocks],
         static=np.array([law.at_rest for law in laws], dtype=float),
         located=np.array([law.mu_s is not None for law in laws], dtype=bool),
         names=names,
         held=it.bodies.supported.copy(),
         closed=np.zeros(len(rows), bool),
         sliding=np.ones(len(rows), bool),
+        turning=np.zeros((len(rows), blocks - 1), bool),
         told=np.full(len(rows), -1, dtype=np.int64),
     )
     return StopMarch(

@@ -5,7 +5,6 @@ import pytest
 
 from softway.kernels.rigid_contact.cone import solve_cone, solve_dense
 
-
 BLOCKS = {(1, 1): [], (2, 1): [(1, 2)], (3, 1): [(1, 3)], (3, 2): [(1, 2), (2, 3)], (6, 3): [(1, 3), (3, 5), (5, 6)]}
 """Rows from and to of each block of friction, for contacts of d rows and q coefficients."""
 
