@@ -27,6 +27,8 @@ from softway.kernels.multibody.velocities import joint_velocity, project_velocit
 from softway.kernels.rigid_contact.cone import block, solve_cone
 from softway.kernels.rigid_contact.routh import impulses_in_order
 
+SLIP = 1e-9
+"""Friction, relative to its limit, that is rounding below it."""
 ROUNDING = 1e-15
 """Rounding error of impulses and places, relative to the greatest."""
 
@@ -111,7 +113,7 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
         solve_band(space.lower, space.pivot, space.push)
         _offsets(joints, space, P, rows, C, h, b, x)
         b -= W @ x
-        if not solve_cone(W, b, friction, least, none, rounding, x):
+        if not solve_cone(W, b, friction, least, none, 0.0 * x, rounding, x):
             break
         _add_impulses(space, P, rows, U, x, h)
         motion_of(bodies, joints, springs, motion, space, h, P, z, new)
@@ -173,13 +175,14 @@ def collide(bodies, joints, motion, space, rows, friction, through, rebound, low
     """Change the velocities at a prepared state by the contacts; x (m,) are the impulses, ``through`` (m,) included.
 
     ``friction`` (c, q) are the coefficients of the blocks.  Normal velocities become ``rebound`` (c,) at least, and
-    normal impulses are ``lower`` (c,) at least; impulses that acted ``through`` the slab count in the laws.
+    normal impulses are ``lower`` (c,) at least; impulses that acted ``through`` the slab count in the laws.  Friction
+    that slid through it keeps its direction, that of the mean: the direction at the end would be late by half a slab.
     The work of motors and belts is booked; ``speed`` is that of the extent in a slab, the scale of rounding.  1 if a
     solution was found.
     """
     W = compliances(joints, space, rows)[0]
     b, d = np.zeros(len(rows)), len(rows) // max(len(friction), 1)
-    least = np.zeros(friction.shape)
+    least, axis = np.zeros(friction.shape), np.zeros(len(rows))
     for i in range(len(rows)):
         b[i] = joint_velocity(joints, motion, space, rows[i])
         if i % d == 0:
@@ -189,8 +192,10 @@ def collide(bodies, joints, motion, space, rows, friction, through, rebound, low
             first, last = block(d, friction.shape[1], k)
             for t in range(d * i + first, d * i + last):
                 least[i, k] = np.sqrt(least[i, k] ** 2 + through[t] ** 2)
+            if last - first == 2 and least[i, k] > (1.0 - SLIP) * friction[i, k] * through[d * i]:
+                axis[d * i + first : d * i + last] = through[d * i + first : d * i + last] / max(least[i, k], 1e-300)
     b -= W @ through
-    found = solve_cone(W, b, friction, least, lower, _rounding(bodies, motion, speed), x)
+    found = solve_cone(W, b, friction, least, lower, axis, _rounding(bodies, motion, speed), x)
     push_contacts(bodies, joints, motion, space, rows, x - through)
     return found
 

@@ -26,8 +26,8 @@ FINE = 1e-10
 """Accuracy of the instant at which sliding begins, relative to the slab."""
 ROUNDED, PUSHED = 1e-14, 1e-10
 """Sliding that is rounding, relative to the motion, and to the displacement by friction alone."""
-SLOWED = 1e-6
-"""Velocity relative to that at the start of a slab at which sliding has ended."""
+SLOWED, SIDEWAYS = 1e-6, 1e-2
+"""Velocities along and across that at the start of a slab, relative to it, at which sliding has ended."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -95,7 +95,10 @@ def _first_end(
     h: float,
     extent: float,
 ) -> tuple[float, BoolArray]:
-    """Length at which the first sliding ends, zero if at once, and the stops (s,); the whole ``span`` if none does."""
+    """Length at which the first sliding ends, zero if at once, and the stops (s,); the whole ``span`` if none does.
+
+    In space sliding that turns by a right angle does not end.
+    """
     size = np.linalg.norm(before, axis=1)
     moving = stops.located & stops.closed & stops.sliding & ~begun & (size > NOISE * extent / h)
 
@@ -114,7 +117,12 @@ def _first_end(
     length = float(brentq(least, low, span, xtol=1e-15 * span, rtol=1e-15))
     length = span if length > LATE * span else length
     least(length)
-    return length, left(length) <= SLOWED
+    after = 2.0 / length * stops.slid(length) - before
+    ended = (left(length) <= SLOWED) & (np.linalg.norm(after, axis=1) <= SIDEWAYS * size)
+    if not ended.any():  # it only turns
+        solved(span)
+        return span, ended
+    return length, ended
 
 
 def _breaking(stops: Stops, span: float) -> BoolArray:

@@ -15,15 +15,13 @@ from softway.kernels.multibody.energy import close_energy, kinetic_energy
 from softway.kernels.multibody.slab import prepare_joints, take_motion, tell_joints
 from softway.kernels.multibody.tables import Space
 from softway.kernels.multibody.velocities import row_velocities
-from softway.kernels.rigid_contact.contact import book_slab, collide, collide_at_once, solve_contact_slab
+from softway.kernels.rigid_contact.contact import SLIP, book_slab, collide, collide_at_once, solve_contact_slab
 from softway.mechanisms.arrays import Arrays
 
 NEAR = 1e-10
 """Gap relative to the extent at which a stop takes part in an impact."""
 STILL = 1e-9
 """Velocity relative to the greatest at which a stop is closed after an impact."""
-SLIP = 1e-9
-"""Friction, relative to its limit, that is rounding below it."""
 NOISE = 1e-12
 """Sliding relative to the extent, in a slab, that is rounding of a stop that sticks."""
 GAINED = 1e-13

@@ -112,9 +112,8 @@ def test_two_balls_that_press_on_each_other_stop_each_other_from_turning(dim: in
     np.testing.assert_allclose([s.momentum for s in steps], [steps[0].momentum] * len(steps), atol=1e-13)
     np.testing.assert_allclose([s.spin for s in steps], [steps[0].spin] * len(steps), atol=1e-12)
     one, other = (steps[-1].bodies[name] for name in bodies)
-    turned = one.rotation @ one.spin - other.rotation @ other.spin if dim == 3 else one.spin - other.spin
     assert steps[-1].dissipation > 1e-3
-    np.testing.assert_allclose(turned, 0.0, atol=1e-9)
+    np.testing.assert_allclose(one.spin, other.spin, atol=1e-9)
 
 
 def test_stops_without_such_friction_beside_others_have_none() -> None:
