@@ -40,9 +40,6 @@ def joint_row(joints, k, place0, R0, place1, R1, g, G):
     if kind == ANGLE:
         _angle_row(joints, k, g, G)
         return
-    if kind >= TURN:
-        _turning_row(joints, k, place0, R0, place1, R1, g, G)
-        return
     if kind >= SLIDE:
         _sliding_row(joints, k, place0, R0, place1, R1, g, G)
         return
@@ -118,6 +115,9 @@ def add_angles(joints, k, angle, turn, g, G):
 @uncounted
 def _sliding_row(joints, k, place0, R0, place1, R1, g, G):
     """Row of the sliding of b against a along a tangential direction: equal forces at the mean place of contact."""
+    if joints.kind[k] >= TURN:
+        _turning_row(joints, k, place0, R0, place1, R1, g, G)
+        return
     a, b, value = joints.a[k], joints.b[k], joints.value[k]
     xa, ya, za = turned(R1, a, joints.X, k)
     xb, yb, zb = turned(R1, b, joints.Y, k)

@@ -91,7 +91,8 @@ class StopMarch:
     ) -> tuple[float, BoolArray, int]:
         """Take a part of the slab up to the next touch: its length, the touching stops, and the iterations."""
         stops, iterations, change = self.stops, 0, None
-        jamming, before, begun = jammed(stops), stops.slips(), np.zeros(len(stops.rows), bool)
+        jamming, begun = jammed(stops), np.zeros(len(stops.rows), bool)
+        before = stops.slips() if stops.located.any() else np.zeros(0)
         while True:
             span, used = self._up_to_touch(time, left, extent)
             iterations += used

@@ -101,9 +101,10 @@ class Stops:
         book_slab(it.bodies, it.joints, it.motion, self.room, rows, span)
         take_motion(*self._tables, span)
         through = it.motion.impulse[rows]
-        held = self.below_limit(through, friction)
-        held &= (friction == 0.0) | ~np.column_stack([self.sliding, self.turning])[self.closed]
-        steady = bool((held.all(axis=1) & (self._table(through)[:, 0] > 0.0)).all() and not self.room.rate[rows].any())
+        below = self.below_limit(through, friction)
+        moving = np.concatenate([self.sliding[:, None], self.turning], axis=1)[self.closed] & (friction > 0.0)
+        steady = bool((below & ~moving).all() and (self._table(through)[:, 0] > 0.0).all())
+        steady = steady and not self.room.rate[rows].any()
         if not steady:
             told[2] = max(told[2], close_energy(it.bodies, it.springs, it.joints, it.motion, self.room))
         excess = self.excess()
@@ -116,7 +117,7 @@ class Stops:
             self.lose(excess - self.excess())
         tell_joints(it.joints, it.motion, self.room, told)
         closed, speed = self.closed.copy(), self.speeds()
-        self.see_sliding(NOISE * extent / span, self.below_limit(through, friction)[:, 0])
+        self.see_sliding(NOISE * extent / span, below[:, 0])
         closed[self.closed] = (self._table(total)[:, 0] > 0.0) | (
             (self.gaps()[self.closed] <= NEAR * extent)
             & (speed[self.closed] <= STILL * float(np.abs(it.motion.velocity).max()))
@@ -212,8 +213,9 @@ class Stops:
 
     def _sizes(self, table: Array) -> Array:
         """Magnitudes (c, q) of the blocks of rows (c, d) of stops."""
-        d, q = self.rows.shape[1], self.friction.shape[1]
-        edges = {1: (1, d), 2: (1, 2, 3), 3: (1, 3, 5, 6)}[q]
+        if self.friction.shape[1] == 1:
+            return np.linalg.norm(table[:, 1:], axis=1, keepdims=True)
+        edges = (1, 2, 3) if self.friction.shape[1] == 2 else (1, 3, 5, 6)
         return np.stack([np.linalg.norm(table[:, i:j], axis=1) for i, j in itertools.pairwise(edges)], axis=1)
 
     def hold(self, supported: IntArray) -> None:
@@ -260,16 +262,16 @@ class Stops:
 
         After a slab these go on sliding, at whatever velocity, if friction has not ``held`` (c,) them.
         """
-        sizes = self._sizes(self._velocities())
-        speed = sizes[:, 0]
-        self.turning[:] = sizes[:, 1:] > STILL * float(np.abs(self.it.motion.spin).max())
-        moving = speed > STILL * float(np.abs(self.it.motion.velocity).max())
-        found = np.where(self.located, moving & (speed > noise), moving)
-        if held is not None:
-            on = self.located & self.sliding
-            on[self.closed] &= ~held
-            found |= on & self.closed
-        self.sliding[:] = found
+        sizes, motion = self._sizes(self._velocities()), self.it.motion
+        moving = sizes[:, 0] > STILL * float(np.abs(motion.velocity).max())
+        self.turning[:] = sizes[:, 1:] > STILL * float(np.abs(motion.spin).max())
+        if self.located.any():
+            moving &= ~self.located | (sizes[:, 0] > noise)
+            if held is not None:
+                on = self.located & self.sliding & self.closed
+                on[self.closed] &= ~held
+                moving |= on
+        self.sliding[:] = moving
 
     def excess(self) -> Array:
         """Kinetic energies (g,) of the groups over the energies that they have to have, up to their potentials [J]."""
