@@ -20,6 +20,8 @@ from softway.mechanisms.members.stops import Impacts, Restitution, StopEvent
 
 TOUCH = 1e-14
 """Gap relative to the extent that is rounding."""
+ROUNDED = 1e-15
+"""Velocity relative to that of the extent in a slab that is rounding."""
 SHORT = 1e-4
 """Flight between two touches of a stop, relative to the slab, below which it comes to rest."""
 BLOWS = 10_000
@@ -209,7 +211,7 @@ class StopMarch:
         if not self._struck(touching, hits, ratio, extent / h, impulse):
             names = ", ".join(self.stops.names[k] for k in np.flatnonzero(self.stops.closed | touching))
             raise NumericsError(f"the impact of {names} has no solution", time, "less friction, or sequential impacts")
-        after, scale = self.stops.speeds(), float(np.abs(before).max())
+        after = self.stops.speeds()
         for k in np.flatnonzero(hits):
             e = self.stops.restitution[k]
             end = (time - self.touched[k]) * e / (1.0 - e) if resting[k] else 0.0
@@ -217,7 +219,7 @@ class StopMarch:
             one = StopEvent(time=float(time + end), stop=self.stops.names[k], kind=kind, impulse=float(impulse[k]))
             events.append(replace(one, velocity_before=float(before[k]), velocity_after=float(after[k])))
             self.touched[k] = time
-        self._close((self.stops.closed | touching) & (np.abs(after) <= STILL * scale), time, events)
+        self._close((self.stops.closed | touching) & (np.abs(after) <= _still(before, extent / h)), time, events)
         self.stops.lose(excess - self.stops.excess())
         self.stops.see_sliding(NOISE * extent / h)
         self.stops.it.motion.impulse[self.stops.rows.ravel()] = 0.0
@@ -253,12 +255,17 @@ class StopMarch:
 
     def _sequential(self, touching: BoolArray, ratio: Array, rounding: float, impulse: Array) -> bool:
         """One stop after the other, each time that with the greatest velocity of approach."""
-        near, scale = self.stops.closed | touching, float(np.abs(self.stops.speeds()).max())
+        near, still = self.stops.closed | touching, _still(self.stops.speeds(), rounding)
         for _ in range(BLOWS):
             speed = np.where(near, self.stops.speeds(), 0.0)
             k = int(np.argmin(speed))
-            if speed[k] >= -STILL * scale:
+            if speed[k] >= -still:
                 return True
             if not self._blow(np.arange(len(self.stops.rows)) == k, ratio, speed, rounding, impulse):
                 return False
         return False
+
+
+def _still(speed: Array, rounding: float) -> float:
+    """Velocity [m/s] that is none, beside velocities (s,) and the one that rounds places."""
+    return max(STILL * float(np.abs(speed).max()), ROUNDED * rounding)
