@@ -195,7 +195,11 @@ def collide(bodies, joints, motion, space, rows, friction, through, rebound, low
             if last - first == 2 and least[i, k] > (1.0 - SLIP) * friction[i, k] * through[d * i]:
                 axis[d * i + first : d * i + last] = through[d * i + first : d * i + last] / max(least[i, k], 1e-300)
     b -= W @ through
-    found = solve_cone(W, b, friction, least, lower, axis, _rounding(bodies, motion, speed), x)
+    rounding = _rounding(bodies, motion, speed)
+    found = solve_cone(W, b, friction, least, lower, axis, rounding, x)
+    if not found and np.abs(axis).max() > 0.0:
+        x[:] = through
+        found = solve_cone(W, b, friction, least, lower, 0.0 * axis, rounding, x)
     push_contacts(bodies, joints, motion, space, rows, x - through)
     return found
 

@@ -1,6 +1,8 @@
 """Friction that is greater at rest: the instants at which sliding begins and ends, belts, and their energies."""
 
+import json
 from collections.abc import Sequence
+from importlib.resources import files
 
 import numpy as np
 import pytest
@@ -10,7 +12,8 @@ from softway.errors import InputError
 from softway.mechanisms import Mechanism, MechanismStep, Motor, PlaneStop, Rigid, Slider, Spring, Steady, march
 
 G = 9.81
-PERIOD, SLIDES, FARTHEST = 0.8008322171201989, 0.40843221712019895, 0.04164145317639143
+SHEET = json.loads(files("softway.apps.verify.data.friction").joinpath("C03.json").read_text(encoding="utf-8"))
+PERIOD, SLIDES, FARTHEST = (SHEET["reference"][key] for key in ("period", "t_slip", "x_max"))
 """Period and time of sliding [s] and greatest place [m] of the mass on the belt, from the closed form."""
 
 
