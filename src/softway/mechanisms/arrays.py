@@ -20,7 +20,10 @@ from softway.mechanisms.row_tables import joint_tables, require_inertia, rows_of
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Arrays:
-    """Tables of a mechanism, its motion at the start, the name of the joint of each row, and the extent [m]."""
+    """Tables of a mechanism, its motion at the start, and the extent [m].
+
+    ``joint_of`` are the names of the joints of the rows, and ``rank`` their numbers among those of a stop.
+    """
 
     bodies: Bodies
     joints: Joints
@@ -28,12 +31,13 @@ class Arrays:
     motion: Motion
     names: tuple[str, ...]
     joint_of: tuple[str, ...]
+    rank: tuple[int, ...]
     extent: float
 
-    @property
-    def reach(self) -> float:
-        """Extent of the mechanism with its places, the scale of rounding [m]."""
-        return max(self.extent, float(np.abs(self.motion.place).max()), 1e-300)
+    def reach(self, h: float) -> float:
+        """Extent of the mechanism with its places, or its way in a slab of length h: the scale of rounding [m]."""
+        way = h * (float(np.abs(self.motion.velocity).max()) + h * float(np.abs(self.bodies.gravity).max()))
+        return max(self.extent, float(np.abs(self.motion.place).max()), way, 1e-300)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -61,7 +65,7 @@ class MechanismState:
 
 
 def changing(
-    it: Arrays, room: Space, stops: Mapping[str, Array | BoolArray]
+    it: Arrays, room: Space, stops: Mapping[str, Array | IntArray | BoolArray]
 ) -> dict[str, Array | IntArray | BoolArray]:
     """Arrays that a march changes, by name; those of its ``stops`` among them."""
     tables = [("motion", it.motion._asdict()), ("space", room._asdict()), ("stops", stops)]
@@ -121,6 +125,7 @@ def arrays(mechanism: Mechanism) -> Arrays:
         motion=_motion(mechanism, centres, joints, len(bodies.jointed)),
         names=names,
         joint_of=tuple(rows[k].name for k in order),
+        rank=tuple(rows[k].rank for k in order),
         extent=float(
             max(np.abs(joints.X).max(initial=0.0), np.abs(joints.Y).max(initial=0.0), np.ptp(centres, 0).max())
         ),

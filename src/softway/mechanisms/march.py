@@ -13,12 +13,12 @@ from softway.kernels.multibody.slab import begin
 from softway.kernels.multibody.tables import Space, space
 from softway.kernels.multibody.velocities import project_velocities
 from softway.mechanisms.arrays import Arrays, MechanismState, arrays, captured, changing, restore
+from softway.mechanisms.contacts.impacts import StopMarch
+from softway.mechanisms.contacts.stop_start import stop_march
 from softway.mechanisms.driven import require_free_motions
-from softway.mechanisms.impacts import StopMarch
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.stops import StopEvent
 from softway.mechanisms.newton import march_on
-from softway.mechanisms.stop_start import stop_march
 from softway.mechanisms.welds import Welded, welded
 from softway.units import Second
 
@@ -161,7 +161,7 @@ def march(
     it = arrays(joined.mechanism)
     room, stops = space(it.joints, len(it.names), len(it.bodies.jointed)), None
     if joined.mechanism.stops:
-        stops = stop_march(it, room, joined.mechanism.stops, mechanism.impacts, mechanism.restitution)
+        stops = stop_march(it, room, joined.mechanism)
     tables = changing(it, room, {} if stops is None else stops.changing)
     if state is not None:
         restore(tables, state, until / slabs)
@@ -184,14 +184,14 @@ def _steps(
     told, h, done, iterations = np.zeros(3), until / slabs, 0, 0
     if state is None:
         initial = _begun(it, room)
-        yield told_of(0, 0.0, initial, told, 0, [] if stops is None else stops.start(h, it.reach))
+        yield told_of(0, 0.0, initial, told, 0, [] if stops is None else stops.start(h, it.reach(h)))
     else:
         initial, done = state.energy, state.slabs
     while done < slabs:
         told[:], events = 0.0, list[StopEvent]()
         iterations, goal = 0, min(slabs, done + every)
         while done < goal:
-            extent = it.reach
+            extent = it.reach(h)
             if stops is not None:
                 more, used = stops.slab(done * h, h, extent, told)
                 events += more

@@ -30,7 +30,7 @@ def march_on(it: Arrays, room: Space, time: float, h: float, count: int, told: A
     done = iterations = 0
     while done < count:
         tables = it.bodies, it.joints, it.springs, it.motion, room
-        solved, used = march_slabs(*tables, h, count - done, it.reach, told)
+        solved, used = march_slabs(*tables, h, count - done, it.reach(h), told)
         done, iterations = done + solved, iterations + used
         if done < count:
             iterations += hard_slab(it, room, time + done * h, h, told)
@@ -46,7 +46,7 @@ def hard_slab(it: Arrays, room: Space, time: float, h: float, told: Array, halvi
     NumericsError
         If it has no solution.
     """
-    found = newton_motion(it, room, h, it.reach)
+    found = newton_motion(it, room, h, it.reach(h))
     if found:
         end_slab(it.bodies, it.joints, it.springs, it.motion, room, h, told)
         return found
@@ -58,7 +58,7 @@ def hard_slab(it: Arrays, room: Space, time: float, h: float, told: Array, halvi
         raise NumericsError(what, time, "a shorter step, or a mechanism that can move on from there")
     iterations = 0
     for k in range(2):
-        one, used = march_slabs(it.bodies, it.joints, it.springs, it.motion, room, 0.5 * h, 1, it.reach, told)
+        one, used = march_slabs(it.bodies, it.joints, it.springs, it.motion, room, 0.5 * h, 1, it.reach(h), told)
         iterations += used if one else hard_slab(it, room, time + 0.5 * k * h, 0.5 * h, told, halvings + 1)
     return iterations
 

@@ -9,7 +9,7 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from softway.arrays import Array, IntArray
 from softway.errors import InputError, within
-from softway.kernels.multibody.joint_rows import ALONG, ANGLE, DIRECTION, SLIDE
+from softway.kernels.multibody.joint_rows import ALONG, ANGLE, DIRECTION, SLIDE, TURN
 from softway.kernels.multibody.tables import Angles, Drives, Joints
 from softway.mechanisms.members.joints import GROUND, JointRow, motor_row, travel_axis, turning_axis
 from softway.mechanisms.members.mechanism import Mechanism
@@ -26,7 +26,8 @@ class Row:
     """Row of a joint of this ``name`` between the numbers of its ``bodies``, two or four.
 
     Rows that are not ``fixed`` do not always take part.  ``angles`` are numbers of angles with their factors, the first
-    between the first two bodies and the second between the others; ``motion`` is the prescribed one.
+    between the first two bodies and the second between the others; ``motion`` is the prescribed one.  The ``rank`` is
+    the number of a row among those of its stop.
     """
 
     name: str
@@ -35,6 +36,7 @@ class Row:
     fixed: bool = True
     angles: tuple[tuple[int, float], ...] = ()
     motion: Prescribed | None = None
+    rank: int = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -58,16 +60,23 @@ def rows_of(mechanism: Mechanism, number: Mapping[str, int]) -> tuple[list[Row],
         for row in found:
             own = ((list(turnings).index(name), row.ratio),) if row.ratio else ()
             rows.append(Row(name=name, bodies=(a, b), row=row, angles=own))
-    rough = any(stop.friction for stop in mechanism.stops.values())
+    rows += _stops(mechanism, number, list(turnings))
+    names = list(turnings)
+    return rows + _gears(mechanism, number, names) + _motors(mechanism, number, names), turnings
+
+
+def _stops(mechanism: Mechanism, number: Mapping[str, int], turning: Sequence[str]) -> list[Row]:
+    """Rows of the stops: the normal one, and of all of them those of friction that any has."""
+    rows, laws = [], [stop.law for stop in mechanism.stops.values()]
     for name, stop in mechanism.stops.items():
         between = mechanism.joints[stop.joint].between if isinstance(stop, AngleStop) else stop.between
         two = number[between[0]], number[between[1]]
-        angles = ((list(turnings).index(stop.joint), stop.sign),) if isinstance(stop, AngleStop) else ()
+        angles = ((turning.index(stop.joint), stop.sign),) if isinstance(stop, AngleStop) else ()
         rows.append(Row(name=name, bodies=two, row=stop.row(), fixed=False, angles=angles))
-        if rough:
-            rows += [Row(name=name, bodies=two, row=row, fixed=False) for row in stop.tangential_rows(mechanism.dim)]
-    names = list(turnings)
-    return rows + _gears(mechanism, number, names) + _motors(mechanism, number, names), turnings
+        others = stop.tangential_rows(mechanism.dim) if any(law.rough for law in laws) else []
+        others += stop.turning_rows(mechanism.dim) if any(law.turns for law in laws) else []
+        rows += [Row(name=name, bodies=two, row=row, fixed=False, rank=k + 1) for k, row in enumerate(others)]
+    return rows
 
 
 def _gears(mechanism: Mechanism, number: Mapping[str, int], turning: Sequence[str]) -> list[Row]:
@@ -190,9 +199,10 @@ def require_inertia(mechanism: Mechanism, rows: Sequence[Row], centres: Array) -
     names = [*mechanism.bodies, GROUND]
     for it in rows:
         (a, b), row = it.bodies[:2], it.row
+        moment = row.kind >= TURN and bool(row.m.any())
         for i, point, turning in (
-            (a, row.first, row.kind in (ALONG, DIRECTION, ANGLE, SLIDE)),
-            (b, row.second, row.kind in (DIRECTION, ANGLE)),
+            (a, row.first, moment or row.kind in (ALONG, DIRECTION, ANGLE, SLIDE)),
+            (b, row.second, moment or row.kind in (DIRECTION, ANGLE)),
         ):
             if names[i] == GROUND:
                 continue

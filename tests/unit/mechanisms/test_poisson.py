@@ -34,6 +34,18 @@ def test_a_rod_whose_end_hits_the_floor(given: tuple[float, float], expected: li
     assert step.dissipation > 0.0 and abs(step.energy_error) < 1e-15
 
 
+def test_a_rod_that_touches_and_moves_away_has_no_impact() -> None:
+    rod = Rigid(mass=1.0, centre=(0.0, 0.0), inertia=1.0 / 12.0, velocity=(0.3, 1.0), spin=0.2)
+    tip = (-0.5 * cos(0.7), -0.5 * sin(0.7))
+    floor = PlaneStop(between=("ground", "rod"), point=tip, plane=tip, normal=(0.0, 1.0), friction=0.3)
+    mechanism = Mechanism(bodies={"rod": rod}, stops={"floor": floor}, restitution="Poisson")
+    for step in march(mechanism, until=0.01, step=1e-3):
+        np.testing.assert_allclose(
+            [*step.bodies["rod"].velocity, *step.bodies["rod"].spin], [0.3, 1.0, 0.2], rtol=1e-13
+        )
+        assert not step.events and step.dissipation == 0.0
+
+
 @pytest.mark.parametrize("speed", np.linspace(-3.0, 3.0, 13))
 @pytest.mark.parametrize("friction", [0.1, 0.4, 0.9, 1.7])
 def test_a_single_impact_creates_no_energy(speed: float, friction: float) -> None:

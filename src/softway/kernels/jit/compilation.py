@@ -32,6 +32,7 @@ _SHARED = (
     "multibody/angles.py",
     "multibody/band.py",
     "rigid_contact/cone.py",
+    "rigid_contact/dense.py",
     "rigid_contact/routh.py",
     "multibody/copies.py",
     "multibody/drives.py",

@@ -23,6 +23,10 @@ SLIDE = 5
 """Sliding along the direction B of body a at the place of contact ``p_b - c n`` with n = N of body a; no value."""
 ROLL = 6
 """Sliding across the line between the points, at ``p_a + c (p_b - p_a)``; along the first or second direction B[0]."""
+TURN = 7
+"""Turning of b against a about the direction B of body a; no value."""
+TWIST = 8
+"""Turning of b against a about the first or second direction B[0] across the line between the points, or about it."""
 
 
 @uncounted
@@ -111,6 +115,9 @@ def add_angles(joints, k, angle, turn, g, G):
 @uncounted
 def _sliding_row(joints, k, place0, R0, place1, R1, g, G):
     """Row of the sliding of b against a along a tangential direction: equal forces at the mean place of contact."""
+    if joints.kind[k] >= TURN:
+        _turning_row(joints, k, place0, R0, place1, R1, g, G)
+        return
     a, b, value = joints.a[k], joints.b[k], joints.value[k]
     xa, ya, za = turned(R1, a, joints.X, k)
     xb, yb, zb = turned(R1, b, joints.Y, k)
@@ -140,18 +147,49 @@ def _sliding_row(joints, k, place0, R0, place1, R1, g, G):
 
 
 @uncounted
-def _across(x, y, z, second):
-    """First or second unit direction across a vector; in the plane the first is that of its right angle."""
+def _turning_row(joints, k, place0, R0, place1, R1, g, G):
+    """Row of the turning of b against a: opposite moments about a direction."""
+    a, b = joints.a[k], joints.b[k]
+    if joints.kind[k] == TURN:
+        tx, ty, tz = turned(R1, a, joints.B, k)
+        tx, ty, tz = mean_turned(R0, a, joints.B, k, tx, ty, tz)
+    else:
+        xa, ya, za = turned(R1, a, joints.X, k)
+        xb, yb, zb = turned(R1, b, joints.Y, k)
+        ax, ay, az = mean_turned(R0, a, joints.X, k, xa, ya, za)
+        bx, by, bz = mean_turned(R0, b, joints.Y, k, xb, yb, zb)
+        tx, ty, tz = _across(
+            0.5 * (place0[b, 0] + place1[b, 0] - place0[a, 0] - place1[a, 0]) + bx - ax,
+            0.5 * (place0[b, 1] + place1[b, 1] - place0[a, 1] - place1[a, 1]) + by - ay,
+            0.5 * (place0[b, 2] + place1[b, 2] - place0[a, 2] - place1[a, 2]) + bz - az,
+            joints.B[k, 0],
+        )
+    g[k] = 0.0
+    for side in range(2):
+        for c in range(3):
+            G[k, side, c] = 0.0
+    G[k, 0, 3], G[k, 0, 4], G[k, 0, 5] = -tx, -ty, -tz
+    G[k, 1, 3], G[k, 1, 4], G[k, 1, 5] = tx, ty, tz
+
+
+@uncounted
+def _across(x, y, z, which):
+    """Unit direction across a vector, the first (0) or second (1), or along it (2).
+
+    In the plane the first is that of its right angle, and the second that of the normal of the plane.
+    """
     length = np.sqrt(x * x + y * y + z * z)
     if length == 0.0:  # the points coincide: the stop is open, and its rows do not matter
         x, length = 1.0, 1.0
     x, y, z = x / length, y / length, z / length
+    if which > 1.0:
+        return x, y, z
     u, v, w = -y, x, 0.0
     if abs(z) > 0.9:
         u, v, w = 0.0, -z, y
     size = np.sqrt(u * u + v * v + w * w)
     u, v, w = u / size, v / size, w / size
-    if second > 0.0:
+    if which > 0.0:
         return y * w - z * v, z * u - x * w, x * v - y * u
     return u, v, w
 

@@ -1,7 +1,9 @@
 """Contacts of rigid bodies with Coulomb's friction: the slab (time step), the velocities at its end, and collisions.
 
 Two impulses of a contact, through the slab on places and at its end on velocities, obey the laws of contact with their
-sum (docs/theory/mechanisms.md).  The rows of a contact are its normal one, and one or two tangential ones or none.
+sum (docs/theory/mechanisms.md).  The rows of a contact are its normal one, and blocks of friction: one or two
+tangential ones or none, and those of the turning, if any stop of the mechanism has friction against it.  Surfaces that
+move like a belt have prescribed rates of their tangential rows.
 """
 
 import numpy as np
@@ -22,9 +24,11 @@ from softway.kernels.multibody.slab import (
     place_ends,
 )
 from softway.kernels.multibody.velocities import joint_velocity, project_velocities, push_row
-from softway.kernels.rigid_contact.cone import solve_cone
+from softway.kernels.rigid_contact.cone import block, solve_cone
 from softway.kernels.rigid_contact.routh import impulses_in_order
 
+SLIP = 1e-9
+"""Friction, relative to its limit, that is rounding below it."""
 ROUNDING = 1e-15
 """Rounding error of impulses and places, relative to the greatest."""
 
@@ -38,6 +42,12 @@ def _displacement(joints, space, z, k):
         for c in range(6):
             total += space.G[k, side, c] * z[i, c]
     return total
+
+
+@inlined
+def _slid(joints, space, z, k, h):
+    """Displacement of a contact row against the surface, which itself may move."""
+    return _displacement(joints, space, z, k) - h * space.rate[k]
 
 
 @kernel
@@ -92,6 +102,7 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
     W, C, U = compliances(joints, space, rows)
     W *= 0.5 * h
     x, b, none = np.zeros(len(rows)), np.zeros(len(rows)), np.zeros(len(friction))
+    least = np.zeros(friction.shape)
     rounding = _rounding(bodies, motion, extent / h)
     guess_motion(bodies, joints, springs, motion, space, h)
     z, new, P, before, slow = space.z, space.new, motion.impulse, np.inf, 0
@@ -100,9 +111,9 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
         evaluate_rows(joints, motion, space, space.place, space.R1)
         space.push[:] = space.g
         solve_band(space.lower, space.pivot, space.push)
-        _offsets(joints, space, P, rows, C, b, x)
+        _offsets(joints, space, P, rows, C, h, b, x)
         b -= W @ x
-        if not solve_cone(W, b, friction, none, none, rounding, x):
+        if not solve_cone(W, b, friction, least, none, 0.0 * x, rounding, x):
             break
         _add_impulses(space, P, rows, U, x, h)
         motion_of(bodies, joints, springs, motion, space, h, P, z, new)
@@ -120,11 +131,11 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
 
 
 @kernel
-def _offsets(joints, space, P, rows, C, b, x):
+def _offsets(joints, space, P, rows, C, h, b, x):
     """Gaps and slidings b (m,) with the joints closed, and the impulses x (m,) so far."""
     for i in range(len(rows)):
         k = rows[i]
-        b[i] = _displacement(joints, space, space.z, k) if joints.kind[k] >= SLIDE else space.g[k]
+        b[i] = _slid(joints, space, space.z, k, h) if joints.kind[k] >= SLIDE else space.g[k]
         x[i] = P[k]
         for j in range(len(space.g)):
             b[i] -= C[j, i] * space.push[j]
@@ -144,43 +155,62 @@ def _add_impulses(space, P, rows, U, x, h):
 @kernel
 def book_slab(bodies, joints, motion, space, rows, h):
     """Book the work of the contacts in a slab that is taken, with the rows at its means."""
-    ground = len(motion.place) - 1
     for i in range(len(rows)):
         k = rows[i]
-        lost = -motion.impulse[k] * _displacement(joints, space, space.z, k) / h
-        body = joints.a[k] if joints.a[k] != ground else joints.b[k]
-        motion.energy[bodies.group[body]] -= lost
+        lost = -motion.impulse[k] * _slid(joints, space, space.z, k, h) / h
+        done = motion.impulse[k] * space.rate[k]
+        motion.energy[_group_of(bodies, joints, motion, k)] += done - lost
+        motion.work[0] += done
         motion.work[1] += lost
+
+
+@inlined
+def _group_of(bodies, joints, motion, k):
+    """Group of the bodies of a row."""
+    return bodies.group[joints.a[k] if joints.a[k] != len(motion.place) - 1 else joints.b[k]]
 
 
 @kernel
 def collide(bodies, joints, motion, space, rows, friction, through, rebound, lower, speed, x):
     """Change the velocities at a prepared state by the contacts; x (m,) are the impulses, ``through`` (m,) included.
 
-    Normal velocities become ``rebound`` (c,) at least, and normal impulses are ``lower`` (c,) at least; impulses that
-    acted ``through`` the slab count in the laws.
-    The work of motors is booked; ``speed`` is that of the extent in a slab, the scale of rounding.  1 if a solution was
-    found.
+    ``friction`` (c, q) are the coefficients of the blocks.  Normal velocities become ``rebound`` (c,) at least, and
+    normal impulses are ``lower`` (c,) at least; impulses that acted ``through`` the slab count in the laws.  Friction
+    that slid through it keeps its direction, that of the mean: the direction at the end would be late by half a slab.
+    The work of motors and belts is booked; ``speed`` is that of the extent in a slab, the scale of rounding.  1 if a
+    solution was found.
     """
     W = compliances(joints, space, rows)[0]
     b, d = np.zeros(len(rows)), len(rows) // max(len(friction), 1)
-    least = np.zeros(len(friction))
+    least, axis = np.zeros(friction.shape), np.zeros(len(rows))
     for i in range(len(rows)):
         b[i] = joint_velocity(joints, motion, space, rows[i])
         if i % d == 0:
             b[i] -= rebound[i // d]
-        else:
-            least[i // d] = np.sqrt(least[i // d] ** 2 + through[i] ** 2)
+    for i in range(len(friction)):
+        for k in range(friction.shape[1]):
+            first, last = block(d, friction.shape[1], k)
+            for t in range(d * i + first, d * i + last):
+                least[i, k] = np.sqrt(least[i, k] ** 2 + through[t] ** 2)
+            if last - first == 2 and least[i, k] > (1.0 - SLIP) * friction[i, k] * through[d * i]:
+                axis[d * i + first : d * i + last] = through[d * i + first : d * i + last] / max(least[i, k], 1e-300)
     b -= W @ through
-    found = solve_cone(W, b, friction, least, lower, _rounding(bodies, motion, speed), x)
+    rounding = _rounding(bodies, motion, speed)
+    found = solve_cone(W, b, friction, least, lower, axis, rounding, x)
+    if not found and np.abs(axis).max() > 0.0:
+        x[:] = through
+        found = solve_cone(W, b, friction, least, lower, 0.0 * axis, rounding, x)
     push_contacts(bodies, joints, motion, space, rows, x - through)
     return found
 
 
 @kernel
 def push_contacts(bodies, joints, motion, space, rows, impulse):
-    """Change the velocities by impulses (m,) of contact rows, with the joints; the work of motors is booked."""
+    """Change the velocities by impulses (m,) of contact rows, with the joints; book the work of motors and belts."""
     for i in range(len(rows)):
+        done = impulse[i] * space.rate[rows[i]]
+        motion.energy[_group_of(bodies, joints, motion, rows[i])] += done
+        motion.work[0] += done
         push_row(joints, motion, space, rows[i], impulse[i])
     project_velocities(bodies, joints, motion, space)
     work_of_jumps(bodies, joints, motion, space)

@@ -14,6 +14,8 @@ PIECES = 6
 def impulses_in_order(W, normal, sliding, friction, ratio, x):
     """Normal and tangential impulse x (2,) from the compliance W (2, 2) and the velocities before; 1 if it ends."""
     x[:] = 0.0
+    if normal >= 0.0:  # bodies that touch and move apart
+        return 1
     end, still = -1.0, 1e-14 * (abs(normal) + abs(sliding))
     for _ in range(PIECES):
         share = _tangential_share(W, sliding, still, friction)

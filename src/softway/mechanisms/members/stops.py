@@ -5,11 +5,18 @@ from typing import Literal
 
 import numpy as np
 
-from softway.arrays import Array
 from softway.errors import InputError
 from softway.kernels.multibody.joint_rows import ALONG, ANGLE, DISTANCE, ROLL, SLIDE
-from softway.mechanisms.members.rows import JointRow, across, in_space
-from softway.units import Metre, Pure, Radian
+from softway.mechanisms.members.rows import JointRow, in_space
+from softway.mechanisms.members.stop_friction import (
+    StopFriction,
+    require_belt,
+    require_space,
+    tangents,
+    turns_on_line,
+    turns_on_plane,
+)
+from softway.units import Metre, MetrePerSecond, Pure, Radian
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,12 +39,26 @@ class PlaneStop:
         Coefficient of restitution, between 0 and 1: see ``restitution`` of :class:`~softway.mechanisms.Mechanism`.
     friction
         Coefficient of Coulomb's friction, at rest and in motion.
+    mu_s
+        Coefficient at rest, ``friction`` or more.  If it is given, the instants at which sliding begins and ends are
+        located, and are events; at an impact ``friction`` acts.
+    rolling
+        Greatest moment against rolling, over the normal force [m].
+    drilling
+        Greatest moment against turning about the normal, over the normal force [m]; in space only.
+    velocity
+        Velocity of the surface of the first body against that body, as of a belt [m/s]: along the plane, in the axes at
+        the start, and constant in the axes of the first body.
 
     Examples
     --------
     >>> floor = PlaneStop(between=("ground", "ball"), point=(0.0, 1.0), plane=(0.0, 0.0), normal=(0.0, 1.0))
     >>> floor.restitution
     0.0
+    >>> belt = PlaneStop(between=("ground", "box"), point=(0.0, 0.0), plane=(0.0, 0.0), normal=(0.0, 1.0),
+    ...                  friction=0.2, mu_s=0.4, velocity=(0.1, 0.0))
+    >>> belt.law.at_rest
+    0.4
     """
 
     between: tuple[str, str]
@@ -47,13 +68,24 @@ class PlaneStop:
     radius: Metre = 0.0
     restitution: Pure = 0.0
     friction: Pure = 0.0
+    mu_s: Pure | None = None
+    rolling: Metre = 0.0
+    drilling: Metre = 0.0
+    velocity: tuple[MetrePerSecond, ...] | None = None
 
     def __post_init__(self) -> None:
-        _require_coefficients(self.restitution, self.friction)
+        _require_restitution(self.restitution)
         if len(self.normal) != len(self.point) or not np.linalg.norm(self.normal) > 0.0:
             raise InputError("normal", f"{self.normal} is no direction", f"{len(self.point)} components, not all zero")
         if not self.radius >= 0.0:
             raise InputError("radius", f"{self.radius:g} m is negative", "zero or more")
+        require_space(self.law, len(self.point))
+        require_belt(self.velocity, self.normal, self.law)
+
+    @property
+    def law(self) -> StopFriction:
+        """Friction of the stop."""
+        return StopFriction(friction=self.friction, mu_s=self.mu_s, rolling=self.rolling, drilling=self.drilling)
 
     @property
     def places(self) -> tuple[tuple[float, ...], ...]:
@@ -79,6 +111,10 @@ class PlaneStop:
         across = tangents(row.n, dim)
         return [replace(row, kind=SLIDE, m=one) for one in across]
 
+    def turning_rows(self, dim: int) -> list[JointRow]:
+        """Rows of the rolling, one in the plane and two in space, and there of the drilling."""
+        return turns_on_plane(self.row(), self.law, dim)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DistanceStop:
@@ -98,6 +134,13 @@ class DistanceStop:
         Coefficient of restitution, between 0 and 1: see ``restitution`` of :class:`~softway.mechanisms.Mechanism`.
     friction
         Coefficient of Coulomb's friction, at rest and in motion.
+    mu_s
+        Coefficient at rest, ``friction`` or more.  If it is given, the instants at which sliding begins and ends are
+        located, and are events; at an impact ``friction`` acts.
+    rolling
+        Greatest moment against rolling, over the normal force [m].
+    drilling
+        Greatest moment against turning about the normal, over the normal force [m]; in space only.
     contact
         Place of the friction on the line between the points, as a part of it from the first: one half for equal balls.
     """
@@ -108,14 +151,23 @@ class DistanceStop:
     side: Literal["least", "most"] = "least"
     restitution: Pure = 0.0
     friction: Pure = 0.0
+    mu_s: Pure | None = None
+    rolling: Metre = 0.0
+    drilling: Metre = 0.0
     contact: Pure = 0.5
 
     def __post_init__(self) -> None:
-        _require_coefficients(self.restitution, self.friction)
+        _require_restitution(self.restitution)
+        require_space(self.law, len(self.points[0]))
         if self.side not in ("least", "most"):
             raise InputError("side", f"{self.side!r}", "'least' or 'most'")
         if not self.distance > 0.0:
             raise InputError("distance", f"{self.distance:g} m is not positive", "the distance at which the stop acts")
+
+    @property
+    def law(self) -> StopFriction:
+        """Friction of the stop."""
+        return StopFriction(friction=self.friction, mu_s=self.mu_s, rolling=self.rolling, drilling=self.drilling)
 
     @property
     def places(self) -> tuple[tuple[float, ...], ...]:
@@ -138,6 +190,10 @@ class DistanceStop:
         """Rows of the sliding: one in the plane, two in space."""
         kinds = [np.array([float(k), 0.0, 0.0]) for k in range(dim - 1)]
         return [replace(self.row(), kind=ROLL, m=one, value=self.contact) for one in kinds]
+
+    def turning_rows(self, dim: int) -> list[JointRow]:
+        """Rows of the rolling, one in the plane and two in space, and there of the drilling."""
+        return turns_on_line(self.row(), self.law, dim)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -167,16 +223,16 @@ class AngleStop:
     restitution: Pure = 0.0
 
     def __post_init__(self) -> None:
-        _require_coefficients(self.restitution, 0.0)
+        _require_restitution(self.restitution)
         if self.side not in ("least", "most"):
             raise InputError("side", f"{self.side!r}", "'least' or 'most'")
         if not np.isfinite(self.limit):
             raise InputError("limit", f"{self.limit:g} is not finite", "an angle")
 
     @property
-    def friction(self) -> float:
-        """None."""
-        return 0.0
+    def law(self) -> StopFriction:
+        """No friction."""
+        return StopFriction()
 
     @property
     def sign(self) -> float:
@@ -197,12 +253,9 @@ class AngleStop:
         """Rows of no sliding, as many as other stops have."""
         return [replace(self.row(), value=0.0) for _ in range(dim - 1)]
 
-
-def tangents(normal: Array, dim: int) -> list[Array]:
-    """Unit vectors (3,) across a normal: one in the plane, two in space."""
-    if dim == 2:
-        return [np.array([normal[1], -normal[0], 0.0])]
-    return list(across(normal))
+    def turning_rows(self, dim: int) -> list[JointRow]:
+        """Rows of no turning, as many as other stops have."""
+        return [replace(self.row(), value=0.0) for _ in range(2 * dim - 3)]
 
 
 Stop = PlaneStop | DistanceStop | AngleStop
@@ -222,7 +275,8 @@ class StopEvent:
         Name of the stop.
     kind
         ``touch``, ``rest``, ``release``, or ``jam``: the sliding has no continuous course (Painleve), and its velocity
-        jumps without a touch.
+        jumps without a touch.  With a coefficient ``mu_s`` also ``slip`` and ``stick``: the sliding of a closed stop
+        begins, and ends.
     velocity_before, velocity_after
         Velocity of the gap before and after an impact [m/s], negative while it closes; of an angle [rad/s].
     impulse
@@ -233,16 +287,14 @@ class StopEvent:
 
     time: float
     stop: str
-    kind: Literal["touch", "rest", "release", "jam"]
+    kind: Literal["touch", "rest", "release", "jam", "slip", "stick"]
     velocity_before: float = 0.0
     velocity_after: float = 0.0
     impulse: float = 0.0
     located: bool = True
 
 
-def _require_coefficients(restitution: float, friction: float) -> None:
-    """Refuse coefficients that create energy, or none."""
+def _require_restitution(restitution: float) -> None:
+    """Refuse coefficients that create energy."""
     if not 0.0 <= restitution <= 1.0:
         raise InputError("restitution", f"{restitution:g} is not between 0 and 1", "0 for no rebound, 1 for no loss")
-    if not 0.0 <= friction < np.inf:
-        raise InputError("friction", f"{friction:g} is negative, or not finite", "zero or more")

@@ -8,7 +8,9 @@ import numpy as np
 
 from softway.record.storage.table import Table
 
-KINDS = MappingProxyType({"touches": "touch", "rests": "rest", "releases": "release", "jams": "jam"})
+KINDS = MappingProxyType(
+    {"touches": "touch", "rests": "rest", "releases": "release", "jams": "jam", "slips": "slip", "sticks": "stick"}
+)
 BALANCED = 1e-9
 """Error of the energy balance relative to the energies that passes for rounding."""
 
@@ -149,10 +151,13 @@ def _of_stop(name: str, stop: Mapping[str, Any]) -> str:
         parts.append(f"{'it ' if parts else ''}came to rest {_times(stop['rests'])}")
     if stop["releases"]:
         parts.append(f"it was released {_times(stop['releases'])}, last at {stop['last_release']:.6g} s")
+    if stop.get("slips") or stop.get("sticks"):
+        begun, ended = _times(stop["slips"]), _times(stop["sticks"])
+        parts.append(f"its sliding began {begun} and ended {ended}")
     if stop.get("jams"):
         parts.append(f"its sliding jammed {_times(stop['jams'])}: it ended at once, without a touch")
     return f"The stop '{name}' {'; '.join(parts)}."
 
 
 def _times(count: int) -> str:
-    return "once" if count == 1 else f"{count} times"
+    return {0: "never", 1: "once"}.get(count, f"{count} times")

@@ -11,13 +11,13 @@ from softway.bodies.setup.loads import Gravity
 from softway.bodies.solid import Tool
 from softway.errors import InputError, Note, within
 from softway.mechanisms.arrays import arrays
+from softway.mechanisms.contacts.stop_rows import NEAR
 from softway.mechanisms.driven import check_motions
 from softway.mechanisms.members.joints import GROUND
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.rigid import Rigid
 from softway.mechanisms.members.springs import Spring, Torque
 from softway.mechanisms.members.stops import AngleStop, Stop
-from softway.mechanisms.stop_rows import NEAR
 from softway.mechanisms.welds import welded
 from softway.record.write.mechanism.probes import BodyReading, body_readings
 from softway.scenario.hints.type_hints import nearest

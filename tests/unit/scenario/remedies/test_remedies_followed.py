@@ -61,7 +61,7 @@ REASONS = {
     "march/rules/slab_rule.py: require_nodal": "unknowns from Python: tests/contracts/test_own_dofs.py",
     "march/rules/slab_rule.py: require_motion_alone": "companion fields from Python",
     "march/start/stored_state.py: _require": "damaged checkpoints",
-    "mechanisms/impacts.py: start": "the check of a scenario has refused it: tests/unit/mechanisms/test_stops.py",
+    "mechanisms/contacts/impacts.py: start": "a scenario is refused before: tests/unit/mechanisms/test_stops.py",
     "mechanisms/robots/model_members.py: _joint": ROBOTS,
     "mechanisms/robots/model_members.py: model_bodies": ROBOTS,
     "mechanisms/robots/robot_file.py: _compiled": ROBOTS,

@@ -8,7 +8,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from softway.arrays import Array
 from softway.mechanisms.members.joints import GROUND
-from softway.mechanisms.members.stops import tangents
+from softway.mechanisms.members.stop_friction import tangents
 from softway.record.view.mechanism.pose import CORNER, Poses, seen
 from softway.record.view.style import BLACK, CYCLE
 

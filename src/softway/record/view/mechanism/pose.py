@@ -9,7 +9,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.mechanisms.members.joints import GROUND
 from softway.mechanisms.members.rows import in_space
-from softway.mechanisms.members.stops import tangents
+from softway.mechanisms.members.stop_friction import tangents
 from softway.record.read.records import Records
 from softway.record.storage.table import Table
 from softway.record.write.mechanism.columns import placed

@@ -190,6 +190,19 @@ TABLE: Table = {
     "normal": Try(LINKS, "stops.s.normal=[0, 0]", "not all zero", "stops.s.normal=[0, 1]"),
     "radius": Try(LINKS, "stops.s.radius=-1", "zero or more", "stops.s.radius=0.5"),
     "restitution": Try(LINKS, "stops.s.restitution=2", "no rebound", "stops.s.restitution=1"),
+    "friction": Try(LINKS, "stops.s.friction=-1", "zero or more", "stops.s.friction=0"),
+    "friction at rest": Try(LINKS, "stops.s.friction=0.3 & stops.s.mu_s=0.2", "friction or more", "stops.s.mu_s=0.3"),
+    "rolling": Try(LINKS, "stops.s.rolling=-1", "zero or more", "stops.s.rolling=0.01"),
+    "drilling": Try(LINKS, "stops.s.drilling=0.1", "omit it", "stops.s.drilling=0"),
+    "belt of another dimension": Try(
+        LINKS, "stops.s.friction=0.3 & stops.s.velocity=[1, 0, 0]", "2 finite", "stops.s.velocity=[1, 0]"
+    ),
+    "belt across": Try(
+        LINKS, "stops.s.friction=0.3 & stops.s.velocity=[1, 1]", "along the normal", "stops.s.velocity=[1, 0]"
+    ),
+    "belt without friction": Try(
+        LINKS, "stops.s.velocity=[1, 0]", "friction above zero", "stops.s.friction=0.3 & stops.s.velocity=[1, 0]"
+    ),
     "distance": Try(
         LINKS,
         "stops.s={kind='DistanceStop', between=['a', 'c'], points=[[0, 0], [2, 0]], distance=0}",

@@ -12,13 +12,16 @@ from typing import Literal
 import numpy as np
 from scipy.optimize import brentq
 
-from softway.arrays import Array, BoolArray
+from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError, NumericsError
+from softway.mechanisms.contacts.slipping import jammed, next_change, tell_sliding
+from softway.mechanisms.contacts.stop_rows import NEAR, NOISE, STILL, Stops
 from softway.mechanisms.members.stops import Impacts, Restitution, StopEvent
-from softway.mechanisms.stop_rows import NEAR, STILL, Stops
 
 TOUCH = 1e-14
 """Gap relative to the extent that is rounding."""
+ROUNDED = 1e-15
+"""Velocity relative to that of the extent in a slab that is rounding."""
 SHORT = 1e-4
 """Flight between two touches of a stop, relative to the slab, below which it comes to rest."""
 BLOWS = 10_000
@@ -56,9 +59,10 @@ class StopMarch:
         return tuple(name for name, shut in zip(self.stops.names, self.stops.closed, strict=True) if shut)
 
     @property
-    def changing(self) -> dict[str, Array | BoolArray]:
+    def changing(self) -> dict[str, Array | IntArray | BoolArray]:
         """Arrays that the march changes, by name."""
-        return {"closed": self.stops.closed, "sliding": self.stops.sliding, "touched": self.touched}
+        flags = {name: getattr(self.stops, name) for name in ("closed", "sliding", "turning", "told")}
+        return {**flags, "touched": self.touched}
 
     def start(self, h: float, extent: float) -> list[StopEvent]:
         """Close the stops that are touched at the start, with an impact if bodies approach there; its events."""
@@ -69,7 +73,8 @@ class StopMarch:
         touching = gaps <= NEAR * extent
         if touching.any():
             self._impact(0.0, h, touching, extent, events)
-        self.stops.see_sliding()
+        self.stops.see_sliding(NOISE * extent / h)
+        tell_sliding(self.stops, 0.0, events)
         return events
 
     def slab(self, time: float, h: float, extent: float, told: Array) -> tuple[list[StopEvent], int]:
@@ -78,7 +83,7 @@ class StopMarch:
         left, iterations = h, 0
         for touches in itertools.count():
             if touches < LOCATED:
-                span, touching, used = self._flown(time + h - left, left, extent, told, events)
+                span, touching, used = self._flown(time + h - left, left, h, extent, told, events)
             else:
                 span, used = self._through(time + h - left, left, extent, told, events)
                 touching = np.zeros(len(self.stops.rows), bool)
@@ -90,11 +95,37 @@ class StopMarch:
         return events, iterations
 
     def _flown(
-        self, time: float, left: float, extent: float, told: Array, events: list[StopEvent]
+        self, time: float, left: float, h: float, extent: float, told: Array, events: list[StopEvent]
     ) -> tuple[float, BoolArray, int]:
         """Take a part of the slab up to the next touch: its length, the touching stops, and the iterations."""
-        span, iterations, none = left, 0, np.zeros(len(self.stops.rows), bool)
-        jammed = self.stops.jammed()
+        stops, iterations, change = self.stops, 0, None
+        jamming, begun = jammed(stops), np.zeros(len(stops.rows), bool)
+        before = stops.slips() if stops.located.any() else np.zeros(0)
+        while True:
+            span, used = self._up_to_touch(time, left, extent)
+            iterations += used
+            if span == 0.0:
+                return 0.0, ~stops.closed & (stops.at_state() <= NEAR * extent), iterations
+            if not (stops.located & stops.closed).any():
+                break
+            change = next_change(stops, before, begun, span, h, extent)
+            iterations += change.iterations
+            if change.span > 0.0:
+                span = change.span
+                break
+        tell_sliding(stops, time, events)
+        touching = ~stops.closed & (np.abs(stops.gaps()) <= NEAR * extent) & (span < left)
+        closed = stops.taken(time, span, extent, told, np.zeros(len(stops.rows)))
+        if change is not None:
+            stops.sliding[change.ending], stops.sliding[change.starting] = False, True
+        for k in jamming[~stops.sliding[jamming]]:
+            events.append(StopEvent(time=float(time), stop=stops.names[k], kind="jam"))
+        self._close(closed, time, events)
+        return span, touching, iterations
+
+    def _up_to_touch(self, time: float, left: float, extent: float) -> tuple[float, int]:
+        """Solve a part of the slab up to the next touch: its length, zero if that is at once, and the iterations."""
+        span, iterations = left, 0
         for _ in range(HALVINGS):
             used = self.stops.tried(span, extent)
             iterations += used
@@ -103,18 +134,10 @@ class StopMarch:
             span *= 0.5
         else:
             raise NumericsError(f"a slab of {span:.3g} s has no solution", time, "a shorter step")
-        if (self.stops.gaps()[~self.stops.closed] < -TOUCH * extent).any():
-            found = self._first_touch(span, extent)
-            if found is None:
-                return 0.0, ~self.stops.closed & (self.stops.at_state() <= NEAR * extent), iterations
-            span, used = found
-            iterations += used
-        touching = ~self.stops.closed & (np.abs(self.stops.gaps()) <= NEAR * extent) if span < left else none
-        closed = self.stops.taken(time, span, extent, told, np.zeros(len(self.stops.rows)))
-        for k in jammed[~self.stops.sliding[jammed]]:
-            events.append(StopEvent(time=float(time), stop=self.stops.names[k], kind="jam"))
-        self._close(closed, time, events)
-        return span, touching, iterations
+        if not (self.stops.gaps()[~self.stops.closed] < -TOUCH * extent).any():
+            return span, iterations
+        found = self._first_touch(span, extent)
+        return (0.0, iterations) if found is None else (found[0], iterations + found[1])
 
     def _close(self, closed: BoolArray, time: float, events: list[StopEvent]) -> None:
         """Close these stops (s,), and release the others."""
@@ -191,15 +214,10 @@ class StopMarch:
         resting = hits & (time - self.touched < SHORT * h) & (self.stops.restitution < 1.0)
         ratio = np.where(resting, 0.0, self.stops.restitution)
         impulse = np.zeros(len(self.stops.rows))
-        if self.law == "simultaneous":
-            ratio_of_hits = np.where(hits, ratio, 0.0)
-            solved = self._struck(self.stops.closed | touching, ratio_of_hits, before, extent / h, impulse)
-        else:
-            solved = self._sequential(touching, ratio, extent / h, impulse)
-        if not solved:
+        if not self._struck(touching, hits, ratio, extent / h, impulse):
             names = ", ".join(self.stops.names[k] for k in np.flatnonzero(self.stops.closed | touching))
             raise NumericsError(f"the impact of {names} has no solution", time, "less friction, or sequential impacts")
-        after, scale = self.stops.speeds(), float(np.abs(before).max())
+        after = self.stops.speeds()
         for k in np.flatnonzero(hits):
             e = self.stops.restitution[k]
             end = (time - self.touched[k]) * e / (1.0 - e) if resting[k] else 0.0
@@ -207,12 +225,35 @@ class StopMarch:
             one = StopEvent(time=float(time + end), stop=self.stops.names[k], kind=kind, impulse=float(impulse[k]))
             events.append(replace(one, velocity_before=float(before[k]), velocity_after=float(after[k])))
             self.touched[k] = time
-        self._close((self.stops.closed | touching) & (np.abs(after) <= STILL * scale), time, events)
+        self._close((self.stops.closed | touching) & (np.abs(after) <= _still(before, extent / h)), time, events)
         self.stops.lose(excess - self.stops.excess())
-        self.stops.see_sliding()
+        self.stops.see_sliding(NOISE * extent / h)
         self.stops.it.motion.impulse[self.stops.rows.ravel()] = 0.0
 
-    def _struck(self, these: BoolArray, ratio: Array, before: Array, rounding: float, impulse: Array) -> bool:
+    def _struck(self, touching: BoolArray, hits: BoolArray, ratio: Array, rounding: float, impulse: Array) -> bool:
+        """Impact by the law of the mechanism; False if it has no solution.
+
+        Closed stops at rest that do not stay so have the friction of sliding ones.
+        """
+        stops, motion, before = self.stops, self.stops.it.motion, self.stops.speeds()
+        changed = (motion.velocity, motion.spin, motion.energy, motion.work)
+        kept = [array.copy() for array in changed]
+        for _ in range(len(stops.rows) + 1):
+            if self.law == "simultaneous":
+                near = stops.closed | touching
+                solved = self._blow(near, np.where(hits, ratio, 0.0), before, rounding, impulse)
+            else:
+                solved = self._sequential(touching, ratio, rounding, impulse)
+            slipping = np.linalg.norm(stops.slips(), axis=1) > NOISE * rounding
+            slipping &= stops.located & stops.closed & ~stops.sliding
+            if not slipping.any():
+                break
+            stops.sliding[slipping], impulse[:] = True, 0.0
+            for array, old in zip(changed, kept, strict=True):
+                array[:] = old
+        return solved
+
+    def _blow(self, these: BoolArray, ratio: Array, before: Array, rounding: float, impulse: Array) -> bool:
         """Impact at some stops (s,) at once with the velocities ``before`` (s,); False if it has no solution."""
         if self.restitution == "Poisson":
             return self.stops.compress_and_expand(these, ratio, rounding, impulse)
@@ -220,12 +261,17 @@ class StopMarch:
 
     def _sequential(self, touching: BoolArray, ratio: Array, rounding: float, impulse: Array) -> bool:
         """One stop after the other, each time that with the greatest velocity of approach."""
-        near, scale = self.stops.closed | touching, float(np.abs(self.stops.speeds()).max())
+        near, still = self.stops.closed | touching, _still(self.stops.speeds(), rounding)
         for _ in range(BLOWS):
             speed = np.where(near, self.stops.speeds(), 0.0)
             k = int(np.argmin(speed))
-            if speed[k] >= -STILL * scale:
+            if speed[k] >= -still:
                 return True
-            if not self._struck(np.arange(len(self.stops.rows)) == k, ratio, speed, rounding, impulse):
+            if not self._blow(np.arange(len(self.stops.rows)) == k, ratio, speed, rounding, impulse):
                 return False
         return False
+
+
+def _still(speed: Array, rounding: float) -> float:
+    """Velocity [m/s] that is none, beside velocities (s,) and the one that rounds places."""
+    return max(STILL * float(np.abs(speed).max()), ROUNDED * rounding)

@@ -4,6 +4,7 @@ The impulses of closed stops obey the laws of contact on places over the slab, a
 (docs/theory/mechanisms.md).
 """
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,15 +15,15 @@ from softway.kernels.multibody.energy import close_energy, kinetic_energy
 from softway.kernels.multibody.slab import prepare_joints, take_motion, tell_joints
 from softway.kernels.multibody.tables import Space
 from softway.kernels.multibody.velocities import row_velocities
-from softway.kernels.rigid_contact.contact import book_slab, collide, collide_at_once, compliances, solve_contact_slab
+from softway.kernels.rigid_contact.contact import SLIP, book_slab, collide, collide_at_once, solve_contact_slab
 from softway.mechanisms.arrays import Arrays
 
 NEAR = 1e-10
 """Gap relative to the extent at which a stop takes part in an impact."""
 STILL = 1e-9
 """Velocity relative to the greatest at which a stop is closed after an impact."""
-SLIP = 1e-9
-"""Friction, relative to its limit, that is rounding below it."""
+NOISE = 1e-12
+"""Sliding relative to the extent, in a slab, that is rounding of a stop that sticks."""
 GAINED = 1e-13
 """Gain of energy, relative to the energy, that is rounding."""
 REBOUNDS = (1.0, 0.75, 0.5, 0.25, 0.0)
@@ -38,16 +39,25 @@ class Stops:
     it, room
         Arrays of the mechanism, and work space.
     rows
-        (s, d) rows of the stops in the table of the joints: the normal one, and the tangential ones if there is
-        friction.
-    restitution, friction
+        (s, d) rows of the stops in the table of the joints: the normal one, the tangential ones if there is friction,
+        and those of the turning if there is friction against it.
+    restitution
         (s,) coefficients.
+    friction, static
+        (s, q) coefficients of friction in motion: against sliding, and lengths [m] against rolling and drilling; (s,)
+        that against sliding at rest.
+    located
+        (s,) stops whose sliding begins and ends at located instants.
     names
         Names of the stops.
     held
         (g,) groups that the ground holds by joints.
     closed, sliding
         (s,) stops that are closed, and those whose places of contact slide.
+    turning
+        (s, q - 1) stops whose bodies roll, and drill.
+    told
+        (s,) sliding of the closed located stops as the events say: 1, at rest 0, and -1 of open ones.
     """
 
     it: Arrays
@@ -55,19 +65,23 @@ class Stops:
     rows: IntArray
     restitution: Array
     friction: Array
+    static: Array
+    located: BoolArray
     names: tuple[str, ...]
     held: IntArray
     closed: BoolArray
     sliding: BoolArray
+    turning: BoolArray
+    told: IntArray
 
     def tried(self, span: float, extent: float, smooth: BoolArray | None = None) -> int:
         """Solve a slab with the closed stops, without taking it; the number of iterations, 0 if it has no solution.
 
         Those that are ``smooth`` (s,) have no friction in it.
         """
-        rows, friction = self._closed_rows()
+        rows, friction = self.closed_rows()
         if smooth is not None:
-            friction = np.where(smooth[self.closed], 0.0, friction)
+            friction = np.where(smooth[self.closed, None], 0.0, friction)
         self.it.motion.impulse[self.rows[~self.closed].ravel()] = 0.0
         used: int = solve_contact_slab(*self._tables, rows, friction, span, extent)
         return used
@@ -83,13 +97,14 @@ class Stops:
         NumericsError
             If no velocities at the end satisfy the laws of contact.
         """
-        it, (rows, friction) = self.it, self._closed_rows()
+        it, (rows, friction) = self.it, self.closed_rows()
         book_slab(it.bodies, it.joints, it.motion, self.room, rows, span)
         take_motion(*self._tables, span)
         through = it.motion.impulse[rows]
-        normal, tangential = self._split(through)
-        sticks = ~self.sliding[self.closed] & (tangential < (1.0 - SLIP) * friction * normal)
-        steady = bool(((normal > 0.0) & ((friction == 0.0) | sticks)).all())
+        below = self.below_limit(through, friction)
+        moving = np.concatenate([self.sliding[:, None], self.turning], axis=1)[self.closed] & (friction > 0.0)
+        steady = bool((below & ~moving).all() and (self._table(through)[:, 0] > 0.0).all())
+        steady = steady and not self.room.rate[rows].any()
         if not steady:
             told[2] = max(told[2], close_energy(it.bodies, it.springs, it.joints, it.motion, self.room))
         excess = self.excess()
@@ -102,8 +117,8 @@ class Stops:
             self.lose(excess - self.excess())
         tell_joints(it.joints, it.motion, self.room, told)
         closed, speed = self.closed.copy(), self.speeds()
-        self.see_sliding()
-        closed[self.closed] = (self._split(total)[0] > 0.0) | (
+        self.see_sliding(NOISE * extent / span, below[:, 0])
+        closed[self.closed] = (self._table(total)[:, 0] > 0.0) | (
             (self.gaps()[self.closed] <= NEAR * extent)
             & (speed[self.closed] <= STILL * float(np.abs(it.motion.velocity).max()))
         )
@@ -140,9 +155,9 @@ class Stops:
         """
         rows = self.rows[these].ravel()
         none, found = np.zeros(len(rows)), np.zeros(len(rows))
-        laws = self.friction[these], none, rebound[these], lower[these], speed
+        laws = self.coefficients()[these], none, rebound[these], lower[these], speed
         solved = collide(self.it.bodies, self.it.joints, self.it.motion, self.room, rows, *laws, found)
-        impulse[these] += self._split(found)[0]
+        impulse[these] += self._table(found)[:, 0]
         return bool(solved)
 
     def compress_and_expand(self, these: BoolArray, ratio: Array, speed: float, impulse: Array) -> bool:
@@ -155,7 +170,7 @@ class Stops:
             found = np.zeros(2)
             k = int(np.argmax(these))
             tables = self.it.bodies, self.it.joints, self.it.motion, self.room
-            solved = collide_at_once(*tables, rows, self.friction[k], ratio[k], found)
+            solved = collide_at_once(*tables, rows, self.coefficients()[k, 0], ratio[k], found)
             impulse[k] += found[0]
             return bool(solved)
         compression = np.zeros(len(self.rows))
@@ -168,14 +183,40 @@ class Stops:
     def _tables(self) -> tuple[object, ...]:
         return self.it.bodies, self.it.joints, self.it.springs, self.it.motion, self.room
 
-    def _closed_rows(self) -> tuple[IntArray, Array]:
-        """Rows (m,) of the closed stops, and their coefficients of friction."""
-        return self.rows[self.closed].ravel(), self.friction[self.closed]
+    def closed_rows(self) -> tuple[IntArray, Array]:
+        """Rows (m,) of the closed stops, and their coefficients of friction (c, q)."""
+        return self.rows[self.closed].ravel(), self.coefficients()[self.closed]
 
-    def _split(self, impulse: Array) -> tuple[Array, Array]:
-        """Normal impulses of stops, and magnitudes of the tangential ones."""
-        table = impulse.reshape(-1, self.rows.shape[1])
-        return table[:, 0], np.linalg.norm(table[:, 1:], axis=1)
+    def coefficients(self) -> Array:
+        """Coefficients of friction (s, q) at present, those at rest of stops that do not slide."""
+        if not self.located.any():
+            return self.friction
+        found = self.friction.copy()
+        at_rest = self.located & self.closed & ~self.sliding
+        found[at_rest, 0] = self.static[at_rest]
+        return found
+
+    def _table(self, impulse: Array) -> Array:
+        """Impulses (c, d) of stops."""
+        return impulse.reshape(-1, self.rows.shape[1])
+
+    @property
+    def tangential(self) -> slice:
+        """Numbers of the rows of the sliding among those of a stop."""
+        d, q = self.rows.shape[1], self.friction.shape[1]
+        return slice(1, d if q == 1 else q)
+
+    def below_limit(self, impulse: Array, friction: Array) -> BoolArray:
+        """Closed stops and blocks (c, q) whose friction is below its limit, or that have none."""
+        table = self._table(impulse)
+        return (self._sizes(table) < (1.0 - SLIP) * friction * table[:, :1]) | (friction == 0.0)
+
+    def _sizes(self, table: Array) -> Array:
+        """Magnitudes (c, q) of the blocks of rows (c, d) of stops."""
+        if self.friction.shape[1] == 1:
+            return np.linalg.norm(table[:, 1:], axis=1, keepdims=True)
+        edges = (1, 2, 3) if self.friction.shape[1] == 2 else (1, 3, 5, 6)
+        return np.stack([np.linalg.norm(table[:, i:j], axis=1) for i, j in itertools.pairwise(edges)], axis=1)
 
     def hold(self, supported: IntArray) -> None:
         """Groups that the ground holds by joints or closed stops."""
@@ -205,25 +246,32 @@ class Stops:
         row_velocities(self.it.joints, self.it.motion, self.room, out)
         return out[self.rows]
 
-    def jammed(self) -> IntArray:
-        """Closed stops (k,) whose sliding has no continuous course at the present state.
+    def slips(self) -> Array:
+        """Velocities (s, t) of the sliding, against surfaces that may move themselves [m/s]."""
+        return self._velocities()[:, self.tangential]
 
-        A normal force with its friction would not push the places of contact apart, ``W_nn - mu W_nt <= 0`` (Painleve).
+    def slid(self, span: float) -> Array:
+        """Displacements (s, t) of the sliding in a slab of this length that was tried [m]."""
+        rows, out = self.rows[:, self.tangential], np.zeros(self.rows[:, self.tangential].shape)
+        for side in range(self.room.G.shape[1]):
+            out += np.einsum("stc,stc->st", self.room.G[rows, side], self.room.z[self.it.joints.sides[rows, side]])
+        return out - span * self.room.rate[rows]
+
+    def see_sliding(self, noise: float, held: BoolArray | None = None) -> None:
+        """Note which stops slide or turn; velocities below ``noise`` [m/s] are none of located stops.
+
+        After a slab these go on sliding, at whatever velocity, if friction has not ``held`` (c,) them.
         """
-        moving = np.flatnonzero(self.closed & self.sliding & (self.friction > 0.0))
-        if not len(moving):
-            return moving
-        found = []
-        for k, slip in zip(moving, self._velocities()[moving, 1:], strict=True):
-            W = compliances(self.it.joints, self.room, self.rows[k])[0]
-            if W[0, 0] - self.friction[k] * float(W[0, 1:] @ slip) / float(np.linalg.norm(slip)) <= 0.0:
-                found.append(k)
-        return np.array(found, dtype=np.int64)
-
-    def see_sliding(self) -> None:
-        """Note which stops slide."""
-        speed = np.linalg.norm(self._velocities()[:, 1:], axis=1)
-        self.sliding[:] = speed > STILL * float(np.abs(self.it.motion.velocity).max())
+        sizes, motion = self._sizes(self._velocities()), self.it.motion
+        moving = sizes[:, 0] > STILL * float(np.abs(motion.velocity).max())
+        self.turning[:] = sizes[:, 1:] > STILL * float(np.abs(motion.spin).max())
+        if self.located.any():
+            moving &= ~self.located | (sizes[:, 0] > noise)
+            if held is not None:
+                on = self.located & self.sliding & self.closed
+                on[self.closed] &= ~held
+                moving |= on
+        self.sliding[:] = moving
 
     def excess(self) -> Array:
         """Kinetic energies (g,) of the groups over the energies that they have to have, up to their potentials [J]."""

@@ -58,6 +58,18 @@ def test_a_box_slides_to_rest_and_then_does_not_move(h: float, speed: float) -> 
     assert steps[-1].dissipation == pytest.approx(0.5 * 2.0 * speed**2, rel=1e-12)
 
 
+@pytest.mark.parametrize("speed", [1e-7, 1e-8, 1e-9, 1e-10])
+@pytest.mark.parametrize("law", ["Newton", "Poisson"])
+def test_blows_one_after_the_other_end_beside_a_great_velocity(speed: float, law: str) -> None:
+    """Two feet of a box that slides fast approach the floor slowly: what the blows leave is rounding of the sliding."""
+    stops = {k: on_plane(at, friction=0.5) for k, at in {"left": (-0.11, 0.0), "right": (0.1, 0.0)}.items()}
+    body = Rigid(mass=2.0, centre=(0.0, 0.05), inertia=0.01, velocity=(5.0, -speed), spin=3.0 * speed)
+    mechanism = Mechanism(bodies={"b": body}, stops=stops, gravity=(0.0, -G), impacts="sequential", restitution=law)
+    steps = list(march(mechanism, until=0.1, step=0.01))
+    assert never_gains(steps)
+    assert steps[-1].bodies["b"].velocity[0] == pytest.approx(5.0 - 0.05 * G, rel=1e-6)
+
+
 def test_a_wedge_on_a_slope_sticks_without_creep_below_the_angle_of_friction() -> None:
     for friction, expected in ((0.7, 0.0), (0.4, G * (np.sin(0.5) - 0.4 * np.cos(0.5)))):
         slope = 0.5

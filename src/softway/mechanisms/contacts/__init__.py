@@ -1,0 +1,1 @@
+"""Stops of a mechanism in a march: touches, impacts, friction."""
