@@ -18,7 +18,7 @@ NAMED = 1000
 def pile(asked: Asked) -> Iterator[Figure]:
     """Spheres with friction .3 fall into a box, ten layers high: processor time of a slab of 1 ms, the mean of 1 s."""
     counts = SMALL if asked.smoke else asked.pick(COUNTS[:3], COUNTS)
-    costs = [alone("pile", count=list(count), until=0.05 if asked.smoke else 1.0)["result"] for count in counts]
+    costs = [alone("pile", count=list(count), until=0.3 if asked.smoke else 1.0)["result"] for count in counts]
     for cost in costs:
         name, target = f"pile/{cost['balls']} spheres", "<= 15" if cost["balls"] == NAMED else "lower"
         yield Figure(name=f"{name}, slab", value=cost["slab"], unit="ms", target=target)
