@@ -10,7 +10,7 @@ from softway.piles.pile import Pile
 
 OVERLAP = 1e-9
 """Overlap at the start, relative to the smallest radius, that is rounding."""
-TOLERANCE = 1e-10
+TOLERANCE = 8e-11
 """Overlap at the end of a slab that is left, relative to the smallest radius."""
 ROUNDING = 16.0 * float(np.finfo(float).eps)
 """Rounding error of a gap, relative to the greatest coordinate."""

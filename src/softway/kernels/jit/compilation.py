@@ -48,6 +48,7 @@ _SHARED = (
     "pile/search.py",
     "pile/sweeps.py",
     "pile/tables.py",
+    "pile/through.py",
 )
 _SOURCES = b"".join((Path(__file__).parents[1] / name).read_bytes() for name in _SHARED)
 _ENDING = f"_{sha256(_SOURCES).hexdigest()[:12]}"

@@ -1,7 +1,8 @@
 """End of a slab (time step) of a pile: velocities that obey the laws of contact with the sums of both impulses.
 
-Contacts that touched in the slab rebound.  The contacts of an island never create energy; if the rebounds of an
-island did, they are made smaller, and where all are elastic and without friction they give back what the slab took.
+Contacts that touched in the slab rebound.  The contacts of an island never create energy: if the rebounds of an island
+did, they are made smaller, and at last there are no impulses at the end.  Where all contacts are elastic and without
+friction, they give back what the slab took.
 """
 
 import numpy as np
@@ -48,7 +49,8 @@ def end_island(h, balls, laws, contacts, work, velocity, rebound, island, allowe
     bodies = contacts.bodies[contacts.body_start[island] : contacts.body_start[island + 1]]
     through, before, rates = contacts.impulse[low:high].copy(), velocity[bodies], np.empty((high - low, 4))
     _see_rates(contacts, velocity, low, high, rates)
-    scale, tolerance = allowed + _energy(balls, velocity, bodies), 2.0 * laws.tolerance / h
+    allowed, tolerance = max(0.0, allowed), 2.0 * laws.tolerance / h
+    scale = allowed + _energy(balls, velocity, bodies)
     elastic, part, found = _elastic(laws, contacts, rebound, low, high), 1.0, np.zeros((3, 2))
     gained, sweeps, turns = 0.0, 0, SEARCHES if _elastic(laws, contacts, rebound, low, high) else 0
     for turn in range(turns + len(PARTS) + 1):
@@ -66,6 +68,10 @@ def end_island(h, balls, laws, contacts, work, velocity, rebound, island, allowe
             elastic, part = False, PARTS[turn - turns]
         if turn == turns + len(PARTS) - 1:
             _widen(contacts, through, low, high)
+    if gained > allowed + GAINED * scale:
+        contacts.impulse[low:high], gained = through, 0.0
+        for j in range(len(bodies)):
+            velocity[bodies[j]] = before[j]
     told[DISSIPATION] -= gained
     told[SLIP] = max(told[SLIP], friction_missed(contacts, velocity, low, high))
     return sweeps

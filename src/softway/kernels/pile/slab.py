@@ -5,17 +5,12 @@ import numpy as np
 from softway.kernels.jit.compilation import inlined, kernel
 from softway.kernels.pile.ends import end_island, set_ends
 from softway.kernels.pile.islands import islands
-from softway.kernels.pile.rows import gap_rate, push_all, set_gaps, set_rows, slip, turn_impulses
+from softway.kernels.pile.rows import set_rows, turn_impulses
 from softway.kernels.pile.search import near_pairs
-from softway.kernels.pile.sweeps import close, converge, friction_missed
 from softway.kernels.pile.tables import (
-    BIAS,
     CLOSED,
     COLUMNS,
     DISSIPATION,
-    FINER,
-    FRICTION,
-    LEAST,
     NORMAL,
     OVERLAP,
     SCALE,
@@ -26,11 +21,8 @@ from softway.kernels.pile.tables import (
     Memory,
     Work,
 )
+from softway.kernels.pile.through import lost_energies, through_slab
 
-ROUNDS = 30
-"""Greatest number of times that the directions of contacts are brought up to date."""
-CLOSING = 2000
-"""Greatest number of sweeps that close the gaps with given friction."""
 SKIN = 0.01
 """Part of the radius that is searched beyond the motion of a slab."""
 
@@ -48,10 +40,10 @@ def pile_slab(h, balls, walls, laws, place, velocity, memory, told):
         count = len(closed)
         work = Work(np.empty((count, 4)), np.empty((n + 1, 6)), np.empty((count, 4)), np.empty((n + 1, 6)))
         gaps, solved = np.zeros((2, count)), np.zeros(3)
-        total = _through(h, balls, walls, laws, place, velocity, contacts, closed, work, gaps, end, solved)
+        total = through_slab(h, balls, walls, laws, place, velocity, contacts, closed, work, gaps, end, solved)
         if not _beyond(place, end, reach):
             break
-    lost, rebound = _lost(contacts, total), _rebounds(h, balls, contacts, gaps)
+    lost, rebound = lost_energies(contacts, total), _rebounds(h, balls, contacts, gaps)
     if count:
         told[OVERLAP] = max(told[OVERLAP], -gaps[1].min())
     told[SLIP], told[SWEEPS] = max(told[SLIP], solved[0]), told[SWEEPS] + solved[1]
@@ -132,63 +124,3 @@ def _remembered(contacts, memory, n):
             contacts.impulse[k] = memory.impulse[j]
             closed[k] = 1
     return closed
-
-
-@kernel
-def _through(h, balls, walls, laws, place, velocity, contacts, closed, work, gaps, end, solved):
-    """Sums (n + 1, 6) of the velocities at both ends of a slab with closed gaps, and places at its end.
-
-    ``solved`` is told by how much friction misses its law [m/s], the sweeps, and 1 if the gaps are closed.
-    """
-    n, left, tolerance = len(place), laws.sweeps, 2.0 * laws.tolerance / h
-    free = 2.0 * velocity
-    free[:n, :3] += h * laws.gravity
-    total = free.copy()
-    end[:] = place + 0.5 * h * free[:n, :3]
-    set_gaps(balls, walls, contacts, place, gaps[0])
-    solved[:] = 0.0
-    for _ in range(ROUNDS):
-        rub = left > 0
-        set_rows(balls, walls, contacts, place, end)
-        _set_laws(h, walls, laws, contacts, closed, gaps[0], n)
-        turn_impulses(contacts)
-        total[:] = free
-        push_all(balls, contacts, total)
-        used, worst, most = 0, 0.0, max(1, min(left, (laws.sweeps + 1) // 2)) if rub else CLOSING
-        for island in range(len(contacts.start) - 1):
-            if rub:
-                count, change = converge(balls, contacts, total, island, FINER * tolerance, most, work)
-            else:
-                count, change = close(balls, contacts, total, island, tolerance, most, work)
-            used, worst = max(used, count), max(worst, change)
-        left -= used if rub else 0
-        end[:] = place + 0.5 * h * total[:n, :3]
-        solved[1] += used
-        if used <= 1 and worst <= (FINER * tolerance if rub else tolerance):
-            solved[2] = 1.0
-            break
-    set_gaps(balls, walls, contacts, end, gaps[1])
-    solved[0] = 0.5 * friction_missed(contacts, total, 0, len(closed))
-    return total
-
-
-@inlined
-def _set_laws(h, walls, laws, contacts, closed, gap, n):
-    """Velocities that close the gaps in a slab, and friction of the contacts that were closed before it."""
-    for k in range(len(closed)):
-        wall = contacts.pairs[k, 1] - n
-        contacts.row[k, BIAS] = 2.0 * gap[k] / (h * contacts.row[k, SCALE])
-        friction = laws.friction if wall < 0 else walls.friction[wall]
-        contacts.row[k, FRICTION] = friction if closed[k] else 0.0
-        contacts.row[k, LEAST] = 0.0
-
-
-@kernel
-def _lost(contacts, total):
-    """Energies (c,) that contacts took in the slab: impulses on mean velocities, half the sums [J]."""
-    lost = np.empty(len(contacts.row))
-    for k in range(len(lost)):
-        x, rate = contacts.impulse[k], gap_rate(contacts, total, k)
-        p, q, t = slip(contacts, total, k, rate)
-        lost[k] = -0.5 * (x[0] * rate + x[1] * p + x[2] * q + x[3] * t)
-    return lost
