@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from time import perf_counter
 
-from groups import accuracy, cube, methods, parts
+from groups import accuracy, cube, methods, parts, piles
 from groups.asked import Asked
 from processes.apart import Failed
 from record.figures import Figure, read, regressions, unmatched, written
@@ -41,6 +41,7 @@ GROUPS: dict[str, Group] = {
     "factor": parts.factors,
     "contact": parts.contact,
     "slab": parts.slabs,
+    "pile": piles.pile,
     "large": cube.large,
 }
 LONG = ("large",)

@@ -129,9 +129,16 @@ def slabs(largest: int) -> list[dict[str, Any]]:
     return [asdict(cost) for cost in costs(largest)]
 
 
+def pile(count: list[int], until: float) -> dict[str, Any]:
+    """Spheres that fall into a box."""
+    from bench_pile import measured
+
+    return asdict(measured((count[0], count[1], count[2]), until))
+
+
 PROBLEMS: dict[str, Callable[..., Any]] = {
     f.__name__: f
-    for f in (cube, inertia, explicit, compact, impact, bent, block, kernels, history, factor, contact, slabs)
+    for f in (cube, inertia, explicit, compact, impact, bent, block, kernels, history, factor, contact, slabs, pile)
 }
 
 

@@ -20,7 +20,8 @@ MARCH = tuple(
     )
 )  # fmt: skip
 CELLS = tuple(f"src/softway/{part}" for part in ("bodies", "kernels", "laws", "meshes"))
-CODE = {"kernels": CELLS, "history": CELLS}
+PILES = ("src/softway/kernels/jit", "src/softway/kernels/pile", "src/softway/piles")
+CODE = {"kernels": CELLS, "history": CELLS, "pile": PILES}
 """What is measured, by group; the slab and all that it is made of where nothing is said."""
 THROWN = (
     "benchmarks/groups/cube.py",
@@ -42,6 +43,7 @@ BENCHES = {
     "factor": (PARTS, "benchmarks/parts/bench_factor.py"),
     "contact": (PARTS, "benchmarks/parts/bench_contact.py"),
     "slab": (PARTS, "benchmarks/parts/bench_slab.py"),
+    "pile": ("benchmarks/groups/piles.py", "benchmarks/parts/bench_pile.py"),
     "large": THROWN[::3],
 }
 """What measures it, by group."""

@@ -1,7 +1,7 @@
 """softway: dynamic contact of solids, with the velocity as unknown and contact as a constraint on it.
 
 Names that nearly every program needs are here.  The others are one dot deeper: ``softway.bodies``, ``contact``,
-``laws``, ``mechanisms``, ``meshes``, ``model``, ``obstacles``, ``record``, ``solve`` and ``studies``.
+``laws``, ``mechanisms``, ``meshes``, ``model``, ``obstacles``, ``piles``, ``record``, ``solve`` and ``studies``.
 """
 
 import logging
@@ -14,6 +14,7 @@ from softway import mechanisms as mechanisms
 from softway import meshes as meshes
 from softway import model as model
 from softway import obstacles as obstacles
+from softway import piles as piles
 from softway import record as record
 from softway import solve as solve
 from softway import studies as studies

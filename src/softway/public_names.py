@@ -3,7 +3,9 @@
 from importlib import import_module
 from typing import Any
 
-PACKAGES = ("bodies", "contact", "laws", "mechanisms", "meshes", "model", "obstacles", "record", "solve", "studies")
+PACKAGES = (
+    "bodies", "contact", "laws", "mechanisms", "meshes", "model", "obstacles", "piles", "record", "solve", "studies",
+)  # fmt: skip
 """Packages that export the names of softway that are one dot deeper."""
 
 

@@ -43,6 +43,13 @@ _SHARED = (
     "multibody/slab.py",
     "multibody/tables.py",
     "multibody/velocities.py",
+    "pile/ends.py",
+    "pile/islands.py",
+    "pile/rows.py",
+    "pile/search.py",
+    "pile/sweeps.py",
+    "pile/tables.py",
+    "pile/through.py",
 )
 _SOURCES = b"".join((Path(__file__).parents[1] / name).read_bytes() for name in _SHARED)
 _ENDING = f"_{sha256(_SOURCES).hexdigest()[:12]}"
