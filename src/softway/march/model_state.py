@@ -11,7 +11,7 @@ from softway.bodies.assembled import material_states
 from softway.contact.contact_rows import ContactRows
 from softway.errors import InputError
 from softway.model.model import Model
-from softway.model.rigid_bodies import RigidState
+from softway.model.rigid_state import RigidState
 from softway.model.scene import State
 from softway.solve.equations.slab_values import SlabStart
 

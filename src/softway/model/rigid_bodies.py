@@ -5,7 +5,7 @@ of the points that these act on (docs/theory/contact/rigid_bodies.md).
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -16,64 +16,16 @@ from softway.errors import InputError, NoConvergence, NumericsError
 from softway.kernels.multibody.angles import angles_at
 from softway.kernels.multibody.energy import kinetic_energy, potential_energy
 from softway.kernels.multibody.slab import begin
-from softway.kernels.multibody.tables import Motion, Space, space
 from softway.kernels.multibody.velocities import project_velocities
 from softway.mechanisms.arrays import Arrays, arrays
 from softway.mechanisms.driven import require_free_motions
 from softway.mechanisms.march import BodyState, body_state
 from softway.mechanisms.members.joints import GROUND
 from softway.mechanisms.members.mechanism import Mechanism
+from softway.mechanisms.members.stops import StopEvent
 from softway.mechanisms.newton import march_on
 from softway.mechanisms.welds import Welded, welded
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class RigidState:
-    """State of the rigid bodies of a model, the ground being the last of the n.
-
-    Parameters
-    ----------
-    place, turn
-        (n, 3) places of the centres [m], and (n, 4) unit quaternions.
-    velocity, spin
-        (n, 3) velocities [m/s], and angular velocities in the axes of the bodies [rad/s].
-    angle
-        (q,) angles of joints with all turns [rad].
-    impulse
-        (r,) impulses through the joints in the slab before.
-    energy
-        (g,) energies that the groups of connected bodies have to have [J].
-    work
-        (2,) work of forces, torques and motors, and energy dissipated by dampers [J].
-    time
-        (2,) time, with the rounding error of its sum [s].
-    given
-        (n - 1, 4, 3) mean forces by solids in the slab before, see
-        :class:`~softway.kernels.multibody.tables.Space`.
-    joints
-        (2,) greatest error of the joints and of their velocities in the slab before [m], [m/s].
-    """
-
-    place: Array
-    turn: Array
-    velocity: Array
-    spin: Array
-    angle: Array
-    impulse: Array
-    energy: Array
-    work: Array
-    time: Array
-    given: Array
-    joints: Array
-
-    def motion(self) -> Motion:
-        """Copy of the state for the compiled slabs."""
-        return Motion(*(getattr(self, name).copy() for name in Motion._fields))
-
-
-def _state(motion: Motion, given: Array, joints: Array) -> RigidState:
-    """State from the arrays of the compiled slabs."""
-    return RigidState(**motion._asdict(), given=given, joints=joints)
+from softway.model.rigid_state import RigidState, at_work
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -86,6 +38,14 @@ class RigidEnergies:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class RigidSlab:
+    """Slab of the rigid bodies: the state at its end, and the events of their stops."""
+
+    state: RigidState
+    events: tuple[StopEvent, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class RigidBodies:
     """Rigid bodies with their joints, springs and motors; ``it`` are the arrays of the ``joined`` mechanism."""
 
@@ -93,20 +53,28 @@ class RigidBodies:
     joined: Welded
     it: Arrays
 
-    def start(self) -> RigidState:
-        """State at the start; velocities satisfy the joints."""
-        it = replace(self.it, motion=Motion(*(array.copy() for array in self.it.motion)))
-        room = self._room()
+    def start(self, span: float | None = None) -> RigidState:
+        """State at the start; velocities satisfy the joints and, for a slab of length ``span`` [s], the stops.
+
+        Raises
+        ------
+        InputError
+            If a stop is overlapped, or motors move what joints determine.
+        """
+        work = at_work(self.joined.mechanism, self.it)
+        it, room = work.it, work.room
         begin(it.bodies, it.joints, it.springs, it.motion, room)
         require_free_motions(it, room)
         project_velocities(it.bodies, it.joints, it.motion, room)
         begin(it.bodies, it.joints, it.springs, it.motion, room)
-        return _state(it.motion, room.given, np.zeros(2))
+        if work.stops is not None and span is not None:
+            work.stops.start(span, it.reach(span))
+        return work.state(np.zeros(2))
 
     def allowed(self, velocity: Array, spin: Array) -> Array:
         """Velocities and angular velocities (n, 6) that the joints leave of these (3,) of all bodies, at the start."""
-        it = replace(self.it, motion=Motion(*(array.copy() for array in self.it.motion)))
-        room = self._room()
+        work = at_work(self.joined.mechanism, self.it)
+        it, room = work.it, work.room
         it.motion.velocity[:-1], it.motion.spin[:-1] = velocity, spin
         begin(it.bodies, it.joints, it.springs, it.motion, room)
         room.rate[:] = 0.0
@@ -137,29 +105,34 @@ class RigidBodies:
             start.place[k, :d] = own.centre + (turn @ arm)[:d]
             start.velocity[k, :d] = own.velocity + np.cross(spin, turn @ arm)[:d]
             start.turn[k], start.spin[k] = quaternion(turn), turn.T @ spin
-        it, room = replace(self.it, motion=start.motion()), self._room()
+        work = at_work(self.joined.mechanism, self.it, start)
+        it, room = work.it, work.room
         still = np.tile(np.eye(3), (len(start.place), 1, 1))
         angles_at(it.joints.angles, still, self.rotations(start), it.motion.angle, room.turn)
         begin(it.bodies, it.joints, it.springs, it.motion, room)
         it.motion.time[0] = time
-        return _state(it.motion, room.given, np.zeros(2))
+        if work.stops is not None:
+            work.stops.start(1.0, it.reach(1.0))
+        return work.state(np.zeros(2))
 
-    def slab(self, state: RigidState, time: float, span: float, given: Array) -> RigidState:
-        """State after a slab of length ``span`` [s] with the mean forces ``given`` (n - 1, 4, 3) by solids.
+    def slab(self, state: RigidState, time: float, span: float, given: Array) -> RigidSlab:
+        """Slab of length ``span`` [s] from a state, with the mean forces ``given`` (n - 1, 4, 3) by solids.
 
         Raises
         ------
         NoConvergence
             If the slab has no solution.
         """
-        it, room, told = replace(self.it, motion=state.motion()), self._room(), np.zeros(3)
-        room.given[:] = given
-        self._prepare(it, room)
+        work, told, events = at_work(self.joined.mechanism, self.it, state), np.zeros(3), list[StopEvent]()
+        work.room.given[:] = given
         try:
-            march_on(it, room, time, span, 1, told)
+            if work.stops is None:
+                march_on(work.it, work.room, time, span, 1, told)
+            else:
+                events = work.stops.slab(time, span, work.it.reach(span), told)[0]
         except NumericsError as error:
             raise NoConvergence(str(error)) from None
-        return _state(it.motion, room.given, told[:2])
+        return RigidSlab(state=work.state(told[:2]), events=tuple(events))
 
     def motions(self, before: RigidState, moved: Array, start: float, end: float) -> dict[str, RigidMotion]:
         """Motion of each body over a slab from a state, with the displacements and rotation vectors (n, 6)."""
@@ -209,9 +182,8 @@ class RigidBodies:
 
     def bodies(self, state: RigidState) -> dict[str, BodyState]:
         """State of each body."""
-        it, room = replace(self.it, motion=state.motion()), self._room()
-        self._prepare(it, room)
-        return {name: body_state(self.mechanism, self.joined, it, room, name) for name in self.mechanism.bodies}
+        work = at_work(self.joined.mechanism, self.it, state)
+        return {n: body_state(self.mechanism, self.joined, work.it, work.room, n) for n in self.mechanism.bodies}
 
     def energies(self, state: RigidState) -> RigidEnergies:
         """Energies in a state."""
@@ -227,15 +199,6 @@ class RigidBodies:
         it, mass = self.it, self.it.bodies.mass[:, None]
         turned = np.einsum("nij,njk,nk->ni", self.rotations(state), it.bodies.inertia, state.spin)
         return mass * state.velocity, np.asarray(mass * np.cross(state.place, state.velocity) + turned)
-
-    def _room(self) -> Space:
-        return space(self.it.joints, len(self.it.names), len(self.it.bodies.jointed), given=True)
-
-    def _prepare(self, it: Arrays, room: Space) -> None:
-        """Prepare the work space for a state, without changing its energies."""
-        energy = it.motion.energy.copy()
-        begin(it.bodies, it.joints, it.springs, it.motion, room)
-        it.motion.energy[:] = energy
 
     def rotations(self, state: RigidState) -> Array:
         """Rotations (n, 3, 3)."""
@@ -263,11 +226,7 @@ def rigid_bodies(mechanism: Mechanism) -> RigidBodies:
     Raises
     ------
     InputError
-        For what a mechanism refuses, and for stops.
+        For what a mechanism refuses.
     """
-    if mechanism.stops:
-        name = next(iter(mechanism.stops))
-        problem = "a stop between rigid bodies in a scene with solids"
-        raise InputError(f"stops.{name}", problem, "contacts with solids, or a mechanism without solids")
     joined = welded(mechanism)
     return RigidBodies(mechanism=mechanism, joined=joined, it=arrays(joined.mechanism))

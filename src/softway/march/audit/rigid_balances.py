@@ -7,7 +7,8 @@ import numpy as np
 from softway.arrays import Array
 from softway.march.model_state import ModelState
 from softway.model.model import Model
-from softway.model.rigid_bodies import RigidBodies, RigidState
+from softway.model.rigid_bodies import RigidBodies
+from softway.model.rigid_state import RigidState
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

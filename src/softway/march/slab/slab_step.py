@@ -3,15 +3,19 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from softway.arrays import Array
 from softway.bodies.assembled import material_states
 from softway.errors import Cancel, InputError, Unbalanced
 from softway.march.model_state import ModelState
-from softway.march.results.slab_result import SlabResult
+from softway.march.results.slab_result import SlabResult, ordered_events
+from softway.march.results.step import Event
 from softway.march.results.trying import TryWatch
 from softway.march.rules.declared import slab_rule
 from softway.march.rules.slab_rule import Attempt, Method, SlabRule
 from softway.march.slab.with_rigid import coupled_slabs
+from softway.mechanisms.members.stops import StopEvent
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import TimeWeight
@@ -72,7 +76,22 @@ def advance(
             yield _state(slab, out), out, after
         return
     for found in coupled_slabs(stepper.rule, model, now, slab, memory, attempt):
-        yield replace(_state(slab, found.out), rigid=found.rigid), found.out, found.memory
+        events = ordered_events((*found.out.events, *(_told(model, event) for event in found.events)), slab)
+        yield replace(_state(slab, found.out), rigid=found.rigid), replace(found.out, events=events), found.memory
+
+
+def _told(model: Model, event: StopEvent) -> Event:
+    """Event of a stop between rigid bodies: it has a name, but no node and no place of its own."""
+    return Event(
+        time=event.time,
+        contact=event.stop,
+        kind=event.kind,
+        node=-1,
+        position=np.full(model.shape[1], np.nan),
+        velocity_before=event.velocity_before,
+        velocity_after=event.velocity_after,
+        impulse=event.impulse,
+    )
 
 
 def _state(slab: Slab, out: SlabResult) -> ModelState:

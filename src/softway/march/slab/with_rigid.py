@@ -18,8 +18,10 @@ from softway.march.results.slab_result import SlabResult
 from softway.march.rules.slab_rule import Attempt, SlabRule
 from softway.march.slab.carried_response import Probing
 from softway.march.slab.rigid_forces import forces_on_rigid
+from softway.mechanisms.members.stops import StopEvent
 from softway.model.model import Model
-from softway.model.rigid_bodies import RigidBodies, RigidState
+from softway.model.rigid_bodies import RigidBodies, RigidSlab
+from softway.model.rigid_state import RigidState
 from softway.model.slab import Slab
 from softway.solve.methods.anderson import Anderson
 from softway.solve.operators.operator_memory import OperatorMemory
@@ -43,11 +45,14 @@ ROUGH, SHARE = 1e-5, 0.003
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class CoupledSlab:
-    """Slab of solids, with the state of the rigid bodies at its end that belongs to the forces on them."""
+    """Slab of solids, with the state of the rigid bodies at its end that belongs to the forces on them, and the events
+    of their stops.
+    """
 
     out: SlabResult
     rigid: RigidState
     memory: OperatorMemory
+    events: tuple[StopEvent, ...]
 
 
 def coupled_slabs(
@@ -75,7 +80,8 @@ def coupled_slabs(
         agrees = change <= max(AGREES * scale, it.least) or (seen.since >= PATIENCE and change <= NEARLY * scale)
         if agrees and change < 0.5 * closest and attempt.tolerance <= AGREES:
             closest, after = change, it.after(given)
-            yield CoupledSlab(out=replace(out, iterations=iterations), rigid=after, memory=memory)
+            whole = replace(out, iterations=iterations)
+            yield CoupledSlab(out=whole, rigid=after.state, memory=memory, events=after.events)
         if closest < np.inf and (seen.since >= PATIENCE or change <= it.least):
             return
         step = it.newton(out, given) if step is None else step
@@ -113,13 +119,13 @@ class _Iteration:
         """Units (6,) of motions."""
         return np.array([1.0] * 3 + [self.extent] * 3)
 
-    def after(self, given: Array) -> RigidState:
-        """State at the end of the slab with mean forces ``given`` (b, 4, 3)."""
+    def after(self, given: Array) -> RigidSlab:
+        """Slab of the rigid bodies with mean forces ``given`` (b, 4, 3)."""
         return self.rigid.slab(self.before, self.slab.start, self.slab.span, given)
 
     def follow(self, given: Array) -> Array:
         """Motions (n, 6) with mean forces ``given`` (b, 4, 3)."""
-        return self.rigid.moved(self.before, self.after(given)) * self.unit
+        return self.rigid.moved(self.before, self.after(given).state) * self.unit
 
     def moving(self, x: Array) -> Model:
         """Model whose rigid bodies have the motions x (n, 6)."""

@@ -73,7 +73,7 @@ def initial_state(
         pressure=pressure,
         traction=rest.traction,
         sliding=rest.sliding,
-        rigid=None if model.rigid is None else model.rigid.start(),
+        rigid=None if model.rigid is None else model.rigid.start(span),
     )
 
 

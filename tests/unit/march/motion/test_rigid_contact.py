@@ -10,11 +10,12 @@ from softway.apps.verify.exact.contact import Impact, contact_modulus
 from softway.bodies.internal_force.slab_average import EnergyMomentum
 from softway.laws.friction import Frictionless
 from softway.march.march import march
-from softway.mechanisms import Mechanism, Rigid, Slider
+from softway.mechanisms import Mechanism, PlaneStop, Rigid, Slider
 from softway.meshes.generators.graded import grid
 from softway.model.scene import StaticStart
 from softway.obstacles.half_space import HalfSpace
 from softway.obstacles.primitives import Block, Sphere
+from softway.record.storage.serialisation import packed, unpacked
 
 BLOCK = sw.Solid(
     mesh=sw.meshes.Rectangle(size=(12.0, 6.0), cells=(12, 6)), material=sw.LinearElastic(E=1000.0, nu=0.3), density=1.0
@@ -146,6 +147,25 @@ def test_a_box_that_slides_on_an_elastic_layer_is_braked_by_coulomb_s_law():
     assert last.velocity[0] == pytest.approx(1.0 - 0.2 * pressed, rel=1e-3)
     energy = steps[0].ledger.energy_kinetic
     assert max(abs(s.ledger.energy_error) for s in steps) < 1e-10 * energy
+
+
+@pytest.mark.parametrize(("restitution", "mu"), [(1.0, 0.0), (0.5, 0.2)], ids=["elastic", "rough"])
+def test_a_disc_bounces_between_a_solid_and_a_stop_and_goes_on_after_a_checkpoint(restitution, mu):
+    ceiling = PlaneStop(between=("ground", "disc"), point=PLACE, plane=(0.0, 8.2), normal=(0.0, -1.0), radius=1.0,
+                        restitution=restitution, friction=mu)  # fmt: skip
+    fixed = replace(BLOCK, supports=(sw.Fixed(on="bottom"),))
+    bouncing = scene(block=fixed, stops={"ceiling": ceiling})
+    steps = list(march(bouncing, until=2.0, step=0.02))
+    energy = steps[0].ledger.energy_kinetic
+    assert max(abs(s.ledger.energy_error) for s in steps) < 1e-11 * energy
+    assert (steps[-1].ledger.dissipation > 0.1) == (restitution < 1.0)
+    touches = [e for s in steps for e in s.events if e.contact == "ceiling"]
+    assert [e.kind for e in touches][0] == "touch"
+    assert touches[0].velocity_after == pytest.approx(-restitution * touches[0].velocity_before, rel=1e-9)
+    rest = list(march(bouncing, until=2.0, step=0.02, state=unpacked(*packed(steps[49].march_state))))
+    for one, other in zip(steps[50:], rest, strict=True):
+        assert (one.after.rigid["disc"].centre == other.after.rigid["disc"].centre).all()
+        assert (one.after.displacement["block"] == other.after.displacement["block"]).all()
 
 
 @pytest.mark.parametrize(
