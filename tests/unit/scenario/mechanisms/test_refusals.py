@@ -9,16 +9,35 @@ from softway.scenario.checks.check import check
 from softway.scenario.files import load
 
 FOLDER = Path(__file__).parents[4] / "scenarios"
-SOLID = (
-    "{kind='Solid', mesh={kind='Rectangle', size=[1, 1], cells=[1, 1]}, material={kind='LinearElastic', E=1, nu=0.3}, "
-    "density=1}"
-)
+TOOL = "{kind='Tool', shape={kind='HalfSpace', point=[0, -1], normal=[0, 1]}}"
+BEAM = "hammer_on_beam.toml"
+BESIDE = {
+    "no surface": (
+        "bodies.hammer={kind='Rigid', mass=1, centre=[0.4, 0.06], inertia=1}", "contacts[0].between", "shape",
+    ),
+    "the rigid body first": ("contacts=[{between=['hammer', 'beam.top']}]", "contacts[0].between", "the solid first"),
+    "a tag of a rigid body": ("contacts=[{between=['beam.top', 'hammer.face']}]", "contacts[0].between", "its name"),
+    "no such carrier": ("bodies.beam.supports=[{kind='Carried', on='left', by='hamer'}]", "supports[0].by", "hammer"),
+    "an inertia": ("inertia={kind='Scaled', factor=2}", "inertia", "omit it"),
+    "a static start": ("start=StaticStart", "start", "AsGiven"),
+    "an explicit method": ("solver=Explicit", "solver", "FixedPoint"),
+    "a probe of nobody": ("output.probes=[{name='p', of='bean', tag='left'}]", "output.probes[0].of", "hammer"),
+    "a surface in space": (
+        "bodies.hammer.shape={kind='Sphere', centre=[0, 0, 0], radius=1}", "bodies.hammer.shape", "a shape in 2D",
+    ),
+    "a body in space": ("bodies.hammer={kind='Rigid', mass=1, centre=[0, 0, 0]}", "joints.pivot", "3 coord"),
+    "gravity that changes": (
+        "loads=[{kind='Gravity', acceleration=[0, -9.81], ramp={times=[0, 1], factors=[0, 1]}}]",
+        "loads[0].ramp",
+        "omit",
+    ),
+}  # fmt: skip
 WRONG = {
     "a misspelt key": ("joints.pin.betwen=['crank', 'rod']", "joints.pin.betwen", "", "did you mean 'between'"),
     "a misspelt kind": ("joints.pin.kind=Hing", "joints.pin.kind", "'Hing'", "did you mean 'Hinge'"),
     "a misspelt body": ("joints.pin.between=['crunk', 'rod']", "joints.pin.between", "'crunk'", "did you mean 'crank'"),
     "a wrong unit": ("bodies.crank.mass=40 mm", "bodies.crank.mass", "40 mm", "kg"),
-    "a solid among rigid bodies": (f"bodies.slider={SOLID}", "bodies.crank.kind", "'slider'", '"Rigid" for all'),
+    "a tool among rigid bodies": (f"bodies.slider={TOOL}", "bodies.slider.kind", "'slider'", "[stops.NAME]"),
     "a contact": ("contacts=[{between=['crank', 'rod']}]", "contacts[0]", "'crank', 'rod'", "[stops.NAME]"),
     "a traction": ("loads=[{kind='Traction', on='rod.top', value=[0, 1]}]", "loads[0]", "'rod.top'", "[[torques]]"),
     "a static start": ("start=StaticStart", "start", "StaticStart", "omit it"),
@@ -88,3 +107,11 @@ def test_solids_neither_spin_nor_rotate():
     probe = "output.probes=[{name='p', of='bar', tag='left', quantity='spin'}]"
     with pytest.raises(InputError, match="'spin' is not recorded"):
         check(load(FOLDER / "paper_bar.toml", [probe]))
+
+
+@pytest.mark.parametrize("case", sorted(BESIDE))
+def test_refusals_of_rigid_bodies_beside_solids(case):
+    change, where, remedy = BESIDE[case]
+    with pytest.raises(InputError) as found:
+        check(load(FOLDER / BEAM, [change]))
+    assert found.value.where.endswith(where) and remedy in found.value.remedy, found.value

@@ -1,0 +1,88 @@
+"""Runs of solids and rigid bodies together: records, probes, pictures, audit, resumption."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import softway as sw
+from softway.apps.cli.commands import main
+from softway.march.march import march
+from softway.record.storage.table import read
+from softway.scenario.checks.check import check
+
+FOLDER = Path(__file__).parents[4] / "scenarios"
+SHORT = ("bodies.beam.mesh.cells=[20, 2]", "time.end=6 ms", "time.step=0.2 ms", "output.fields_every=1 ms")
+STOP = (
+    "stops.limit={kind='PlaneStop', between=['ground', 'hammer'], point=[0.4, 0.06], plane=[0, '0.0599 m'], "
+    "normal=[0, 1], restitution=0.5}"
+)
+TABLES = ("history.csv", "rigid.csv", "events.csv", "scenario.toml")
+
+
+def scenario(*more):
+    return sw.load(FOLDER / "hammer_on_beam.toml", (*SHORT, *more))
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    return sw.run(scenario(), tmp_path_factory.mktemp("with_solids") / "run")
+
+
+def test_the_tables_hold_the_motion_of_the_march(run):
+    checked = check(scenario())
+    steps = list(march(checked.model, until=6e-3, step=checked.step))
+    table = read(run.path / "rigid.csv")
+    assert table.rows == len(steps) + 1
+    for row, step in enumerate(steps, 1):
+        hammer = step.after.rigid["hammer"]
+        assert [table[f"hammer.{axis}"][row] for axis in "xy"] == hammer.centre.tolist()
+        assert table["hammer.spin"][row] == hammer.spin[0]
+    assert run.history["hammer angle"][-1] == pytest.approx(table["hammer.angle"][-1], rel=1e-12)
+    assert run.history["energy_error"] == pytest.approx(0.0, abs=1e-10 * run.history["energy_kinetic"][0])
+    assert {"touch"} <= set(run.events["kind"].tolist())
+
+
+def test_the_frames_show_the_body_where_it_is(run):
+    cells, times = run.fields.cells, run.fields.times
+    for k in (0, len(times) - 1):
+        placed = cells.obstacles(float(times[k]))["hammer"]
+        table = read(run.path / "rigid.csv")
+        row = int(np.argmin(np.abs(table["time"] - times[k])))
+        turn = table["hammer.angle"][row]
+        arm = np.array([0.36 - 0.4, 0.035 - 0.06])
+        c, s = np.cos(turn), np.sin(turn)
+        centre = np.array([table["hammer.x"][row], table["hammer.y"][row]]) + np.array([[c, -s], [s, c]]) @ arm
+        assert float(placed.gap(centre[None])[0]) == pytest.approx(-0.03, rel=1e-12)
+
+
+def test_show_plot_and_audit_take_the_run(run, capsys, tmp_path):
+    for command in (["show", str(run.path)], ["plot", str(run.path), "--out", str(tmp_path / "bodies.png")]):
+        main(command)
+    assert (tmp_path / "bodies.png").stat().st_size > 10_000
+    assert "contact beam.top-hammer" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("more", [(), (STOP,)], ids=["contact", "contact and stop"])
+def test_an_interrupted_run_ends_with_the_same_bits(more, tmp_path):
+    whole = sw.run(scenario(*more), tmp_path / "whole")
+
+    def stop(progress):
+        if progress.fraction >= 0.5:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sw.run(scenario(*more), tmp_path / "run", progress=stop)
+    done = sw.resume(tmp_path / "run")
+    for file in TABLES:
+        assert (done.path / file).read_bytes() == (whole.path / file).read_bytes(), file
+    if more:
+        assert "limit" in whole.events["contact"].tolist()
+
+
+def test_a_flexible_rod_moves_the_slider_nearly_as_a_rigid_one(tmp_path):
+    changes = ("bodies.rod.mesh.cells=[6, 1]", "bodies.rod.material.E=200 GPa", "time.end=20 ms", "time.step=1 ms")
+    run = sw.run(sw.load(FOLDER / "flexible_crank.toml", changes), tmp_path / "run")
+    angle = 40.0 * run.history["time"]
+    rigid = 0.1 * np.cos(angle) + np.sqrt(0.4**2 - (0.1 * np.sin(angle)) ** 2)
+    assert run.history["slider"] == pytest.approx(rigid, abs=2e-5)
