@@ -1,4 +1,4 @@
-"""Random drops marched and judged: ``python tests/robustness/run_drops.py COUNT``."""
+"""Random drops marched and judged: ``python tests/robustness/run_drops.py COUNT``, with ``--rigid`` rigid bodies."""
 
 import argparse
 import collections
@@ -12,10 +12,12 @@ from typing import Any
 import numpy as np
 
 from inputs.drops import Drop, drop
+from inputs.rigid_drops import rigid_drop
 from softway.errors import InputError, NumericsError
+from softway.mechanisms.march import MechanismStep
 from softway.record.audit.folder import frames_audited
 from softway.record.run import Run
-from softway.record.write.progress import Progress
+from softway.record.write.progress import MechanismProgress, Progress
 from softway.scenario.checks.check import Checked, check
 from softway.scenario.checks.softening_notes import softening_notes
 from softway.scenario.files import loads
@@ -40,9 +42,15 @@ class Watch:
         self.slabs = self.rejections = 0
         self.first = 0.0
 
-    def __call__(self, progress: Progress) -> None:
+    def __call__(self, progress: Progress | MechanismProgress) -> None:
         """Look at an accepted slab."""
         step = progress.step
+        if isinstance(step, MechanismStep):
+            self.slabs = progress.slabs
+            self.first = max(self.first, step.energy_kinetic + abs(step.energy_potential) + abs(step.dissipation))
+            self._worse("energy", abs(step.energy_error) / (self.first + 1e-300))
+            self._worse("depth", step.joints)
+            return
         found, ledger = step.certificate, step.ledger
         self.slabs, self.rejections = self.slabs + 1, self.rejections + len(step.report.rejections)
         self.first = max(self.first, ledger.energy_kinetic + ledger.energy_strain + abs(ledger.dissipation))
@@ -63,11 +71,14 @@ def judged(given: Drop, units: Units) -> dict[str, Any]:
     signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
     end, why, seen, noted = "done", "", {"findings": "", "given_back": 0.0}, False
     try:
-        checked: Checked = check(loads(given.text, folder=ROOT, units=units))
-        noted = bool(softening_notes(checked.model, checked.contacts))
+        checked = check(loads(given.text, folder=ROOT, units=units))
+        if isinstance(checked, Checked):
+            noted = bool(softening_notes(checked.model, checked.contacts))
         with tempfile.TemporaryDirectory() as place:
             done = run(checked, Path(place) / "run", progress=watch)
-            why, seen = _unrecorded(done) or _unsaid(done), _seen(done)
+            why = _unrecorded(done)
+            if isinstance(checked, Checked):
+                why, seen = why or _unsaid(done), _seen(done)
             end = "defect" if why else "done"
     except NumericsError as error:
         crawls = "crawls: " if "rejections among" in error.what or "stays at h" in error.what else ""
@@ -122,10 +133,16 @@ def fall(number: int) -> dict[str, Any]:
     return judged(drop(number), Units.standard())
 
 
-def _dead(number: int, how: Complaint) -> dict[str, Any]:
+def fall_rigid(number: int) -> dict[str, Any]:
+    """The drop with rigid bodies of a number, judged."""
+    return judged(rigid_drop(number), Units.standard())
+
+
+def _dead(given: Drop, how: Complaint) -> dict[str, Any]:
     """What is told of a drop whose process died."""
+    number = given.number
     told = {"number": number, "end": "defect", "why": how.text, "slabs": 0, "rejections": 0, "seconds": float(SECONDS)}
-    return {**told, **Watch().worst, "findings": "", "given_back": 0.0, **drop(number).traits}
+    return {**told, **Watch().worst, "findings": "", "given_back": 0.0, **given.traits}
 
 
 def main() -> None:
@@ -135,14 +152,16 @@ def main() -> None:
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--go-on", action="store_true")
+    parser.add_argument("--rigid", action="store_true")
     given = parser.parse_args()
+    falls, made = (fall_rigid, rigid_drop) if given.rigid else (fall, drop)
     kept = given.out.read_text().splitlines() if given.go_on and given.out.is_file() else []
     found = {line["number"]: line for line in map(json.loads, kept)}
     given.out.parent.mkdir(parents=True, exist_ok=True)
     with given.out.open("w") as lines:
         lines.writelines(f"{line}\n" for line in kept)
-        for number, told, _ in answers([n for n in range(given.count) if n not in found], fall, given.jobs):
-            found[number] = _dead(number, told) if isinstance(told, Complaint) else told
+        for number, told, _ in answers([n for n in range(given.count) if n not in found], falls, given.jobs):
+            found[number] = _dead(made(number), told) if isinstance(told, Complaint) else told
             lines.write(json.dumps(found[number]) + "\n")
             lines.flush()
             if found[number]["end"] != "done":
