@@ -165,10 +165,10 @@ class Stops:
 
         A single one in the plane is followed through its sliding.  False if it has no solution.
         """
-        none, rows = np.zeros(len(self.rows)), self.rows[these].ravel()
-        if len(rows) == 2 and these.sum() == 1:
+        none, k = np.zeros(len(self.rows)), int(np.argmax(these))
+        rows = self.rows[k, : self.tangential.stop]
+        if len(rows) == 2 and these.sum() == 1 and not self.friction[k, 1:].any():
             found = np.zeros(2)
-            k = int(np.argmax(these))
             tables = self.it.bodies, self.it.joints, self.it.motion, self.room
             solved = collide_at_once(*tables, rows, self.coefficients()[k, 0], ratio[k], found)
             impulse[k] += found[0]

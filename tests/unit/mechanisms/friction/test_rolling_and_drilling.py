@@ -136,6 +136,20 @@ def test_stops_without_such_friction_beside_others_have_none() -> None:
     assert last.bodies["arm"].spin[2] == pytest.approx(-0.5, rel=1e-12)
 
 
+def test_an_impact_without_such_friction_is_that_of_a_mechanism_without() -> None:
+    """A rod hits the floor by Poisson's law and slides back, alone and beside a disc that rolls."""
+    tip = (2.0, 0.0)
+    rod = Rigid(mass=1.0, centre=(2.4, 0.35), inertia=0.1, velocity=(0.5, -1.0))
+    floor = PlaneStop(between=("ground", "rod"), point=tip, plane=tip, normal=(0.0, 1.0), friction=0.3, restitution=0.5)
+    disc = rolling(2, 0.5, 0.2, rolling=0.004)
+    words = {"restitution": "Poisson", "impacts": "sequential"}
+    alone = Mechanism(bodies={"rod": rod}, stops={"floor": floor}, **words)
+    both = Mechanism(bodies={**disc.bodies, "rod": rod}, stops={**disc.stops, "floor": floor}, **words)
+    one, other = (next(iter(march(it, until=0.01, step=0.01))).bodies["rod"] for it in (alone, both))
+    np.testing.assert_allclose([*one.velocity, *one.spin], [*other.velocity, *other.spin], rtol=1e-14)
+    assert one.spin[0] < -1.0
+
+
 @pytest.mark.parametrize("key", ["rolling", "drilling"])
 def test_wrong_lengths_are_refused(key: str) -> None:
     for value, dim in ((-1.0, 3), (np.inf, 3), *([(0.1, 2)] if key == "drilling" else [])):

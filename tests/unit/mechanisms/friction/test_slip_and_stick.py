@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from softway.errors import InputError
-from softway.mechanisms import Mechanism, MechanismStep, Motor, PlaneStop, Rigid, Slider, Spring, Steady, march
+from softway.mechanisms import Mechanism, MechanismStep, Motor, PlaneStop, Rigid, Sine, Slider, Spring, Steady, march
 
 G = 9.81
 SHEET = json.loads(files("softway.apps.verify.data.friction").joinpath("C03.json").read_text(encoding="utf-8"))
@@ -145,6 +145,49 @@ def test_a_box_on_a_conveyor_takes_twice_the_energy_that_it_gets() -> None:
         assert last.work == pytest.approx(m * speed**2, rel=1e-6)
         assert last.dissipation == pytest.approx(0.5 * m * speed**2, rel=1e-6)
         assert last.bodies["b"].centre[0] == pytest.approx(speed - 0.5 * speed**2 / (friction * G), abs=1e-6)
+
+
+def test_the_instant_of_slip_is_of_second_order_in_a_curved_force() -> None:
+    """A spring whose end moves as a sine; the force of a slab is the mean of those at its ends."""
+    k, m, amplitude, rate = 50.0, 2.0, 0.3, 2.0
+    bodies = {
+        "b": Rigid(mass=m, centre=(0.0, 0.0)),
+        "pull": Rigid(mass=1.0, centre=(1.0, 0.0), inertia=1.0, velocity=(amplitude * rate, 0.0)),
+    }
+    mechanism = Mechanism(
+        bodies=bodies,
+        joints={"rail": Slider(between=("ground", "pull"), at=(1.0, 0.0), axis=(1.0, 0.0))},
+        motors={"drive": Motor(joint="rail", motion=Sine(amplitude=amplitude, frequency=rate / (2.0 * np.pi)))},
+        stops={"s": on_plane((0.0, 0.0), friction=0.3, mu_s=0.6)},
+        springs=(Spring(between=("b", "pull"), ends=((0.0, 0.0), (1.0, 0.0)), stiffness=k, rest=1.0),),
+        gravity=(0.0, -G),
+    )
+    begins = np.arcsin(0.6 * m * G / (k * amplitude)) / rate
+    curved = 0.5 * rate * np.tan(rate * begins)  # half of the second derivative of the force over the first
+    for h in (0.013, 0.005, 0.0025):
+        found = instants(marched(mechanism, 0.8, h), "slip")[0] - begins
+        assert 0.0 <= found <= 1.1 * curved * h**2
+
+
+def test_a_belt_on_a_cart_moves_box_and_cart_apart() -> None:
+    """The momentum stays zero, and the belt gives both the difference of their velocities."""
+    speed, box, cart = 0.8, 1.0, 3.0
+    bodies = {
+        "b": Rigid(mass=box, centre=(0.0, 0.1), inertia=0.01),
+        "cart": Rigid(mass=cart, centre=(0.0, 0.0), inertia=0.1),
+    }
+    words = {"between": ("cart", "b"), "plane": (0.0, 0.05), "normal": (0.0, 1.0), "velocity": (speed, 0.0)}
+    feet = {k: PlaneStop(point=(x, 0.05), friction=0.2, mu_s=0.3, **words) for k, x in (("l", -0.1), ("r", 0.1))}
+    rails = {"rails": Slider(between=("ground", "cart"), at=(0.0, 0.0), axis=(1.0, 0.0))}
+    mechanism = Mechanism(bodies=bodies, joints=rails, stops=feet, gravity=(0.0, -G))
+    steps = marched(mechanism, 0.6, 0.002)
+    assert max(abs(s.momentum[0]) for s in steps) < 1e-13
+    last = steps[-1]
+    moving = [last.bodies[name].velocity[0] for name in ("b", "cart")]
+    np.testing.assert_allclose(moving, [speed * cart / (box + cart), -speed * box / (box + cart)], rtol=1e-10)
+    kinetic = 0.5 * box * cart / (box + cart) * speed**2
+    assert last.work == pytest.approx(2.0 * kinetic, rel=1e-6)
+    assert last.dissipation == pytest.approx(kinetic, rel=1e-6)
 
 
 def test_a_belt_across_a_slope_carries_a_box_that_sticks() -> None:
