@@ -95,14 +95,14 @@ class Run:
         Parameters
         ----------
         file
-            ``.csv``, a line for each instant and body; ``.json``; or ``.npz``, arrays of NumPy.
+            ``.csv``, a line for each instant and body; ``.json``; ``.npz``, arrays of NumPy; ``.gltf``, an animation.
 
         Raises
         ------
         InputError
             For another kind of file, a file that cannot be written, or the run of solids.
         """
-        from softway.record.read.body_motion import export
+        from softway.record.export.motion import export
 
         return export(self, file)
 

@@ -14,7 +14,7 @@ from softway.errors import InputError
 from softway.record.audit.auditor import Depths
 from softway.record.audit.folder import frames_audited, history_audited, unsaid
 from softway.record.audit.mechanism import audited_mechanism
-from softway.record.read.body_motion import export as write_motion
+from softway.record.export.motion import export as write_motion
 from softway.record.read.findings import gathered, stored
 from softway.record.run import SCENARIO, Run
 from softway.record.write.fields import FILE as FIELDS
@@ -45,7 +45,7 @@ def export(folder: Path, /, *, to: Path) -> None:
     folder
         Run folder of a mechanism.
     to
-        File to write: .csv, .json or .npz (NumPy), by the end of its name.
+        File to write: .csv, .json, .npz (NumPy) or .gltf (animation), by the end of its name.
     """
     run = Run(folder)
     if not run.of_mechanism:

@@ -131,3 +131,17 @@ def test_a_sweep_resumes_mechanisms(tmp_path):
     again = sw.sweep(file, values, out=tmp_path / "sweep", changes=changes, jobs=1)
     assert not again.failed and (folder / "motion.csv").read_bytes() == whole
     assert sw.Run(folder).provenance["resumed"]
+
+
+def test_a_checkpoint_of_a_mechanism_is_not_used_for_solids(tmp_path):
+    run = interrupted("hammer_on_stop", tmp_path / "run", 0.3)
+
+    def stop(progress):
+        if progress.slabs == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sw.run(sw.load(FOLDER / "paper_bar.toml", ("time.end=0.5 s",)), tmp_path / "solids", progress=stop)
+    for file in listed(tmp_path / "solids"):
+        file.write_bytes(listed(run.path)[0].read_bytes())
+    assert sw.resume(tmp_path / "solids").provenance["resumed"][0]["slabs"] == 0

@@ -46,7 +46,7 @@ def draw(axis: "Axes", poses: Poses, row: int, size: float, alpha: float = 1.0) 
                 _plane(axis, poses, stop, row, size)
     for name, colour in of.items():
         _body(axis, poses, name, row, colour, size, alpha)
-        for radius, start in _radii(poses, name):
+        for radius, start in radii(poses, name):
             _ball(axis, poses.point(name, start, row), radius, colour, alpha)
             _marks(axis, poses, name, start, row, radius, colour, alpha)
     for spring in poses.parts["springs"]:
@@ -63,7 +63,7 @@ def _body(axis: "Axes", poses: Poses, name: str, row: int, colour: str, size: fl
     """Hull of the points of a body, the line between two of them, or a block, and its centre."""
     points, centre = poses.points(name, row), poses.point(name, poses.parts["bodies"][name], row)
     axis.plot(*centre, "o", ms=4.0, color=colour, alpha=alpha, mec="white", mew=0.6, zorder=4)
-    if len(points) == 1 and not _radii(poses, name):
+    if len(points) == 1 and not radii(poses, name):
         corner = 2.0 * SMALL * size * poses.direction(name, [1.0, 0.7, 0.0][: poses.parts["dim"]], row)
         other = 2.0 * SMALL * size * poses.direction(name, [-1.0, 0.7, 0.0][: poses.parts["dim"]], row)
         points = points[0] + np.array([corner, other, -corner, -other])
@@ -88,7 +88,7 @@ def _hull(points: Array) -> Array | None:
     return np.asarray(points[found.vertices]) if found.volume > SLENDER * length**2 else None
 
 
-def _radii(poses: Poses, name: str) -> list[tuple[float, list[float]]]:
+def radii(poses: Poses, name: str) -> list[tuple[float, list[float]]]:
     """Radii [m] and places at the start of the balls that stops put around points of a body."""
     found: dict[tuple[float, ...], float] = {}
     for stop in poses.parts["stops"]:

@@ -54,15 +54,7 @@ class Poses:
 
     def points(self, body: str, row: int) -> Array:
         """Places (n, 2) of the joints, springs and stops of a body, and of its centre."""
-        starts = [
-            tuple(point)
-            for part in (*self.parts["joints"], *self.parts["springs"])
-            for name, point in zip(part["between"], part["points"], strict=True)
-            if name == body
-        ]
-        starts += [tuple(point) for stop in self.parts["stops"] for point in _tips(stop, body)]
-        starts.append(tuple(self.parts["bodies"][body]))
-        return np.array([self.point(body, start, row) for start in dict.fromkeys(starts)])
+        return np.array([self.point(body, start, row) for start in body_points(self.parts, body)])
 
     def path(self, body: str, start: Sequence[float]) -> Array:
         """Path (t, 2) of a point of a body."""
@@ -81,6 +73,18 @@ class Poses:
 def seen(place: Array) -> Array:
     """Place or direction (2,) in the picture of one in the plane or in space."""
     return place if len(place) == 2 else np.array(CORNER) @ place
+
+
+def body_points(parts: Mapping[str, Any], body: str) -> list[tuple[float, ...]]:
+    """Points at the start of the joints, springs and stops of a body, and its centre."""
+    starts = [
+        tuple(point)
+        for part in (*parts["joints"], *parts["springs"])
+        for name, point in zip(part["between"], part["points"], strict=True)
+        if name == body
+    ]
+    starts += [tuple(point) for stop in parts["stops"] for point in _tips(stop, body)]
+    return list(dict.fromkeys([*starts, tuple(parts["bodies"][body])]))
 
 
 def _tips(stop: Mapping[str, Any], body: str) -> list[list[float]]:

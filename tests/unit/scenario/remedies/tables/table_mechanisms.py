@@ -73,7 +73,6 @@ TABLE: Table = {
     "no rigid, impacts": Try(PLANE, "impacts=sequential", 'kind = "Rigid" only', RIGID),
     "contacts": Try(LINKS, "contacts=[{between=['a', 'c']}]", "[stops.NAME]", "contacts=[]"),
     "weight": Try(LINKS, "time.weight=Momentum", "omit it", "time.weight=EndPeaks"),
-    "checkpoints": Try(LINKS, "output.checkpoints.keep=0", "omit it", "output.checkpoints.keep=2"),
     "no body": Try(LINKS, "joints.k.between=['a', 'b']", "known: a, c, ground", "joints.k.between=['a', 'c']"),
     "no body of a torque": Try(LINKS, "torques=[{on='b', value=1}]", "known: a, c", "torques=[{on='a', value=1}]"),
     "traction": Try(

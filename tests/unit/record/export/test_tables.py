@@ -9,7 +9,7 @@ import pytest
 import softway as sw
 from softway.apps.cli.commands import main
 from softway.mechanisms import Rigid
-from softway.record.read.body_motion import ENTRIES, UNITS
+from softway.record.export.tables import ENTRIES, UNITS
 from softway.record.storage import table
 from softway.record.write.mechanism.columns import rotation_of, rotation_vector
 
@@ -91,7 +91,7 @@ def test_the_command_exports_and_refuses(run, tmp_path, capsys):
     assert main(["export", str(run.path), "--to", str(out)]) == 0 and out.is_file()
     assert "2 bodies at 101 instants" in capsys.readouterr().out
     assert main(["export", str(run.path), "--to", str(tmp_path / "motion.xls")]) == 2
-    assert ".csv, .json, .npz" in capsys.readouterr().err
+    assert ".csv, .json, .npz, .gltf" in capsys.readouterr().err
     assert main(["export", str(run.path), "--to", str(tmp_path / "none" / "motion.csv")]) == 2
     solids = sw.run(sw.load(FOLDER / "paper_bar.toml", ["time.end=0.05 s"]), tmp_path / "bar")
     assert main(["export", str(solids.path), "--to", str(out)]) == 2

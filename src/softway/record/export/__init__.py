@@ -1,0 +1,1 @@
+"""Export of the motion of rigid bodies to files of other programs."""
