@@ -26,8 +26,11 @@ exclude_patterns = ["_build", "scripts", "web"]
 nitpicky = True
 nitpick_ignore_regex = [  # names of types that are no part of the reference
     ("py:class", r"(numpy|np|sp|collections|pyvista|pathlib|typing)\..*|Path|Callable|Iterator|Mapping|Sequence|Any"),
-    ("py:class", r"(Int|Bool)?Array|Second|Precision|Cancel|Watch|TimeWeight|Method|LawName|Law|Part|Units|Entrant"),
-    ("py:class", r"Records|Modules|ImpactRule|TryWatch|Tell|MechanismWatch|Spin|Velocity|Direction|ArrayLike|NoneType|npt\..*"),
+    (
+        "py:class",
+        r"(Int|Bool)?Array|ArrayLike|Second|Precision|Cancel|Watch|TimeWeight|Method|LawName|Law|Part|Units|Entrant",
+    ),
+    ("py:class", r"Records|Modules|ImpactRule|TryWatch|Tell|MechanismWatch|Spin|Velocity|Direction|NoneType|npt\..*"),
 ]
 
 myst_enable_extensions = ["dollarmath", "amsmath", "deflist"]

@@ -84,3 +84,16 @@ def test_sweeps_that_end_too_early_are_told() -> None:
     assert few.unfinished > 100 > many.unfinished
     assert few.slip_error > 1e3 * 2.0 * 1e-10 * 0.05 / 1e-3
     assert max(few.overlap, many.overlap) <= 1e-10 * 0.05
+
+
+@pytest.mark.parametrize("sweeps", [1, 5])
+@pytest.mark.parametrize("friction", [0.1, 1.5])
+def test_energy_never_grows_however_early_the_sweeps_end(sweeps: int, friction: float) -> None:
+    """In a single slab by no more than forces do through the overlap that is left, in parts of that at the start."""
+    balls = lattice(count=(3, 3, 3), radius=0.05, density=1000.0, lowest=(0.06,) * 3, jitter=0.005)
+    walls = box(lower=(0.0, 0.0, 0.0), upper=(0.4, 0.4, None))
+    pile = Pile(balls=balls, walls=walls, gravity=(0.0, 0.0, -1.0), friction=friction)
+    steps = list(march(pile, until=4.0, step=0.02, sweeps=sweeps))
+    energies = np.array([one.energy_kinetic + one.energy_potential for one in steps])
+    assert sum(one.unfinished for one in steps) > 100
+    assert np.diff(energies).max() < 1e-9 * energies[0]
