@@ -1,5 +1,6 @@
 """Inertia from geometry: analytic values, exact polyhedra, parallel axes, and surfaces that are refused."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import meshio
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 
 import softway as sw
+from softway.errors import InputError
 from softway.mechanisms import (
     Hinge,
     Mechanism,
@@ -24,6 +26,9 @@ from softway.mechanisms import (
 )
 from softway.meshes.generators.graded import grid
 from softway.meshes.mesh import Mesh
+from softway.obstacles.half_space import HalfSpace
+from softway.obstacles.primitives import Block, Cylinder, Sphere
+from softway.obstacles.triangulated import Surface
 
 SIZE, CENTRE, DENSITY = (0.4, 0.7, 1.1), (3.0, -2.0, 5.0), 2700.0
 FACES = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
@@ -181,3 +186,58 @@ BAR = Mesh(points=np.array([[0.0, 0.0], [1.0, 0.0]]), blocks={"bar2": np.array([
 def test_wrong_geometry_is_refused(make, told: str) -> None:
     with pytest.raises(sw.InputError, match=told):
         make()
+
+
+SHAPES = {
+    "ball": (Sphere(centre=(1.0, 2.0, 3.0), radius=0.5), rigid_ball(radius=0.5, density=3.0, centre=(1.0, 2.0, 3.0))),
+    "disc": (Sphere(centre=(1.0, 2.0), radius=0.5), rigid_disc(radius=0.5, density=3.0, centre=(1.0, 2.0))),
+    "cylinder": (
+        Cylinder(start=(0.0, 0.0, 0.0), end=(0.0, 3.0, 4.0), radius=0.5),
+        rigid_cylinder(radius=0.5, length=5.0, density=3.0, centre=(0.0, 1.5, 2.0), axis=(0.0, 3.0, 4.0)),
+    ),
+    "box": (
+        Block(low=(0.0, 0.0, 0.0), high=(1.0, 2.0, 3.0)),
+        rigid_box(size=(1.0, 2.0, 3.0), density=3.0, centre=(0.5, 1.0, 1.5)),
+    ),
+    "rectangle": (
+        Block(low=(0.0, 0.0), high=(1.0, 2.0)),
+        rigid_rectangle(size=(1.0, 2.0), density=3.0, centre=(0.5, 1.0)),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", sorted(SHAPES))
+def test_a_shape_and_a_density_give_the_body_of_the_shape(name):
+    shape, other = SHAPES[name]
+    body = Rigid(shape=shape, density=3.0)
+    assert body.mass == pytest.approx(other.mass, rel=1e-13)
+    assert body.centre == pytest.approx(other.centre, rel=1e-13)
+    assert body.tensor == pytest.approx(other.tensor, rel=1e-13, abs=1e-14)
+    assert replace(body, spin=0.0).mass == body.mass
+    if name != "box":
+        x = np.random.default_rng(1).normal(size=(20, shape.dim))
+        assert other.shape.gap(x) == pytest.approx(shape.gap(x), abs=1e-14)
+
+
+def test_a_surface_of_a_file_and_a_density_give_a_body_with_its_surface():
+    stamp = Surface(file=Path(__file__).parents[3] / "scenarios" / "stamp.stl", scale=1e-3)
+    body = Rigid(shape=stamp, density=7800.0)
+    assert body.mass == pytest.approx(rigid_file(stamp.file, density=7800.0, scale=1e-3).mass, rel=1e-12)
+    assert rigid_file(stamp.file, density=7800.0, scale=1e-3).shape.closed
+
+
+@pytest.mark.parametrize(
+    ("given", "place"),
+    [
+        ({"density": 3.0}, "density"),
+        ({"density": -3.0, "shape": Block(low=(0.0, 0.0), high=(1.0, 1.0))}, "density"),
+        ({"density": 3.0, "shape": HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0))}, "shape"),
+        ({"density": 3.0, "shape": Block(low=(0.0, 0.0), high=(1.0, 1.0)), "mass": 1.0}, "mass"),
+        ({"density": 3.0, "shape": Block(low=(0.0, 0.0), high=(1.0, 1.0)), "centre": (9.0, 9.0)}, "centre"),
+    ],
+    ids=["no shape", "negative", "no volume", "another mass", "another centre"],
+)
+def test_densities_that_do_not_fit_are_refused(given, place):
+    with pytest.raises(InputError) as refused:
+        Rigid(**given)
+    assert refused.value.where == place

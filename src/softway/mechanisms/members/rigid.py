@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array
-from softway.errors import InputError
+from softway.errors import InputError, within
+from softway.mechanisms.members.moments import shape_moments
 from softway.obstacles.primitives import Shape
-from softway.units import Kilogram, KilogramSquareMetre, Metre, MetrePerSecond, RadianPerSecond
+from softway.units import Kilogram, KilogramPerCubicMetre, KilogramSquareMetre, Metre, MetrePerSecond, RadianPerSecond
 
 FAR = 1e100
 """Coordinate beyond which nothing can be computed [m]."""
@@ -26,7 +27,7 @@ class Rigid:
     mass
         Mass, positive [kg].
     centre
-        Centre of mass at the start [m].
+        Centre of mass at the start [m].  Mass, centre and inertia are computed if a shape and a density are given.
     inertia
         Moments of inertia about the centre along the axes of the scene at the start [kg m^2]: one in the plane, and in
         space three principal ones or the tensor.  Zero about all axes is a point mass, which does not turn.
@@ -36,6 +37,10 @@ class Rigid:
         Angular velocity at the start [rad/s]: one component in the plane, three in space.
     shape
         Surface at its place at the start, for contact with solids; none by default.
+    density
+        Density of the material inside the shape [kg/m^3].
+    thickness
+        Thickness of a body in the plane, for its density [m].
 
     Raises
     ------
@@ -47,18 +52,25 @@ class Rigid:
     >>> rod = Rigid(mass=2.0, centre=(0.5, 0.0), inertia=2.0 / 12.0)
     >>> rod.dim, rod.tensor[2, 2].round(4).item()
     (2, 0.1667)
+    >>> from softway.obstacles.primitives import Block
+    >>> Rigid(shape=Block(low=(0.0, 0.0), high=(2.0, 1.0)), density=3.0).mass
+    6.0
     """
 
-    mass: Kilogram
-    centre: tuple[Metre, ...]
+    mass: Kilogram = 0.0
+    centre: tuple[Metre, ...] = ()
     inertia: Inertia = 0.0
     velocity: tuple[MetrePerSecond, ...] | None = None
     spin: RadianPerSecond | tuple[RadianPerSecond, ...] = 0.0
     shape: Shape | None = None
+    density: KilogramPerCubicMetre | None = None
+    thickness: Metre = 1.0
 
     def __post_init__(self) -> None:
+        if self.density is not None:
+            self._fill(self.density)
         if not (np.isfinite(self.mass) and self.mass > 0.0):
-            raise InputError("mass", f"{self.mass:g} kg is not positive", "the mass of the body")
+            raise InputError("mass", f"{self.mass:g} kg is not positive", "the mass of the body, or shape and density")
         if len(self.centre) not in (2, 3) or not (np.abs(np.asarray(self.centre, float)) < FAR).all():
             raise InputError("centre", f"{self.centre} is no place", "two coordinates in the plane, three in space")
         if self.velocity is not None and np.shape(self.velocity) != (self.dim,):
@@ -72,6 +84,24 @@ class Rigid:
         if self.shape is not None and self.shape.dim != self.dim:
             raise InputError("shape", f"in {self.shape.dim}D for a body in {self.dim}D", f"a shape in {self.dim}D")
         _require_inertia(self.tensor)
+
+    def _fill(self, density: float) -> None:
+        """Compute mass, centre and inertia from the shape and the density."""
+        if self.shape is None:
+            raise InputError("density", f"{density:g} kg/m^3 without a shape", "a shape, or mass, centre and inertia")
+        for name in ("density", "thickness"):
+            if not (np.isfinite(getattr(self, name)) and getattr(self, name) > 0.0):
+                raise InputError(name, f"{getattr(self, name):g} is not positive", "a positive number")
+        with within("shape"):
+            found = shape_moments(self.shape)
+        density *= self.thickness if self.shape.dim == 2 else 1.0
+        computed = {"mass": density * found.volume, "centre": found.centre, "inertia": found.inertia(density)}
+        for name, value in computed.items():
+            given, exact = np.asarray(getattr(self, name), float), np.asarray(value, float)
+            same = given.shape == exact.shape and np.abs(given - exact).max() <= ROUNDING * np.abs(exact).max()
+            if given.any() and not same:
+                raise InputError(name, f"{getattr(self, name)} beside a density", f"either {name} or density")
+            object.__setattr__(self, name, value)
 
     @property
     def dim(self) -> int:

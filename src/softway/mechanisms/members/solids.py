@@ -1,11 +1,13 @@
-"""Rigid bodies of simple shapes: mass and inertia from sizes and density."""
+"""Rigid bodies of simple shapes: mass, inertia and surface from sizes and density."""
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.errors import InputError, positive
 from softway.mechanisms.members.rigid import Rigid
 from softway.mechanisms.members.rows import Direction, axes, perpendicular
 from softway.mechanisms.members.volumes import Spin, Velocity
+from softway.obstacles.primitives import Block, Cylinder, Sphere
 from softway.units import KilogramPerCubicMetre, Metre
 
 
@@ -27,7 +29,8 @@ def rigid_ball(
     """
     positive(radius=radius, density=density)
     mass = density * 4.0 / 3.0 * np.pi * radius**3
-    return Rigid(mass=mass, centre=centre, inertia=(0.4 * mass * radius**2,) * 3, velocity=velocity, spin=spin)
+    inertia, shape = (0.4 * mass * radius**2,) * 3, Sphere(centre=centre, radius=radius)
+    return Rigid(mass=mass, centre=centre, inertia=inertia, velocity=velocity, spin=spin, shape=shape)
 
 
 def rigid_cylinder(
@@ -51,7 +54,10 @@ def rigid_cylinder(
     positive(radius=radius, length=length, density=density)
     mass = density * np.pi * radius**2 * length
     along, across = 0.5 * mass * radius**2, mass * (radius**2 / 4.0 + length**2 / 12.0)
-    return Rigid(mass=mass, centre=centre, inertia=_about(axis, along, across), velocity=velocity, spin=spin)
+    half = 0.5 * length * axes(axis, rigid_cylinder)[0]
+    start, end = np.asarray(centre) - half, np.asarray(centre) + half
+    shape, inertia = Cylinder(start=_point(start), end=_point(end), radius=radius), _about(axis, along, across)
+    return Rigid(mass=mass, centre=centre, inertia=inertia, velocity=velocity, spin=spin, shape=shape)
 
 
 def rigid_box(
@@ -125,7 +131,8 @@ def rigid_disc(
     """
     positive(radius=radius, density=density, thickness=thickness)
     mass = density * thickness * np.pi * radius**2
-    return Rigid(mass=mass, centre=centre, inertia=0.5 * mass * radius**2, velocity=velocity, spin=spin)
+    inertia, shape = 0.5 * mass * radius**2, Sphere(centre=centre, radius=radius)
+    return Rigid(mass=mass, centre=centre, inertia=inertia, velocity=velocity, spin=spin, shape=shape)
 
 
 def rigid_rectangle(
@@ -147,7 +154,13 @@ def rigid_rectangle(
     positive(size=min(size), density=density, thickness=thickness)
     mass = density * thickness * size[0] * size[1]
     inertia = mass / 12.0 * (size[0] ** 2 + size[1] ** 2)
-    return Rigid(mass=mass, centre=centre, inertia=inertia, velocity=velocity, spin=spin)
+    low, high = (tuple((np.asarray(centre) + sign * np.asarray(size)).tolist()) for sign in (-0.5, 0.5))
+    shape = Block(low=low, high=high)
+    return Rigid(mass=mass, centre=centre, inertia=inertia, velocity=velocity, spin=spin, shape=shape)
+
+
+def _point(place: Array) -> tuple[float, float, float]:
+    return float(place[0]), float(place[1]), float(place[2])
 
 
 def _about(axis: Direction, along: float, across: float) -> tuple[tuple[float, ...], ...]:

@@ -1,17 +1,17 @@
 """Rigid bodies from meshes and closed surfaces: mass, centre and inertia of the enclosed volume."""
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
-from softway.arrays import Array
 from softway.errors import InputError, within
+from softway.mechanisms.members.moments import Moments, facet_moments
 from softway.mechanisms.members.rigid import Rigid
 from softway.meshes.element import element, exact_degree
 from softway.meshes.files.mesh_files import read_facets
 from softway.meshes.mesh import Mesh
+from softway.obstacles.primitives import Shape
 from softway.obstacles.triangulated import Facets
 from softway.units import KilogramPerCubicMetre, Metre, MetrePerSecond, RadianPerSecond
 
@@ -19,30 +19,18 @@ Velocity = tuple[MetrePerSecond, ...] | None
 Spin = RadianPerSecond | tuple[RadianPerSecond, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Moments:
-    """Volume (area in the plane), its first moments (d,), and its second moments (d, d) about a point (d,)."""
-
-    volume: float
-    first: Array
-    second: Array
-    about: Array
-
-    def rigid(self, density: float, velocity: Velocity, spin: Spin) -> Rigid:
-        """Rigid body of a density, in the plane an area density."""
-        if not (np.isfinite(density) and density > 0.0):
-            raise InputError("density", f"{density:g} is not positive", "the density of the material")
-        mean, dim = self.first / self.volume, len(self.first)
-        spread = density * (self.second - self.volume * np.outer(mean, mean))
-        polar = float(np.trace(spread))
-        inertia = polar if dim == 2 else tuple(map(tuple, (polar * np.eye(3) - spread).tolist()))
-        return Rigid(
-            mass=density * self.volume,
-            centre=tuple((self.about + mean).tolist()),
-            inertia=inertia,
-            velocity=velocity,
-            spin=spin,
-        )
+def _rigid(found: Moments, density: float, velocity: Velocity, spin: Spin, shape: Shape | None = None) -> Rigid:
+    """Rigid body of a density, in the plane an area density."""
+    if not (np.isfinite(density) and density > 0.0):
+        raise InputError("density", f"{density:g} is not positive", "the density of the material")
+    return Rigid(
+        mass=density * found.volume,
+        centre=found.centre,
+        inertia=found.inertia(density),
+        velocity=velocity,
+        spin=spin,
+        shape=shape,
+    )
 
 
 def rigid_mesh(
@@ -87,7 +75,7 @@ def rigid_mesh(
         first += np.einsum("eq,eqi->i", weight, place)
         second += np.einsum("eq,eqi,eqj->ij", weight, place, place)
     found = Moments(volume=volume, first=first, second=second, about=about)
-    return found.rigid(density * _thick(thickness, dim), velocity, spin)
+    return _rigid(found, density * _thick(thickness, dim), velocity, spin)
 
 
 def rigid_surface(
@@ -100,6 +88,8 @@ def rigid_surface(
     spin: Spin = 0.0,
 ) -> Rigid:
     """Rigid body inside a closed surface of flat facets, exactly; further shells inside it are cavities.
+
+    The surface is its shape, for contact with solids.
 
     Parameters
     ----------
@@ -122,19 +112,7 @@ def rigid_surface(
     (6.0, (0.5, 0.5), 1.0)
     """
     surface = Facets(points=np.asarray(points, float), cells=np.asarray(cells, np.int64))
-    dim = surface.dim
-    if not surface.closed:
-        problem = f"the surface of {len(surface.cells)} facets is open and encloses no volume"
-        raise InputError("cells", problem, "a surface without holes: each edge belongs to two facets")
-    about = surface.points.mean(axis=0)
-    corners = (surface.points - about)[surface.cells]
-    volume = np.linalg.det(corners) / (2.0 if dim == 2 else 6.0)
-    total = corners.sum(axis=1)
-    first = np.einsum("f,fi->i", volume, total) / (dim + 1)
-    second = np.einsum("f,fki,fkj->ij", volume, corners, corners) + np.einsum("f,fi,fj->ij", volume, total, total)
-    second /= (dim + 1) * (dim + 2)
-    found = Moments(volume=float(volume.sum()), first=first, second=second, about=about)
-    return found.rigid(density * _thick(thickness, dim), velocity, spin)
+    return _rigid(facet_moments(surface), density * _thick(thickness, surface.dim), velocity, spin, surface)
 
 
 def rigid_file(
