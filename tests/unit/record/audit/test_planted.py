@@ -74,8 +74,8 @@ def told(world: str, change: Callable[[Step], Step] = lambda step: step, tools: 
     checked, given = marched(world)
     audit = watcher(_opening(checked))
     if tools:
-        moved = {name: raised(tool, tools) for name, tool in audit.auditor.tools.items()}
-        audit.auditor = replace(audit.auditor, tools=moved)
+        real = audit.obstacles
+        audit.obstacles = lambda state: {name: raised(tool, tools) for name, tool in real(state).items()}
 
     def steps() -> Iterator[Step]:
         yield from given[:APART]

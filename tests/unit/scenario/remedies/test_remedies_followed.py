@@ -18,6 +18,7 @@ import table_members
 import table_meshes
 import table_obstacles
 import table_python
+import table_rigid
 import table_text
 import table_time
 from try_it import Call, Try, refusal, sites
@@ -30,6 +31,7 @@ TABLES: tuple[ModuleType, ...] = (
     table_contacts,
     table_laws,
     table_mechanisms,
+    table_rigid,
     table_members,
     table_meshes,
     table_obstacles,
@@ -71,6 +73,8 @@ REASONS = {
     "mechanisms/robots/robot_file.py: read_robot": ROBOTS,
     "meshes/files/abaqus/lexer.py: _lines": "millions of lines: tests/unit/meshes/files/abaqus/test_lexer.py",
     "meshes/files/abaqus/lexer.py: _admit": "many files: tests/unit/meshes/files/abaqus/test_lexer.py",
+    "model/rigid_bodies.py: state_of": "a state of another scene, from Python",
+    "model/rigid_refusals.py: _require_names": "scenes from Python: tests/unit/march/motion/test_rigid_contact.py",
     "model/build.py: with_dofs": "unknowns from Python: tests/contracts/test_own_dofs.py",
     "model/build.py: with_field": "companion fields from Python",
     "scenario/files.py: load": "millions of characters",

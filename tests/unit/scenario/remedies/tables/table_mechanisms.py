@@ -68,7 +68,7 @@ def floor(**given: object) -> PlaneStop:
 
 
 TABLE: Table = {
-    "mixed": Try(LINKS, TOOL, 'kind = "Rigid" for all', "bodies.c={kind='Rigid', mass=1, centre=[3, 0]}"),
+    "a tool": Try(LINKS, TOOL, "[stops.NAME]", "bodies.c={kind='Rigid', mass=1, centre=[3, 0]}"),
     "no rigid, joints": Try(PLANE, f"joints.j={HINGE}", 'kind = "Rigid" only', f"{RIGID} & bodies.a.inertia=1"),
     "no rigid, impacts": Try(PLANE, "impacts=sequential", 'kind = "Rigid" only', RIGID),
     "contacts": Try(LINKS, "contacts=[{between=['a', 'c']}]", "[stops.NAME]", "contacts=[]"),

@@ -1,0 +1,93 @@
+"""Refusals of rigid bodies beside solids, and of rigid bodies from shapes."""
+
+from try_it import Table, Try
+
+MIXED = """
+[bodies.b]
+kind = "Solid"
+mesh = { kind = "Rectangle", size = [1, 1], cells = [3, 3], origin = [0, -1] }
+material = { kind = "LinearElastic", E = 1000, nu = 0.3 }
+density = 1
+[bodies.r]
+kind = "Rigid"
+mass = 1
+centre = [0.5, 0.3]
+inertia = 0.1
+shape = { kind = "Sphere", centre = [0.5, 0.3], radius = 0.2 }
+[[contacts]]
+between = ["b.top", "r"]
+[time]
+end = 0.01
+"""
+"""A disc above a square."""
+CARRIED = "bodies.b.supports=[{kind='Carried', on='bottom', by='r'}]"
+ROUND = "bodies.b.section={kind='Axisymmetric'}"
+SLIDER = "joints.axis={kind='Slider', between=['ground', 'r'], at=[0, 0.3], axis=[0, 1]}"
+DENSE = "{kind='Rigid', shape={kind='Sphere', centre=[0.5, 0.3], radius=0.2}, density=1}"
+ON_AXIS = "bodies.r.centre=[0, 0.3] & bodies.r.shape.centre=[0, 0.3]"
+
+TABLE: Table = {
+    "no carrier": Try(MIXED, "bodies.b.supports=[{kind='Carried', on='bottom', by='q'}]", "one of ['r']", CARRIED),
+    "no rigid at all": Try(
+        MIXED,
+        f"bodies={{b={{kind='Solid', mesh={{kind='Rectangle', size=[1, 1], cells=[3, 3]}}, "
+        f"material={{kind='LinearElastic', E=1, nu=0.3}}, density=1}}}} & contacts=[] & {CARRIED}",
+        "a Rigid among the bodies",
+        "bodies.b.supports=[]",
+    ),
+    "carried twice": Try(
+        MIXED,
+        "bodies.b.supports=[{kind='Carried', on='bottom', by='r'}, {kind='Driven', on='left', velocity=0}]",
+        "tags without common nodes",
+        CARRIED,
+    ),
+    "explicit": Try(MIXED, "solver=Explicit", "FixedPoint or Newton", "solver=FixedPoint"),
+    "scaled": Try(MIXED, "inertia={kind='Scaled', factor=2}", "omit it", "inertia=Full"),
+    "static": Try(MIXED, "start=StaticStart", 'start = "AsGiven"', "start=AsGiven"),
+    "rule": Try(MIXED, "contacts[0].timing=Impulse", "the rule Energy", "contacts[0].timing=Energy"),
+    "off the axis": Try(MIXED, f"{ROUND} & {ON_AXIS}", "[joints.axis]", f"{ROUND} & {ON_AXIS} & {SLIDER}"),
+    "the solid first": Try(
+        MIXED, "contacts=[{between=['r', 'b.top']}]", "the solid first", "contacts=[{between=['b.top', 'r']}]"
+    ),
+    "a tag of a rigid body": Try(
+        MIXED, "contacts=[{between=['b.top', 'r.face']}]", "its name", "contacts=[{between=['b.top', 'r']}]"
+    ),
+    "no surface": Try(
+        MIXED,
+        "bodies.r={kind='Rigid', mass=1, centre=[0.5, 0.3], inertia=0.1}",
+        "bodies.r.shape",
+        "bodies.r={kind='Rigid', mass=1, centre=[0.5, 0.3], inertia=0.1, "
+        "shape={kind='Sphere', centre=[0.5, 0.3], radius=0.2}}",
+    ),
+    "another dimension": Try(
+        MIXED,
+        "bodies.r={kind='Rigid', mass=1, centre=[0, 0, 0]} & contacts=[]",
+        "2 coordinates",
+        "bodies.r={kind='Rigid', mass=1, centre=[0, 1]} & contacts=[]",
+    ),
+    "a shape in space": Try(
+        MIXED,
+        "bodies.r.shape={kind='Sphere', centre=[0, 0, 0], radius=1}",
+        "a shape in 2D",
+        "bodies.r.shape={kind='Sphere', centre=[0.5, 0.3], radius=0.2}",
+    ),
+    "two masses": Try(MIXED, "bodies.r.density=1", "either mass or density", f"bodies.r={DENSE}"),
+    "a negative density": Try(
+        MIXED,
+        "bodies.r={kind='Rigid', shape={kind='Sphere', centre=[0.5, 0.3], radius=0.2}, density=-1}",
+        "a positive number",
+        f"bodies.r={DENSE}",
+    ),
+    "a density alone": Try(
+        MIXED,
+        "bodies.r={kind='Rigid', density=1} & contacts=[]",
+        "a shape, or mass",
+        f"bodies.r={DENSE}",
+    ),
+    "no volume": Try(
+        MIXED,
+        "bodies.r={kind='Rigid', shape={kind='HalfSpace', point=[0, 0.1], normal=[0, -1]}, density=1}",
+        "or mass, centre and inertia",
+        f"bodies.r={DENSE}",
+    ),
+}
