@@ -93,6 +93,10 @@ VARIANTS: Mapping[str, Variant] = {
         same="same mesh and slabs; the rod rides on the cam and leaves it before the top; only the flight is left out",
         held={"rod": {"tip": (0, 1), "guide": (0,)}},  # contact that starts closed, guide
     ),
+    "elastic_cradle": Variant(
+        changes=(*(f"bodies.disc{k}.mesh.cells=8" for k in range(1, 6)), "time.end=5 ms", "time.step=0.5 ms"),
+        same="the same discs and rods; coarser discs, until the pulse has reached the third",
+    ),
     "flexible_crank": Variant(
         changes=("bodies.rod.mesh.cells=[6, 1]", "time.end=8 ms", "time.step=1 ms"),
         same="same crank, rod and slider; the first twentieth of a turn",

@@ -86,3 +86,18 @@ def test_a_flexible_rod_moves_the_slider_nearly_as_a_rigid_one(tmp_path):
     angle = 40.0 * run.history["time"]
     rigid = 0.1 * np.cos(angle) + np.sqrt(0.4**2 - (0.1 * np.sin(angle)) ** 2)
     assert run.history["slider"] == pytest.approx(rigid, abs=2e-5)
+
+
+def test_a_cradle_of_elastic_discs_passes_the_velocity_on_less_what_vibrates(tmp_path):
+    cells = tuple(f"bodies.disc{k}.mesh.cells=8" for k in range(1, 6))
+    run = sw.run(
+        sw.load(FOLDER / "elastic_cradle.toml", (*cells, "time.end=16 ms", "time.step=0.5 ms")), tmp_path / "r"
+    )
+    history = run.history
+    energy = history["energy_kinetic"] + history["energy_strain"]
+    assert np.abs(history["energy_error"]).max() < 1e-10 * energy[0]
+    assert 0.85 * 0.5 < history["last core"][-1] < 0.5  # rigid balls, one after the other: all of it
+    assert abs(history["first core"][-1]) < 0.1 * 0.5
+    first = run.events["contact"][np.argsort(run.events["time"])]
+    touched = [name for name in dict.fromkeys(first.tolist()) if name.startswith("disc")]
+    assert touched == [f"disc{k}.boundary-disc{k + 1}.boundary" for k in range(1, 5)]
