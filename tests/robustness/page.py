@@ -37,6 +37,9 @@ def page(place: Path = PLACE) -> str:
         parts.append(fuzz(json.loads((place / "fuzz.json").read_text())))
     if (place / "drops.jsonl").is_file():
         parts.append(drops([json.loads(line) for line in (place / "drops.jsonl").read_text().splitlines()]))
+    if (place / "rigid_drops.jsonl").is_file():
+        lines = (place / "rigid_drops.jsonl").read_text().splitlines()
+        parts.append(rigid_drops([json.loads(line) for line in lines]))
     if (place / "endurance.json").is_file():
         parts.append(endurance(json.loads((place / "endurance.json").read_text())))
     return "\n".join([*parts, KNOWN])
@@ -122,6 +125,28 @@ rules Impulse and Paper give no promise on energy. *Slow* is more than five minu
         out += f"\n{noted} of them are impacts that their law does not bear, as `check` notes before they are marched: "
         out += "[softening](../theory/bodies/softening.md).\n"
     return out + f"\nIn all: {', '.join(f'{ends[e]} {e}' for e in ENDS if ends[e])}.\n"
+
+
+def rigid_drops(found: list[dict[str, Any]]) -> str:
+    """Random scenes with rigid bodies and how they ended."""
+    text = f"""## Random scenes with rigid bodies
+
+{len(found)} scenes in the plane, by `tests/robustness/inputs/rigid_drops.py`: rigid discs and squares that fall on a
+solid, alone, with a second body on a rod or a hinge, or below a stop; hinged and guided hammers with springs; hubs that
+carry a solid, free, hinged or driven by a motor; and chains of bars, without solids, that fall on stops with friction.
+Masses over three decades, five laws, friction, two solvers. Depth is that of drops; of chains the error of the joints.
+
+"""
+    rows = []
+    for family in ("falls", "hangs", "carries", "chain"):
+        mine = [d for d in found if d["family"] == family]
+        counts = collections.Counter(d["end"] for d in mine)
+        worst = [max((d[k] for d in mine), default=0.0) for k in ("depth", "tension", "energy")]
+        rows.append([family, len(mine), *(counts[e] for e in ENDS), *(f"{w:.1e}" for w in worst)])
+    out = text + table(["family", "scenes", *ENDS, "depth", "tension", "energy"], rows)
+    for one in (d for d in found if d["end"] != "done"):
+        out += f"\n{one['number']} {one['end']}: {one['why']}\n"
+    return out
 
 
 def endurance(found: dict[str, float]) -> str:
