@@ -50,10 +50,7 @@ def rigid_balances(model: Model, before: ModelState, after: ModelState) -> Rigid
     return RigidBalances(
         kinetic=now.kinetic,
         springs=now.springs,
-        work=done
-        + rigid.energies(first).weight
-        - now.weight
-        + (_from_solids(rigid, first, last) if first is not last else 0.0),
+        work=done + rigid.energies(first).weight - now.weight + _from_solids(rigid, first, last),
         dissipation=lost,
         momentum=momentum.sum(axis=0),
         spin=spin.sum(axis=0),

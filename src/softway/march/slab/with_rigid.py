@@ -74,12 +74,13 @@ def coupled_slabs(
         out, memory = next(rule.solve(it.moving(x), now, slab, memory, attempt))
         iterations += out.iterations
         given = forces_on_rigid(out.system.model, now, slab, out)
-        found = it.follow(given)
+        after = it.after(given)
+        found = it.motion(after)
         change, scale = float(np.abs(found - x).max()), float(np.abs(found).max())
         seen = seen.after(change, it.least)
         agrees = change <= max(AGREES * scale, it.least) or (seen.since >= PATIENCE and change <= NEARLY * scale)
         if agrees and change < 0.5 * closest and attempt.tolerance <= AGREES:
-            closest, after = change, it.after(given)
+            closest = change
             whole = replace(out, iterations=iterations)
             yield CoupledSlab(out=whole, rigid=after.state, memory=memory, events=after.events)
         if closest < np.inf and (seen.since >= PATIENCE or change <= it.least):
@@ -125,7 +126,11 @@ class _Iteration:
 
     def follow(self, given: Array) -> Array:
         """Motions (n, 6) with mean forces ``given`` (b, 4, 3)."""
-        return self.rigid.moved(self.before, self.after(given).state) * self.unit
+        return self.motion(self.after(given))
+
+    def motion(self, after: RigidSlab) -> Array:
+        """Motions (n, 6) over a slab of the rigid bodies."""
+        return self.rigid.moved(self.before, after.state) * self.unit
 
     def moving(self, x: Array) -> Model:
         """Model whose rigid bodies have the motions x (n, 6)."""
