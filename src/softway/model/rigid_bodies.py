@@ -11,7 +11,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from softway.arrays import Array
-from softway.bodies.rigid_motion import RigidMotion, RigidShape, rotation_vector
+from softway.bodies.rigid_motion import RigidMotion, RigidShape, rotation_vector, rotations
 from softway.errors import InputError, NoConvergence, NumericsError
 from softway.kernels.multibody.angles import angles_at
 from softway.kernels.multibody.energy import kinetic_energy, potential_energy
@@ -108,7 +108,7 @@ class RigidBodies:
         work = at_work(self.joined.mechanism, self.it, start)
         it, room = work.it, work.room
         still = np.tile(np.eye(3), (len(start.place), 1, 1))
-        angles_at(it.joints.angles, still, self.rotations(start), it.motion.angle, room.turn)
+        angles_at(it.joints.angles, still, rotations(start.turn), it.motion.angle, room.turn)
         begin(it.bodies, it.joints, it.springs, it.motion, room)
         it.motion.time[0] = time
         if work.stops is not None:
@@ -136,19 +136,19 @@ class RigidBodies:
 
     def motions(self, before: RigidState, moved: Array, start: float, end: float) -> dict[str, RigidMotion]:
         """Motion of each body over a slab from a state, with the displacements and rotation vectors (n, 6)."""
-        rotations, out = self.rotations(before), {}
+        turned, out = rotations(before.turn), {}
         for name in self.mechanism.bodies:
             k, whole = self.number(name), self.joined.part_of[name]
             centre = np.zeros(3)
             if whole != GROUND:
                 centre[: self.mechanism.dim] = self.joined.mechanism.bodies[whole].centre
-            rate = np.concatenate([before.velocity[k], rotations[k] @ before.spin[k]])
+            rate = np.concatenate([before.velocity[k], turned[k] @ before.spin[k]])
             out[name] = RigidMotion(
                 begin=start,
                 end=end,
                 centre=centre,
                 place=before.place[k],
-                rotation=rotations[k],
+                rotation=turned[k],
                 moved=moved[k],
                 rate=rate,
                 dim=self.mechanism.dim,
@@ -157,7 +157,7 @@ class RigidBodies:
 
     def moved(self, before: RigidState, after: RigidState) -> Array:
         """Displacements and rotation vectors (n, 6) from one state to another."""
-        first, last = self.rotations(before), self.rotations(after)
+        first, last = rotations(before.turn), rotations(after.turn)
         turns = [rotation_vector(b @ a.T) for a, b in zip(first, last, strict=True)]
         return np.concatenate([after.place - before.place, np.array(turns)], axis=1)
 
@@ -190,23 +190,15 @@ class RigidBodies:
         it, motion, groups = self.it, state.motion(), len(self.it.bodies.jointed)
         kinetic, both = np.zeros(groups), np.zeros(groups)
         kinetic_energy(it.bodies, motion, kinetic)
-        potential_energy(it.bodies, it.springs, it.joints.angles, motion, self.rotations(state), both)
+        potential_energy(it.bodies, it.springs, it.joints.angles, motion, rotations(state.turn), both)
         weight = -float((it.bodies.mass[:, None] * state.place @ it.bodies.gravity[:, None]).sum())
         return RigidEnergies(kinetic=float(kinetic.sum()), springs=float(both.sum()) - weight, weight=weight)
 
     def momenta(self, state: RigidState) -> tuple[Array, Array]:
         """Momenta (n, 3) [kg m/s], and angular momenta (n, 3) about the origin [kg m^2/s]."""
         it, mass = self.it, self.it.bodies.mass[:, None]
-        turned = np.einsum("nij,njk,nk->ni", self.rotations(state), it.bodies.inertia, state.spin)
+        turned = np.einsum("nij,njk,nk->ni", rotations(state.turn), it.bodies.inertia, state.spin)
         return mass * state.velocity, np.asarray(mass * np.cross(state.place, state.velocity) + turned)
-
-    def rotations(self, state: RigidState) -> Array:
-        """Rotations (n, 3, 3)."""
-        a, v = state.turn[:, 0], state.turn[:, 1:]
-        zero = np.zeros(len(a))
-        cross = np.array([[zero, -v[:, 2], v[:, 1]], [v[:, 2], zero, -v[:, 0]], [-v[:, 1], v[:, 0], zero]])
-        skew = np.moveaxis(cross, 2, 0)
-        return np.asarray(np.eye(3) + 2.0 * (a[:, None, None] * skew + skew @ skew))
 
 
 def quaternion(rotation: Array) -> Array:

@@ -6,12 +6,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.rigid_motion import rotations
 from softway.errors import InputError, NumericsError
 from softway.kernels.pile import tables
 from softway.kernels.pile.slab import pile_slab
 from softway.piles.arrays import ball_tables, laws, motion, require_apart, wall_tables
 from softway.piles.pile import Pile
-from softway.piles.turns import rotations, turned
+from softway.piles.turns import turned
 from softway.units import Second
 
 FARTHEST = 0.5

@@ -18,20 +18,3 @@ def turned(turn: Array, vector: Array) -> Array:
         [scalar - (half * rest).sum(axis=1, keepdims=True), rest + scalar * half + np.cross(half, rest)], axis=1
     )
     return np.asarray(new / np.linalg.norm(new, axis=1, keepdims=True))
-
-
-def rotations(turn: Array) -> Array:
-    """Rotation matrices (n, 3, 3) of quaternions (n, 4).
-
-    Examples
-    --------
-    >>> rotations(np.array([[0.0, 0.0, 0.0, 1.0]]))[0].diagonal().tolist()
-    [-1.0, -1.0, 1.0]
-    """
-    a, b, c, d = turn.T
-    rows = [
-        [1.0 - 2.0 * (c * c + d * d), 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)],
-        [2.0 * (b * c + a * d), 1.0 - 2.0 * (b * b + d * d), 2.0 * (c * d - a * b)],
-        [2.0 * (b * d - a * c), 2.0 * (c * d + a * b), 1.0 - 2.0 * (b * b + c * c)],
-    ]
-    return np.moveaxis(np.array(rows), 2, 0)

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.rigid_motion import rotations
 from softway.march.model_state import ModelState
 from softway.model.model import Model
-from softway.model.rigid_bodies import RigidBodies
 from softway.model.rigid_state import RigidState
 
 
@@ -50,7 +50,7 @@ def rigid_balances(model: Model, before: ModelState, after: ModelState) -> Rigid
     return RigidBalances(
         kinetic=now.kinetic,
         springs=now.springs,
-        work=done + rigid.energies(first).weight - now.weight + _from_solids(rigid, first, last),
+        work=done + rigid.energies(first).weight - now.weight + _from_solids(first, last),
         dissipation=lost,
         momentum=momentum.sum(axis=0),
         spin=spin.sum(axis=0),
@@ -59,8 +59,8 @@ def rigid_balances(model: Model, before: ModelState, after: ModelState) -> Rigid
     )
 
 
-def _from_solids(rigid: RigidBodies, before: RigidState, after: RigidState) -> float:
+def _from_solids(before: RigidState, after: RigidState) -> float:
     """Work of the solids on the rigid bodies over a slab [J]."""
-    first, last, given = rigid.rotations(before), rigid.rotations(after), after.given
+    first, last, given = rotations(before.turn), rotations(after.turn), after.given
     pushed = float((given[:, 0] * (after.place - before.place)[:-1]).sum())
     return pushed + float(np.einsum("nkc,nck->", given[:, 1:], (last - first)[:-1]))
