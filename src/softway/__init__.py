@@ -20,9 +20,11 @@ from softway import solve as solve
 from softway import studies as studies
 from softway.bodies.setup.loads import Gravity, Traction
 from softway.bodies.solid import Carried, Driven, Fixed, Solid, Tool
+from softway.contact.assembly.tie import Tie
 from softway.contact.contact import Contact
 from softway.errors import Cancelled, InputError, NumericsError, SoftwayError, StorageError
 from softway.laws.bulk import J2, Hypoelastic, LinearElastic, NeoHookean
+from softway.laws.cohesive_law import BilinearCohesive
 from softway.laws.friction import Coulomb
 from softway.march.march import march
 from softway.march.march_state import MarchState
@@ -50,6 +52,7 @@ logging.getLogger(__name__).addHandler(logging.NullHandler())
 
 __all__ = [
     "J2",
+    "BilinearCohesive",
     "Cancelled",
     "Carried",
     "Certificate",
@@ -82,6 +85,7 @@ __all__ = [
     "Step",
     "StepControl",
     "StorageError",
+    "Tie",
     "Time",
     "Tool",
     "Traction",

@@ -18,5 +18,7 @@ MOTION = 1e-12
 FORCES = 1e-6
 """Greatest error of the balance of forces of bodies without inertia, relative to the forces that take part: stiff
 bodies keep it up to the accuracy of positions."""
+KEEP_EDGES_AFTER = 6
+"""Iterations after which nodes and edges keep their facets and edges where all edges have rows."""
 KEEP_FACETS_AFTER = 15
 """Number of iterations after which nodes are kept on their facets: a node between two facets would alternate."""

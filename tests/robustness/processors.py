@@ -22,7 +22,9 @@ from typing import Any
 from page import table
 
 ROOT = Path(__file__).parents[2]
-QUICK = ("-q", "--dist", "loadscope", "-m", "not slow and not minutes")
+READING = ("tests/house", "tests/unit/scenario/remedies", "tests/unit/scenario/text")
+"""Folders of tests that read and refuse, and round nothing."""
+QUICK = ("-q", "--dist", "loadscope", "-m", "not slow and not minutes", *(f"--ignore={folder}" for folder in READING))
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 AVX2 = frozenset({"avx2", "fma"})
 AVX512 = frozenset({"avx512f", "avx512dq", "avx512bw", "avx512vl", "avx512cd"})
@@ -64,10 +66,10 @@ SETS = {
 
 HEAD = """# Processors
 
-`make test-processors` makes this page: the tests of `make test` with the instructions of several processors. The last
-digits of sums and products differ with the code that OpenBLAS, MKL and Numba take for a processor, and with the number
-of threads; no result may hang on them. `make test-processors SETS=nehalem` runs one set. A set is skipped where the
-processor lacks its instructions.
+`make test-processors` makes this page: the tests of `make test` that compute, with the instructions of several
+processors. The last digits of sums and products differ with the code that OpenBLAS, MKL and Numba take for a processor,
+and with the number of threads; no result may hang on them. `make test-processors SETS=nehalem` runs one set. A set is
+skipped where the processor lacks its instructions.
 
 """
 

@@ -1,4 +1,7 @@
-"""Random drops marched and judged: ``python tests/robustness/run_drops.py COUNT``, with ``--rigid`` rigid bodies."""
+"""Random drops marched and judged: ``python tests/robustness/run_drops.py COUNT``.
+
+With ``--rigid`` scenes with rigid bodies, with ``--assemblies`` several bodies in contact with each other.
+"""
 
 import argparse
 import collections
@@ -11,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from inputs.assemblies import assembly
 from inputs.drops import Drop, drop
 from inputs.rigid_drops import rigid_drop
 from softway.errors import InputError, NumericsError
@@ -138,6 +142,11 @@ def fall_rigid(number: int) -> dict[str, Any]:
     return judged(rigid_drop(number), Units.standard())
 
 
+def fall_together(number: int) -> dict[str, Any]:
+    """The assembly of a number, judged."""
+    return judged(assembly(number), Units.standard())
+
+
 def _dead(given: Drop, how: Complaint) -> dict[str, Any]:
     """What is told of a drop whose process died."""
     number = given.number
@@ -145,22 +154,31 @@ def _dead(given: Drop, how: Complaint) -> dict[str, Any]:
     return {**told, **Watch().worst, "findings": "", "given_back": 0.0, **given.traits}
 
 
+KINDS = {"drop": (fall, drop), "rigid": (fall_rigid, rigid_drop), "assembly": (fall_together, assembly)}
+"""How a scene of each kind is judged, and made."""
+
+
 def main() -> None:
     """March so many drops and write what became of them as JSON, one line each; ``--go-on`` keeps the lines there."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("count", type=int, nargs="?", default=500)
+    parser.add_argument("--from", dest="first", type=int, default=0)
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--go-on", action="store_true")
-    parser.add_argument("--rigid", action="store_true")
+    kind = parser.add_mutually_exclusive_group()
+    kind.add_argument("--rigid", dest="kind", action="store_const", const="rigid", default="drop")
+    kind.add_argument("--assemblies", dest="kind", action="store_const", const="assembly")
     given = parser.parse_args()
-    falls, made = (fall_rigid, rigid_drop) if given.rigid else (fall, drop)
+    falls, made = KINDS[given.kind]
     kept = given.out.read_text().splitlines() if given.go_on and given.out.is_file() else []
     found = {line["number"]: line for line in map(json.loads, kept)}
     given.out.parent.mkdir(parents=True, exist_ok=True)
     with given.out.open("w") as lines:
         lines.writelines(f"{line}\n" for line in kept)
-        for number, told, _ in answers([n for n in range(given.count) if n not in found], falls, given.jobs):
+        for number, told, _ in answers(
+            [n for n in range(given.first, given.count) if n not in found], falls, given.jobs
+        ):
             found[number] = _dead(made(number), told) if isinstance(told, Complaint) else told
             lines.write(json.dumps(found[number]) + "\n")
             lines.flush()

@@ -7,7 +7,7 @@ import pytest
 import scipy.sparse as sp
 
 import softway as sw
-from run_drops import fall
+from run_drops import fall, fall_together
 from softway.bodies.inertia.mass_matrix import Consistent
 from softway.bodies.inertia.mass_redistribution import redistribute_mass
 from softway.contact.contact_rows import ContactRows
@@ -164,3 +164,12 @@ def test_corners_without_an_inertia_of_their_own_give_no_energy():
     told = fall(9)
     assert told["end"] == "done" and told["given_back"] < 1e-12
     assert "dissipation" not in told["findings"]
+
+
+@pytest.mark.parametrize("number", [1, 9])
+def test_assemblies_of_thin_rings_end(number):
+    """Rings that may touch themselves; rows through their own walls once stopped them or took hundreds of slabs."""
+    told = fall_together(number)
+    assert told["end"] == "done", told["why"]
+    assert told["rejections"] == 0
+    assert told["energy"] < 1e-11 and told["depth"] < 1e-9 and told["given_back"] < 1e-12

@@ -37,4 +37,4 @@ def _moved(solid: Solid, size: float, rng: np.random.Generator, held: Mapping[st
     move = size * mesh.edges()[:, None] * rng.uniform(-1.0, 1.0, mesh.points.shape)
     for tag, components in held.items():
         move[np.ix_(mesh.nodes(tag), components)] = 0.0
-    return Mesh(points=mesh.points + move, blocks=mesh.blocks, tags=mesh.tags)
+    return replace(mesh, points=mesh.points + move)

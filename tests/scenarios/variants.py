@@ -13,6 +13,7 @@ MECHANISMS = (
     "flat_follower",
     "hammer_on_stop",
     "newtons_cradle",
+    "poured_balls",
     "rocking_block",
     "slider_crank",
     "squeezer",
@@ -21,7 +22,7 @@ MECHANISMS = (
     "toggle_snap",
     "woodpecker",
 )
-"""Scenarios of rigid bodies: they have no cells, nodes or resumption, and tests/unit/scenario/mechanisms runs them."""
+"""Scenarios of rigid bodies and balls, without cells: tests/unit/scenario/mechanisms and piles run them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -75,6 +76,15 @@ VARIANTS: Mapping[str, Variant] = {
         same="the beam swings to one side and back; its angle is as large",
         held={"beam": {"left": (0,)}},  # clamped side
     ),
+    "billiard_break": Variant(
+        changes=(
+            'bodies.ball.copies=[["0 mm", "0 mm"], ["49 mm", "28.2 mm"], ["49 mm", "-28.2 mm"]]',
+            "output.probes[1].of=ball3",
+            "time.end=1.6 ms",
+            "time.step=20 us",
+        ),
+        same="the same ball hits the first three, with longer slabs, until they have shared the impact",
+    ),
     "block_on_sphere": Variant(
         changes=("bodies.block.mesh.cells=[3, 3, 3]", "time.end=2.8 ms", "time.step=80 us"),
         same="the block hits the ball off-centre, turns, and its last node leaves the ball at 2.6 ms",
@@ -93,6 +103,15 @@ VARIANTS: Mapping[str, Variant] = {
         same="same mesh and slabs; the rod rides on the cam and leaves it before the top; only the flight is left out",
         held={"rod": {"tip": (0, 1), "guide": (0,)}},  # contact that starts closed, guide
     ),
+    "chain": Variant(
+        changes=(
+            'bodies.across.copies=[["27 mm", "0 mm", "0 mm"]]',
+            'bodies.along.copies=[["54 mm", "0 mm", "0 mm"]]',
+            "output.probes[0].of=along1",
+            "time.end=1.5 ms",
+        ),
+        same="three links of the same mesh: the first two tighten, and the third follows",
+    ),
     "elastic_cradle": Variant(
         changes=(*(f"bodies.disc{k}.mesh.cells=8" for k in range(1, 6)), "time.end=5 ms", "time.step=0.5 ms"),
         same="the same discs and rods; coarser discs, until the pulse has reached the third",
@@ -105,6 +124,21 @@ VARIANTS: Mapping[str, Variant] = {
     "hammer_on_beam": Variant(
         changes=("bodies.beam.mesh.cells=[20, 2]", "time.end=4 ms", "time.step=0.16 ms"),
         same="the same hammer hits the same beam; fewer cells, and the first hit only",
+    ),
+    "glued_glass": Variant(
+        changes=(
+            "bodies.housing.mesh.cells=[5, 2, 2]",
+            "bodies.glass.mesh.cells=[3, 2, 1]",
+            "time.end=0.4 ms",
+            "time.step=20 us",
+        ),
+        same="the edge touches and springs up; glued meshes that do not match, only coarse",
+        held={"housing": {"bottom": (0, 1, 2)}},  # contact that starts closed
+    ),
+    "peeled_strip": Variant(
+        changes=("bodies.plate.mesh.cells=[10, 1]", "time.end=0.4 s", "time.step=40 ms"),
+        same="the same strip on a coarser plate; the first millimetres of the crack",
+        held={"strip": {"bottom": (0, 1)}, "plate": {"top": (0, 1)}},  # surfaces that lie on each other
     ),
     "oblique_blocks": Variant(
         changes=(
@@ -138,6 +172,25 @@ VARIANTS: Mapping[str, Variant] = {
         changes=("bodies.ring.mesh.cells=[6, 3]", "time.end=0.1 s"),
         same="same platen, friction and slabs; a third of the way down",
         held={"ring": {"bottom": (1,), "top": (1,)}},  # plane of symmetry, contact that starts flush
+    ),
+    "sandwich_plate": Variant(
+        changes=(
+            "bodies.plate.mesh.mesh.cells=[30, 4]",
+            "bodies.ball.mesh.cells=8",
+            "time.end=40 us",
+            "time.step=2 us",
+        ),
+        same="the same ball and layers: the front face yields, and the core carries the load on; longer cells",
+        held={"plate": {"top": (1,)}, "ball": {"boundary": (1,)}},  # the gap is a twentieth of a cell
+    ),
+    "folded_strip": Variant(
+        changes=("bodies.strip.mesh.cells=[2, 24]", "time.end=40 ms", "time.step=0.5 ms"),
+        same="half as many cells along the strip; it buckles and its loads are the same",
+        held={"strip": {"bottom": (0, 1), "top": (0, 1)}},  # lie on the floor, and on the line that is driven
+    ),
+    "snap_fit": Variant(
+        changes=("time.end=3.4 ms", "time.step=20 us"),
+        same="the nose meets the catch and rides up on it, with friction; longer slabs, half of the way in",
     ),
     "stamp_on_pad": Variant(
         changes=(

@@ -15,7 +15,9 @@ from softway.bodies.internal_force.slab_average import AverageField as AverageFi
 from softway.bodies.internal_force.slab_average import DiscreteGradient as DiscreteGradient
 from softway.bodies.internal_force.slab_average import EnergyMomentum as EnergyMomentum
 from softway.bodies.internal_force.slab_average import Weighted as Weighted
+from softway.bodies.prescribed_motion import Sliding as Sliding
 from softway.bodies.prescribed_motion import Still as Still
+from softway.bodies.prescribed_motion import Swinging as Swinging
 from softway.bodies.prescribed_motion import Table as Table
 from softway.bodies.prescribed_motion import Translation as Translation
 from softway.bodies.prescribed_motion import Turning as Turning
@@ -27,13 +29,21 @@ from softway.bodies.setup.initial_fields import Profile as Profile
 from softway.bodies.setup.initial_fields import Uniform as Uniform
 from softway.bodies.setup.loads import Gravity as Gravity
 from softway.bodies.setup.loads import Traction as Traction
+from softway.bodies.setup.motion_laws import Haversine as Haversine
+from softway.bodies.setup.motion_laws import RatePolyline as RatePolyline
+from softway.bodies.setup.motion_laws import Sine as Sine
+from softway.bodies.setup.motion_laws import SmoothSteps as SmoothSteps
+from softway.bodies.setup.motion_laws import Spline as Spline
+from softway.bodies.setup.placement import Mirror as Mirror
 from softway.bodies.setup.placement import Placement as Placement
 from softway.bodies.setup.placement import Rotation as Rotation
 from softway.bodies.solid import Carried as Carried
 from softway.bodies.solid import Driven as Driven
 from softway.bodies.solid import Fixed as Fixed
+from softway.bodies.solid import Guided as Guided
 from softway.bodies.solid import Solid as Solid
 from softway.bodies.solid import Tool as Tool
+from softway.bodies.solid import placed_together as placed_together
 
 __all__ = [
     "Affine",
@@ -50,7 +60,10 @@ __all__ = [
     "Fixed",
     "Full",
     "Gravity",
+    "Guided",
+    "Haversine",
     "Lumped",
+    "Mirror",
     "Off",
     "OnTag",
     "Placement",
@@ -58,10 +71,16 @@ __all__ = [
     "PlaneStress",
     "Profile",
     "Ramp",
+    "RatePolyline",
     "Rotation",
     "Scaled",
+    "Sine",
+    "Sliding",
+    "SmoothSteps",
     "Solid",
+    "Spline",
     "Still",
+    "Swinging",
     "Table",
     "Tool",
     "Traction",
@@ -70,4 +89,5 @@ __all__ = [
     "Uniform",
     "Volume",
     "Weighted",
+    "placed_together",
 ]

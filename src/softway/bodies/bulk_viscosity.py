@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array
-from softway.bodies.elements.section import wave_speed
 from softway.bodies.internal_force.body_force import BodyForce
+from softway.bodies.internal_force.materials import Materials
 from softway.errors import InputError
 from softway.meshes.mesh import Mesh
 from softway.units import Pure
@@ -58,16 +58,16 @@ class BulkViscosityForce:
     viscosity
         Coefficients.
     density
-        Mass per reference volume [kg/m^3].
+        Mass per reference volume [kg/m^3]; (p,) in a body with several materials.
     speed
-        Speed of dilatational waves [m/s].
+        Speed of dilatational waves [m/s]; (p,) likewise.
     size
         (p,) shortest edge of the element of each point [m].
     """
 
     viscosity: BulkViscosity
-    density: float
-    speed: float
+    density: float | Array
+    speed: float | Array
     size: Array
 
     def force(self, internal: BodyForce, middle: Array, change: Array, span: float) -> Array:
@@ -97,16 +97,19 @@ class BulkViscosityForce:
         """Pressure (p,) [Pa] for the rate (p,) of ln J [1/s] at the volume ratio (p,)."""
         fast = self.size * np.abs(rate)
         squared = np.where(rate < 0.0, (self.viscosity.quadratic * fast) ** 2, 0.0)
-        return -np.sign(rate) * self.density / ratio * (self.viscosity.linear * self.speed * fast + squared)
+        return np.asarray(-np.sign(rate) * self.density / ratio * (self.viscosity.linear * self.speed * fast + squared))
 
 
 def bulk_viscosity_force(
-    viscosity: BulkViscosity | None, mesh: Mesh, density: float, internal: BodyForce
+    viscosity: BulkViscosity | None, mesh: Mesh, materials: Materials, internal: BodyForce
 ) -> BulkViscosityForce | None:
     """Build the :class:`BulkViscosityForce` of a body; None without bulk viscosity."""
     if viscosity is None:
         return None
-    speed = wave_speed(internal.material, density, internal.section)
-    pairs = zip(mesh.cell_edges(), internal.sampling.rows, strict=True)
-    size = np.concatenate([np.repeat(edges, table.shape[1]) for edges, table in pairs])
+    speeds, rows = materials.speeds(internal.section), internal.sampling.rows
+    size = np.concatenate([np.repeat(edges, g.shape[1]) for edges, g in zip(mesh.cell_edges(), rows, strict=True)])
+    if materials.owner is None:
+        return BulkViscosityForce(viscosity=viscosity, density=materials.densities[0], speed=speeds[0], size=size)
+    owner = np.repeat(materials.owner, np.concatenate([np.full(len(g), g.shape[1]) for g in rows]))
+    density, speed = np.array(materials.densities)[owner], np.array(speeds)[owner]
     return BulkViscosityForce(viscosity=viscosity, density=density, speed=speed, size=size)

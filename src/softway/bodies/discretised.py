@@ -7,23 +7,32 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray
 from softway.bodies.bulk_viscosity import BulkViscosityForce, bulk_viscosity_force
-from softway.bodies.dof_map import DofMap, NodalDofs
+from softway.bodies.dof_map import DofMap
 from softway.bodies.elements.quadrature import Dilating
-from softway.bodies.elements.section import Section, default_section, wave_speed
+from softway.bodies.elements.section import default_section
+from softway.bodies.internal_force.assembled import internal_force
 from softway.bodies.internal_force.body_force import BodyForce
-from softway.bodies.internal_force.elastic.elastic_force import elastic_force
-from softway.bodies.internal_force.inelastic.inelastic_force import inelastic_force
 from softway.bodies.internal_force.material_state import MaterialState
+from softway.bodies.internal_force.materials import Materials, materials_of
 from softway.bodies.internal_force.slab_average import SlabForce
 from softway.bodies.rigid_motion import CarriedNodes, RigidMotion
+from softway.bodies.setup.directions import (
+    DirectedMotion,
+    Held,
+    directed,
+    directed_motion,
+    directions,
+    held_directions,
+    solid_dofs,
+)
 from softway.bodies.setup.initial_fields import sample
-from softway.bodies.solid import Carried, Driven, Solid, Support
+from softway.bodies.setup.placement import placed
+from softway.bodies.solid import Carried, Driven, Fixed, Guided, Solid, Support
 from softway.errors import InputError, within
-from softway.laws.law import Material, RateLaw
 from softway.meshes.cells import CELLS
 from softway.meshes.mesh import Mesh
 
-MOVING = Driven, Carried
+MOVING = Driven, Guided, Carried
 """Supports that move their nodes."""
 UNSTRAINED = 1e-14
 """Strain below which a body is taken as undeformed."""
@@ -43,8 +52,8 @@ class DiscreteSolid:
         Nodes of the solid among the nodes of the model.
     internal
         Internal force.
-    density
-        Mass per reference volume [kg/m^3].
+    materials
+        Laws and densities.
     dofs
         Velocities of its nodes from its unknowns.
     average
@@ -59,7 +68,7 @@ class DiscreteSolid:
     mesh: Mesh
     nodes: slice
     internal: BodyForce
-    density: float
+    materials: Materials
     dofs: DofMap
     average: SlabForce
     dilatation: Dilating = "point"
@@ -69,7 +78,7 @@ class DiscreteSolid:
         """Force (n, d) of the bulk viscosity [N], zero without; arguments as for :meth:`BulkViscosityForce.force`."""
         return np.zeros_like(middle) if self.shock is None else self.shock.force(self.internal, middle, change, span)
 
-    def stiffness(self, u: Array, secant: bool, viscous_factor: float, chosen: BoolArray) -> Array:
+    def stiffness(self, u: Array, secant: bool, viscous_factor: float) -> Array:
         """Entries of the tangent stiffness on its pattern, or of the secant stiffness where the law has one [N/m].
 
         Parameters
@@ -79,22 +88,16 @@ class DiscreteSolid:
         secant
             True for secant moduli.
         viscous_factor
-            Factor of the viscous tangent, which is added between the ``chosen`` nodes.
-        chosen
-            (n,) nodes between which the viscous tangent counts.
+            Factor of the viscous tangent that is added.
         """
         values = np.asarray((self.internal.secant(u) if secant else self.internal.tangent(u)).data)
         viscous = self.internal.viscous_tangent(u) if viscous_factor > 0.0 else None
-        if viscous is None:
-            return values
-        keep = np.repeat(chosen, self.mesh.dim)
-        rows, columns = keep[viscous.indices], np.repeat(keep, np.diff(viscous.indptr))
-        return np.asarray(values + viscous_factor * viscous.data * rows * columns)
+        return values if viscous is None else np.asarray(values + viscous_factor * viscous.data)
 
     def floor(self) -> float:
         """Stored energy below which the solid is taken as undeformed [J]."""
-        speed = wave_speed(self.internal.material, self.density, self.internal.section)
-        return float(UNSTRAINED**2 * self.density * speed**2 * self.internal.sampling.volume.sum())
+        density, speed = self.materials.stiffest(self.internal.section)
+        return float(UNSTRAINED**2 * density * speed**2 * self.internal.sampling.volume.sum())
 
     def during(self, state: MaterialState | None, span: float) -> "DiscreteSolid":
         """Solid in a slab of length ``span`` [s] that starts from a material state; the solid itself without one."""
@@ -105,36 +108,29 @@ def discretise(name: str, solid: Solid, first: int) -> DiscreteSolid:
     """Discretise a solid whose nodes are numbered from ``first``."""
     with within("mesh"):
         mesh = solid.mesh if isinstance(solid.mesh, Mesh) else solid.mesh.build()
-    with within("place"):
-        mesh = solid.place.applied(mesh)
+    mesh = placed(mesh, solid.place, solid.group)
     section = default_section(mesh) if solid.section is None else solid.section
     if solid.dilatation == "mean" and any(CELLS[cell].order > 1 for cell in mesh.blocks):
         problem = (
             "'mean' with quadratic elements: one mean per element leaves some of their deformations without stiffness"
         )
         raise InputError("dilatation", problem, "'corner'")
-    internal = force_of(mesh, solid.material, section, solid.dilatation)
+    materials = materials_of(mesh, solid.material, solid.density)
+    internal = internal_force(mesh, materials, section, solid.dilatation)
     nodes = slice(first, first + mesh.n_nodes)
     with within("shock"):
-        shock = bulk_viscosity_force(solid.shock, mesh, solid.density, internal)
+        shock = bulk_viscosity_force(solid.shock, mesh, materials, internal)
     return DiscreteSolid(
         name=name,
         mesh=mesh,
         nodes=nodes,
         internal=internal,
-        density=solid.density,
-        dofs=NodalDofs(free_components(solid.supports, mesh)),
+        materials=materials,
+        dofs=dofs_of(solid.supports, mesh),
         average=solid.force,
         dilatation=solid.dilatation,
         shock=shock,
     )
-
-
-def force_of(mesh: Mesh, material: Material, section: Section, dilatation: Dilating) -> BodyForce:
-    """Build the internal force of a body for its material law."""
-    if isinstance(material, RateLaw):
-        return inelastic_force(mesh, material, section, dilatation)
-    return elastic_force(mesh, material, section, dilatation)
 
 
 def initial(part: DiscreteSolid, solid: Solid) -> tuple[Array, Array]:
@@ -145,8 +141,13 @@ def initial(part: DiscreteSolid, solid: Solid) -> tuple[Array, Array]:
         return displacement, sample(solid.velocity, part.mesh)
 
 
+def dofs_of(supports: tuple[Support, ...], mesh: Mesh) -> DofMap:
+    """Degrees of freedom of a mesh with these supports; errors as of :func:`free_components`."""
+    return solid_dofs(_held(supports, mesh), free_components(supports, mesh))
+
+
 def free_components(supports: tuple[Support, ...], mesh: Mesh) -> BoolArray:
-    """Mask (n, d) of the components of a mesh without support.
+    """Mask (n, d) of the components of a mesh without support; those along directions are not looked at.
 
     Raises
     ------
@@ -154,12 +155,23 @@ def free_components(supports: tuple[Support, ...], mesh: Mesh) -> BoolArray:
         Naming the place from ``supports[k]`` on: letters that are not axes of the mesh, a tag that matches nothing, a
         support all of whose components other supports drive with another velocity.
     """
+    masks = _masks(supports, mesh)
+    _require_effect(supports, masks)
+    return ~np.logical_or.reduce([*masks, np.zeros((mesh.n_nodes, mesh.dim), bool)])
+
+
+def _masks(supports: tuple[Support, ...], mesh: Mesh) -> list[BoolArray]:
+    """Masks (n, d) of the components of each support; none of supports along directions."""
     masks = []
     for k, support in enumerate(supports):
         with within(f"supports[{k}]"):
-            masks.append(supported_components(support, mesh))
-    _require_effect(supports, masks)
-    return ~np.logical_or.reduce([*masks, np.zeros((mesh.n_nodes, mesh.dim), bool)])
+            masks.append(supported_components(support, mesh) & (not directed(support)))
+    return masks
+
+
+def _held(supports: tuple[Support, ...], mesh: Mesh) -> dict[int, Held]:
+    """Supported directions of the nodes of directed supports."""
+    return held_directions(supports, mesh, _masks(supports, mesh)) if any(map(directed, supports)) else {}
 
 
 def _require_effect(supports: tuple[Support, ...], masks: Sequence[BoolArray]) -> None:
@@ -169,13 +181,13 @@ def _require_effect(supports: tuple[Support, ...], masks: Sequence[BoolArray]) -
         for j, other in enumerate(supports):
             if isinstance(other, MOVING) and other != support and (j > k or not isinstance(support, MOVING)):
                 over |= masks[j]
-        if not (masks[k] & ~over).any():
+        if not directed(support) and not (masks[k] & ~over).any():
             problem = f"all components on {support.on!r} are driven by other supports"
             raise InputError(f"supports[{k}]", problem, "one support for each component")
 
 
 def supported_components(support: Support, mesh: Mesh) -> BoolArray:
-    """Mask (n, d) of the components of a mesh that a support fixes or drives.
+    """Mask (n, d) of the components of a mesh that a support fixes or drives, alone or along its direction.
 
     Raises
     ------
@@ -183,6 +195,10 @@ def supported_components(support: Support, mesh: Mesh) -> BoolArray:
         Letters that are not axes of the mesh, or a tag that matches nothing.
     """
     supported = np.zeros((mesh.n_nodes, mesh.dim), bool)
+    if isinstance(support, Fixed | Driven | Guided) and directed(support):
+        nodes, along = directions(support, mesh)
+        supported[nodes] = along != 0.0
+        return supported
     axes = "xyz"[: mesh.dim]
     letters = axes if support.components == "all" else support.components
     if not letters or set(letters) - set(axes):
@@ -195,7 +211,7 @@ def supported_components(support: Support, mesh: Mesh) -> BoolArray:
     return supported
 
 
-Moved = tuple[Driven | CarriedNodes, BoolArray]
+Moved = tuple[Driven | Guided | DirectedMotion | CarriedNodes, BoolArray]
 """Support that moves nodes, with the mask (n, d) of the components that it moves."""
 
 
@@ -222,25 +238,34 @@ def driven_components(
     """
     found: list[Moved] = []
     for part in parts:
-        for k, support in enumerate(solids[part.name].supports):
-            if isinstance(support, MOVING):
+        supports = solids[part.name].supports
+        with within(f"bodies.{part.name}"):
+            held = _held(supports, part.mesh)
+        apart = np.isin(np.arange(part.mesh.n_nodes), list(held))
+        for k, support in enumerate(supports):
+            if isinstance(support, MOVING) and not directed(support):
                 with within(f"bodies.{part.name}.supports[{k}]"):
                     where = np.zeros(displacement.shape, bool)
-                    where[part.nodes] = supported_components(support, part.mesh)
+                    where[part.nodes] = supported_components(support, part.mesh) & ~apart[:, None]
                     found.append((_moving(support, part, where, displacement, motions), where))
                     _require_apart(found)
+        along = directed_motion(supports, held, part.dofs.free.shape)
+        if along is not None:
+            where = np.zeros(displacement.shape, bool)
+            where[part.nodes] = along[1]
+            found.append((along[0], where))
     return tuple(found)
 
 
 def _moving(
-    support: Driven | Carried,
+    support: Driven | Guided | Carried,
     part: DiscreteSolid,
     where: BoolArray,
     displacement: Array,
     motions: Mapping[str, RigidMotion],
-) -> Driven | CarriedNodes:
+) -> Driven | Guided | CarriedNodes:
     """Support as the model has it: of a rigid body with the nodes (k,) that it carries."""
-    if isinstance(support, Driven):
+    if not isinstance(support, Carried):
         return support
     if support.by not in motions:
         problem, remedy = f"there is no rigid body {support.by!r}", f"one of {sorted(motions)}"

@@ -5,7 +5,6 @@ depend on others (ties, hanging nodes, rigid parts), J has their coefficients.  
 nodes only; forces on the nodes become those on the unknowns by ``J^T`` (docs/theory/solver/dof_map.md).
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -14,15 +13,9 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import SuperLU, splu
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.inertia.matrix_sum import CombinedSum
+from softway.bodies.inertia.matrix_sum import MatrixSum as MatrixSum
 from softway.kernels.assembly.sparsity import sum_of
-
-
-class MatrixSum(Protocol):
-    """Constant matrix plus a multiple of a changing one, on the unknowns."""
-
-    def of(self, values: Array, factor: float) -> sp.csc_array:
-        """``constant + factor * other`` (f, f), where ``values`` are the stored values of the other matrix."""
-        ...
 
 
 class DofMap(Protocol):
@@ -31,6 +24,11 @@ class DofMap(Protocol):
     @property
     def free(self) -> BoolArray:
         """Components (n, d) that the unknowns move; the others have supports."""
+        ...
+
+    @property
+    def unsupported(self) -> BoolArray:
+        """Nodes (n,) without any support."""
         ...
 
     @property
@@ -49,7 +47,11 @@ class DofMap(Protocol):
         ...
 
     def nodes(self, unknowns: Array, given: Array | float = 0.0) -> Array:
-        """Field (n, d) of the ``unknowns`` (f,), with the values ``given`` (n, d) of the supported components."""
+        """Field (n, d) of the ``unknowns`` (f,), with the supported part of the field ``given`` (n, d)."""
+        ...
+
+    def supported(self, field: Array) -> Array:
+        """Part (n, d) of a field (n, d) along the directions that supports hold or drive."""
         ...
 
     def unknowns(self, field: Array) -> Array:
@@ -58,6 +60,10 @@ class DofMap(Protocol):
 
     def forces(self, force: Array) -> Array:
         """Forces (f,) on the unknowns by forces (n, d) on the nodes, ``J^T force``."""
+        ...
+
+    def gathered(self, force: Array) -> Array:
+        """Forces (n, d) with those on nodes that follow others on the nodes that they follow."""
         ...
 
     def rows(self, gradient: sp.csr_array) -> sp.csr_array:
@@ -129,6 +135,15 @@ class NodalDofs:
         out[self.free] = unknowns
         return out
 
+    @property
+    def unsupported(self) -> BoolArray:
+        """Nodes (n,) without any support."""
+        return np.asarray(self.free.all(axis=1))
+
+    def supported(self, field: Array) -> Array:
+        """Field (n, d) on the supported components, zero on the free ones."""
+        return np.where(self.free, 0.0, field)
+
     def unknowns(self, field: Array) -> Array:
         """Free components (f,) of a field (n, d)."""
         return field[self.free]
@@ -136,6 +151,10 @@ class NodalDofs:
     def forces(self, force: Array) -> Array:
         """Forces (f,) on the free components."""
         return force[self.free]
+
+    def gathered(self, force: Array) -> Array:
+        """The forces: no node follows another."""
+        return force
 
     def rows(self, gradient: sp.csr_array) -> sp.csr_array:
         """Columns (m, f) of the free components."""
@@ -175,7 +194,9 @@ class NodalDofs:
 @dataclass(frozen=True, slots=True, eq=False)
 class CombinedDofs:
     """Unknowns that move several components: ``jacobian`` (n d, f) of full column rank, for nodes (n,) in ``d``
-    dimensions.  A component with an empty row is supported.
+    dimensions.  A component with an empty row is supported; supports along other directions of nodes have their
+    projector ``inclined`` (n d, n d), whose range no unknown moves.  Nodes that follow others have their motion from
+    that of all nodes, ``follow`` (n d, n d).
 
     Examples
     --------
@@ -188,6 +209,8 @@ class CombinedDofs:
 
     jacobian: sp.csr_array
     d: int
+    inclined: sp.csr_array | None = None
+    follow: sp.csr_array | None = None
     free: BoolArray = field(init=False)
     normal: SuperLU = field(init=False)
 
@@ -208,7 +231,23 @@ class CombinedDofs:
 
     def nodes(self, unknowns: Array, given: Array | float = 0.0) -> Array:
         """Field (n, d) of the unknowns (f,)."""
-        return np.where(self.free, np.asarray(self.jacobian @ unknowns).reshape(self.free.shape), given)
+        moved = np.asarray(self.jacobian @ unknowns).reshape(self.free.shape)
+        if self.inclined is None:
+            return np.where(self.free, moved, given)
+        return np.asarray(moved + self.supported(np.broadcast_to(given, moved.shape)))
+
+    @property
+    def unsupported(self) -> BoolArray:
+        """Nodes (n,) without any support."""
+        found = self.free.all(axis=1)
+        if self.inclined is not None:
+            found &= (self.inclined.diagonal().reshape(self.free.shape) == 0.0).all(axis=1)
+        return np.asarray(found)
+
+    def supported(self, field: Array) -> Array:
+        """Part (n, d) of a field (n, d) on the supported components and along the supported directions."""
+        out = np.where(self.free, 0.0, field)
+        return out if self.inclined is None else out + (self.inclined @ field.ravel()).reshape(out.shape)
 
     def unknowns(self, field: Array) -> Array:
         """Unknowns (f,) of the nearest field, by least squares."""
@@ -217,6 +256,10 @@ class CombinedDofs:
     def forces(self, force: Array) -> Array:
         """Forces (f,) on the unknowns."""
         return np.asarray(self.jacobian.T @ force.ravel())
+
+    def gathered(self, force: Array) -> Array:
+        """Forces (n, d) with those on nodes that follow others on the nodes that they follow."""
+        return force if self.follow is None else np.asarray(self.follow.T @ force.ravel()).reshape(force.shape)
 
     def rows(self, gradient: sp.csr_array) -> sp.csr_array:
         """Rows (m, f) on the unknowns."""
@@ -232,7 +275,7 @@ class CombinedDofs:
 
     def sum(self, constant: sp.csc_array, other: sp.csc_array) -> MatrixSum:
         """Sum on the nodes, then on the unknowns."""
-        return _CombinedSum(dofs=self, constant=constant, other=other)
+        return CombinedSum(jacobian=self.jacobian, constant=constant, other=other)
 
     def block_inverse(self, blocks: Array) -> sp.csr_array:
         """Inverse (f, f) of the diagonal."""
@@ -253,24 +296,3 @@ class CombinedDofs:
         others = self.moving(np.flatnonzero(~nodes))
         kept = np.setdiff1d(np.arange(self.size), others)
         return CombinedDofs(sp.csr_array(self.jacobian[:, kept]), self.d)
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class _CombinedSum:
-    """Sum on the nodes (n d, n d), restricted to the unknowns of a map."""
-
-    dofs: CombinedDofs
-    constant: sp.csc_array
-    other: sp.csc_array
-
-    def of(self, values: Array, factor: float) -> sp.csc_array:
-        """``J^T (constant + factor other) J`` (f, f)."""
-        other = sp.csc_array((values, self.other.indices, self.other.indptr), shape=self.other.shape)
-        return self.dofs.matrix(sp.csc_array(self.constant + factor * other))
-
-
-def joined(maps: Sequence[DofMap]) -> DofMap:
-    """Map of several bodies with nodes and unknowns in order."""
-    if all(m.components is not None for m in maps):
-        return NodalDofs(np.concatenate([m.free for m in maps]))
-    return CombinedDofs(sp.csr_array(sp.block_diag([m.jacobian for m in maps], format="csr")), maps[0].free.shape[1])

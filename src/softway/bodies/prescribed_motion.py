@@ -1,7 +1,4 @@
-"""Prescribed motion of rigid tools: pose of a shape at any time, and displacement of its material points.
-
-A pose maps the points y of a shape into space, ``x = R y + s``.
-"""
+"""Prescribed motion of rigid tools: pose of a shape at any time, and displacement of its material points."""
 
 from bisect import bisect_right
 from collections.abc import Sequence
@@ -11,44 +8,14 @@ from typing import Protocol
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.setup.pose import Pose as Pose
+from softway.bodies.setup.pose import require_axis, turned_about, vector
+from softway.bodies.setup.smooth_motions import Sliding as Sliding
+from softway.bodies.setup.smooth_motions import Swinging as Swinging
 from softway.errors import InputError
 from softway.obstacles.primitives import Cavity, Shape
 from softway.obstacles.triangulated import Facets, Surface
 from softway.units import Metre, MetrePerSecond, Pure, RadianPerSecond, Second
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Pose:
-    """Pose of a rigid shape in space: ``x = R y + s``.
-
-    Parameters
-    ----------
-    rotation
-        R (d, d); the number 1 (shape ()) for no rotation.
-    shift
-        s (d,) [m]; the number 0 (shape ()) for no translation.
-
-    Examples
-    --------
-    >>> quarter = Pose(rotation=np.array([[0.0, -1.0], [1.0, 0.0]]), shift=np.array([5.0, 0.0]))
-    >>> quarter.place(np.array([1.0, 0.0])).tolist(), quarter.back(np.array([5.0, 1.0])).tolist()
-    ([5.0, 1.0], [1.0, 0.0])
-    """
-
-    rotation: Array
-    shift: Array
-
-    def place(self, y: Array) -> Array:
-        """Points in space (..., d) of the points y (..., d) of the shape."""
-        return self.turn(y) + self.shift
-
-    def back(self, x: Array) -> Array:
-        """Points in the coordinates of the shape (..., d) of the points x (..., d) in space."""
-        return np.asarray(np.dot(x - self.shift, self.rotation))
-
-    def turn(self, vectors: Array) -> Array:
-        """Rotated vectors (..., d) of the shape."""
-        return np.asarray(np.dot(vectors, self.rotation.T))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,7 +55,7 @@ class Translation:
     velocity: tuple[MetrePerSecond, ...] | MetrePerSecond
 
     def __post_init__(self) -> None:
-        _vector("velocity", self.velocity)
+        vector("velocity", self.velocity)
 
     @property
     def dim(self) -> int:
@@ -97,7 +64,7 @@ class Translation:
 
     def at(self, time: float) -> Pose:
         """Pose at a time [s]."""
-        return Pose(rotation=np.array(1.0), shift=time * _vector("velocity", self.velocity))
+        return Pose(rotation=np.array(1.0), shift=time * vector("velocity", self.velocity))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -128,7 +95,7 @@ class Table:
             problem = f"{len(self.displacements)} displacements for {len(self.times)} times"
             raise InputError("displacements", problem, "one for each instant")
         rows: Sequence[tuple[float, ...] | float] = self.displacements
-        sizes = {len(_vector(f"displacements[{k}]", row)) for k, row in enumerate(rows)}
+        sizes = {len(vector(f"displacements[{k}]", row)) for k, row in enumerate(rows)}
         if len(sizes) > 1:
             raise InputError("displacements", f"vectors of {sorted(sizes)} components", "vectors of equal length")
 
@@ -173,11 +140,7 @@ class Turning:
     def __post_init__(self) -> None:
         if not np.isfinite(self.rate):
             raise InputError("rate", f"{self.rate:g} rad/s is not finite", "an angular velocity")
-        if len(_vector("point", self.point)) == 1:
-            raise InputError("point", "there is no rotation in one dimension", "a point in 2D or 3D")
-        if len(self.axis) != {2: 0, 3: 3}[self.dim] or (self.axis and not np.linalg.norm(self.axis) > 0.0):
-            remedy = "three numbers such as [0, 0, 1]" if self.dim == 3 else "none in 2D"
-            raise InputError("axis", f"{list(self.axis)} is not an axis in {self.dim}D", remedy)
+        require_axis(self.point, self.axis)
 
     @property
     def dim(self) -> int:
@@ -186,16 +149,10 @@ class Turning:
 
     def at(self, time: float) -> Pose:
         """Pose at a time [s]."""
-        axis = np.asarray(self.axis or (0.0, 0.0, 1.0), float)
-        x, y, z = axis / np.linalg.norm(axis)
-        cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-        angle, point = self.rate * time, np.asarray(self.point, float)
-        turn = np.eye(3) + np.sin(angle) * cross + 2.0 * np.sin(0.5 * angle) ** 2 * (cross @ cross)
-        rotation = turn[: self.dim, : self.dim]
-        return Pose(rotation=rotation, shift=point - rotation @ point)
+        return turned_about(self.point, self.axis, self.rate * time)
 
 
-Motion = Still | Translation | Table | Turning
+Motion = Still | Translation | Table | Turning | Sliding | Swinging
 
 
 class Posed(Protocol):
@@ -265,11 +222,3 @@ def _both(shape: Shape, x: Array) -> tuple[Array, Array]:
             return shape.gap_and_normal(x)
         case _:
             return shape.gap(x), shape.normal_at(x)
-
-
-def _vector(where: str, value: tuple[float, ...] | float) -> Array:
-    """Vector (d,) of one to three finite components."""
-    vector = np.atleast_1d(np.asarray(value, float))
-    if vector.ndim != 1 or not 1 <= len(vector) <= 3 or not np.isfinite(vector).all():
-        raise InputError(where, f"{value!r} is not a vector", "1, 2 or 3 finite components")
-    return vector

@@ -1,10 +1,10 @@
 """Rigid-body modes that supports leave free; a static start must have none."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from softway.arrays import Array, BoolArray
+from softway.arrays import Array
 
 _TOLERANCE = 1e-9
 
@@ -44,15 +44,19 @@ def motion_names(dim: int, axisymmetric: bool) -> tuple[str, ...]:
     return shifts + tuple(f"rotation about {a}" for a in turns)
 
 
-def free_motions(points: Array, fixed: BoolArray, axisymmetric: bool = False) -> tuple[str, ...]:
+HeldParts = Callable[[Array], Array]
+"""Parts (n, d) of a field (n, d) that supports hold."""
+
+
+def free_motions(points: Array, held: HeldParts, axisymmetric: bool = False) -> tuple[str, ...]:
     """Names of the rigid motions that the supports leave free.
 
     Parameters
     ----------
     points
         (n, d) nodes [m].
-    fixed
-        (n, d) supported components.
+    held
+        Parts of a field that the supports hold.
     axisymmetric
         True for a body of revolution, with the translation along its axis as the only rigid motion.
 
@@ -60,15 +64,16 @@ def free_motions(points: Array, fixed: BoolArray, axisymmetric: bool = False) ->
     --------
     >>> square = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]])
     >>> pinned = np.array([[True, True], [False, False], [False, False], [False, False]])
-    >>> free_motions(square, pinned)
+    >>> free_motions(square, lambda field: field * pinned)
     ('rotation about z',)
     """
-    supported = fixed.any(axis=1)
+    supported = np.any([held(np.tile(axis, (len(points), 1))) for axis in np.eye(points.shape[1])], axis=(0, 2))
     centre = points[supported].mean(axis=0) if supported.any() else points.mean(axis=0)
     modes, names = rigid_motions(points, motion_names(points.shape[1], axisymmetric), centre)
     moving = np.linalg.norm(modes, axis=0) > _TOLERANCE * np.linalg.norm(modes)
     modes, names = modes[:, moving], tuple(n for n, m in zip(names, moving, strict=True) if m)
-    rows = modes[fixed.ravel()]
+    rows = np.stack([held(mode.reshape(points.shape)).ravel() for mode in modes.T], axis=1)
+    rows = rows[rows.any(axis=1)]
     _, values, right = np.linalg.svd(rows, full_matrices=True)
     rank = int((values > _TOLERANCE * max(1.0, values.max(initial=0.0))).sum())
     free = right[rank:]

@@ -171,3 +171,26 @@ def rotations(turn: Array) -> Array:
         [2.0 * (b * d - a * c), 2.0 * (c * d + a * b), 1.0 - 2.0 * (b * b + c * c)],
     ]
     return np.moveaxis(np.array(rows), 2, 0)
+
+
+def quaternion(r: Array) -> Array:
+    """Unit quaternion (4,) of a rotation (3, 3), with its scalar first and not negative.
+
+    Examples
+    --------
+    >>> quaternion(np.diag([-1.0, -1.0, 1.0])).tolist()
+    [0.0, 0.0, 0.0, 1.0]
+    """
+    trace = float(np.trace(r))
+    full = np.array(
+        [
+            [1.0 + trace, r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]],
+            [0.0, 1.0 - trace + 2.0 * r[0, 0], r[0, 1] + r[1, 0], r[0, 2] + r[2, 0]],
+            [0.0, 0.0, 1.0 - trace + 2.0 * r[1, 1], r[1, 2] + r[2, 1]],
+            [0.0, 0.0, 0.0, 1.0 - trace + 2.0 * r[2, 2]],
+        ]
+    )
+    full = full + np.triu(full, 1).T
+    row = full[int(np.argmax(np.diag(full)))]
+    found: Array = row / float(np.linalg.norm(row)) * (1.0 if row[0] >= 0.0 else -1.0)
+    return found

@@ -1,10 +1,8 @@
 """Description of deformable solids and rigid tools."""
 
-from bisect import bisect_left, bisect_right
-from dataclasses import dataclass
-from typing import Annotated, ClassVar
-
-import numpy as np
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Annotated
 
 from softway.bodies.bulk_viscosity import BulkViscosity
 from softway.bodies.elements.quadrature import Dilating
@@ -20,118 +18,17 @@ from softway.bodies.internal_force.slab_average import (
 from softway.bodies.prescribed_motion import Motion, PlacedShape, Still
 from softway.bodies.setup.initial_fields import Field, Uniform
 from softway.bodies.setup.placement import Placement
+from softway.bodies.setup.supports import Carried as Carried
+from softway.bodies.setup.supports import Driven as Driven
+from softway.bodies.setup.supports import Fixed as Fixed
+from softway.bodies.setup.supports import Guided as Guided
+from softway.bodies.setup.supports import Support as Support
 from softway.errors import InputError
 from softway.laws.law import Material, RateLaw
 from softway.meshes.generators.recipes import MeshSource
 from softway.meshes.mesh import Mesh
 from softway.obstacles.primitives import Shape
-from softway.units import KilogramPerCubicMetre, MetrePerSecond, Second
-
-STRAIGHT = 1e-12
-"""Change of the slope of a prescribed velocity over a slab, relative to the velocity, that is rounding."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Fixed:
-    """Support that keeps displacement components of the nodes of a tag at zero.
-
-    Parameters
-    ----------
-    on
-        Tag of the nodes.
-    components
-        Letters out of ``x``, ``y``, ``z``; or ``all``.
-    """
-
-    on: str
-    components: str = "all"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Driven:
-    """Support that moves displacement components of the nodes of a tag with a given velocity.
-
-    Parameters
-    ----------
-    on, components
-        As for :class:`Fixed`.
-    velocity
-        Velocity of each of the components [m/s]; with ``times`` its values at these instants, linear in between and
-        constant outside.
-    times
-        Increasing instants [s].
-
-    Examples
-    --------
-    >>> ram = Driven(on="top", components="y", velocity=(0.0, -2.0), times=(0.0, 1.0))
-    >>> ram.at(0.5)
-    -1.0
-    """
-
-    on: str
-    components: str = "all"
-    velocity: tuple[MetrePerSecond, ...] | MetrePerSecond
-    times: tuple[Second, ...] = ()
-
-    def __post_init__(self) -> None:
-        values = np.atleast_1d(np.asarray(self.velocity, float))
-        times = np.asarray(self.times, float)
-        if len(values) != max(len(times), 1) or not np.isfinite(values).all():
-            raise InputError("velocity", f"{len(values)} values at {len(times)} times", "one for each of the times")
-        if not (np.diff(times) > 0.0).all():
-            raise InputError("times", f"{list(self.times)} do not increase", "increasing instants")
-
-    @property
-    def greatest_speed(self) -> float:
-        """Greatest speed of a component at any time [m/s]."""
-        return float(np.abs(self.velocity).max())
-
-    def at(self, time: float) -> float:
-        """Velocity at a time [m/s]."""
-        values = np.atleast_1d(np.asarray(self.velocity, float))
-        return float(np.interp(time, self.times, values)) if self.times else float(values[0])
-
-    def bends(self, start: float, end: float) -> tuple[tuple[float, float], ...]:
-        """Bends of the velocity inside a slab: instants tau in (0, 1), and changes of its slope [m/s per slab].
-
-        Examples
-        --------
-        >>> Driven(on="left", velocity=(0.0, 1.0, 0.0), times=(0.0, 0.5, 1.0)).bends(0.25, 0.75)
-        ((0.5, -2.0),)
-        """
-        first, last = bisect_right(self.times, start), bisect_left(self.times, end)
-        if first >= last:
-            return ()
-        tau = np.array([0.0, *((t - start) / (end - start) for t in self.times[first:last]), 1.0])
-        values = np.array([self.at(start), *(self.at(t) for t in self.times[first:last]), self.at(end)])
-        changes = np.diff(np.diff(values) / np.diff(tau))
-        real = np.abs(changes) > STRAIGHT * np.abs(values).max()
-        return tuple((float(t), float(c)) for t, c, bent in zip(tau[1:-1], changes, real, strict=True) if bent)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Carried:
-    """Support that holds the nodes of a tag on a rigid body, which carries them: a weld of a solid to the body.
-
-    Parameters
-    ----------
-    on
-        Tag of the nodes.
-    by
-        Name of the rigid body.
-
-    Examples
-    --------
-    >>> Carried(on="left", by="crank").components
-    'all'
-    """
-
-    on: str
-    by: str
-    components: ClassVar[str] = "all"
-
-
-Support = Fixed | Driven | Carried
+from softway.units import KilogramPerCubicMetre
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -143,9 +40,9 @@ class Solid:
     mesh
         Mesh, or recipe of a mesh.
     material
-        Material law: a stored energy, or a path-dependent law.
+        Material law: a stored energy, or a path-dependent law; or laws by regions of the mesh.
     density
-        Mass per reference volume [kg/m^3], positive.
+        Mass per reference volume [kg/m^3], positive; or one for each region with a law.
     section
         Section of the elements; by default bar of unit area, plane strain of unit thickness, or volume.
     mass
@@ -162,12 +59,14 @@ class Solid:
     shock
         Bulk viscosity; none by default.
     place
-        Rotation and translation of the mesh into the scene.
+        Mirror, rotation and translation of the mesh into the scene.
+    group
+        Placements of groups that the solid belongs to, applied after its own, in order.
     """
 
     mesh: MeshSource | Mesh
-    material: Material
-    density: KilogramPerCubicMetre
+    material: Material | Mapping[str, Material]
+    density: KilogramPerCubicMetre | Mapping[str, KilogramPerCubicMetre]
     section: Section | None = None
     mass: MassRule = Consistent()
     velocity: Annotated[Field, "m/s"] = Uniform()
@@ -177,21 +76,71 @@ class Solid:
     dilatation: Dilating = "point"
     shock: BulkViscosity | None = None
     place: Placement = Placement()
+    group: tuple[Placement, ...] = ()
 
     def __post_init__(self) -> None:
         if isinstance(self.force, EnergyMomentum) and isinstance(self.section, Axisymmetric):
             problem = "EnergyMomentum for a body of revolution, which has no angular momentum in its section"
             raise InputError("force", problem, "Weighted")
-        if isinstance(self.force, AverageField | DiscreteGradient) and isinstance(self.material, RateLaw):
-            problem = f"{type(self.force).__name__} with {type(self.material).__name__}, which has no stored energy"
-            raise InputError("force", problem, "Weighted or EnergyMomentum")
-        if self.dilatation == "point" and getattr(self.material, "nu", 0.0) == 0.5:
-            problem = "nu = 0.5 with the volume change at each point of an element: the elements lock"
-            raise InputError("material.nu", problem, 'dilatation = "mean", or "corner" with quadratic cells')
+        for place, law in _placed_laws(self.material):
+            if isinstance(self.force, AverageField | DiscreteGradient) and isinstance(law, RateLaw):
+                problem = f"{type(self.force).__name__} with {type(law).__name__}, which has no stored energy"
+                raise InputError("force", problem, "Weighted or EnergyMomentum")
+            if self.dilatation == "point" and getattr(law, "nu", 0.0) == 0.5:
+                problem = "nu = 0.5 with the volume change at each point of an element: the elements lock"
+                raise InputError(f"{place}.nu", problem, 'dilatation = "mean", or "corner" with quadratic cells')
+        if isinstance(self.density, Mapping):
+            _require_densities(self.material, self.density)
         if isinstance(self.force, DiscreteGradient) and self.dilatation != "point":
             raise InputError(
                 "force", "DiscreteGradient needs the volume change at each point", 'dilatation = "point", or Weighted'
             )
+
+
+def _placed_laws(material: Material | Mapping[str, Material]) -> list[tuple[str, Material]]:
+    """Laws with their places in a body."""
+    if not isinstance(material, Mapping):
+        return [("material", material)]
+    if not material:
+        raise InputError("material", "no law", "one law, or a law for each region of the mesh")
+    return [(f"material.{name}", law) for name, law in material.items()]
+
+
+def _require_densities(material: Material | Mapping[str, Material], density: Mapping[str, float]) -> None:
+    """Refuse densities of other regions than those with a law."""
+    if not isinstance(material, Mapping):
+        raise InputError("density", "densities by regions, but one law for the body", "one density, or laws by regions")
+    for name in material:
+        if name not in density:
+            raise InputError(f"density.{name}", "missing", "a density for each region with a law, or one for the body")
+    for name in density:
+        if name not in material:
+            problem, known = f"{name!r} is no region with a law", ", ".join(material)
+            raise InputError(f"density.{name}", problem, f"densities of: {known}")
+
+
+def placed_together(bodies: Mapping[str, Solid], place: Placement) -> dict[str, Solid]:
+    """Solids of a group, placed as one after their own placements: mirrored and turned about a common point, and moved.
+
+    Raises
+    ------
+    InputError
+        If the placement refers to each single body: the centre of its bounding box, or its lowest node.
+
+    Examples
+    --------
+    >>> from softway.bodies.setup.placement import Mirror
+    >>> import softway as sw
+    >>> bar = sw.Solid(mesh=sw.meshes.Interval(length=1.0, cells=1), material=sw.LinearElastic(E=1.0), density=1.0)
+    >>> turned = placed_together({"one": bar, "other": bar}, Placement(mirror=Mirror(normal=(1.0,), point=(2.0,))))
+    >>> sw.build(sw.Scene(bodies=turned)).points.ravel().tolist()
+    [4.0, 3.0, 4.0, 3.0]
+    """
+    if place.bottom is not None:
+        raise InputError("bottom", "the lowest node of each body of a group", "a translation of the group")
+    if not place.about and (place.rotations or (place.mirror is not None and not place.mirror.point)):
+        raise InputError("about", "no common point of a group", "a point in space")
+    return {name: replace(solid, group=(*solid.group, place)) for name, solid in bodies.items()}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,5 +1,6 @@
 """Contact: who may touch whom, how nodes move inside a slab, and the rules in time."""
 
+from softway.contact.assembly.tie import Tie as Tie
 from softway.contact.contact import Contact as Contact
 from softway.contact.contact import DualMortar as DualMortar
 from softway.contact.contact import NodeToSurface as NodeToSurface
@@ -14,4 +15,5 @@ __all__ = [
     "Impulse",
     "NodeToSurface",
     "Paper",
+    "Tie",
 ]

@@ -42,12 +42,15 @@ class DualMortar:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Contact:
-    """Unilateral contact of the surface of a solid with a tool or with another solid.
+    """Unilateral contact of the surfaces of solids with each other and with tools.
 
     Parameters
     ----------
     between
-        ``("body.tag", "tool")`` or ``("body.tag", "other.tag")``; without a tag the whole surface.
+        ``("body.tag", "tool")`` or ``("body.tag", "other.tag")``, without a tag the whole surface; a list of more than
+        two: each with every other; a name that is given twice: this surface also with itself, ``("tube", "tube")``;
+        ``"all"``: all surfaces with each other and themselves, and with all tools.  Surfaces that a contact of two
+        names are left out of lists and of ``"all"``.
     name
         Name in the columns of the history; by default ``body.tag-tool``.
     timing
@@ -55,7 +58,7 @@ class Contact:
         :class:`~softway.contact.Paper`.
     method
         Contact method between two solids; by default :class:`~softway.contact.DualMortar`, or
-        :class:`~softway.contact.NodeToSurface` between bars and
+        :class:`~softway.contact.NodeToSurface` between bars, for lists, for bodies with themselves, and
         with the rules Paper and Impulse.  Contact with a tool is always between nodes and the tool.
     friction
         Friction law; by default there is no friction.
@@ -67,9 +70,11 @@ class Contact:
     --------
     >>> Contact(between=("bar.right", "wall")).label
     'bar.right-wall'
+    >>> Contact(between=("tube", "tube")).many
+    True
     """
 
-    between: tuple[str, str]
+    between: tuple[str, ...] | Literal["all"]
     name: str = ""
     timing: ImpactRule = Energy()
     method: DualMortar | NodeToSurface | None = None
@@ -77,26 +82,51 @@ class Contact:
     start: Literal["apart", "fit"] = "apart"
 
     @property
+    def names(self) -> tuple[str, ...]:
+        """Surfaces and tools in the order given; none for ``"all"``."""
+        return () if self.between == "all" else tuple(self.between)
+
+    @property
     def label(self) -> str:
         """Name of the contact in records."""
-        return self.name or f"{self.between[0]}-{self.between[1]}"
+        return self.name or "-".join(self.names) or "all"
+
+    @property
+    def many(self) -> bool:
+        """True for lists, bodies with themselves, and ``"all"``."""
+        return len(self.names) != 2 or len(set(self.bodies)) == 1
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """Names of the bodies and tools in the order given."""
+        return tuple(name.partition(".")[0] for name in self.names)
+
+    @property
+    def tags(self) -> tuple[str, ...]:
+        """Tags in the order given; the whole surface by default."""
+        return tuple(name.partition(".")[2] or "surface" for name in self.names)
+
+    @property
+    def surfaces(self) -> tuple[tuple[str, str], ...]:
+        """Name and tag of each surface or tool, each once, in the order given."""
+        return tuple(dict.fromkeys(zip(self.bodies, self.tags, strict=True)))
 
     @property
     def body(self) -> str:
-        """Name of the deformable body."""
-        return self.between[0].partition(".")[0]
+        """Name of the first deformable body."""
+        return self.bodies[0]
 
     @property
     def tag(self) -> str:
-        """Tag of the contact nodes; the whole surface by default."""
-        return self.between[0].partition(".")[2] or "surface"
+        """Tag of its contact nodes; the whole surface by default."""
+        return self.tags[0]
 
     @property
     def opponent(self) -> str:
         """Name of the tool or of the other solid."""
-        return self.between[1].partition(".")[0]
+        return self.bodies[1]
 
     @property
     def opponent_tag(self) -> str:
         """Tag of the surface of the other solid; its whole surface by default."""
-        return self.between[1].partition(".")[2] or "surface"
+        return self.tags[1]

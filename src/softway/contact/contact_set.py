@@ -3,50 +3,26 @@
 import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
 
 import numpy as np
-import scipy.sparse as sp
 
-from softway.arrays import Array, IntArray
+from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.assembled.vector_space import LocalSpace, VectorSpace
 from softway.bodies.rigid_motion import RigidShape
 from softway.contact.contact_rows import ContactRows
 from softway.contact.node_to_surface.edge_to_edge import EdgeContact
+from softway.contact.node_to_surface.joined_rows import joined_rows
 from softway.contact.node_to_surface.kept_facets import KeptEdges, keep_facets
 from softway.contact.node_to_surface.node_to_tool import NodeToTool, ToolContact
 from softway.contact.node_to_surface.slab_pairs import KeptFacets, NodeFacetContact
-from softway.contact.stencils import Stencils
-from softway.contact.tangential_rows import TangentialRows, tangents
+from softway.contact.node_to_surface.slab_search import SlabSearch
+from softway.contact.node_to_surface.split_facets import OnSplitSurface, SplitContact
+from softway.contact.stencils import NoPairs, PairedSurfaces, SurfacePair
+from softway.contact.surfaces.search_margin import SearchMargin
+from softway.contact.tangential_rows import TangentialRows
 from softway.tolerances import DEPTH
 
 log = logging.getLogger(__name__)
-
-
-class PairedSurfaces(Protocol):
-    """Surfaces that may come into contact in one slab."""
-
-    @property
-    def found(self) -> int:
-        """Number of pairs found by the search."""
-        ...
-
-    def at(self, x: Array) -> Stencils:
-        """Gaps and their derivatives at positions ``x`` (n, d)."""
-        ...
-
-
-class SurfacePair(Protocol):
-    """Contact method between deformable surfaces; its rows stay the same throughout a march."""
-
-    @property
-    def node(self) -> IntArray:
-        """Slave node (m,) of each row."""
-        ...
-
-    def meet(self, x0: Array, x1: Array, reach: float) -> PairedSurfaces:
-        """Pairs that may touch in a slab from positions ``x0`` to about ``x1`` (n, d), within ``reach`` [m]."""
-        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -56,7 +32,7 @@ class ContactSet:
     Parameters
     ----------
     methods
-        Contact methods of the pairs of surfaces; a contact may have several.
+        Methods of the pairs of surfaces; a contact may have several.
     contact
         (m,) number of the contact of each row, in the order of the methods.
     points
@@ -66,18 +42,19 @@ class ContactSet:
     labels
         Names of the contacts.
     frictionless_rows
-        Tangential parts of the rows if no contact has friction, without directions; None with friction, where they
-        depend on the positions.
+        Tangential parts of rows without friction, without directions; None with friction: they depend on positions.
     overlap_methods
-        Nodes of either surface against the facets of the other, for contacts whose methods use mean gaps only: they
-        measure the overlap of the surfaces and transmit no force.
+        Nodes of either surface against facets of the other, without forces, for contacts that use mean gaps only.
     overlap_contact
         Number of the contact of each overlap method.
-    fixed_rows
-        Contact rows that are linear and never change: resting half-spaces without friction; None for other contacts.
+    margins
+        Margin of the search of each contact in a slab; None for contacts with tools.
+    known
+        (m,) rows that are linear and never change: resting half-spaces, if no contact has friction.
+    known_rows
+        All rows where the others are open; None if a row that is not known has an opponent everywhere.
     clearance
-        (m,) offsets of the gaps [m]: negative where the linear surfaces in place of curved facets overlap at the start
-        although the curved surfaces do not; None without such overlaps.
+        (m,) offsets of the gaps [m], negative where surfaces overlap at the start although the curved facets do not.
     space
         Gathers the positions of surfaces for the search.
     """
@@ -90,7 +67,9 @@ class ContactSet:
     frictionless_rows: TangentialRows | None
     overlap_methods: tuple[SurfacePair, ...] = ()
     overlap_contact: tuple[int, ...] = ()
-    fixed_rows: ContactRows | None = None
+    margins: tuple[SearchMargin | None, ...] = ()
+    known: BoolArray | None = None
+    known_rows: ContactRows | None = None
     clearance: Array | None = None
     space: VectorSpace = LocalSpace(())
 
@@ -102,45 +81,87 @@ class ContactSet:
     @property
     def fixed(self) -> bool:
         """True if the rows never change."""
-        return self.fixed_rows is not None
+        return self.known_rows is not None and self.known is not None and bool(self.known.all())
+
+    @property
+    def numbers(self) -> tuple[int, ...]:
+        """Number of the contact of each method; 0 for one without rows."""
+        ends = np.cumsum([len(m.node) for m in self.methods]).tolist()
+        return tuple(int(self.contact[end - 1]) if end else 0 for end in ends)
+
+    @property
+    def changing(self) -> IntArray:
+        """Nodes (k,) that may touch in rows that change, ascending."""
+        sides = [side.nodes for m in self.margins if m is not None for side in m.sides]
+        tools = [m.node for m in self.methods if isinstance(m, NodeToTool) and not m.fixed]
+        return np.unique(np.concatenate([np.zeros(0, int), *sides, *tools]))
 
     @property
     def paired(self) -> bool:
         """True if deformable surfaces may touch, whose rows are searched for in every slab."""
         return not all(isinstance(m, NodeToTool) for m in self.methods)
 
+    @property
+    def crossing_edges(self) -> bool:
+        """True if all edges have rows: many of them are redundant, and pairs change often."""
+        return any(isinstance(m, OnSplitSurface) for m in self.methods)
+
     def rows_of(self, contact: int) -> slice:
         """Rows of one contact."""
         found = np.flatnonzero(self.contact == contact)
         return slice(int(found[0]), int(found[-1]) + 1) if len(found) else slice(0, 0)
 
-    def meet(self, u0: Array, u1: Array, start: float, end: float) -> "SlabContacts":
-        """Search the contacts of a slab between two times, from displacement ``u0`` to about ``u1`` (n, d)."""
-        if self.fixed_rows is not None:
-            return SlabContacts(
-                contacts=self, surfaces=(), overlap_surfaces=(), node=self.node, fixed_rows=self.fixed_rows
-            )
+    def meet(
+        self, u0: Array, u1: Array, start: float, end: float, margins: tuple[float, ...] | None = None
+    ) -> "SlabContacts":
+        """Search the contacts of a slab between two times, from displacement ``u0`` to about ``u1`` (n, d).
+
+        With ``margins`` (c,) [m] of the contacts, only rows with an opponent within the margin have pairs;
+        :meth:`SlabContacts.missed` checks them afterwards.
+        """
+        if self.fixed:
+            return self._known_alone(None)
         x0, x1 = self.space.gather(self.points + u0), self.space.gather(self.points + u1)
-        found = tuple(
-            m.during(start, end) if isinstance(m, NodeToTool) else m.meet(x0, x1, self.reach) for m in self.methods
+        search = SlabSearch(u0=u0, u1=u1, start=start, end=end, reach=self.reach, margins=margins)
+        apart = search.apart(self.margins, x0, x1)
+        named = (self.methods, self.numbers), (self.overlap_methods, self.overlap_contact)
+        found, overlap = (
+            tuple(search.met(m, k, apart, x0, x1) for m, k in zip(*pairs, strict=True)) for pairs in named
         )
-        overlap = tuple(m.meet(x0, x1, self.reach) for m in self.overlap_methods)
-        return SlabContacts(contacts=self, surfaces=found, overlap_surfaces=overlap, node=self.node, fixed_rows=None)
+        met = any(m.found for m in (*found, *overlap) if not isinstance(m, ToolContact))
+        if margins is not None and self.known_rows is not None and not met:
+            return self._known_alone(search)
+        return SlabContacts(contacts=self, surfaces=found, overlap_surfaces=overlap, node=self.node, search=search)
+
+    def _known_alone(self, search: SlabSearch | None) -> "SlabContacts":
+        """Contacts of a slab in which the known rows alone have opponents."""
+        alone = SlabContacts(contacts=self, surfaces=(), overlap_surfaces=(), node=self.node, search=search)
+        return replace(alone, fixed_rows=self.known_rows)
+
+    @property
+    def closest(self) -> tuple[float, ...]:
+        """Least margins (c,) of the search in a slab [m]."""
+        return tuple(0.0 if m is None else m.distance for m in self.margins)
 
     def with_shapes(self, shapes: Mapping[str, RigidShape]) -> "ContactSet":
-        """Contacts with other motions of rigid bodies, by the name of the body."""
+        """Contacts with other motions of rigid bodies, by their names."""
         methods = tuple(
             replace(m, tool=shapes[m.name]) if isinstance(m, NodeToTool) and m.name in shapes else m
             for m in self.methods
         )
         return replace(self, methods=methods)
 
-    def with_fixed_rows(self) -> "ContactSet":
-        """Contacts with their rows computed in advance if these never change."""
-        if self.frictionless_rows is None or not all(isinstance(m, NodeToTool) and m.fixed for m in self.methods):
+    def with_known_rows(self) -> "ContactSet":
+        """Contacts with the rows that never change computed in advance."""
+        if self.frictionless_rows is None:
             return self
-        still = np.zeros_like(self.points)
-        return replace(self, fixed_rows=self.rest(still, 0.0).at(still))
+        of = [np.full(len(m.node), isinstance(m, NodeToTool) and m.fixed) for m in self.methods]
+        known = np.concatenate([np.zeros(0, bool), *of])
+        if not all(m.fixed for m in self.methods if isinstance(m, NodeToTool)):
+            return replace(self, known=known)
+        tools = (m.during(0.0, 0.0) if isinstance(m, NodeToTool) else NoPairs(rows=len(m.node)) for m in self.methods)
+        alone = SlabContacts(contacts=self, surfaces=tuple(tools), overlap_surfaces=(), node=self.node)
+        return replace(self, known=known, known_rows=alone.at(np.zeros_like(self.points)))
 
     def cleared(self, u: Array, apart: Sequence[bool]) -> "ContactSet":
         """Contacts whose negative mean gaps at the displacement ``u`` (n, d) become offsets of the gaps.
@@ -178,19 +199,24 @@ class SlabContacts:
     node
         Slave node (m,) of each row.
     fixed_rows
-        The rows if they never change.
+        The rows if they do not change in the slab.
+    search
+        The search, whose margins have to be checked.
     """
 
     contacts: ContactSet
     surfaces: tuple[PairedSurfaces, ...]
     overlap_surfaces: tuple[PairedSurfaces, ...]
     node: IntArray
-    fixed_rows: ContactRows | None
+    fixed_rows: ContactRows | None = None
+    search: SlabSearch | None = None
 
     @property
     def found(self) -> int:
         """Number of pairs of a node, facet or edge and its opponent that the search found."""
-        return len(self.node) if self.fixed_rows is not None else sum(m.found for m in self.surfaces)
+        if self.fixed_rows is not None:
+            return int(np.count_nonzero(self.fixed_rows.near))
+        return sum(m.found for m in self.surfaces)
 
     def start(self, u: Array) -> ContactRows:
         """Contact rows at the start of the slab, at the displacement ``u`` (n, d) there."""
@@ -204,7 +230,8 @@ class SlabContacts:
         if self.fixed_rows is not None:
             return self.fixed_rows
         contacts, clearance = self.contacts, self.contacts.clearance
-        rows = self._rows(self.surfaces, u, self.node, contacts.contact, contacts.frictionless_rows)
+        places, numbers = (contacts.points + u, u), (self.node, contacts.contact)
+        rows = joined_rows(self.surfaces, places, numbers, contacts.labels, contacts.frictionless_rows)
         return rows if clearance is None else replace(rows, offset=rows.offset - clearance)
 
     def with_kept_facets(self, u: Array, before: "SlabContacts | None" = None) -> "SlabContacts":
@@ -212,12 +239,31 @@ class SlabContacts:
         x = self.contacts.points + u
         old = self.surfaces if before is None else before.surfaces
         kept = tuple(
-            keep_facets(m, x, o if isinstance(o, KeptFacets | KeptEdges) else None)
-            if isinstance(m, NodeFacetContact | EdgeContact)
+            keep_facets(m, x, o if isinstance(o, KeptFacets | KeptEdges | SplitContact) else None)
+            if isinstance(m, NodeFacetContact | EdgeContact | SplitContact)
             else m
             for m, o in zip(self.surfaces, old, strict=True)
         )
         return replace(self, surfaces=kept)
+
+    def missed(self, u: Array) -> "SlabContacts | None":
+        """Contacts found with greater margins, if the displacement ``u`` (n, d) at the end of the slab leaves more than
+        the margin of a contact to the expected one, and a row that was not found overlaps there; None otherwise.
+        """
+        search, contacts = self.search, self.contacts
+        if search is None or search.margins is None:
+            return None
+        deviation = np.linalg.norm(contacts.space.gather(u - search.u1), axis=1)
+        margins = search.wanted(contacts.margins, deviation)
+        if margins is None:
+            return None
+        wider = contacts.meet(search.u0, search.u1, search.start, search.end, margins)
+        if wider.found == self.found:
+            return None
+        log.debug("search with margins of %s m", margins)
+        least = -DEPTH * contacts.space.greatest(contacts.points + u)
+        old, new = (pairs.at(u).gap(u) for pairs in (self, wider))
+        return wider if ((new < least) & (new != old)).any() else None
 
     def apart(self, u: Array) -> bool:
         """True if no surfaces overlap at the displacement ``u`` (n, d) beyond rounding."""
@@ -241,7 +287,8 @@ class SlabContacts:
         numbers += [np.full(len(n), k) for n, k in zip(nodes, contacts.overlap_contact, strict=True)]
         node = np.concatenate([m.node for m in tools] + nodes)
         surfaces, frictionless = (*tools, *self.overlap_surfaces), TangentialRows.none(len(node), *u.shape)
-        return self._rows(surfaces, u, node, np.concatenate(numbers), frictionless)
+        places = contacts.points + u, u
+        return joined_rows(surfaces, places, (node, np.concatenate(numbers)), contacts.labels, frictionless)
 
     def _tool_rows(self) -> list[slice]:
         """Rows of the methods for contact with tools."""
@@ -251,46 +298,3 @@ class SlabContacts:
             for m, end in zip(self.contacts.methods, ends, strict=True)
             if isinstance(m, NodeToTool)
         ]
-
-    def _rows(
-        self,
-        surfaces: tuple[PairedSurfaces, ...],
-        u: Array,
-        node: IntArray,
-        contact: IntArray,
-        frictionless: TangentialRows | None,
-    ) -> ContactRows:
-        x = self.contacts.points + u
-        found = [m.at(x) for m in surfaces]
-        d = x.shape[1]
-        normal = np.concatenate([np.zeros((0, d)), *(s.normal for s in found)])
-        gradient = sp.vstack([sp.csr_array((0, x.size)), *(s.gradient() for s in found)], format="csr")
-        gap = np.concatenate([np.zeros(0), *(s.gap for s in found)])
-        tool_motion = [
-            m.normal_motion(x, s.normal) if isinstance(m, ToolContact) else np.zeros(len(s.gap))
-            for m, s in zip(surfaces, found, strict=True)
-        ]
-        return ContactRows(
-            node=node,
-            contact=contact,
-            normal=normal,
-            gradient=sp.csr_array(gradient),
-            offset=gap - gradient @ u.ravel(),
-            tool_motion=np.concatenate([np.zeros(0), *tool_motion]),
-            labels=self.contacts.labels,
-            shear=_shear(surfaces, found, x, normal) if frictionless is None else frictionless,
-        )
-
-
-def _shear(surfaces: tuple[PairedSurfaces, ...], found: list[Stencils], x: Array, normal: Array) -> TangentialRows:
-    """Tangential parts of the rows at positions ``x`` (n, d), with normals (m, d)."""
-    moved = [
-        m.moved(x) if isinstance(m, ToolContact) else np.zeros_like(s.normal)
-        for m, s in zip(surfaces, found, strict=True)
-    ]
-    weights = sp.vstack([sp.csr_array((0, len(x))), *(s.weights for s in found)], format="csr")
-    return TangentialRows(
-        weights=sp.csr_array(weights),
-        tangents=tangents(normal),
-        moved=np.concatenate([np.zeros((0, x.shape[1])), *moved]),
-    )

@@ -131,7 +131,7 @@ def surfaces_of(contact: Contact, parts: Sequence[DiscreteSolid]) -> tuple[Decla
         DeclaredSurface(
             nodes=part.nodes, points=part.mesh.points, section=part.internal.section, facets=part.mesh.facets_on(tag)
         )
-        for name, tag in ((contact.body, contact.tag), (contact.opponent, contact.opponent_tag))
+        for name, tag in contact.surfaces
         for part in parts
         if part.name == name
     )

@@ -77,6 +77,8 @@ class Impulse:
 class Energy:
     """The default rule: massless contact nodes in constrained equilibrium, and a closed energy balance.
 
+    Nodes inside the body carry the mass.  Walls one linear cell thick get such nodes at half their thickness.
+
     Parameters
     ----------
     located

@@ -2,11 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import scipy.sparse as sp
 
-from softway.arrays import Array
+from softway.arrays import Array, IntArray
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -36,6 +37,59 @@ class Stencils:
     def gradient(self) -> sp.csr_array:
         """Derivatives (m, n d) of the gaps with respect to the components ``j d + i`` of the positions."""
         return normal_component(self.weights, self.normal) if self.slopes is None else self.slopes
+
+
+class PairedSurfaces(Protocol):
+    """Surfaces that may come into contact in one slab."""
+
+    @property
+    def found(self) -> int:
+        """Number of pairs found by the search."""
+        ...
+
+    def at(self, x: Array) -> Stencils:
+        """Gaps and their derivatives at positions ``x`` (n, d)."""
+        ...
+
+
+class SurfacePair(Protocol):
+    """Contact method between deformable surfaces; its rows stay the same throughout a march."""
+
+    @property
+    def node(self) -> IntArray:
+        """Slave node (m,) of each row."""
+        ...
+
+    def meet(self, x0: Array, x1: Array, reach: float, margin: float | None = None) -> PairedSurfaces:
+        """Pairs that may touch in a slab from positions ``x0`` to about ``x1`` (n, d), within ``reach`` [m].
+
+        With a ``margin`` [m], only rows with an opponent within the margin have pairs.
+        """
+        ...
+
+
+def open_rows(rows: int, nodes: int, dim: int) -> Stencils:
+    """Stencils of rows without an opponent: infinite gaps, and no normals and weights.
+
+    Examples
+    --------
+    >>> found = open_rows(2, 3, 2)
+    >>> found.gap.tolist(), found.gradient().nnz, found.normal.shape
+    ([inf, inf], 0, (2, 2))
+    """
+    return Stencils(gap=np.full(rows, np.inf), normal=np.zeros((rows, dim)), weights=sp.csr_array((rows, nodes)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NoPairs:
+    """Surfaces that are out of reach in a slab, with a number of ``rows``."""
+
+    rows: int
+    found: int = 0
+
+    def at(self, x: Array) -> Stencils:
+        """Open rows at any positions ``x`` (n, d)."""
+        return open_rows(self.rows, *x.shape)
 
 
 def normal_component(weights: sp.csr_array, normal: Array) -> sp.csr_array:

@@ -197,7 +197,8 @@ def _remedy(stepper: Stepper, march_state: MarchState) -> str:
     found = [f"a longer step, such as {usual:.3g} s" if short else "a smaller step"]
     found.append("a finer mesh where the cells are crushed")
     crushed = _volumes_left(stepper.model, march_state.state)
-    if any(type(p.internal.material) is StVenantKirchhoff for p in stepper.model.parts if p.name in crushed):
+    laws = (law for p in stepper.model.parts if p.name in crushed for law in p.materials.laws)
+    if any(type(law) is StVenantKirchhoff for law in laws):
         found.append("the material NeoHookean, which stiffens where StVenantKirchhoff softens under compression")
     if isinstance(stepper.method, Newton) and not stepper.method.handover:
         found.append("the method FixedPoint, which converges more often than Newton alone")

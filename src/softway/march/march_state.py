@@ -27,14 +27,15 @@ class Settings:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EnergyAccount:
-    """Energy account: energy at the start, and since then external work, dissipation and error of the energy balance
-    [J].
+    """Energy account: energy at the start, and since then external work, dissipation, error of the energy balance and
+    energy dissipated by each tie that breaks [J].
     """
 
     energy_start: float
     work_external: float = 0.0
     dissipation: float = 0.0
     energy_error: float = 0.0
+    ties: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

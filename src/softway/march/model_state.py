@@ -11,7 +11,7 @@ from softway.bodies.assembled import material_states
 from softway.contact.contact_rows import ContactRows
 from softway.errors import InputError
 from softway.model.model import Model
-from softway.model.rigid_state import RigidState
+from softway.model.rigid.rigid_state import RigidState
 from softway.model.scene import State
 from softway.solve.equations.slab_values import SlabStart
 
@@ -25,7 +25,8 @@ class ModelState:
     ``start`` contains displacement, velocity, internal force and stored energy; ``acceleration`` (n, d) is the slope of
     the velocity in the previous slab; ``closed`` (m,) are the rows in contact, ``pressure`` (m,) and ``traction``
     (m, d) their normal and tangential forces, ``sliding`` (m,) the slipping rows; ``rows`` are the rows of these
-    forces, None if a search finds the same rows; ``rigid`` is the state of the rigid bodies.
+    forces, None if a search finds the same rows; ``rigid`` is the state of the rigid bodies; ``slip`` (m, d) is the
+    mean velocity of the slip in the previous slab, ``span`` its length: None and zero at the start.
     """
 
     time: float
@@ -37,6 +38,8 @@ class ModelState:
     sliding: BoolArray
     rows: ContactRows | None = None
     rigid: RigidState | None = None
+    slip: Array | None = None
+    span: float = 0.0
 
     def force_rows(self, rows: ContactRows) -> ContactRows:
         """Rows of the contact forces at the start of a slab; ``rows`` are those found by its search.
@@ -91,6 +94,8 @@ def join_states(model: Model, state: State, span: float = 1.0) -> ModelState:
         traction=np.concatenate([state.traction[n] for n in labels]) if rough else np.zeros((count, model.shape[1])),
         sliding=np.concatenate([state.sliding[n] for n in labels]) if rough else np.zeros(count, bool),
         rigid=None if model.rigid is None else model.rigid.state_of(state.rigid, state.time),
+        slip=np.concatenate([state.slip[n] for n in labels]) if rough and state.slip else None,
+        span=state.span,
     )
 
 
@@ -116,6 +121,8 @@ def split_states(model: Model, state: ModelState) -> State:
     state.closed.flags.writeable = False
     state.pressure.flags.writeable = False
     state.traction.flags.writeable = state.sliding.flags.writeable = False
+    if state.slip is not None:
+        state.slip.flags.writeable = False
     return State(
         time=state.time,
         displacement=model.split(state.start.displacement),
@@ -126,6 +133,8 @@ def split_states(model: Model, state: ModelState) -> State:
         memory={p.name: m for p, m in zip(model.parts, state.start.states, strict=False) if m is not None},
         traction=_by_contact(model, state.traction),
         sliding=_by_contact(model, state.sliding),
+        slip={} if state.slip is None else _by_contact(model, state.slip),
+        span=state.span,
         fields={c.field.name: model.split(f.values) for c, f in zip(model.companions, state.start.fields, strict=True)},
         rigid={} if model.rigid is None or state.rigid is None else model.rigid.bodies(state.rigid),
     )

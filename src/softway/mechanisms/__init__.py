@@ -1,5 +1,7 @@
 """Mechanisms: rigid bodies with joints, springs and torques, and their march."""
 
+from softway.bodies.setup.motion_laws import RatePolyline as RatePolyline
+from softway.bodies.setup.motion_laws import Sine as Sine
 from softway.mechanisms.arrays import MechanismState as MechanismState
 from softway.mechanisms.march import BodyState as BodyState
 from softway.mechanisms.march import MechanismStep as MechanismStep
@@ -17,8 +19,6 @@ from softway.mechanisms.members.joints import Weld as Weld
 from softway.mechanisms.members.mechanism import Mechanism as Mechanism
 from softway.mechanisms.members.motors import Motor as Motor
 from softway.mechanisms.members.motors import Polyline as Polyline
-from softway.mechanisms.members.motors import RatePolyline as RatePolyline
-from softway.mechanisms.members.motors import Sine as Sine
 from softway.mechanisms.members.motors import Steady as Steady
 from softway.mechanisms.members.rigid import Rigid as Rigid
 from softway.mechanisms.members.solids import rigid_ball as rigid_ball

@@ -8,12 +8,13 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from softway.arrays import Array, IntArray
+from softway.bodies.setup.motion_laws import pieces, value_and_rate
 from softway.errors import InputError, within
 from softway.kernels.multibody.joint_rows import ALONG, ANGLE, DIRECTION, SLIDE, TURN
 from softway.kernels.multibody.tables import Angles, Drives, Joints
 from softway.mechanisms.members.joints import GROUND, JointRow, motor_row, travel_axis, turning_axis
 from softway.mechanisms.members.mechanism import Mechanism
-from softway.mechanisms.members.motors import Prescribed, Sine
+from softway.mechanisms.members.motors import Prescribed
 from softway.mechanisms.members.rows import axes
 from softway.mechanisms.members.stops import AngleStop
 
@@ -181,13 +182,19 @@ def _drives(motions: Sequence[Prescribed | None]) -> Drives:
     """Table of the prescribed motions."""
     row = [k for k, motion in enumerate(motions) if motion is not None]
     given = [motion for motion in motions if motion is not None]
-    knots = [motion.knots() for motion in given]
+    laws = [_since_the_start(motion) for motion in given]
     return Drives(
         row=np.array(row, dtype=np.int64),
-        first=np.cumsum([0, *(len(one) for one in knots)], dtype=np.int64),
-        knots=np.concatenate([np.zeros((0, 4)), *knots]),
-        wave=_table([motion.wave() if isinstance(motion, Sine) else np.zeros(3) for motion in given]),
+        first=np.cumsum([0, *(len(law) for law in laws)], dtype=np.int64),
+        pieces=np.concatenate([pieces(np.zeros(0), np.zeros((0, 1))), *laws]),
     )
+
+
+def _since_the_start(motion: Prescribed) -> Array:
+    """Pieces (q, 10) of a motion that is zero at t = 0."""
+    law = motion.pieces.copy()
+    law[:, 1] -= value_and_rate(law, 0.0)[0]
+    return law
 
 
 def _table(vectors: Sequence[Array]) -> Array:

@@ -1,5 +1,7 @@
 """Examination of a mesh: cells that overlap, nodes that hang on facets, and parts that nothing holds together."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
@@ -17,8 +19,10 @@ COINCIDENT = 1e-6
 """Distance of two nodes, or of a node and a facet, relative to the shortest edge, below which they coincide."""
 
 
-def examined(mesh: Mesh) -> tuple[Note, ...]:
+def examined(mesh: Mesh, glued: Sequence[tuple[str, str]] = ()) -> tuple[Note, ...]:
     """Notes on a mesh that can be computed, although it may not be the intended one.
+
+    Ties hold the pairs of tags ``glued`` together.
 
     Raises
     ------
@@ -35,14 +39,15 @@ def examined(mesh: Mesh) -> tuple[Note, ...]:
     """
     part = _parts(mesh)
     if mesh.cell_dim < mesh.dim:
-        return _loose_parts(part, np.zeros(0, int))
+        return _loose_parts(_joined(mesh, part, glued), np.zeros(0, int))
     check_overlap(mesh)
     surface = np.unique(np.concatenate([facets.ravel() for facets in mesh.boundary().values()]))
     pairs = cKDTree(mesh.points[surface]).query_pairs(COINCIDENT * mesh.edge(), output_type="ndarray")
     same = surface[pairs.astype(np.int64)]
     touching = _touching(mesh, part, surface) if mesh.dim > 1 else np.zeros(0, int)
     other = part[same[:, 0]] != part[same[:, 1]]
-    notes = _loose_parts(part, np.unique(np.append(same[other].ravel(), touching)))
+    free = np.setdiff1d(np.append(same[other].ravel(), touching), _tagged(mesh, glued))
+    notes = _loose_parts(_joined(mesh, part, glued), free)
     return (*notes, *_cracks(mesh, np.unique(same[~other])), *_hinges(mesh))
 
 
@@ -52,6 +57,19 @@ def _parts(mesh: Mesh) -> IntArray:
     columns = np.concatenate([cells.ravel() for cells in mesh.blocks.values()])
     graph = coo_array((np.ones(len(rows), dtype=bool), (rows, columns)), shape=(mesh.n_nodes, mesh.n_nodes))
     return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
+
+
+def _joined(mesh: Mesh, part: IntArray, glued: Sequence[tuple[str, str]]) -> IntArray:
+    """Number (n,) of the part of each node, where glued parts are one."""
+    for pair in glued:
+        met = part[_tagged(mesh, [pair])]
+        part = np.where(np.isin(part, met), met[0], part)
+    return np.unique(part, return_inverse=True)[1].ravel()
+
+
+def _tagged(mesh: Mesh, pairs: Sequence[tuple[str, str]]) -> IntArray:
+    """Nodes (k,) of pairs of tags."""
+    return np.concatenate([np.zeros(0, int), *(mesh.nodes(tag) for pair in pairs for tag in pair)])
 
 
 def _touching(mesh: Mesh, part: IntArray, surface: IntArray) -> IntArray:

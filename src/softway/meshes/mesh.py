@@ -2,7 +2,7 @@
 
 import difflib
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
 import numpy as np
@@ -38,6 +38,9 @@ class Mesh:
     tags
         Name -> node numbers, kept sorted and unique. Two tags need not be given: ``all`` nodes, and ``surface``, the
         nodes of the boundary facets.
+    regions
+        Name -> cell numbers in the order of the blocks, kept sorted and unique: tags of volumes, such as the parts of
+        the body with one material. The region ``all`` need not be given.
 
     Examples
     --------
@@ -46,20 +49,25 @@ class Mesh:
     (1, 3, 0.5, [0, 2])
     >>> mesh.with_tag("right", lambda x: x[:, 0] > 0.9).nodes("right").tolist()
     [2]
+    >>> mesh.with_region("tip", lambda x: x[:, 0] > 0.5).cells("tip").tolist()
+    [1]
     """
 
     points: Array
     blocks: Mapping[str, IntArray]
     tags: Mapping[str, IntArray] = field(default_factory=dict)
+    regions: Mapping[str, IntArray] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         points = _frozen(np.array(self.points, dtype=float))
         blocks = {name: _frozen(np.array(cells, dtype=np.int64)) for name, cells in self.blocks.items() if len(cells)}
         tags = {name: _frozen(np.unique(np.asarray(nodes, dtype=np.int64))) for name, nodes in self.tags.items()}
+        regions = {name: _frozen(np.unique(np.asarray(c, dtype=np.int64))) for name, c in self.regions.items()}
         _check_shapes(points, blocks, tags)
+        _check_regions(regions, sum(len(cells) for cells in blocks.values()))
         for name, cells in blocks.items():
             _check_cells(points, name, cells)
-        for name, value in (("points", points), ("blocks", blocks), ("tags", tags)):
+        for name, value in (("points", points), ("blocks", blocks), ("tags", tags), ("regions", regions)):
             object.__setattr__(self, name, value)
         check_topology(points, blocks, self.edge())
 
@@ -123,7 +131,38 @@ class Mesh:
     def with_tag(self, name: str, where: Callable[[Array], BoolArray]) -> "Mesh":
         """Copy of the mesh with one more tag: the nodes where the boolean array ``where(points)`` (n,) is true."""
         nodes = np.flatnonzero(np.asarray(where(self.points), dtype=bool))
-        return Mesh(points=self.points, blocks=self.blocks, tags={**self.tags, name: nodes})
+        return replace(self, tags={**self.tags, name: nodes})
+
+    def cells(self, region: str) -> IntArray:
+        """Sorted cell numbers of a region, in the order of the blocks; letters as for :meth:`nodes`."""
+        found = self.regions.get(region)
+        if found is None and region == "all":
+            found = np.arange(self.n_cells)
+        same = [name for name in self.regions if name.casefold() == region.casefold()]
+        if found is None and len(same) == 1:
+            found = self.regions[same[0]]
+        if found is None or len(found) == 0:
+            known = ", ".join(dict.fromkeys([*sorted(name for name, c in self.regions.items() if len(c)), "all"]))
+            raise InputError("", f"the mesh has no region {region!r}", f"one of: {known}; or Mesh.with_region")
+        return found
+
+    def centres(self) -> Array:
+        """Means (e, d) of the corners of the cells [m]."""
+        parts = [self.points[cells[:, : CELLS[name].corners]].mean(axis=1) for name, cells in self.blocks.items()]
+        return np.concatenate(parts)
+
+    def with_region(self, name: str, where: Callable[[Array], BoolArray]) -> "Mesh":
+        """Copy of the mesh with one more region: the cells where ``where(centres)`` (e,) is true.
+
+        Parameters
+        ----------
+        name
+            Name of the region.
+        where
+            Boolean array (e,) from the centres (e, d) of the cells [m].
+        """
+        cells = np.flatnonzero(np.asarray(where(self.centres()), dtype=bool))
+        return replace(self, regions={**self.regions, name: cells})
 
     def nearest(self, point: Sequence[float] | float) -> int:
         """Node nearest to a point (d,)."""
@@ -206,6 +245,15 @@ def _check_shapes(points: Array, blocks: Mapping[str, IntArray], tags: Mapping[s
         used[cells] = True
     if not used.all():
         raise InputError("points", f"node {int(np.argmin(used))} belongs to no cell", "remove unused points")
+
+
+def _check_regions(regions: Mapping[str, IntArray], count: int) -> None:
+    """Check the numbers of the cells of the regions."""
+    for name, cells in regions.items():
+        if cells.size and not 0 <= cells.min() <= cells.max() < count:
+            raise InputError(
+                f"regions.{name}", f"cell numbers from {cells.min()} to {cells.max()}", f"0 to {count - 1}"
+            )
 
 
 def _check_cells(points: Array, name: str, cells: IntArray) -> None:

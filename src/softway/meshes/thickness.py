@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softway.arrays import Array, IntArray
+from softway.arrays import Array, BoolArray, IntArray
 from softway.meshes.cells import CELLS, FACETS
 from softway.meshes.mesh import Mesh
 
@@ -50,10 +50,8 @@ def layers(mesh: Mesh, cell: str) -> Layers:
     rows = cells[:, local].reshape(-1, local.shape[1])
     number = np.unique(np.sort(rows[:, :width], axis=1), axis=0, return_inverse=True)[1].ravel()
     twin = _twins(number)
-    lone = np.flatnonzero(twin < 0)
-    single = {tuple(row) for facets in mesh.boundary().values() for row in np.sort(facets, axis=1).tolist()}
-    start = lone[[tuple(row) in single for row in np.sort(rows[lone], axis=1).tolist()]]
-    outer = np.isin(np.arange(len(twin)), start)
+    outer = outer_facets(mesh, cell).ravel()
+    start = np.flatnonzero(outer)
     at, end, count = start.copy(), np.full(len(start), -1), np.zeros(len(start), int)
     active = np.arange(len(start))
     for step in range(1, MOST + 1):
@@ -66,6 +64,27 @@ def layers(mesh: Mesh, cell: str) -> Layers:
     facets, ends = rows[start[done]], rows[end[done]]
     apart = mesh.points[facets].mean(axis=1) - mesh.points[ends].mean(axis=1)
     return Layers(facets=facets, ends=ends, thickness=np.linalg.norm(apart, axis=1), count=count[done])
+
+
+def outer_facets(mesh: Mesh, cell: str) -> BoolArray:
+    """True (e, f) for the facets of the linear cells of a block that are on the boundary of the mesh.
+
+    Examples
+    --------
+    >>> from softway.meshes.generators.shapes import rectangle
+    >>> outer_facets(rectangle((2.0, 1.0), (2, 1)), "quad4").tolist()
+    [[True, False, True, True], [True, True, True, False]]
+    """
+    facet, local = FACETS[cell][0][0], np.array([nodes for _, nodes in FACETS[cell]])
+    outer = mesh.boundary().get(facet, np.zeros((0, local.shape[1]), int))
+    surface = np.zeros(mesh.n_nodes, bool)
+    surface[outer] = True
+    rows = mesh.blocks[cell][:, local]
+    on = np.asarray(surface[rows].all(axis=2))
+    near = np.sort(np.concatenate([outer, rows[on]]), axis=1)
+    number = np.unique(near, axis=0, return_inverse=True)[1].ravel()
+    on[on] = np.isin(number[len(outer) :], number[: len(outer)])
+    return on
 
 
 def _twins(number: IntArray) -> IntArray:

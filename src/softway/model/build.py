@@ -1,36 +1,36 @@
 """Model of a scene: meshes, tables, mass, degrees of freedom and contacts."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.csgraph import connected_components
 
-from softway.arrays import Array, IntArray
+from softway.arrays import IntArray
 from softway.bodies.assembled.nodal_loads import dead_load
-from softway.bodies.assembled.nodal_masses import solid_following, solid_mass
-from softway.bodies.assembled.vector_space import LocalSpace
+from softway.bodies.assembled.nodal_masses import Massless, inertia_of
 from softway.bodies.discretised import (
-    MOVING,
     DiscreteSolid,
     Moved,
-    discretise,
     driven_components,
-    initial,
-    supported_components,
 )
-from softway.bodies.dof_map import DofMap, MatrixSum, joined
+from softway.bodies.dof_map import DofMap, MatrixSum
+from softway.bodies.inertia.matrix_sum import bonded_sum
 from softway.bodies.rigid_motion import CarriedNodes, RigidMotion, RigidShape
+from softway.bodies.setup.directions import DirectedMotion
 from softway.bodies.solid import Solid, Tool
-from softway.contact.assemble import assemble_contacts
+from softway.contact.assembly.declared import resolved
 from softway.contact.impact_rule import Energy, ImpactRule
-from softway.errors import InputError, within
+from softway.errors import InputError
+from softway.model.cohesive_ties import CohesiveTies, intact
 from softway.model.field import FieldEquations
+from softway.model.initial_displacement import at_start, given_fields
+from softway.model.layout import Layout, laid_out, solids_of
 from softway.model.model import Model, assembled_tangent
-from softway.model.rigid_bodies import RigidBodies, rigid_bodies
-from softway.model.rigid_refusals import require_fitting
+from softway.model.rigid.rigid_bodies import RigidBodies, rigid_bodies
+from softway.model.rigid.rigid_refusals import require_fitting
 from softway.model.scene import Scene, StaticStart
+from softway.model.ties import joined, linked_parts
 from softway.tolerances import MOTION
 
 
@@ -42,16 +42,19 @@ def build(scene: Scene) -> Model:
     InputError
         With the place in the scene: if a tag matches nothing, a body does not exist, or dimensions are mixed.
     """
-    solids, timing, factor = _solids(scene), _timing(scene), scene.inertia.factor
-    parts, (rigid, motions) = _parts(solids), _rigid(scene, tuple(solids.values()))
-    tools, space = _tools(scene, rigid, motions), LocalSpace(tuple(p.nodes for p in parts))
-    met = assemble_contacts(scene.contacts, {**solids, **tools}, parts, space)
-    fields, velocity = _initial_fields(parts, solids)
-    driven = driven_components(parts, solids, np.concatenate(fields), motions)
-    dofs = joined([p.dofs for p in parts])
-    light = _Massless(met.nodes if timing.massless and factor > 0.0 else met.nodes[:0], _carried(driven), timing.spread)
-    mass, weights, follow = _inertia(parts, solids, light, factor)
-    displacement, loads = _displacement(parts, solids, fields, driven), dead_load(parts, weights, scene.loads, "loads")
+    return _model(with_named_contacts(scene))
+
+
+def _model(scene: Scene) -> Model:
+    """Model of a scene whose contacts name all their members."""
+    timing, factor, (rigid, motions) = _timing(scene), scene.inertia.factor, _rigid(scene)
+    tools, massless = _tools(scene, rigid, motions), timing.massless and factor > 0.0
+    laid = laid_out(scene, motions, tools, massless)
+    scene, solids, parts, glue, met = laid.scene, laid.solids, laid.parts, laid.glue, laid.met
+    given, velocity = given_fields(parts, solids)
+    dofs, driven = glue.dofs(joined([p.dofs for p in parts])), driven_components(parts, solids, given, motions)
+    mass, weights, follow = inertia_of(parts, solids, _light(laid, massless, driven, timing.spread), factor)
+    displacement, loads = at_start(parts, solids, given, driven, glue), dead_load(parts, weights, scene.loads, "loads")
     return Model(
         scene=scene,
         parts=parts,
@@ -59,82 +62,55 @@ def build(scene: Scene) -> Model:
         follow=follow,
         massive=np.asarray(mass.diagonal()) > 0.0,
         inert=factor > 0.0,
-        part_of=np.repeat(np.arange(len(parts)), [p.mesh.n_nodes for p in parts]),
+        part_of=_part_of(parts),
         dofs=dofs,
-        linked=np.arange(len(parts)),
+        linked=linked_parts(_part_of(parts), len(parts), dofs, laid.bonds),
         load=loads.at(0.0),
         load_before=loads.at(0.0),
         loads=loads,
         weight=weights,
         displacement=displacement,
-        velocity=velocity * dofs.free,
+        velocity=glue.fitting(velocity - dofs.supported(velocity), "velocity", parts),
         contacts=met.contacts.cleared(displacement, [c.start == "apart" for c in scene.contacts]),
-        opponents=met.opponents,
+        contact_solids=met.solids,
+        against_tool=met.rigid,
         touchable=met.nodes,
         edge=np.concatenate([p.mesh.edges() for p in parts]),
         driven=driven,
         floor=np.array([p.floor() for p in parts]),
-        total=_total(mass, parts, dofs),
+        total=_total(mass, parts, dofs, laid.bonds),
         timing=timing,
         friction=met.friction,
         space=met.contacts.space,
+        companions=intact(laid.bonds, displacement),
         tools=tools,
         rigid=rigid,
     )
 
 
-def _initial_fields(parts: Sequence[DiscreteSolid], solids: Mapping[str, Solid]) -> tuple[list[Array], Array]:
-    """Given initial displacements (n, d) of the parts, and the velocity (n, d) of all nodes."""
-    fields = [initial(p, solids[p.name]) for p in parts]
-    return [u for u, _ in fields], np.concatenate([v for _, v in fields])
-
-
-def _displacement(
-    parts: Sequence[DiscreteSolid],
-    solids: Mapping[str, Solid],
-    fields: Sequence[Array],
-    driven: Sequence[Moved],
-) -> Array:
-    """Initial displacement (n, d) from those of the parts; driven components keep theirs, fixed ones are zero.
+def with_named_contacts(scene: Scene) -> Scene:
+    """Scene whose contacts name all their members.
 
     Raises
     ------
     InputError
-        If a Fixed support holds a component whose initial displacement is not zero, beyond rounding.
+        If a list of members has no solid.
     """
-    out = np.concatenate(fields)
-    moved = np.logical_or.reduce([where for _, where in driven], initial=False) | np.zeros(out.shape, bool)
-    for part, field in zip(parts, fields, strict=True):
-        for k, support in enumerate(solids[part.name].supports):
-            if isinstance(support, MOVING):
-                continue
-            held = supported_components(support, part.mesh) & ~moved[part.nodes]
-            wrong = held & (np.abs(field) > MOTION * np.abs(field).max())
-            if wrong.any():
-                node, axis = (int(i) for i in np.argwhere(wrong)[0])
-                value, count = f"{field[node, axis]:.6g} m along {'xyz'[axis]}", int(wrong.any(axis=1).sum())
-                problem = f"{value} at node {node}, which supports[{k}] on {support.on!r} holds at zero; {count} in all"
-                remedy = f'a field that is zero on {support.on!r}, or a support of kind = "Driven" with velocity = 0'
-                raise InputError(f"bodies.{part.name}.displacement", problem, remedy)
-            out[part.nodes][held] = 0.0
-    return out
+    tools = [name for name, body in scene.bodies.items() if isinstance(body, Tool)]
+    if scene.mechanism is not None:
+        tools += [name for name, body in scene.mechanism.bodies.items() if body.shape is not None]
+    solids = [name for name, body in scene.bodies.items() if isinstance(body, Solid)]
+    return replace(scene, contacts=resolved(scene.contacts, solids, tools))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Massless:
-    """Nodes without inertia: those ``touching`` (k,), whose mass is spread over some layers of cells, and those that
-    rigid bodies carry, ``carried`` (c,).
-    """
+def _part_of(parts: Sequence[DiscreteSolid]) -> IntArray:
+    """Number (n,) of the solid of each node."""
+    return np.repeat(np.arange(len(parts)), [p.mesh.n_nodes for p in parts])
 
-    touching: IntArray
-    carried: IntArray
-    spread: int
 
-    def of(self, nodes: slice) -> tuple[IntArray, int]:
-        """Numbers of those of a solid in it, and the layers of cells."""
-        both = self.touching, self.carried
-        mine = [some[(some >= nodes.start) & (some < nodes.stop)] - nodes.start for some in both]
-        return np.unique(np.concatenate(mine)), self.spread if len(mine[0]) else 1
+def _light(laid: Layout, massless: bool, driven: Sequence[Moved], spread: int) -> Massless:
+    """Nodes without inertia: those that may touch if they are ``massless``, and those that rigid bodies carry."""
+    return Massless(laid.light if massless else laid.light[:0], _carried(driven), spread)
 
 
 def _carried(driven: Sequence[Moved]) -> IntArray:
@@ -142,43 +118,12 @@ def _carried(driven: Sequence[Moved]) -> IntArray:
     return np.concatenate([np.zeros(0, int), *(s.nodes for s, _ in driven if isinstance(s, CarriedNodes))])
 
 
-def _inertia(
-    parts: Sequence[DiscreteSolid], solids: Mapping[str, Solid], light: _Massless, factor: float
-) -> tuple[sp.csr_array, Array, sp.csr_array]:
-    """Mass (n, n) times the ``factor``, nodal mass (n,) for the weight, and velocities (n, n) of all nodes from those
-    with mass.
-    """
-    own = [light.of(p.nodes) for p in parts]
-    masses = [solid_mass(p, solids[p.name], nodes, layers) for p, (nodes, layers) in zip(parts, own, strict=True)]
-    follow = [solid_following(p, nodes) for p, (nodes, _) in zip(parts, own, strict=True)]
-    weight, following = (sp.csr_array(sp.block_diag(blocks, format="csr")) for blocks in (masses, follow))
-    mass = sp.csr_array(factor * weight) if factor > 0.0 else sp.csr_array(weight.shape)
-    return mass, np.asarray(weight.sum(axis=1)).ravel(), following
-
-
-def _solids(scene: Scene) -> dict[str, Solid]:
-    solids = {n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}
-    if not solids:
-        raise InputError("bodies", "no Solid among them", "at least one body of kind Solid")
-    return solids
-
-
-def _parts(solids: Mapping[str, Solid]) -> tuple[DiscreteSolid, ...]:
-    parts: list[DiscreteSolid] = []
-    for name, solid in solids.items():
-        with within(f"bodies.{name}"):
-            parts.append(discretise(name, solid, parts[-1].nodes.stop if parts else 0))
-    if len({p.mesh.dim for p in parts}) > 1:
-        raise InputError("bodies", "solids of different space dimension in one scene", "meshes of one dimension")
-    return tuple(parts)
-
-
-def _rigid(scene: Scene, solids: Sequence[Solid]) -> tuple[RigidBodies | None, dict[str, RigidMotion]]:
+def _rigid(scene: Scene) -> tuple[RigidBodies | None, dict[str, RigidMotion]]:
     """Rigid bodies of the scene, and their motions at the start; None without."""
     if scene.mechanism is None:
         return None, {}
     found = rigid_bodies(scene.mechanism)
-    require_fitting(scene, found, solids)
+    require_fitting(scene, found, tuple(solids_of(scene).values()))
     return found, found.coasting_motions()
 
 
@@ -190,10 +135,15 @@ def _tools(scene: Scene, rigid: RigidBodies | None, motions: Mapping[str, RigidM
     return tools | rigid.shapes(motions)
 
 
-def _total(mass: sp.csr_array, parts: Sequence[DiscreteSolid], dofs: DofMap) -> MatrixSum:
+def _total(
+    mass: sp.csr_array, parts: Sequence[DiscreteSolid], dofs: DofMap, bonds: tuple[CohesiveTies, ...]
+) -> MatrixSum:
     """Assembly of mass (n, n) plus tangent stiffness on the unknowns."""
     inertia = sp.csc_array(sp.kron(mass, sp.eye_array(dofs.free.shape[1]), format="csc"))
-    return dofs.sum(inertia, assembled_tangent(parts, np.zeros(dofs.free.shape)))
+    stiffness = assembled_tangent(parts, np.zeros(dofs.free.shape))
+    if not bonds:
+        return dofs.sum(inertia, stiffness)
+    return bonded_sum(dofs, inertia, stiffness, sp.csr_array(sp.vstack([bond.rows for bond in bonds])))
 
 
 def _timing(scene: Scene) -> ImpactRule:
@@ -235,7 +185,9 @@ def with_dofs(model: Model, dofs: DofMap) -> Model:
     if dofs.free.shape != model.shape:
         raise InputError("dofs", f"a map for nodes (n, d) = {dofs.free.shape}", f"a map for {model.shape}")
     for support, where in model.driven:
-        if (dofs.free & where).any():
+        given = np.zeros(model.shape)
+        given[where] = support.shares[0] if isinstance(support, DirectedMotion) else 1.0
+        if not np.allclose(dofs.supported(given), given, rtol=0.0, atol=MOTION):
             raise InputError("dofs", f"unknowns move components driven by {support}", "empty rows for them")
     heavy = set(dofs.moving(np.flatnonzero(model.massive)).tolist())
     mixed = heavy.intersection(dofs.moving(np.flatnonzero(~model.massive)).tolist())
@@ -246,16 +198,12 @@ def with_dofs(model: Model, dofs: DofMap) -> Model:
         left = model.space.greatest(dofs.nodes(dofs.unknowns(field)) - field)
         if left > MOTION * model.space.greatest(field):
             raise InputError("dofs", f"the initial {name} differs by {left:.3g} from any of the map", f"another {name}")
-    return replace(model, dofs=dofs, linked=_linked(model, dofs), total=_total(model.mass, model.parts, dofs))
-
-
-def _linked(model: Model, dofs: DofMap) -> IntArray:
-    """Group (parts,) of each solid; solids that share unknowns have the same."""
-    if dofs.components is not None:
-        return np.arange(len(model.parts))
-    of = np.repeat(model.part_of, model.shape[1])
-    shares = sp.csr_array((np.ones(len(of)), (of, np.arange(len(of))))) @ abs(dofs.jacobian)
-    return np.asarray(connected_components(shares @ shares.T, directed=False)[1])
+    return replace(
+        model,
+        dofs=dofs,
+        linked=linked_parts(model.part_of, len(model.parts), dofs, model.bonds),
+        total=_total(model.mass, model.parts, dofs, model.bonds),
+    )
 
 
 def with_field(model: Model, equations: FieldEquations) -> Model:

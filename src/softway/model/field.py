@@ -47,12 +47,15 @@ class FieldState:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class FieldSlab:
-    """One slab as a companion field sees it: length [s], state at the start, displacements (n, d) at both ends [m]."""
+    """One slab as a companion field sees it: length [s], state at the start, displacements (n, d) at both ends [m], and
+    the weight of the force at the start in the mean forces.
+    """
 
     span: float
     start: FieldState
     u0: Array
     u1: Array
+    first: float = 0.5
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -12,7 +12,6 @@ from softway.bodies.assembled.nodal_loads import DeadLoads
 from softway.bodies.assembled.vector_space import VectorSpace
 from softway.bodies.discretised import DiscreteSolid, Moved
 from softway.bodies.dof_map import DofMap, MatrixSum
-from softway.bodies.elements.section import wave_speed
 from softway.bodies.internal_force.material_state import MaterialState
 from softway.bodies.rigid_motion import CarriedNodes, RigidMotion, RigidShape
 from softway.bodies.solid import Tool
@@ -21,8 +20,9 @@ from softway.contact.contact_set import ContactSet
 from softway.contact.friction_rows import FrictionRows
 from softway.contact.impact_rule import ImpactRule
 from softway.meshes.mesh import Mesh
-from softway.model.field import Field, FieldEquations
-from softway.model.rigid_bodies import RigidBodies
+from softway.model.cohesive_ties import CohesiveTies
+from softway.model.field import Field, FieldEquations, FieldState
+from softway.model.rigid.rigid_bodies import RigidBodies
 from softway.model.scene import Scene
 
 
@@ -59,8 +59,10 @@ class Model:
         (n, d) given initial fields.
     contacts
         The contacts.
-    opponents
-        (contacts, 2) numbers of the two solids of each contact; -1 for a tool.
+    contact_solids
+        Numbers of the solids of each contact.
+    against_tool
+        (contacts,) True for contacts with a tool or a rigid body.
     touchable
         (k,) nodes that may come into contact.
     edge
@@ -101,7 +103,8 @@ class Model:
     displacement: Array
     velocity: Array
     contacts: ContactSet
-    opponents: IntArray
+    contact_solids: tuple[tuple[int, ...], ...]
+    against_tool: BoolArray
     touchable: IntArray
     edge: Array
     driven: tuple[Moved, ...]
@@ -118,6 +121,10 @@ class Model:
     def free(self) -> BoolArray:
         """Components (n, d) without support."""
         return self.dofs.free
+
+    def supported(self, field: Array) -> Array:
+        """Part (n, d) of a field (n, d) along the directions that supports hold or drive."""
+        return self.dofs.supported(field)
 
     @property
     def fields(self) -> tuple[Field, ...]:
@@ -141,8 +148,7 @@ class Model:
 
     def wave_speed(self, part: DiscreteSolid) -> float:
         """Speed of the fastest wave in a solid with its scaled masses [m/s]; that of full inertia without inertia."""
-        density = part.density * (self.scene.inertia.factor if self.inert else 1.0)
-        return wave_speed(part.internal.material, density, part.internal.section)
+        return max(part.materials.speeds(part.internal.section, self.scene.inertia.factor if self.inert else 1.0))
 
     def prescribed(self, time: float) -> Array:
         """Velocity (n, d) of the driven components at a time [m/s]; zero on all others."""
@@ -159,7 +165,9 @@ class Model:
         for support, where in self.driven:
             for _, earlier in found:
                 earlier[where] = 0.0
-            found += [(tau, np.where(where, change, 0.0)) for tau, change in support.bends(start, end)]
+            for tau, change in support.bends(start, end):
+                found.append((tau, np.zeros(self.shape)))
+                found[-1][1][where] = change
         return tuple(found)
 
     @property
@@ -169,8 +177,20 @@ class Model:
 
     @property
     def linear(self) -> bool:
-        """True if the forces of all solids are linear in the displacement."""
-        return all(p.internal.linear for p in self.parts)
+        """True if the forces of all solids are linear in the displacement, and no tie breaks."""
+        return all(p.internal.linear for p in self.parts) and not self.bonds
+
+    @property
+    def bonds(self) -> tuple[CohesiveTies, ...]:
+        """Ties that break, with their damage at the start of the slab; empty without."""
+        return tuple(c for c in self.companions if isinstance(c, CohesiveTies))
+
+    def bonded(self, fields: tuple[FieldState, ...]) -> "Model":
+        """Model in a slab that starts with companion ``fields``: ties have their damage; the model itself without."""
+        if not (self.bonds and fields):
+            return self
+        pairs = zip(self.companions, fields, strict=True)
+        return replace(self, companions=tuple(c.during(f) if isinstance(c, CohesiveTies) else c for c, f in pairs))
 
     def stress(self, name: str, u: Array, memory: MaterialState | None = None) -> Array:
         """Mean Cauchy stress (cells, 3, 3) of the solid ``name`` at its displacement ``u`` or from its memory [Pa]."""
@@ -238,18 +258,21 @@ class Model:
     ) -> sp.csc_array:
         """``M + factor K(u)`` (f, f) on the unknowns, K of tangent or secant moduli.
 
-        ``viscous_factor`` is the additional weight of the viscous stiffness between nodes with inertia.
+        ``viscous_factor`` is the additional weight of the viscous stiffness.
         """
-        values = [p.stiffness(u[p.nodes], secant, viscous_factor, self.massive[p.nodes]) for p in self.parts]
+        values = [p.stiffness(u[p.nodes], secant, viscous_factor) for p in self.parts]
+        values += [bond.stiffness(u).ravel() for bond in self.bonds]
         return self.total.of(np.concatenate(values), factor)
 
     def tangent_product(self, u: Array, w: Array) -> Array:
         """Product (n, d) of the tangent stiffness with a field (n, d) [N]."""
-        return np.concatenate([p.internal.tangent_product(u[p.nodes], w[p.nodes]) for p in self.parts])
+        out = np.concatenate([p.internal.tangent_product(u[p.nodes], w[p.nodes]) for p in self.parts])
+        return sum((bond.tangent_product(u, w) for bond in self.bonds), out)
 
     def tangent_blocks(self, u: Array) -> Array:
         """Diagonal blocks (n, d, d) of the tangent stiffness [N/m]."""
-        return np.concatenate([p.internal.tangent_diagonal_blocks(u[p.nodes]) for p in self.parts])
+        out = np.concatenate([p.internal.tangent_diagonal_blocks(u[p.nodes]) for p in self.parts])
+        return sum((bond.tangent_blocks(u) for bond in self.bonds), out)
 
     def shock_force(self, middle: Array, change: Array, span: float) -> Array | None:
         """Force (n, d) of the bulk viscosities [N] in a slab, see

@@ -8,6 +8,7 @@ from softway.bodies.inertia.inertia_scaling import Full, Inertia
 from softway.bodies.internal_force.material_state import MaterialState
 from softway.bodies.setup.loads import Load
 from softway.bodies.solid import Solid, Tool
+from softway.contact.assembly.tie import Tie
 from softway.contact.contact import Contact
 from softway.mechanisms.march import BodyState
 from softway.mechanisms.members.mechanism import Mechanism
@@ -52,6 +53,8 @@ class Scene:
         Solids and tools by name.
     contacts
         Contacts between tagged surfaces and tools or other surfaces.
+    ties
+        Permanent ties between surfaces of solids.
     loads
         Dead loads: gravity, tractions.
     start
@@ -64,6 +67,7 @@ class Scene:
 
     bodies: Mapping[str, Solid | Tool]
     contacts: tuple[Contact, ...] = ()
+    ties: tuple[Tie, ...] = ()
     loads: tuple[Load, ...] = ()
     start: AsGiven | StaticStart = AsGiven()
     inertia: Inertia = Full()
@@ -86,9 +90,11 @@ class State:
         Contact name -> (c,) normal force of the obstacle on the node of each row, >= 0 [N].
     memory
         Body name -> history variables of path-dependent materials.
-    traction, sliding
-        Contact name -> (c, d) tangential force of the obstacle on the node of each row [N], and (c,) rows that slip;
-        both empty without friction.
+    traction, sliding, slip
+        Contact name -> (c, d) tangential force of the obstacle on the node of each row [N], (c,) rows that slip, and
+        (c, d) mean velocity of their slip in the slab before [m/s]; empty without friction.
+    span
+        Length of the slab before, zero at the start [s].
     fields
         Companion field -> body name -> (n, components).
     rigid
@@ -104,5 +110,7 @@ class State:
     memory: Mapping[str, MaterialState] = field(default_factory=dict)
     traction: Mapping[str, Array] = field(default_factory=dict)
     sliding: Mapping[str, BoolArray] = field(default_factory=dict)
+    slip: Mapping[str, Array] = field(default_factory=dict)
+    span: float = 0.0
     fields: Mapping[str, Mapping[str, Array]] = field(default_factory=dict)
     rigid: Mapping[str, BodyState] = field(default_factory=dict)

@@ -12,6 +12,7 @@ from softway.kernels.pile import tables
 from softway.kernels.pile.slab import pile_slab
 from softway.piles.arrays import ball_tables, laws, motion, require_apart, wall_tables
 from softway.piles.pile import Pile
+from softway.piles.state import PileState
 from softway.piles.turns import turned
 from softway.units import Second
 
@@ -61,6 +62,8 @@ class PileStep:
         Number of closed contacts.
     slabs, sweeps
         Numbers since the last step.
+    state
+        State from which :func:`march` continues with the same bits.
     """
 
     time: float
@@ -81,6 +84,11 @@ class PileStep:
     closed: int
     slabs: int
     sweeps: int
+    state: PileState
+
+    def march_state(self) -> PileState:
+        """State from which :func:`march` continues with the same bits."""
+        return self.state
 
     @property
     def rotations(self) -> Array:
@@ -89,19 +97,15 @@ class PileStep:
         return rotations(self.turns)[:, :dim, :dim]
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class _State:
-    """State of a march: places, velocities, rotations, contacts with the length of their slab, and what was told."""
-
-    place: Array
-    velocity: Array
-    turn: Array
-    memory: tables.Memory
-    length: float
-    told: Array
-
-
-def march(pile: Pile, *, until: Second, step: Second, every: int = 1, sweeps: int = SWEEPS) -> Iterator[PileStep]:
+def march(
+    pile: Pile,
+    *,
+    until: Second,
+    step: Second,
+    every: int = 1,
+    sweeps: int = SWEEPS,
+    state: PileState | None = None,
+) -> Iterator[PileStep]:
     """March a pile; yields the state at the start, and after every ``every`` slabs and at the end.
 
     No balls overlap at the end of a slab by more than 1e-10 of the smallest radius.  Contacts obey Coulomb's law to a
@@ -121,11 +125,14 @@ def march(pile: Pile, *, until: Second, step: Second, every: int = 1, sweeps: in
         Slabs between two steps that are yielded.
     sweeps
         Greatest number of sweeps for the friction, for places and for velocities each.
+    state
+        State of a step of an earlier march with the same input: the march continues from there, and yields only later
+        steps.
 
     Raises
     ------
     InputError
-        Before the first step: for wrong input, and balls that overlap.
+        Before the first step: for wrong input, balls that overlap, or the state of another march.
     NumericsError
         If the gaps of a slab cannot be closed at any length.
 
@@ -149,33 +156,52 @@ def march(pile: Pile, *, until: Second, step: Second, every: int = 1, sweeps: in
     if not until / step < MOST:
         raise InputError("step", f"{until / step:.3g} slabs of {step:.3g} s", "an earlier end, or longer slabs")
     given = ball_tables(pile), wall_tables(pile), laws(pile, sweeps)
-    place, velocity = motion(pile)
-    require_apart(*given[:2], place)
-    return _steps(pile, given, place, velocity, until, int(np.ceil(until / step * (1.0 - 1e-12))), every)
+    slabs = int(np.ceil(until / step * (1.0 - 1e-12)))
+    if state is None:
+        begin = _start(given, *motion(pile), until / slabs)
+        require_apart(*given[:2], begin.place)
+    else:
+        begin = state.writable(pile.balls.count, len(pile.walls), slabs)
+    return _steps(pile, given, begin, until, slabs, every, state is None)
 
 
 Tables = tuple[tables.Balls, tables.Walls, tables.Laws]
 
 
+def _start(given: Tables, place: Array, velocity: Array, length: float) -> PileState:
+    """State at the start."""
+    state = PileState(
+        time=0.0,
+        slabs=0,
+        place=place,
+        velocity=velocity,
+        turn=np.tile([1.0, 0.0, 0.0, 0.0], (len(place), 1)),
+        pairs=np.zeros((0, 2), np.int64),
+        impulse=np.zeros((0, 4)),
+        closed=np.zeros(0, np.int64),
+        length=length,
+        told=np.zeros(tables.TOLD),
+        initial=0.0,
+    )
+    return replace(state, initial=sum(_energies(given, state)))
+
+
 def _steps(
-    pile: Pile, given: Tables, place: Array, velocity: Array, until: float, slabs: int, every: int
+    pile: Pile, given: Tables, state: PileState, until: float, slabs: int, every: int, first: bool
 ) -> Iterator[PileStep]:
-    """States of the march."""
-    h, turn = until / slabs, np.tile([1.0, 0.0, 0.0, 0.0], (len(place), 1))
-    none = tables.Memory(np.zeros((0, 2), np.int64), np.zeros((0, 4)), np.zeros(0, np.int64))
-    state = _State(place=place, velocity=velocity, turn=turn, memory=none, length=h, told=np.zeros(tables.TOLD))
-    initial = sum(_energies(given, state))
-    yield _step(pile, given, state, 0.0, initial)
-    for done in range(slabs):
-        state = _slab(given, state, done * h, h)
-        if (done + 1) % every == 0 or done + 1 == slabs:
-            yield _step(pile, given, state, until if done + 1 == slabs else (done + 1) * h, initial)
-            told = np.zeros(tables.TOLD)
-            told[tables.DISSIPATION] = state.told[tables.DISSIPATION]
-            state = replace(state, told=told)
+    """Steps of the march from a state on, which is yielded if it is the ``first``."""
+    h = until / slabs
+    if first:
+        yield _step(pile, given, state)
+    for done in range(state.slabs + 1, slabs + 1):
+        state = _slab(given, state, (done - 1) * h, h)
+        state = replace(state, time=until if done == slabs else done * h, slabs=done)
+        if done % every == 0 or done == slabs:
+            yield _step(pile, given, state)
+            state = state.fresh
 
 
-def _slab(given: Tables, state: _State, time: float, h: float, halvings: int = 0) -> _State:
+def _slab(given: Tables, state: PileState, time: float, h: float, halvings: int = 0) -> PileState:
     """Take a slab, or its parts, in which no ball moves too far."""
     balls, _, law = given
     fastest = float(np.linalg.norm(state.velocity[:, :3], axis=1).max()) + h * float(np.linalg.norm(law.gravity))
@@ -197,7 +223,7 @@ def _slab(given: Tables, state: _State, time: float, h: float, halvings: int = 0
     return state
 
 
-def _taken(given: Tables, state: _State, h: float) -> _State | None:
+def _taken(given: Tables, state: PileState, h: float) -> PileState | None:
     """State after a slab; None if its gaps cannot be closed."""
     told, memory = state.told.copy(), state.memory
     told[tables.SLIP] = 0.0
@@ -210,10 +236,21 @@ def _taken(given: Tables, state: _State, h: float) -> _State | None:
     told[tables.SLIP] = max(told[tables.SLIP], state.told[tables.SLIP])
     told[tables.SLABS] += 1
     turn = turned(state.turn, 0.5 * h * (state.velocity[:-1, 3:] + velocity[:-1, 3:]))
-    return _State(place=place, velocity=velocity, turn=turn, memory=memory, length=h, told=told)
+    pairs, impulse, shut = memory
+    return replace(
+        state,
+        place=place,
+        velocity=velocity,
+        turn=turn,
+        pairs=pairs,
+        impulse=impulse,
+        closed=shut,
+        length=h,
+        told=told,
+    )
 
 
-def _energies(given: Tables, state: _State) -> tuple[float, float]:
+def _energies(given: Tables, state: PileState) -> tuple[float, float]:
     """Kinetic and potential energy [J]."""
     balls, _, law = given
     square = np.square(state.velocity)
@@ -221,13 +258,13 @@ def _energies(given: Tables, state: _State) -> tuple[float, float]:
     return kinetic, -float(balls.mass[:-1] @ (state.place @ law.gravity))
 
 
-def _step(pile: Pile, given: Tables, state: _State, time: float, initial: float) -> PileStep:
+def _step(pile: Pile, given: Tables, state: PileState) -> PileStep:
     """State as it is yielded."""
     dim, told, (kinetic, potential) = pile.balls.dim, state.told, _energies(given, state)
     momentum = given[0].mass[:-1, None] * state.velocity[:-1, :3]
     turning = given[0].inertia[:-1, None] * state.velocity[:-1, 3:]
     return PileStep(
-        time=time,
+        time=state.time,
         centres=state.place[:, :dim].copy(),
         turns=state.turn,
         velocities=state.velocity[:-1, :dim].copy(),
@@ -235,7 +272,7 @@ def _step(pile: Pile, given: Tables, state: _State, time: float, initial: float)
         energy_kinetic=kinetic,
         energy_potential=potential,
         dissipation=float(told[tables.DISSIPATION]),
-        energy_error=kinetic + potential - initial + float(told[tables.DISSIPATION]),
+        energy_error=kinetic + potential - state.initial + float(told[tables.DISSIPATION]),
         momentum=momentum.sum(axis=0),
         spin=(np.cross(state.place, momentum) + turning).sum(axis=0),
         overlap=float(told[tables.OVERLAP]),
@@ -245,4 +282,5 @@ def _step(pile: Pile, given: Tables, state: _State, time: float, initial: float)
         closed=int(told[tables.CLOSED]),
         slabs=int(told[tables.SLABS]),
         sweeps=int(told[tables.SWEEPS]),
+        state=state.fresh,
     )

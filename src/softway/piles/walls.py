@@ -1,6 +1,7 @@
 """Walls of a pile: planes that balls stay in front of, and boxes of them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -46,6 +47,49 @@ class Wall:
         require_coefficients(self.friction, self.restitution)
 
 
+Side = Metre | Literal["open"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Box:
+    """Walls of a box along the axes, with balls inside.
+
+    Parameters
+    ----------
+    lower, upper
+        Lowest and greatest coordinates of the room [m]; "open" for a side without a wall.
+    friction, restitution
+        Coefficients of the contact with balls; those of the pile by default.
+
+    Raises
+    ------
+    InputError
+        If the sides do not fit, or a coefficient is out of its range.
+
+    Examples
+    --------
+    >>> len(Box(lower=(0.0, 0.0, 0.0), upper=(1.0, 1.0, "open")).walls)
+    5
+    """
+
+    lower: tuple[Side, ...]
+    upper: tuple[Side, ...]
+    friction: Pure | None = None
+    restitution: Pure | None = None
+
+    def __post_init__(self) -> None:
+        require_coefficients(self.friction, self.restitution)
+        if not self.walls:
+            raise InputError("upper", "all sides are open", "a coordinate for one of them")
+
+    @property
+    def walls(self) -> tuple[Wall, ...]:
+        """The walls."""
+        lower, upper = (tuple(None if isinstance(s, str) else s for s in sides) for sides in (self.lower, self.upper))
+        found = box(lower=lower, upper=upper)
+        return tuple(replace(wall, friction=self.friction, restitution=self.restitution) for wall in found)
+
+
 def box(*, lower: tuple[Metre | None, ...], upper: tuple[Metre | None, ...]) -> tuple[Wall, ...]:
     """Walls of a box along the axes; None for a side that is open.
 
@@ -56,7 +100,9 @@ def box(*, lower: tuple[Metre | None, ...], upper: tuple[Metre | None, ...]) -> 
     """
     if len(lower) not in (2, 3) or len(upper) != len(lower):
         raise InputError(
-            "upper", f"{upper} for the lower sides {lower}", "as many sides, 2 or 3; None where it is open"
+            "upper",
+            f"{upper} for the lower sides {lower}",
+            'as many sides, 2 or 3; None, or "open" in a scenario, for one without a wall',
         )
     for axis, (low, high) in enumerate(zip(lower, upper, strict=True)):
         if low is not None and high is not None and not low < high:

@@ -8,14 +8,15 @@ from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 
-from softway.errors import Cancelled, Note, NumericsError
+from softway.errors import Note
 from softway.march.results.step import Step
 from softway.record.audit.watch import watcher
+from softway.record.first_step import chained, first_step
 from softway.record.read import summary
 from softway.record.run import Run
 from softway.record.storage import checkpoint, provenance
-from softway.record.storage.checkpoint import Checkpoint, Checkpoints
-from softway.record.storage.ending import ending, stored
+from softway.record.storage.checkpoint import NO_CHECKPOINTS, Checkpoint, Checkpoints
+from softway.record.storage.ending import ending, recording
 from softway.record.storage.provenance import DONE, Stop
 from softway.record.storage.run_folder import RunFolder
 from softway.record.write import events, fields, history
@@ -34,7 +35,6 @@ STANDARD: Mapping[str, Opener] = MappingProxyType(
     }
 )
 """Openers of the records of a run, by file name; the last one only with rigid bodies."""
-NO_CHECKPOINTS = Checkpoints(keep=0)
 
 
 def record_run(
@@ -75,7 +75,7 @@ def record_run(
         After the records have been closed; a named folder stays, with the reason in ``provenance.json``.
     """
     steps = watcher(opening).watched(steps) if opening.audit else steps
-    first, early = _first(steps)
+    first, early = first_step(steps)
     given = texts or {}
 
     def fill(folder: Path) -> None:
@@ -84,19 +84,19 @@ def record_run(
         provenance.begin(folder, title, given, notes)
 
     with ExitStack() as held:
-        with _stored(place.out):
+        with recording(place.out):
             folder = held.enter_context(place.made(fill))
         run = Run(folder.path, folder if place.out is None else None)
         kept = NO_CHECKPOINTS if place.out is None else plan
         try:
-            with _stored(place.out):
+            with recording(place.out):
                 recorders = _opened(folder.path, opening, {})
         except BaseException:
             shutil.rmtree(folder.path, ignore_errors=True)
             raise
         keeper = CheckpointWriter(folder.path, kept, recorders, 0.0)
         meter = None if progress is None else Meter(progress, opening.until, opening.initial.time)
-        return _carried_on(_chain(first, early, steps), run, recorders, keeper, run.provenance, meter)
+        return _carried_on(chained(first, early, steps), run, recorders, keeper, run.provenance, meter)
 
 
 def continue_run(
@@ -132,7 +132,7 @@ def continue_run(
     NumericsError, Cancelled, KeyboardInterrupt, StorageError, and any exception of ``progress``
         As for :func:`record_run`.
     """
-    with _stored(run.path):
+    with recording(run.path):
         recorders = _opened(run.path, opening, {} if found is None else found.marks)
         slabs, time = (0, 0.0) if found is None else (found.march_state.slabs, found.time)
         record = provenance.resume(run.path, run.provenance, slabs, time)
@@ -157,7 +157,7 @@ def _carried_on(
     """Record all steps and finish the run."""
     with ending(partial(_finish, run, recorders, keeper, record)):
         for step in steps:
-            with _stored(run.path):
+            with recording(run.path):
                 _take(recorders, keeper, step)
             if meter is not None:
                 meter.took(step)
@@ -177,31 +177,10 @@ def _opened(folder: Path, opening: RunStart, marks: Mapping[str, int]) -> dict[s
     return found
 
 
-def _first(steps: Iterator[Step]) -> tuple[Step | None, BaseException | None]:
-    """Compute the first step, or return the exception that prevented it; an InputError is raised at once."""
-    try:
-        return next(steps, None), None
-    except (KeyboardInterrupt, Cancelled, NumericsError) as error:
-        return None, error
-
-
-def _chain(first: Step | None, early: BaseException | None, rest: Iterator[Step]) -> Iterator[Step]:
-    if early is not None:
-        raise early
-    if first is not None:
-        yield first
-        yield from rest
-
-
 def _take(recorders: Mapping[str, Recorder], keeper: CheckpointWriter, step: Step) -> None:
     for recorder in recorders.values():
         recorder.take(step)
     keeper.took(step.march_state)
-
-
-def _stored(place: Path | None) -> AbstractContextManager[None]:
-    """Turn an OSError into a StorageError that names the folder and the way to resume the run."""
-    return stored(place, f"free some disk space, then softway resume {place or 'temporary folder'}")
 
 
 def _finish(
@@ -210,7 +189,7 @@ def _finish(
     """Write a last checkpoint, or remove all of them after success; close the records; write summary and provenance."""
 
     def storing() -> AbstractContextManager[None]:  # after a failure the first exception is the one that is raised
-        return _stored(run.path) if stop is DONE else suppress(OSError)
+        return recording(run.path) if stop is DONE else suppress(OSError)
 
     with storing(), ExitStack() as closing:
         for recorder in recorders.values():

@@ -36,7 +36,7 @@ def shown(run: Records, found: Mapping[str, Any], status: str, message: str) -> 
 def _picture(run: Records) -> str:
     """Picture of the bodies as an embedded image; empty if it cannot be drawn."""
     try:
-        there = run.history.rows > 1 and (run.of_mechanism or len(run.fields))
+        there = run.history.rows > 1 and len(run.times)
         data = picture(run, look=SMALL)._repr_png_() if there else b""
     except InputError:
         return ""

@@ -6,7 +6,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from softway.arrays import Array
 from softway.errors import InputError
+from softway.record.pile import history as pile_history
+from softway.record.pile import outline as pile_outline
+from softway.record.pile.motion import BallMotion, read_motion
+from softway.record.pile.summary import summarise_pile
 from softway.record.read import summary
 from softway.record.read.frames import Fields
 from softway.record.read.mechanism_summary import summarise_mechanism
@@ -56,15 +61,56 @@ class Run:
     def history(self) -> Table:
         """History with one row per accepted time step (slab); the first row is the initial state.
 
-        Of a mechanism there is one row per stored instant.
+        Of a mechanism or a pile there is one row per stored instant.
         """
-        needed = columns.NEEDED if self.of_mechanism else [(c.name, c.unit) for c in COLUMNS]
+        needed = (
+            columns.NEEDED
+            if self.of_mechanism
+            else pile_history.NEEDED
+            if self.of_pile
+            else [(c.name, c.unit) for c in COLUMNS]
+        )
         return table.read(self.path / history.FILE, needed)
 
     @property
     def of_mechanism(self) -> bool:
         """True if the bodies of the run are rigid bodies of a mechanism."""
         return (self.path / outline.FILE).is_file()
+
+    @property
+    def of_pile(self) -> bool:
+        """True if the run is that of a pile of balls."""
+        return (self.path / pile_outline.FILE).is_file()
+
+    @property
+    def times(self) -> Array:
+        """Stored instants (t,) of the places of the bodies [s]."""
+        if self.of_pile:
+            return self.balls.times
+        return self.motion["time"] if self.of_mechanism else self.fields.times
+
+    @property
+    def pile(self) -> Mapping[str, Any]:
+        """Dimension, groups, radii and walls of a pile."""
+        file = self.path / pile_outline.FILE
+        found = _notes(file, REMEDY, pile_outline.ENTRIES)
+        if not pile_outline.sound(found):
+            raise InputError(str(file), "does not tell the parts of a pile", REMEDY)
+        return found
+
+    @property
+    def balls(self) -> BallMotion:
+        """Motion of the balls of a pile: centres, rotations, velocities and angular velocities at the stored instants.
+
+        Raises
+        ------
+        InputError
+            If the run is not one of a pile.
+        """
+        if not self.of_pile:
+            raise InputError(str(self.path), "is not the run of a pile", "run.fields of solids, run.motion of bodies")
+        parts = self.pile
+        return read_motion(self.path, len(parts["radii"]), parts["dim"])
 
     @property
     def motion(self) -> Table:
@@ -90,7 +136,7 @@ class Run:
         return body_motions(self)
 
     def export(self, file: str | Path) -> Path:
-        """Write the motion of the bodies of a mechanism to a file.
+        """Write the motion of the bodies of a mechanism, or of the balls of a pile, to a file.
 
         Parameters
         ----------
@@ -124,6 +170,8 @@ class Run:
         """Frames of the fields: ``len``, ``[k]``, ``times``, ``cells``, ``to_pyvista(k)``."""
         if self.of_mechanism:
             raise InputError(str(self.path), "is the run of a mechanism, which has no fields", "its motion: motion.csv")
+        if self.of_pile:
+            raise InputError(str(self.path), "is the run of a pile, which has no fields", "its motion: run.balls")
         return Fields(self.path / fields.FILE, self.keep)
 
     @property
@@ -143,6 +191,8 @@ class Run:
     @property
     def numbers(self) -> dict[str, Any]:
         """Numbers of the summary, computed from the tables in their present state."""
+        if self.of_pile:
+            return summarise_pile(self.history, len(self.pile["radii"]))
         if self.of_mechanism:
             return summarise_mechanism(self.history, self.motion, self.events, self.outline)
         return summary.summarise(self.history, self.events)

@@ -12,6 +12,7 @@ import tomli_w
 from softway.errors import InputError
 from softway.scenario.hints.units_text import Units
 from softway.scenario.scenario import Scenario
+from softway.scenario.text.copies import with_copies
 from softway.scenario.text.material_names import with_materials
 from softway.scenario.text.override import overridden
 from softway.scenario.text.reader import Reader
@@ -99,7 +100,8 @@ def loads(
     data = parsed(text, name)
     reader = Reader(units or Units.standard(), folder or modules.folder or Path(), modules)
     with READING:
-        scenario: Scenario = reader.read(with_materials(overridden(data, changes)), Scenario, "")
+        whole = with_materials(with_copies(overridden(data, changes), reader.units))
+        scenario: Scenario = reader.read(whole, Scenario, "")
     return scenario
 
 

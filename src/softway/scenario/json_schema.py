@@ -25,6 +25,7 @@ from softway.scenario.hints.type_hints import (
 )
 from softway.scenario.hints.units_text import expected
 from softway.scenario.scenario import Scenario
+from softway.scenario.text import copies
 from softway.scenario.text.writer import write
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -74,7 +75,7 @@ class _Making:
         others += [{"enum": list(known)}] if known else []
         others += [] if own else list(objects.values())
         others += [_OWN] if own else []
-        others += _LIBRARY if set(options) == set(members(Law)) else []
+        others += _LIBRARY if set(options) >= set(members(Law)) else []
         others += [self.of(o, unit) for o in options if o is not NoneType and not _table(o)]
         lone = [(cls, key) for cls in known.values() for key in inputs(cls) if len(inputs(cls)) == 1]
         others += [self.of(hints(cls)[key], unit) for cls, key in lone]
@@ -95,12 +96,14 @@ class _Making:
         properties: Schema = {} if "kind" in known else {"kind": {"const": cls.__name__}}
         for key, of in known.items():
             inner = self.of(types[key], unit)
-            words = [told.fields.get(key, ""), inner.get("description", "")]
+            words = [told.fields.get(key, ""), _described(inner)]
             properties[key] = {
                 **inner,
                 "description": "; ".join(w for w in words if w),
                 **_default(of, types[key], unit),
             }
+        if cls is Solid:
+            properties["copies"] = _copies(properties)
         return {
             "type": "object",
             "description": told.summary,
@@ -115,6 +118,31 @@ class _Making:
         entry = self.of(args[0], unit)
         several = {"type": "array", "items": entry, **size}
         return {"anyOf": [several, entry]} if Hint.of(args[0], None).type is float else several
+
+
+def _copies(solid: Schema) -> Schema:
+    """Schema of the copies of a solid with these properties."""
+    place = {
+        "type": "object",
+        "properties": {**solid, "at": _LENGTHS},
+        "required": ["at"],
+        "additionalProperties": False,
+    }
+    lattice = {
+        "type": "object",
+        "properties": {"count": {"type": "array", "items": {"type": "integer"}}, "spacing": _LENGTHS},
+        "required": ["count", "spacing"],
+        "additionalProperties": False,
+    }
+    places = {"type": "array", "items": {"anyOf": [_LENGTHS, place]}}
+    return {"description": copies.MEANING, "anyOf": [places, lattice]}
+
+
+def _described(inner: Schema) -> str:
+    """Description of a value; of its number where a table of numbers may stand instead."""
+    options = inner.get("anyOf", [])
+    lone = options[0] if len(options) == 2 and options[1].get("additionalProperties") == options[0] else inner
+    return str(lone.get("description", ""))
 
 
 def _scalar(want: Hint) -> Schema:
@@ -151,6 +179,7 @@ _OWN: Schema = {
     "properties": {"kind": {"type": "string", "pattern": ":"}},
     "required": ["kind"],
 }
+_LENGTHS: Schema = {"type": "array", "items": {"type": ["number", "string"], "description": expected("m")}}
 _LIBRARY: list[Schema] = [
     {"type": "string", "description": "a library material, see softway materials"},
     {

@@ -31,10 +31,9 @@ from softway.record.storage.run_folder import RunFolder
 from softway.record.write.progress import Heartbeat, MechanismWatch, Tell, Watch
 from softway.record.write.recorder import RunStart
 from softway.scenario.checks.check import Checked, check
-from softway.scenario.checks.mechanism import CheckedMechanism
 from softway.scenario.checks.probes import probe_readings
 from softway.scenario.files import dumps, load
-from softway.scenario.run_mechanism import resume_mechanism, run_mechanism
+from softway.scenario.run_rigid import CheckedRigid, resume_rigid, run_rigid
 from softway.scenario.scenario import Scenario
 from softway.scenario.text.user_modules import own_sources
 
@@ -44,7 +43,7 @@ FRAMES = 100
 
 
 def run(
-    scenario: Scenario | Checked | CheckedMechanism,
+    scenario: Scenario | Checked | CheckedRigid,
     out: str | Path | None = None,
     *,
     progress: Watch | MechanismWatch | None = None,
@@ -63,9 +62,9 @@ def run(
         object.
     progress
         Callback with a :class:`Progress` after each accepted time step (slab), or with a
-        :class:`~softway.record.write.progress.MechanismProgress` after each stored instant of a mechanism.
+        :class:`~softway.record.write.progress.MechanismProgress` after each stored instant of a mechanism or a pile.
     cancel
-        Function called in every iteration, and at every stored instant of a mechanism, such as
+        Function called in every iteration, and at every stored instant of a mechanism or a pile, such as
         ``threading.Event().is_set``; the run stops when it returns True.
     tell
         Function that receives a line if one attempt at a slab takes five seconds, and every five seconds from then on:
@@ -85,9 +84,9 @@ def run(
     place = RunFolder(out=None if out is None else Path(out), overwrite=overwrite)
     place.check()
     checked = check(scenario, cancel=cancel) if isinstance(scenario, Scenario) else scenario
-    if isinstance(checked, CheckedMechanism):
+    if isinstance(checked, CheckedRigid):
         watch = cast(MechanismWatch | None, progress)
-        return run_mechanism(checked, place, _texts(checked.scenario), progress=watch, cancel=cancel, tell=tell)
+        return run_rigid(checked, place, _texts(checked.scenario), progress=watch, cancel=cancel, tell=tell)
     given, opening = checked.scenario, _opening(checked)
     steps = _steps(checked, opening.initial, cancel, tell)
     plan, watched = given.output.checkpoints, cast(Watch | None, progress)
@@ -98,7 +97,7 @@ def run(
 def resume(
     folder: str | Path,
     *,
-    scenario: Scenario | Checked | CheckedMechanism | None = None,
+    scenario: Scenario | Checked | CheckedRigid | None = None,
     progress: Watch | MechanismWatch | None = None,
     cancel: Cancel | None = None,
     tell: Tell = LOG.info,
@@ -137,9 +136,9 @@ def resume(
         checked = check(given, cancel=cancel) if isinstance(given, Scenario) else given
         texts = _texts(checked.scenario)
         provenance.require_same(stopped.path, stopped.provenance, texts)
-        if isinstance(checked, CheckedMechanism):
+        if isinstance(checked, CheckedRigid):
             heard = cast(MechanismWatch | None, progress)
-            return resume_mechanism(checked, stopped, texts, progress=heard, cancel=cancel, tell=tell)
+            return resume_rigid(checked, stopped, texts, progress=heard, cancel=cancel, tell=tell)
         opening = _opening(checked)
         pattern = join_states(checked.model, opening.initial)
         found = last(stopped.path, partial(_require_state, checked.model, pattern))

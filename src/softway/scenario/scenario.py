@@ -1,14 +1,15 @@
 """Scenario: bodies, contacts, loads, start, time, solver and output of a run as plain data."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from math import isfinite
 from typing import Literal
 
 from softway.bodies.inertia.inertia_scaling import Full, Inertia
+from softway.bodies.internal_force.materials import laws_of
 from softway.bodies.setup.loads import Load
-from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid, Tool
+from softway.contact.assembly.tie import Tie
 from softway.contact.contact import Contact
 from softway.errors import InputError, real
 from softway.html_tables import table as html_table
@@ -19,12 +20,11 @@ from softway.mechanisms.members.motors import Motor
 from softway.mechanisms.members.rigid import Rigid
 from softway.mechanisms.members.springs import HingeTorque, PointForce, Spring, Torque, TorsionSpring
 from softway.mechanisms.members.stops import AngleStop, Impacts, Restitution, Stop
-from softway.meshes.files.listed_mesh import LeftOut
-from softway.meshes.files.mesh_files import FileMesh
-from softway.meshes.generators.recipes import MeshFile, MeshSource
 from softway.meshes.mesh import Mesh
 from softway.model.scene import AsGiven, Scene, StaticStart
 from softway.model.time_weight import EndPeaks, TimeWeight
+from softway.piles.contacts import PileContacts
+from softway.piles.groups import BallGroup
 from softway.record.storage.checkpoint import Checkpoints
 from softway.solve.methods.central_difference import Explicit
 from softway.solve.methods.fixed_point import FixedPoint
@@ -138,6 +138,10 @@ class Output:
             raise InputError("fields_every", f"{self.fields_every:g} s is not positive", 'a time, or "auto"')
 
 
+Body = Solid | Tool | Rigid | BallGroup
+"""Body of a scenario."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scenario:
     """Complete description of a run.
@@ -145,16 +149,13 @@ class Scenario:
     Parameters
     ----------
     bodies
-        Solids and tools by name, as in :class:`~softway.model.scene.Scene`; or the rigid bodies of a mechanism, as in
-        :class:`~softway.mechanisms.Mechanism`.
+        Solids and tools by name, rigid bodies of a :class:`~softway.mechanisms.Mechanism`, or groups of balls.
     time
         End time and time steps.
     title
         Title of the run, in one line.
-    contacts
-        Contact pairs, as in :class:`~softway.model.scene.Scene`.
-    loads
-        Loads on the bodies, as in :class:`~softway.model.scene.Scene`.
+    contacts, ties, loads
+        Contact pairs, permanent ties and loads on the bodies, as in :class:`~softway.model.scene.Scene`.
     start
         Initial fields as given, or a static equilibrium.
     inertia
@@ -169,22 +170,23 @@ class Scenario:
         Stops, unilateral joints between rigid bodies, by name.
     springs
         Springs and dampers between rigid bodies, or about hinges.
-    torques
-        Constant torques on rigid bodies, or about hinges.
-    forces
-        Constant forces at points of rigid bodies.
+    torques, forces
+        Constant torques on rigid bodies or about hinges, and constant forces at points of rigid bodies.
     gears, motors
         Gears between joints and motors that prescribe the motion of joints, by name.
     impacts
         Law of impacts at several stops at once: ``simultaneous``, or ``sequential``, one after the other.
     restitution
         What the coefficients of restitution are ratios of: velocities (``Newton``) or impulses (``Poisson``).
+    pile
+        Walls around balls, and laws of their contacts.
     """
 
-    bodies: Mapping[str, Solid | Tool | Rigid]
+    bodies: Mapping[str, Body]
     time: Time
     title: str = ""
     contacts: tuple[Contact, ...] = ()
+    ties: tuple[Tie, ...] = ()
     loads: tuple[Load, ...] = ()
     start: AsGiven | StaticStart = AsGiven()
     inertia: Inertia = Full()
@@ -199,6 +201,7 @@ class Scenario:
     motors: Mapping[str, Motor] = field(default_factory=dict)
     impacts: Impacts = "simultaneous"
     restitution: Restitution = "Newton"
+    pile: PileContacts = PileContacts()
 
     def _repr_html_(self) -> str:
         """HTML table for notebooks."""
@@ -206,8 +209,7 @@ class Scenario:
         rows = {
             "bodies": "\n".join(_described(name, body) for name, body in self.bodies.items()),
             "contacts": "\n".join(
-                f"{c.between[0]} – {c.between[1]}: {type(c.timing).__name__}, {type(c.friction).__name__}"
-                for c in self.contacts
+                f"{c.label}: {type(c.timing).__name__}, {type(c.friction).__name__}" for c in self.contacts
             )
             or "none",
             "loads": ", ".join(type(load).__name__ for load in self.loads) or "none",
@@ -231,8 +233,9 @@ class Scenario:
     def scene(self) -> Scene:
         """Scene of solids and tools; its meshes are still recipes."""
         return Scene(
-            bodies={name: body for name, body in self.bodies.items() if not isinstance(body, Rigid)},
+            bodies={name: body for name, body in self.bodies.items() if isinstance(body, Solid | Tool)},
             contacts=self.contacts,
+            ties=self.ties,
             loads=self.loads,
             start=self.start,
             inertia=self.inertia,
@@ -244,51 +247,14 @@ def _linked(part: Joint | Stop) -> str:
     return part.joint if isinstance(part, AngleStop) else " and ".join(part.between)
 
 
-def _described(name: str, body: Solid | Tool | Rigid) -> str:
+def _described(name: str, body: Body) -> str:
     """Description of a body for notebooks."""
+    if isinstance(body, BallGroup):
+        return f"{name}: {type(body).__name__}"
     if isinstance(body, Rigid):
         return f"{name}: Rigid, {body.mass:.4g} kg"
     if isinstance(body, Tool):
         return f"{name}: {type(body.shape).__name__}, {type(body.motion).__name__}"
     size = f" of {body.mesh.n_nodes} nodes" if isinstance(body.mesh, Mesh) else ""
-    return f"{name}: {type(body.mesh).__name__}{size}, {type(body.material).__name__}"
-
-
-def built(scenario: Scenario) -> Scene:
-    """Scene with all meshes built and placed.
-
-    Raises
-    ------
-    InputError
-        For a missing mesh file, an inverted cell or an impossible size, with the path of the mesh.
-    """
-    return built_and_left_out(scenario)[0]
-
-
-def built_and_left_out(scenario: Scenario) -> tuple[Scene, dict[str, tuple[LeftOut, ...]]]:
-    """Scene with all meshes built and placed, and the cards of mesh files that the meshes do not hold, by body."""
-    bodies: dict[str, Solid | Tool] = {}
-    left_out: dict[str, tuple[LeftOut, ...]] = {}
-    for name, body in scenario.scene.bodies.items():
-        bodies[name] = body
-        if isinstance(body, Solid):
-            bodies[name], cards = _built(body, f"bodies.{name}")
-            left_out |= {name: cards} if cards else {}
-    return replace(scenario.scene, bodies=bodies), left_out
-
-
-def _built(solid: Solid, where: str) -> tuple[Solid, tuple[LeftOut, ...]]:
-    """Solid with a built mesh instead of the recipe, and the cards that the mesh does not hold."""
-    try:
-        read = solid.mesh.read() if isinstance(solid.mesh, MeshFile) else FileMesh(_mesh(solid.mesh))
-    except InputError as error:
-        raise error.within(f"{where}.mesh") from None
-    try:
-        return replace(solid, mesh=solid.place.applied(read.mesh), place=Placement()), read.left_out
-    except InputError as error:
-        raise error.within(f"{where}.place") from None
-
-
-def _mesh(mesh: MeshSource | Mesh) -> Mesh:
-    """Mesh, or the one of a recipe."""
-    return mesh if isinstance(mesh, Mesh) else mesh.build()
+    laws = ", ".join(dict.fromkeys(type(law).__name__ for law in laws_of(body.material)))
+    return f"{name}: {type(body.mesh).__name__}{size}, {laws}"

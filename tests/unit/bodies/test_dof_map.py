@@ -6,7 +6,8 @@ import scipy.sparse as sp
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softway.bodies.dof_map import CombinedDofs, DofMap, NodalDofs, joined
+from softway.bodies.dof_map import CombinedDofs, DofMap, NodalDofs
+from softway.model.ties import joined
 
 
 @st.composite

@@ -44,7 +44,7 @@ def test_rows_are_in_the_order_of_the_contacts() -> None:
         assert rows.of_contact(k).nonzero()[0].tolist() == list(range(*contacts.rows_of(k).indices(len(rows.node))))
     np.testing.assert_array_equal(contacts.points, mesh.points)
     assert model.touchable.tolist() == mesh.nodes("surface").tolist()
-    assert model.opponents.tolist() == [[0, -1]] * 3
+    assert (model.contact_solids, model.against_tool.tolist()) == (((0,),) * 3, [True] * 3)
 
 
 def test_no_contact_no_rows() -> None:

@@ -77,6 +77,13 @@ def pair(friction: object = sw.laws.Frictionless()) -> sw.Scene:
     return sw.Scene(bodies={"one": one, "two": two}, contacts=(contact,))
 
 
+def on_a_floor() -> sw.Scene:
+    """The pair on a floor at rest: its rows never change, those of the pair are open at first."""
+    scene = pair()
+    floor = sw.Contact(between=("one.bottom", "floor"))
+    return replace(scene, bodies={**scene.bodies, "floor": FLOOR}, contacts=(floor, *scene.contacts))
+
+
 J2 = sw.J2(E=1.0, nu=0.3, yield_stress=0.01, hardening=sw.laws.LinearHardening(modulus=0.05))
 KELVIN = sw.laws.Kelvin(E=1.0, nu=0.3, shear_viscosity=0.02, bulk_viscosity=0.01)
 DRY = sw.Coulomb(mu=0.3)
@@ -104,6 +111,11 @@ CASES: dict[str, tuple[sw.Scene, dict[str, Any]]] = {
     ),
     "mortar": (pair(), {"until": 0.6, "step": 0.05}),
     "mortar with friction": (pair(DRY), {"until": 0.6, "step": 0.05}),
+    "on a floor": (on_a_floor(), {"until": 1.2, "step": 0.05}),
+    "on a floor, multigrid": (
+        on_a_floor(),
+        {"until": 0.8, "step": 0.1, "method": sw.FixedPoint(operator=sw.solve.Multigrid())},
+    ),
 }
 
 

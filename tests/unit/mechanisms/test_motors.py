@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import softway as sw
+from softway.bodies.setup.motion_laws import Haversine, SmoothSteps, Spline, value_and_rate
 from softway.mechanisms import (
     Cylindrical,
     Hinge,
@@ -95,6 +96,25 @@ def test_the_torque_of_a_sine_is_of_second_order() -> None:
         torque = -INERTIA * 0.7 * np.pi**2 * np.sin(np.pi * middle + 0.3)
         errors.append(np.abs([s.motors["motor"] for s in steps[1:]] - torque)[1:].max())
     assert errors[0] < 1e-3 and np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.1)
+
+
+SMOOTH = [
+    Spline(times=(-0.3, 0.333, 0.777, 1.234), points=(2.0, 3.333, 0.5, 4.0)),
+    SmoothSteps(times=(0.2, 0.9, 1.4), points=(0.0, 2.0, -1.0)),
+    Haversine(height=1.5, duration=0.77, start=0.4),
+]
+
+
+@pytest.mark.parametrize("law", SMOOTH, ids=lambda law: type(law).__name__)
+def test_a_smooth_law_is_followed(law: Prescribed) -> None:
+    """The angle is exact at the end of every slab, the balance closes, and the work of a return to rest is none."""
+    steps = list(march(wheel(law), until=2.0, step=0.013))
+    start = value_and_rate(law.pieces, 0.0)[0]
+    for step in steps:
+        assert same_angle(turned(step), value_and_rate(law.pieces, step.time)[0] - start) < 1e-12
+        assert abs(step.energy_error) < 1e-13
+    assert steps[-1].bodies["wheel"].spin[0] == pytest.approx(0.0, abs=1e-12)
+    assert max(abs(s.bodies["wheel"].spin[0]) for s in steps) > 1.0
 
 
 def test_a_pendulum_on_a_shaken_cart() -> None:

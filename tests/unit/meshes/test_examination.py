@@ -112,6 +112,17 @@ def test_parts_that_share_no_node_are_noted_with_the_nodes_that_touch() -> None:
     assert examined(one) == () and examined(two) == ()  # the remedy: a body of its own for each part
 
 
+def test_parts_that_are_glued_are_one() -> None:
+    one, two = rectangle((1.0, 1.0), (2, 2)), moved(rectangle((1.0, 1.0), (1, 3)), 1.0, 0.0)
+    mesh = joined(one, two, moved(two, 3.0, 0.0))
+    body = np.repeat(np.arange(3), [one.n_nodes, two.n_nodes, two.n_nodes])
+    for name, of in (("a", 0), ("b", 1)):
+        mesh = mesh.with_tag(name, lambda x, of=of: (np.abs(x[:, 0] - 1.0) < 1e-9) & (body == of))
+    (note,) = examined(mesh, [("a", "b")])
+    assert note.problem == "2 parts that share no node"
+    assert examined(mesh)[0].problem.startswith("3 parts that share no node; they touch at 7 nodes")
+
+
 @pytest.mark.parametrize("cell", ["quad4", "tri3", "quad9", "tri6"])
 def test_node_that_hangs_on_an_edge_is_refused(cell: str) -> None:
     """Two cells beside one: the node between them lies on the edge of the large cell."""

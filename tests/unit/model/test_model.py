@@ -161,10 +161,10 @@ def test_wrong_scenes_name_the_place() -> None:
     refused(touching(("a.botom", "floor")), "contacts[0].between")
     refused(touching(("a.bottom", "flor")), "contacts[0].between")
     refused(touching(("a.bottom", "floor"), ("nobody.bottom", "floor")), "contacts[1].between")
-    refused(touching(("a.bottom", "a")), "contacts[0].between")
     point = Tool(shape=HalfSpace(point=0.0, normal=1.0))
     refused(touching(("a.bottom", "floor"), bodies={"a": square(), "floor": point}), "bodies.floor.shape.point")
-    refused(touching(("a.all", "floor")), "bodies.a")
+    coarse = square(mesh=rectangle((2.0, 1.0), (1, 1), cell="quad8"))
+    refused(touching(("a", "floor"), bodies={"a": coarse, "floor": floor}), "bodies.a")
     refused(Scene(bodies={"a": square(density=-1.0)}), "bodies.a.density")
     refused(Scene(bodies={"a": square(supports=(Fixed(on="nowhere"),))}), "bodies.a.supports[0].on")
     refused(

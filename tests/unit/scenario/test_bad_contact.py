@@ -59,7 +59,7 @@ CASES = {
         "2D",
         "3 components",
     ),
-    "body against itself": (f"{PAIR}=['block.bottom', 'block.top']", PAIR, "'block' against itself", "two bodies"),
+    "one name": (f"{PAIR}=['block.bottom']", PAIR, "has one name", "two names or more"),
     "the same pair twice": (
         "contacts=[{name='a', between=['block', 'other']}, {name='b', between=['other', 'block']}]",
         "contacts[1].between",
@@ -81,7 +81,7 @@ CASES = {
         "finer mesh",
     ),
     "no nodes left": (
-        f"{PAIR}=['block', 'floor'] & bodies.block.mesh.cells=[4, 4, 1]",
+        f"{PAIR}=['block', 'floor'] & bodies.block.mesh.cells=[1, 1, 1] & bodies.block.mesh.cell=hex20",
         "bodies.block",
         "one element thick there",
         "two layers of elements or quadratic elements",

@@ -32,7 +32,7 @@ def test_every_default_is_written_out():
     bar = write(loads(BAR, units=UNITS), Scenario, "")["bodies"]["bar"]
     assert set(bar) == {
         "kind", "mesh", "material", "density", "mass", "velocity", "displacement", "supports", "force", "dilatation",
-        "place",
+        "place", "group",
     }  # fmt: skip
     assert bar["material"] == {"kind": "LinearElastic", "E": "1.0 Pa", "nu": 0.0}
     assert bar["velocity"] == {"kind": "Uniform", "value": "10.0 m/s"}

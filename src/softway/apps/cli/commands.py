@@ -32,9 +32,10 @@ from softway.apps.cli.verify import verify
 from softway.apps.cli.view import view
 from softway.errors import InputError, NumericsError, StorageError
 from softway.scenario.checks.check import Checked
-from softway.scenario.checks.mechanism import CheckedMechanism
+from softway.scenario.checks.pile import CheckedPile
 from softway.scenario.files import dumps
 from softway.scenario.run import run as execute
+from softway.scenario.run_rigid import CheckedRigid
 from softway.scenario.text.templates import headline, templates
 from softway.studies.processes import raised_again
 from softway.studies.race.contest import contest, entrants
@@ -263,10 +264,11 @@ def race(
         console.print(escape(str(made)), soft_wrap=True, highlight=False)
 
 
-def _of_solids(file: Path, checked: Checked | CheckedMechanism) -> Checked:
-    """Refuse a scenario of rigid bodies."""
-    if isinstance(checked, CheckedMechanism):
-        raise InputError(str(file), "is a scenario of rigid bodies: there are no methods to compare", "softway run")
+def _of_solids(file: Path, checked: Checked | CheckedRigid) -> Checked:
+    """Refuse a scenario of rigid bodies or balls."""
+    if not isinstance(checked, Checked):
+        what = "balls" if isinstance(checked, CheckedPile) else "rigid bodies"
+        raise InputError(str(file), f"is a scenario of {what}: there are no methods to compare", "softway run")
     return checked
 
 

@@ -15,6 +15,10 @@ from softway.errors import InputError
 from softway.scenario.class_index import classes, keys
 from softway.scenario.hints.docstrings import described
 from softway.scenario.hints.type_hints import Hint, hints, inputs, required
+from softway.scenario.text import copies
+
+FILE_KEYS = {"copies": copies.MEANING}
+"""Keys of scenario files that are no arguments in Python."""
 
 
 def told(name: str, commands: Mapping[str, Callable[..., Any] | None], console: Console) -> None:
@@ -27,8 +31,8 @@ def told(name: str, commands: Mapping[str, Callable[..., Any] | None], console: 
     """
     kinds = [cls for cls in classes() if cls.__name__ == name]
     owners = keys().get(name, ())
-    if not kinds and not owners and name not in commands:
-        known = sorted({cls.__name__ for cls in classes()} | keys().keys() | commands.keys())
+    if not kinds and not owners and name not in commands and name not in FILE_KEYS:
+        known = sorted({cls.__name__ for cls in classes()} | keys().keys() | commands.keys() | FILE_KEYS.keys())
         lower = {word.lower(): word for word in known}
         close = [lower[word] for word in difflib.get_close_matches(name.lower(), lower, n=3, cutoff=0.5)]
         raise InputError("NAME", f"no kind, key or command {name!r}", ", ".join(close) or "Solid, Contact, time, run")
@@ -37,6 +41,9 @@ def told(name: str, commands: Mapping[str, Callable[..., Any] | None], console: 
         console.print(escape(plain(inspect.getdoc(commands[name]) or "")), highlight=False)
     for cls in kinds:
         _kind(cls, console)
+    if name in FILE_KEYS:
+        _head(name, "key of bodies in scenario files", console)
+        console.print(escape(plain(FILE_KEYS[name])), highlight=False)
     if owners:
         _head(name, "key", console)
         console.print(_grid([(cls, name) for cls in owners], of=True))

@@ -1,5 +1,6 @@
 """Commands show, export and audit: the summary of a run, its motion, and its geometry apart from its contact."""
 
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -11,15 +12,18 @@ from rich.progress import Progress
 
 from softway.apps.cli.output.tables import findings, summary
 from softway.errors import InputError
+from softway.record.audit.among_solids import audited_among_solids, has_rigid_bodies
 from softway.record.audit.auditor import Depths
 from softway.record.audit.folder import frames_audited, history_audited, unsaid
-from softway.record.audit.mechanism import audited_mechanism
+from softway.record.audit.mechanism import MechanismAudit, audited_mechanism
+from softway.record.audit.pile import audited_pile
 from softway.record.export.motion import export as write_motion
 from softway.record.read.findings import gathered, stored
 from softway.record.run import SCENARIO, Run
 from softway.record.write.fields import FILE as FIELDS
 from softway.scenario.checks.check import check
 from softway.scenario.checks.mechanism import CheckedMechanism
+from softway.scenario.checks.pile import CheckedPile
 from softway.scenario.run import stored as stored_scenario
 
 FINDINGS = 4
@@ -38,22 +42,22 @@ def show(folder: Path, /) -> None:
 
 
 def export(folder: Path, /, *, to: Path) -> None:
-    """Write the motion of the bodies of a mechanism to a file: places, rotations, velocities, angular velocities.
+    """Write the motion of a mechanism or a pile to a file: places, rotations, velocities, angular velocities.
 
     Parameters
     ----------
     folder
-        Run folder of a mechanism.
+        Run folder of a mechanism or a pile.
     to
-        File to write: .csv, .json, .npz (NumPy) or .gltf (animation), by the end of its name.
+        File to write: .csv, .json, .npz (NumPy) or .gltf (animation), by the end of its name; of a pile not .json.
     """
     run = Run(folder)
-    if not run.of_mechanism:
+    if not (run.of_mechanism or run.of_pile):
         remedy = f"open {folder / FIELDS} in ParaView, or read sw.Run('{folder}').fields in Python"
         raise InputError(str(folder), "is the run of solids: their frames need no export", remedy)
     written = write_motion(run, to)
-    bodies, rows = len(run.outline["bodies"]), run.motion.rows
-    Console().print(escape(f"{written}: {bodies} bodies at {rows} instants"), soft_wrap=True, highlight=False)
+    what = f"{len(run.pile['radii'])} balls" if run.of_pile else f"{len(run.outline['bodies'])} bodies"
+    Console().print(escape(f"{written}: {what} at {len(run.times)} instants"), soft_wrap=True, highlight=False)
 
 
 def audited(done: Run, *, strict: bool, quiet: bool) -> int:
@@ -80,8 +84,9 @@ def audit(
     Every body is compared with every other one, with all tools and with itself, whether they are in contact or not, at
     the nodes and between them. A run does the same while it is computed, at most at every tenth slab (time step). The
     error of the energy balance is computed again from the energies in history.csv. Warnings name findings, also those
-    of the run, that its summary does not tell. Of a mechanism all joints, the gaps of its stops, the energies, momentum
-    and angular momentum are computed again from the motion of its bodies.
+    of the run, that its summary does not tell. Of rigid bodies all joints, the gaps of their stops, energies and
+    momenta are computed again from their motion, beside solids at the stored frames; of a pile the gaps of all balls
+    and walls, energies, momentum and angular momentum.
 
     Parameters
     ----------
@@ -93,6 +98,8 @@ def audit(
         Print the findings only.
     """
     run, console = Run(folder), Console(quiet=quiet)
+    if run.of_pile:
+        return FINDINGS if _pile_audited(run, console) and strict else 0
     if run.of_mechanism:
         return FINDINGS if _mechanism_audited(run, console) and strict else 0
     fields = run.fields
@@ -106,12 +113,13 @@ def audit(
             display.advance(task)
     seen = [*(event for depths in found for event in depths.findings), *history_audited(run.history)]
     told: list[dict[str, Any]] = gathered(seen)
+    open_joints = _rigid_audited(run, console) if has_rigid_bodies(run.path) else 0
     nodes, between = (max((getattr(d, name) for d in found), default=0.0) for name in ("nodes", "between"))
     console.print(f"{len(found)} frames audited; deepest overlap at nodes {nodes:.3g} m, between nodes {between:.3g} m")
     findings(told, Console())
     for sentence in unsaid([*seen, *stored(run.events)], run.summary.get("findings", ())):
         Console(stderr=True).print(f"[bold yellow]warning[/] {escape(sentence)}", soft_wrap=True, highlight=False)
-    return FINDINGS if strict and told else 0
+    return FINDINGS if strict and (told or open_joints) else 0
 
 
 def _mechanism_audited(run: Run, console: Console) -> int:
@@ -119,7 +127,26 @@ def _mechanism_audited(run: Run, console: Console) -> int:
     checked = check(stored_scenario(run.path))
     if not isinstance(checked, CheckedMechanism):
         raise InputError(str(run.path / SCENARIO), "is no scenario of a mechanism", "the unchanged run folder")
-    told = audited_mechanism(run, checked.mechanism)
+    return _told(audited_mechanism(run, checked.mechanism), console)
+
+
+def _rigid_audited(run: Run, console: Console) -> int:
+    """Audit the rigid bodies of a run with solids, and tell what is found; the number of findings.
+
+    A scenario with parts that were built in Python is not stored: there the joints are left out.
+    """
+    try:
+        checked = check(stored_scenario(run.path))
+        if isinstance(checked, CheckedMechanism | CheckedPile):
+            raise InputError(str(run.path / SCENARIO), "is a scenario without solids", "the unchanged run folder")
+    except InputError as error:
+        Console(stderr=True).print(f"joints are left out: {escape(str(error))}", soft_wrap=True, highlight=False)
+        return 0
+    return _told(audited_among_solids(run, checked.model), console)
+
+
+def _told(told: MechanismAudit, console: Console) -> int:
+    """Tell what an audit of rigid bodies found; the number of findings."""
     say = partial(console.print, markup=False, soft_wrap=True, highlight=False)
     worst, deepest = (max(found.values(), default=0.0) for found in (told.joints, told.overlaps))
     say(f"{told.instants} instants audited; joints hold to {worst:.2g} m, deepest overlap of a stop {deepest:.2g} m")
@@ -127,6 +154,25 @@ def _mechanism_audited(run: Run, console: Console) -> int:
     say(f"history.csv tells what the motion gives: {parts}")
     if told.left_out:
         say(f"not looked at: {', '.join(told.left_out)}")
-    for sentence in told.findings:
+    return _found(told.findings)
+
+
+def _pile_audited(run: Run, console: Console) -> int:
+    """Audit the run of a pile and tell what is found; the number of findings."""
+    checked = check(stored_scenario(run.path))
+    if not isinstance(checked, CheckedPile):
+        raise InputError(str(run.path / SCENARIO), "is no scenario of a pile", "the unchanged run folder")
+    told = audited_pile(run, checked.pile)
+    say = partial(console.print, markup=False, soft_wrap=True, highlight=False)
+    depths = f"of balls {told.between:.2g} m, with walls {told.walls:.2g} m"
+    say(f"{told.instants} instants audited; deepest overlap {depths}")
+    parts = ", ".join(f"{name.removeprefix('the ')} to {error:.1e}" for name, error in told.balances.items())
+    say(f"history.csv tells what the motion gives: {parts}")
+    return _found(told.findings)
+
+
+def _found(sentences: Sequence[str]) -> int:
+    """Print findings; their number."""
+    for sentence in sentences:
         Console().print(f"finding: {sentence}", markup=False, soft_wrap=True, highlight=False)
-    return len(told.findings)
+    return len(sentences)

@@ -8,15 +8,15 @@ from typing import Annotated
 from cyclopts import Parameter
 from rich.console import Console
 
+from softway.apps.cli.output.tables import sentences_of
 from softway.apps.viewer.serve import serve
 from softway.errors import InputError
-from softway.record.read.mechanism_summary import told
 from softway.record.run import Run
 from softway.record.storage.atomic_file import replaced
-from softway.record.view.mechanism.page import page
+from softway.record.view.page import page
 
 PAGE = "view.html"
-"""File of the page of a mechanism."""
+"""File of the page of a mechanism or a pile."""
 
 
 def view(
@@ -29,7 +29,7 @@ def view(
 ) -> None:
     """Show a run in the browser: moving mesh, fields, curves, events. Only this machine can open the page.
 
-    Of a mechanism the page is a file, view.html in the run folder, with its positions, curves and events.
+    Of a mechanism or a pile the page is a file, view.html in the run folder, with its positions, curves and events.
 
     Parameters
     ----------
@@ -45,11 +45,11 @@ def view(
     if not 0 <= port <= 65535:
         raise InputError("--port", f"{port}", "a number from 1 to 65535, or 0 for any free port")
     console, run = Console(), Run(folder)
-    if run.of_mechanism:
+    if run.of_mechanism or run.of_pile:
         if live or port:
-            problem = "a page of its own is made of a mechanism, without a server"
+            problem = "a page of its own is made of this run, without a server"
             raise InputError("--live, --port", problem, "omit them; softway view again for what is new")
-        _mechanism_page(run, console, browser)
+        _page(run, console, browser)
         return
 
     def ready(address: str) -> None:
@@ -59,11 +59,11 @@ def view(
         serve(run, port=port, browser=browser, live=live, ready=ready)
 
 
-def _mechanism_page(run: Run, console: Console, browser: bool) -> None:
-    """Write the page of a mechanism into its folder, and open it."""
+def _page(run: Run, console: Console, browser: bool) -> None:
+    """Write the page of a mechanism or a pile into its folder, and open it."""
     file = run.path / PAGE
     with console.status("first picture") as status:
-        text = page(run, told(run.summary), lambda done, of: status.update(f"picture {done} of {of}"))
+        text = page(run, sentences_of(run, run.summary), lambda done, of: status.update(f"picture {done} of {of}"))
     try:
         replaced(file, text.encode())
     except OSError as error:

@@ -7,7 +7,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
-from softway.bodies.discretised import DiscreteSolid, force_of
+from softway.bodies.discretised import DiscreteSolid
+from softway.bodies.internal_force.assembled import internal_force
 from softway.bodies.internal_force.body_force import BodyForce
 from softway.meshes.mesh import Mesh
 
@@ -103,6 +104,9 @@ def _piece(number: int, part: DiscreteSolid, own: BoolArray) -> Piece | None:
         points=part.mesh.points[nodes],
         blocks={kind: np.searchsorted(nodes, cells) for kind, cells in blocks.items()},
     )
+    counts = [len(cells) for cells in part.mesh.blocks.values()]
+    starts = np.cumsum([0, *counts[:-1]])
+    numbers = np.concatenate([start + k for start, k in zip(starts, kept.values(), strict=True)])
     old = part.internal
     return Piece(
         part=number,
@@ -110,7 +114,7 @@ def _piece(number: int, part: DiscreteSolid, own: BoolArray) -> Piece | None:
         own=nodes,
         points=_points(old, list(kept.values())),
         cells=tuple(mesh.blocks.values()),
-        internal=force_of(mesh, old.material, old.section, part.dilatation),
+        internal=internal_force(mesh, part.materials.part(numbers), old.section, part.dilatation),
         chosen=own[nodes],
     )
 

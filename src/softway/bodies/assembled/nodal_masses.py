@@ -1,9 +1,12 @@
-"""Inertia of one solid: nodal masses, and interpolation of the velocity of massless nodes."""
+"""Inertia of solids: nodal masses, and interpolation of the velocity of massless nodes."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
 
-from softway.arrays import IntArray
+from softway.arrays import Array, IntArray
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.inertia.mass_matrix import condensation, nodal_mass
 from softway.bodies.inertia.mass_redistribution import redistribute_mass
@@ -22,24 +25,25 @@ def solid_following(part: DiscreteSolid, light: IntArray) -> sp.csr_array:
 
 def solid_mass(part: DiscreteSolid, solid: Solid, candidates: IntArray, spread: int) -> sp.csr_array:
     """Nodal mass matrix (n, n) [kg]; mass of the contact nodes ``candidates`` goes to ``spread`` layers of cells."""
-    section = part.internal.section
+    section, density = part.internal.section, part.materials.density
     with within(f"bodies.{part.name}"):
-        _require_numbers(part, solid.density)
+        for region, one in zip(part.materials.regions, part.materials.densities, strict=True):
+            _require_numbers(part, one, f"density.{region}" if region else "density")
         if len(candidates):
             if not solid.supports:
                 _require_inertia(part, candidates)
-            return redistribute_mass(part.mesh, solid.density, section, solid.mass, candidates, spread, part.name)
-        return nodal_mass(part.mesh, solid.density, section, solid.mass)
+            return redistribute_mass(part.mesh, density, section, solid.mass, candidates, spread, part.name)
+        return nodal_mass(part.mesh, density, section, solid.mass)
 
 
-def _require_numbers(part: DiscreteSolid, density: float) -> None:
+def _require_numbers(part: DiscreteSolid, density: float, where: str) -> None:
     """Refuse a density at which masses of nodes leave the range of floating-point numbers, or lose digits near it."""
     least, greatest = TINY / EPSILON, EPSILON / TINY
     size = float(np.linalg.norm(np.ptp(part.mesh.points, axis=0)))
     mass = float(density) * size**part.mesh.cell_dim / part.mesh.n_nodes
     if not least < mass < greatest:
         problem = f"{density:g} kg/m^3 gives nodes a mass of about {mass:.2g} kg, beyond the range of numbers"
-        raise InputError("density", problem, "the density of a material, such as 1000 kg/m^3")
+        raise InputError(where, problem, "the density of a material, such as 1000 kg/m^3")
 
 
 def _require_inertia(part: DiscreteSolid, candidates: IntArray) -> None:
@@ -51,3 +55,34 @@ def _require_inertia(part: DiscreteSolid, candidates: IntArray) -> None:
     if rank < part.mesh.dim - 1:
         problem = f"only {len(points)} nodes are not in a contact tag; mass on them has no moment of inertia"
         raise InputError("mesh", problem, "a finer mesh, or a smaller tag in the contact")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Massless:
+    """Nodes without inertia: those ``touching`` (k,), whose mass is spread over some layers of cells, and those that
+    rigid bodies carry, ``carried`` (c,).
+    """
+
+    touching: IntArray
+    carried: IntArray
+    spread: int
+
+    def of(self, nodes: slice) -> tuple[IntArray, int]:
+        """Numbers of those of a solid in it, and the layers of cells."""
+        both = self.touching, self.carried
+        mine = [some[(some >= nodes.start) & (some < nodes.stop)] - nodes.start for some in both]
+        return np.unique(np.concatenate(mine)), self.spread if len(mine[0]) else 1
+
+
+def inertia_of(
+    parts: Sequence[DiscreteSolid], solids: Mapping[str, Solid], light: Massless, factor: float
+) -> tuple[sp.csr_array, Array, sp.csr_array]:
+    """Mass (n, n) times the ``factor``, nodal mass (n,) for the weight, and velocities (n, n) of all nodes from those
+    with mass.
+    """
+    own = [light.of(p.nodes) for p in parts]
+    masses = [solid_mass(p, solids[p.name], nodes, layers) for p, (nodes, layers) in zip(parts, own, strict=True)]
+    follow = [solid_following(p, nodes) for p, (nodes, _) in zip(parts, own, strict=True)]
+    weight, following = (sp.csr_array(sp.block_diag(blocks, format="csr")) for blocks in (masses, follow))
+    mass = sp.csr_array(factor * weight) if factor > 0.0 else sp.csr_array(weight.shape)
+    return mass, np.asarray(weight.sum(axis=1)).ravel(), following

@@ -46,22 +46,28 @@ class Body:
     blocks: tuple[tuple[Element, IntArray, Array], ...]
 
 
-def body_of(mesh: Mesh, section: Section, density: float) -> Body:
-    """Quadrature of a body that is exact for a density linear in space, also around an axis of revolution."""
-    if not 0.0 < density < np.inf:
-        raise InputError("density", f"{density:g} kg/m^3 is not positive", "a positive density")
-    blocks = []
+def body_of(mesh: Mesh, section: Section, density: float | Array) -> Body:
+    """Quadrature of a body that is exact for a density linear in space, also around an axis of revolution.
+
+    The density [kg/m^3] is one number, or one for each element (e,).
+    """
+    given = np.asarray(density, float)
+    if not ((given > 0.0) & (given < np.inf)).all():
+        raise InputError("density", f"{given.min():g} kg/m^3 is not positive", "a positive density")
+    of_cell = np.broadcast_to(given, mesh.n_cells)[:, None]
+    blocks, start = [], 0
     for name, cells in mesh.blocks.items():
         powers = 2 if isinstance(section, Axisymmetric) else 1
         table = element(name, exact_degree(name, curved=True) + powers * CELLS[name].order)
         corners = mesh.points[cells]
         x = np.einsum("qa,eai->eqi", table.N, corners, optimize=True)
         volume = table.weights * _stretch(corners, table.dN) * section.measure(x)
-        blocks.append((table, cells, density * volume))
+        blocks.append((table, cells, of_cell[start : start + len(cells)] * volume))
+        start += len(cells)
     return Body(mesh, tuple(blocks))
 
 
-def nodal_mass(mesh: Mesh, density: float, section: Section, rule: MassRule) -> sparse.csr_array:
+def nodal_mass(mesh: Mesh, density: float | Array, section: Section, rule: MassRule) -> sparse.csr_array:
     """Scalar nodal mass matrix (n, n) [kg].
 
     Parameters
@@ -69,7 +75,7 @@ def nodal_mass(mesh: Mesh, density: float, section: Section, rule: MassRule) -> 
     mesh, section
         Mesh of the body, and section of its elements.
     density
-        Mass per reference volume [kg/m^3], positive.
+        Mass per reference volume [kg/m^3], positive; one number, or one for each element (e,).
     rule
         Consistent or lumped mass.
 

@@ -5,13 +5,12 @@ continuum.  With the mass spread over k layers of elements this takes the round 
 is ``1 + 1/(3 k)`` of the continuum's, and no energy is lost (docs/theory/contact/overshoot.md).
 """
 
-import logging
-
 import numpy as np
 from scipy import sparse
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.elements.section import Section
+from softway.bodies.inertia.kept_moments import aims, moments, monomials, scaled
 from softway.bodies.inertia.mass_matrix import (
     MORE_LAYERS,
     ONE_LAYER,
@@ -25,22 +24,13 @@ from softway.bodies.inertia.mass_matrix import (
 from softway.errors import InputError
 from softway.meshes.mesh import Mesh
 
-_LOG = logging.getLogger(__name__)
-
-LEAST_FACTOR = 0.1
-"""Least density relative to the given one; below it fewer layers, or fewer moments of the mass, are used."""
 CELLS = 5
 """Default number of layers of elements that take the mass of the contact nodes."""
-LOST = ("only the mass is kept, the centre of mass moves", "the moments of inertia change")
-"""Consequence of a mass matrix that keeps moments up to the order 0 or 1 only."""
-
-SPREAD = "body '%s': too few elements for the mass of its contact nodes: %s; a finer mesh avoids this"
-"""Log message about a mass matrix that does not keep all moments."""
 
 
 def redistribute_mass(
     mesh: Mesh,
-    density: float,
+    density: float | Array,
     section: Section,
     rule: MassRule,
     candidates: IntArray,
@@ -53,7 +43,7 @@ def redistribute_mass(
     missing mass.  The density is rho f with ``f = 1 + alpha + beta . xi + xi . Gamma xi`` such that mass, centre of
     mass and second moments are exact.  Where f would fall below 0.1, fewer layers are used.  If one layer is not enough
     either, first the second moments and then the centre of mass are given up, with a log message.  Straight bars need
-    no second moment.
+    no second moment, and where the nodes with mass lie in a plane or on a line, only moments in it are kept.
 
     Parameters
     ----------
@@ -84,27 +74,19 @@ def redistribute_mass(
     body, near = body_of(mesh, section, density), neighbours(mesh)
     ones = np.ones(mesh.n_nodes)
     depth = _depth(near, np.unique(candidates))
-    exact = assembled(body, Consistent(), ones)
-    y = _scaled(mesh, exact)
-    plain = assembled(body, rule, ones)
-    highest = 2 if y.shape[1] > 1 else 1
+    exact, plain = (assembled(body, one, ones) for one in (Consistent(), rule))
     weights = plain if (plain @ ones > 0.0).all() else assembled(body, Lumped(), ones)
-    every = np.array(_monomials(y, highest))
-    matrices = [assembled(body, rule, form) for form in every]
-    for order in range(highest, -1, -1):
-        target = _moments(exact, y, order)
-        target[1 + y.shape[1] :] = _moments(plain, y, order)[1 + y.shape[1] :]
-        forms, parts = every[: len(target)], matrices[: len(target)]
-        for k in range(min(cells, max(int(depth.max()) // 2, 1)), 0, -1):
-            scale = sparse.diags_array(_scale(weights, near, depth, k))
-            filled = [scale @ m @ scale for m in parts]
-            found = np.array([_moments(m, y, order) for m in filled]).T
-            factor = np.linalg.lstsq(found, target, rcond=1e-12)[0]
-            least = float((factor @ forms).min())
-            kept = np.abs(found @ factor - target).max() <= 1e-9 * target[0]
-            if (least >= LEAST_FACTOR or not order) and kept:
-                if order < highest:
-                    _LOG.log(logging.INFO if order else logging.WARNING, SPREAD, name, LOST[order])
+    scales = [_scale(weights, near, depth, k) for k in range(min(cells, max(int(depth.max()) // 2, 1)), 0, -1)]
+    for aim in aims(mesh.points, depth > 0):
+        y = scaled(mesh.points @ aim.turn, exact)
+        forms = np.array(monomials(y))
+        matrices = [assembled(body, rule, form) for form in forms]
+        for scale in scales:
+            diagonal = sparse.diags_array(scale)
+            filled = [diagonal @ m @ diagonal for m in matrices]
+            factor = aim.factor([moments(m, y) for m in filled], (moments(exact, y), moments(plain, y)), forms)
+            if factor is not None:
+                aim.tell(name)
                 return _sum(factor, filled)
     raise InputError("", "the nodes outside the contact tags have no mass", "a finer mesh, or a smaller contact tag")
 
@@ -134,37 +116,6 @@ def _scale(weights: sparse.csr_array, near: sparse.csr_array, depth: IntArray, c
     growth = np.divide(growth, count, out=np.zeros(len(own)), where=layer)
     total = float(growth @ left)
     return np.sqrt(~light + growth * (lost.sum() / total if total > 0.0 else 0.0))
-
-
-def _scaled(mesh: Mesh, plain: sparse.csr_array) -> Array:
-    """Coordinates (n, w) relative to the centre of mass and the size, along the axes in which the body extends."""
-    size = np.ptp(mesh.points, axis=0)
-    wide = size > 1e-9 * size.max()
-    nodal = np.asarray(plain.sum(axis=1)).ravel()
-    return np.asarray((mesh.points - nodal @ mesh.points / nodal.sum())[:, wide] / size[wide])
-
-
-def _monomials(y: Array, order: int) -> list[Array]:
-    """Nodal values (n,) of all monomials up to an order."""
-    out = [np.ones(len(y))]
-    if order >= 1:
-        out += list(y.T)
-    if order >= 2:
-        out += [y[:, i] * y[:, j] for i in range(y.shape[1]) for j in range(i + 1)]
-    return out
-
-
-def _moments(mass: sparse.csr_array, y: Array, order: int) -> Array:
-    """Mass, first and second moments of a mass matrix up to an order."""
-    z = np.column_stack([np.ones(len(y)), y])
-    table = z.T @ (mass @ z)
-    d = y.shape[1]
-    out = [table[0, 0]]
-    if order >= 1:
-        out += list(table[0, 1:])
-    if order >= 2:
-        out += [table[1 + i, 1 + j] for i in range(d) for j in range(i + 1)]
-    return np.array(out)
 
 
 def _depth(near: sparse.csr_array, candidates: IntArray) -> IntArray:

@@ -9,7 +9,6 @@ from softway.bodies.elements.section import Section
 from softway.bodies.elements.strain_operator import StrainOperator
 from softway.bodies.internal_force.material_state import MaterialState
 from softway.bodies.internal_force.slab_average import SlabForce
-from softway.laws.law import Material
 
 
 class BodyForce(Protocol):
@@ -19,11 +18,6 @@ class BodyForce(Protocol):
     of a slab, :meth:`committed` the material state at its end.  An elastic body has no material state: its ``state`` is
     None, and :meth:`during` gives the force itself.  The body has n nodes, p quadrature points and e elements.
     """
-
-    @property
-    def material(self) -> Material:
-        """Material law."""
-        ...
 
     @property
     def section(self) -> Section:

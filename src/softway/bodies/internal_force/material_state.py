@@ -1,7 +1,7 @@
 """Material state of a path-dependent body: history variables at the end of a slab."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -26,6 +26,11 @@ class MaterialState:
         (p,) energies stored and dissipated since the start of the march per reference volume [J/m^3].
     viscous
         (p, 3, 3) part of the stress due to the mean rate of the last slab [Pa]; None without viscosity.
+    regions
+        States of the regions with a path-dependent law in a body with several materials, which has no points of its
+        own; empty for a body with one.
+    elastic
+        Stored energy of all other regions [J].
     """
 
     displacement: Array
@@ -35,6 +40,8 @@ class MaterialState:
     stored: Array
     dissipated: Array
     viscous: Array | None = None
+    regions: Mapping[str, "MaterialState"] = field(default_factory=dict)
+    elastic: float = 0.0
 
     def __post_init__(self) -> None:
         for array in (self.displacement, self.stress, *self.law.values(), self.lateral, self.stored, self.dissipated):
@@ -76,4 +83,20 @@ def initial_history(law: Mapping[str, Array], nodes: tuple[int, int], points: in
         lateral=np.ones((points, free)),
         stored=np.zeros(points),
         dissipated=np.zeros(points),
+    )
+
+
+def regional_history(displacement: Array, regions: Mapping[str, MaterialState], elastic: float) -> MaterialState:
+    """State of a body with several materials: displacement (n, d) [m], states of the regions with a path-dependent law,
+    and the stored energy of the others [J].
+    """
+    return MaterialState(
+        displacement=displacement,
+        stress=np.zeros((0, 3, 3)),
+        law={},
+        lateral=np.ones((0, 0)),
+        stored=np.zeros(0),
+        dissipated=np.zeros(0),
+        regions=dict(regions),
+        elastic=elastic,
     )

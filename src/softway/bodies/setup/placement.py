@@ -1,12 +1,13 @@
-"""Placement of a mesh in the scene: rotation, translation, and height of its lowest node."""
+"""Placement of a mesh in the scene: mirror, rotation, translation, and height of its lowest node."""
 
 from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
 
-from softway.arrays import Array
-from softway.errors import InputError
+from softway.arrays import Array, IntArray
+from softway.errors import InputError, within
+from softway.meshes.cells import CELLS
 from softway.meshes.mesh import Mesh
 from softway.units import Metre, Pure
 
@@ -47,13 +48,62 @@ class Rotation:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Placement:
-    """Placement of a mesh in the scene: rotation about the centre of its bounding box, then translation.
+class Mirror:
+    """Mirror image in a plane; in 2D in a line.
 
     Parameters
     ----------
+    normal
+        Direction perpendicular to the plane, of any length; one number in one dimension.
+    point
+        Point of the plane [m]; empty for the point about which the mesh is placed.
+
+    Examples
+    --------
+    >>> from softway.meshes.generators.shapes import interval
+    >>> image = Placement(mirror=Mirror(normal=(1.0,), point=(0.0,))).applied(interval(1.0, cells=1))
+    >>> image.points.ravel().tolist(), image.nodes("right").tolist()
+    ([0.0, -1.0], [1])
+    """
+
+    normal: tuple[Pure, ...]
+    point: tuple[Metre, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not 0.0 < np.linalg.norm(np.asarray(self.normal, float)) < np.inf:
+            raise InputError("normal", f"{list(self.normal)} is not a direction", "numbers that are not all zero")
+
+    def applied(self, points: Array, about: Array) -> Array:
+        """Mirror image (n, d) of points (n, d); ``about`` (d,) is the point about which they are placed.
+
+        Raises
+        ------
+        InputError
+            If the plane lies in a space of another dimension.
+        """
+        dim = points.shape[1]
+        if len(self.normal) != dim or len(self.point) not in (0, dim):
+            problem = f"a normal of {len(self.normal)} and a point of {len(self.point)} components in {dim}D"
+            raise InputError("mirror", problem, f"{dim} components")
+        n = np.asarray(self.normal, float) / np.linalg.norm(self.normal)
+        through = np.asarray(self.point, float) if self.point else about
+        return np.asarray(points - 2.0 * np.outer((points - through) @ n, n))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Placement:
+    """Placement of a mesh in the scene: mirror and rotation, then translation.
+
+    Bodies with equal placements about a common point are placed together, like one.
+
+    Parameters
+    ----------
+    mirror
+        Plane in which the mesh is mirrored first; the order of the nodes in the cells is turned over, tags stay.
     rotations
         Rotations about fixed axes, applied in order; three of them are Euler angles.
+    about
+        Point of the axes of the rotations [m]; empty for the centre of the bounding box of the mesh.
     translation
         Translation (d,) [m]; empty for none.
     bottom
@@ -67,7 +117,9 @@ class Placement:
     array([ 5., 10., 15.])
     """
 
+    mirror: Mirror | None = None
     rotations: tuple[Rotation, ...] = ()
+    about: tuple[Metre, ...] = ()
     translation: tuple[Metre, ...] | Metre = ()
     bottom: Metre | None = None
 
@@ -76,7 +128,14 @@ class Placement:
         if self == Placement():
             return mesh
         dim = mesh.dim
-        points = _turned(mesh.points, self.rotations)
+        points, blocks = mesh.points, mesh.blocks
+        if len(self.about) not in (0, dim):
+            raise InputError("about", f"{len(self.about)} components in {dim}D", f"{dim} components, or none")
+        about = np.asarray(self.about, float) if self.about else 0.5 * (points.min(axis=0) + points.max(axis=0))
+        if self.mirror is not None:
+            points = self.mirror.applied(points, about)
+            blocks = {cell: nodes[:, _turned_over(cell)] for cell, nodes in blocks.items()}
+        points = _turned(points, self.rotations, about)
         shift = np.atleast_1d(np.asarray(self.translation, float))
         if shift.size not in (0, dim):
             raise InputError("translation", f"{shift.size} components in {dim}D", f"{dim} components, or none")
@@ -85,11 +144,36 @@ class Placement:
         if self.bottom is not None:
             points = points.copy()
             points[:, -1] += self.bottom - points[:, -1].min()
-        return replace(mesh, points=points)
+        return replace(mesh, points=points, blocks=blocks)
 
 
-def _turned(points: Array, rotations: tuple[Rotation, ...]) -> Array:
-    """Points (n, d) after the rotations about the centre of their bounding box."""
+def placed(mesh: Mesh, own: Placement, group: tuple[Placement, ...]) -> Mesh:
+    """Mesh of a solid after its own placement and those of its groups.
+
+    Raises
+    ------
+    InputError
+        With the key, and the number of the group.
+    """
+    with within("place"):
+        mesh = own.applied(mesh)
+    for k, place in enumerate(group):
+        with within(f"group[{k}]"):
+            mesh = place.applied(mesh)
+    return mesh
+
+
+def _turned_over(cell: str) -> IntArray:
+    """Order (a,) of the nodes of a cell in its mirror image: of a bar from the other end, others with the first two
+    axes exchanged.
+    """
+    nodes = CELLS[cell].nodes
+    image = 1.0 - nodes if CELLS[cell].dim == 1 else nodes[:, [1, 0, *range(2, CELLS[cell].dim)]]
+    return np.asarray(np.argmin(np.abs(image[:, None] - nodes).sum(axis=2), axis=1))
+
+
+def _turned(points: Array, rotations: tuple[Rotation, ...], centre: Array) -> Array:
+    """Points (n, d) after the rotations about a centre (d,)."""
     dim = points.shape[1]
     if not rotations:
         return points
@@ -99,6 +183,5 @@ def _turned(points: Array, rotations: tuple[Rotation, ...]) -> Array:
             remedy = "no rotation in 1D" if dim == 1 else "the axis [0, 0, 1] in 2D"
             raise InputError(f"rotations[{k}].axis", f"{list(rotation.axis)} leaves the space of the mesh", remedy)
         total = rotation.matrix() @ total
-    centre = 0.5 * (points.min(axis=0) + points.max(axis=0))
     turned: Array = (points - centre) @ total[:dim, :dim].T + centre
     return turned

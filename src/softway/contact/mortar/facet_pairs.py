@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
 from softway.contact.surfaces.broad_phase import Sweep, near, sweep
@@ -34,6 +35,27 @@ class FacetPairs:
     limit: Array
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Margin:
+    """Distance [m] within which one of the simplices of a row must come for the row to have pairs.
+
+    ``support`` (m, p) are the weights of the slave simplices in the rows.
+    """
+
+    distance: float
+    support: sp.csr_array
+
+    def taken(self, slave: Sweep, master: Sweep) -> IntArray:
+        """Slave simplices (k,) of all rows with one within the distance, in ascending order."""
+        p = self.support.shape[1]
+        close = np.zeros(p)
+        close[near(slave, master, self.distance)[0]] = 1.0
+        if not close.any():
+            return np.zeros(0, dtype=np.int64)
+        rows = self.support @ close > 0.0
+        return np.flatnonzero(self.support.T @ rows.astype(float) > 0.0)
+
+
 def vector_areas(corners: Array) -> Array:
     """Outward normals (d, p) of segments (2, 2, p) or triangles (3, 3, p), with their length or area as magnitude.
 
@@ -59,6 +81,7 @@ def facet_pairs(
     master: tuple[Array, Array],
     reach: float,
     thickness: tuple[Array | float, Array | float] = (np.inf, np.inf),
+    margin: Margin | None = None,
 ) -> FacetPairs:
     """Find the pairs that may touch between two configurations.
 
@@ -73,6 +96,8 @@ def facet_pairs(
         [m].
     thickness
         Thickness of the bodies behind the simplices of the slave (p,) and of the master (q,) [m].
+    margin
+        Rows that have pairs; by default all.
 
     Examples
     --------
@@ -80,7 +105,10 @@ def facet_pairs(
     >>> [len(facet_pairs((below, below), (above, above), reach).slave) for reach in (0.2, 0.5)]
     [0, 1]
     """
-    i, j = near(_sweep(slave), _sweep(master), reach)
+    first, second = _sweep(slave), _sweep(master)
+    i, j = near(first, second, reach, None if margin is None else margin.taken(first, second))
+    if not len(i):
+        return FacetPairs(slave=i, master=j, limit=np.zeros(0))
     own, other = (unit(vector_areas(corners[0])) for corners in (slave, master))
     opposite = np.einsum("ds,ds->s", np.take(own, i, axis=1), np.take(other, j, axis=1)) <= ANGLE
     i, j = i[opposite], j[opposite]

@@ -12,11 +12,11 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.contact.mortar import overlap_2d, overlap_3d
-from softway.contact.mortar.facet_pairs import FacetPairs, facet_pairs, unit, vector_areas
+from softway.contact.mortar.facet_pairs import FacetPairs, Margin, facet_pairs, unit, vector_areas
 from softway.contact.mortar.gap_weights import gap_weights
 from softway.contact.mortar.linear_surface import LinearSurface, linear_surface
 from softway.contact.mortar.overlap import Overlap
-from softway.contact.stencils import Stencils, interleaved
+from softway.contact.stencils import Stencils, interleaved, open_rows
 
 STEEP = 0.2
 """Lower bound of the cosine between two surfaces when their distance is measured."""
@@ -49,37 +49,44 @@ class Mortar:
     thickness: Array | None = None
     slave: LinearSurface = field(init=False, repr=False)
     master: LinearSurface = field(init=False, repr=False)
+    support: sp.csr_array = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "slave", linear_surface(self.slave_facets))
         object.__setattr__(self, "master", linear_surface(self.master_facets))
+        object.__setattr__(self, "support", self._vertex_weights(np.arange(len(self.slave.corner))))
 
     @property
     def node(self) -> IntArray:
         """Slave node (m,) of each row."""
         return self.slave.node
 
-    def meet(self, x0: Array, x1: Array, reach: float) -> "MortarContact":
-        """Pairs that may touch on the way from x0 to x1 (n, d), and within ``reach`` [m] of it."""
+    def meet(self, x0: Array, x1: Array, reach: float, margin: float | None = None) -> "MortarContact":
+        """Pairs that may touch on the way from x0 to x1 (n, d), and within ``reach`` [m] of it.
+
+        With a ``margin`` [m], there are pairs only around the nodes of slave simplices that come within it.
+        """
         control, lift = self.slave.onto(len(x0)), self.master.spread @ self.master.onto(len(x0))
         spread = self.slave.spread @ control
-        slave = tuple(_corners(spread @ x, self.slave.corner) for x in (x0, x1))
-        master = tuple(_corners(lift @ x, self.master.corner) for x in (x0, x1))
+        slave = tuple(corners_of(spread @ x, self.slave.corner) for x in (x0, x1))
+        master = tuple(corners_of(lift @ x, self.master.corner) for x in (x0, x1))
         thickness = self.slave.thickness(self.thickness), self.master.thickness(self.thickness)
-        pairs = facet_pairs((slave[0], slave[1]), (master[0], master[1]), reach, thickness)
+        close = None if margin is None else Margin(distance=margin, support=self.support)
+        pairs = facet_pairs((slave[0], slave[1]), (master[0], master[1]), reach, thickness, close)
         return MortarContact(
             slave=self.slave,
             master=self.master,
             control=control,
             lift=lift,
             pairs=pairs,
-            vertex_weights=self._vertex_weights(pairs),
+            vertex_weights=self._vertex_weights(np.unique(pairs.slave)),
         )
 
-    def _vertex_weights(self, pairs: FacetPairs) -> sp.csr_array:
-        """Weights (m, p) of the slave simplices that may touch for the nodes."""
+    def _vertex_weights(self, taking_part: IntArray) -> sp.csr_array:
+        """Weights (m, p) of the slave simplices ``taking_part`` (k,) for the nodes."""
         p, k = self.slave.corner.shape
-        taking_part = np.unique(pairs.slave)
+        if not len(taking_part):
+            return sp.csr_array((len(self.slave.node), p))
         column, row = np.repeat(taking_part, k), self.slave.corner[taking_part].ravel()
         incidence = sp.csr_array((np.full(len(row), 1.0 / k), (row, column)), (self.slave.spread.shape[0], p))
         return self.slave.nodal(sp.csr_array(self.slave.spread.T @ incidence))
@@ -120,14 +127,16 @@ class MortarContact:
 
         Where no opponent is in reach the normal is that of the surface, or zero if no facet may touch in the slab.
         """
+        if not self.found:
+            return open_rows(self.vertex_weights.shape[0], *x.shape)
         points = self.control @ x
         to_slave = self.slave.spread @ self.control
         slave_nodes = self.slave.spread @ points
-        slave = _corners(slave_nodes, self.slave.corner)
-        master = _corners(self.lift @ x, self.master.corner)
+        slave = corners_of(slave_nodes, self.slave.corner)
+        master = corners_of(self.lift @ x, self.master.corner)
         areas = vector_areas(slave)
         normal = -unit(self.vertex_weights @ areas.T, axis=1)
-        common = self._common(slave, areas, master, normal)
+        common = self.overlap(slave, areas, master, normal)
         i, j = self.pairs.slave[common.pair], self.pairs.master[common.pair]
         size = np.sqrt(np.sum(areas**2, axis=0))
         functions = gap_weights(self.slave, points, size, common.mass(i, len(size)))
@@ -150,7 +159,7 @@ class MortarContact:
         gap = np.where(met, slopes @ x.ravel(), np.inf)
         return Stencils(gap=gap, normal=normal, weights=weights, slopes=slopes)
 
-    def _common(self, slave: Array, areas: Array, master: Array, normal: Array) -> Overlap:
+    def overlap(self, slave: Array, areas: Array, master: Array, normal: Array) -> Overlap:
         """Overlap of the pairs within their limits.
 
         Arguments: corners (d, k, p) and vector areas (d, p) of the slave simplices, corners of the master simplices,
@@ -158,7 +167,7 @@ class MortarContact:
         """
         i, j = self.pairs.slave, self.pairs.master
         if len(slave) == 2:
-            common = overlap_2d.overlap(slave, -_corners(normal, self.slave.corner), master, i, j)
+            common = overlap_2d.overlap(slave, -corners_of(normal, self.slave.corner), master, i, j)
         else:
             common = overlap_3d.overlap(slave, master, i, j)
         i, j = i[common.pair], j[common.pair]
@@ -208,7 +217,7 @@ def _gradients(corners: Array) -> Array:
     return np.asarray(np.cross(area[:, None], edge, axis=0) / np.sum(area**2, axis=0))
 
 
-def _corners(vertices: Array, corner: IntArray) -> Array:
+def corners_of(vertices: Array, corner: IntArray) -> Array:
     """Coordinates (d, k, p) of the corners (p, k) of simplices, for vertices (v, d)."""
     return np.take(np.ascontiguousarray(vertices.T), corner.T, axis=1)
 

@@ -6,12 +6,13 @@ from functools import reduce
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.contact.node_to_surface.admissible_pairs import AdmissiblePairs
 from softway.contact.node_to_surface.facet_projection import BEHIND, FacetProjection, convex_drop, project
 from softway.contact.node_to_surface.facet_selection import SAME
 from softway.contact.node_to_surface.pairs import NodeFacetPairs, firsts
 from softway.contact.node_to_surface.slab_pairs import NodeFacetContact
 from softway.contact.surfaces.boundary import ContactSurface
-from softway.contact.surfaces.broad_phase import near, sweep
+from softway.contact.surfaces.broad_phase import Sweep, near, sweep
 from softway.contact.surfaces.wall_thickness import admissible_depth, thickness_of
 from softway.kernels.geometry.closest_points import dot
 from softway.meshes.cells import CELLS
@@ -50,6 +51,10 @@ class NodeToFacet:
         corner of a block on top of another one does not touch the side walls of the other one.
     thickness
         (n,) thickness of the bodies behind the nodes [m]; by default infinite.
+    admissible
+        Pairs that may touch where one method handles many surfaces; by default all.
+    over
+        True if only slaves over a facet have rows, where all edges have rows of their own.
 
     Examples
     --------
@@ -67,6 +72,8 @@ class NodeToFacet:
     slots: int = 0
     own: ContactSurface | None = None
     thickness: Array | None = None
+    admissible: AdmissiblePairs | None = None
+    over: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "slaves", np.asarray(self.slaves, dtype=np.int64))
@@ -77,7 +84,7 @@ class NodeToFacet:
         """Slave node (m,) of each row."""
         return np.repeat(self.slaves, self.slots)
 
-    def meet(self, x0: Array, x1: Array, reach: float) -> NodeFacetContact:
+    def meet(self, x0: Array, x1: Array, reach: float, margin: float | None = None) -> NodeFacetContact:
         """Find the pairs that may touch in a slab.
 
         Parameters
@@ -86,15 +93,22 @@ class NodeToFacet:
             (n, d) positions at its start, and expected positions at its end [m].
         reach
             Distance by which the motion may differ from the expected one [m], greater than zero.
+        margin
+            Distance within which a slave must have a facet to have pairs at all [m]; by default the reach.
         """
         kinds = [(kind, CELLS[kind].order > 1) for kind in self.side.facets]
         swelling = max(SWELLING.get(kind, 0.3 if curved else 0.0) for kind, curved in kinds)
         magnified = max(LEBESGUE.get(kind, 5.0 / 3.0 if curved else 1.0) for kind, curved in kinds)
         facets = sweep(x0, x1, self.side.table, swelling)
-        slave, facet = near(sweep(x0, x1, self.slaves[:, None]), facets, reach)
-        own = (self.side.table.T[:, facet] == self.slaves[slave]).any(axis=0)
-        slave, facet = slave[~own], facet[~own]
+        nodes = sweep(x0, x1, self.slaves[:, None])
+        rows = None if margin is None else np.unique(self._near(nodes, facets, margin)[0])
+        slave, facet = self._near(nodes, facets, reach, rows)
         pairs = NodeFacetPairs(side=self.side, slave=slave, node=self.slaves[slave], facet=facet)
+        if not len(slave):
+            none = np.zeros(0)
+            return NodeFacetContact(
+                pairs=pairs, count=len(self.slaves), slots=self.slots, start=x0, size=none, above=none
+            )
         widths = np.linalg.norm(facets.half, axis=1) / (0.5 + swelling)
         size = widths[facet] if self.side.dim > 1 else np.full(len(facet), reach)
         seen = project(pairs, x0, size)
@@ -110,11 +124,22 @@ class NodeToFacet:
             start=x0,
             size=size[keep],
             above=seen.height[keep],
+            over=self.over,
         )
+
+    def _near(
+        self, nodes: Sweep, facets: Sweep, reach: float, rows: IntArray | None = None
+    ) -> tuple[IntArray, IntArray]:
+        """Slaves, only the ``rows`` (k,) among them, and facets within reach that may touch."""
+        slave, facet = near(nodes, facets, reach, rows)
+        own = (self.side.table.T[:, facet] == self.slaves[slave]).any(axis=0)
+        if self.admissible is not None and len(slave):
+            own |= ~self.admissible.nodes_and_facets(self.slaves[slave], facet)
+        return slave[~own], facet[~own]
 
     def _in_view(self, seen: FacetProjection) -> BoolArray:
         """True for facets (p,) that the surface around their slave faces."""
-        if self.own is None or self.side.dim == 1:
+        if self.own is None or self.side.dim == 1 or not len(seen.size):
             return np.ones(len(seen.size), bool)
         normals = self.own.adjacent_facet_normals(seen.x)[np.searchsorted(self.own.nodes, seen.pairs.node)]
         return np.asarray(np.einsum("pkd,pd->pk", normals, seen.feet.normal).min(axis=1) <= FACING)

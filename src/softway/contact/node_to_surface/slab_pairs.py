@@ -21,7 +21,7 @@ from softway.arrays import Array, IntArray
 from softway.contact.node_to_surface.facet_projection import project
 from softway.contact.node_to_surface.facet_selection import choose_facets
 from softway.contact.node_to_surface.pairs import NodeFacetPairs
-from softway.contact.stencils import Stencils
+from softway.contact.stencils import Stencils, open_rows
 from softway.contact.surfaces.facet_geometry import ClosestPoints, continued
 from softway.kernels.geometry.closest_points import dot
 
@@ -42,6 +42,8 @@ class NodeFacetContact:
         (p,) size of the facets [m].
     above
         (p,) height of the slaves above the facets at the start of the slab [m].
+    over
+        True if there are rows only for slaves over a facet or its extension: edges have rows of their own.
     """
 
     pairs: NodeFacetPairs
@@ -50,6 +52,7 @@ class NodeFacetContact:
     start: Array
     size: Array
     above: Array
+    over: bool = False
 
     @property
     def found(self) -> int:
@@ -58,10 +61,15 @@ class NodeFacetContact:
 
     def at(self, x: Array) -> Stencils:
         """Gaps and their derivatives at positions x (n, d)."""
+        if not self.found:
+            return open_rows(self.count * self.slots, *x.shape)
         seen = project(self.pairs, x, self.size)
         choice = choose_facets(seen, self.count, self.slots, self.start, self.above)
         rows = np.flatnonzero(choice.pair >= 0)
         pair = choice.pair.ravel()[rows]
+        if self.over:
+            here = seen.inner[pair] | choice.extended[pair]
+            rows, pair = rows[here], pair[here]
         taken, inner = self.pairs.subset(pair), seen.inner[pair]
         feet = ClosestPoints(
             shapes=seen.feet.shapes[pair], offset=seen.feet.offset[pair], normal=seen.feet.normal[pair]
@@ -86,7 +94,7 @@ class NodeFacetContact:
         choice = choose_facets(seen, self.count, self.slots, self.start, self.above)
         rows = np.flatnonzero(choice.pair >= 0)
         pair = choice.pair.ravel()[rows]
-        keep = seen.inner[pair] | choice.extended[pair] | (seen.height[pair] > 0.0)
+        keep = seen.inner[pair] | choice.extended[pair] | ((seen.height[pair] > 0.0) & (not self.over))
         return KeptFacets(pairs=self.pairs.subset(pair[keep]), rows=rows[keep], count=choice.pair.size)
 
 

@@ -149,13 +149,13 @@ class ContactSurface:
 
     def sharp_edges(self, points: Array) -> Edges:
         """Edges where two facets meet at a sharp convex angle, for points (n, 3) of the model."""
-        edges = self._edges()
+        edges = self.edges()
         one, two = edges.normals(points)
         first, last = points[edges.ends[:, 0]], points[edges.ends[:, 1]]
         turn = np.arctan2(dot(np.cross(one, two), _unit(last - first)), dot(one, two))
         return edges.subset(turn > SHARP)
 
-    def _edges(self) -> Edges:
+    def edges(self) -> Edges:
         """All edges between two facets."""
         corners = [found[:, : CELLS[kind].corners] for kind, found in self.facets.items()]
         turned = [np.stack([np.roll(c, -k, axis=1).ravel() for k in range(3)], axis=1) for c in corners]

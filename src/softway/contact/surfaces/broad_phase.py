@@ -2,7 +2,8 @@
 
 Boxes are grouped by similar size (octaves), each group with a tree of centres: a graded mesh costs no more than a
 uniform one.  A path that is long compared with the boxes is cut into pieces.  Motion is relative to the mean motion of
-the second set: two bodies that fly together have no pairs.  The cost is O(n log n) unless many boxes overlap.
+the second set: two bodies that fly together have no pairs.  Boxes that do not come near the box around the whole other
+set are left out before.  The cost is O(n log n) unless many boxes overlap.
 """
 
 from dataclasses import dataclass
@@ -15,6 +16,8 @@ from softway.arrays import Array, IntArray
 
 PIECES = 256
 """Greatest number of pieces of a path."""
+ROUNDING = 1e-12
+"""Tolerance relative to the coordinates, so that boxes that only touch are found."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -24,6 +27,10 @@ class Sweep:
     start: Array
     end: Array
     half: Array
+
+    def subset(self, which: IntArray) -> "Sweep":
+        """Subset of the boxes."""
+        return Sweep(start=self.start[which], end=self.end[which], half=self.half[which])
 
 
 def sweep(x0: Array, x1: Array, nodes: IntArray, swelling: float = 0.0) -> Sweep:
@@ -48,8 +55,10 @@ def _box(x: Array, nodes: IntArray) -> tuple[Array, Array]:
     return reduce(np.minimum, parts), reduce(np.maximum, parts)
 
 
-def near(one: Sweep, two: Sweep, reach: float) -> tuple[IntArray, IntArray]:
+def near(one: Sweep, two: Sweep, reach: float, which: IntArray | None = None) -> tuple[IntArray, IntArray]:
     """Pairs (p,), (p,) of boxes whose paths come within ``reach`` [m], sorted by the first and then the second.
+
+    Of the first set only the boxes ``which`` (k,), in ascending order, are taken if these are given.
 
     Examples
     --------
@@ -62,24 +71,44 @@ def near(one: Sweep, two: Sweep, reach: float) -> tuple[IntArray, IntArray]:
     >>> [found.tolist() for found in near(point, plates, 0.1)]
     [[0, 0], [0, 1]]
     """
+    if which is not None:
+        i, j = near(one.subset(which), two, reach)
+        return which[i], j
     if not len(one.half) or not len(two.half):
         return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64)
     drift = (two.end - two.start).mean(axis=0)
     rest = 0.5 * np.abs(two.end - two.start - drift)  # half of the motion relative to the mean
     centre, half = 0.5 * (two.start + two.end - drift), two.half + rest
     start, end = one.start, one.end - drift
-    keys = [
-        _pairs(a, b, start, end, one.half, centre, half, reach)
-        for b in _octaves(half.max(axis=1))
-        for a in _octaves(one.half.max(axis=1))
-    ]
-    key = np.sort(np.concatenate(keys))
-    i, j = np.divmod(key[np.diff(key, prepend=-1) > 0], len(half))
     middle, wide = 0.5 * (start + end), one.half + 0.5 * np.abs(end - start) + reach
+    first = _beside(middle, wide, centre, half)
+    second = _beside(centre, half, middle[first], wide[first]) if len(first) else first
+    if not len(second):
+        return second, second
+    i, j = _met(start[first], end[first], one.half[first], centre[second], half[second], reach)
+    i, j = first[i], second[j]
     for axis in range(middle.shape[1]):
         keep = np.abs(middle[i, axis] - centre[j, axis]) <= wide[i, axis] + half[j, axis]
         i, j = i[keep], j[keep]
     return i, j
+
+
+def _beside(middle: Array, wide: Array, other: Array, half: Array) -> IntArray:
+    """Numbers of the boxes ``middle`` +- ``wide`` (k, d) that meet the box around all boxes ``other`` +- ``half``."""
+    low, high = (other - half).min(axis=0), (other + half).max(axis=0)
+    slack = ROUNDING * np.maximum(np.abs(low), np.abs(high))
+    return np.flatnonzero(((middle + wide >= low - slack) & (middle - wide <= high + slack)).all(axis=1))
+
+
+def _met(start: Array, end: Array, thick: Array, centre: Array, half: Array, reach: float) -> tuple[IntArray, IntArray]:
+    """Pairs of paths and boxes that may come within reach, sorted, each once."""
+    keys = [
+        _pairs(a, b, start, end, thick, centre, half, reach)
+        for b in _octaves(half.max(axis=1))
+        for a in _octaves(thick.max(axis=1))
+    ]
+    key = np.sort(np.concatenate(keys))
+    return np.divmod(key[np.diff(key, prepend=-1) > 0], len(half))
 
 
 def _octaves(size: Array) -> list[IntArray]:

@@ -14,15 +14,18 @@ def drive_at(drives, m, time):
     low, high = drives.first[m], drives.first[m + 1]
     while high - low > 1:
         middle = (low + high) // 2
-        if drives.knots[middle, 0] <= time + LATE * abs(time):
+        if drives.pieces[middle, 0] <= time + LATE * abs(time):
             low = middle
         else:
             high = middle
-    after, value = time - drives.knots[low, 0], drives.knots[low, 1]
-    rate, slope = drives.knots[low, 2], drives.knots[low, 3]
-    size, often, phase = drives.wave[m, 0], drives.wave[m, 1], drives.wave[m, 2]
-    value += after * (rate + 0.5 * slope * after) + size * (np.sin(often * time + phase) - np.sin(phase))
-    return value, rate + slope * after + size * often * np.cos(often * time + phase)
+    piece = drives.pieces[low]
+    since, value, rate = time - piece[0], 0.0, 0.0
+    for power in range(6, 0, -1):
+        rate = rate * since + value
+        value = value * since + piece[power]
+    size, often, phase = piece[7], piece[8], piece[9]
+    value += size * (np.sin(often * since + phase) - np.sin(phase))
+    return value, rate + size * often * np.cos(often * since + phase)
 
 
 @uncounted

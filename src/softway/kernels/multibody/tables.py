@@ -42,15 +42,14 @@ class Angles(NamedTuple):
 class Drives(NamedTuple):
     """Prescribed changes (m,) of the values of rows since the start, as functions of time.
 
-    ``row`` (m,) is the row of each; its knots are ``first[m]`` to ``first[m + 1]`` of ``knots`` (q, 4): time [s],
-    value, rate and acceleration from there on; ``wave`` (m, 3): amplitude, angular frequency [rad/s] and phase of a
-    sine.
+    ``row`` (m,) is the row of each; its pieces are ``first[m]`` to ``first[m + 1]`` of ``pieces`` (q, 10): the time [s]
+    from which a piece counts, six coefficients of the powers of the time since then, and amplitude, angular frequency
+    [rad/s] and phase of a sine.
     """
 
     row: IntArray
     first: IntArray
-    knots: Array
-    wave: Array
+    pieces: Array
 
 
 class Joints(NamedTuple):

@@ -8,7 +8,7 @@ direction of ``y_t`` with ``r = max(mu x_n, least)``, where mu is a coefficient 
 import numpy as np
 
 from softway.kernels.jit.compilation import inlined, kernel
-from softway.kernels.rigid_contact.dense import solve_dense
+from softway.kernels.rigid_contact.dense import solve_dense, solve_nearly_dependent
 
 ITERATIONS = 60
 """Greatest number of Newton's steps."""
@@ -97,7 +97,7 @@ def _newton(W, b, friction, least, lower, axis, rho, rounding, x):
         if size <= EXACT * scale or (waited >= 2 and size <= nearly):
             return 1
         step = -F
-        solve_dense(J, step)
+        solve_nearly_dependent(J, step)
         length, found, before = 1.0, size, F.copy()
         while True:
             tried[:] = x + length * step

@@ -15,8 +15,8 @@ from softway.units import Pure
 class StaticKinetic:
     """Static and kinetic friction: ``|t| <= mu_s p`` at rest, ``|t| = mu_k p`` in slip.
 
-    At the instant when a slipping point comes to rest, it sticks only if ``mu_k p`` can hold it; from then on the limit
-    is ``mu_s p``.
+    From the instant on at which a slipping body comes to rest the limit is ``mu_s p``.  Points that come to rest alone,
+    within a time step (slab), have to be held by ``mu_k p`` in it.
 
     Parameters
     ----------

@@ -85,8 +85,9 @@ class Pushed:
     rounding: float
 
 
-def contact_forces(model: Model, step: Step) -> Mapping[str, Pushed]:
-    """Mean contact force that each body needs for its change of momentum, besides its loads and supports.
+def contact_forces(model: Model, step: Step) -> Mapping[tuple[str, ...], Pushed]:
+    """Mean contact force that each body needs for its change of momentum, besides its loads and supports; of bodies
+    that ties glue together that of all of them.
 
     The radial direction of axisymmetric bodies is left out, and so is their spin. Bodies that companion fields push on
     are not looked at.
@@ -99,12 +100,16 @@ def contact_forces(model: Model, step: Step) -> Mapping[str, Pushed]:
     momenta = [model.mass @ model.join(state.velocity) / step.slab.span for state in states]
     places = [model.points + model.join(state.displacement) for state in states]
     blurred, out = rounding_forces(model, model.join(step.after.displacement)), {}
-    for part in model.parts:
-        before, after = (p[part.nodes] for p in momenta)
-        x0, x1 = (x[part.nodes] for x in places)
-        given = load[part.nodes] + step.reactions[part.name]
+    held = model.join(step.reactions)
+    for group in dict.fromkeys(model.linked.tolist()):
+        parts = [p for p, of in zip(model.parts, model.linked, strict=True) if of == group]
+        here = np.concatenate([np.arange(p.nodes.start, p.nodes.stop) for p in parts])
+        before, after = (p[here] for p in momenta)
+        x0, x1 = (x[here] for x in places)
+        given = load[here] + held[here]
         terms = ((x1, after), (x0, -before), (0.5 * (x0 + x1), -given))
-        out[part.name] = _pushed(model, part.internal.section, terms, model.space.total(blurred[part.nodes]))
+        found = _pushed(model, parts[0].internal.section, terms, model.space.total(blurred[here]))
+        out[tuple(p.name for p in parts)] = found
     return out
 
 

@@ -24,14 +24,18 @@ INTERNAL = 1e-4
 def certify(
     model: Model, out: SlabResult, after: ModelState, last: EnergyAccount, ledger: Ledger, leftover: Array
 ) -> Certificate:
-    """Certificate of a solved slab; ``leftover`` (d,) is its momentum error from :func:`balance`."""
+    """Certificate of a solved slab; ``leftover`` (d,) is its momentum error from :func:`balance`.
+
+    The gaps are those to the nearest surfaces; forces belong to the rows that carry them, which may be on others.
+    """
     rows = out.system.contact.nearest_rows(after.start.displacement)
     gap = np.where(rows.near, rows.gap(after.start.displacement), np.inf)
-    closed = after.closed & rows.near
+    closed = after.closed & out.rows.near
+    held = out.rows.gap(after.start.displacement)[closed]
     return Certificate(
         min_gap=float(gap.min(initial=np.inf)),
         min_force=float(after.pressure.min(initial=0.0)),
-        complementarity=float(np.abs(after.pressure[closed] * gap[closed]).sum()),
+        complementarity=float(np.abs(after.pressure[closed] * held).sum()),
         power_residual=float(sum(c.power_residual for c in ledger.contacts.values())),
         momentum_error=float(np.abs(leftover).max()),
         energy_error=ledger.energy_error - last.energy_error,
@@ -111,8 +115,9 @@ def _unrest(out: SlabResult, after: ModelState) -> Array:
     force = after.start.force - model.load - out.rows.spread(after.pressure, model.shape)
     if out.rows.shear.count:
         force = force - out.rows.shear.spread(after.traction)
-    here = model.free & ~model.massive[:, None]
-    return np.asarray(out.system.path.span * model.space.sums(np.where(here, force, 0.0)))
+    force = model.dofs.gathered(force)
+    force = np.where(model.massive[:, None], 0.0, force - model.supported(force))
+    return np.asarray(out.system.path.span * model.space.sums(force))
 
 
 def _blurred(model: Model, after: ModelState) -> Array:

@@ -9,6 +9,7 @@ from softway.bodies.assembled import material_states
 from softway.bodies.assembled.vector_space import VectorSpace
 from softway.bodies.elements.section import Axisymmetric
 from softway.march.audit.rigid_balances import rigid_balances
+from softway.march.audit.tie_ledger import tie_ledgers
 from softway.march.march_state import EnergyAccount
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
@@ -41,6 +42,7 @@ def initial_ledger(model: Model, now: ModelState) -> Ledger:
         momentum=momentum(model.space, momenta) + rigid.momentum,
         spin=spin(model, now.start.displacement, momenta) + rigid.spin,
         contacts=contacts,
+        ties=tie_ledgers(model, (), now, now),
     )
 
 
@@ -87,6 +89,7 @@ def update_account(account: EnergyAccount, ledger: Ledger) -> EnergyAccount:
         work_external=ledger.work_external,
         dissipation=ledger.dissipation,
         energy_error=ledger.energy_error,
+        ties=tuple(tie.dissipated for tie in ledger.ties.values()),
     )
 
 
@@ -113,6 +116,7 @@ def audit(model: Model, last: EnergyAccount, before: ModelState, out: SlabResult
         momentum=momentum(model.space, momenta) + rigid.momentum,
         spin=spin(model, after.start.displacement, momenta) + rigid.spin,
         contacts=_contacts(model, before, out, after),
+        ties=tie_ledgers(model, last.ties, before, after),
     )
 
 

@@ -8,7 +8,7 @@ from softway.arrays import Array
 from softway.bodies.rigid_motion import rotations
 from softway.march.model_state import ModelState
 from softway.model.model import Model
-from softway.model.rigid_state import RigidState
+from softway.model.rigid.rigid_state import RigidState
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -6,16 +6,17 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray
 from softway.contact.contact_rows import ContactRows
+from softway.contact.tangential_rows import TangentialRows
 from softway.march.model_state import ModelState
 from softway.model.model import Model
 from softway.model.slab import Slab
-from softway.model.time_weight import moments
-from softway.solve.constraints.return_map import NO_SLIP, SlipConditions
+from softway.model.time_weight import EndPeaks, moments
+from softway.solve.constraints.return_map import NO_SLIP, SlipConditions, turned
 from softway.solve.equations.energy_balance import body_groups
 from softway.solve.methods.iteration import Solution
 
-AHEAD = 0.5
-"""Extrapolation of the change of the mean speed from slab to slab, to the end of the slab."""
+RESTED = 1e-3
+"""Power of the friction of a contact, relative to that in the slab before, below which it has come to rest."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -37,6 +38,8 @@ class FrictionResult:
     dissipation
         Energy dissipated by friction [J], never negative: groups of touching bodies to which the friction force at the
         start would give energy count as zero.
+    slip
+        (m, d) mean velocity of the slip [m/s]; None without friction.
     """
 
     traction: Array
@@ -45,6 +48,7 @@ class FrictionResult:
     push: Array
     work: float
     dissipation: float
+    slip: Array | None = None
 
     @classmethod
     def none(cls, rows: ContactRows, shape: tuple[int, int]) -> "FrictionResult":
@@ -66,16 +70,59 @@ def slipping(model: Model, now: ModelState, slab: Slab, rows: ContactRows, stick
     if model.friction.frictionless:
         return NO_SLIP
     h, shear = slab.span, rows.shear
+    ahead = h / (h + now.span) if model.inert else 0.0
+    before = _slip_before(now, slab, rows)
+    sliding = now.sliding & ~_rested(model, now, slab, rows)
+    way = ahead * _directions(before) * (sliding & now.closed)[:, None] if _turns(shear, ahead, slab) else None
     return SlipConditions(
         friction=model.friction.at(now.start.displacement + 0.5 * h * now.start.velocity),
         shift=np.zeros(shear.tangents.shape[:2]),
         speed_factor=0.5,
         unit=1.0 / (h * moments(slab.weight)[1]),
-        ahead=AHEAD if model.inert else 0.0,
-        before=np.where(rows.near, np.linalg.norm(shear.slip(h * now.start.velocity), axis=1) / h, 0.0),
-        sliding=now.sliding,
+        ahead=ahead,
+        before=np.linalg.norm(before, axis=1),
+        sliding=sliding,
         stick_at_any_force=stick,
+        way=way,
+        turning=turned(way, shear),
     )
+
+
+def _slip_before(now: ModelState, slab: Slab, rows: ContactRows) -> Array:
+    """Mean velocity of the slip (m, d) in the previous slab: of rows that were open, that of their nodes."""
+    h = slab.span
+    passing = np.where(rows.near[:, None], rows.shear.slip(h * now.start.velocity) / h, 0.0)
+    return passing if now.slip is None else np.where(now.closed[:, None], now.slip, passing)
+
+
+def _directions(vectors: Array) -> Array:
+    """Unit vectors (m, d) along vectors (m, d); zero along none."""
+    size = np.linalg.norm(vectors, axis=1)
+    return vectors / np.where(size > 0.0, size, np.inf)[:, None]
+
+
+def _turns(shear: TangentialRows, ahead: float, slab: Slab) -> bool:
+    """True if the direction of slip may turn and its end is extrapolated: not in the slab after a stop."""
+    return shear.tangents.shape[1] > 1 and ahead > 0.0 and slab.weight == EndPeaks()
+
+
+def _rested(model: Model, now: ModelState, slab: Slab, rows: ContactRows) -> BoolArray:
+    """Rows (m,) of contacts that have come to rest at the start of the slab: they hold up to the limit at rest.
+
+    It is the slab after one that ended where the power of the friction vanished (``march/friction/slip_end.py``).
+    """
+    out = np.zeros(len(rows.node), bool)
+    if slab.weight != EndPeaks(theta=1.0):
+        return out
+    shear, forces = now.force_rows(rows).shear, now.traction * (now.sliding & now.closed)[:, None]
+    power, usual = (
+        -np.sum(forces * shear.slip(slab.span * v), axis=1)
+        for v in (model.follow @ now.start.velocity, now.start.velocity)
+    )
+    for contact in np.unique(rows.contact[now.sliding]).tolist():
+        here = rows.contact == contact
+        out[here] = np.sum(power[here]) <= RESTED * np.sum(np.abs(usual[here]))
+    return out
 
 
 def first_impulses(now: ModelState, slab: Slab, rows: ContactRows) -> tuple[Array, BoolArray]:
@@ -102,8 +149,8 @@ def friction_result(
     share = a[model.part_of[last.node]][:, None]
     old, new = (0.5 - share) * now.traction, (0.5 + share) * traction
     works = old * first.shear.slip(moved), new * last.shear.slip(moved)
-    touching = (now.pressure > 0.0) | (solution.last.impulse[:m] > 0.0)
-    by_group = np.bincount(body_groups(model, touching)[model.part_of[last.node]], (works[0] + works[1]).sum(axis=1))
+    groups = body_groups(model, (first, now.pressure > 0.0), (last, solution.last.impulse[:m] > 0.0))
+    by_group = np.bincount(groups[model.part_of[last.node]], (works[0] + works[1]).sum(axis=1))
     created = float(np.maximum(by_group, 0.0).sum())
     return FrictionResult(
         traction=traction,
@@ -112,4 +159,5 @@ def friction_result(
         push=first.shear.spread(old) + last.shear.spread(new),
         work=float(np.sum(old * first.shear.moved) + np.sum(new * last.shear.moved)),
         dissipation=max(created - float(np.sum(works[0]) + np.sum(works[1])), 0.0),
+        slip=last.shear.slip(moved) / slab.span,
     )

@@ -101,10 +101,11 @@ class SlabResult:
 
 def supports(model: Model, now: ModelState, end: Evaluation, velocity: Array, push: Array, span: float) -> Array:
     """Mean force (n, d) of the supports on the nodes [N]; ``push`` (n, d) is that of contact."""
-    if model.space.every(model.free):
+    if model.space.every(model.dofs.unsupported):
         return np.zeros(model.shape)
     inertia = model.mass @ ((velocity - now.start.velocity) / span)
-    return np.where(model.free, 0.0, inertia + end.mean_force - model.slab_load(end.scalar) - push)
+    force = inertia + end.mean_force - model.slab_load(end.scalar) - push
+    return model.supported(model.dofs.gathered(force))
 
 
 def support_work(model: Model, path: Trajectory, support: Array, moved: Array, velocity: Array) -> float:
@@ -137,9 +138,10 @@ def contact_event(
     part = model.parts[model.part_of[node]]
     u0 = now.start.displacement[node]
     time, place = slab.start + tau * slab.span, model.points[node] + u0 + tau * (end[node] - u0)
-    opponent = model.tools.get(model.scene.contacts[contact].opponent)
-    if opponent is not None:
-        gap, normal = opponent.at(time).gap_and_normal(place[None])
+    tool = bool(model.against_tool[contact])
+    name = model.scene.contacts[contact].opponent if tool else _opposite(model, rows, row)
+    if tool:
+        gap, normal = model.tools[name].at(time).gap_and_normal(place[None])
         place = place - gap[0] * normal[0]
     return Event(
         time=time,
@@ -150,7 +152,15 @@ def contact_event(
         velocity_before=speeds[0],
         velocity_after=speeds[1],
         impulse=impulse,
+        bodies=(part.name, name),
     )
+
+
+def _opposite(model: Model, rows: ContactRows, row: int) -> str:
+    """Name of the solid that the node of a row touches; its own where a body touches itself."""
+    own = int(model.part_of[rows.node[row]])
+    others = model.part_of[rows.gradient[[row]].indices // model.shape[1]]
+    return model.parts[int(next((k for k in others if k != own), own))].name
 
 
 def ordered_events(events: Sequence[Event], slab: Slab) -> tuple[Event, ...]:

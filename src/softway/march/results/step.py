@@ -1,7 +1,7 @@
 """Accepted slab (time step): the state before and after, its audit, and its events."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from math import nan
 
 import numpy as np
@@ -15,26 +15,31 @@ from softway.model.slab import Slab
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Event:
-    """Event inside a slab: touch, release, start of sticking or start of slip of a contact node, or a finding.
+    """Event inside a slab: touch, release, start of sticking or start of slip of a contact node, break of a tie at a
+    node, or a finding.
 
     Parameters
     ----------
     time
         Instant inside the slab [s].
     contact, kind, node
-        Contact label; ``touch``, ``release``, ``stick`` or ``slip``; node number in its body. A finding of the audit
-        has the names of the bodies for the label and a kind of ``record.read.findings.KINDS``.
+        Contact label; ``touch``, ``release``, ``stick`` or ``slip``; node number in its body. A tie has its label and
+        the kind ``break``. A finding of the audit has the names of the bodies for the label and a kind of
+        ``record.read.findings.KINDS``.
     position
         (d,) position of the node [m].
     velocity_before, velocity_after
         Normal velocity before and after the instant, negative towards the obstacle; for ``stick`` and ``slip`` the slip
-        speed [m/s].
+        speed, for ``break`` the mean speed of the opening in the slab [m/s].
     impulse
         Normal impulse of the velocity jump [N s]; zero at a release.
     depth
         Depth of an overlap that the audit found [m].
     finding
         Sentence of the audit; empty for a contact event.
+    bodies
+        Names of the two that touch, the one with the node first; the same twice where a body touches itself.  Empty
+        for other events.
     """
 
     time: float
@@ -47,6 +52,7 @@ class Event:
     impulse: float
     depth: float = 0.0
     finding: str = ""
+    bodies: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,6 +79,25 @@ class ContactLedger:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class TieLedger:
+    """Audit of one tie that breaks.
+
+    Parameters
+    ----------
+    broken
+        Fraction of its area without force.
+    opening
+        Greatest jump of a node over the tie, in any direction [m].
+    dissipated
+        Energy dissipated since the start of the march [J].
+    """
+
+    broken: float
+    opening: float
+    dissipated: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Ledger:
     """Energies and momenta at the end of a slab, and works since the start of the march.
 
@@ -90,6 +115,8 @@ class Ledger:
         (3,) angular momentum about the origin [kg m^2/s].
     contacts
         Contact label -> its audit over the slab.
+    ties
+        Label of a tie that breaks -> its audit.
     """
 
     energy_kinetic: float
@@ -100,6 +127,7 @@ class Ledger:
     momentum: Array
     spin: Array
     contacts: Mapping[str, ContactLedger]
+    ties: Mapping[str, TieLedger] = field(default_factory=dict)
 
     def _repr_html_(self) -> str:
         """A table for notebooks."""
@@ -107,6 +135,7 @@ class Ledger:
         rows = {name.replace("_", " "): f"{getattr(self, name):.4g} J" for name in joules}
         rows["momentum"] = f"{np.array2string(self.momentum, precision=4)} kg m/s"
         rows |= {f"contact {name}": _contact(found) for name, found in self.contacts.items()}
+        rows |= {f"tie {name}": _tie(found) for name, found in self.ties.items()}
         return table("Ledger", rows)
 
 
@@ -230,3 +259,8 @@ class Step:
 def _contact(found: ContactLedger) -> str:
     """Description of a contact for notebooks."""
     return f"{found.count} nodes in contact, {found.force_n:.4g} N, least gap {found.min_gap:.3g} m"
+
+
+def _tie(found: TieLedger) -> str:
+    """Description of a tie for notebooks."""
+    return f"{100.0 * found.broken:.3g} % broken, {found.dissipated:.4g} J dissipated, opening {found.opening:.3g} m"

@@ -1,13 +1,14 @@
 """Energy rule: massless contact nodes, in constrained equilibrium at the end of the slab (time step)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from softway.arrays import Array, BoolArray
+from softway.contact.contact_set import SlabContacts
 from softway.march.model_state import ModelState
 from softway.march.results.friction_result import first_impulses
-from softway.march.results.slab_result import EnergyBalance
+from softway.march.results.slab_result import EnergyBalance, SlabResult
 from softway.march.results.step import Event
 from softway.march.rules.contact_instants import releases, touches
 from softway.march.rules.massless_slab import (
@@ -48,23 +49,38 @@ class Equilibrated:
         rate = start.velocity + h * now.acceleration
         coasting = start.displacement + h * np.where(model.massive[:, None], 0.5 * (start.velocity + rate), rate)
         coasting = with_prescribed(model, now, slab, coasting)
-        pairs = model.contacts.meet(start.displacement, coasting, slab.start, slab.end)
+        contacts = model.contacts
+        pairs = contacts.meet(start.displacement, coasting, slab.start, slab.end, contacts.closest)
         require_slow(model, pairs, start.displacement, coasting, attempt.approach)
-        system = equations(self.contact, model, now, slab, pairs, attempt)
-        guess = attempt.guess or _guess(model, now, slab, system, rate, memory)
-        method = cancellable(self.method, attempt.cancel, slab.start)
-        iterates = method.iterate(system, guess)
-        for solution in iterate(system, iterates, max(method.tolerance, attempt.tolerance), method.limit):
-            velocity = end_velocity(model, slab, solution.last.q)
-            out = slab_result(self.contact, model, now, slab, system, solution, pairs.found, velocity)
-            yield out, solution.last.memory
+        method, guess, before = cancellable(self.method, attempt.cancel, slab.start), attempt.guess, 0
+        missed: SlabContacts | None = pairs
+        while missed is not None:
+            pairs, missed = missed, None
+            system = equations(self.contact, model, now, slab, pairs, attempt)
+            iterates = method.iterate(system, guess or _guess(model, now, slab, system, rate, memory))
+            for solution in iterate(system, iterates, max(method.tolerance, attempt.tolerance), method.limit):
+                solution = replace(solution, iterations=before + solution.iterations)
+                missed = pairs.missed(solution.end.displacement)
+                if missed is not None:
+                    guess, before = solution.last.guess, solution.iterations
+                    break
+                yield self._result(now, slab, system, solution, pairs.found), solution.last.memory
+
+    def _result(self, now: ModelState, slab: Slab, system: SlabEquations, solution: Solution, found: int) -> SlabResult:
+        """Result of a solution; supports that follow from the forces have moved."""
+        follower = solution.last.system.follower
+        if follower is not None:
+            system = replace(system, model=follower.model, follower=follower)
+        velocity = end_velocity(system.model, slab, solution.last.q)
+        return slab_result(self.contact, system.model, now, slab, system, solution, found, velocity)
 
 
 def _guess(
     model: Model, now: ModelState, slab: Slab, system: SlabEquations, rate: Array, memory: OperatorMemory
 ) -> Guess:
     """Solution expected if the velocity goes on to ``rate`` (n, d) at the end."""
-    q = np.where(model.free, np.where(model.massive[:, None], rate, 2.0 * rate), system.given)
+    q = np.where(model.massive[:, None], rate, 2.0 * rate)
+    q = q - model.supported(q) + model.supported(np.broadcast_to(system.given, q.shape))
     impulse, active = first_impulses(now, slab, system.path.rows)
     return Guess(q=q, impulse=impulse, active=active, memory=memory)
 

@@ -120,6 +120,7 @@ def equations(
         given=given,
         effort=attempt.effort,
         positive_definite=attempt.positive_definite,
+        follower=attempt.follower,
     )
 
 
@@ -133,10 +134,10 @@ def _contact(
     attempt: Attempt,
 ) -> SlabContact:
     """Contact rows with their conditions: inequalities on the gap at the end of the slab."""
-    h, rows, fixed = slab.span, path.rows, model.contacts.fixed
+    h, rows, fixed = slab.span, path.rows, pairs.fixed_rows is not None
     initial = InitialContact(rows=now.force_rows(rows), pressure=now.pressure, traction=now.traction)
     conditions = RowConditions(
-        target=-2.0 * rows.gap(path.end(given)) / h if fixed else np.zeros(len(rows.node)),
+        target=np.where(rows.near, -2.0 * rows.gap(path.end(given)) / h, 0.0) if fixed else np.zeros(len(rows.node)),
         equal=path.events.closed,
         unilateral=rows.reachable(model.dofs),
         slipping=slipping(model, now, slab, rows, attempt.stick_at_any_force),
@@ -194,7 +195,10 @@ def end_velocity(model: Model, slab: Slab, q: Array) -> Array:
     """Velocity (n, d) at the end of a slab [m/s]; of massless nodes without driven support the mean of the slab."""
     heavy = model.massive[:, None]
     velocity = np.where(heavy, q, 0.5 * q)
-    return velocity if not model.driven else np.where(model.free | heavy, velocity, model.prescribed(slab.end))
+    if not model.driven:
+        return velocity
+    given = velocity - model.supported(velocity) + model.prescribed(slab.end)
+    return np.where(heavy, velocity, given)
 
 
 def with_prescribed(model: Model, now: ModelState, slab: Slab, coasting: Array) -> Array:
@@ -203,7 +207,7 @@ def with_prescribed(model: Model, now: ModelState, slab: Slab, coasting: Array) 
         return coasting
     start, end = model.prescribed(slab.start), model.prescribed(slab.end)
     moved = slab.span * (0.5 * (start + end)) + bent(model.bends(slab.start, slab.end), slab.span)
-    return np.where(model.free, coasting, now.start.displacement + moved)
+    return coasting - model.supported(coasting) + model.supported(now.start.displacement + moved)
 
 
 def closed_energy_balance(model: Model, slab: Slab) -> EnergyBalance:

@@ -13,6 +13,7 @@ from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import TimeWeight
 from softway.solve.effort import Effort
+from softway.solve.equations.follower import Follower
 from softway.solve.methods.central_difference import Explicit
 from softway.solve.methods.fixed_point import FixedPoint
 from softway.solve.methods.iteration import Guess
@@ -45,6 +46,8 @@ class Attempt:
         Solution of the slab with rigid bodies in nearly the same motion; None without.
     tolerance
         Least tolerance of the iteration, relative to the greatest velocity.
+    follower
+        Supports whose motion follows from the forces on them; None without.
     """
 
     approach: float = np.inf
@@ -55,6 +58,7 @@ class Attempt:
     positive_definite: bool = False
     guess: Guess | None = None
     tolerance: float = 0.0
+    follower: Follower | None = None
 
 
 class SlabRule(Protocol):
@@ -114,9 +118,14 @@ def require_nodal(model: Model, rule: str) -> None:
     InputError
         If the degrees of freedom are no components of nodes.
     """
+    remedy = "the rule Energy, located = false, with FixedPoint or Newton"
+    for part in model.parts:
+        if part.dofs.components is None:
+            raise InputError(f"bodies.{part.name}.supports", f"a support along a direction, with {rule}", remedy)
+    if model.scene.ties:
+        raise InputError("ties[0]", f"a tie, with {rule}", remedy)
     if model.dofs.components is None:
-        problem = f"unknowns that move several components, with {rule}"
-        raise InputError("dofs", problem, "the rule Energy, located = false, with FixedPoint or Newton")
+        raise InputError("dofs", f"unknowns that move several components, with {rule}", remedy)
 
 
 def require_motion_alone(model: Model, rule: str) -> None:

@@ -7,7 +7,6 @@ from softway.bodies.rigid_motion import CarriedNodes, RigidShape
 from softway.contact.contact_rows import ContactRows
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
-from softway.march.slab.carried_response import add_force, forces_on_carriers
 from softway.model.model import Model
 from softway.model.slab import Slab
 
@@ -26,8 +25,55 @@ def forces_on_rigid(model: Model, now: ModelState, slab: Slab, out: SlabResult) 
     old, new = _forces(first, now.pressure, now.traction), _forces(last, out.pressure, out.friction.traction)
     _add(model, given, last, (0.5 - a) * old, now.start.displacement, slab.start)
     _add(model, given, last, (0.5 + a) * new, out.solution.end.displacement, slab.end)
-    carried = [support for support, _ in model.driven if isinstance(support, CarriedNodes)]
-    return given[:-1] + forces_on_carriers(model, carried, -out.support)
+    return given[:-1] + forces_on_carriers(model, carried_nodes(model), -out.support)
+
+
+def carried_nodes(model: Model) -> list[CarriedNodes]:
+    """Nodes that rigid bodies carry."""
+    return [support for support, _ in model.driven if isinstance(support, CarriedNodes)]
+
+
+def carriers(model: Model) -> list[int]:
+    """Numbers of the rigid bodies that carry nodes, but for the ground."""
+    if model.rigid is None:
+        return []
+    return sorted({model.rigid.number(one.by) for one in carried_nodes(model)} - {len(model.rigid.it.names)})
+
+
+def fields(model: Model, k: int, carried: list[CarriedNodes]) -> Array:
+    """Displacements (n d, (1 + d) d) of the nodes that a body ``k`` carries: along each axis by one, and by each
+    component of their place in the body.
+
+    The product of forces on the nodes with them are the resultant and the sums of the products ``Y f``, as of
+    :func:`forces_on_carriers`.
+    """
+    n, d = model.shape
+    out = np.zeros((n, d, 1 + d, d))
+    assert model.rigid is not None
+    for one in carried:
+        if model.rigid.number(one.by) == k:
+            arms = one.motion.arms(one.place)[:, :d]
+            for i in range(d):
+                out[one.nodes, i, 0, i] = 1.0
+                out[one.nodes, i, 1:, i] = arms
+    return out.reshape(n * d, -1)
+
+
+def forces_on_carriers(model: Model, carried: list[CarriedNodes], force: Array) -> Array:
+    """Forces (b, 4, 3) on the rigid bodies by forces (n, d) at the nodes that they carry."""
+    assert model.rigid is not None
+    given = np.zeros((len(model.rigid.it.names) + 1, 4, 3))
+    for one in carried:
+        add_force(given[model.rigid.number(one.by)], one.motion.arms(one.place), force[one.nodes])
+    return given[:-1]
+
+
+def add_force(given: Array, arms: Array, force: Array) -> None:
+    """Add forces (m, d) at the points ``arms`` (m, 3) of a body to ``given`` (4, 3)."""
+    pull = np.zeros((len(force), 3))
+    pull[:, : force.shape[1]] = force
+    given[0] += pull.sum(axis=0)
+    given[1:] += arms.T @ pull
 
 
 def _forces(rows: ContactRows, pressure: Array, traction: Array) -> Array:

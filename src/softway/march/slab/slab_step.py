@@ -11,6 +11,7 @@ from softway.errors import Cancel, InputError, Unbalanced
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult, ordered_events
 from softway.march.results.step import Event
+from softway.march.results.tie_breaks import tie_breaks
 from softway.march.results.trying import TryWatch
 from softway.march.rules.declared import slab_rule
 from softway.march.rules.slab_rule import Attempt, Method, SlabRule
@@ -70,14 +71,21 @@ def advance(
     NoConvergence, TooFast, Unbalanced
         If the method does not converge, the slab is too long for the approach, or the energy balance cannot be closed.
     """
-    model = stepper.model.during(now.start.states, slab.span).pushed(slab.start, slab.end)
+    model = stepper.model.during(now.start.states, slab.span).bonded(now.start.fields).pushed(slab.start, slab.end)
     if model.rigid is None:
         for out, after in stepper.rule.solve(model, now, slab, memory, attempt):
-            yield _state(slab, out), out, after
+            yield _state(slab, out), _with_breaks(model, now, slab, out), after
         return
     for found in coupled_slabs(stepper.rule, model, now, slab, memory, attempt):
         events = ordered_events((*found.out.events, *(_told(model, event) for event in found.events)), slab)
-        yield replace(_state(slab, found.out), rigid=found.rigid), replace(found.out, events=events), found.memory
+        out = _with_breaks(model, now, slab, replace(found.out, events=events))
+        yield replace(_state(slab, found.out), rigid=found.rigid), out, found.memory
+
+
+def _with_breaks(model: Model, now: ModelState, slab: Slab, out: SlabResult) -> SlabResult:
+    """Result with the breaks of ties among its events."""
+    found = tie_breaks(model, now, slab, out)
+    return replace(out, events=ordered_events((*out.events, *found), slab)) if found else out
 
 
 def _told(model: Model, event: StopEvent) -> Event:
@@ -113,6 +121,8 @@ def _state(slab: Slab, out: SlabResult) -> ModelState:
         traction=out.friction.traction,
         sliding=out.friction.sliding,
         rows=out.handed_on,
+        slip=out.friction.slip,
+        span=slab.span,
     )
 
 

@@ -1,5 +1,6 @@
 """Overlap of bodies at the start: nodes inside another body or inside a tool."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -7,6 +8,7 @@ import numpy as np
 
 from softway.arrays import Array, IntArray
 from softway.bodies.discretised import DiscreteSolid
+from softway.contact.contact_rows import ContactRows
 from softway.contact.surfaces.boundary import ContactSurface
 from softway.errors import within
 from softway.meshes.cells import FLAT
@@ -32,14 +34,18 @@ class Overlap:
 def deepest(model: Model, u: Array, rounding: float, start: Literal["apart", "fit"] = "apart") -> Overlap | None:
     """Deepest overlap of contacts with this ``start``, at the displacement ``u`` (n, d); None without overlap."""
     found = []
+    tools = any(c.start == start and t for c, t in zip(model.scene.contacts, model.against_tool, strict=True))
+    rows = model.rows(u) if tools else None
     for k, contact in enumerate(model.scene.contacts):
         if contact.start != start:
             continue
-        one, other = model.opponents[k]
-        if other < 0:
-            found.append(_in_tool(model, u, k, rounding))
+        if rows is not None and model.against_tool[k]:
+            found.append(_in_tool(model, u, k, rows, rounding))
             continue
-        found += [_in_body(model, u, k, a, b, rounding) for a, b in ((one, other), (other, one))]
+        solids = model.contact_solids[k]
+        for outer in reversed(solids) if len(solids) > 1 else ():
+            distance = _distance_from(model, u, outer)
+            found += [_in_body(model, u, k, (inner, outer), distance, rounding) for inner in solids if inner != outer]
     deep = [f for f in found if f is not None]
     return max(deep, key=lambda f: f.depth) if deep else None
 
@@ -53,8 +59,8 @@ def shrunk(model: Model, u: Array, rounding: float) -> Array:
     out = u.copy()
     if found is None:
         return out
-    first = {int(model.opponents[k][0]) for k, c in enumerate(model.scene.contacts) if c.start == "fit"}
-    for part in (model.parts[i] for i in sorted(first)):
+    first = {c.body for c in model.scene.contacts if c.start == "fit"}
+    for part in (p for p in model.parts if p.name in first):
         nodes = _candidates(model, part)
         out[nodes] -= 1.1 * found.depth * _outward(part, (model.points + u)[part.nodes])[nodes - part.nodes.start]
     return out
@@ -70,8 +76,8 @@ def _outward(part: DiscreteSolid, x: Array) -> Array:
     return out
 
 
-def _in_tool(model: Model, u: Array, k: int, rounding: float) -> Overlap | None:
-    rows = model.rows(u)
+def _in_tool(model: Model, u: Array, k: int, rows: ContactRows, rounding: float) -> Overlap | None:
+    """Deepest node of a contact in its tool, from all contact ``rows`` at the displacement ``u`` (n, d)."""
     here = np.flatnonzero(rows.of_contact(k))
     gap = rows.gap(u)[here]
     if not len(gap) or gap.min() >= -rounding:
@@ -80,12 +86,18 @@ def _in_tool(model: Model, u: Array, k: int, rounding: float) -> Overlap | None:
     return _named(model, u, k, node, -float(gap.min()), model.scene.contacts[k].opponent)
 
 
-def _in_body(model: Model, u: Array, k: int, a: int, b: int, rounding: float) -> Overlap | None:
-    """Deepest contact node of solid a inside solid b."""
-    inner, outer = model.parts[a], model.parts[b]
+def _in_body(
+    model: Model, u: Array, k: int, pair: tuple[int, int], distance: Callable[[Array], Array], rounding: float
+) -> Overlap | None:
+    """Deepest contact node of the first solid of a pair inside the second, by the ``distance`` from its boundary."""
+    inner, outer = (model.parts[n] for n in pair)
     nodes = _candidates(model, inner)
     x = model.points + u
-    gap = _distance(outer, x[outer.nodes], x[nodes])
+    walls = x[outer.nodes]
+    nodes = nodes[((x[nodes] >= walls.min(axis=0)) & (x[nodes] <= walls.max(axis=0))).all(axis=1)]
+    if not len(nodes):
+        return None
+    gap = distance(x[nodes])
     slack = rounding + (CHORD * model.edge[nodes] if _curved(outer) else 0.0)
     depth = np.where(gap < -slack, -gap, 0.0)
     if not depth.any():
@@ -100,18 +112,21 @@ def _candidates(model: Model, part: DiscreteSolid) -> IntArray:
     return found
 
 
-def _distance(part: DiscreteSolid, corners: Array, x: Array) -> Array:
-    """Distance (p,) of points from the boundary of a solid whose nodes are at ``corners``; negative inside."""
+def _distance_from(model: Model, u: Array, number: int) -> Callable[[Array], Array]:
+    """Distance (p,) of points (p, d) from the boundary of a solid at the displacement ``u`` (n, d); negative inside."""
+    part = model.parts[number]
+    corners = (model.points + u)[part.nodes]
     if corners.shape[1] == 1:
         low, high = float(corners.min()), float(corners.max())
-        return np.maximum(low - x[:, 0], x[:, 0] - high)
+        return lambda x: np.maximum(low - x[:, 0], x[:, 0] - high)
     boundary = part.mesh.boundary()
     cells: list[IntArray] = [f[:, list(s)] for name, f in boundary.items() for s in FLAT.get(name, ())]
-    if not cells:
-        return np.full(len(x), np.inf)
-    with within(f"bodies.{part.name}.mesh"):
-        surface = Facets(points=corners, cells=np.concatenate(cells))
-    return surface.gap(x) if surface.closed else np.full(len(x), np.inf)
+    if cells:
+        with within(f"bodies.{part.name}.mesh"):
+            surface = Facets(points=corners, cells=np.concatenate(cells))
+        if surface.closed:
+            return surface.gap
+    return lambda x: np.full(len(x), np.inf)
 
 
 def _curved(part: DiscreteSolid) -> bool:

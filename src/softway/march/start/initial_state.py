@@ -4,11 +4,11 @@ import logging
 
 import numpy as np
 
-from softway.arrays import Array
+from softway.arrays import Array, IntArray
 from softway.bodies.assembled import material_states
 from softway.bodies.assembled.nodal_loads import dead_load
 from softway.bodies.elements.section import Axisymmetric
-from softway.bodies.rigid_body_modes import free_motions
+from softway.bodies.rigid_body_modes import HeldParts, free_motions
 from softway.contact.contact import NodeToSurface
 from softway.errors import Cancel, InputError
 from softway.march.model_state import ModelState
@@ -130,11 +130,22 @@ def unsupported_motions(model: Model) -> dict[str, tuple[str, ...]]:
         together = [p for p, of in zip(model.parts, model.linked, strict=True) if of == group]
         axisymmetric = isinstance(together[0].internal.section, Axisymmetric)
         points = np.concatenate([p.mesh.points for p in together])
-        supported = np.concatenate([~model.free[p.nodes] for p in together])
-        motions = free_motions(points, supported, axisymmetric)
+        nodes = np.concatenate([np.arange(model.shape[0])[p.nodes] for p in together])
+        motions = free_motions(points, _held_parts(model, nodes), axisymmetric)
         if motions:
             found[together[0].name] = motions
     return found
+
+
+def _held_parts(model: Model, nodes: IntArray) -> HeldParts:
+    """Parts (n, d) of fields (n, d) of some nodes that supports hold."""
+
+    def held(field: Array) -> Array:
+        whole = np.zeros(model.shape)
+        whole[nodes] = field
+        return model.supported(whole)[nodes]
+
+    return held
 
 
 def require_supported(model: Model) -> None:
@@ -142,7 +153,7 @@ def require_supported(model: Model) -> None:
     inert = not model.scene.inertia.factor > 0.0
     if not inert and not isinstance(model.scene.start, StaticStart):
         return
-    met = {c.body for c in model.scene.contacts} | {c.opponent for c in model.scene.contacts}
+    met = {name for c in model.scene.contacts for name in c.bodies}
     what = "body without inertia" if inert else "static start"
     otherwise = 'inertia = { kind = "Full" }' if inert else 'a contact, or start = "AsGiven"'
     for name, motions in unsupported_motions(model).items():
@@ -171,7 +182,7 @@ def require_apart(model: Model, u: Array) -> None:
 def require_shallow(model: Model, u: Array) -> None:
     """Refuse a press fit of two solids in the plane or in space that is about as deep as their cells, or deeper."""
     found = deepest(model, u, DEPTH * model.extent(u), "fit")
-    if found is None or model.shape[1] == 1 or model.opponents[found.contact][1] < 0:
+    if found is None or model.shape[1] == 1 or model.against_tool[found.contact]:
         return
     x, names = model.points + u, [p.name for p in model.parts]
     other = model.parts[names.index(found.other)].nodes

@@ -5,7 +5,7 @@ from typing import Literal
 
 import numpy as np
 
-from softway.bodies.prescribed_motion import Motion, Table, Translation, Turning, carried_tool
+from softway.bodies.prescribed_motion import Motion, Sliding, Swinging, Table, Translation, Turning, carried_tool
 from softway.bodies.solid import Tool
 from softway.errors import InputError
 from softway.march.rules.slab_rule import Method
@@ -82,11 +82,21 @@ def _tool_speed(model: Model, motion: Motion) -> float:
         case Table():
             moved = np.diff(np.reshape(motion.displacements, (len(motion.times), -1)), axis=0)
             return float((np.linalg.norm(moved, axis=1) / np.diff(motion.times)).max(initial=0.0))
+        case Sliding():
+            return motion.travel.greatest_rate
         case Turning():
-            arms = carried_tool(motion, 0.0, QUICK / max(abs(motion.rate), 1e-300), model.points)
-            return model.space.greatest(np.linalg.norm(arms, axis=1)) * abs(motion.rate) / QUICK
+            return _turning_speed(model, motion, abs(motion.rate))
+        case Swinging():
+            turning = Turning(point=motion.point, axis=motion.axis, rate=1.0)
+            return _turning_speed(model, turning, motion.angle.greatest_rate)
         case _:
             return 0.0
+
+
+def _turning_speed(model: Model, motion: Turning, rate: float) -> float:
+    """Greatest speed at the nodes of a tool that turns about the axis of a motion at another ``rate`` [m/s]."""
+    arms = carried_tool(motion, 0.0, QUICK / max(abs(motion.rate), 1e-300), model.points)
+    return model.space.greatest(np.linalg.norm(arms, axis=1)) * rate / QUICK
 
 
 def evenly(duration: float, step: float) -> float:

@@ -42,6 +42,10 @@ def require_of_model(model: Model, pattern: ModelState, found: MarchState) -> No
         for name in ("acceleration", "closed", "pressure", "traction", "sliding", "rigid"):
             with within(name):
                 _alike(getattr(pattern, name), getattr(found.state, name))
+        if found.state.slip is not None:
+            with within("slip"):
+                _array(found.state.slip, pattern.traction.shape)
+        _require(found.state.span >= 0.0, f"a slab of {found.state.span:g} s")
         if found.state.rows is not None:
             _rows(model, found.state.rows)
     with within("memory"):

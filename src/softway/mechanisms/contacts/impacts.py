@@ -165,7 +165,8 @@ class StopMarch:
             return None
         if least(high) >= 0.0:
             return high, counted[0]
-        length = float(brentq(least, low, high, xtol=1e-15 * high, rtol=1e-15))
+        # where friction is not unique, gaps may jump by rounding: then any length between is as good
+        length = float(brentq(least, low, high, xtol=1e-15 * high, rtol=1e-15, disp=False))
         least(length)
         return length, counted[0]
 

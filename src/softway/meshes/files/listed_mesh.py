@@ -1,7 +1,7 @@
 """Mesh as a file gives it, before unused nodes are dropped, with the list of what it does not hold."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from softway.arrays import Array, IntArray
 
@@ -47,6 +47,25 @@ class LeftOut:
         return f"{self.card} ({self.count}{where})" + (f": {self.meaning}" if self.meaning else "")
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FileTie:
+    """Two tags of a mesh file that are glued to each other.
+
+    Parameters
+    ----------
+    title
+        Keyword and name, as in the list of what is not honoured.
+    between
+        The tags.
+    line
+        Line of the card.
+    """
+
+    title: str
+    between: tuple[str, str]
+    line: str
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class ListedMesh:
     """Mesh of a deck or of a Gmsh file.
@@ -61,9 +80,16 @@ class ListedMesh:
         Name -> numbers of the nodes: sets of a deck, physical groups of a Gmsh file.
     left_out
         Cards, sections, nodes and groups that are not honoured.
+    regions
+        Name -> numbers of the cells in the order of the blocks: element sets and materials of a deck, physical groups
+        of a Gmsh file.
+    ties
+        Pairs of tags that are glued.
     """
 
     points: Array
     blocks: Mapping[str, IntArray]
     tags: Mapping[str, IntArray]
     left_out: tuple[LeftOut, ...]
+    regions: Mapping[str, IntArray] = field(default_factory=dict)
+    ties: tuple[FileTie, ...] = ()

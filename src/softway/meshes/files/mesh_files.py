@@ -4,7 +4,7 @@ import contextlib
 import io
 import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import meshio
@@ -16,7 +16,7 @@ from softway.meshes.cells import CELLS, FACETS, FLAT
 from softway.meshes.files.abaqus.assembly import deck_mesh
 from softway.meshes.files.abaqus.lexer import is_file, is_folder
 from softway.meshes.files.gmsh.mesh import NAMES, gmsh_mesh
-from softway.meshes.files.listed_mesh import LeftOut
+from softway.meshes.files.listed_mesh import FileTie, LeftOut, ListedMesh
 from softway.meshes.files.wavefront import obj_facets
 from softway.meshes.mesh import Mesh
 
@@ -51,10 +51,13 @@ class FileMesh:
         Mesh of the wanted cells.
     left_out
         Cards of an input deck, or sections, nodes and groups of a Gmsh file, that the mesh does not hold.
+    ties
+        Pairs of tags that the file glues; a mesh of a part of the file may lack them.
     """
 
     mesh: Mesh
     left_out: tuple[LeftOut, ...] = ()
+    ties: tuple[FileTie, ...] = ()
 
 
 def read_mesh(
@@ -63,7 +66,8 @@ def read_mesh(
     """Read a Gmsh ``.msh`` or an Abaqus/CalculiX ``.inp`` file.
 
     Physical groups of any dimension, node sets, surfaces, element sets and instances become tags, which hold the nodes
-    of the named entities. Cells of lower dimension are used for tags only. Points without a cell are dropped, as is the
+    of the named entities. Physical groups of cells, element sets and the materials of sections become regions, which
+    hold cells. Cells of lower dimension are used for tags only. Points without a cell are dropped, as is the
     constant third coordinate of a plane mesh.
 
     Parameters
@@ -92,15 +96,15 @@ def read_file(
     file = Path(path)
     _require_file(file, (".msh", ".inp"))
     found = (deck_mesh if file.suffix.lower() == ".inp" else gmsh_mesh)(file, cells, only)
-    return FileMesh(_mesh(found.points * scale, found.blocks, found.tags), found.left_out)
+    return FileMesh(_mesh(found.points * scale, found), found.left_out, found.ties)
 
 
-def _mesh(points: Array, blocks: Mapping[str, IntArray], tags: Mapping[str, IntArray]) -> Mesh:
+def _mesh(points: Array, found: ListedMesh) -> Mesh:
     """Mesh without unused points, and without the constant third coordinate of plane cells."""
-    dim = max(CELLS[name].dim for name in blocks)
+    dim = max(CELLS[name].dim for name in found.blocks)
     if dim == 2 and points.shape[1] == 3 and np.ptp(points[:, 2]) <= 1e-12 * np.ptp(points, axis=0).max():
         points = points[:, :2]
-    return _compact(points, blocks, tags)
+    return replace(_compact(points, found.blocks, found.tags), regions=found.regions)
 
 
 def read_facets(path: str | Path, scale: float = 1.0) -> tuple[Array, IntArray]:

@@ -1,13 +1,15 @@
 """Mesh generators as plain data, for scenarios."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from math import pi
 from pathlib import Path
 from typing import Annotated
 
-from softway.errors import InputError
+from softway.errors import InputError, within
 from softway.meshes.files.mesh_files import FileMesh, read_file
 from softway.meshes.generators import graded, shapes
+from softway.meshes.generators.zones import Zone, divided
 from softway.meshes.mesh import Mesh
 from softway.units import Metre, Pure
 
@@ -253,4 +255,43 @@ class MeshFile:
         return read_file(Path(self.path), scale=UNITS[self.unit], cells=self.cells, only=only)
 
 
-MeshSource = Interval | Rectangle | Box | Disc | Cylinder | Ball | Grid | Ring | GradedDisc | MeshFile
+Whole = Interval | Rectangle | Box | Disc | Cylinder | Ball | Grid | Ring | GradedDisc | MeshFile
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Divided:
+    """Mesh with regions by place, for bodies with several materials, see
+    :func:`softway.meshes.generators.zones.divided`.
+
+    Parameters
+    ----------
+    mesh
+        Mesh to divide.
+    regions
+        Zones by name: the cells with their centres in a zone form its region; the first of several zones counts.
+    rest
+        Name of the region of all cells in no other one; empty for none.
+
+    Examples
+    --------
+    >>> from softway.meshes.generators.zones import InBox
+    >>> Divided(mesh=Interval(length=1.0, cells=4), regions={"tip": InBox(low=(0.7,))}).build().cells("rest").tolist()
+    [0, 1, 2]
+    """
+
+    mesh: Whole
+    regions: Mapping[str, Zone] = field(default_factory=dict)
+    rest: str = "rest"
+
+    def build(self) -> Mesh:
+        """Build the mesh."""
+        return self.read().mesh
+
+    def read(self) -> FileMesh:
+        """Build the mesh, and list what of a file it does not hold."""
+        with within("mesh"):
+            found = self.mesh.read() if isinstance(self.mesh, MeshFile) else FileMesh(self.mesh.build())
+        return FileMesh(divided(found.mesh, dict(self.regions), self.rest), found.left_out, found.ties)
+
+
+MeshSource = Whole | Divided

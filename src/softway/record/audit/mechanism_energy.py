@@ -18,9 +18,9 @@ def balance_errors(run: Records, placed: PlacedBodies) -> tuple[dict[str, float]
     """Relative errors of the columns of the history, and what cannot be computed from the motion."""
     history, time = run.history, run.motion["time"]
     rows = slice(min(history.rows, len(time)))  # a killed run may have written one line more to one of them
-    kinetic, energy = _kinetic(placed), energy_scale(history) or 1.0
+    kinetic, energy = kinetic_energies(placed), energy_scale(history) or 1.0
     found = {"the kinetic energy": float(np.abs(kinetic[rows] - history["energy_kinetic"][rows]).max()) / energy}
-    for name, (values, scale) in _momenta(placed).items():
+    for name, (values, scale) in momenta(placed).items():
         columns = np.stack([history[f"{name}_{a}"][rows] for a in "xyz"], axis=1)
         found[f"the {name}"] = float(np.abs(columns - values[rows]).max()) / (scale or 1.0)
     potential, lacking = _potential(placed, time)
@@ -32,7 +32,7 @@ def balance_errors(run: Records, placed: PlacedBodies) -> tuple[dict[str, float]
     return found, lacking
 
 
-def _kinetic(placed: PlacedBodies) -> Array:
+def kinetic_energies(placed: PlacedBodies) -> Array:
     """Kinetic energy (t,) [J]."""
     total = np.zeros(placed.instants)
     for name, body in placed.mechanism.bodies.items():
@@ -43,15 +43,15 @@ def _kinetic(placed: PlacedBodies) -> Array:
     return total
 
 
-def _momenta(placed: PlacedBodies) -> dict[str, tuple[Array, float]]:
+def momenta(placed: PlacedBodies) -> dict[str, tuple[Array, float]]:
     """Momentum and spin (angular momentum about the origin), each (t, 3), with the greatest sum of the bodies' own."""
-    momenta, spins = [], []
+    pushes, spins = [], []
     for name, body in placed.mechanism.bodies.items():
         motion = placed.motions[name]
-        momenta.append(body.mass * motion.velocity)
+        pushes.append(body.mass * motion.velocity)
         inertia = motion.rotation @ body.tensor @ motion.rotation.transpose(0, 2, 1)
-        spins.append(np.cross(motion.place, momenta[-1]) + np.einsum("tij,tj->ti", inertia, motion.spin))
-    sums = {"momentum": np.array(momenta), "spin": np.array(spins)}
+        spins.append(np.cross(motion.place, pushes[-1]) + np.einsum("tij,tj->ti", inertia, motion.spin))
+    sums = {"momentum": np.array(pushes), "spin": np.array(spins)}
     return {n: (all_.sum(axis=0), float(np.linalg.norm(all_, axis=2).sum(axis=0).max())) for n, all_ in sums.items()}
 
 

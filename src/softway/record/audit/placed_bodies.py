@@ -1,7 +1,7 @@
 """Bodies of a mechanism at the stored instants of its run: places of their points, and directions."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -41,6 +41,22 @@ class PlacedBodies:
         fixed = np.array([in_space(end) for end in ends]).reshape(-1, 3)
         every = np.vstack([*(motion.place for motion in self.motions.values()), fixed])
         return float(np.linalg.norm(np.ptp(every, axis=0)))
+
+    @property
+    def speed(self) -> float:
+        """Greatest speed of a centre, and of a point at the size of the mechanism from it [m/s]."""
+        every = self.motions.values()
+        still = max(float(np.linalg.norm(motion.velocity, axis=1).max()) for motion in every)
+        return max(still, self.size * max(float(np.linalg.norm(motion.spin, axis=1).max()) for motion in every))
+
+    def moved(self, time: float) -> "PlacedBodies":
+        """Bodies after a short ``time`` [s] with the velocities that they have, to first order."""
+        motions = {}
+        for name, motion in self.motions.items():
+            turning = np.cross(motion.spin[:, :, None], motion.rotation, axis=1)
+            place, rotation = motion.place + time * motion.velocity, motion.rotation + time * turning
+            motions[name] = replace(motion, place=place, rotation=rotation)
+        return replace(self, motions=motions)
 
     def point(self, body: str, start: Sequence[float]) -> Array:
         """Places (t, 3) of the point of a body that is at ``start`` at the start [m]."""

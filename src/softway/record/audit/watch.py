@@ -127,17 +127,18 @@ class Watcher:
         if self.opening.pushed is None:
             return
         contacts = [(c.label, {name.partition(".")[0] for name in c.between}) for c in self.opening.scene.contacts]
-        for body, needed in self.opening.pushed(step).items():
-            mine = [step.ledger.contacts[label] for label, bodies in contacts if body in bodies]
+        for group, needed in self.opening.pushed(step).items():
+            mine = [step.ledger.contacts[label] for label, bodies in contacts if bodies.intersection(group)]
+            told = f"'{group[0]}' is" if len(group) == 1 else f"{' and '.join(map(repr, group))} are"
             given = sum(c.force_n + c.force_t for c in mine)
             force, moment = (float(np.linalg.norm(part)) for part in (needed.resultant, needed.moment))
             if not force <= (1.0 + TURNED) * given + UNPUSHED * needed.scale + needed.rounding:
-                text = f"'{body}' is pushed by {force:.6g} N, its contacts give at most {given:.6g} N"
-                yield finding(step.after.time, MOMENTUM, (body,), text)
+                text = f"{told} pushed by {force:.6g} N, the contacts give at most {given:.6g} N"
+                yield finding(step.after.time, MOMENTUM, group, text)
             most, blur = given * needed.arm, needed.rounding * needed.arm
             if not moment <= (1.0 + TURNED) * most + UNTURNED * needed.turning + blur:
-                text = f"'{body}' is turned by {moment:.6g} N m, its contacts give at most {most:.6g} N m"
-                yield finding(step.after.time, SPIN, (body,), text)
+                text = f"{told} turned by {moment:.6g} N m, the contacts give at most {most:.6g} N m"
+                yield finding(step.after.time, SPIN, group, text)
 
 
 def watcher(opening: RunStart) -> Watcher:

@@ -92,13 +92,13 @@ def animation(run: Records, bodies: Mapping[str, BodyMotion]) -> str:
     channels, samplers = [], []
     time = parts.stored(run.motion["time"], "SCALAR")
     for name, node in moving.items():
-        for path, values, kind in _tracks(bodies[name]):
+        for path, values, kind in tracks(bodies[name].place, bodies[name].quaternion):
             samplers.append({"input": time, "output": parts.stored(values, kind), "interpolation": "LINEAR"})
             channels.append({"sampler": len(samplers) - 1, "target": {"node": node, "path": path}})
-    return _text(run, parts, {"name": "motion", "channels": channels, "samplers": samplers}, shown.parts["dim"])
+    return text_of(run, parts, {"name": "motion", "channels": channels, "samplers": samplers}, shown.parts["dim"])
 
 
-def _text(run: Records, parts: Parts, moved: dict[str, Any], dim: int) -> str:
+def text_of(run: Records, parts: Parts, moved: dict[str, Any], dim: int) -> str:
     """Text of the file; the bytes are in it."""
     root = {"name": str(run.provenance.get("title", "")) or "mechanism", "children": list(range(len(parts.nodes)))}
     nodes = [*parts.nodes, {**root, **({"rotation": UPRIGHT} if dim == 3 else {})}]
@@ -118,10 +118,10 @@ def _text(run: Records, parts: Parts, moved: dict[str, Any], dim: int) -> str:
     return json.dumps(found) + "\n"
 
 
-def _tracks(body: BodyMotion) -> Iterator[tuple[str, Array, str]]:
-    """Places and quaternions of a body over time, these with the scalar last and without jumps of their sign."""
-    yield "translation", body.place, "VEC3"
-    turns = np.roll(body.quaternion, -1, axis=1)
+def tracks(place: Array, quaternion: Array) -> Iterator[tuple[str, Array, str]]:
+    """Places (t, 3) and quaternions (t, 4) over time, these with the scalar last and without jumps of their sign."""
+    yield "translation", place, "VEC3"
+    turns = np.roll(quaternion, -1, axis=1)
     jumps = np.where((turns[1:] * turns[:-1]).sum(axis=1) < 0.0, -1.0, 1.0)
     yield "rotation", turns * np.concatenate([[1.0], np.cumprod(jumps)])[:, None], "VEC4"
 

@@ -1,13 +1,15 @@
 """Motion of the rigid bodies of a run as arrays."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.rigid_motion import quaternion
 from softway.record.read.records import Records
 from softway.record.storage.table import Table
-from softway.record.write.mechanism.columns import placed, quaternion
+from softway.record.write.mechanism.columns import placed
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -44,8 +46,12 @@ def body_motions(run: Records) -> dict[str, BodyMotion]:
     InputError
         If the run is not one of a mechanism.
     """
-    motion = run.motion
-    return {name: _motion(motion, name) for name in run.outline["bodies"]}
+    return motions_in(run.motion, run.outline["bodies"])
+
+
+def motions_in(motion: Table, bodies: Iterable[str]) -> dict[str, BodyMotion]:
+    """Motion of each of the ``bodies`` from the columns of a table."""
+    return {name: _motion(motion, name) for name in bodies}
 
 
 def _motion(motion: Table, name: str) -> BodyMotion:

@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Protocol
 
+from softway.arrays import Array
+from softway.record.pile.motion import BallMotion
 from softway.record.read.frames import Fields
 from softway.record.storage.table import Table
 
@@ -34,6 +36,26 @@ class Records(Protocol):
     @property
     def of_mechanism(self) -> bool:
         """True if the run is that of a mechanism, which has a motion and an outline instead of fields."""
+        ...
+
+    @property
+    def of_pile(self) -> bool:
+        """True if the run is that of a pile of balls."""
+        ...
+
+    @property
+    def times(self) -> Array:
+        """Stored instants (t,) of the places of the bodies [s]."""
+        ...
+
+    @property
+    def pile(self) -> Mapping[str, Any]:
+        """Dimension, groups, radii and walls of a pile."""
+        ...
+
+    @property
+    def balls(self) -> BallMotion:
+        """Motion of the balls of a pile."""
         ...
 
     @property

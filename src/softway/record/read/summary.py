@@ -113,7 +113,22 @@ def contacts_of(history: Table) -> tuple[str, ...]:
     >>> contacts_of(Table({"time": np.zeros(1), "contact.bar.right-wall.force_n": np.zeros(1)}))
     ('bar.right-wall',)
     """
-    head, tail = "contact.", ".force_n"
+    return _labels(history, "contact.", ".force_n")
+
+
+def ties_of(history: Table) -> tuple[str, ...]:
+    """Labels of the ties that break of a run.
+
+    Examples
+    --------
+    >>> ties_of(Table({"time": np.zeros(1), "tie.a.top-b.bottom.broken": np.zeros(1)}))
+    ('a.top-b.bottom',)
+    """
+    return _labels(history, "tie.", ".broken")
+
+
+def _labels(history: Table, head: str, tail: str) -> tuple[str, ...]:
+    """Labels between the head and the tail of the names of columns."""
     return tuple(c[len(head) : -len(tail)] for c in history if c.startswith(head) and c.endswith(tail))
 
 

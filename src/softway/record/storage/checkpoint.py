@@ -18,6 +18,7 @@ import numpy as np
 from softway.errors import InputError
 from softway.march.march_state import MarchState
 from softway.mechanisms.arrays import MechanismState
+from softway.piles.state import PileState
 from softway.record.storage.atomic_file import replaced
 from softway.record.storage.gate.archive import packed_arrays, unpacked_arrays
 from softway.record.storage.gate.own_files import plain_file
@@ -63,11 +64,15 @@ class Checkpoints:
             raise InputError("keep", f"{self.keep} is negative", "0 for no checkpoints, or 2")
 
 
+NO_CHECKPOINTS = Checkpoints(keep=0)
+"""Schedule of temporary folders."""
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Checkpoint:
     """State of a run: the state of the march, the length of each record, and the wall-clock time so far [s]."""
 
-    march_state: MarchState | MechanismState
+    march_state: MarchState | MechanismState | PileState
     marks: Mapping[str, int]
     wall: float
 
@@ -75,7 +80,7 @@ class Checkpoint:
     def time(self) -> float:
         """Time that the march has reached [s]."""
         reached = self.march_state
-        return reached.time if isinstance(reached, MechanismState) else reached.state.time
+        return reached.time if isinstance(reached, MechanismState | PileState) else reached.state.time
 
 
 class Damaged(Exception):
@@ -109,7 +114,7 @@ def listed(folder: Path) -> list[Path]:
 
 
 def last(
-    folder: Path, require: Callable[[MarchState | MechanismState], object] = lambda state: None
+    folder: Path, require: Callable[[MarchState | MechanismState | PileState], object] = lambda state: None
 ) -> Checkpoint | None:
     """Last usable checkpoint of a run folder; a warning names each other one.
 

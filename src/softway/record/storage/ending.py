@@ -42,11 +42,12 @@ def _of_interruption(error: BaseException | None) -> bool:
 
 
 @contextmanager
-def stored(place: Path | None, remedy: str) -> Iterator[None]:
-    """Turn an OSError into a StorageError that names the folder and a remedy."""
+def recording(place: Path | None) -> Iterator[None]:
+    """Turn an OSError into a StorageError that names the folder and the way to resume the run."""
+    name = str(place or "temporary folder")
     try:
         yield
     except OSError as error:
-        name = str(place or "temporary folder")
         problem = f"cannot be written: {error.strerror or error}"
+        remedy = f"free some disk space, then softway resume {name}"
         raise StorageError(name, problem, remedy) from error

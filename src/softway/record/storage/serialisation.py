@@ -22,8 +22,9 @@ from softway.march.model_state import ModelState
 from softway.march.step_control import StepControl
 from softway.mechanisms.arrays import MechanismState
 from softway.model.field import FieldState
-from softway.model.rigid_state import RigidState
+from softway.model.rigid.rigid_state import RigidState
 from softway.model.time_weight import Collocation, EndPeaks, Momentum
+from softway.piles.state import PileState
 from softway.record.storage.gate.stored_types import require_fields
 from softway.solve.equations.slab_values import SlabStart
 from softway.solve.methods.central_difference import Explicit
@@ -41,6 +42,7 @@ KINDS: Mapping[str, type] = MappingProxyType(
             *(
                 MarchState,
                 MechanismState,
+                PileState,
                 Settings,
                 ModelState,
                 SlabStart,

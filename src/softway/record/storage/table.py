@@ -20,7 +20,9 @@ TEXT = "-"
 """Unit in the header of a column of strings."""
 COUNT = "1"
 """Unit in the header of a column of integers."""
-WIDE, LONG = 12, 20
+Cells = Sequence[str | int | float]
+"""Cells of a line."""
+WIDE, LONG = 13, 20
 """Maximum numbers of columns and rows that a notebook shows in full."""
 RATIO = "ratio"
 """Unit in the header of a column of ratios."""
@@ -100,19 +102,15 @@ class Lines:
         """Length of the file [bytes]."""
         return self.file.tell()
 
-    def write(self, cells: Sequence[str | int | float]) -> None:
-        """Append one line; floats are written with all their digits.
+    def write(self, row: Cells | bytes) -> None:
+        """Append one line of cells, floats with all their digits, or a block of bytes as it is.
 
         Raises
         ------
         OSError
             If the disk is full; a part of the line may have been written.
         """
-        text = io.StringIO()
-        csv.writer(text, lineterminator="\n").writerow(
-            [format(c, ".17g") if isinstance(c, float) else c for c in cells]
-        )
-        rest = text.getvalue().encode()
+        rest = row if isinstance(row, bytes) else _line(row)
         while rest:
             rest = rest[self.file.write(rest) or 0 :]
 
@@ -123,6 +121,13 @@ class Lines:
     def close(self) -> None:
         """Close the file."""
         self.file.close()
+
+
+def _line(cells: Cells) -> bytes:
+    """Line of cells in a file."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerow([format(c, ".17g") if isinstance(c, float) else c for c in cells])
+    return text.getvalue().encode()
 
 
 def lines(path: Path, mark: int | None = None) -> Lines:

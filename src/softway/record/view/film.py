@@ -18,6 +18,7 @@ from softway.record.view.bodies.colour_field import colour_of
 from softway.record.view.bodies.surroundings import ruler
 from softway.record.view.mechanism.positions import film_of
 from softway.record.view.options import STANDARD, PictureOptions
+from softway.record.view.pile.balls import film_of_pile
 from softway.record.view.plots.paths import diagrams
 from softway.record.view.style import BLACK, canvas, library, styled
 
@@ -96,7 +97,7 @@ def film(
 
 def _numbers(run: Records, look: PictureOptions) -> list[int]:
     """Numbers of the frames to show; evenly spaced frames are chosen if there are too many."""
-    times = run.motion["time"] if run.of_mechanism else run.fields.times
+    times = run.times
     if look.times and len(look.times) != 2:
         raise InputError("--times", f"{len(look.times)} instants for a film", "two: the first and the last one")
     begin, end = look.times or (times[0], times[-1])
@@ -129,10 +130,15 @@ def _writer(animation: Any, file: Path) -> tuple[Path, Any]:
 
 def _drawn(run: Records, look: PictureOptions, numbers: list[int]) -> "tuple[Figure, Draw]":
     """Figure of the bodies, and the function that draws a frame into it."""
-    if run.of_mechanism:
-        return film_of(run, look)
+    if run.of_pile or run.of_mechanism:
+        return rigid_film(run, look)
     bars = set(run.fields.cells.blocks()) <= {"bar2", "bar3"}
     return (_bars if bars else _solids)(run, look, numbers)
+
+
+def rigid_film(run: Records, look: PictureOptions) -> "tuple[Figure, Draw]":
+    """Figure of a mechanism or a pile, and the function that draws a stored instant into it."""
+    return film_of_pile(run, look) if run.of_pile else film_of(run, look)
 
 
 def _solids(run: Records, look: PictureOptions, numbers: list[int]) -> "tuple[Figure, Draw]":

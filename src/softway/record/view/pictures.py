@@ -12,6 +12,7 @@ from softway.record.read.records import Records
 from softway.record.view.bodies.bodies import bodies
 from softway.record.view.mechanism.positions import positions
 from softway.record.view.options import STANDARD, PictureOptions
+from softway.record.view.pile.balls import piles
 from softway.record.view.plots.history import history
 from softway.record.view.plots.paths import paths
 from softway.record.view.style import RED, styled
@@ -33,7 +34,7 @@ def pictures(run: Records, out: Path | None = None, look: PictureOptions = STAND
     look
         Field, instants and size of the pictures.
     """
-    bars = not run.of_mechanism and is_bars(run)
+    bars = not (run.of_mechanism or run.of_pile) and is_bars(run)
     if bars and (look.times or look.field is not None):
         raise InputError("--field, --at", "the picture of bars shows all times and no field", "omit these options")
     first = out or run.path / "bodies.png"
@@ -88,7 +89,7 @@ def picture(run: Records, what: str = "bodies", look: PictureOptions = STANDARD)
     """
     if what not in ("bodies", "history"):
         raise InputError("what", f"no picture {what!r}", "bodies or history")
-    if run.history.rows == 0 or not (run.motion.rows if run.of_mechanism else len(run.fields)):
+    if run.history.rows == 0 or not len(run.times):
         raise InputError(str(run.path), "nothing has been recorded yet", "a run with recorded steps")
     with styled():
         figure = (history if what == "history" else _scene_of(run))(run, look)
@@ -100,6 +101,8 @@ def picture(run: Records, what: str = "bodies", look: PictureOptions = STANDARD)
 
 def _scene_of(run: Records) -> "Callable[[Records, PictureOptions], Figure]":
     """Function that draws the bodies of a run."""
+    if run.of_pile:
+        return piles
     if run.of_mechanism:
         return positions
     return paths if is_bars(run) else bodies

@@ -7,6 +7,7 @@ from typing import Protocol
 
 from softway.march.march_state import MarchState
 from softway.mechanisms.arrays import MechanismState
+from softway.piles.state import PileState
 from softway.record.storage.checkpoint import RARE, Checkpoint, Checkpoints, save
 from softway.record.storage.uninterrupted import uninterrupted
 
@@ -45,7 +46,7 @@ class CheckpointWriter:
         self.folder, self.plan, self.recorders, self.before = folder, plan, recorders, before
         self.begun = clock.perf_counter()
         self.due = self.begun + plan.every
-        self._latest: tuple[MarchState | MechanismState, dict[str, int]] | None = None
+        self._latest: tuple[MarchState | MechanismState | PileState, dict[str, int]] | None = None
         self._saved = -1
 
     @property
@@ -53,7 +54,7 @@ class CheckpointWriter:
         """Wall-clock time of the run so far [s]."""
         return self.before + clock.perf_counter() - self.begun
 
-    def took(self, march_state: MarchState | MechanismState) -> None:
+    def took(self, march_state: MarchState | MechanismState | PileState) -> None:
         """Take the state of the march after its last step was recorded, and write a checkpoint if one is due.
 
         Raises

@@ -24,8 +24,8 @@ COLUMNS = (
     ("impulse", "N s"),
 )
 """Columns of every run."""
-EXTRA = (("depth", "m"), ("finding", table.TEXT))
-"""Columns of the findings of the audit; files of earlier versions lack them."""
+EXTRA = (("depth", "m"), ("finding", table.TEXT), ("bodies", table.TEXT))
+"""Columns of the findings of the audit, and the bodies that touch; files of earlier versions lack them."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,7 +42,8 @@ class Events:
             numbers = [
                 float(x) for x in (*place, event.velocity_before, event.velocity_after, event.impulse, event.depth)
             ]
-            self.lines.write([float(event.time), event.contact, event.kind, int(event.node), *numbers, event.finding])
+            texts = event.finding, "-".join(event.bodies)
+            self.lines.write([float(event.time), event.contact, event.kind, int(event.node), *numbers, *texts])
 
     @property
     def mark(self) -> int:

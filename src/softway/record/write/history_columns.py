@@ -49,11 +49,21 @@ def of_contact(label: str) -> tuple[Column, ...]:
     return tuple(of_ledger(f"contact.{label}.{name}", unit, _number(label, name)) for name, unit in CONTACT)
 
 
+def of_tie(label: str) -> tuple[Column, ...]:
+    """Columns of a tie that breaks."""
+    return tuple(of_ledger(f"tie.{label}.{name}", unit, _of_tie(label, name)) for name, unit in TIE)
+
+
+def _of_tie(label: str, name: str) -> Callable[[Ledger], float]:
+    return lambda ledger: float(getattr(ledger.ties[label], name))
+
+
 def _number(label: str, name: str) -> Callable[[Ledger], float]:
     return lambda ledger: float(getattr(ledger.contacts[label], name))
 
 
 CONTACT = (("force_n", "N"), ("force_t", "N"), ("min_gap", "m"), ("power_residual", "J"))
+TIE = (("broken", table.RATIO), ("opening", "m"), ("dissipated", "J"))
 COLUMNS = (
     Column("time", "s", lambda step: step.after.time, lambda start: start.initial.time),
     Column("h", "s", lambda step: step.slab.span),
@@ -93,7 +103,8 @@ EXTRA: tuple[Column, ...] = (
 """Columns after those of the certificate; files of earlier versions lack them."""
 
 
-def columns(contacts: tuple[str, ...]) -> tuple[Column, ...]:
-    """Columns of a run with some contacts, in order, without its probes."""
+def columns(contacts: tuple[str, ...], ties: tuple[str, ...] = ()) -> tuple[Column, ...]:
+    """Columns of a run with some contacts and ties that break, in order, without its probes."""
     each = (column for label in contacts for column in of_contact(label))
-    return (*COLUMNS, *each, *CERTIFICATE, *EXTRA)
+    glued = (column for label in ties for column in of_tie(label))
+    return (*COLUMNS, *each, *CERTIFICATE, *EXTRA, *glued)

@@ -9,6 +9,7 @@ from math import inf
 from softway.march.results.step import Step
 from softway.march.results.trying import Trying
 from softway.mechanisms.march import MechanismStep
+from softway.piles.march import PileStep
 
 RECENT = 30.0
 """Wall-clock window over which the pace is measured [s]: slabs in contact take longer than slabs in free flight."""
@@ -59,7 +60,7 @@ class Progress:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class MechanismProgress:
-    """Progress of the run of a mechanism after a recorded step, with the entries of :class:`Progress`.
+    """Progress of the run of a mechanism or a pile after a recorded step, with the entries of :class:`Progress`.
 
     Parameters
     ----------
@@ -69,7 +70,7 @@ class MechanismProgress:
         As in :class:`Progress`.
     """
 
-    step: MechanismStep
+    step: MechanismStep | PileStep
     until: float
     slabs: int
     wall: float
@@ -102,7 +103,7 @@ def _left(time: float, until: float, pace: float) -> float:
 Watch = Callable[[Progress], None]
 """Callback after every slab, in the thread of the run; an exception that it raises ends the run and propagates."""
 MechanismWatch = Callable[[MechanismProgress], None]
-"""Callback after every recorded step of a mechanism, as :data:`Watch`."""
+"""Callback after every recorded step of a mechanism or a pile, as :data:`Watch`."""
 
 
 Tell = Callable[[str], None]

@@ -84,7 +84,7 @@ class RunStart:
     fields: tuple[Field, ...] = ()
     audit: bool = False
     balances: Callable[[State], Balances] | None = None
-    pushed: Callable[[Step], Mapping[str, Pushed]] | None = None
+    pushed: Callable[[Step], Mapping[tuple[str, ...], Pushed]] | None = None
     rounding: float = 0.0
 
     def frame_due(self, before: float, after: float) -> bool:

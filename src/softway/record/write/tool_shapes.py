@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from softway.arrays import Array
-from softway.bodies.prescribed_motion import Still, Table, Translation, Turning
+from softway.bodies.prescribed_motion import Sliding, Still, Swinging, Table, Translation, Turning
+from softway.bodies.setup.motion_laws import Haversine, RatePolyline, Sine, SmoothSteps, Spline
 from softway.bodies.solid import Tool
 from softway.errors import InputError
 from softway.obstacles.half_space import HalfSpace
@@ -16,7 +17,8 @@ from softway.obstacles.triangulated import Facets, Surface
 from softway.record.write.sampled_distance import SampledDistance, sampled
 
 SHAPES = (HalfSpace, Sphere, Roller, Cylinder, Block, Torus, Cavity, Facets, SampledDistance)
-KINDS: dict[str, type] = {kind.__name__: kind for kind in (Tool, *SHAPES, Still, Translation, Table, Turning)}
+MOTIONS = (Still, Translation, Table, Turning, Sliding, Swinging, Spline, SmoothSteps, Sine, Haversine, RatePolyline)
+KINDS: dict[str, type] = {kind.__name__: kind for kind in (Tool, *SHAPES, *MOTIONS)}
 
 
 def stored(tool: Tool, points: Array) -> dict[str, Any]:

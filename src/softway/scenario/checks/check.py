@@ -1,13 +1,16 @@
 """Check of a scenario before the computation, and the scales of its bodies and contacts."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import combinations
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from softway.arrays import Array
+from softway.bodies.discretised import dofs_of
 from softway.bodies.solid import Solid
+from softway.contact.contact_rows import ContactRows
 from softway.errors import Cancel, InputError, Note, within
 from softway.march.march_state import MarchState, Settings
 from softway.march.start.initial_state import SOON
@@ -15,7 +18,8 @@ from softway.march.start.preparation import prepare
 from softway.meshes.files.listed_mesh import LeftOut
 from softway.model.build import build
 from softway.model.model import Model
-from softway.model.scene import StaticStart
+from softway.model.scene import Scene, StaticStart
+from softway.scenario.built import built_and_left_out
 from softway.scenario.checks.mechanism import (
     CheckedMechanism,
     RigidScales,
@@ -32,9 +36,20 @@ from softway.scenario.checks.names import (
     check_loads,
     check_names,
     check_solid,
+    check_ties,
     mesh_of,
 )
-from softway.scenario.checks.notes import body_notes, contact_notes, file_notes
+from softway.scenario.checks.notes import (
+    body_notes,
+    cell_notes,
+    cohesion_notes,
+    contact_notes,
+    file_notes,
+    flutter_notes,
+    tie_notes,
+    wall_notes,
+)
+from softway.scenario.checks.pile import CheckedPile, check_pile, is_pile
 from softway.scenario.checks.probes import probe_readings
 from softway.scenario.checks.scales import (
     BodyScales,
@@ -47,7 +62,7 @@ from softway.scenario.checks.softening_notes import softening_notes
 from softway.scenario.checks.tool_notes import unit_notes
 from softway.scenario.checks.value_types import require
 from softway.scenario.checks.velocity_notes import velocity_notes
-from softway.scenario.scenario import Scenario, built_and_left_out
+from softway.scenario.scenario import Scenario
 
 MOST = 1_000_000_000
 """Maximum number of time steps (slabs) in a run."""
@@ -88,11 +103,11 @@ class Checked:
     left_out: Mapping[str, tuple[LeftOut, ...]] = field(default_factory=dict)
 
 
-def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked | CheckedMechanism:
+def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked | CheckedMechanism | CheckedPile:
     """Build the model, check all names, signs and dimensions, and prepare the march up to its first time step (slab).
 
     Everything that a run refuses before its first slab is refused here, with the same message.  A scenario of rigid
-    bodies is checked as a mechanism.
+    bodies is checked as a mechanism, one of balls as a pile.
 
     Parameters
     ----------
@@ -112,14 +127,14 @@ def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked | Chec
     """
     _require_scenario(scenario)
     check_names(scenario.bodies)
+    if is_pile(scenario):
+        return check_pile(scenario)
     return check_mechanism(scenario) if is_mechanism(scenario) else check_solids(scenario, cancel=cancel)
 
 
 def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked:
     """Check a scenario of solids and tools, as :func:`check` does."""
-    for name, body in scenario.scene.bodies.items():
-        if isinstance(body, Solid):
-            check_density(body.density, f"bodies.{name}.density")
+    _check_densities(scenario)
     scene, left_out = built_and_left_out(scenario)
     scene = replace(scene, mechanism=mechanism_among_solids(scenario))
     solids = {n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}
@@ -127,23 +142,25 @@ def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked
         raise InputError("bodies", f"no Solid among {list(scene.bodies)}", 'at least one body of kind = "Solid"')
     check_dimensions(scenario.bodies, solids)
     _require_edges(solids)
-    fixed = {n: check_solid(s, f"bodies.{n}") for n, s in solids.items()}
-    notes = (*file_notes(left_out), *unit_notes(scenario.scene.bodies, solids), *body_notes(solids, fixed))
+    for name, solid in solids.items():
+        check_solid(solid, f"bodies.{name}")
+    check_ties({**scenario.bodies, **solids}, scene.ties)
+    of_files = (*file_notes(left_out), *unit_notes(scenario.scene.bodies, solids))
+    notes = (*of_files, *body_notes(solids, scene.ties))
     check_loads(scenario.loads, "loads", solids)
     check_contacts(scene.contacts)
-    factor, bodies = scenario.inertia.factor or 1.0, {}
-    for name, solid in solids.items():
-        with within(f"bodies.{name}"):
-            bodies[name] = body_scales(solid, mesh_of(solid), int((~fixed[name]).sum()), factor)
+    _scales(solids, scenario)
     for k, contact in enumerate(scene.contacts):
         check_contact({**scenario.bodies, **solids}, contact, f"contacts[{k}]")
     probe_readings(scenario, {n: mesh_of(s) for n, s in solids.items()}, scene.mechanism)
     if isinstance(scenario.start, StaticStart):
         check_loads(scenario.start.loads, "start.loads", solids)
-    model = build(scene)
+    scene = (model := _model(scenario, scene)).scene
+    bodies = _scales({n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}, scenario)
     march_state = _begun(scenario, model, cancel)
     step = march_state.step_history.span
-    contacts = {c.label: _contact(model, k, bodies) for k, c in enumerate(scene.contacts)}
+    contacts = _contacts(model, bodies)
+    flutter = flutter_notes(model, march_state.state, step, scenario.time.end)
     return Checked(
         scenario=scenario,
         model=model,
@@ -152,8 +169,47 @@ def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked
         march_state=march_state,
         step=step,
         slabs=int(np.ceil(scenario.time.end / step * (1.0 - 1e-12))),
-        notes=(*notes, *velocity_notes(model), *softening_notes(model, contacts), *contact_notes(model)),
+        notes=(*notes, *wall_notes(model, solids), *_model_notes(model, contacts), *flutter),
         left_out=left_out,
+    )
+
+
+def _scales(solids: Mapping[str, Solid], scenario: Scenario) -> dict[str, BodyScales]:
+    """Scales of the solids by name."""
+    factor, bodies = scenario.inertia.factor or 1.0, {}
+    for name, solid in solids.items():
+        with within(f"bodies.{name}"):
+            bodies[name] = body_scales(solid, mesh_of(solid), dofs_of(solid.supports, mesh_of(solid)).size, factor)
+    return bodies
+
+
+def _model(scenario: Scenario, scene: Scene) -> Model:
+    """Model of the built scene of a scenario; an error in a tie of a mesh file says where it comes from."""
+    try:
+        return build(scene)
+    except InputError as error:
+        if error.where.partition(".")[0] not in [f"ties[{k}]" for k in range(len(scenario.ties), len(scene.ties))]:
+            raise
+        remedy = f"{error.remedy}; a tie of the scenario between the same surfaces takes its place"
+        raise InputError("ties", f"{error.problem} (a tie of a mesh file)", remedy) from None
+
+
+def _check_densities(scenario: Scenario) -> None:
+    """Refuse solids whose density is not positive."""
+    for name, body in scenario.bodies.items():
+        if isinstance(body, Solid):
+            check_density(body.density, f"bodies.{name}.density")
+
+
+def _model_notes(model: Model, contacts: Mapping[str, ContactScales]) -> tuple[Note, ...]:
+    """Notes on cells, velocities, softening laws, contacts and ties."""
+    return (
+        *cell_notes(model),
+        *velocity_notes(model),
+        *softening_notes(model, contacts),
+        *contact_notes(model),
+        *tie_notes(model),
+        *cohesion_notes(model),
     )
 
 
@@ -194,38 +250,61 @@ def _require_scenario(scenario: object) -> None:
     require(scenario, Scenario, "")
 
 
-def _contact(model: Model, number: int, bodies: Mapping[str, BodyScales]) -> ContactScales:
-    """Scales of one contact."""
+def _contacts(model: Model, bodies: Mapping[str, BodyScales]) -> dict[str, ContactScales]:
+    """Scales of all contacts by their labels."""
+    u, contacts = model.displacement, model.scene.contacts
+    if not contacts:
+        return {}
+    rows, driven = model.rows(u), model.contacts.meet(u, u, 0.0, SOON).at(u).tool_motion / SOON
+    return {c.label: _contact(model, k, bodies, rows, driven) for k, c in enumerate(contacts)}
+
+
+def _contact(
+    model: Model, number: int, bodies: Mapping[str, BodyScales], rows: ContactRows, driven: Array
+) -> ContactScales:
+    """Scales of one contact, from all ``rows`` (m,) and the normal velocities ``driven`` (m,) of their tools."""
     u = model.displacement
-    rows = model.rows(u)
-    here = rows.of_contact(number) & rows.near
-    driven = model.contacts.meet(u, u, 0.0, SOON).at(u).tool_motion / SOON
-    normals, gaps, speeds = rows.normal[here], rows.gap(u)[here], (driven - rows.normal_component(model.velocity))[here]
-    if not here.any():
-        normals, gaps, speeds = _nearest(model, number)
-    parts = [model.parts[k] for k in model.opponents[number] if k >= 0]
-    least = np.flatnonzero(gaps <= gaps.min() + SAME * max(bodies[p.name].length for p in parts))
-    first = least[np.argmax(speeds[least])]
+    here = np.flatnonzero(rows.of_contact(number) & rows.near)
+    if not len(here):
+        direction, gap, speed, met = _nearest(model, number)
+    else:
+        gaps, speeds = rows.gap(u)[here], (driven - rows.normal_component(model.velocity))[here]
+        same = SAME * max(bodies[model.parts[k].name].length for k in model.contact_solids[number])
+        least = np.flatnonzero(gaps <= gaps.min() + same)
+        first = least[np.argmax(speeds[least])]
+        direction, gap, speed = rows.normal[here[first]], float(gaps.min()), float(speeds[first])
+        met = np.unique(model.part_of[rows.gradient[[here[first]]].indices // model.shape[1]]).tolist()
+    parts = [model.parts[k] for k in met]
     waves = [bodies[p.name].wave_speed for p in parts]
-    durations = [contact_duration(p.mesh.points, normals[first], c) for p, c in zip(parts, waves, strict=True)]
+    durations = [contact_duration(p.mesh.points, direction, c) for p, c in zip(parts, waves, strict=True)]
     return ContactScales(
         nodes=len(np.unique(rows.node[rows.of_contact(number)])),
-        gap=float(gaps.min()),
-        approach=float(speeds[first]) + 0.0,
-        duration=soft_duration(durations, [p.density * c for p, c in zip(parts, waves, strict=True)]),
+        gap=gap,
+        approach=speed + 0.0,
+        duration=soft_duration(durations, [p.materials.impedance(p.internal.section) for p in parts]),
     )
 
 
-def _nearest(model: Model, number: int) -> tuple[Array, Array, Array]:
-    """Direction (1, d), distance (1,) and closing speed (1,) between the nearest nodes of two distant solids."""
-    contact = model.scene.contacts[number]
-    parts = [model.parts[k] for k in model.opponents[number]]
-    tags = contact.tag, contact.opponent_tag
-    one, other = (p.mesh.nodes(tag) + p.nodes.start for p, tag in zip(parts, tags, strict=True))
-    x = model.points + model.displacement
-    distance, found = cKDTree(x[other]).query(x[one])
-    least = int(np.argmin(distance))
-    a, b = one[least], other[found[least]]
-    away = x[a] - x[b] if distance[least] > 0.0 else x[one].mean(axis=0) - x[other].mean(axis=0)
+def _nearest(model: Model, number: int) -> tuple[Array, float, float, Sequence[int]]:
+    """Direction (d,), distance and closing speed between the nearest nodes of distant solids, and the numbers of both.
+
+    A body that is in contact with itself only has an infinite distance.
+    """
+    numbers = {p.name: k for k, p in enumerate(model.parts)}
+    surfaces = [
+        (numbers[name], model.parts[numbers[name]].mesh.nodes(tag) + model.parts[numbers[name]].nodes.start)
+        for name, tag in model.scene.contacts[number].surfaces
+    ]
+    x, best = model.points + model.displacement, None
+    for (k, one), (l, other) in combinations(surfaces, 2):
+        distance, found = cKDTree(x[other]).query(x[one])
+        least = int(np.argmin(distance))
+        if k != l and (best is None or distance[least] < best[0]):
+            middles = x[one].mean(axis=0) - x[other].mean(axis=0)
+            best = float(distance[least]), one[least], other[found[least]], middles, (k, l)
+    if best is None:
+        return np.eye(model.shape[1])[0], float("inf"), 0.0, model.contact_solids[number]
+    distance, a, b, middles, met = best
+    away = x[a] - x[b] if distance > 0.0 else middles
     direction = away / max(float(np.linalg.norm(away)), 1e-300)
-    return direction[None], distance[[least]], -np.array([(model.velocity[a] - model.velocity[b]) @ direction])
+    return direction, distance, -float((model.velocity[a] - model.velocity[b]) @ direction), met

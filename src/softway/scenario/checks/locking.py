@@ -6,6 +6,7 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray
 from softway.bodies.elements.section import Bar, PlaneStrain, PlaneStress, Section
+from softway.bodies.internal_force.materials import laws_of
 from softway.bodies.internal_force.slab_average import DiscreteGradient
 from softway.bodies.solid import Solid
 from softway.errors import Note
@@ -29,12 +30,16 @@ SLENDER = 5.0
 
 
 def locking_notes(solid: Solid, fixed: BoolArray) -> tuple[Note, ...]:
-    """Notes on the cells of a solid whose supports hold the components ``fixed`` (n, d)."""
+    """Notes on the cells of a solid whose supports hold the components ``fixed`` (n, d); one on each for all laws."""
     section = section_of(solid, mesh_of(solid))
     if isinstance(section, Bar):
         return ()
-    volume = _volume_note(solid, section)
-    return (*volume, *_bending_note(solid, section, fixed, incompressible=bool(volume)))
+    notes: dict[str, Note] = {}
+    for law in laws_of(solid.material):
+        volume = _volume_note(solid, law, section)
+        for note in (*volume, *_bending_note(solid, law, section, fixed, incompressible=bool(volume))):
+            notes.setdefault(note.where, note)
+    return tuple(notes.values())
 
 
 def poisson(moduli: Array) -> float:
@@ -76,12 +81,12 @@ class _Errors:
     layer: float
 
 
-def _errors(solid: Solid, section: Section, incompressible: bool) -> _Errors:
+def _errors(solid: Solid, law: Material, section: Section, incompressible: bool) -> _Errors:
     """Errors of the bending stiffness of bilinear cells (docs/theory/bodies/locking.md).
 
     The longitudinal strain is linear across a cell, but neither the rotation along it nor the lateral strain is.
     """
-    nu = poisson(initial_moduli(solid.material))
+    nu = poisson(initial_moduli(law))
     plane = 1.0 - nu**2  # modulus of a wide plate E / (1 - nu^2)
     if isinstance(section, PlaneStress):
         shear, point, mean = 0.5 / (1.0 + nu), 1.0 / plane, 0.5 / (1.0 + nu)
@@ -122,29 +127,31 @@ def _bends(mesh: Mesh, found: Layers, fixed: BoolArray) -> _Bent:
     return _Bent(length=np.concatenate(length), thickness=np.concatenate(thickness), count=np.concatenate(count))
 
 
-def _volume_note(solid: Solid, section: Section) -> tuple[Note, ...]:
+def _volume_note(solid: Solid, law: Material, section: Section) -> tuple[Note, ...]:
     """Note on linear cells whose volume cannot stay constant at each point while they deform."""
-    mesh, ratio = mesh_of(solid), flowing(solid.material)
+    mesh, ratio = mesh_of(solid), flowing(law)
     kinds = [name for name in mesh.blocks if CELLS[name].order == 1]
     simplices = any(CELLS[name].simplex for name in kinds)
     if not kinds or isinstance(section, PlaneStress) or not ratio >= INCOMPRESSIBLE:
         return ()
     if solid.dilatation != "point" and not simplices:
         return ()
-    law = type(solid.material).__name__
-    rest = poisson(initial_moduli(solid.material))
+    rest = poisson(initial_moduli(law))
     why = f"nu = {rest:.6g}" if rest >= INCOMPRESSIBLE else "which flows at constant volume"
-    problem = f"{', '.join(kinds)} lock with {law}, {why}: too stiff where they have to deform at constant volume"
+    lock = f"{', '.join(kinds)} lock with {type(law).__name__}, {why}"
+    problem = f"{lock}: too stiff where they have to deform at constant volume"
     quadratic = f'quadratic cells ({"tri6" if mesh.dim == 2 else "tet10"}) with dilatation = "corner"'
     force = ' and force = { kind = "Weighted" }' if isinstance(solid.force, DiscreteGradient) else ""
     remedy = (quadratic if simplices else 'dilatation = "mean"') + force
     return (Note(where="dilatation", problem=problem, remedy=remedy),)
 
 
-def _bending_note(solid: Solid, section: Section, fixed: BoolArray, *, incompressible: bool) -> tuple[Note, ...]:
+def _bending_note(
+    solid: Solid, law: Material, section: Section, fixed: BoolArray, *, incompressible: bool
+) -> tuple[Note, ...]:
     """Note on quadrilaterals and hexahedra that are long, or too few, for the thickness of a body that can bend."""
     mesh, worst = mesh_of(solid), None
-    errors = _errors(solid, section, incompressible)
+    errors = _errors(solid, law, section, incompressible)
     for name in OPPOSITE.keys() & mesh.blocks.keys():
         bent = _bends(mesh, layers(mesh, name), fixed)
         error = errors.shear * (bent.length / bent.thickness) ** 2 + errors.layer / bent.count**2

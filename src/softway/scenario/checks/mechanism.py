@@ -21,7 +21,7 @@ from softway.mechanisms.members.stops import AngleStop, Stop
 from softway.mechanisms.welds import welded
 from softway.record.write.mechanism.probes import BodyReading, body_readings
 from softway.scenario.hints.type_hints import nearest
-from softway.scenario.scenario import Scenario, Time
+from softway.scenario.scenario import Output, Scenario, Time
 
 MOST = 1_000_000_000
 """Maximum number of time steps (slabs) in a run."""
@@ -31,6 +31,7 @@ PARTS = ("joints", "stops", "springs", "torques", "forces", "gears", "motors", "
 """Keys that only a mechanism has."""
 FOREIGN = {
     "contacts": "[stops.NAME] with a PlaneStop or a DistanceStop: rigid bodies touch at declared stops only",
+    "ties": 'a joint of kind = "Weld": ties glue the surfaces of solids',
     "start": "omit it: a mechanism starts with the places and velocities of its bodies",
     "inertia": "omit it: rigid bodies always have their full mass",
     "solver": "omit it: the march of a mechanism has its own solution method",
@@ -90,7 +91,7 @@ def is_mechanism(scenario: Scenario) -> bool:
     rigid = [name for name, body in scenario.bodies.items() if isinstance(body, Rigid)]
     tools = [name for name, body in scenario.bodies.items() if isinstance(body, Tool)]
     if not rigid:
-        _require_no_parts(scenario)
+        require_no_parts(scenario)
     elif tools and len(rigid) + len(tools) == len(scenario.bodies):
         problem = f"the Tool {tools[0]!r} with rigid bodies only: no solid would touch it"
         remedy = '[stops.NAME] against ground, or a body of kind = "Solid"'
@@ -113,7 +114,7 @@ def mechanism_among_solids(scenario: Scenario) -> Mechanism | None:
     return found
 
 
-def _require_no_parts(scenario: Scenario) -> None:
+def require_no_parts(scenario: Scenario) -> None:
     """Refuse joints, stops, springs and torques in a scenario without rigid bodies."""
     remedy = 'bodies of kind = "Rigid" only; solids have supports, contacts and loads instead'
     for key in PARTS:
@@ -134,7 +135,7 @@ def check_mechanism(scenario: Scenario) -> CheckedMechanism:
     InputError
         With the path in the scenario, the value, and a remedy.
     """
-    _require_own_keys(scenario)
+    require_default(scenario, FOREIGN, "rigid bodies")
     for k, load in enumerate(scenario.loads):
         if not isinstance(load, Gravity):
             problem = f"{type(load).__name__} on {load.on!r} in a scenario of rigid bodies"
@@ -146,9 +147,7 @@ def check_mechanism(scenario: Scenario) -> CheckedMechanism:
     extent = tables.extent
     for name, stop in mechanism.stops.items():
         _require_open(name, stop, extent)
-    span, slabs = _slabs(scenario.time)
-    every = scenario.output.fields_every
-    between = slabs / ROWS if isinstance(every, str) else every / span
+    span, slabs = slabs_of(scenario.time, "rigid bodies")
     return CheckedMechanism(
         scenario=scenario,
         mechanism=mechanism,
@@ -156,22 +155,30 @@ def check_mechanism(scenario: Scenario) -> CheckedMechanism:
         readings=body_readings(scenario.output.probes, mechanism),
         step=span,
         slabs=slabs,
-        every=int(np.ceil(between)) if isinstance(every, str) else max(1, round(between)),
+        every=rows_between(scenario.output, span, slabs, ROWS),
     )
 
 
-def _require_own_keys(scenario: Scenario) -> None:
-    """Refuse keys that mean nothing for a mechanism."""
+def rows_between(output: Output, span: float, slabs: int, rows: int) -> int:
+    """Number of slabs between two stored instants, of which there are at most ``rows`` by default."""
+    every = output.fields_every
+    return int(np.ceil(slabs / rows)) if isinstance(every, str) else max(1, round(every / span))
+
+
+def require_default(scenario: Scenario, foreign: Mapping[str, str], what: str) -> None:
+    """Refuse ``foreign`` keys, which mean nothing for ``what``, with their remedies."""
     default = {f.name: f.default for f in fields(Scenario)}
-    for key, remedy in FOREIGN.items():
+    for key, remedy in foreign.items():
         given = getattr(scenario, key)
         if given != default[key]:
-            where, kind = (f"{key}[0]", list(given[0].between)) if key == "contacts" else (key, type(given).__name__)
-            raise InputError(where, f"{kind} in a scenario of rigid bodies", remedy)
+            where, kind = (
+                (f"{key}[0]", list(given[0].between)) if key in ("contacts", "ties") else (key, type(given).__name__)
+            )
+            raise InputError(where, f"{kind} in a scenario of {what}", remedy)
     standard = Time(end=1.0)
     for key in ("weight", "control"):
         if getattr(scenario.time, key) != getattr(standard, key):
-            problem = f"{type(getattr(scenario.time, key)).__name__} in a scenario of rigid bodies"
+            problem = f"{type(getattr(scenario.time, key)).__name__} in a scenario of {what}"
             raise InputError(f"time.{key}", problem, "omit it: only solids use it")
 
 
@@ -201,11 +208,11 @@ def mechanism_of(scenario: Scenario) -> Mechanism:
         forces=scenario.forces,
         gears=scenario.gears,
         motors=scenario.motors,
-        gravity=_gravity(scenario, next(iter(bodies.values())).dim),
+        gravity=gravity_of(scenario, next(iter(bodies.values())).dim),
     )
 
 
-def _gravity(scenario: Scenario, dim: int) -> tuple[float, ...] | None:
+def gravity_of(scenario: Scenario, dim: int) -> tuple[float, ...] | None:
     """Sum of the accelerations of gravity [m/s^2]; None without any."""
     found: list[Array] = []
     for k, load in enumerate(scenario.loads):
@@ -227,11 +234,11 @@ def _require_open(name: str, stop: Stop, extent: float) -> None:
         raise InputError(f"stops.{name}", problem, "places with a gap of zero or more")
 
 
-def _slabs(time: Time) -> tuple[float, int]:
+def slabs_of(time: Time, what: str) -> tuple[float, int]:
     """Length [s] and number of the slabs."""
     if isinstance(time.step, str):
         remedy = f'a time such as "{time.end / 1000:.3g} s"; half of it tells how accurate the motion is'
-        raise InputError("time.step", "'auto' in a scenario of rigid bodies", remedy)
+        raise InputError("time.step", f"'auto' in a scenario of {what}", remedy)
     if time.step > time.end:
         raise InputError("time.step", f"{time.step:g} s is longer than time.end = {time.end:g} s", "a shorter step")
     count = time.end / time.step

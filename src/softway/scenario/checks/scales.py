@@ -7,8 +7,9 @@ from math import sqrt
 import numpy as np
 
 from softway.arrays import Array
-from softway.bodies.elements.section import Section, default_section, wave_speed
+from softway.bodies.elements.section import Section, default_section
 from softway.bodies.inertia.mass_matrix import Lumped
+from softway.bodies.internal_force.materials import materials_of
 from softway.bodies.solid import Solid
 from softway.meshes.cells import CELLS
 from softway.meshes.mesh import Mesh
@@ -82,7 +83,7 @@ def body_scales(solid: Solid, mesh: Mesh, free: int, factor: float = 1.0) -> Bod
     The highest frequency of a cell with edge a in d dimensions is estimated by ``omega^2 = k d c^2 / a^2``.  The factor
     k is exact for one cell in one dimension: 12 and 4 (linear, consistent and lumped mass), 60 and 24 (quadratic).
     """
-    speed = wave_speed(solid.material, factor * solid.density, section_of(solid, mesh))
+    speed = max(materials_of(mesh, solid.material, solid.density).speeds(section_of(solid, mesh), factor))
     length = float(np.ptp(mesh.points, axis=0).max())
     edge = mesh.edge()
     order = "quadratic" if any(CELLS[name].order == 2 for name in mesh.blocks) else "linear"

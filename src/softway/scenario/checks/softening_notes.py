@@ -23,16 +23,17 @@ def softening_notes(model: Model, contacts: Mapping[str, ContactScales]) -> tupl
         return ()
     notes: dict[str, Note] = {}
     for k, contact in enumerate(model.scene.contacts):
-        solids = [model.parts[n] for n in model.opponents[k] if n >= 0]
+        solids = [model.parts[n] for n in model.contact_solids[k]]
         speed = contacts[contact.label].approach / len(solids)
         for part in solids:
-            law = part.internal.material
-            if type(law) is not StVenantKirchhoff:
-                continue
-            stretch = _stable(law, part.internal.section)
-            bound = plane_impact(stretch) * model.wave_speed(part)
-            if speed * CONCENTRATION > bound:
-                notes.setdefault(part.name, _note(part.name, speed, bound, stretch))
+            factor, section = model.scene.inertia.factor, part.internal.section
+            for law, wave in zip(part.materials.laws, part.materials.speeds(section, factor), strict=True):
+                if type(law) is not StVenantKirchhoff:
+                    continue
+                stretch = _stable(law, section)
+                bound = plane_impact(stretch) * wave
+                if speed * CONCENTRATION > bound:
+                    notes.setdefault(part.name, _note(part.name, speed, bound, stretch))
     return tuple(notes.values())
 
 

@@ -11,7 +11,7 @@ from softway.bodies.solid import Solid, Tool
 from softway.contact.surfaces.boundary import ContactSurface
 from softway.contact.surfaces.sagitta import CurvedSurface, curved_surface
 from softway.errors import Note
-from softway.meshes.generators.recipes import UNITS, MeshFile
+from softway.meshes.generators.recipes import UNITS, Divided, MeshFile
 from softway.meshes.mesh import Mesh
 from softway.obstacles.primitives import Cavity
 from softway.obstacles.triangulated import Facets, Surface
@@ -77,9 +77,10 @@ def _doubt(found: _Read, others: Sequence[float]) -> str:
 def _read(body: Solid | Tool, extent: float) -> _Read | None:
     """File of a body of the given extent, or of a tool; None for what comes from no file."""
     if isinstance(body, Solid):
-        if not isinstance(body.mesh, MeshFile):
+        where, mesh = ("mesh.mesh", body.mesh.mesh) if isinstance(body.mesh, Divided) else ("mesh", body.mesh)
+        if not isinstance(mesh, MeshFile):
             return None
-        return _Read(where="mesh", key='unit = "mm"', extent=extent, unit=UNITS[body.mesh.unit])
+        return _Read(where=where, key='unit = "mm"', extent=extent, unit=UNITS[mesh.unit])
     shape = body.shape.of if isinstance(body.shape, Cavity) else body.shape
     if not isinstance(shape, Surface):
         return None

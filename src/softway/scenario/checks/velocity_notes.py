@@ -5,7 +5,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.bodies.discretised import DiscreteSolid, supported_components
 from softway.bodies.setup.initial_fields import sample
-from softway.bodies.solid import Driven, Solid
+from softway.bodies.solid import Driven, Guided, Solid
 from softway.errors import Note
 from softway.model.model import Model
 from softway.tolerances import MOTION
@@ -14,7 +14,7 @@ from softway.tolerances import MOTION
 def velocity_notes(model: Model) -> tuple[Note, ...]:
     """Notes on the solids whose initial velocity differs from that of their supports, which have precedence.
 
-    Nodes whose given velocity is zero are not meant: a driven support sets them in motion.
+    Nodes whose given velocity is zero are not meant, a driven support sets them in motion; nor are massless nodes.
     """
     if not model.inert:
         return ()
@@ -26,7 +26,7 @@ def velocity_notes(model: Model) -> tuple[Note, ...]:
             continue
         given = sample(solid.velocity, part.mesh)
         other = np.abs(given - start[part.nodes]) > MOTION * np.abs(given).max()
-        changed = other & (given != 0.0)
+        changed = other & (given != 0.0) & model.massive[part.nodes, None]
         if changed.any():
             notes.append(_note(model, part, solid, given, np.where(changed, start[part.nodes], given)))
     return tuple(notes)
@@ -46,7 +46,7 @@ def _note(model: Model, part: DiscreteSolid, solid: Solid, given: Array, taken: 
         f"support: the body starts with {energies[1]:.4g} J and {momenta[1]:.4g} N s, not {energies[0]:.4g} J and "
         f"{momenta[0]:.4g} N s"
     )
-    driven = any(isinstance(s, Driven) for _, s in found)
+    driven = any(isinstance(s, Driven | Guided) for _, s in found)
     remedy = "nothing, if this is meant; or a field with the velocity of the support there"
     if not driven:
         remedy += f', such as kind = "Profile" with zero on {found[0][1].on!r}'

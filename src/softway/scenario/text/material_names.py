@@ -18,7 +18,7 @@ def with_materials(data: Mapping[str, Any]) -> dict[str, Any]:
 
     ``material = "steel S235"`` selects the elastic law for arbitrary rotations.
     ``material = { library = "steel S235", law = "plastic" }`` selects another law: elastic, linear or plastic.  Further
-    keys of such a table replace parameters of the law.
+    keys of such a table replace parameters of the law.  A table of tables or names gives a material to each region.
 
     Examples
     --------
@@ -41,9 +41,33 @@ def _named(kind: Any) -> bool:
     return kind.casefold() in [word.casefold() for m in everything() for word in (m.name, *m.aliases)]
 
 
+def _by_regions(given: Any) -> bool:
+    """True if a material is given by regions: a table of tables, laws by kind, or names of library materials."""
+    if not isinstance(given, dict) or not given or {"kind", "library"} & given.keys():
+        return False
+    return all(isinstance(one, dict) or isinstance(one, str) and one[:1].isalpha() for one in given.values())
+
+
+def _furnish_regions(body: dict[str, Any], given: dict[str, Any], where: str) -> None:
+    """Replace the material of each region, and add the densities that are not given."""
+    found = {name: {"material": one} for name, one in given.items()}
+    for name, one in found.items():
+        _furnish(one, f"{where}.{name}")
+        if isinstance(one["material"], str):
+            one["material"] = {"kind": one["material"]}
+    body["material"] = {name: one["material"] for name, one in found.items()}
+    densities = {name: one["density"] for name, one in found.items() if "density" in one}
+    old = body.get("density", {})
+    if isinstance(old, dict) and (old or densities):
+        body["density"] = {**densities, **old}
+
+
 def _furnish(body: dict[str, Any], where: str) -> None:
     """Replace the material of one body by its law if it is a library material."""
     given = body["material"]
+    if _by_regions(given):
+        _furnish_regions(body, given, where)
+        return
     if isinstance(given, dict) and "library" not in given and _named(given.get("kind")):
         given = {"library": given["kind"], **{key: value for key, value in given.items() if key != "kind"}}
     if isinstance(given, str) and given not in kinds(members(Law)):

@@ -22,8 +22,8 @@ from softway.scenario.hints.type_hints import (
 from softway.scenario.hints.units_text import Units, example
 from softway.scenario.text.user_modules import Modules
 
-SOLIDS = ("contacts", "loads", "time", "start", "inertia", "solver", "output")
-TOP = (*SOLIDS, "joints", "stops", "springs", "torques", "forces", "gears", "motors")
+SOLIDS = ("contacts", "ties", "loads", "time", "start", "inertia", "solver", "output")
+TOP = (*SOLIDS, "joints", "stops", "springs", "torques", "forces", "gears", "motors", "pile")
 """Top-level keys of a scenario that users may put inside a body by mistake."""
 
 
@@ -107,6 +107,9 @@ class Reader:
     def _union(self, value: Any, options: tuple[Any, ...], where: str, unit: str | None) -> Any:
         """Select the alternative from the kind or the form of the value, and read it."""
         known = kinds(options)
+        tables = [o for o in options if is_mapping(o)]
+        if tables and known and isinstance(value, Mapping) and _by_names(value):
+            return self._mapping(value, tables[0], where, unit)
         if isinstance(value, Mapping) and known:
             return self._kind(value, options, known, where, unit)
         if isinstance(value, str):
@@ -193,6 +196,11 @@ def join(where: str, key: str) -> str:
     return f"{where}{key}" if key.startswith("[") else f"{where}.{key}"
 
 
+def _by_names(value: Mapping[str, Any]) -> bool:
+    """True if a table has tables only, by names of the user, and no ``kind``."""
+    return bool(value) and "kind" not in value and all(isinstance(item, Mapping) for item in value.values())
+
+
 def _takes(cls: type, value: Mapping[str, Any]) -> bool:
     """True if a table has all required keys of a class, and no unknown key."""
     return value.keys() <= inputs(cls).keys() and _enough(cls, value)
@@ -257,4 +265,5 @@ def _remedy(value: Any, options: tuple[Any, ...], known: dict[str, type], unit: 
     other = [o.__name__ for o in options if o in (int, bool, str)] if not parts else []
     names = {"int": "a whole number", "bool": "true or false", "str": "text in quotes"}
     lists = ["a list of numbers"] if not parts and any(is_tuple(o) for o in options) else []
+    lists += ["a list of text" for o in options if is_tuple(o) and get_args(o)[0] is str]
     return ", or ".join(parts + [names[o] for o in other] + lists)

@@ -61,18 +61,18 @@ class ColumnCache:
         self.count = end
         self.batches = (*self.batches, which)
 
-    def columns(self, which: IntArray) -> Array:
-        """Stored columns (m, k)."""
-        return np.asarray(self.stored[self.place[which]].T)
+    def square(self, which: IntArray) -> Array:
+        """Rows and columns (k, k) of a symmetric matrix, of stored columns."""
+        return np.asarray(self.stored[np.ix_(self.place[which], which)].T)
 
-    def product(self, which: IntArray, amounts: Array) -> Array:
-        """Sum (m,) of columns times amounts (k,)."""
+    def product(self, which: IntArray, amounts: Array, length: int | None = None) -> Array:
+        """Sum (m,) of columns times amounts (k,), or its first values up to a ``length``."""
         full = np.zeros(self.count, self.stored.dtype)
         full[self.place[which]] = amounts
         if 2 * len(which) > self.count:
-            return np.asarray(full @ self.stored[: self.count], float)
+            return np.asarray(full @ self.stored[: self.count, :length], float)
         used = self.place[which]
-        return np.asarray(full[used] @ self.stored[used], float)
+        return np.asarray(full[used] @ self.stored[used, :length], float)
 
     def combined(self, amounts: sp.csr_array) -> Array:
         """Sums (k, m) of columns times the amounts (k, b), whose columns are all stored."""

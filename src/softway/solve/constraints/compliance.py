@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from softway.arrays import Array, IntArray
+from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.dof_map import DofMap
 from softway.contact.contact_rows import ContactRows
 from softway.kernels.linalg.dense import DenseFactor
@@ -25,11 +25,14 @@ class RowBasis:
     Parameters
     ----------
     directions
-        (f, b): the movable contact rows if they never change, else the unknowns that move the contact nodes.
+        (f, b): the movable contact rows that never change, then the unknowns that move the nodes of all others.
     component
-        (b,) unknown of each direction; None if the directions are the rows.
+        (c,) unknown of each of the last directions; None if all rows never change.
     place
-        (m,) direction of each row if directions are rows, -1 for a row that no unknown moves.
+        (m,) direction of each row that never changes, -1 for a row that no unknown moves and for the others; None if
+        there are none.
+    changing
+        (k,) numbers of the rows that change.
     transposed
         (b, f) transposed directions.
     """
@@ -37,23 +40,34 @@ class RowBasis:
     directions: sp.csc_array
     component: IntArray | None
     place: IntArray | None = None
+    changing: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     transposed: sp.csr_array = field(init=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "transposed", sp.csr_array(self.directions.T))
 
+    @property
+    def known(self) -> int:
+        """Number of directions that are rows."""
+        return self.directions.shape[1] - (0 if self.component is None else len(self.component))
+
     def restrict(self, y: Array) -> Array:
         """Components (b,) of a field (f,) along the directions."""
-        return np.asarray(self.transposed @ y) if self.component is None else y[self.component]
+        return np.asarray(self.transposed @ y) if self.component is None or self.known else y[self.component]
 
     def coefficients(self, rows: ContactRows, dofs: DofMap) -> sp.csr_array:
         """Coefficients C (m, b) of the rows, ``G = C directions^T``."""
-        if self.component is not None:
+        if self.place is None:
             return sp.csr_array(rows.matrix(dofs)[:, self.component])
-        assert self.place is not None
         own = np.flatnonzero(self.place >= 0)
-        shape = (len(rows.node), self.directions.shape[1])
-        return sp.csr_array((np.ones(len(own)), (own, self.place[own])), shape=shape)
+        unit = sp.csr_array((np.ones(len(own)), (own, self.place[own])), shape=(len(rows.node), self.known))
+        if self.component is None:
+            return unit
+        others = np.zeros(len(rows.node))
+        others[self.changing] = 1.0
+        rest = sp.csr_array(sp.diags_array(others) @ rows.matrix(dofs)[:, self.component])
+        rest.eliminate_zeros()
+        return sp.csr_array(sp.hstack([unit, rest], format="csr"))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,7 +78,7 @@ class FrozenOperator:
     The operator of a slab is ``R A R^T``; R is by default the identity.  Contact directions rotate with the nodes: the
     compliance stays the same.
 
-    ``table`` (columns (b,) of ``B^T A^-1 B``), ``solutions`` (columns (f,) of ``A^-1 B``, kept if directions are rows)
+    ``table`` (columns (b,) of ``B^T A^-1 B``), ``solutions`` (columns (f,) of ``A^-1 B`` for directions that are rows)
     and ``factored_sets`` (factored compliances of active sets) are caches, filled on demand.  Their values depend on A
     and B only, up to rounding also on the batches of columns, which ``table`` keeps.
 
@@ -75,7 +89,7 @@ class FrozenOperator:
     basis
         B.
     turning
-        (f, f) block-diagonal R, for directions that are components.
+        (f, f) block-diagonal R, if all directions are components.
     local
         Approximate inverse that solves for contact forces if ``factor`` is an iteration, whose solutions are not
         reproducible to machine precision.  Every iterate then satisfies the contact conditions exactly, and the forces
@@ -130,55 +144,62 @@ class FrozenOperator:
 
     def prolong(self, amounts: Array) -> Array:
         """Field (f,) of forces (b,) along the rotated directions."""
-        out = np.asarray(self.basis.directions @ amounts)
+        out = self._along(amounts)
         return out if self.turning is None else np.asarray(self.turning @ out)
 
     def coefficients(self, rows: ContactRows, dofs: DofMap) -> RowCoefficients:
         """Coefficients C of the rows along the rotated directions: ``G = C B^T R^T``."""
-        own = self.basis.component
-        if own is None:
-            assert self.basis.place is not None
-            return UnitRows(self.basis.place, self.basis.directions.shape[1])
+        own, place = self.basis.component, self.basis.place
+        if place is not None and not rows.near[self.basis.changing].any():
+            return UnitRows(place, self.basis.known)
         plain = self.basis.coefficients(rows, dofs)
         return CombinedRows(plain if self.turning is None else sp.csr_array(plain @ self.turning[own][:, own]))
 
-    def compliance(self, which: IntArray) -> Array:
-        """Columns (b, k) of ``B^T A^-1 B`` for the directions ``which`` (k,); new ones are computed in one batch."""
-        if not len(which):
-            return np.zeros((self.basis.directions.shape[1], 0))
-        self.fill(which)
-        return self._times(self.table.columns(which))
-
     def compliance_times(self, push: Array) -> Array:
-        """Product ``B^T A^-1 B push`` (b,) for forces ``push`` (b,) along the directions."""
+        """Product ``B^T A^-1 B push`` (b,) for forces ``push`` (b,) along the directions, or along the first of them.
+
+        New columns are computed in one batch.
+        """
         which = np.flatnonzero(push)
         if not len(which):
-            return np.zeros(self.basis.directions.shape[1])
+            return np.zeros(len(push))
         self.fill(which)
-        return self._times(self.table.product(which, push[which]))
+        return self._times(self.table.product(which, push[which], len(push)))
+
+    def square(self, which: IntArray) -> Array:
+        """Compliance (k, k) of the directions ``which`` (k,)."""
+        if not len(which):
+            return np.zeros((0, 0))
+        self.fill(which)
+        return self._times(self.table.square(which))
 
     def solve_push(self, push: Array) -> Array:
         """Solution ``R A^-1 B push`` (f,) for forces ``push`` (b,) along the directions."""
         index = np.flatnonzero(push)
         if not len(index):
             return np.zeros(self.basis.directions.shape[0])
-        if self.basis.component is not None or self.local is not None:
+        if self.local is not None or index[-1] >= self.basis.known:
             return self._answered(push)
         self.fill(index)
         return self._times(self.solutions.product(index, push[index]))
 
     def _answered(self, push: Array) -> Array:
         """Solution (f,) for forces (b,) along the directions, without stored columns."""
-        found = (self.local or self.factor).solve(np.asarray(self.basis.directions @ push))
+        found = (self.local or self.factor).solve(self._along(push))
         return self._times(found if self.turning is None else np.asarray(self.turning @ found))
+
+    def _along(self, amounts: Array) -> Array:
+        """Field (f,) of amounts along all directions, or along the first of them."""
+        missing = self.basis.directions.shape[1] - len(amounts)
+        return np.asarray(self.basis.directions @ (np.pad(amounts, (0, missing)) if missing else amounts))
 
     def fill(self, which: IntArray) -> None:
         """Compute the missing columns of the directions ``which`` (k,), in one batch."""
         missing, directions = self.table.missing(which), self.basis.directions
-        kept = self.basis.component is None and self.local is None
+        known = 0 if self.local is not None else self.basis.known
         self.table.reserve(len(missing))
-        if kept:
-            self.solutions.reserve(len(missing))
+        if known:
+            self.solutions.reserve(int(np.count_nonzero(missing < known)))
         for start in range(0, len(missing), TOGETHER):
             some = missing[start : start + TOGETHER]
             pushes = directions[:, some]
@@ -187,22 +208,37 @@ class FrozenOperator:
                 continue
             new = self.factor.solve(np.ascontiguousarray(pushes.toarray()))
             self.table.add(some, (directions.T @ new).T)
-            if kept:
-                self.solutions.add(some, new.T.astype(self.kind))
+            own = some < known
+            if own.any():
+                self.solutions.add(some[own], new.T[own].astype(self.kind))
 
 
-def row_basis(rows: ContactRows, dofs: DofMap, fixed: bool, nodes: IntArray) -> RowBasis:
+def row_basis(
+    rows: ContactRows, dofs: DofMap, fixed: bool, nodes: IntArray, known: BoolArray | None = None
+) -> RowBasis:
     """Contact directions: the rows (m,) that the unknowns move if rows are ``fixed``, else the unknowns that move the
     ``nodes`` (k,).
+
+    Where only the rows ``known`` (m,) never change, these are directions, and the ``nodes`` those of the others.
     """
+    never = np.ones(len(rows.node), bool) if fixed else known
+    if never is None:
+        component = dofs.moving(nodes)
+        return RowBasis(directions=_components(component, dofs), component=component)
+    moved = never & rows.reachable(dofs)
+    place = np.where(moved, np.cumsum(moved) - 1, -1)
+    directions = sp.csc_array(rows.matrix(dofs)[moved].T)
     if fixed:
-        moved = rows.reachable(dofs)
-        place = np.where(moved, np.cumsum(moved) - 1, -1)
-        return RowBasis(directions=sp.csc_array(rows.matrix(dofs)[moved].T), component=None, place=place)
+        return RowBasis(directions=directions, component=None, place=place)
     component = dofs.moving(nodes)
-    b = len(component)
-    directions = sp.csc_array((np.ones(b), (component, np.arange(b))), shape=(dofs.size, b))
-    return RowBasis(directions=directions, component=component)
+    both = sp.csc_array(sp.hstack([directions, _components(component, dofs)], format="csc"))
+    return RowBasis(directions=both, component=component, place=place, changing=np.flatnonzero(~never))
+
+
+def _components(component: IntArray, dofs: DofMap) -> sp.csc_array:
+    """Unit vectors (f, c) of unknowns (c,)."""
+    c = len(component)
+    return sp.csc_array((np.ones(c), (component, np.arange(c))), shape=(dofs.size, c))
 
 
 def frozen_operator(matrix: sp.csc_array, directions: RowBasis, solver: LinearSolver) -> FrozenOperator:

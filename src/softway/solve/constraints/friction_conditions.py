@@ -7,6 +7,7 @@ import numpy as np
 from softway.arrays import Array, BoolArray
 from softway.errors import NoConvergence
 from softway.solve.constraints.return_map import SlipConditions, return_map
+from softway.solve.constraints.turning_slip import chord_force, chord_slope, end_force
 from softway.solve.effort import Effort
 
 LIFT = 1e-12
@@ -144,6 +145,8 @@ class FrictionResidual:
         (c, k) directions of the trials.
     slope, pressure_slope
         (c, k, k) and (c,) derivatives of the forces with respect to the trials and to the normal multipliers.
+    chord
+        (c, k, k) derivatives of the chord forces of slip that turns; None if no slip can turn.
     """
 
     missed: Array
@@ -153,6 +156,7 @@ class FrictionResidual:
     direction: Array
     slope: Array
     pressure_slope: Array
+    chord: Array | None = None
 
     @property
     def worst(self) -> float:
@@ -164,7 +168,8 @@ def friction_residual(problem: FrictionProblem, x: Array) -> FrictionResidual:
     """Evaluate the contact conditions after the changes x (c (1 + k),)."""
     p, s = problem.multipliers(x)
     gap, slip = problem.split(problem.free + problem.compliance @ x)
-    k = s.shape[1]
+    k, chord = s.shape[1], chord_slope(problem.law.turning, s)
+    s = chord_force(problem.law.turning, s)
     touch = p - gap / problem.normal_compliance > 0.0
     trial = s - slip / problem.tangential_compliance[:, None]
     size = np.linalg.norm(trial, axis=1)
@@ -189,6 +194,7 @@ def friction_residual(problem: FrictionProblem, x: Array) -> FrictionResidual:
         direction=direction,
         slope=turn * (np.eye(k) - projector) + found.steep[:, None, None] * projector,
         pressure_slope=found.pressure_slope,
+        chord=chord,
     )
 
 
@@ -208,7 +214,9 @@ def linearised(problem: FrictionProblem, residual: FrictionResidual) -> Array:
         residual.slope[slips],
     )
     matrix[at] = np.einsum("cij,cjn->cin", slope, W[at]) if k > 1 else slope * W[at]
-    matrix[at[:, :, None], at[:, None, :]] += tangential_compliance * (np.eye(k) - slope)
+    own = np.eye(k) - slope
+    own = own if residual.chord is None else np.einsum("cij,cjn->cin", own, residual.chord[slips])
+    matrix[at[:, :, None], at[:, None, :]] += tangential_compliance * own
     matrix[at, diagonal[slips][:, None]] -= (
         tangential_compliance[:, 0] * residual.pressure_slope[slips, None] * residual.direction[slips]
     )
@@ -247,12 +255,12 @@ def gauss_seidel(problem: FrictionProblem, x: Array, count: int) -> Array:
             if not soft > 0.0:
                 raise NoConvergence(f"a contact row has the compliance {soft:g} along the surface")
             stiff = 1.0 / soft
-            trial = previous[at] + x[at] - stiff * slip
+            trial = chord_force(parts[i].turning, (previous[at] + x[at])[None])[0] - stiff * slip
             size = np.linalg.norm(trial)
             pressed = np.maximum(previous[i : i + 1] + x[i : i + 1], 0.0)
             sticks = size <= parts[i].limit(pressed)[0]
             force = size if sticks else return_map(parts[i], np.array([size]), pressed, np.array([stiff])).force[0]
-            x[at] = force * trial / max(size, 1e-300) - previous[at]
+            x[at] = end_force(parts[i].turning, (force * trial / max(size, 1e-300))[None])[0] - previous[at]
             if not np.abs(x[at]).max(initial=0.0) <= most:
                 return before
     return x

@@ -61,6 +61,10 @@ def greatest(values: Array) -> float:
     return max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))
 
 
+REDUNDANT = 10
+"""Number of sweeps after which rows are taken for redundant and added one by one."""
+
+
 def rounded(extent: float) -> float:
     """Rounding error of differences of positions: a few units in the last place of the greatest coordinate ``extent``.
 
@@ -112,10 +116,60 @@ def solve_normal_contact(
         wrong = rows.unilateral & ((active & (multiplier < 0.0)) | (~active & (gap < -floor)))
         if not wrong.any():
             break
+        if sweep == REDUNDANT and not rows.equal.any():
+            multiplier = _without_cycles(frozen, coefficients, rows.unilateral, slack, previous, floor, effort)
+            pushed = frozen.solve_push(coefficients.spread(multiplier - previous))
+            return free + pushed, multiplier, multiplier > 0.0
         active = exchanged(active, wrong, sweep)
     else:
         raise NoConvergence(f"the {len(active)} contact rows have no solution")
     return free + frozen.solve_push(push.directions - lifted), multiplier, active
+
+
+def _without_cycles(
+    frozen: FrozenOperator,
+    coefficients: RowCoefficients,
+    rows: BoolArray,
+    bare: Array,
+    start: Array,
+    floor: Array | float,
+    effort: Effort,
+) -> Array:
+    """Multipliers (m,) by the method of Lawson and Hanson: one row is added at a time, and the least energy falls with
+    each, so that no set comes twice even if rows are linearly dependent.
+
+    ``bare`` (m,) are the components of the solution without contact beyond their targets, ``start`` (m,) admissible
+    multipliers of the ``rows``.
+    """
+    force, blocked, added = np.where(rows, np.maximum(start, 0.0), 0.0), np.zeros(len(rows), bool), -1
+    active = force > 0.0
+    for sweep in range(most_sweeps(len(rows))):
+        index = np.flatnonzero(active)
+        effort.step(f"contact of {len(rows)} rows, {len(index)} active, addition {sweep}")
+        _expect(frozen, coefficients, index, np.where(rows, bare, np.inf))
+        wanted, push = multipliers(frozen, coefficients.subset(index), -bare[index])
+        if len(index) and wanted.min() <= 0.0:
+            low = index[wanted <= 0.0]
+            if added in low:
+                active[added], blocked[added], added = False, True, -1
+                continue
+            part = force[low] / np.maximum(force[low] - wanted[wanted <= 0.0], 1e-300)
+            force[index] += part.min() * (wanted - force[index])
+            gone = low[part <= part.min()]
+            force[gone], active[gone] = 0.0, False
+            continue
+        force[index] = wanted
+        gap = bare + coefficients.from_basis(push.sensed)
+        wrong = rows & ~active & (gap < -floor)
+        if not wrong.any():
+            return force
+        wrong &= ~blocked
+        if not wrong.any():
+            break
+        added = int(np.argmin(np.where(wrong, gap, np.inf)))
+        active[added] = True
+        blocked[:] = False
+    raise NoConvergence(f"the {len(rows)} contact rows have no solution")
 
 
 def _expect(frozen: FrozenOperator, coefficients: RowCoefficients, index: IntArray, slack: Array) -> None:
@@ -128,7 +182,7 @@ def _expect(frozen: FrozenOperator, coefficients: RowCoefficients, index: IntArr
 
 def without_contact(free: Array, frozen: FrozenOperator, before: Array) -> Array:
     """Components (b,) along the directions of a solution (f,) without the contact forces ``before`` (b,) in it."""
-    return frozen.restrict(free) - frozen.compliance_times(before)
+    return frozen.restrict(free)[: len(before)] - frozen.compliance_times(before)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -142,7 +196,7 @@ class ContactPush:
 def delassus(frozen: FrozenOperator, active: RowCoefficients) -> Array:
     """Compliance (Delassus operator) ``G A^-1 G^T`` (k, k) of the active rows."""
     used = active.used
-    return active.folded(frozen.compliance(used)[used])
+    return active.folded(frozen.square(used))
 
 
 def _factored_compliance(frozen: FrozenOperator, active: RowCoefficients) -> DenseFactor:

@@ -35,13 +35,18 @@ class SlipConditions:
     ahead, before
         Extrapolation of the speed, see above; ``before`` (m,) [m/s].
     sliding
-        (m,) rows that slip at the start of the slab: they stick up to the slip resistance at zero speed instead of the
-        stick limit.
+        (m,) rows that slip at the start of the slab, not yet at rest: they stick up to the slip resistance at zero
+        speed instead of the stick limit.
     stick_at_any_force
         True if the other rows stick at any force.  Then there may be no forces: a row that sticks would have to pull,
         and would overlap if released (Painleve 1895, C. R. Acad. Sci. Paris 121, 112).
     slip_at_limit
         True if the other rows slip with their stick limit as resistance.  Then there are forces for every compliance.
+    way
+        (m, d) directions of the slip in the previous slab times its extrapolation, zero for rows that did not slip;
+        None if no direction can turn.
+    turning
+        (m, k) the same along the tangents (``turning_slip.py``).
     """
 
     friction: FrictionRows
@@ -53,6 +58,8 @@ class SlipConditions:
     sliding: BoolArray
     stick_at_any_force: bool = False
     slip_at_limit: bool = False
+    way: Array | None = None
+    turning: Array | None = None
 
     @property
     def frictionless(self) -> bool:
@@ -69,6 +76,8 @@ class SlipConditions:
             shift=self.shift[which],
             before=self.before[which],
             sliding=self.sliding[which],
+            way=None if self.way is None else self.way[which],
+            turning=None if self.turning is None else self.turning[which],
         )
 
     def with_slipping(self, which: BoolArray) -> "SlipConditions":
@@ -132,7 +141,17 @@ def slip_conditions(law: SlipConditions, shear: TangentialRows, fixed: Array, sp
     """Slip conditions of a slab with the slip ``span/2 (T z - shift)``; ``fixed`` (n, d) are given components of z."""
     if law.frictionless:
         return law
-    return replace(law, shift=shear.flat(2.0 / span * shear.moved - shear.weights @ fixed))
+    shift = shear.flat(2.0 / span * shear.moved - shear.weights @ fixed)
+    return replace(law, shift=shift, turning=turned(law.way, shear))
+
+
+def turned(way: Array | None, shear: TangentialRows) -> Array | None:
+    """Directions (m, k) along the tangents, of the same length as those in space (m, d); zero across the surface."""
+    if way is None:
+        return None
+    flat = shear.flat(way)
+    size = np.linalg.norm(flat, axis=1)
+    return flat * (np.linalg.norm(way, axis=1) / np.where(size > 0.0, size, np.inf))[:, None]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

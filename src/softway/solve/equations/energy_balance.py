@@ -44,17 +44,22 @@ class EnergyClosure:
     lost: Array | float = 0.0
 
 
-def body_groups(model: Model, touching: BoolArray) -> IntArray:
-    """Number (parts,) of the group of each solid; shared unknowns and the ``touching`` rows (m,) connect solids.
+def body_groups(model: Model, *touching: tuple[ContactRows, BoolArray]) -> IntArray:
+    """Number (parts,) of the group of each solid; shared unknowns and ``touching`` rows (m,) connect solids.
 
     Rows with rigid tools do not connect solids.
     """
-    label = model.linked.copy()
+    label, d = model.linked.copy(), model.shape[1]
     if len(label) == 1:
         return label
-    for contact in np.unique(model.contacts.contact[touching]):
-        one, other = model.opponents[contact]
-        if other >= 0:
+    for rows, mask in touching:
+        here = mask & ~model.against_tool[rows.contact]
+        if not here.any():
+            continue
+        count = np.diff(rows.gradient.indptr)
+        met = model.part_of[rows.gradient.indices[np.repeat(here, count)] // d]
+        pairs = np.repeat(model.part_of[rows.node[here]], count[here]) * len(label) + met
+        for one, other in zip(*np.divmod(np.unique(pairs), len(label)), strict=True):
             label[label == label[other]] = label[one]
     return np.unique(label, return_inverse=True)[1]
 
@@ -66,7 +71,7 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
     that fly without strain have no scalar: their forces are rounding errors.
     """
     touching = (ends.force0 > 0.0) | (ends.force1 > 0.0)
-    label = body_groups(model, touching)
+    label = body_groups(model, (ends.rows0, ends.force0 > 0.0), (ends.rows1, ends.force1 > 0.0))
     moving = (ends.u1 - ends.u0) * model.massive[:, None]
     num, den, level = _energies(model, ends, moving)
     num, den, level, floor = (np.asarray(np.bincount(label, weights=v), float) for v in (num, den, level, model.floor))
@@ -82,20 +87,67 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
     num, den, reset = _without_created_energy((num, den), rounding, rubbing, bound)
     strained = np.bincount(label, weights=np.abs(ends.V0) + np.abs(ends.V1)) > AT_REST * floor
     touched = np.isin(np.arange(len(members)), label[model.part_of[ends.rows0.node[touching]]])
+    supply = _viscous_work(model, ends, moving, label) * np.array([spin is None for spin in spins])
+    viscous, num = _by_viscous_forces(num, den, supply)
     wanted = np.where(strained | touched, _quotient(num, den, rounding), 0.0)
+    wanted, released = _without_snaps(model, ends, label, wanted, num)
     a = np.clip(wanted, -bound, bound)
     excess = np.where(reset, np.maximum(rubbing.dissipated(a), 0.0), 0.0)
     mean = ends.mean + model.nodal(a[label]) * (ends.f1 - ends.f0)
+    mean += 0.0 if ends.viscous is None else model.nodal(viscous[label]) * ends.viscous
     for g, spin in enumerate(spins):
         if spin is not None:
             mean += spin.force(-spin.solve(spin.torque + a[g] * spin.slope))
-    work = np.bincount(label, weights=model.space.totals(np.abs(ends.mean * moving)))
-    missing = np.where((np.abs(num) > rounding) & strained, np.abs(num) / np.maximum(work, 1e-300), 0.0)
+    work = np.asarray(np.bincount(label, weights=model.space.totals(np.abs(ends.mean * moving))), float)
+    missing = np.where(strained, _relative(num, rounding, work), 0.0)
     rest = np.where((np.abs(wanted) > bound) | (excess > 0.0), num - a * den + excess, 0.0) * model.inert
     great = (np.abs(rest) > np.maximum(SLIGHT * work, TINY * level)) & (not fallback)
     for g in np.flatnonzero(np.where(great, 0.0, rest)).tolist():
         mean += rest[g] * _along_motion(model, ends, moving, members[g])
-    return EnergyClosure(mean=mean, scalar=a[label], missing_work=missing[label], clipped=bool(great.any()))
+    return EnergyClosure(
+        mean=mean, scalar=a[label], missing_work=missing[label], clipped=bool(great.any()), lost=released
+    )
+
+
+def _relative(num: Array, rounding: Array, work: Array) -> Array:
+    """Missing work (groups,) relative to the ``work``; zero where it is ``rounding``, infinite where it overflows."""
+    with np.errstate(over="ignore"):
+        return np.where(np.abs(num) > rounding, np.abs(num) / np.maximum(work, 1e-300), 0.0)
+
+
+def _without_snaps(
+    model: Model, ends: EndForces, label: IntArray, wanted: Array, num: Array
+) -> tuple[Array, Array | float]:
+    """Scalars (groups,), and energy (parts,) that ties release without inertia, when they break at once [J].
+
+    No weight of the two ends accounts for it: there the scalar is zero, and the energy is dissipated.  Less than a
+    slight part of the work is an error of the mean force.
+    """
+    if model.inert or not model.bonds:
+        return wanted, 0.0
+    bonded = np.zeros(len(num), bool)
+    bonded[[label[tie.part] for bond in model.bonds for tie in bond.ties]] = True
+    work = np.bincount(label, weights=model.space.totals(np.abs(0.5 * (ends.f0 + ends.f1) * (ends.u1 - ends.u0))))
+    snapped = bonded & (np.abs(wanted) > WEIGHING) & (num < -SLIGHT * work)
+    released = np.zeros(len(label))
+    released[np.unique(label, return_index=True)[1]] = np.where(snapped, -num, 0.0)
+    return np.where(snapped, 0.0, wanted), released
+
+
+def _viscous_work(model: Model, ends: EndForces, moving: Array, label: IntArray) -> Array:
+    """Work (groups,) of the viscous forces [J]."""
+    work = np.zeros(len(ends.V0)) if ends.viscous is None else model.space.totals(ends.viscous * moving)
+    return np.asarray(np.bincount(label, weights=work))
+
+
+def _by_viscous_forces(num: Array, den: Array, supply: Array) -> tuple[Array, Array]:
+    """Factor (groups,) of additional viscous forces, and the missing work (groups,) that they leave to the scalar.
+
+    Both share the work in proportion to the squares of what they can supply.  The forces at the two ends of a damped
+    body that flies are nearly the same, and a scalar alone would not be determined.
+    """
+    factor = np.clip(num * supply / np.maximum(den * den + supply * supply, 1e-300), -BOUND, BOUND)
+    return factor, num - factor * supply
 
 
 def _quotient(num: Array, den: Array, rounding: Array) -> Array:
@@ -189,7 +241,7 @@ def _blurred(model: Model, ends: EndForces) -> Array:
 def _support_forces(model: Model, force: Array, rows: ContactRows, push: Array) -> Array:
     """Forces (n, d) of supports on massless components; ``force`` (n, d) are internal forces less loads."""
     out = force - rows.spread(push, model.shape)
-    return np.where(model.free | model.massive[:, None], 0.0, out)
+    return np.where(model.massive[:, None], 0.0, model.supported(out))
 
 
 def _along_motion(model: Model, ends: EndForces, moving: Array, members: BoolArray) -> Array:
@@ -202,7 +254,7 @@ def _along_motion(model: Model, ends: EndForces, moving: Array, members: BoolArr
     for rows in (p.nodes for p, here in zip(model.parts, members, strict=True) if here):
         mean = space.sums(weight[rows] * moving[rows]) / np.maximum(space.sums(weight[rows]), 1e-300)
         out[rows] = moving[rows] - mean
-    out = model.mass @ (out * model.free)
+    out = model.mass @ (out - model.supported(out))
     if _unsupported(model, members):
         spin = spin_balance(model, ends, members)
         out -= spin.force(spin.solve(moment(space, middle(model, ends, members), out)))
@@ -212,7 +264,9 @@ def _along_motion(model: Model, ends: EndForces, moving: Array, members: BoolArr
 
 def _unsupported(model: Model, members: BoolArray) -> bool:
     """True if no body of a group has supports."""
-    return all(model.space.every(model.free[p.nodes]) for p, here in zip(model.parts, members, strict=True) if here)
+    return all(
+        model.space.every(model.dofs.unsupported[p.nodes]) for p, here in zip(model.parts, members, strict=True) if here
+    )
 
 
 def _closes_spin(model: Model, members: BoolArray) -> bool:

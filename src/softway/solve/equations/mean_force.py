@@ -16,11 +16,34 @@ from softway.model.time_weight import Momentum, TimeWeight, peaks
 from softway.solve.equations.slab_values import SlabStart
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SlabEnd:
+    """Displacement and internal force (n, d) at the end of a slab, and the part of the force due to the mean rate of
+    the slab.
+    """
+
+    displacement: Array
+    force: Array
+    viscous: Array | None
+
+
+def end_of_slab(model: Model, u1: Array, force: Array) -> SlabEnd:
+    """Values at the end of a slab at the displacement ``u1`` (n, d); without inertia no part acts on its own."""
+    viscous = viscous_force(model.parts, u1) if model.inert else None
+    return SlabEnd(displacement=u1, force=force, viscous=viscous)
+
+
+def passed_on(model: Model, force: Array) -> Array:
+    """Force (n, d) [N] of which the part on massless nodes acts on the nodes that they follow."""
+    still = force * ~model.massive[:, None]
+    return np.asarray(force - still + model.follow.T @ still)
+
+
 class MeanForce(Protocol):
     """Average of the internal force over a slab."""
 
-    def mean(self, model: Model, start: SlabStart, path: Trajectory, q: Array, u1: Array, force: Array) -> Array:
-        """Mean internal force (n, d) at q (n, d) [N]; ``u1`` and ``force`` (n, d) are the values at the end."""
+    def mean(self, model: Model, start: SlabStart, path: Trajectory, q: Array, end: SlabEnd) -> Array:
+        """Mean internal force (n, d) at q (n, d) [N]."""
         ...
 
 
@@ -30,19 +53,23 @@ class WeightedMean:
 
     weight: TimeWeight
 
-    def mean(self, model: Model, start: SlabStart, path: Trajectory, q: Array, u1: Array, force: Array) -> Array:
+    def mean(self, model: Model, start: SlabStart, path: Trajectory, q: Array, end: SlabEnd) -> Array:
         """Mean internal force (n, d) [N]."""
-        u0, chords = start.displacement, [_chord(p.average) for p in model.parts]
+        u0, u1, force, chords = (
+            start.displacement,
+            end.displacement,
+            end.force,
+            [_chord(p.average) for p in model.parts],
+        )
         out = np.empty_like(force) if all(chords) else self._weighted(model, start, path, q, force)
         for part in model.parts:
             average = part.internal.slab_average(part.average, u0[part.nodes], u1[part.nodes])
             if average is not None:
                 out[part.nodes] = average
-        before = start.viscous
-        viscous = None if before is None or not model.inert else viscous_force(model.parts, u1)
-        if before is not None and viscous is not None:
-            out = out + first_weight(self.weight) * (viscous - before)
-        return self._passed_on(model, start, out, force) if viscous is not None or any(chords) else out
+        damped = start.viscous is not None and end.viscous is not None
+        if start.viscous is not None and end.viscous is not None:
+            out = out + first_weight(self.weight) * (end.viscous - start.viscous)
+        return self._balanced(model, start, out, force) if damped or any(chords) else out
 
     def sampled(self, path: Trajectory, q: Array) -> Array:
         """Displacement (n, d) averaged over the points of the virtual time function."""
@@ -63,7 +90,7 @@ class WeightedMean:
                 out += wi * model.force(path.at(t, q) + shift)
         return out
 
-    def _passed_on(self, model: Model, start: SlabStart, mean: Array, force: Array) -> Array:
+    def _balanced(self, model: Model, start: SlabStart, mean: Array, force: Array) -> Array:
         """Mean force whose excess over the end values on massless nodes acts on the nodes that they follow.
 
         Massless nodes are in equilibrium at the two ends of the slab, where only contact acts on them.  An average
@@ -71,8 +98,7 @@ class WeightedMean:
         """
         first = first_weight(self.weight)
         ends = first * start.force_of_solids + (1.0 - first) * force
-        excess = (mean - ends) * ~model.massive[:, None]
-        return np.asarray(mean - excess + model.follow.T @ excess)
+        return ends + passed_on(model, mean - ends)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,11 +108,11 @@ class SplitMean:
     weighted: WeightedMean
     split: TrapezoidTriangle
 
-    def mean(self, model: Model, start: SlabStart, path: Trajectory, q: Array, u1: Array, force: Array) -> Array:
+    def mean(self, model: Model, start: SlabStart, path: Trajectory, q: Array, end: SlabEnd) -> Array:
         """Mean internal force (n, d) [N]."""
         by_weight = isinstance(self.weighted.weight, Momentum)
         product = path.mean(q) if by_weight else self.weighted.sampled(path, q)
-        return self.weighted.mean(model, start, path, q, u1, force) + self.split.difference(path, q, product)
+        return self.weighted.mean(model, start, path, q, end) + self.split.difference(path, q, product)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -95,9 +121,9 @@ class ExactMean:
 
     instants: ExactInstantMean
 
-    def mean(self, model: Model, start: SlabStart, path: Trajectory, q: Array, u1: Array, force: Array) -> Array:
+    def mean(self, model: Model, start: SlabStart, path: Trajectory, q: Array, end: SlabEnd) -> Array:
         """Mean internal force (n, d) [N]."""
-        return model.force(self.instants.mean(start.displacement, u1))
+        return model.force(self.instants.mean(start.displacement, end.displacement))
 
 
 def first_weight(weight: TimeWeight) -> float:

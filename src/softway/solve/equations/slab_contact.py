@@ -175,7 +175,7 @@ class TurningContact:
         ``gap(u1) + (h/2) G (z - q) >= 0`` gives the target of the free components of z.
         """
         rows, mine = end.rows, self.conditions
-        fixed = np.where(model.free, 0.0, q)
+        fixed = model.supported(q)
         with np.errstate(invalid="ignore"):
             target = rows.normal_component(q - fixed) - 2.0 * rows.gap(end.displacement) / span
         reachable = rows.reachable(model.dofs)

@@ -24,11 +24,12 @@ from softway.solve.constraints.row_basis import RowCoefficients
 from softway.solve.effort import Effort
 from softway.solve.equations.closure import Closure, Unclosed
 from softway.solve.equations.end_forces import EndForces
-from softway.solve.equations.mean_force import MeanForce, first_weight
+from softway.solve.equations.follower import Follower
+from softway.solve.equations.mean_force import MeanForce, end_of_slab, first_weight, passed_on
 from softway.solve.equations.slab_contact import SlabContact
 from softway.solve.equations.slab_matrix import SlabMatrix
 from softway.solve.equations.slab_values import Evaluation, SlabStart
-from softway.tolerances import KEEP_FACETS_AFTER
+from softway.tolerances import KEEP_EDGES_AFTER, KEEP_FACETS_AFTER
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -55,6 +56,8 @@ class SlabEquations:
         Counted work of the attempt at the slab.
     positive_definite
         True if the operator has to be positive definite.
+    follower
+        Supports whose motion follows from the forces on them; None without.
     """
 
     model: Model
@@ -69,13 +72,16 @@ class SlabEquations:
     impulses: Array | float = 0.0
     effort: Effort = field(default_factory=Effort)
     positive_definite: bool = False
+    follower: Follower | None = None
 
     def evaluate(self, q: Array, impulse: Array) -> Evaluation:
         """Evaluate the residual and its ingredients at q (n, d) with the contact impulses (m,) [N s]."""
         model, start, h = self.model, self.start, self.path.span
         u1 = self.path.end(q)
         energy, force = model.energy_and_force(u1)
-        mean = self.average.mean(model, start, self.path, q, u1, force)
+        end = end_of_slab(model, u1, force)
+        mean = self.average.mean(model, start, self.path, q, end)
+        viscous = None if end.viscous is None else passed_on(model, end.viscous)
         lost: Array = np.zeros(len(energy))
         shock = model.shock_force(0.5 * (start.displacement + u1), u1 - start.displacement, h)
         if shock is not None:
@@ -85,7 +91,8 @@ class SlabEquations:
             energy, force = energy + found.end.energy, force + found.end.force
             mean, lost = mean + found.mean_force, lost + found.lost
         rows = self.contact.at(u1)
-        completed = self.closure.close(model, self._ends(u1, force, energy + lost, mean, rows, impulse))
+        ends = replace(self._ends(u1, force, energy + lost, mean, rows, impulse), viscous=viscous)
+        completed = self.closure.close(model, ends)
         residual = (
             model.mass @ (q - start.velocity - self.unbalanced) + h * (completed.mean - model.load) - self.impulses
         )
@@ -107,8 +114,8 @@ class SlabEquations:
 
     def _coupled(self, u1: Array) -> list[FieldSolution]:
         """Companion fields, solved for the displacement ``u1`` (n, d) at the end."""
-        start = self.start
-        slabs = (FieldSlab(span=self.path.span, start=f, u0=start.displacement, u1=u1) for f in start.fields)
+        start, span, first = self.start, self.path.span, first_weight(self.weight)
+        slabs = (FieldSlab(span=span, start=f, u0=start.displacement, u1=u1, first=first) for f in start.fields)
         return [c.solve(slab) for c, slab in zip(self.model.companions, slabs, strict=True)]
 
     def _ends(
@@ -141,12 +148,38 @@ class SlabEquations:
         """Equations without closure of the energy balance, for an initial guess that is not in equilibrium."""
         return replace(self, closure=Unclosed())
 
+    def prepared(self, frozen: FrozenOperator) -> "SlabEquations":
+        """Equations whose supports follow by the answer of an operator."""
+        return self if self.follower is None else replace(self, follower=self.follower.prepared(frozen))
+
+    def followed(self, q: Array, step: Array, end: Evaluation) -> tuple["SlabEquations", Array]:
+        """Equations with the supports moved, and a step (n, d) from q (n, d) that was made with supports held."""
+        if self.follower is None:
+            return self, step
+        dofs = self.model.dofs
+        return self.at(np.concatenate(self.follower.answered(dofs.unknowns(q), dofs.unknowns(step), end)))
+
+    def unknowns(self, q: Array) -> Array:
+        """Unknowns (f,) of q (n, d), and after them the motion of supports that follow."""
+        found = self.model.dofs.unknowns(q)
+        return found if self.follower is None else np.concatenate([found, self.follower.x])
+
+    def at(self, unknowns: Array) -> tuple["SlabEquations", Array]:
+        """Equations with the motion of supports, and q (n, d), of such :meth:`unknowns`."""
+        dofs = self.model.dofs
+        if self.follower is None:
+            return self, dofs.nodes(unknowns, self.given)
+        follower = self.follower.at(unknowns[dofs.size :])
+        given = follower.given(np.asarray(self.given))
+        return replace(self, given=given, follower=follower), dofs.nodes(unknowns[: dofs.size], given)
+
     def with_kept_facets_after(self, u1: Array, active: BoolArray, count: int) -> "SlabEquations":
         """Equations after ``count`` iterations: from ``KEEP_FACETS_AFTER`` on nodes are kept on their facets.
 
         A node that alternates between two facets would prevent convergence.
         """
-        return self.with_kept_facets(u1, active) if count == KEEP_FACETS_AFTER else self
+        after = KEEP_EDGES_AFTER if self.model.contacts.crossing_edges else KEEP_FACETS_AFTER
+        return self.with_kept_facets(u1, active) if count == after else self
 
     def with_kept_facets(self, u1: Array, active: BoolArray) -> "SlabEquations":
         """Equations with nodes kept on their facets at ``u1`` (n, d); the same object if nothing changes."""
@@ -155,8 +188,10 @@ class SlabEquations:
 
     def directions(self, turning: bool = False) -> RowBasis:
         """Contact directions for any slab, in axes that may be ``turning`` with the nodes."""
-        model = self.model
-        return row_basis(self.path.rows, model.dofs, model.contacts.fixed and not turning, model.touchable)
+        rows, model, contacts = self.path.rows, self.model, self.model.contacts
+        if turning or contacts.fixed or contacts.known is None or not contacts.known.any():
+            return row_basis(rows, model.dofs, contacts.fixed and not turning, model.touchable)
+        return row_basis(rows, model.dofs, False, contacts.changing, contacts.known)
 
     @property
     def stiffness_factor(self) -> float:
@@ -171,7 +206,7 @@ class SlabEquations:
     @property
     def stiffness(self) -> SlabMatrix:
         """Matrix ``M + h^2/2 mu2 K`` on the unknowns."""
-        viscous_factor = first_weight(self.weight) / moments(self.weight)[1]
+        viscous_factor = first_weight(self.weight) / moments(self.weight)[1] if self.model.inert else 0.0
         return SlabMatrix(
             model=self.model,
             stiffness_factor=self.stiffness_factor,

@@ -19,7 +19,7 @@ class SlabMatrix:
     stiffness_factor
         Factor of the stiffness [s^2].
     viscous_factor
-        Additional weight of the viscous stiffness between nodes with inertia.
+        Additional weight of the viscous stiffness, exact for nodes with inertia.
     positive_definite
         True if its factor has to be that of a positive definite matrix, see
         :func:`~softway.solve.operators.positive_definite.positive_definite_factor`.

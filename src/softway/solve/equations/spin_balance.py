@@ -50,7 +50,7 @@ def spin_balance(model: Model, ends: EndForces, members: BoolArray) -> SpinBalan
         arm[rows] = x[rows] - model.space.sums(weight[rows] * x[rows]) / model.space.total(weight[rows])
     fields = np.array([model.mass @ f for f in _turned(arm)]).reshape(-1, *arm.shape)
     inner = here & model.massive
-    rigid = model.opponents[model.contacts.contact, 1] < 0
+    rigid = model.against_tool[model.contacts.contact]
     tools = [rows.spread(np.where(rigid & rows.near, p, 0.0), model.shape) for _, rows, p in ends.both]
     for k, (at, force) in enumerate(((ends.rows0, ends.shear0), (ends.rows1, ends.shear1))):
         if at.shear.count:

@@ -28,6 +28,8 @@ POOR = 0.8
 """Contraction per iteration above which Newton's method takes over."""
 WINDOW = 10
 """Number of iterations over which the contraction is measured."""
+LEAST, SWING = 0.125, 0.9
+"""Least part of a step, and ratio of successive changes above which a step is shortened."""
 FLOWING, PACE = 5, 0.3
 """Number of iterations and contraction without inertia, where operators do not serve many slabs."""
 
@@ -85,13 +87,15 @@ class FixedPoint:
             return
         guess = replace(guess, memory=refreshed(system, guess.q, guess.memory, self.operator))
         end = (system if guess.near else system.without_closure()).evaluate(guess.q, guess.impulse)
+        crossing = system.model.contacts.crossing_edges
         window, poor = (WINDOW, POOR) if system.model.inert else (FLOWING, PACE)
         while True:
             changes: list[float] = []
             for it in self._iterates(system, guess, end):
                 yield it
                 changes = [*changes[-window:], it.change]
-                if self.handover and len(changes) > window and it.change > poor**window * changes[0]:
+                slow = len(changes) > window and it.change > poor**window * changes[0]
+                if slow and self._hands_over(crossing, it):
                     break
             if not np.isfinite(it.change):
                 return
@@ -101,13 +105,18 @@ class FixedPoint:
                 return
             end = system.evaluate(guess.q, guess.impulse)
 
+    def _hands_over(self, crossing: bool, it: Iterate) -> bool:
+        """True if Newton's method may take over: not on redundant rows, where mixing is faster."""
+        return self.handover and not (crossing and bool(it.active.any()))
+
     def _iterates(self, system: SlabEquations, guess: Guess, end: Evaluation) -> Iterator[Iterate]:
         q, impulse, active, memory = guess.q, guess.impulse, guess.active, guess.memory
         frozen = memory.frozen
         assert frozen is not None
         dofs, space = system.model.dofs, system.model.space
+        system = system.prepared(frozen)
         mixing = _Mixing(Anderson(self.depth, space), frozen, space)
-        last, stuck = np.inf, 0
+        last, stuck, part = np.inf, 0, 1.0
         for count in itertools.count():
             system = system.with_kept_facets_after(end.displacement, active, count)
             if not space.every(np.isfinite(dofs.forces(end.residual))):
@@ -116,10 +125,12 @@ class FixedPoint:
             step = contact_step(system, frozen, q, end, impulse, active)
             if count == 0:
                 plain = step.rows.from_basis(without_contact(step.free, frozen, step.rows.spread(impulse)))
-            change = space.greatest(step.q - q)
-            sound, completed = check_facets(system, step.q, change)
+            before = system.unknowns(q)
+            system, new = system.followed(q, step.q, end)
+            change = space.greatest(new - q)
+            sound, completed = check_facets(system, new, change)
             yield Iterate(
-                q=step.q,
+                q=new,
                 change=change,
                 impulse=step.impulse,
                 active=step.active,
@@ -130,13 +141,21 @@ class FixedPoint:
             )
             system = completed
             stuck = stuck + 1 if change > 0.99 * last else 0
+            part = _next_part(part, change > SWING * last and bool((step.active != active).any()), system)
             if (step.active != active).any() or stuck >= 2:
                 mixing.accelerator.restart()
                 stuck = 0
             last, active = change, step.active
-            mixed, impulse = mixing.mixed((dofs.unknowns(q), impulse), (dofs.unknowns(step.q), step.impulse))
-            q = dofs.nodes(mixed, system.given)
+            mixed, impulse = mixing.mixed((before, impulse), (system.unknowns(new), step.impulse))
+            system, q = system.at(before + part * (mixed - before) if part < 1.0 else mixed)
             end = system.evaluate(q, impulse)
+
+
+def _next_part(part: float, swings: bool, system: SlabEquations) -> float:
+    """Part of the next step: half of this one where the contact changes without progress, then more again."""
+    if not system.model.contacts.crossing_edges:
+        return 1.0
+    return max(0.5 * part, LEAST) if swings else min(1.0, 2.0 * part)
 
 
 def _starts_flowing(system: SlabEquations) -> bool:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from softway.arrays import Array, IntArray
 from softway.bodies.assembled.contact_layer import Layer
 from softway.bodies.assembled.material_states import MaterialStates
+from softway.model.field import FieldState
 from softway.model.model import Model
 from softway.solve.constraints.compliance import FrozenOperator
 from softway.solve.equations.slab_equations import SlabEquations
@@ -38,6 +39,8 @@ class OperatorOrigin:
         History of the materials, and length of the slab [s].
     stiffness_factor, viscous_factor, positive_definite
         As for :class:`~softway.solve.equations.slab_matrix.SlabMatrix`.
+    fields
+        Companion fields at the start of the slab.
     """
 
     operator: Operator | None
@@ -48,6 +51,7 @@ class OperatorOrigin:
     stiffness_factor: float
     viscous_factor: float
     positive_definite: bool = False
+    fields: tuple[FieldState, ...] = ()
 
     @classmethod
     def of(
@@ -64,12 +68,13 @@ class OperatorOrigin:
             stiffness_factor=matrix.stiffness_factor,
             viscous_factor=matrix.viscous_factor,
             positive_definite=matrix.positive_definite,
+            fields=system.start.fields if system.model.bonds else (),
         )
 
     def stiffness(self, model: Model) -> SlabMatrix:
         """Matrix that was inverted."""
         return SlabMatrix(
-            model=model.during(self.states, self.span),
+            model=model.during(self.states, self.span).bonded(self.fields),
             stiffness_factor=self.stiffness_factor,
             viscous_factor=self.viscous_factor,
             positive_definite=self.positive_definite,
@@ -144,8 +149,8 @@ class OperatorMemory:
     origin
         Origin of the operator; None before the first one.
     mixed, batches
-        For memories made by :meth:`bare`: True if contact directions are components, and the columns of the compliance
-        in the batches in which they were computed.
+        For memories made by :meth:`bare`: True if all contact directions are components, and the columns of the
+        compliance in the batches in which they were computed.
     choice
         Declared operator with the reason of its choice.
     span
@@ -211,6 +216,6 @@ class OperatorMemory:
             frozen=None,
             analysis=None,
             turning=None,
-            mixed=self.frozen.basis.component is not None,
+            mixed=self.frozen.basis.place is None,
             batches=self.frozen.table.batches,
         )

@@ -49,9 +49,10 @@ def renewed(
 ) -> OperatorMemory:
     """Operator memory with a new operator, made at the start of the slab.
 
-    For path-dependent materials it is made at the end position of the guess.
+    For path-dependent materials and ties that break it is made at the end position of the guess.
     """
-    u = system.path.end(q) if any_path_dependent(system.model.parts) else system.start.displacement
+    dependent = any_path_dependent(system.model.parts) or system.model.bonds
+    u = system.path.end(q) if dependent else system.start.displacement
     choice = memory.choice
     if choice is None:
         choice = (
@@ -94,6 +95,6 @@ def _turned(system: SlabEquations, memory: OperatorMemory) -> OperatorMemory:
     fixed = frozen.basis.component is None and frozen.basis.directions.shape[1] > 0
     limit = WORTH if fixed else SMALL
     R = measure.since(system.model.space, memory.origin.at, system.start.displacement, system.model.dofs, limit)
-    if R is not None and frozen.basis.component is None:
+    if R is not None and frozen.basis.place is not None:
         frozen = FrozenOperator(frozen.factor, system.directions(turning=True), local=frozen.local, kind=frozen.kind)
     return replace(memory, frozen=frozen.turned(R), turning=measure)

@@ -7,7 +7,7 @@ import numpy as np
 
 from softway.contact.contact import DualMortar
 from softway.contact.impact_rule import Impulse
-from softway.errors import Cancel, NoConvergence, NumericsError, heed
+from softway.errors import Cancel, InputError, NoConvergence, NumericsError, heed
 from softway.march.model_state import join_states
 from softway.march.step_control import StepControl
 from softway.model.build import build
@@ -40,11 +40,17 @@ def penalised(
 
     Raises
     ------
+    InputError
+        If a contact is of more than two bodies, or of one with itself, or a tie breaks.
     NumericsError
         During the iteration, if a slab fails with every length.
     Cancelled
         During the iteration, if ``cancel`` returns True.
     """
+    for k, contact in enumerate(scene.contacts):
+        if contact.many:
+            raise InputError(f"contacts[{k}].between", f"{contact.label!r} in a race", "contacts of two bodies")
+    _require_permanent(scene)
     contacts = tuple(
         replace(c, timing=Impulse(), method=None if isinstance(c.method, DualMortar) else c.method)
         for c in scene.contacts
@@ -90,3 +96,10 @@ def _slabs(rules: Penalised, now: Pressed, until: float, span: float, cancel: Ca
         now = replace(found, factorisations=shop.made, rejected=rejected)
         yield now
         length, rejected = min(span, length if rejected else 2.0 * length), 0
+
+
+def _require_permanent(scene: Scene) -> None:
+    """Refuse ties that break: these marches evaluate the forces of solids and contacts only."""
+    for k, tie in enumerate(scene.ties):
+        if tie.breaks is not None:
+            raise InputError(f"ties[{k}].breaks", f"{tie.label!r} in a race", "a tie without breaks")

@@ -14,6 +14,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import SlabContacts
+from softway.contact.slab_motion.trajectory import bent
 from softway.errors import NoConvergence, positive
 from softway.march.step_control import StepControl
 from softway.model.model import Model
@@ -120,7 +121,12 @@ class _Slab:
 
     def displaced(self, q: Array) -> Array:
         """Displacement (n, d) at the end."""
-        return self.now.displacement + 0.5 * self.span * (self.now.velocity + q)
+        return self.now.displacement + 0.5 * self.span * (self.now.velocity + q) + self.bent
+
+    @property
+    def bent(self) -> Array | float:
+        """Displacement (n, d) of supports beyond that of linear velocities."""
+        return bent(self.rules.model.bends(self.now.time, self.end), self.span)
 
     def look(self, q: Array) -> "_Look":
         """Evaluate the forces at the end of the slab and over it."""
@@ -148,15 +154,15 @@ class _Slab:
             pressure=rules.springs * depth,
             energy=float(energy.sum()) + 0.5 * float(rules.springs @ depth**2),
             gap=gap,
-            left=left[rules.model.free],
-            reaction=np.where(rules.model.free, 0.0, left / h),
+            left=rules.model.dofs.forces(left),
+            reaction=rules.model.supported(left / h),
         )
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class _Look:
     """Forces of an iterate: contact rows, internal force (n, d), mean spring force and its slope (m,), spring forces at
-    the end (m,), momentum residual ``left`` of the free components (f,), and support reactions (n, d).
+    the end (m,), momentum residual ``left`` of the unknowns (f,), and support reactions (n, d).
     """
 
     rows: ContactRows
@@ -179,8 +185,9 @@ def solved(rules: Penalised, now: Pressed, end: float, shop: Workshop) -> tuple[
         If the iteration does not converge.
     """
     model, method, h = rules.model, rules.method, end - now.time
-    q = np.where(model.free, now.velocity + h * now.acceleration, model.prescribed(end))
-    coasting = now.displacement + 0.5 * h * (now.velocity + q)
+    q = now.velocity + h * now.acceleration
+    q = q - model.supported(q) + model.prescribed(end)
+    coasting = now.displacement + 0.5 * h * (now.velocity + q) + bent(model.bends(now.time, end), h)
     pairs = model.contacts.meet(now.displacement, coasting, now.time, end)
     first = pairs.start(now.displacement)
     before, _ = depths(first, now.displacement)
@@ -191,8 +198,7 @@ def solved(rules: Penalised, now: Pressed, end: float, shop: Workshop) -> tuple[
         rows = look.rows.matrix(model.dofs)[pressed]
         matrix = model.inertia_and_stiffness(slab.displaced(q), 0.25 * h**2)
         factor, shop = shop.factored(matrix, rows, 0.5 * h**2 * look.stiffness[pressed])
-        step = np.zeros(model.shape)
-        step[model.free] = -factor.solve(look.left)
+        step = model.dofs.nodes(-factor.solve(look.left))
         q, look = _searched(slab, q, step, look)
         scale = max(np.abs(q).max(initial=0.0), np.abs(now.velocity).max(initial=0.0), 1e-300)
         change = float(np.abs(step).max(initial=0.0)) / scale
@@ -225,6 +231,8 @@ def _arrived(slab: _Slab, q: Array, look: _Look) -> Pressed:
     """State at the end of the slab, with energy and work."""
     model, now, u1 = slab.rules.model, slab.now, slab.displaced(q)
     tools = 0.5 * float(look.mean @ (slab.first.tool_motion + look.rows.tool_motion))
+    moved = float(np.sum((slab.load + look.reaction) * (u1 - now.displacement)))
+    bends = float(np.sum(model.mass @ ((q - now.velocity) / slab.span) * slab.bent))
     return Pressed(
         time=slab.end,
         displacement=u1,
@@ -233,6 +241,6 @@ def _arrived(slab: _Slab, q: Array, look: _Look) -> Pressed:
         force=look.force,
         pressure=look.pressure,
         energy=look.energy + float(model.kinetic(q).sum()),
-        work=now.work + tools + float(np.sum((slab.load + look.reaction) * (u1 - now.displacement))),
+        work=now.work + tools + moved - bends,
         gap=look.gap,
     )

@@ -7,7 +7,6 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
 from softway.bodies.discretised import DiscreteSolid
-from softway.bodies.elements.section import wave_speed
 from softway.bodies.setup.loads import traction_force
 from softway.errors import InputError
 from softway.model.model import Model
@@ -22,7 +21,8 @@ LEAST = 0.1
 def springs(model: Model, factor: float) -> Array:
     """Spring stiffness (m,) of the contact rows, ``factor E A / l`` [N/m].
 
-    ``A`` is the area and ``l`` the edge length at the slave node; ``E = rho c^2`` is the plane-wave modulus.
+    ``A`` is the area and ``l`` the edge length at the slave node; ``E = rho c^2`` is the plane-wave modulus, the
+    greatest of the materials of the body.
     """
     node = model.contacts.node
     out = np.zeros(len(node))
@@ -32,7 +32,8 @@ def springs(model: Model, factor: float) -> Array:
             here = np.flatnonzero((model.contacts.contact == k) & inside)
             area = _areas(part, tag)[node[here] - part.nodes.start]
             area = np.maximum(area, LEAST * area.mean()) if len(area) else area
-            modulus = part.density * wave_speed(part.internal.material, part.density, part.internal.section) ** 2
+            density, speed = part.materials.stiffest(part.internal.section)
+            modulus = density * speed**2
             out[here] = factor * modulus * area / model.edge[node[here]]
     return out
 

@@ -12,6 +12,7 @@ from softway.scenario.class_index import classes, keys
     [
         ("Time", ["kind", "End time [s].", "required", "auto", ">>> Time(end=4.0).step"]),
         ("density", ["key", "Solid", "kg/m^3"]),
+        ("copies", ["key of bodies", "at and keys", "lattice"]),
         ("sweep", ["command", "every combination"]),
     ],
 )

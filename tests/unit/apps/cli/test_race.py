@@ -11,8 +11,8 @@ from rich.console import Console
 from softway.apps import cli
 from softway.apps.cli.output import progress
 from softway.apps.cli.output.tables import ranking
+from softway.scenario.built import built
 from softway.scenario.files import load
-from softway.scenario.scenario import built
 from softway.solve.methods.fixed_point import FixedPoint
 from softway.studies.race.contest import contest
 from softway.studies.race.report import record

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import softway as sw
-from softway.bodies.discretised import force_of
 from softway.bodies.elements.section import Axisymmetric, PlaneStrain, Section, Volume
+from softway.bodies.internal_force.assembled import force_of
 from softway.errors import InputError
 from softway.march.start.initial_state import initial_state
 

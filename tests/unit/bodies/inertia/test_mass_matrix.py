@@ -177,7 +177,36 @@ def test_where_one_cell_is_too_much_the_moments_of_inertia_change(caplog: pytest
     assert [r.levelname for r in caplog.records] == ["INFO"]
     x = mesh.points - 0.5
     assert np.abs(mass.sum(axis=1) @ x).max() < 1e-14
-    assert x.T @ (mass @ x) == pytest.approx(0.685 * np.eye(2) / 12.0, abs=1e-4)
+    assert x.T @ (mass @ x) == pytest.approx(0.8343 * np.eye(2) / 12.0, abs=1e-4)
+
+
+def test_a_thin_body_gives_up_what_is_across_it_first(caplog: pytest.LogCaptureFixture) -> None:
+    """Strips of two cells, all sides massless, with slanted columns: centre and moment along them stay exact."""
+    mesh, wave = rectangle((1.0, 0.05), (20, 2)), np.sin(np.arange(63.0) ** 2)
+    slanted = dataclasses.replace(mesh, points=mesh.points + 0.01 * wave[:, None] * [1.0, 0.0])
+    with caplog.at_level(logging.INFO):
+        found = redistribute_mass(slanted, 1.0, PlaneStrain(), Consistent(), slanted.nodes("surface"))
+    assert "moves across the body" in caplog.text
+    plain = nodal_mass(slanted, 1.0, PlaneStrain(), Consistent())
+    x, y = slanted.points.T
+    for field in (np.ones(63), x):
+        assert field @ (found @ x) == pytest.approx(field @ (plain @ x), rel=1e-13)
+    assert np.abs((found - plain).sum(axis=1) @ y) < 0.01 * 0.05 * plain.sum()
+
+
+def test_a_wavy_strip_keeps_its_centre_and_the_moment_along_it(caplog: pytest.LogCaptureFixture) -> None:
+    """Of the polar moment only the share of the cross-section goes, (t / L)^2."""
+    mesh = rectangle((1.0, 0.05), (20, 2))
+    bent = mesh.points + 0.02 * np.sin(6.0 * mesh.points[:, :1]) * [0.0, 1.0]
+    mesh = dataclasses.replace(mesh, points=bent)
+    with caplog.at_level(logging.INFO):
+        found = redistribute_mass(mesh, 1.0, PlaneStrain(), Consistent(), mesh.nodes("surface"))
+    assert not caplog.text
+    plain = nodal_mass(mesh, 1.0, PlaneStrain(), Consistent())
+    assert found.sum(axis=1) @ bent == pytest.approx(plain.sum(axis=1) @ bent, rel=1e-13)
+    centred = bent - plain.sum(axis=1) @ bent / plain.sum()
+    polar = [np.einsum("ni,ni->", centred, mass @ centred) for mass in (found, plain)]
+    assert polar[0] / polar[1] == pytest.approx(1.0 / (1.0 + 0.05**2), abs=1e-3)
 
 
 @pytest.mark.parametrize("rule", RULES)

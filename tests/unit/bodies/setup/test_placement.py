@@ -1,9 +1,14 @@
 """Turning and moving a mesh."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from softway.bodies.setup.placement import Placement, Rotation
+import softway as sw
+from softway.bodies.setup.directions import directions
+from softway.bodies.setup.placement import Mirror, Placement, Rotation
+from softway.bodies.solid import Fixed, placed_together
 from softway.errors import InputError
 from softway.meshes.generators.shapes import box, interval, rectangle
 
@@ -48,10 +53,82 @@ def test_one_and_two_dimensions():
     np.testing.assert_allclose(np.ptp(turned.points, axis=0), [1.0, 2.0], atol=1e-15)
 
 
+def test_rotations_about_a_point():
+    place = Placement(rotations=(Rotation(angle=QUARTER),), about=(1.0, 0.0))
+    turned = place.applied(rectangle((2.0, 1.0), (2, 1)))
+    np.testing.assert_allclose(turned.points[0], [1.0, -1.0], atol=1e-15)
+    np.testing.assert_allclose(turned.points[2], [1.0, 1.0], atol=1e-15)
+
+
+def volume(mesh):
+    """Volumes around the points of quadrature."""
+    solid = sw.Solid(mesh=mesh, material=sw.LinearElastic(E=1.0), density=1.0)
+    return sw.build(sw.Scene(bodies={"body": solid})).parts[0].internal.sampling.volume
+
+
+VOLUMES = ["hex8", "hex20", "hex27", "tet4", "tet10"]
+SHEETS = ["quad4", "quad8", "quad9", "tri3", "tri6"]
+
+
+@pytest.mark.parametrize("cell", [*SHEETS, *VOLUMES, "bar2", "bar3"])
+def test_a_mirror_image_has_its_cells_the_right_way_round(cell):
+    """Same volume, tags at the images of their nodes, outward normals of its sides, and twice mirrored the mesh."""
+    if cell in SHEETS:
+        mesh = rectangle((2.0, 1.0), (2, 3), cell=cell)
+    else:
+        mesh = box((1.0, 2.0, 1.5), (2, 1, 2), cell=cell) if cell in VOLUMES else interval(1.0, cells=3, cell=cell)
+    mirror = Mirror(normal=(1.0, 2.0, -0.5)[: mesh.dim], point=(0.3, 0.1, 0.2)[: mesh.dim])
+    place = Placement(mirror=mirror)
+    image = place.applied(mesh)
+    n = np.array(mirror.normal) / np.linalg.norm(mirror.normal)
+    expected = mesh.points - 2.0 * np.outer((mesh.points - mirror.point) @ n, n)
+    np.testing.assert_allclose(image.points, expected, atol=1e-15)
+    volumes = [volume(m) for m in (mesh, image)]
+    assert (volumes[1] > 0.0).all() and volumes[1].sum() == pytest.approx(volumes[0].sum(), rel=1e-14)
+    for tag in mesh.tags:
+        assert (image.nodes(tag) == mesh.nodes(tag)).all()
+    if mesh.dim > 1:
+        for tag in ("left", "top"):
+            plain, turned = (directions(Fixed(on=tag, direction="normal"), m)[1] for m in (mesh, image))
+            np.testing.assert_allclose(turned, plain - 2.0 * np.outer(plain @ n, n), atol=1e-14)
+    np.testing.assert_allclose(place.applied(image).points, mesh.points, atol=1e-15)
+
+
+def march_of(angle, mirrored):
+    """Two blocks of a group that meet, turned together about a point, or mirrored as well."""
+    block = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(1.0, 0.6), cells=(2, 2)), material=sw.NeoHookean(E=10.0, nu=0.3), density=1.0
+    )
+    far = replace(block, place=Placement(rotations=(Rotation(angle=0.1),), translation=(1.1, 0.17)))
+    place = Placement(
+        mirror=Mirror(normal=(1.0, 0.4)) if mirrored else None, rotations=(Rotation(angle=angle),), about=(0.4, -2.0)
+    )
+    image = placed_together({"one": block, "other": far}, place)
+    n = np.array([1.0, 0.4]) / np.linalg.norm([1.0, 0.4])
+    frame = Rotation(angle=angle).matrix()[:2, :2] @ (np.eye(2) - 2.0 * mirrored * np.outer(n, n))
+    speed = sw.bodies.Uniform(value=tuple((frame @ [0.3, 0.1]).tolist()))
+    image["one"] = replace(image["one"], velocity=speed)
+    contact = sw.Contact(between=("one.right", "other.left"))
+    return list(sw.march(sw.Scene(bodies=image, contacts=(contact,)), until=1.5, step=0.05))
+
+
+@pytest.mark.parametrize("mirrored", [False, True], ids=["turned", "mirrored"])
+def test_a_group_that_is_placed_together_moves_the_same(mirrored):
+    """The same energies and contact forces, whatever the frame."""
+    plain, image = march_of(0.0, False), march_of(0.7, mirrored)
+    assert len(plain) == len(image) and sum(len(s.events) for s in plain) > 0
+    for s, t in zip(plain, image, strict=True):
+        assert t.ledger.energy_strain == pytest.approx(s.ledger.energy_strain, abs=1e-13)
+        assert t.ledger.energy_kinetic == pytest.approx(s.ledger.energy_kinetic, abs=1e-13)
+        assert abs(t.ledger.energy_error) < 1e-12
+
+
 @pytest.mark.parametrize(
     ("place", "mesh", "where"),
     [
         (Placement(translation=(1.0, 2.0)), BOX, "translation"),
+        (Placement(about=(1.0, 2.0)), BOX, "about"),
+        (Placement(mirror=Mirror(normal=(1.0, 2.0))), BOX, "mirror"),
         (Placement(rotations=(Rotation(angle=1.0),)), interval(1.0, cells=1), "rotations[0].axis"),
         (
             Placement(rotations=(Rotation(angle=1.0, axis=(1.0, 0.0, 0.0)),)),

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import softway as sw
-from softway.contact.contact_set import SurfacePair
 from softway.contact.mortar.mortar import Mortar
 from softway.contact.node_to_surface.node_to_facet import NodeToFacet
+from softway.contact.stencils import SurfacePair
 from softway.contact.surfaces.boundary import ContactSurface
 from softway.contact.surfaces.wall_thickness import DEPTH, nodal_thickness
 from softway.meshes.generators.recipes import Ring

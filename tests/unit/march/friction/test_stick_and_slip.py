@@ -89,6 +89,24 @@ def test_a_block_that_rests_at_the_start_holds_up_to_its_static_friction() -> No
     assert last.ledger.contacts["floor"].force_t == pytest.approx(10.0 * pull, rel=1e-9)
 
 
+@pytest.mark.parametrize(("pull", "rests"), [(0.05, True), (0.3, True), (0.55, False)])
+def test_a_block_that_has_come_to_rest_holds_up_to_its_static_friction(pull: float, rests: bool) -> None:
+    """It slides against a pull: at rest it is held up to ``mu_s g``, beyond it slides back against ``mu_k g``.
+
+    The block is flat: its nodes bear nearly the same pressure.
+    """
+    rough, speed = sw.laws.StaticKinetic(mu_s=0.5, mu_k=0.1), 0.1
+    scene = block(rough, speed)
+    flat = replace(scene.bodies["block"], mesh=sw.meshes.Rectangle(size=(0.1, 0.02), cells=(6, 3)))
+    held = sw.Gravity(acceleration=(-pull * GRAVITY, -GRAVITY))
+    steps = list(sw.march(replace(scene, bodies={**scene.bodies, "block": flat}, loads=(held,)), until=0.1, step=0.01))
+    stop, last = speed / ((pull + 0.1) * GRAVITY), steps[-1]
+    assert min(abs(s.after.time - stop) for s in steps) < 1e-6 * stop
+    back = 0.0 if rests else (pull - 0.1) * GRAVITY * (last.after.time - stop)
+    assert last.ledger.momentum[0] / 2.0 == pytest.approx(-back, abs=1e-4)
+    assert last.ledger.contacts["floor"].force_t == pytest.approx(2.0 * GRAVITY * (pull if rests else 0.1), rel=2e-3)
+
+
 def test_a_block_breaks_away_when_the_pull_reaches_static_friction() -> None:
     """A pull that grows with time: rest up to ``mu_s g``, where a slab ends, and then slip against ``mu_k g``.
 

@@ -6,14 +6,25 @@ import pytest
 from softway.bodies.inertia.inertia_scaling import Full, Off
 from softway.bodies.inertia.mass_matrix import Consistent, Lumped
 from softway.bodies.internal_force.slab_average import DiscreteGradient, Weighted
+from softway.bodies.prescribed_motion import Sliding
 from softway.bodies.setup.loads import Gravity
-from softway.bodies.solid import Driven, Fixed
+from softway.bodies.setup.motion_laws import (
+    Haversine,
+    MotionLaw,
+    RatePolyline,
+    Sine,
+    SmoothSteps,
+    Spline,
+    value_and_rate,
+)
+from softway.bodies.solid import Driven, Fixed, Guided, Tool
 from softway.contact.contact import Contact
 from softway.contact.impact_rule import Energy, ImpactRule, Impulse, Paper
 from softway.march.march import march
 from softway.march.step_control import StepControl
 from softway.model.scene import Scene
 from softway.model.time_weight import Momentum
+from softway.obstacles.half_space import HalfSpace
 from softway.solve.methods.central_difference import Explicit
 
 pytestmark = pytest.mark.slow
@@ -98,6 +109,86 @@ def test_bends_of_the_table_inside_of_slabs(shop, rule: ImpactRule, tag: str, in
         assert s.after.velocity["body"][0, 0] == pytest.approx(BENT.at(t), abs=1e-15)
         assert s.ledger.energy_error == pytest.approx(0.0, abs=1e-14)
         assert s.certificate.momentum_error <= 1e-14
+
+
+TRAVELS = [
+    Spline(times=(0.2, 0.7, 1.4), points=(0.0, 0.5, 0.3)),
+    SmoothSteps(times=(0.0, 0.5, 1.5), points=(0.1, 0.4, -0.2)),
+    Sine(amplitude=0.3, frequency=0.9, phase=0.5),
+    Haversine(height=0.4, duration=0.9, start=0.3),
+    RatePolyline(times=(0.0, 0.5, 1.0, 1.5), rates=(0.0, 1.0, 0.0, 0.3)),
+]
+
+
+@pytest.mark.parametrize("slabs", [1, 3, 20])
+@pytest.mark.parametrize("inertia", [Full(), Off()], ids=lambda i: type(i).__name__)
+@pytest.mark.parametrize("tag", ["left", "right"])
+@pytest.mark.parametrize("travel", TRAVELS, ids=lambda t: type(t).__name__)
+@rules
+def test_a_smooth_travel(shop, rule: ImpactRule, travel: MotionLaw, tag: str, inertia: Full | Off, slabs: int) -> None:
+    """Displacement and velocity at the ends of slabs are those of the law, and the ledger closes."""
+    if not rule.massless and not inertia.factor:
+        return  # refused: there are no impacts without inertia
+    held = () if inertia.factor else (Fixed(on="right"),)
+    solid = shop.bar(v=0.0, supports=(Guided(on="left", travel=travel), *held))
+    bodies = {"body": solid, "wall": shop.plane(20.0, -1.0) if tag == "right" else shop.plane(-20.0, 1.0)}
+    contact = Contact(between=(f"body.{tag}", "wall"), timing=rule)
+    steps = list(march(Scene(bodies=bodies, contacts=(contact,), inertia=inertia), until=1.5, step=1.5 / slabs))
+    assert len(steps) == slabs
+    for s in steps:
+        value, rate = value_and_rate(travel.pieces, s.slab.end)
+        moved = value - value_and_rate(travel.pieces, 0.0)[0]
+        assert s.after.displacement["body"][0, 0] == pytest.approx(moved, abs=1e-15)
+        assert s.after.velocity["body"][0, 0] == pytest.approx(rate, abs=1e-15)
+        assert s.ledger.energy_error == pytest.approx(0.0, abs=1e-14)
+        assert s.certificate.momentum_error <= 1e-14
+
+
+UP_AND_DOWN = RatePolyline(times=(0.0, 0.5, 1.0), rates=(0.0, 1.0, 0.0))
+
+
+@pytest.mark.parametrize("slabs", [1, 3, 20])
+@pytest.mark.parametrize("travel", [UP_AND_DOWN, *TRAVELS], ids=lambda t: type(t).__name__)
+def test_a_tool_follows_its_law_exactly(shop, travel: MotionLaw, slabs: int) -> None:
+    """The end of a bar that it compresses is where the law says, and its work is what the bar stores."""
+    solid = shop.bar(v=0.0, supports=(Fixed(on="left"),))
+    ram = Tool(shape=HalfSpace(point=0.4, normal=-1.0), motion=Sliding(direction=(1.0,), travel=travel))
+    contact = Contact(between=("body.right", "ram"), start="fit")
+    scene = Scene(bodies={"body": solid, "ram": ram}, contacts=(contact,), inertia=Off())
+    start = value_and_rate(travel.pieces, 0.0)[0]
+    steps = list(march(scene, until=1.5, step=1.5 / slabs))
+    assert len(steps) >= slabs, "more where the tool moves by more than the mesh allows"
+    for s in steps:
+        shortened = 0.6 - (value_and_rate(travel.pieces, s.slab.end)[0] - start)
+        assert s.after.displacement["body"][-1, 0] == pytest.approx(-shortened, abs=1e-14)
+        assert s.ledger.work_external == pytest.approx(0.5 * (shortened**2 - 0.6**2), abs=1e-13)
+
+
+def test_the_integral_of_a_velocity_up_and_down_is_a_half(shop) -> None:
+    """In three slabs whose ends are not its knots, by a support, a tool and a table of the support."""
+    for support in (
+        Guided(on="left", travel=UP_AND_DOWN),
+        Driven(on="left", velocity=(0.0, 1.0, 0.0), times=(0.0, 0.5, 1.0)),
+    ):
+        scene = Scene(bodies={"body": shop.bar(v=0.0, supports=(support,))})
+        steps = list(march(scene, until=1.0, step=1.0 / 3.0))
+        assert len(steps) == 3 and steps[-1].after.displacement["body"][0, 0] == pytest.approx(0.5, abs=1e-15)
+    assert Sliding(direction=(1.0,), travel=UP_AND_DOWN).at(1.0).shift[0] == pytest.approx(0.5, abs=1e-15)
+
+
+@rules
+def test_a_smooth_press(shop, rule: ImpactRule) -> None:
+    """A tool pressed against a bar, and a bar pressed against a wall: the work is what they store and do."""
+    law = SmoothSteps(times=(0.0, 1.5), points=(0.0, 0.2))
+    ram = Tool(shape=HalfSpace(point=1.05, normal=-1.0), motion=Sliding(direction=(-1.0,), travel=law))
+    held = shop.move(shop.bar(v=0.0, supports=(Fixed(on="left"),)), {"wall": ram}, timing=rule, tag="right", until=1.5)
+    assert held.impulse > 0.0 and held.momentum_error <= 1e-11 and held.least_gap >= -1e-15
+    if isinstance(rule, Energy):
+        closes(held)
+        pushed = shop.bar(v=0.0, supports=(Guided(on="left", travel=law),))
+        wall = shop.move(pushed, {"wall": shop.plane(1.05, -1.0)}, timing=rule, tag="right", until=1.5)
+        closes(wall)
+        assert wall.impulse > 0.0
 
 
 @pytest.mark.parametrize("mass", [Consistent(), Lumped()], ids=lambda m: type(m).__name__)

@@ -56,10 +56,17 @@ def planted(run: sw.Run, column: str, by: float) -> None:
 def test_each_joint_holds_and_a_moved_body_is_found(kind, tmp_path):
     run = sw.run(shaken(JOINTS[kind]), tmp_path / "run")
     found = audit(run)
-    assert found.joints["it"] < 1e-13 and found.findings == ()
+    assert found.joints["it"] < 1e-13 and found.rates["it"] < 1e-9 * found.speed and found.findings == ()
     assert max(found.balances.values()) < 1e-12
     planted(run, "bar.x", 1e-6)
     assert any("the joint 'it'" in sentence for sentence in audit(run).findings)
+
+
+@pytest.mark.parametrize(("kind", "column"), [*((kind, "velocity_x") for kind in sorted(JOINTS)), ("hinge", "spin_x")])
+def test_a_velocity_that_opens_a_joint_is_found(kind, column, tmp_path):
+    run = sw.run(shaken(JOINTS[kind]), tmp_path / "run")
+    planted(run, f"bar.{column}", 1e-6)
+    assert any("the velocities open the joint 'it'" in sentence for sentence in audit(run).findings)
 
 
 @pytest.mark.parametrize("kind", ["hinge", "slider", "cylinder", "screw", "cross"])

@@ -119,7 +119,7 @@ def test_an_audit_says_what_a_summary_leaves_out(through: sw.Run, tmp_path: Path
     assert "tells 0.1 m of 0.3 m: overlap of 'block-other'" in warned([{**nodes, "depth": 0.1}, *said["findings"][1:]])
     assert "does not tell: overlap of 'block-other'" in warned([])
     events = (folder / "events.csv").read_text(encoding="utf-8")
-    missed = "0.8,all,energy,-1,0,0,0,0,0,0,0,the balance misses"
+    missed = "0.8,all,energy,-1,0,0,0,0,0,0,0,the balance misses,"
     (folder / "events.csv").write_text(f"{events}{missed}\n", encoding="utf-8")
     assert "does not tell: energy of 'all'" in warned(said["findings"])
     (folder / "events.csv").write_text(events, encoding="utf-8")
@@ -250,7 +250,7 @@ def kicked(velocity) -> list[Event]:
 def test_a_body_that_changes_its_momentum_without_a_cause() -> None:
     seen = [e for e in kicked(lambda x: 1e-3 + 0.0 * x) if e.kind == "momentum"]
     assert [e.contact for e in seen] == ["block", "other"]
-    assert all(e.time == pytest.approx(0.4) for e in seen) and "its contacts give at most 0 N" in seen[0].finding
+    assert all(e.time == pytest.approx(0.4) for e in seen) and "the contacts give at most 0 N" in seen[0].finding
 
 
 def test_a_body_that_changes_its_spin_without_a_cause() -> None:
@@ -260,7 +260,7 @@ def test_a_body_that_changes_its_spin_without_a_cause() -> None:
 
     seen = [e for e in kicked(turned) if e.kind == "spin"]
     assert [e.contact for e in seen] == ["block", "other"]
-    assert "is turned by" in seen[0].finding and "its contacts give at most 0 N m" in seen[0].finding
+    assert "is turned by" in seen[0].finding and "the contacts give at most 0 N m" in seen[0].finding
     assert not kicked(lambda x: 0.0 * x)
 
 

@@ -10,7 +10,7 @@ import pytest
 import softway as sw
 from softway.apps.cli import view as command
 from softway.apps.cli.commands import main
-from softway.record.view.mechanism.page import FRAMES, page
+from softway.record.view.page import FRAMES, page
 
 FOLDER = Path(__file__).parents[4] / "scenarios"
 

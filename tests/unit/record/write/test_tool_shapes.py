@@ -10,7 +10,8 @@ import meshio
 import numpy as np
 import pytest
 
-from softway.bodies.prescribed_motion import Still, Table, Translation, Turning
+from softway.bodies.prescribed_motion import Sliding, Still, Swinging, Table, Translation, Turning
+from softway.bodies.setup.motion_laws import Haversine, Spline
 from softway.bodies.solid import Tool
 from softway.meshes.generators import shapes
 from softway.model.scene import Scene
@@ -61,6 +62,8 @@ MOTIONS = [
     Translation(velocity=(0.0, 0.1, -0.2)),
     Table(times=(0.0, 1.0), displacements=((0.0, 0.0, 0.0), (0.1, 0.0, -0.1))),
     Turning(point=(0.5, 0.5, 0.0), axis=(0.0, 0.0, 1.0), rate=2.0),
+    Sliding(direction=(1.0, 0.0, -2.0), travel=Spline(times=(0.0, 1.0, 2.0), points=(0.0, 0.3, 0.1), monotone=True)),
+    Swinging(point=(0.5, 0.0, 0.0), axis=(0.0, 1.0, 1.0), angle=Haversine(height=0.2, duration=0.5)),
 ]
 
 

@@ -108,3 +108,12 @@ def test_check_run_and_show_print_notes(tmp_path: Path, capsys: pytest.CaptureFi
     assert len(json.loads((tmp_path / "run" / "summary.json").read_text())["notes"]) == 1
     assert main(["check", "--quiet", str(scenario)]) == 0
     assert capsys.readouterr().out == ""
+
+
+def test_an_equal_note_on_several_bodies_is_told_once() -> None:
+    beam = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(1.0, 0.05), cells=(10, 1)), material=sw.LinearElastic(E=1.0), density=1.0
+    )
+    notes = sw.check(sw.Scenario(bodies={"a": beam, "b": beam, "c": beam}, time=sw.Time(end=0.1))).notes
+    assert [note.where for note in notes] == ["bodies.a.mesh"]
+    assert notes[0].problem.endswith("(also b and c)")

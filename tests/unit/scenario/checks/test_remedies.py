@@ -65,7 +65,7 @@ inertia = {{ kind = "{inertia}" }}
 solver = {{ kind = "{solver}" }}
 [bodies.b]
 kind = "Solid"
-mesh = {{ kind = "Rectangle", size = [3, 1], cells = [3, {layers}], origin = [0, 0.01] }}
+mesh = {{ kind = "Rectangle", size = [3, 1], cells = [{layers}, {layers}], cell = "quad8", origin = [0, 0.01] }}
 material = {{ kind = "{material}", E = 1, nu = 0.3 }}
 density = 1
 supports = [{{ on = "left" }}]

@@ -49,3 +49,20 @@ def test_a_support_that_drives_nodes_at_rest_is_no_loss() -> None:
 
 def test_without_inertia_no_velocity_matters() -> None:
     assert checked(Fixed(on="left"), inertia=sw.bodies.Off()).notes == ()
+
+
+def test_massless_nodes_take_no_energy_and_are_not_noted() -> None:
+    """A held surface that may touch has no inertia: the body starts with all of its energy."""
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -1.0), normal=(0.0, 1.0)))
+    body = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(2, 3)),
+        material=sw.LinearElastic(E=1.0),
+        density=1.0,
+        velocity=Uniform(value=(0.0, 2.0)),
+        supports=(Fixed(on="bottom"),),
+    )
+    contact = sw.Contact(between=("b.bottom", "floor"))
+    found = sw.check(sw.Scenario(bodies={"b": body, "floor": floor}, contacts=(contact,), time=sw.Time(end=0.1)))
+    assert not [note for note in found.notes if note.where.endswith("velocity")]
+    start = next(sw.march(found.model, until=0.1)).ledger
+    assert start.energy_kinetic + start.energy_strain == pytest.approx(2.0, rel=1e-9)

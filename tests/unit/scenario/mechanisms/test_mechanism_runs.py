@@ -11,12 +11,13 @@ import pytest
 import softway as sw
 from softway.apps.cli.commands import main
 from softway.mechanisms import DistanceStop, Hinge, Mechanism, PlaneStop, Rigid, Slider, march
-from softway.record import conduct_mechanism
-from softway.record.conduct_mechanism import MechanismRun, record_mechanism
+from softway.record import conduct_rigid
+from softway.record.conduct_rigid import RigidRun, record_rigid
 from softway.record.read.mechanism_summary import told
 from softway.record.storage.run_folder import RunFolder
 from softway.record.write.mechanism.columns import rotation_of, rotation_vector
 from softway.scenario.checks.mechanism import CheckedMechanism
+from softway.scenario.run_rigid import mechanism_records
 
 FOLDER = Path(__file__).parents[4] / "scenarios"
 NAMES = (
@@ -163,8 +164,8 @@ def test_a_cancelled_run_is_read(tmp_path):
 
 def test_a_march_that_fails_leaves_what_it_has_found(tmp_path):
     checked = sw.check(sw.load(FOLDER / "slider_crank.toml", SHORT))
-    opening = MechanismRun(
-        mechanism=checked.mechanism, readings=(), until=5e-3, slabs=50, every=1, title="lost", texts={}
+    opening = RigidRun(
+        **mechanism_records(checked.mechanism, ()), until=5e-3, slabs=50, every=1, title="lost", texts={}
     )
 
     def lost():
@@ -172,7 +173,7 @@ def test_a_march_that_fails_leaves_what_it_has_found(tmp_path):
         raise sw.NumericsError("no solution", 4e-4, "a shorter step")
 
     with pytest.raises(sw.NumericsError):
-        record_mechanism(lost(), opening, RunFolder(out=tmp_path / "run"))
+        record_rigid(lost(), opening, RunFolder(out=tmp_path / "run"))
     run = sw.Run(tmp_path / "run")
     assert run.stop.reason == "failed" and "no solution" in run.stop.message
     assert run.history.rows == 4 and run.summary["slabs"] == 3
@@ -205,17 +206,16 @@ def test_a_damaged_outline_is_refused(crank, tmp_path):
 
 
 def test_compiling_is_told(tmp_path, monkeypatch):
-    monkeypatch.setattr(conduct_mechanism, "PATIENCE", 0.0)
+    monkeypatch.setattr(conduct_rigid, "PATIENCE", 0.0)
     said = Event()
 
     def waiting():
         assert said.wait(60.0)
         yield from march(engine(), until=1e-3, step=1e-4)
 
-    opening = MechanismRun(mechanism=engine(), readings=(), until=1e-3, slabs=10, every=1, title="", texts={})
-    run = record_mechanism(
-        waiting(), opening, RunFolder(), tell=lambda line: said.set() if "compiling" in line else None
-    )
+    records = mechanism_records(engine(), ())
+    opening = RigidRun(**records, until=1e-3, slabs=10, every=1, title="", texts={})
+    run = record_rigid(waiting(), opening, RunFolder(), tell=lambda line: said.set() if "compiling" in line else None)
     assert run.history.rows == 11
 
 

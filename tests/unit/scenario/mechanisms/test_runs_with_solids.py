@@ -1,5 +1,6 @@
 """Runs of solids and rigid bodies together: records, probes, pictures, audit, resumption."""
 
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 import softway as sw
 from softway.apps.cli.commands import main
 from softway.march.march import march
+from softway.record.audit.among_solids import audited_among_solids
 from softway.record.storage.table import read
 from softway.scenario.checks.check import check
 
@@ -61,6 +63,59 @@ def test_show_plot_and_audit_take_the_run(run, capsys, tmp_path):
         main(command)
     assert (tmp_path / "bodies.png").stat().st_size > 10_000
     assert "contact beam.top-hammer" in capsys.readouterr().out
+
+
+def planted(run, folder, name, column, by):
+    """Copy of a run with a number added to a column of one of its tables, from the middle on."""
+    shutil.copytree(run.path, folder)
+    lines = (folder / name).read_text().splitlines()
+    k = [cell.rpartition(" [")[0] for cell in lines[0].split(",")].index(column)
+    rows = [line.split(",") for line in lines[1:]]
+    for row in rows[len(rows) // 2 :]:
+        row[k] = repr(float(row[k]) + by)
+    (folder / name).write_text("\n".join([lines[0], *map(",".join, rows)]) + "\n")
+    return sw.Run(folder)
+
+
+def audit(run):
+    return audited_among_solids(run, check(scenario()).model)
+
+
+def test_the_audit_of_the_rigid_bodies_agrees_with_the_march(run, capsys):
+    found = audit(run)
+    assert found.findings == () and found.instants == run.history.rows
+    assert found.joints["pivot"] < 1e-14 and found.rates["pivot"] < 1e-9
+    assert set(found.balances) == {"the kinetic energy", "the momentum", "the spin"}
+    assert max(found.balances.values()) < 1e-13
+    assert main(["audit", str(run.path), "--strict"]) == 0
+    assert "joints hold to" in capsys.readouterr().out
+
+
+PLANTED = {
+    ("rigid.csv", "hammer.y"): "the joint 'pivot' is open by",
+    ("rigid.csv", "hammer.angle"): "the joint 'pivot' is open by",
+    ("rigid.csv", "hammer.velocity_x"): "the velocities open the joint 'pivot'",
+    ("rigid.csv", "hammer.spin"): "the kinetic energy in history.csv",
+    ("history.csv", "energy_kinetic"): "the kinetic energy in history.csv",
+    ("history.csv", "momentum_y"): "the momentum in history.csv",
+    ("history.csv", "spin_z"): "the spin in history.csv",
+}
+
+
+@pytest.mark.parametrize(("name", "column"), sorted(PLANTED))
+def test_a_changed_record_is_found(name, column, run, tmp_path, capsys):
+    changed = planted(run, tmp_path / "run", name, column, 1e-6)
+    assert any(PLANTED[name, column] in sentence for sentence in audit(changed).findings)
+    assert main(["audit", str(changed.path), "--strict", "--quiet"]) == 4
+    assert PLANTED[name, column] in capsys.readouterr().out
+
+
+def test_an_overlapped_stop_is_found(tmp_path):
+    run = sw.run(scenario(STOP, "time.end=2 ms"), tmp_path / "run")
+    stopped = check(scenario(STOP)).model
+    assert audited_among_solids(run, stopped).overlaps["limit"] < 1e-14
+    changed = planted(run, tmp_path / "changed", "rigid.csv", "hammer.y", -0.1)
+    assert any("the stop 'limit' is overlapped" in text for text in audited_among_solids(changed, stopped).findings)
 
 
 @pytest.mark.parametrize("more", [(), (STOP,)], ids=["contact", "contact and stop"])

@@ -17,6 +17,7 @@ import table_mechanisms
 import table_members
 import table_meshes
 import table_obstacles
+import table_piles
 import table_python
 import table_rigid
 import table_text
@@ -32,6 +33,7 @@ TABLES: tuple[ModuleType, ...] = (
     table_laws,
     table_mechanisms,
     table_rigid,
+    table_piles,
     table_members,
     table_meshes,
     table_obstacles,
@@ -42,7 +44,19 @@ TABLES: tuple[ModuleType, ...] = (
 CASES: Mapping[str, Try | Call] = {
     f"{module.__name__}: {name}": case for module in TABLES for name, case in module.TABLE.items()
 }
-PARTS = ("bodies", "contact", "laws", "march", "mechanisms", "meshes", "model", "obstacles", "scenario", "solve")
+PARTS = (
+    "bodies",
+    "contact",
+    "laws",
+    "march",
+    "mechanisms",
+    "meshes",
+    "model",
+    "obstacles",
+    "piles",
+    "scenario",
+    "solve",
+)
 MODULES = (
     "errors.py",
     "record/write/mechanism/probes.py",
@@ -52,12 +66,15 @@ MODULES = (
 ROBOTS = "an extra that is not always installed: tests/unit/mechanisms/test_robot_files.py"
 INNER = "called inside only, after the check of what the user has given"
 REASONS = {
+    "bodies/setup/directions.py: _held": "nodes that a body carries: tests/unit/bodies/test_directed_supports.py",
     "bodies/inertia/mass_matrix.py: body_of": INNER,
     "bodies/inertia/mass_matrix.py: condensation": INNER,
     "bodies/inertia/mass_redistribution.py: redistribute_mass": INNER,
     "bodies/internal_force/inelastic/inelastic_force.py: inelastic_force": "a mesh admits no plates in space",
     "contact/mortar/linear_surface.py: linear_surface": INNER,
+    "contact/assembly/methods.py: with_tool": "a closed surface that a tie covers: no rim is left",
     "contact/surfaces/boundary.py: __post_init__": INNER,
+    "scenario/checks/check.py: _model": "ties of a mesh file: tests/unit/meshes/files/abaqus/test_ties.py",
     "march/march_state.py: fitting": "a state of another scene, from Python",
     "march/model_state.py: join_states": "a state of another scene, from Python",
     "march/rules/slab_rule.py: require_nodal": "unknowns from Python: tests/contracts/test_own_dofs.py",
@@ -73,13 +90,19 @@ REASONS = {
     "mechanisms/robots/robot_file.py: read_robot": ROBOTS,
     "meshes/files/abaqus/lexer.py: _lines": "millions of lines: tests/unit/meshes/files/abaqus/test_lexer.py",
     "meshes/files/abaqus/lexer.py: _admit": "many files: tests/unit/meshes/files/abaqus/test_lexer.py",
-    "model/rigid_bodies.py: state_of": "a state of another scene, from Python",
-    "model/rigid_refusals.py: _require_names": "scenes from Python: tests/unit/march/motion/test_rigid_contact.py",
+    "model/rigid/rigid_bodies.py: state_of": "a state of another scene, from Python",
+    "model/rigid/rigid_refusals.py: _require_names": "from Python: tests/unit/march/motion/test_rigid_contact.py",
     "model/build.py: with_dofs": "unknowns from Python: tests/contracts/test_own_dofs.py",
     "model/build.py: with_field": "companion fields from Python",
+    "piles/ball_table.py: table_columns": "wrong tables: tests/unit/piles/test_groups.py",
+    "piles/ball_table.py: _numbers": "wrong tables: tests/unit/piles/test_groups.py",
+    "piles/balls.py: _numbers": "rows of different lengths: tests/unit/piles/test_input.py",
+    "piles/march.py: march": "from Python: tests/unit/piles/test_input.py",
+    "piles/pile.py: __post_init__": "gravity of a load fits: tests/unit/piles/test_input.py",
+    "piles/state.py: writable": "states of other marches, from Python: tests/unit/piles/test_groups.py",
     "scenario/files.py: load": "millions of characters",
     "scenario/run.py: _require_state": "of a mechanism: tests/unit/scenario/mechanisms/test_resumed_runs.py",
-    "scenario/run_mechanism.py: _require_state": "and of solids: the same",
+    "scenario/run_rigid.py: _require_state": "and of solids: the same",
     "scenario/run.py: stored": "run folders: tests/unit/scenario/runs/test_resume.py",
     "scenario/text/reader.py: _scalar": "a type that no key of a scenario has",
     "solve/linear/pattern.py: require": INNER,

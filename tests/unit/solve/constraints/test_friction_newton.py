@@ -23,6 +23,7 @@ from softway.solve.constraints.friction_conditions import (
 )
 from softway.solve.constraints.friction_newton import STUCK, _newton, solve_multipliers
 from softway.solve.constraints.return_map import STEEPEST, SlipConditions, return_map
+from softway.solve.constraints.turning_slip import chord_force, end_force
 from softway.solve.effort import Effort
 
 
@@ -109,6 +110,47 @@ def problem(seed: int, count: int, k: int, law: FrictionLaw):
     return friction_problem(compliance, free, slipping(law, count, k))
 
 
+def turning(seed: int, count: int) -> np.ndarray:
+    """Directions of the slip in the slab before, times ratios of lengths of slabs; some rows did not slip."""
+    rng = np.random.default_rng(seed)
+    angle, ratio = rng.uniform(-np.pi, np.pi, count), rng.choice([0.0, 0.3, 0.5, 0.9], count)
+    return ratio[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+def test_the_force_at_the_end_turns_with_the_slip():
+    """By the extrapolated direction, less than 30 degrees from the chord; the chord force is its inverse."""
+    rng, before = np.random.default_rng(3), turning(3, 500)
+    chord = rng.normal(size=(500, 2))
+    force = end_force(before, chord)
+    size, ratio = np.linalg.norm(chord, axis=1), np.linalg.norm(before, axis=1)
+    assert chord_force(before, force) == pytest.approx(chord, abs=1e-14)
+    assert np.linalg.norm(force, axis=1) == pytest.approx(size, rel=1e-14)
+    turned = np.abs(chord[:, 0] * force[:, 1] - chord[:, 1] * force[:, 0]) / size**2
+    assert (turned <= ratio / (1.0 + ratio) + 1e-14).all() and np.sum(chord * force, axis=1).min() > 0.0
+    d = -chord / size[:, None]
+    e = d + ratio[:, None] * d - before
+    assert force == pytest.approx(-(size / np.linalg.norm(e, axis=1))[:, None] * e, abs=1e-14)
+    assert not end_force(before, np.zeros((500, 2))).any() and not chord_force(before, np.zeros((500, 2))).any()
+
+
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("law", [Coulomb(mu=0.4), Tresca(shear=0.3), NortonHoff(alpha=0.5, p=0.5)], ids=repr)
+def test_forces_that_turn_obey_the_law_and_take_energy(seed, law):
+    it = problem(seed, 12, 2, law)
+    it = replace(it, law=replace(it.law, turning=turning(seed, 12)))
+    x, slips = solve_multipliers(it, np.zeros(36))
+    p, s = it.split(x)
+    gap, slip = it.split(it.free + it.compliance @ x)
+    touch, speed = p > 0.0, np.linalg.norm(slip, axis=1)
+    assert gap.min() > -1e-13 and np.abs(gap[touch]).max() < 1e-13
+    assert np.abs(slip[touch & ~slips]).max(initial=0.0) < 1e-13
+    assert (np.linalg.norm(s, axis=1)[touch & ~slips] <= law.limit(p[touch & ~slips]) + 1e-12).all()
+    resisted = np.minimum(law.resistance(speed, p)[0], STEEPEST * p)[:, None]
+    chord = -resisted * slip / np.maximum(speed, 1e-300)[:, None]
+    assert s[slips] == pytest.approx(end_force(it.law.turning, chord)[slips], abs=1e-10)
+    assert (np.sum(s * slip, axis=1)[slips] <= -0.86 * (np.linalg.norm(s, axis=1) * speed)[slips]).all()
+
+
 @pytest.mark.parametrize("k", [1, 2])
 @pytest.mark.parametrize("seed", range(20))
 @pytest.mark.parametrize("law", [Coulomb(mu=0.4), Tresca(shear=0.3), NortonHoff(alpha=0.5, p=0.5)], ids=repr)
@@ -175,8 +217,10 @@ def test_few_rows_always_find_their_forces(case, monkeypatch):
     assert slips.all()
 
 
-def test_the_linearised_conditions_agree_with_differences():
+@pytest.mark.parametrize("turns", [False, True])
+def test_the_linearised_conditions_agree_with_differences(turns):
     it = problem(3, 6, 2, NortonHoff(alpha=0.5, p=0.7))
+    it = replace(it, law=replace(it.law, turning=turning(5, 6))) if turns else it
     x = np.abs(np.random.default_rng(4).normal(size=18)) + 0.5
     look, d = friction_residual(it, x), 1e-7
     columns = [
@@ -186,8 +230,10 @@ def test_the_linearised_conditions_agree_with_differences():
     assert linearised(it, look) == pytest.approx(np.array(columns).T, abs=1e-6)
 
 
-def test_sweeps_over_the_rows_come_to_the_same_forces():
+@pytest.mark.parametrize("turns", [False, True])
+def test_sweeps_over_the_rows_come_to_the_same_forces(turns):
     it = problem(5, 8, 2, Coulomb(mu=0.3))
+    it = replace(it, law=replace(it.law, turning=turning(5, 8))) if turns else it
     assert gauss_seidel(it, np.zeros(24), 400) == pytest.approx(solve_multipliers(it, np.zeros(24))[0], abs=1e-9)
 
 

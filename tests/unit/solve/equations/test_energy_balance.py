@@ -67,8 +67,8 @@ def random_rows(model: Model, rng: np.random.Generator) -> ContactRows:
     """Rows that turn at will; each opponent of a pair is one node of the other body, each tool moves."""
     node, contact, n = model.contacts.node, model.contacts.contact, len(model.points)
     normal = rng.normal(size=(len(node), model.shape[1]))
-    pair = model.opponents[contact, 1] >= 0
-    partner = model.opponents[contact].sum(axis=1) - model.part_of[node]
+    pair = ~model.against_tool[contact]
+    partner = np.array([sum(solids) for solids in model.contact_solids])[contact] - model.part_of[node]
     light = [np.flatnonzero((model.part_of == k) & ~model.massive) for k in range(len(model.parts))]
     other = np.array([rng.choice(light[k]) if here else 0 for k, here in zip(partner, pair, strict=True)])
     weights = on_nodes(node, n) - sp.diags_array(1.0 * pair) @ on_nodes(other, n)
@@ -122,16 +122,16 @@ def gained(model: Model, e: EndForces, found: EnergyClosure) -> np.ndarray:
 
 def test_bodies_in_touch_are_one_group() -> None:
     model = row_of_blocks(2, Weighted())
-    contact = model.contacts.contact
+    contact, rows = model.contacts.contact, random_rows(model, np.random.default_rng(1))
     for touching, expected in (
         ((), [0, 1, 2, 3]), ((0,), [0, 0, 1, 2]), ((1,), [0, 1, 1, 2]), ((0, 1), [0, 0, 0, 1]), ((2, 3), [0, 1, 2, 3]),
         ((0, 1, 2, 3), [0, 0, 0, 1]),
     ):  # fmt: skip
-        label = body_groups(model, np.isin(contact, touching))
+        label = body_groups(model, (rows, np.isin(contact, touching)))
         assert [label.tolist().index(x) for x in label] == [expected.index(x) for x in expected]
     one = np.zeros(len(contact), bool)
     one[np.flatnonzero(contact == 1)[0]] = True
-    assert body_groups(model, one).tolist() == [0, 1, 1, 2], "one row is enough"
+    assert body_groups(model, (rows, one)).tolist() == [0, 1, 1, 2], "one row is enough"
 
 
 @forces
@@ -141,7 +141,7 @@ def test_every_group_keeps_its_energy(dim: int, force: SlabForce, seed: int) -> 
     model = row_of_blocks(dim, force)
     e = ends(model, seed)
     found = close_energy(model, e, fallback=True)
-    label = body_groups(model, (e.force0 > 0.0) | (e.force1 > 0.0))
+    label = body_groups(model, (e.rows0, e.force0 > 0.0), (e.rows1, e.force1 > 0.0))
     np.testing.assert_allclose(np.bincount(label, weights=gained(model, e, found)), 0.0, atol=1e-15)
     assert label.max() == 2
     assert all(len(set(found.scalar[label == g])) == 1 for g in range(3))
@@ -153,7 +153,7 @@ def test_driven_supports_do_work_on_nodes_without_inertia(seed: int) -> None:
     assert (~model.free & ~model.massive[:, None]).any()
     e = ends(model, seed)
     found = close_energy(model, e, fallback=True)
-    label = body_groups(model, (e.force0 > 0.0) | (e.force1 > 0.0))
+    label = body_groups(model, (e.rows0, e.force0 > 0.0), (e.rows1, e.force1 > 0.0))
     np.testing.assert_allclose(np.bincount(label, weights=gained(model, e, found)), 0.0, atol=1e-15)
 
 
@@ -163,7 +163,7 @@ def rubbed(model: Model, seed: int, size: float = 0.01) -> EndForces:
     for k, (rows, push, force) in enumerate(((e.rows0, e.force0, e.f0), (e.rows1, e.force1, e.f1))):
         entries = rows.gradient.toarray().reshape(len(rows.node), -1, model.shape[1])
         weights = sp.csr_array(np.einsum("mnd,md->mn", entries, rows.normal))
-        tool = (model.opponents[rows.contact, 1] < 0)[:, None]
+        tool = model.against_tool[rows.contact][:, None]
         shear = TangentialRows(
             weights=weights, tangents=tangents(rows.normal), moved=0.05 * tool * rng.normal(size=rows.normal.shape)
         )
@@ -177,7 +177,7 @@ def rubbed(model: Model, seed: int, size: float = 0.01) -> EndForces:
 def rubbing(model: Model, e: EndForces, found: EnergyClosure) -> tuple[np.ndarray, np.ndarray]:
     """Work of tools along their surfaces, and energy that the mean friction force dissipates (groups,)."""
     a = found.scalar[model.part_of[e.rows0.node]][:, None]
-    label = body_groups(model, (e.force0 > 0.0) | (e.force1 > 0.0))
+    label = body_groups(model, (e.rows0, e.force0 > 0.0), (e.rows1, e.force1 > 0.0))
     tools, lost = np.zeros((2, label.max() + 1))
     for share, rows, drag in ((0.5 - a, e.rows0, e.shear0), (0.5 + a, e.rows1, e.shear1)):
         group, shear = label[model.part_of[rows.node]], rows.shear
@@ -208,7 +208,7 @@ def test_with_friction_every_group_keeps_its_energy(dim: int, force: SlabForce, 
     e = rubbed(model, seed)
     found = close_energy(model, e, fallback=True)
     tools, lost = rubbing(model, e, found)
-    label = body_groups(model, (e.force0 > 0.0) | (e.force1 > 0.0))
+    label = body_groups(model, (e.rows0, e.force0 > 0.0), (e.rows1, e.force1 > 0.0))
     made = np.bincount(label, weights=gained(model, e, found)) - tools + np.maximum(lost, 0.0)
     np.testing.assert_allclose(made, 0.0, atol=1e-15)
 
@@ -227,7 +227,7 @@ def test_groups_in_which_friction_takes_energy_are_closed_as_without_the_rule(
         none = FrictionWork(np.zeros(3), np.zeros(3))
         patch.setattr(energy_balance, "friction_work", lambda *args: none)
         plain = close_energy(model, e, fallback=True)
-    label = body_groups(model, (e.force0 > 0.0) | (e.force1 > 0.0))
+    label = body_groups(model, (e.rows0, e.force0 > 0.0), (e.rows1, e.force1 > 0.0))
     creates = rubbing(model, e, plain)[1] < -1e-15
     for k, part in enumerate(model.parts):
         same = np.array_equal(found.mean[part.nodes], plain.mean[part.nodes])
@@ -247,7 +247,7 @@ def test_one_of_two_groups_that_rub_is_closed_without_friction() -> None:
         tools, lost = rubbing(model, e, found)
         if lost.min() < -1e-5 and lost.max() > 1e-5 and np.abs(found.scalar).max() < BOUND:
             break
-    label = body_groups(model, (e.force0 > 0.0) | (e.force1 > 0.0))
+    label = body_groups(model, (e.rows0, e.force0 > 0.0), (e.rows1, e.force1 > 0.0))
     made = np.bincount(label, weights=gained(model, e, found)) - tools
     np.testing.assert_allclose(made[lost < -1e-5], 0.0, atol=1e-15)
     np.testing.assert_allclose((made + lost)[lost > 1e-5], 0.0, atol=1e-15)
@@ -266,7 +266,7 @@ def test_a_convex_energy_and_gaps_without_curvature_bound_the_scalar(
     rows, du, m = e.rows0, e.u1 - e.u0, len(e.rows0.node)
     gap0, gap1 = (np.where(rng.random(m) < 0.5, 0.0, 0.1 * rng.random(m)) for _ in range(2))
     rows = replace(rows, tool_motion=np.where(rows.near, gap0 - gap1 + rows.normal_component(du), 0.0))
-    tool = rows.near & (model.opponents[rows.contact, 1] < 0)
+    tool = rows.near & model.against_tool[rows.contact]
     push0, push1 = (np.where(tool & (gap == 0.0), rng.random(m), 0.0) for gap in (gap0, gap1))
     light = ~model.massive[:, None]
     f0, f1 = (
@@ -290,8 +290,8 @@ def test_internal_forces_and_pairs_have_no_moment(dim: int, seed: int) -> None:
     model = row_of_blocks(dim, EnergyMomentum())
     e = ends(model, seed)
     found = close_energy(model, e, fallback=False)
-    label = body_groups(model, (e.force0 > 0.0) | (e.force1 > 0.0))
-    tool = model.opponents[e.rows0.contact, 1] < 0
+    label = body_groups(model, (e.rows0, e.force0 > 0.0), (e.rows1, e.force1 > 0.0))
+    tool = model.against_tool[e.rows0.contact]
     old, new = (tool * share for share in shares(model, e, found))
     outer = model.load + e.rows0.spread(old, model.shape) + e.rows1.spread(new, model.shape)
     total = np.where(model.massive[:, None], found.mean, outer)

@@ -44,8 +44,9 @@ def test_a_body_that_joins_a_group_joins_all_of_it() -> None:
     """Whichever side of a contact it is on: a and b are one group already when c comes to b."""
     for pairs in ((("a.right", "b.left"), ("c.left", "b.right")), (("a.right", "b.left"), ("b.right", "c.left"))):
         model = blocks(3, pairs, Weighted())
-        assert body_groups(model, np.ones(len(model.contacts.contact), bool)).tolist() == [0, 0, 0]
-        assert body_groups(model, model.contacts.contact == 0).tolist() == [0, 0, 1]
+        rows = model.rows(model.displacement)
+        assert body_groups(model, (rows, rows.near)).tolist() == [0, 0, 0]
+        assert body_groups(model, (rows, rows.near & rows.of_contact(0))).tolist() == [0, 0, 1]
 
 
 @pytest.mark.parametrize("held", ["", "a", "b"])

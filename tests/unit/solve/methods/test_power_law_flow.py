@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import softway as sw
-from softway.bodies.discretised import force_of
 from softway.bodies.elements.section import PlaneStrain
+from softway.bodies.internal_force.assembled import force_of
 
 POWERS = [0.8, 0.5, 0.3, 0.2]
 

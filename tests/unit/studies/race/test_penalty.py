@@ -114,6 +114,19 @@ def test_works_of_loads_and_driven_supports_are_counted():
     assert max(abs(s.energy - first.energy - s.work) for s in steps) < 1e-12
 
 
+def test_a_driven_support_moves_by_the_integral_of_its_table():
+    """Three slabs of a velocity that rises and falls again: half of a metre, and its work is booked."""
+    solid = sw.Solid(
+        mesh=sw.meshes.Interval(length=1.0, cells=4),
+        material=sw.LinearElastic(E=1.0),
+        density=1.0,
+        supports=(sw.Driven(on="left", velocity=(0.0, 1.0, 0.0), times=(0.0, 0.5, 1.0)),),
+    )
+    _, first, steps = course(sw.Scene(bodies={"bar": solid}), 1.0, 1.0 / 3.0)
+    assert len(steps) == 3 and steps[-1].displacement[0, 0] == pytest.approx(0.5, abs=1e-15)
+    assert max(abs(s.energy - first.energy - s.work) for s in steps) < 1e-14
+
+
 def test_the_stiffness_of_springs_follows_the_area():
     model = build(block())
     found = springs(model, 2.0)

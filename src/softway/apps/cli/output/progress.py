@@ -20,9 +20,10 @@ from rich.progress import (
 from rich.progress import Progress as Display
 
 from softway.mechanisms.march import MechanismStep
+from softway.piles.march import PileStep
 from softway.record.write.progress import MechanismProgress, Progress, Tell
 from softway.scenario.checks.check import Checked
-from softway.scenario.checks.mechanism import CheckedMechanism
+from softway.scenario.run_rigid import CheckedRigid
 
 PATIENCE = 1.0
 """Seconds after which the progress of a run is shown."""
@@ -67,7 +68,7 @@ def waiting(console: Console, what: str) -> Iterator[None]:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Watch:
-    """Progress display of a run, of solids or of a mechanism."""
+    """Progress display of a run, of solids, of a mechanism or of a pile."""
 
     display: Display
     task: TaskID
@@ -81,6 +82,8 @@ class Watch:
         step = progress.step
         if isinstance(step, MechanismStep):
             error, closed = step.energy_error, len(step.closed)
+        elif isinstance(step, PileStep):
+            error, closed = step.energy_error, step.closed
         else:
             error, closed = step.ledger.energy_error, sum(c.count for c in step.ledger.contacts.values())
         self.display.update(
@@ -94,7 +97,7 @@ class Watch:
 
 
 @contextmanager
-def progress_of(checked: Checked | CheckedMechanism, console: Console) -> Iterator[Watch | None]:
+def progress_of(checked: Checked | CheckedRigid, console: Console) -> Iterator[Watch | None]:
     """Function to call after each step; ``None`` without an interactive terminal."""
     if console.quiet or not console.is_terminal:
         yield None

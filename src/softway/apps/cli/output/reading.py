@@ -8,13 +8,13 @@ from rich.console import Console
 from softway.apps.cli.output.progress import waiting
 from softway.errors import InputError
 from softway.scenario.checks.check import Checked, check
-from softway.scenario.checks.mechanism import CheckedMechanism
 from softway.scenario.files import load
+from softway.scenario.run_rigid import CheckedRigid
 
 
 def examined(
     file: Path, changes: Iterable[str], console: Console, *, allow_python: bool, strict: bool = False
-) -> Checked | CheckedMechanism:
+) -> Checked | CheckedRigid:
     """Read and check a scenario file; return it with its meshes and scales.
 
     Raises

@@ -9,6 +9,7 @@ from rich.markup import escape
 from rich.table import Table as Grid
 
 from softway.errors import Note
+from softway.record.pile.summary import told_of_pile
 from softway.record.read.findings import sentences
 from softway.record.read.mechanism_summary import told
 from softway.record.read.summary import UNITS as NUMBERS
@@ -36,6 +37,11 @@ UNITS = {
     "mass": "kg",
     "speed": "m/s",
     "spin": "rad/s",
+    "radius_least": "m",
+    "radius_greatest": "m",
+    "overlap_worst": "m",
+    "slip_error_worst": "m/s",
+    "energy_kinetic_end": "J",
 }
 WORDS = {
     "stable_step": "stable step (Momentum)",
@@ -76,8 +82,8 @@ def scales(checked: Any, console: Console, most: int | None = None) -> None:
     title = checked.scenario.title
     if title:
         console.print(title, style="bold", markup=False)
-    _columns({f"body {n}": _numbers(b) for n, b in checked.bodies.items()}, console)
-    _columns({f"contact {n}": _numbers(c) for n, c in getattr(checked, "contacts", {}).items()}, console)
+    _columns(_merged("body", checked.bodies), console)
+    _columns(_merged("contact", getattr(checked, "contacts", {})), console)
     end = checked.scenario.time.end
     some = f"{most} of " if most is not None and most < checked.slabs else ""
     console.print(f"{some}{checked.slabs} slabs of {checked.step:.6g} s until {end:.6g} s\n", markup=False)
@@ -97,12 +103,19 @@ def summary(run: Run, console: Console) -> None:
         _columns({"certificate (worst slab)": found["certificate"]}, console)
     _notes((Note(**note) for note in found.get("notes", ())), console)
     findings(found.get("findings", ()), console)
-    for sentence in told(found) if run.of_mechanism else ():
+    for sentence in sentences_of(run, found):
         console.print(sentence, markup=False, soft_wrap=True, highlight=False)
     console.print(f"{run.status}{': ' if stop.message else ''}{stop.message}", markup=False, soft_wrap=True)
     if stop in (INTERRUPTED, CANCELLED):
         console.print(f"resume with: softway resume {run.path}", markup=False, soft_wrap=True, highlight=False)
     console.print(f"records: {run.path}", markup=False, soft_wrap=True, highlight=False)
+
+
+def sentences_of(run: Run, found: Mapping[str, Any]) -> tuple[str, ...]:
+    """Sentences on the run of a mechanism or a pile with its summary; none of solids."""
+    if run.of_pile:
+        return told_of_pile(found)
+    return told(found) if run.of_mechanism else ()
 
 
 def findings(found: Sequence[Mapping[str, Any]], console: Console) -> None:
@@ -134,6 +147,18 @@ def _short(value: float | int | None) -> str | int | None:
 
 def _numbers(item: Any) -> dict[str, Any]:
     return {f.name: getattr(item, f.name) for f in fields(item)} if is_dataclass(item) else dict(item)
+
+
+def _merged(what: str, items: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """Numbers by heading; neighbours that read the same, such as copies of a body, have one column."""
+    runs: list[tuple[str, str, dict[str, Any]]] = []
+    for name, item in items.items():
+        numbers = {key: _cell(value) for key, value in _numbers(item).items()}
+        first = name
+        if runs and runs[-1][2] == numbers:
+            first = runs.pop()[0]
+        runs.append((first, name, numbers))
+    return {f"{what} {a}" if a == b else f"{what} {a} to {b}": numbers for a, b, numbers in runs}
 
 
 def _columns(items: dict[str, dict[str, Any]], console: Console) -> None:

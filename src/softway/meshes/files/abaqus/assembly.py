@@ -9,9 +9,11 @@ import numpy as np
 from softway.arrays import Array, IntArray
 from softway.errors import InputError
 from softway.meshes.cells import FACETS
+from softway.meshes.files.abaqus.cards.ties import ties_of
 from softway.meshes.files.abaqus.cell_types import cell_type
 from softway.meshes.files.abaqus.choice import chosen_elements
 from softway.meshes.files.abaqus.deck import Deck, placed, read_deck
+from softway.meshes.files.abaqus.regions import regions_of
 from softway.meshes.files.abaqus.scope import Scope
 from softway.meshes.files.abaqus.tags import tags_of
 from softway.meshes.files.listed_mesh import ListedMesh
@@ -58,7 +60,8 @@ def deck_mesh(path: Path, cells: Sequence[str] | None = None, only: Sequence[str
     tags = tags_of(pieces, numbers, deck.left_out)
     if cells is None and not only:
         _list_unused(deck, blocks, tags, len(points))
-    return ListedMesh(points, blocks, tags, deck.left_out.listed())
+    ties = ties_of(deck.ties, scopes, tags, deck.left_out)
+    return ListedMesh(points, blocks, tags, deck.left_out.listed(), regions_of(deck, scopes, kept), ties)
 
 
 def _numbered(pieces: Mapping[str, Scope]) -> tuple[dict[str, dict[int, int]], Array]:
@@ -166,12 +169,17 @@ def _list_type(deck: Deck, kind: str, count: int, meaning: str, *, matters: bool
 
 
 def _list_materials(deck: Deck) -> None:
-    """List the sections; several materials with their element sets and the way to give them to bodies."""
-    materials = {section.material.upper() for section in deck.sections}
+    """List the sections; several materials with their element sets and the way to give their laws."""
+    materials: dict[str, str] = {}
+    for section in deck.sections:
+        if section.material:
+            materials.setdefault(section.material.upper(), section.material)
     for title in dict.fromkeys(section.title for section in deck.sections):
         of = [section for section in deck.sections if section.title == title]
         named = ", ".join(f"{s.of} of {s.material}" for s in of if s.material)
         meaning = f"{named:.400}; the body has one material" if named else ""
         if len(materials) > 1 and named:
-            meaning = f'{named:.400}; make one body of each: mesh = {{ ..., only = "{of[0].of:.60}" }}'
+            laws = ", ".join(f'"{name:.60}" = ...' for name in list(materials.values())[:6])
+            meaning = f"{named:.400}; give a law to each region, material = {{ {laws} }}; or "
+            meaning += f'make one body of each: mesh = {{ ..., only = "{of[0].of:.60}" }}'
         deck.left_out.add(title, [section.place for section in of], meaning)

@@ -10,6 +10,7 @@ import numpy as np
 from softway.meshes.files.abaqus.cards.elements import copy_elements, generate_elements, read_elements
 from softway.meshes.files.abaqus.cards.nodes import copy_nodes, fill_nodes, generate_nodes, read_nodes, read_system
 from softway.meshes.files.abaqus.cards.sets import read_element_set, read_node_set, read_surface
+from softway.meshes.files.abaqus.cards.ties import DeckTie, read_ties
 from softway.meshes.files.abaqus.cards.transforms import rotated
 from softway.meshes.files.abaqus.entries import padded, point, real
 from softway.meshes.files.abaqus.left_out import Register
@@ -72,6 +73,8 @@ class Deck:
         Instances in their order, by name in capitals.
     sections
         Sections, which give materials to element sets.
+    ties
+        Pairs of surfaces that are glued.
     left_out
         Cards that are not honoured.
     """
@@ -80,6 +83,7 @@ class Deck:
     parts: dict[str, Scope] = field(default_factory=dict)
     instances: dict[str, Instance] = field(default_factory=dict)
     sections: list[DeckSection] = field(default_factory=list)
+    ties: list[DeckTie] = field(default_factory=list)
     left_out: Register = field(default_factory=Register)
 
 
@@ -103,6 +107,8 @@ def read_deck(path: Path) -> Deck:
                 here = deck.root
             case name if name in _HANDLERS:
                 _honoured(deck, here, card)
+            case "TIE":
+                deck.ties.extend(read_ties(here, card, deck.left_out))
             case name if name.endswith("SECTION") and card.option("ELSET"):
                 of = f"{here.name}.{card.option('ELSET')}" if here.name else card.option("ELSET")
                 deck.sections.append(DeckSection(card.title, card.place, of, card.option("MATERIAL")))

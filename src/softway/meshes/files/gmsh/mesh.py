@@ -61,12 +61,17 @@ def _made(file: MshFile, cells: Sequence[str] | None, only: Sequence[str]) -> Li
     dim = max((e.dim for e in file.elements), default=0)
     parts: dict[str, list[IntArray]] = {}
     tags: dict[str, list[IntArray]] = {}
+    regions: dict[str, list[tuple[str, int, int]]] = {}
     for elements in file.elements:
         numbers, groups = file.node_numbers(elements), file.group_names(elements)
         for group in groups:
             tags.setdefault(group, []).append(numbers.ravel())
         if _wanted(elements, dim, cells) and (not only or set(groups) & set(only)):
-            parts.setdefault(NAMES[TYPES[elements.kind][0]], []).append(numbers)
+            cell = NAMES[TYPES[elements.kind][0]]
+            first = sum(len(part) for part in parts.setdefault(cell, []))
+            parts[cell].append(numbers)
+            for group in groups:
+                regions.setdefault(group, []).append((cell, first, first + len(numbers)))
     if not parts:
         raise _nothing(file, tags, only)
     blocks = {name: np.concatenate(part) for name, part in parts.items()}
@@ -75,7 +80,17 @@ def _made(file: MshFile, cells: Sequence[str] | None, only: Sequence[str]) -> Li
     for block in blocks.values():
         used[block] = True
     lost = () if only or cells else _unused(file, used, made)
-    return ListedMesh(file.points, blocks, made, (*_sections(file), *lost))
+    return ListedMesh(file.points, blocks, made, (*_sections(file), *lost), _regions(blocks, regions))
+
+
+def _regions(blocks: dict[str, IntArray], found: dict[str, list[tuple[str, int, int]]]) -> dict[str, IntArray]:
+    """Numbers of the cells of groups in the order of the blocks, from ranges in the blocks."""
+    counts = [len(cells) for cells in blocks.values()]
+    start = dict(zip(blocks, np.cumsum([0, *counts[:-1]]).tolist(), strict=True))
+    return {
+        group: np.concatenate([np.arange(first, last) + start[cell] for cell, first, last in ranges])
+        for group, ranges in found.items()
+    }
 
 
 def _wanted(elements: Elements, dim: int, cells: Sequence[str] | None) -> bool:

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from softway.arrays import Array
+from softway.record.pile.summary import energy_scale as energy_scale_of_pile
 from softway.record.read.mechanism_summary import energy_scale
 from softway.record.read.records import Records
-from softway.record.read.summary import contacts_of
-from softway.record.storage.table import Table
+from softway.record.read.summary import contacts_of, ties_of
+from softway.record.storage.table import COUNT, Table
 from softway.record.view.options import STANDARD, PictureOptions
 from softway.record.view.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, PURPLE, RED, canvas, scaled
-from softway.record.write.history_columns import CERTIFICATE, COLUMNS, EXTRA
+from softway.record.write.history_columns import CERTIFICATE, COLUMNS, EXTRA, of_tie
 from softway.record.write.mechanism.columns import NEEDED
 
 if TYPE_CHECKING:
@@ -43,7 +44,7 @@ def history(run: Records, look: PictureOptions = STANDARD) -> "Figure":
     """Figure of energies, energy balance error, contact forces, smallest gaps and probes over time."""
     table, title = run.history, run.provenance.get("title", "")
     factor, unit = scaled(table["time"], "s")
-    time, panels = factor * table["time"], _panels(table)
+    time, panels = factor * table["time"], _of_pile() if run.of_pile else _panels(table)
     if run.of_mechanism:
         panels += [partial(_centres, motion=run.motion, letter=letter) for letter in "xyz"[: run.outline["dim"]]]
     rows = -(-len(panels) // 2)
@@ -68,9 +69,31 @@ def _panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
     if contacts:
         panels += [partial(forces, contacts=contacts), partial(gaps, contacts=contacts)]
     known = {column.name for column in (*COLUMNS, *CERTIFICATE, *EXTRA)} | {name for name, _ in NEEDED}
+    ties = ties_of(table)
+    if ties:
+        panels.append(partial(_broken, ties=ties))
+        known |= {column.name for tie in ties for column in of_tie(tie)}
     probes = [n for n in table if n not in known and not n.startswith("contact.")]
     units = dict.fromkeys(table.units[n] for n in probes)
     return panels + [partial(_probes, names=[n for n in probes if table.units[n] == unit]) for unit in units]
+
+
+def _of_pile() -> "list[Callable[[Axes, Array, Table], None]]":
+    """Drawing functions of the panels of a pile."""
+    told = (
+        ("overlap", "Greatest overlap", "overlap"),
+        ("slip_error", "Miss of the law of friction", "velocity"),
+        ("closed_contacts", "Closed contacts", "contacts"),
+    )
+    return [energies, balance, *(partial(_told, name=name, title=title, word=word) for name, title, word in told)]
+
+
+def _told(axis: "Axes", time: Array, table: Table, name: str, title: str, word: str) -> None:
+    """Draw a column of the history."""
+    factor, unit = (1.0, "1") if table.units[name] == COUNT else scaled(table[name], table.units[name])
+    axis.plot(time, factor * table[name], color=BLUE, lw=1.2)
+    axis.set(title=title, ylabel=word if unit == "1" else f"{word} [{unit}]")
+    axis.set_ylim(bottom=0.0, top=None if table[name].any() else 1.0)
 
 
 def energies(axis: "Axes", time: Array, table: Table) -> None:
@@ -84,7 +107,7 @@ def energies(axis: "Axes", time: Array, table: Table) -> None:
         (f"kinetic + {word}", total, BLACK, "--"),
     ]
     for name, color, label, style in WORKS:
-        if np.abs(table[name]).max() > 1e-3 * np.abs(total).max():
+        if name in table and np.abs(table[name]).max() > 1e-3 * np.abs(total).max():
             curves.append((label, table[name], color, style))
     factor, unit = scaled(np.concatenate([values for _, values, _, _ in curves]), "J")
     for label, values, color, style in curves:
@@ -98,7 +121,7 @@ def balance(axis: "Axes", time: Array, table: Table) -> None:
     if "energy_strain" in table:
         scale = float((table["energy_kinetic"] + table["energy_strain"]).max()) or 1.0
     else:
-        scale = energy_scale(table) or 1.0
+        scale = (energy_scale if "work_external" in table else energy_scale_of_pile)(table) or 1.0
     relative = np.maximum(np.abs(table["energy_error"]) / scale, 1e-17)
     axis.semilogy(time, relative, color=PURPLE, lw=1.2)
     axis.set_ylim(min(1e-17, relative.min()), max(1e-11, 10.0 * relative.max()))
@@ -130,6 +153,15 @@ def gaps(axis: "Axes", time: Array, table: Table, contacts: tuple[str, ...]) -> 
     axis.set(title="Smallest gap", ylabel=f"gap [{unit}]")
     if len(contacts) > 1:
         axis.legend(loc="best")
+
+
+def _broken(axis: "Axes", time: Array, table: Table, ties: tuple[str, ...]) -> None:
+    """Draw the broken fraction of each tie."""
+    for tie, color in zip(ties, _cycle(len(ties)), strict=True):
+        axis.plot(time, 100.0 * table[f"tie.{tie}.broken"], color=color, label=tie)
+    axis.set(title="Broken fraction of the ties", ylabel="broken [%]")
+    axis.set_ylim(0.0, 105.0)
+    axis.legend(loc="best")
 
 
 def _probes(axis: "Axes", time: Array, table: Table, names: list[str]) -> None:

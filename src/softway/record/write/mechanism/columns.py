@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.rigid_motion import quaternion
 from softway.mechanisms.march import BodyState, MechanismStep
 from softway.record.storage import table
 
@@ -83,29 +84,6 @@ def rotation_vector(rotation: Array) -> Array:
     if length == 0.0:
         return np.zeros(3)
     return np.asarray(2.0 * np.arctan2(length, turn[0]) / length * turn[1:])
-
-
-def quaternion(r: Array) -> Array:
-    """Unit quaternion (4,) of a rotation (3, 3), with its scalar first and not negative.
-
-    Examples
-    --------
-    >>> quaternion(np.diag([-1.0, -1.0, 1.0])).tolist()
-    [0.0, 0.0, 0.0, 1.0]
-    """
-    trace = float(np.trace(r))
-    full = np.array(
-        [
-            [1.0 + trace, r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]],
-            [0.0, 1.0 - trace + 2.0 * r[0, 0], r[0, 1] + r[1, 0], r[0, 2] + r[2, 0]],
-            [0.0, 0.0, 1.0 - trace + 2.0 * r[1, 1], r[1, 2] + r[2, 1]],
-            [0.0, 0.0, 0.0, 1.0 - trace + 2.0 * r[2, 2]],
-        ]
-    )
-    full = full + np.triu(full, 1).T
-    row = full[int(np.argmax(np.diag(full)))]
-    found: Array = row / float(np.linalg.norm(row)) * (1.0 if row[0] >= 0.0 else -1.0)
-    return found
 
 
 def rotation_of(vector: Array) -> Array:

@@ -103,7 +103,8 @@ def test_several_materials_are_named_with_a_remedy_that_works(tmp_path):
     text += "*SOLID SECTION, ELSET=Plate, MATERIAL=Steel\n*SOLID SECTION, ELSET=Pad, MATERIAL=Rubber\n"
     (card,) = read(tmp_path, text).left_out
     assert card.count == 2
-    assert 'Plate of Steel, Pad of Rubber; make one body of each: mesh = { ..., only = "Plate" }' in str(card)
+    told = 'Plate of Steel, Pad of Rubber; give a law to each region, material = { "Steel" = ..., "Rubber" = ... }'
+    assert told + '; or make one body of each: mesh = { ..., only = "Plate" }' in str(card)
     assert len(read(tmp_path, text, only=("Plate",)).blocks["hex8"]) == 1
 
 

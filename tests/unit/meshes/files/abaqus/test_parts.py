@@ -131,12 +131,12 @@ s_Surf-1, m_Surf-1
 
 
 def test_the_ordinary_export_of_two_parts(tmp_path):
-    """Sections and surfaces within a part, ties and materials without."""
+    """Sections and surfaces within a part, materials without, and a tie of surfaces that are not there."""
     mesh = read(tmp_path, CAE)
     assert mesh.points[mesh.tags["Ball-1"]].min(axis=0).tolist() == [0, 0, 5]
     assert mesh.points[mesh.tags["Plate-1"]].max(axis=0).tolist() == [1, 1, 1]
     assert mesh.points[mesh.tags["Plate-1.Surf-1"], 2].tolist() == [0, 0, 0, 0]
-    assert listed(mesh) == {"*TIE": 1, "*MATERIAL": 1, "*SOLID SECTION": 1}
+    assert listed(mesh) == {"*TIE, NAME=Constraint-1": 1, "*MATERIAL": 1, "*SOLID SECTION": 1}
 
 
 def test_headers_that_give_nothing_new(tmp_path):

@@ -2,10 +2,12 @@
 
 from try_it import BAR, PLANE, SPACE, TWO, UNITS, Call, Table, Try
 
+from softway.bodies import Placement, Rotation, placed_together
 from softway.scenario.checks.check import check
 from softway.scenario.files import loads
 
 B = "bodies.b"
+ONE = f"{B}.mesh.cells=[1, 1] & {B}.mesh.cell=quad8"
 FALL = "start={kind='StaticStart', loads=[{kind='Gravity', acceleration=[0, -1]}]}"
 TABLE: Table = {
     "overridden support": Try(
@@ -13,6 +15,73 @@ TABLE: Table = {
         f"{B}.supports=[{{on='top'}}, {{kind='Driven', on='top', velocity=1}}]",
         "one support for each",
         f"{B}.supports=[{{on='top'}}]",
+    ),
+    "direction and components": Try(
+        PLANE,
+        f"{B}.supports=[{{on='top', components='x', direction=[1, 1]}}]",
+        "one of the two",
+        f"{B}.supports=[{{on='top', direction=[1, 1]}}]",
+    ),
+    "no direction": Try(
+        PLANE,
+        f"{B}.supports=[{{on='top', direction=[0, 0]}}]",
+        "not all zero",
+        f"{B}.supports=[{{on='top', direction=[0, 1]}}]",
+    ),
+    "direction in space": Try(
+        PLANE,
+        f"{B}.supports=[{{on='top', direction=[0, 0, 1]}}]",
+        "2 components",
+        f"{B}.supports=[{{on='top', direction=[0, 1]}}]",
+    ),
+    "normal of a bar": Try(
+        BAR, f"{B}.supports=[{{on='left', direction='normal'}}]", 'components = "x"', f"{B}.supports=[{{on='left'}}]"
+    ),
+    "two motions along one direction": Try(
+        PLANE,
+        f"{B}.supports=[{{on='top', direction=[1, 1]}}, {{kind='Driven', on='top', direction=[2, 2], velocity=0}}]",
+        "a direction of its own",
+        f"{B}.supports=[{{on='top', direction=[1, 1]}}, {{kind='Driven', on='top', direction=[1, -1], velocity=0}}]",
+    ),
+    "displacement along a direction": Try(
+        PLANE,
+        f"{B}.supports=[{{on='left', direction=[1, 1]}}] & {B}.displacement={{kind='Uniform', value=[0, 0.01]}}",
+        'kind = "Driven"',
+        f"{B}.supports=[{{kind='Driven', on='left', direction=[1, 1], velocity=0}}]",
+    ),
+    "normal of no side": Try(
+        PLANE,
+        f"{B}.supports=[{{on='all', direction='normal'}}]",
+        "a tag of a side",
+        f"{B}.supports=[{{on='top', direction='normal'}}]",
+    ),
+    "direction with Impulse": Try(
+        PLANE,
+        f"{B}.supports=[{{on='top', direction=[1, 1]}}] & contacts[0].timing=Impulse",
+        "the rule Energy",
+        "contacts[0].timing=Energy",
+    ),
+    "mirror without normal": Try(
+        PLANE, f"{B}.place.mirror={{normal=[0, 0]}}", "not all zero", f"{B}.place.mirror={{normal=[1, 0]}}"
+    ),
+    "mirror in space": Try(
+        PLANE, f"{B}.place.mirror={{normal=[0, 0, 1]}}", "2 components", f"{B}.place.mirror={{normal=[1, 0]}}"
+    ),
+    "place about a point in space": Try(
+        PLANE, f"{B}.place.about=[0, 0, 1]", "2 components, or none", f"{B}.place.about=[0, 1]"
+    ),
+    "group in space": Try(
+        PLANE, f"{B}.group=[{{about=[0, 0, 1]}}]", "2 components, or none", f"{B}.group=[{{about=[0, 1]}}]"
+    ),
+    "group on the floor": Call(
+        lambda _: placed_together({}, Placement(bottom=0.0)),
+        "a translation",
+        lambda _: placed_together({}, Placement(translation=(0.0, 1.0))),
+    ),
+    "group about nothing": Call(
+        lambda _: placed_together({}, Placement(rotations=(Rotation(angle=1.0),))),
+        "a point",
+        lambda _: placed_together({}, Placement(rotations=(Rotation(angle=1.0),), about=(0.0, 0.0))),
     ),
     "force of Explicit": Try(
         PLANE, f"solver=Explicit & {B}.force=EnergyMomentum", "the default force", f"{B}.force=Weighted"
@@ -99,19 +168,19 @@ TABLE: Table = {
     ),
     "no layers": Try(
         PLANE,
-        f"{B}.mesh.cells=[3, 1] & contacts[0].between=['b', 'w'] & {B}.supports=[{{on='left'}}]",
+        f"{ONE} & contacts[0].between=['b', 'w'] & {B}.supports=[{{on='left'}}]",
         "two layers",
-        f"{B}.mesh.cells=[3, 2]",
+        f"{B}.mesh.cells=[2, 2]",
     ),
     "no layers, quadratic": Try(
         PLANE,
-        f"{B}.mesh.cells=[3, 1] & contacts[0].between=['b', 'w'] & {B}.supports=[{{on='left'}}]",
+        f"{ONE} & contacts[0].between=['b', 'w'] & {B}.supports=[{{on='left'}}]",
         "quadratic",
         f"{B}.mesh.cell=quad9",
     ),
     "no layers, tag": Try(
         PLANE,
-        f"{B}.mesh.cells=[3, 1] & contacts[0].between=['b', 'w'] & {B}.supports=[{{on='left'}}]",
+        f"{ONE} & contacts[0].between=['b', 'w'] & {B}.supports=[{{on='left'}}]",
         "tag",
         "contacts[0].between=['b.bottom', 'w']",
     ),

@@ -1,10 +1,12 @@
-"""Refusals of meshes and of their generators."""
+"""Refusals of meshes, of their generators, and of laws and densities by regions."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from try_it import BAR, PLANE, Call, Table, Try
 
+import softway as sw
 from softway.meshes.element import element
 from softway.meshes.generators.graded import geometric, graded_disc, grid, ring
 from softway.meshes.generators.shapes import rectangle
@@ -34,6 +36,75 @@ def call(wrong: Callable[[], object], remedy: str, right: Callable[[], object]) 
     return Call(lambda _: wrong(), remedy, lambda _: right())
 
 
+HALVES = BAR.replace(
+    'mesh = { kind = "Interval", length = 1, cells = 4, origin = 0.01 }',
+    'mesh = { kind = "Divided", mesh = { kind = "Interval", length = 1, cells = 4, origin = 0.01 }, '
+    'regions = { a = { kind = "InBox", high = [0.5] } }, rest = "b" }',
+).replace(
+    'material = { kind = "LinearElastic", E = 1, nu = 0.3 }',
+    'material = { a = { kind = "LinearElastic", E = 1 }, b = { kind = "LinearElastic", E = 2 } }',
+)
+B = "bodies.b"
+SOFT = "{kind='LinearElastic', E=1}"
+CENTRED = "{kind='InBall', centre=[0.2], radius=0.4}"
+
+
+def built(**given: Any) -> object:
+    """Bar of two halves."""
+    line = sw.meshes.Interval(length=1.0, cells=4)
+    mesh = sw.meshes.Divided(mesh=line, regions={"a": sw.meshes.InBox(high=(0.5,))}, rest="b")
+    laws = {"a": sw.LinearElastic(E=1.0), "b": sw.LinearElastic(E=2.0)}
+    solid = sw.Solid(**{"mesh": mesh, "material": laws, "density": 1.0, **given})
+    return sw.build(sw.Scene(bodies={"bar": solid}))
+
+
+def overlapping(start: float) -> Mesh:
+    """Bar whose region ``b`` begins at ``start``; region ``a`` ends in the middle."""
+    line = sw.meshes.Interval(length=1.0, cells=4).build()
+    return line.with_region("a", lambda x: x[:, 0] < 0.5).with_region("b", lambda x: x[:, 0] > start)
+
+
+REGIONS: Table = {
+    "no such region": Try(
+        HALVES, f"{B}.material={{a={SOFT}, c={SOFT}}}", "one of: a, b, all", f"{B}.material={{a={SOFT}, b={SOFT}}}"
+    ),
+    "cells without a law": Try(HALVES, f"{B}.material={{a={SOFT}}}", "a law for b", f"{B}.material.b={SOFT}"),
+    "cells in no region": Try(
+        HALVES, f"{B}.mesh.rest='' & {B}.material={{a={SOFT}}}", "Divided with rest", f"{B}.mesh.rest=a"
+    ),
+    "cells with two laws": call(
+        lambda: built(mesh=overlapping(0.2)), "regions without common cells", lambda: built(mesh=overlapping(0.5))
+    ),
+    "no law": call(lambda: built(material={}), "a law for each region", lambda: built()),
+    "soft region": Try(HALVES, f"{B}.material.a.E=1e-300", "larger moduli", f"{B}.material.a.E=1"),
+    "density of a region": Try(HALVES, f"{B}.density={{a=1, b=0}}", "7850 kg/m^3", f"{B}.density.b=7850 kg/m^3"),
+    "missing density": Try(HALVES, f"{B}.density={{a=1}}", "a density for each region", f"{B}.density.b=1"),
+    "one density for the body": Try(HALVES, f"{B}.density={{a=1}}", "or one for the body", f"{B}.density=1"),
+    "density of no region": Try(
+        HALVES, f"{B}.density={{a=1, b=1, c=1}}", "densities of: a, b", f"{B}.density={{a=1, b=1}}"
+    ),
+    "densities of one law": Try(BAR, f"{B}.density={{a=1}}", "one density", f"{B}.density=1"),
+    "zone without cells": Try(
+        HALVES, f"{B}.mesh.regions.a.high=[-1]", "a larger zone", f"{B}.mesh.regions.a.high=[0.5]"
+    ),
+    "zone of all space": Try(
+        HALVES, f"{B}.mesh.regions.a={{kind='InBox'}}", "low, high, or both", f"{B}.mesh.regions.a.high=[0.5]"
+    ),
+    "zone of other dimension": Try(
+        HALVES, f"{B}.mesh.regions.a.low=[0, 0]", "up to 1 coordinates", f"{B}.mesh.regions.a.low=[0]"
+    ),
+    "ball of other dimension": Try(
+        HALVES,
+        f"{B}.mesh.regions.a={{kind='InBall', centre=[0, 0], radius=0.5}}",
+        "1 coordinates",
+        f"{B}.mesh.regions.a={CENTRED}",
+    ),
+    "region of a mesh": call(
+        lambda: sw.Mesh(points=[[0.0], [1.0]], blocks={"bar2": [[0, 1]]}, regions={"a": [1]}),
+        "0 to 0",
+        lambda: sw.Mesh(points=[[0.0], [1.0]], blocks={"bar2": [[0, 1]]}, regions={"a": [0]}),
+    ),
+}
 TABLE: Table = {
     "size": made("Rectangle", "size=[0, 1], cells=[2, 2]", "a positive number", "size=[1, 1]"),
     "counts": made("Rectangle", "size=[1, 1], cells=[0, 2]", "1 or more", "cells=[1, 2]"),
@@ -98,3 +169,4 @@ TABLE: Table = {
         lambda: rectangle((1.0, 1.0), (1, 1)).nodes("top"),
     ),
 }
+TABLE |= REGIONS

@@ -40,6 +40,7 @@ def call(wrong: Callable[[], object], remedy: str, right: Callable[[], object]) 
     return Call(lambda _: wrong(), remedy, lambda _: right())
 
 
+WALL = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
 BELOW = body(mesh=rectangle((1.0, 1.0), (2, 2), origin=(0.0, -1.0)))
 MESH = rectangle((1.0, 1.0), (2, 2))
 CORNER = MESH.with_tag("corner", lambda x: (x < 0.1).all(axis=1))
@@ -58,6 +59,11 @@ TABLE: Table = {
         lambda: scene(pair(name="d"), pair(name="d", between=("b.left", "c.top")), c=BELOW),
         "another name",
         lambda: scene(pair(name="d"), pair(name="e", between=("b.left", "c.top")), c=BELOW),
+    ),
+    "tools alone": call(
+        lambda: scene(pair(between=("w", "w", "w")), w=WALL),
+        "at least one solid",
+        lambda: scene(pair(between=("b.top", "b.bottom", "w")), b=body(mesh=rectangle((1.0, 1.0), (4, 4))), w=WALL),
     ),
     "nobody": call(lambda: scene(pair(between=("d.top", "c.top")), c=BELOW), "'b'", lambda: scene(pair(), c=BELOW)),
     "load on nobody": call(

@@ -33,6 +33,12 @@ def read(wrong: str, remedy: str, right: str, then: str = "") -> Call:
     return Call(lambda _: loads(text + wrong, units=UNITS), remedy, lambda _: loads(text + right, units=UNITS), then)
 
 
+def copies(wrong: str, remedy: str, right: str) -> Call:
+    """Copies of a ball that are wrong, and others."""
+    ball = "[bodies.a]\nkind='Solid'\nmesh={kind='Disc', radius=0.1, cells=2}\nmaterial='glass'\ncopies="
+    return read(f"{ball}{wrong}\n[time]\nend=1", remedy, f"{ball}{right}\n[time]\nend=1")
+
+
 def scenario(**given: object) -> Scenario:
     """Scenario of a bar with other parts."""
     return Scenario(**{"bodies": {"b": BODY}, "time": Time(end=0.1), **given})  # type: ignore[arg-type]
@@ -165,5 +171,22 @@ TABLE: Table = {
     "answer": Call(lambda _: plane(tool(_, function=lambda x: 1.0)), "shape (", lambda _: plane(tool(_))),
     "gap elsewhere": Call(
         lambda _: tool(_).shape.gap(np.zeros((1, 3))), "3", lambda _: tool(_, dim=3).shape.gap(np.zeros((1, 3)))
+    ),
+    "copies without places": copies("3", "vectors or tables", "[[0, 2]]"),
+    "copies without a place": copies("[{velocity=[0, 0]}]", "at = ", "[{at=[0, 2], velocity=[0, 0]}]"),
+    "copies of a lattice by one number": copies(
+        "{count=2, spacing=[1, 1]}", "count = [", "{count=[2, 1], spacing=[2, 2]}"
+    ),
+    "too many copies": copies("{count=[200, 200], spacing=[1, 1]}", "at most", "{count=[2, 1], spacing=[2, 2]}"),
+    "copies of a lattice by other words": copies("{counts=[2, 1]}", "count = [", "{count=[2, 1], spacing=[2, 2]}"),
+    "copies of a lattice in one direction": copies(
+        "{count=[2, 1], spacing=[2]}", "[5, 3]", "{count=[2, 1], spacing=[2, 2]}"
+    ),
+    "copies of a group": copies("[[0, 9]]\ngroup=1", "a list", "[[0, 9]]\ngroup=[{translation=[0, 1]}]"),
+    "copies of a tool": copies("[[0, 9]]\n[bodies.t]\nkind='Tool'\ncopies=[[0]]", "of a Solid", "[[0, 9]]"),
+    "copies with a name that exists": read(
+        "[bodies.a]\ncopies=[[0, 0]]\n[bodies.a1]\n[time]\nend=1",
+        "another name",
+        "[time]\nend=1",
     ),
 }

@@ -1,0 +1,108 @@
+"""Contact methods of one contact: of a solid with a tool, or of two solids."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.discretised import DiscreteSolid
+from softway.bodies.rigid_motion import RigidShape
+from softway.bodies.solid import Tool
+from softway.contact.assembly.body_surface import BodySurface
+from softway.contact.contact import Contact, DualMortar, NodeToSurface
+from softway.contact.mortar.mortar import Mortar
+from softway.contact.node_to_surface.edge_to_edge import EdgeToEdge
+from softway.contact.node_to_surface.node_to_facet import NodeToFacet
+from softway.contact.node_to_surface.node_to_tool import NodeToTool
+from softway.contact.stencils import SurfacePair
+from softway.contact.surfaces.search_margin import FRACTION, SearchMargin
+from softway.errors import InputError, within
+from softway.meshes.mesh import Mesh
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ContactMethods:
+    """Methods of one contact.
+
+    Parameters
+    ----------
+    methods
+        They make the rows of the contact.
+    nodes
+        (k,) nodes that may touch.
+    edges
+        Mean lengths of the edges of its deformable surfaces, if they are searched [m].
+    overlap
+        Methods that detect the overlap of nodes, where the rows are mean gaps.
+    margin
+        Margin of the search in a slab.
+    """
+
+    methods: tuple[NodeToTool | SurfacePair, ...]
+    nodes: IntArray
+    edges: tuple[float, ...] = ()
+    overlap: tuple[SurfacePair, ...] = ()
+    margin: SearchMargin | None = None
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return sum(len(m.node) for m in self.methods)
+
+
+def with_tool(contact: Contact, part: DiscreteSolid, tool: Tool | RigidShape, buried: IntArray) -> ContactMethods:
+    """Nodes of a solid against a tool, without those ``buried`` (k,) in ties."""
+    if contact.method is not None and not isinstance(contact.method, NodeToSurface):
+        raise InputError("method", f"{contact.method} against a tool", "NodeToSurface, or nothing")
+    with within("between"):
+        nodes = np.setdiff1d(_outer(part.mesh, part.mesh.nodes(contact.tag)) + part.nodes.start, buried)
+        if not len(nodes):
+            raise InputError("", f"ties cover all nodes of {contact.names[0]!r}", "a tag of its free surface")
+    return ContactMethods(methods=(NodeToTool(node=nodes, tool=tool, name=contact.opponent),), nodes=nodes)
+
+
+def _outer(mesh: Mesh, nodes: IntArray) -> IntArray:
+    """Nodes (k,) of a tag that are on the surface, if any are; bars have their nodes on the outside."""
+    if mesh.dim == 1 or mesh.cell_dim < mesh.dim:
+        return nodes
+    found = np.intersect1d(nodes, mesh.nodes("surface"))
+    return found if len(found) else nodes
+
+
+def of_two(contact: Contact, one: BodySurface, other: BodySurface, thickness: Array) -> ContactMethods:
+    """Contact of two solids: the finer surface is the slave; sharp corners and edges have their own rows."""
+    fine, coarse = sorted((one, other), key=lambda s: s.edge)
+    located, dim = not contact.timing.massless, fine.side.dim
+    method = contact.method or (NodeToSurface() if dim == 1 or located else DualMortar())
+    found: list[SurfacePair]
+    overlap: tuple[SurfacePair, ...] = ()
+    if isinstance(method, NodeToSurface):
+        found = [
+            _on(fine.side.nodes, fine, coarse, thickness),
+            _on(coarse.side.nodes if method.nodes == "both" else coarse.corners, coarse, fine, thickness),
+        ]
+    elif dim == 1 or located:
+        problem = f"DualMortar with {contact.timing}" if located else "DualMortar between bars in 1D"
+        raise InputError("method", problem, "NodeToSurface, or nothing")
+    else:
+        found = [Mortar(slave_facets=fine.side.facets, master_facets=coarse.side.facets, thickness=thickness)]
+        found += [_on(fine.corners, fine, coarse, thickness), _on(coarse.corners, coarse, fine, thickness)]
+        overlap = (_on(fine.side.nodes, fine, coarse, thickness), _on(coarse.side.nodes, coarse, fine, thickness))
+    found = [m for m in found if len(m.node)]
+    if fine.edges is not None and coarse.edges is not None and len(fine.edges.ends) and len(coarse.edges.ends):
+        found.append(EdgeToEdge(first=fine.edges, second=coarse.edges))
+    nodes = np.concatenate([one.side.nodes, other.side.nodes])
+    edges, margin = (fine.edge, coarse.edge), margin_of((fine, coarse), ~np.eye(2, dtype=bool))
+    return ContactMethods(methods=tuple(found), nodes=nodes, edges=edges, overlap=overlap, margin=margin)
+
+
+def margin_of(surfaces: Sequence[BodySurface], meet: BoolArray) -> SearchMargin:
+    """Margin of the search of surfaces that may ``meet`` (k, k)."""
+    edge = max(s.edge for s in surfaces)
+    return SearchMargin(distance=FRACTION * edge, sides=tuple(s.side for s in surfaces), meet=meet)
+
+
+def _on(nodes: IntArray, own: BodySurface, surface: BodySurface, thickness: Array) -> NodeToFacet:
+    """Contact of nodes (k,) of the surface ``own`` with the facets of another surface."""
+    return NodeToFacet(slaves=nodes, side=surface.side, own=own.side, thickness=thickness)

@@ -1,0 +1,178 @@
+"""Nodes of a surface that follow another surface: dual mortar weights for all components, without inequalities.
+
+The dual basis makes the matrix of the following nodes diagonal, so that their motion is an explicit mean of that of the
+other surface (docs/theory/contact/ties.md).
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.linalg import splu
+
+from softway.arrays import Array, IntArray
+from softway.contact.mortar.facet_pairs import unit, vector_areas
+from softway.contact.mortar.gap_weights import GapWeights, gap_weights
+from softway.contact.mortar.linear_surface import LINEAR, LinearSurface
+from softway.contact.mortar.mortar import Mortar, MortarContact, corners_of
+from softway.contact.mortar.overlap import Overlap
+
+LEAST = 1e-14
+"""Weight below which a node has no part in the motion of another."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Following:
+    """Nodes that follow a surface.
+
+    Parameters
+    ----------
+    node
+        (m,) nodes that follow.
+    weights
+        (m, n) their motion from that of all nodes; the rows add up to one, and are empty for nodes off the surface.
+    covered, facing
+        Cell name -> (f,) covered fractions of the facets of the nodes, and of those of the surface that they follow.
+    """
+
+    node: IntArray
+    weights: sp.csr_array
+    covered: Mapping[str, Array]
+    facing: Mapping[str, Array]
+
+
+def following(slave: Mapping[str, IntArray], master: Mapping[str, IntArray], x: Array, reach: float) -> Following:
+    """Nodes of the facets ``slave`` that follow the facets ``master``, both cell name -> (f, b) nodes turned outward.
+
+    Parameters
+    ----------
+    slave, master
+        The surfaces.
+    x
+        (n, d) positions at which they are glued [m].
+    reach
+        Greatest distance of the surfaces [m].
+
+    Examples
+    --------
+    >>> x = np.array([[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [2.0, 0.0]])
+    >>> found = following({"bar2": np.array([[1, 0]])}, {"bar2": np.array([[2, 3]])}, x, 0.1)
+    >>> (3.0 * found.weights.toarray()).round(12).tolist(), found.facing["bar2"].round(12).tolist()
+    ([[0.0, 0.0, 2.0, 1.0], [0.0, 0.0, 1.0, 2.0]], [0.333333333333])
+    """
+    both = common_parts(slave, master, x, reach)
+    return Following(
+        node=both.met.slave.node,
+        weights=_weights(both),
+        covered=_of_facets(slave, both.met.slave, both.part, both.sizes[0]),
+        facing=_of_facets(
+            master,
+            both.met.master,
+            np.bincount(both.j, both.common.measure, len(both.sizes[1])).astype(float),
+            both.sizes[1],
+        ),
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class CommonParts:
+    """Common parts of two surfaces.
+
+    Parameters
+    ----------
+    met
+        The surfaces, with their simplices that may overlap.
+    common
+        Overlaps of the pairs.
+    functions
+        Dual functions on the covered parts.
+    i, j
+        (s,) simplices of both surfaces that overlap.
+    part
+        (p,) covered length or area of the simplices of the first surface [m^r].
+    sizes
+        Lengths or areas (p,) and (q,) of the simplices [m^r].
+    """
+
+    met: MortarContact
+    common: Overlap
+    functions: GapWeights
+    i: IntArray
+    j: IntArray
+    part: Array
+    sizes: tuple[Array, Array]
+
+    @property
+    def own(self) -> sp.csr_array:
+        """Integrals (m, c) of the dual functions times those of the control points [m^r]."""
+        return self.met.slave.nodal(self.functions.own)
+
+    @property
+    def cross(self) -> sp.csr_array:
+        """Integrals (m, n) of the dual functions times the motion of the other surface [m^r]."""
+        met = self.met
+        found = self.functions.integrals(self.i, self.common.cross, met.master.corner.T[:, self.j], met.lift.shape[0])
+        return sp.csr_array(met.slave.nodal(found) @ met.lift)
+
+
+def common_parts(slave: Mapping[str, IntArray], master: Mapping[str, IntArray], x: Array, reach: float) -> CommonParts:
+    """Common parts of two surfaces; arguments as of :func:`following`."""
+    met = Mortar(slave_facets=slave, master_facets=master).meet(x, x, reach)
+    below = corners_of(met.slave.spread @ (met.control @ x), met.slave.corner)
+    above = corners_of(met.lift @ x, met.master.corner)
+    areas = vector_areas(below)
+    common = met.overlap(below, areas, above, -unit(met.vertex_weights @ areas.T, axis=1))
+    i, j = met.pairs.slave[common.pair], met.pairs.master[common.pair]
+    mass = common.mass(i, below.shape[2])
+    size, other = (np.sqrt(np.sum(a**2, axis=0)) for a in (areas, vector_areas(above)))
+    part = mass.sum(axis=(0, 1))
+    functions = gap_weights(met.slave, met.control @ x, np.where(part > 0.0, part, size), mass)  # dual where covered
+    return CommonParts(met=met, common=common, functions=functions, i=i, j=j, part=part, sizes=(size, other))
+
+
+def _weights(both: CommonParts) -> sp.csr_array:
+    """Weights (m, n): the means of the surface, less what the control points have from other nodes than their own."""
+    met, own, cross = both.met, both.own, both.cross
+    if met.slave.sharing is not None:
+        whole = sp.csr_array(own @ met.slave.control)
+        alone = sp.diags_array(np.where(whole.diagonal() == 0.0, 1.0, 0.0))  # nodes off the surface
+        return _solved(sp.csc_array(whole + alone), sp.csc_array(cross))
+    total = own.diagonal()
+    means = sp.csr_array(sp.diags_array(np.where(total > 0.0, 1.0, 0.0) / np.where(total > 0.0, total, 1.0)) @ cross)
+    main = met.slave.control.diagonal()
+    others = sp.csr_array(met.slave.control - sp.diags_array(main))  # of corners, which are their own control points
+    return _without_rounding(sp.csr_array(sp.diags_array(1.0 / main) @ (means - others @ means)))
+
+
+def _solved(own: sp.csc_array, cross: sp.csc_array) -> sp.csr_array:
+    """Solution (m, n) of own w = cross, where eight-node facets couple the nodes."""
+    used = np.flatnonzero(np.diff(cross.indptr))
+    dense = splu(own).solve(cross[:, used].toarray())
+    spread = sp.csr_array((np.ones(len(used)), (np.arange(len(used)), used)), shape=(len(used), cross.shape[1]))
+    return _without_rounding(sp.csr_array(sp.csr_array(dense) @ spread))
+
+
+def _without_rounding(weights: sp.csr_array) -> sp.csr_array:
+    """Weights without those that are rounding."""
+    weights.data[np.abs(weights.data) < LEAST] = 0.0
+    weights.eliminate_zeros()
+    weights.sort_indices()
+    return weights
+
+
+def _of_facets(facets: Mapping[str, IntArray], surface: LinearSurface, part: Array, whole: Array) -> dict[str, Array]:
+    """Fractions (f,) of the facets by cell name, from the parts (p,) of the simplices of their linear surface."""
+    of_kind, first = {}, 0
+    for kind, cells in surface.facets.items():
+        of_kind[kind] = first
+        first += len(cells) * (4 if kind == "quad4" else 1)
+    out = {}
+    for cell, nodes in facets.items():
+        if len(nodes):
+            kind, parts = LINEAR[cell]
+            q = len(parts) * (4 if kind == "quad4" else 1)
+            here = slice(of_kind[kind], of_kind[kind] + q * len(nodes))
+            of_kind[kind] = here.stop
+            out[cell] = part[here].reshape(-1, q).sum(axis=1) / whole[here].reshape(-1, q).sum(axis=1)
+    return out

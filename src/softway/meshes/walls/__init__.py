@@ -1,0 +1,1 @@
+"""Walls one cell thick: where they are, and their division into two layers."""

@@ -1,0 +1,1 @@
+"""Rigid bodies in the model of a scene."""
