@@ -50,7 +50,7 @@ def serve(run: Run, *, port: int = 0, browser: bool = True, live: bool = False, 
     require_free(port)
     made, token = page(run, live), secrets.token_urlsafe(16)
     server = made.server
-    server.cli.parse_known_args = partial(server.cli.parse_known_args, ["--authKey", token])
+    server.cli.parse_known_args = partial(server.cli.parse_known_args, [f"--authKey={token}"])
     server.controller.on_server_bind.add(Guard(token).watch)
     with ExitStack() as held:
 

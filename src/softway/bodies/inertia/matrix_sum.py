@@ -109,7 +109,7 @@ def bonded_sum(dofs: Summing, constant: sp.csc_array, solids: sp.csc_array, rows
     >>> none, one = sp.csc_array((2, 2)), sp.csr_array(np.array([[1.0, -1.0]]))
     >>> total = bonded_sum(NodalDofs(np.ones((2, 1), bool)), none, sp.csc_array(np.eye(2)), one)
     >>> total.of(np.array([1.0, 1.0, 5.0]), 2.0).toarray().tolist()
-    [[11.0, -10.0], [-10.0, 11.0]]
+    [[12.0, -10.0], [-10.0, 12.0]]
     """
     size = constant.shape[0]
     d = size // rows.shape[1]

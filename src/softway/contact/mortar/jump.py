@@ -78,7 +78,7 @@ def jump(slave: Mapping[str, IntArray], master: Mapping[str, IntArray], x: Array
     --------
     >>> x = np.array([[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [2.0, 0.0]])
     >>> found = jump({"bar2": np.array([[1, 0]])}, {"bar2": np.array([[2, 3]])}, x, 0.1)
-    >>> found.area.tolist(), (3.0 * found.rows.toarray()).round(12).tolist(), found.normals.at(x).tolist()
+    >>> found.area.tolist(), (3.0 * found.rows.toarray()).round(12).tolist(), (found.normals.at(x) + 0.0).tolist()
     ([0.5, 0.5], [[3.0, 0.0, -2.0, -1.0], [0.0, 3.0, -1.0, -2.0]], [[0.0, -1.0], [0.0, -1.0]])
     """
     both = common_parts(slave, master, x, reach)

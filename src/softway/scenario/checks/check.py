@@ -1,19 +1,14 @@
 """Check of a scenario before the computation, and the scales of its bodies and contacts."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from itertools import combinations
 
 import numpy as np
-from scipy.spatial import cKDTree
 
-from softway.arrays import Array
 from softway.bodies.discretised import dofs_of
 from softway.bodies.solid import Solid
-from softway.contact.contact_rows import ContactRows
 from softway.errors import Cancel, InputError, Note, within
 from softway.march.march_state import MarchState, Settings
-from softway.march.start.initial_state import SOON
 from softway.march.start.preparation import prepare
 from softway.meshes.files.listed_mesh import LeftOut
 from softway.model.build import build
@@ -51,13 +46,7 @@ from softway.scenario.checks.notes import (
 )
 from softway.scenario.checks.pile import CheckedPile, check_pile, is_pile
 from softway.scenario.checks.probes import probe_readings
-from softway.scenario.checks.scales import (
-    BodyScales,
-    ContactScales,
-    body_scales,
-    contact_duration,
-    soft_duration,
-)
+from softway.scenario.checks.scales import BodyScales, ContactScales, body_scales, contact_scales
 from softway.scenario.checks.softening_notes import softening_notes
 from softway.scenario.checks.tool_notes import unit_notes
 from softway.scenario.checks.value_types import require
@@ -66,8 +55,6 @@ from softway.scenario.scenario import Scenario
 
 MOST = 1_000_000_000
 """Maximum number of time steps (slabs) in a run."""
-SAME = 1e-9
-"""Difference of gaps relative to the body length below which two places are regarded as equally near."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -159,7 +146,7 @@ def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked
     bodies = _scales({n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}, scenario)
     march_state = _begun(scenario, model, cancel)
     step = march_state.step_history.span
-    contacts = _contacts(model, bodies)
+    contacts = contact_scales(model, bodies)
     flutter = flutter_notes(model, march_state.state, step, scenario.time.end)
     return Checked(
         scenario=scenario,
@@ -248,63 +235,3 @@ def _require_scenario(scenario: object) -> None:
     if not isinstance(scenario, Scenario):
         raise InputError("scenario", f"{scenario!r:.60} is no scenario", "a Scenario, such as softway.load(FILE)")
     require(scenario, Scenario, "")
-
-
-def _contacts(model: Model, bodies: Mapping[str, BodyScales]) -> dict[str, ContactScales]:
-    """Scales of all contacts by their labels."""
-    u, contacts = model.displacement, model.scene.contacts
-    if not contacts:
-        return {}
-    rows, driven = model.rows(u), model.contacts.meet(u, u, 0.0, SOON).at(u).tool_motion / SOON
-    return {c.label: _contact(model, k, bodies, rows, driven) for k, c in enumerate(contacts)}
-
-
-def _contact(
-    model: Model, number: int, bodies: Mapping[str, BodyScales], rows: ContactRows, driven: Array
-) -> ContactScales:
-    """Scales of one contact, from all ``rows`` (m,) and the normal velocities ``driven`` (m,) of their tools."""
-    u = model.displacement
-    here = np.flatnonzero(rows.of_contact(number) & rows.near)
-    if not len(here):
-        direction, gap, speed, met = _nearest(model, number)
-    else:
-        gaps, speeds = rows.gap(u)[here], (driven - rows.normal_component(model.velocity))[here]
-        same = SAME * max(bodies[model.parts[k].name].length for k in model.contact_solids[number])
-        least = np.flatnonzero(gaps <= gaps.min() + same)
-        first = least[np.argmax(speeds[least])]
-        direction, gap, speed = rows.normal[here[first]], float(gaps.min()), float(speeds[first])
-        met = np.unique(model.part_of[rows.gradient[[here[first]]].indices // model.shape[1]]).tolist()
-    parts = [model.parts[k] for k in met]
-    waves = [bodies[p.name].wave_speed for p in parts]
-    durations = [contact_duration(p.mesh.points, direction, c) for p, c in zip(parts, waves, strict=True)]
-    return ContactScales(
-        nodes=len(np.unique(rows.node[rows.of_contact(number)])),
-        gap=gap,
-        approach=speed + 0.0,
-        duration=soft_duration(durations, [p.materials.impedance(p.internal.section) for p in parts]),
-    )
-
-
-def _nearest(model: Model, number: int) -> tuple[Array, float, float, Sequence[int]]:
-    """Direction (d,), distance and closing speed between the nearest nodes of distant solids, and the numbers of both.
-
-    A body that is in contact with itself only has an infinite distance.
-    """
-    numbers = {p.name: k for k, p in enumerate(model.parts)}
-    surfaces = [
-        (numbers[name], model.parts[numbers[name]].mesh.nodes(tag) + model.parts[numbers[name]].nodes.start)
-        for name, tag in model.scene.contacts[number].surfaces
-    ]
-    x, best = model.points + model.displacement, None
-    for (k, one), (l, other) in combinations(surfaces, 2):
-        distance, found = cKDTree(x[other]).query(x[one])
-        least = int(np.argmin(distance))
-        if k != l and (best is None or distance[least] < best[0]):
-            middles = x[one].mean(axis=0) - x[other].mean(axis=0)
-            best = float(distance[least]), one[least], other[found[least]], middles, (k, l)
-    if best is None:
-        return np.eye(model.shape[1])[0], float("inf"), 0.0, model.contact_solids[number]
-    distance, a, b, middles, met = best
-    away = x[a] - x[b] if distance > 0.0 else middles
-    direction = away / max(float(np.linalg.norm(away)), 1e-300)
-    return direction, distance, -float((model.velocity[a] - model.velocity[b]) @ direction), met
