@@ -10,6 +10,9 @@ from softway.bodies.discretised import DiscreteSolid
 from softway.contact.surfaces.boundary import ContactSurface, Edges, outward
 from softway.errors import InputError, within
 
+SAME = 1e-9
+"""Difference of mean edges, relative to them, up to which two surfaces are equally fine."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class BodySurface:
@@ -65,6 +68,11 @@ def body_surface(
     edges = side.sharp_edges(points) if dim == 3 else None
     corners = side.sharp_corners(points) if edges is None else np.unique(edges.ends)
     return BodySurface(side=side, corners=corners, edges=edges, edge=float(lengths.mean()))
+
+
+def finer_first(one: BodySurface, two: BodySurface) -> tuple[BodySurface, BodySurface]:
+    """The finer surface, then the other one; of equally fine ones the first, however their edges are rounded."""
+    return (two, one) if two.edge < (1.0 - SAME) * one.edge else (one, two)
 
 
 def covered(facets: IntArray, kind: str, sealed: Mapping[str, IntArray] | None) -> BoolArray:

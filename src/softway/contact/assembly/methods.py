@@ -9,7 +9,7 @@ from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.rigid_motion import RigidShape
 from softway.bodies.solid import Tool
-from softway.contact.assembly.body_surface import BodySurface
+from softway.contact.assembly.body_surface import BodySurface, finer_first
 from softway.contact.contact import Contact, DualMortar, NodeToSurface
 from softway.contact.mortar.mortar import Mortar
 from softway.contact.node_to_surface.edge_to_edge import EdgeToEdge
@@ -72,7 +72,7 @@ def _outer(mesh: Mesh, nodes: IntArray) -> IntArray:
 
 def of_two(contact: Contact, one: BodySurface, other: BodySurface, thickness: Array) -> ContactMethods:
     """Contact of two solids: the finer surface is the slave; sharp corners and edges have their own rows."""
-    fine, coarse = sorted((one, other), key=lambda s: s.edge)
+    fine, coarse = finer_first(one, other)
     located, dim = not contact.timing.massless, fine.side.dim
     method = contact.method or (NodeToSurface() if dim == 1 or located else DualMortar())
     found: list[SurfacePair]

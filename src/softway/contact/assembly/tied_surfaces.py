@@ -8,7 +8,7 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
 from softway.bodies.discretised import DiscreteSolid
-from softway.contact.assembly.body_surface import BodySurface, body_surface
+from softway.contact.assembly.body_surface import BodySurface, body_surface, finer_first
 from softway.contact.assembly.tie import Tie
 from softway.contact.mortar.following import Following, following
 from softway.errors import InputError, within
@@ -73,10 +73,10 @@ def _of_tie(tie: Tie, number: int, parts: Sequence[DiscreteSolid], points: Array
         far = float(np.linalg.norm(np.ptp(points[np.concatenate([one.side.nodes, two.side.nodes])], axis=0)))
         apart = [way for way in _ways(one, two, points, far) if _least(way) >= COMPLETE]
         _require_close(tie, apart, points, edge)
-        raise _not_facing(tie, ways if one.edge <= two.edge else ways[::-1])
+        raise _not_facing(tie, ways if finer_first(one, two)[0] is one else ways[::-1])
     _require_close(tie, found, points, edge)
     sealed: dict[str, list[IntArray]] = {}
-    fine, coarse = sorted((one, two), key=lambda s: s.edge)
+    fine, coarse = finer_first(one, two)
     way = ways[0]
     for surface, share in ((fine, way.covered), (coarse, way.facing)):
         for kind, facets in surface.side.facets.items():
@@ -92,7 +92,7 @@ def _of_tie(tie: Tie, number: int, parts: Sequence[DiscreteSolid], points: Array
 
 def _ways(one: BodySurface, two: BodySurface, points: Array, reach: float) -> list[Following]:
     """The finer surface follows the coarser one, and the other way round."""
-    fine, coarse = sorted((one, two), key=lambda s: s.edge)
+    fine, coarse = finer_first(one, two)
     if fine.side.dim == 1:
         return [_ends(fine, coarse, points, reach), _ends(coarse, fine, points, reach)]
     return [following(a.side.facets, b.side.facets, points, reach) for a, b in ((fine, coarse), (coarse, fine))]
