@@ -77,6 +77,10 @@ of 1 allowed; the last: exchange 1 of 5 active rows
         """Count a factor of ``size`` unknowns that takes about so many floating-point operations, before it is made."""
         self.factors += 1
         self._factor = None
+        self.restored(size, operations)
+
+    def restored(self, size: int, operations: float) -> None:
+        """Tell a factor that is made again; the attempt counts its own ones, as if the march had not been resumed."""
         self.tell(f"factoring {size} unknowns, about {operations:.0e} operations", operations / SPEED)
 
     def factored(self, factor: Factor) -> None:

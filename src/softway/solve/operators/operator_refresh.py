@@ -38,7 +38,7 @@ def restored(system: SlabEquations, memory: OperatorMemory, serves: bool) -> Ope
         analysis = origin.analyst.make(matrix, origin.at, None).analysis
     if not serves:
         return replace(memory, analysis=analysis)
-    announce(system, origin.operator)
+    announce(system, origin.operator, again=True)
     made = origin.operator.make(matrix, origin.at, analysis)
     frozen = made.frozen(system.directions(turning=memory.mixed)).filled(memory.batches)
     return replace(memory, frozen=frozen, analysis=made.analysis)
@@ -75,10 +75,11 @@ def renewed(
     )
 
 
-def announce(system: SlabEquations, operator: Operator) -> None:
-    """Count the factor of a slab before it is made."""
+def announce(system: SlabEquations, operator: Operator, again: bool = False) -> None:
+    """Count the factor of a slab before it is made; one that is made ``again`` is told only."""
     if isinstance(operator, Factored):
-        system.effort.factor(system.model.dofs.size, factor_operations(system.model))
+        tell = system.effort.restored if again else system.effort.factor
+        tell(system.model.dofs.size, factor_operations(system.model))
 
 
 def analyst(memory: OperatorMemory, made: BuiltOperator, operator: Operator) -> Operator | None:
