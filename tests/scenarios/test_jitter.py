@@ -21,8 +21,12 @@ RARELY = "output.fields_every=1 h"
 """Frames at the start and the end only."""
 TOUCHES = {1e-6: 0, 1e-2: 2}
 """Greatest difference of the numbers of touches and of releases, by the size of the movements in cells."""
-FIRST = {1e-6: 1e-3, 1e-2: 0.5}
-"""Greatest difference of the instant of the first touch, in slabs."""
+SENSITIVE = 1.0 / 3.0
+"""Greatest difference of the number of touches, relative to it, of variants that are sensitive to movements of any size.
+Nodes there let go and touch again in neighbouring slabs: the releases are not compared."""
+FIRST = {1e-6: 1e-3, 1e-2: 1.0}
+"""Greatest difference of the instant of the first touch, in slabs: the surfaces of both bodies move, by up to .1 mm in
+the largest cells, and these take up to .9 slabs for it."""
 IMPULSE = {1e-6: 1e-4, 1e-2: 0.05}
 """Greatest difference of the impulse of a contact, relative to it."""
 BALANCE = 10.0 * ENERGY
@@ -62,7 +66,8 @@ def test_moved_nodes_change_little(name, given, size, seed, still, tmp_path):
     found, expected = moved.summary["contacts"], still.summary["contacts"]
     assert found.keys() == expected.keys()
     for label in expected:
-        assert_contact(found[label], expected[label], size, float(still.history["h"].max()))
+        slab, sensitive = float(still.history["h"].max()), bool(VARIANTS[name].sensitive)
+        assert_contact(found[label], expected[label], size, slab, sensitive)
 
 
 def assert_energy(given: Scenario, moved: sw.Run, still: sw.Run) -> None:
@@ -77,11 +82,14 @@ def assert_energy(given: Scenario, moved: sw.Run, still: sw.Run) -> None:
     assert history["energy_error"].min() >= -tolerance - lost
 
 
-def assert_contact(found: Mapping[str, Any], expected: Mapping[str, Any], size: float, slab: float) -> None:
+def assert_contact(
+    found: Mapping[str, Any], expected: Mapping[str, Any], size: float, slab: float, sensitive: bool
+) -> None:
     """Touches, releases, first touch and impulse of a contact are the same up to the tolerances."""
-    assert found["touches"] == pytest.approx(expected["touches"], abs=TOUCHES[size])
-    assert found["releases"] == pytest.approx(expected["releases"], abs=TOUCHES[size])
-    assert found["impulse"] == pytest.approx(expected["impulse"], rel=IMPULSE[size])
+    touches = SENSITIVE * expected["touches"] if sensitive else TOUCHES[size]
+    assert found["touches"] == pytest.approx(expected["touches"], abs=touches)
+    assert sensitive or found["releases"] == pytest.approx(expected["releases"], abs=touches)
+    assert found["impulse"] == pytest.approx(expected["impulse"], rel=IMPULSE[1e-2 if sensitive else size])
     if expected["first_touch"] is None:
         assert found["first_touch"] is None
     else:
@@ -94,7 +102,7 @@ def test_every_scenario_has_a_variant_that_touches_as_it_does():
         shipped, given = whole(name), small(name)
         assert len(variant.same) > 40 and given.time.end <= shipped.time.end, name
         assert given.contacts == shipped.contacts or "contacts" in variant.changes[0], name
-        assert [type(body) for body in given.bodies.values()] == [type(body) for body in shipped.bodies.values()], name
+        assert {type(body) for body in given.bodies.values()} == {type(body) for body in shipped.bodies.values()}, name
 
 
 def test_jitter_moves_all_nodes_but_those_that_are_held(name, given):

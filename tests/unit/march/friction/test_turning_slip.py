@@ -157,6 +157,10 @@ def test_blocks_on_a_shaking_floor(law, seed):
 @pytest.mark.parametrize("law", ["tresca", "film"])
 def test_with_central_differences_energy_from_turning_slip_is_an_error_of_the_balance(law):
     """They have no scalar that could close it: the ledger tells the energy as what it is."""
-    lost, errors, _ = energies(sw.march(blocks(LAWS[law], 3), until=2.0, method=sw.Explicit()))
-    assert lost.min() >= -1e-12
-    assert np.abs(errors).max() < 1e-3
+    errors = []
+    for step in (0.04, 0.01):
+        lost, found, _ = energies(sw.march(blocks(LAWS[law], 3), until=2.0, step=step, method=sw.Explicit()))
+        assert lost.min() >= -1e-12
+        errors.append(np.abs(found).max())
+    assert errors[0] < 1e-4
+    assert errors[1] < 0.75 * errors[0]
