@@ -14,6 +14,8 @@ from softway.model.build import build
 from softway.model.field import Field, FieldSlab, FieldSolution, FieldState
 from softway.model.model import Model
 
+pytestmark = pytest.mark.slow
+
 E, CAPACITY, CELLS, LENGTH = 1.0, 2.0, 20, 1.0
 
 

@@ -9,6 +9,8 @@ import softway as sw
 from softway.apps.verify.exact import semidiscrete as discrete
 from softway.apps.verify.scenes import bars
 
+pytestmark = pytest.mark.slow
+
 UNTIL, STEP, COARSE, SPEED = 10.0, 0.02, 0.04, 0.01
 RULES = {
     "impulse": sw.contact.Impulse(),

@@ -22,9 +22,25 @@ from typing import Any
 from page import table
 
 ROOT = Path(__file__).parents[2]
-READING = ("tests/house", "tests/unit/scenario/remedies", "tests/unit/scenario/text")
-"""Folders of tests that read and refuse, and round nothing."""
-QUICK = ("-q", "--dist", "loadscope", "-m", "not slow and not minutes", *(f"--ignore={folder}" for folder in READING))
+READING = (
+    "house",
+    "examples",
+    "robustness",
+    "unit/apps",
+    "unit/meshes",
+    "unit/record",
+    "unit/studies",
+    "unit/scenario",
+)
+"""Folders of tests that read, refuse, write and show: what they compute, other tests compute, too."""
+QUICK = (
+    "-q",
+    "--dist",
+    "loadscope",
+    "-m",
+    "not slow and not minutes",
+    *(f"--ignore=tests/{folder}" for folder in READING),
+)
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 AVX2 = frozenset({"avx2", "fma"})
 AVX512 = frozenset({"avx512f", "avx512dq", "avx512bw", "avx512vl", "avx512cd"})

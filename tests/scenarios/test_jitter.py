@@ -22,8 +22,8 @@ RARELY = "output.fields_every=1 h"
 TOUCHES = {1e-6: 0, 1e-2: 2}
 """Greatest difference of the numbers of touches and of releases, by the size of the movements in cells."""
 SENSITIVE = 1.0 / 3.0
-"""Greatest difference of the number of touches, relative to it, of variants that are sensitive to movements of any size.
-Nodes there let go and touch again in neighbouring slabs: the releases are not compared."""
+"""Greatest difference of the number of touches, relative to it, of variants that are sensitive to all movements. Nodes
+let go there and touch again in neighbouring slabs: the releases are not compared."""
 FIRST = {1e-6: 1e-3, 1e-2: 1.0}
 """Greatest difference of the instant of the first touch, in slabs: the surfaces of both bodies move, by up to .1 mm in
 the largest cells, and these take up to .9 slabs for it."""

@@ -114,7 +114,7 @@ VARIANTS: Mapping[str, Variant] = {
             "time.end=1.5 ms",
         ),
         same="three links of the same mesh: the first two tighten, and the third follows",
-        sensitive="nodes and edges of links at right angles meet each other at once; which are first decides what follows",
+        sensitive="nodes and edges of links at right angles meet at once; which are first decides what follows",
     ),
     "elastic_cradle": Variant(
         changes=(*(f"bodies.disc{k}.mesh.cells=8" for k in range(1, 6)), "time.end=5 ms", "time.step=0.5 ms"),

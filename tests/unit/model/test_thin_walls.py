@@ -109,6 +109,7 @@ def test_a_glued_face_keeps_its_mass() -> None:
     assert model.mass.sum() == pytest.approx(2 * 0.6, rel=1e-13)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [FREE, TIED], ids=["free", "tied"])
 def test_a_run_holds_its_balances_and_is_resumed_with_the_same_bits(text: str, tmp_path: Path) -> None:
     whole = sw.run(sw.loads(text), tmp_path / "whole")

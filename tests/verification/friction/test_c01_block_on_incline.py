@@ -9,6 +9,7 @@ from softway.apps.verify.cases.friction.c01_block_on_incline import MASS, SPEED,
 REFERENCE = results.case("C01")["reference"]
 
 
+@pytest.mark.slow
 def test_the_case():
     assert results.missed("C01") == set()
 

@@ -40,6 +40,7 @@ def solved(name: str) -> discrete.Motion:
     return discrete.solve(mesh, np.zeros(3), np.ones(3), gap=0.0, until=UNTIL, rule=rule)
 
 
+@pytest.mark.slow
 def test_case() -> None:
     assert results.missed("A03") == set()
 

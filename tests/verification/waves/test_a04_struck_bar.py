@@ -21,6 +21,7 @@ def error(step: float, weight: TimeWeight) -> float:
     return float(np.abs(free(step, weight).displacement[-1, 1:] - exact).max())
 
 
+@pytest.mark.slow
 def test_case() -> None:
     assert results.missed("A04") == set()
 

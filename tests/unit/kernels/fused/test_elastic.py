@@ -216,6 +216,7 @@ def test_exponential() -> None:
     assert ends[:2].tolist() == pytest.approx([np.exp(-700.0), np.exp(700.0)])
 
 
+@pytest.mark.slow
 def test_inverse_cube_root() -> None:
     """To two units in the last place of the exact root; ``nan`` where the number is not positive."""
 

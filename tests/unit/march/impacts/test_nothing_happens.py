@@ -7,6 +7,8 @@ import softway as sw
 from softway.bodies.internal_force.slab_average import EnergyMomentum
 from softway.contact import Energy, Impulse, Paper
 
+pytestmark = pytest.mark.slow
+
 LAWS = [
     sw.LinearElastic(E=210e9, nu=0.3),
     sw.NeoHookean(E=210e9, nu=0.3),

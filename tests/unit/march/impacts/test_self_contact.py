@@ -51,6 +51,7 @@ def closed(contacts: tuple[Contact, ...]) -> tuple[list, list[int]]:
     return steps, [crossings(solid.mesh.points + s.after.displacement["s"], segments) for s in steps[::4]]
 
 
+@pytest.mark.slow
 def test_the_ends_of_a_ring_meet_and_part_without_crossing() -> None:
     assert max(closed(())[1]) >= 2, "without contact they move through each other"
     steps, cross = closed((Contact(between=("s", "s")),))
@@ -81,6 +82,7 @@ def discs(contacts: tuple[Contact, ...]) -> list:
     return list(march(sw.Scene(bodies=bodies, contacts=contacts), until=0.06, step=5e-4))
 
 
+@pytest.mark.slow
 def test_a_list_of_bodies_moves_as_its_pairs() -> None:
     both = NodeToSurface(nodes="both")
     pairs = tuple(Contact(between=p, method=both) for p in (("a", "b"), ("a", "c"), ("b", "c")))

@@ -58,6 +58,7 @@ def test_the_folds_of_a_crushed_strip_meet_and_part_again() -> None:
     assert pierced(x + step.after.displacement["strip"], surface(mesh)) == 0.0
 
 
+@pytest.mark.slow
 def test_three_blocks_that_fall_on_each_other_keep_energy_and_no_edge_pierces_a_facet() -> None:
     """The blocks are turned and shifted: edges cross edges, and corners lie on faces.
 

@@ -122,6 +122,7 @@ def test_one_cell_is_computed_as_two_layers() -> None:
     np.testing.assert_allclose(*ends, atol=1e-9 * T)
 
 
+@pytest.mark.slow
 def test_around_a_roller_as_with_eight_cells() -> None:
     roller = sw.Tool(shape=Sphere(radius=0.1, centre=(0.5, -0.1001)))
     found = []

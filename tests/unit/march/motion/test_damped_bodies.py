@@ -67,6 +67,7 @@ def tilted_box(step: float, cells: tuple[int, int]) -> list[sw.Step]:
     return list(sw.march(scene, until=0.02, step=step))
 
 
+@pytest.mark.slow
 def test_a_damped_box_that_bounces_is_not_held_up():
     """After the release the forces at the ends of a slab are nearly the same: the viscous ones close the balance.
 

@@ -49,6 +49,7 @@ def test_energy_and_momentum_are_kept_through_an_impact(mass, mu):
     assert steps[-1].after.rigid["disc"].velocity[1] > 0.0
 
 
+@pytest.mark.slow
 def test_spin_is_kept_by_a_solid_of_large_strain():
     block = replace(BLOCK, material=sw.NeoHookean(E=1000.0, nu=0.3), force=EnergyMomentum())
     drift = []
@@ -59,6 +60,7 @@ def test_spin_is_kept_by_a_solid_of_large_strain():
     assert drift[1] < 0.6 * drift[0]  # the arms of friction at both ends of a slab differ by the slip
 
 
+@pytest.mark.slow
 def test_a_rigid_mass_hits_an_elastic_rod_as_by_st_venant():
     mass, speed, length, n = 4.0, 0.1, 1.0, 50  # rod: c = 1, rho A = 1; the force decays by exp(-rho A c t / m)
     rod = sw.Solid(
@@ -124,6 +126,7 @@ def test_a_very_heavy_body_moves_the_solid_as_a_tool_does():
         assert np.abs(u - v).max() < 1e-7 * max(np.abs(v).max(), 1e-3)
 
 
+@pytest.mark.slow
 def test_a_box_that_slides_on_an_elastic_layer_is_braked_by_coulomb_s_law():
     layer = sw.Solid(
         mesh=sw.meshes.Rectangle(size=(4.0, 0.5), cells=(16, 2), origin=(-1.0, -0.5)),

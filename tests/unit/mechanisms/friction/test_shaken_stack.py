@@ -7,6 +7,8 @@ import pytest
 
 from softway.mechanisms import Mechanism, Motor, PlaneStop, RatePolyline, Rigid, Slider, march
 
+pytestmark = pytest.mark.slow
+
 WIDE, HIGH, BOXES = 0.1, 0.05, 10
 
 

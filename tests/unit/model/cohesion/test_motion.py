@@ -44,6 +44,7 @@ def worst(step: sw.Step) -> float:
     return max(float(damage.max()) for damage in step.after.fields["damage"].values())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("contact", [False, True], ids=["alone", "contact"])
 def test_a_block_that_spins_breaks_apart(contact: bool) -> None:
     """All balances hold while it turns and breaks in both modes, with unilateral contact of the pieces or without."""

@@ -13,6 +13,8 @@ from softway.record.audit.geometry.overlap import overlaps
 from softway.record.audit.geometry.solids import Solids, solids
 from softway.record.audit.geometry.tools import behind, sunk
 
+pytestmark = pytest.mark.slow
+
 PLANE = ("tri3", "tri6", "quad4", "quad9")
 SPACE = ("tet4", "tet10", "hex8", "hex27")
 

@@ -55,6 +55,7 @@ def test_the_page_is_whole_and_names_no_other_file(run):
     assert parts.seen.count("tr") == run.events.rows + 1
 
 
+@pytest.mark.slow
 def test_pictures_of_a_long_run_are_chosen(tmp_path):
     run = sw.run(sw.load(FOLDER / "slider_crank.toml", ("time.end=10 ms",)), tmp_path / "run")
     assert run.motion.rows == 101 > FRAMES

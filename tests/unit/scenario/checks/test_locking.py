@@ -12,6 +12,8 @@ from softway.laws.law import Material, initial_moduli
 from softway.march.start.initial_state import initial_state
 from softway.scenario.checks.locking import flowing, poisson
 
+pytestmark = pytest.mark.slow
+
 ELASTIC = sw.LinearElastic(E=1e4, nu=0.3)
 PLASTIC = sw.laws.J2(E=200.0, nu=0.3, yield_stress=1.0)
 VISCOUS = sw.laws.NortonHoff(K=1.0, m=0.2)

@@ -50,6 +50,7 @@ def test_press_fit_whose_facets_do_not_match_is_noted_with_the_numbers() -> None
     assert checked((160, 128)) == () and error((160, 128)) < 0.3 * error((40, 32))  # shorter edges
 
 
+@pytest.mark.slow
 def test_quadratic_facets_are_noted_where_mortar_replaces_them() -> None:
     (note,) = checked((40, 32), "quad9")
     assert "(19% of it)" in note

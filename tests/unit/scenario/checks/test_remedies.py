@@ -7,6 +7,8 @@ follow it.
 from collections.abc import Iterator, Mapping
 from itertools import islice, product
 
+import pytest
+
 from softway.errors import InputError
 from softway.march.march import march
 from softway.model.build import build
@@ -14,6 +16,8 @@ from softway.scenario.checks.check import check
 from softway.scenario.files import loads
 from softway.scenario.hints.units_text import Units
 from softway.scenario.scenario import Scenario
+
+pytestmark = pytest.mark.slow
 
 UNITS = Units.standard()
 CHOICES = {

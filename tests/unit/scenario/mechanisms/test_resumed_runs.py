@@ -118,6 +118,7 @@ def test_a_changed_scenario_is_refused(tmp_path):
         sw.resume(tmp_path / "copy")
 
 
+@pytest.mark.slow
 def test_a_sweep_resumes_mechanisms(tmp_path):
     values = {"stops.anvil.restitution": [0.5]}
     file, changes = FOLDER / "hammer_on_stop.toml", ENDS["hammer_on_stop"]

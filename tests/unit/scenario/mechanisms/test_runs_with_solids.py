@@ -143,6 +143,7 @@ def test_a_flexible_rod_moves_the_slider_nearly_as_a_rigid_one(tmp_path):
     assert run.history["slider"] == pytest.approx(rigid, abs=2e-5)
 
 
+@pytest.mark.slow
 def test_a_cradle_of_elastic_discs_passes_the_velocity_on_less_what_vibrates(tmp_path):
     cells = tuple(f"bodies.disc{k}.mesh.cells=8" for k in range(1, 6))
     run = sw.run(

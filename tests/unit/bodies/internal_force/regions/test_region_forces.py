@@ -146,6 +146,7 @@ def test_two_bodies_of_several_materials_touch() -> None:
     assert any(after.after.closed["one.top-other.bottom"].any() for after in steps)
 
 
+@pytest.mark.slow
 def test_averages_of_the_volume_change_end_at_the_interface() -> None:
     """A nearly incompressible layer on a soft one, with linear pressures in each region: the ledger closes."""
     laws = {"low": sw.NeoHookean(E=1.0, nu=0.499), "tip": NEO, "high": sw.LinearElastic(E=0.5, nu=0.1)}
