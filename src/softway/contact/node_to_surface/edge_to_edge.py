@@ -44,7 +44,7 @@ class EdgeCrossings:
     Parameters
     ----------
     gap
-        (p,) [m].
+        (p,) [m]; of edges that are parallel their distance, negative where they are behind each other.
     normal
         (p, 3) common unit normal.
     s, t
@@ -85,11 +85,13 @@ def edge_crossings(x: Array, one: Edges, two: Edges) -> EdgeCrossings:
     normal = np.cross(u, v)
     normal /= np.sqrt(np.where(crossing, dot(normal, normal), 1.0))[:, None]
     around_one, around_two = one.normals(x), two.normals(x)
-    lean = dot(normal, around_two[0] + around_two[1] - around_one[0] - around_one[1])
-    normal *= np.where(lean < 0.0, -1.0, 1.0)[:, None]
+    out = around_two[0] + around_two[1] - around_one[0] - around_one[1]
+    normal *= np.where(dot(normal, out) < 0.0, -1.0, 1.0)[:, None]
     convex = _convex(u, *around_one) & _convex(v, *around_two)
     valid = crossing & convex & _among(normal, *around_two) & _among(-normal, *around_one)
-    gap = np.where(crossing, dot(normal, w), np.inf)
+    apart = w - (dot(w, u) / uu)[:, None] * u
+    beside = np.copysign(np.sqrt(dot(apart, apart)), dot(apart, out))
+    gap = np.where(crossing, dot(normal, w), beside)
     return EdgeCrossings(gap=gap, normal=normal, s=s, t=t, valid=valid)
 
 

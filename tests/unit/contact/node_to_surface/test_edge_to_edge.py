@@ -148,3 +148,19 @@ def test_an_edge_that_leans_over_a_face_touches_it_with_its_end_and_not_the_rim(
         assert sign * rows.normal[rim] == pytest.approx(
             np.tile([0.0, sine, np.sqrt(1.0 - sine**2)], (rim.sum(), 1)), abs=1e-14
         )
+
+
+@pytest.mark.parametrize("twist", [0.02, -0.02])
+def test_edges_that_begin_parallel_cross_in_front_and_never_through_a_body(twist: float) -> None:
+    """The upper and the lower edge of a block are apart by its height, but not in front of each other."""
+    mesh, side = box((4.0, 1.0, 1.0), (3, 1, 1)), ContactSurface(facets=box((4.0, 1.0, 1.0), (3, 1, 1)).boundary())
+    low = turned(mesh, ROOF, (0.0, 0.0, -np.sqrt(0.5)))
+    high, later = (turned(mesh, rotation(2, t) @ ROOF, (0.1, 0.0, np.sqrt(0.5) + 0.1)) for t in (0.0, twist))
+    x0, x1 = np.concatenate([low, high]), np.concatenate([low, later])
+    above = ContactSurface(facets={kind: found + len(low) for kind, found in side.facets.items()})
+    ahead = EdgeToEdge(first=above.sharp_edges(x0), second=side.sharp_edges(x0)).meet(x0, x1, 0.2).at(x1)
+    assert ahead.gap.min() == pytest.approx(0.1, abs=1e-12)
+    bent = low.copy()
+    bent[:, 1] += twist * low[:, 0] * low[:, 2]
+    own = side.sharp_edges(low)
+    assert not np.isfinite(EdgeToEdge(first=own, second=own).meet(low, bent, 2.0).at(bent).gap).any()
