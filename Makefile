@@ -11,7 +11,7 @@ help:
 	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
 	@echo "make test   unit tests, verification cases, doctests"
 	@echo "make test-slow  those that take long: many impacts, fine meshes, kills, sweeps, every command of the pages"
-	@echo "make test-pages  what the pages say takes minutes, every scenario, and a fresh clone to its first picture"
+	@echo "make test-pages  what takes minutes: commands of the pages, every scenario, more seeds, a fresh clone to its first picture"
 	@echo "make test-processors  make test with the instructions of several processors, into docs/verification/processors.md; SETS=nehalem for one"
 	@echo "make test-view the page of softway view in a Chromium without a screen, which has to be there"
 	@echo "make coverage  the same, with the lines and branches that did not run"
@@ -51,7 +51,7 @@ test: $(TEST)/ready
 	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope -m "not slow and not minutes"
 
 test-slow: $(TEST)/ready
-	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope -m slow --durations=15
+	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope -m "slow and not minutes" --durations=15
 
 test-pages: $(TEST)/ready
 	$(TEST)/bin/python -m pytest -n $(JOBS) -m minutes --durations=0

@@ -16,7 +16,7 @@ from variants import MECHANISMS, SCENARIOS, VARIANTS, small, whole
 
 pytestmark = pytest.mark.slow
 
-SEEDS = range(5)
+SEEDS = (0, *(pytest.param(seed, marks=pytest.mark.minutes) for seed in range(1, 5)))
 RARELY = "output.fields_every=1 h"
 """Frames at the start and the end only."""
 TOUCHES = {1e-6: 0, 1e-2: 2}
