@@ -1,6 +1,5 @@
 """Stencils of contact rows: gap, normal, and weights of the nodes."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -106,19 +105,3 @@ def normal_component(weights: sp.csr_array, normal: Array) -> sp.csr_array:
     data = (weights.data[:, None] * normal[row]).ravel()
     column = (weights.indices[:, None].astype(np.int64) * d + np.arange(d)).ravel()
     return sp.csr_array((data, column, weights.indptr * d), shape=(m, n * d))
-
-
-def interleaved(parts: Sequence[sp.csr_array]) -> sp.csr_array:
-    """Interleave the d components (m, n) of rows to (m, n d).
-
-    Examples
-    --------
-    >>> interleaved([sp.csr_array(np.array([[1.0, 2.0]])), sp.csr_array(np.array([[3.0, 4.0]]))]).toarray().tolist()
-    [[1.0, 3.0, 2.0, 4.0]]
-    """
-    m, n = parts[0].shape
-    d = len(parts)
-    coo = [p.tocoo() for p in parts]
-    row = np.concatenate([c.coords[0] for c in coo])
-    column = np.concatenate([c.coords[1].astype(np.int64) * d + k for k, c in enumerate(coo)])
-    return sp.csr_array((np.concatenate([c.data for c in coo]), (row, column)), shape=(m, n * d))

@@ -12,11 +12,13 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from softway.arrays import Array, IntArray
-from softway.contact.mortar.facet_pairs import unit, vector_areas
-from softway.contact.mortar.gap_weights import GapWeights, gap_weights
+from softway.contact.mortar.facet_pairs import unit
+from softway.contact.mortar.gap_weights import gap_weights
 from softway.contact.mortar.linear_surface import LINEAR, LinearSurface
-from softway.contact.mortar.mortar import Mortar, MortarContact, corners_of
+from softway.contact.mortar.mortar import Mortar
 from softway.contact.mortar.overlap import Overlap
+from softway.kernels.mortar.simplices import vector_areas
+from softway.kernels.mortar.tables import Functions
 
 LEAST = 1e-14
 """Weight below which a node has no part in the motion of another."""
@@ -63,13 +65,13 @@ def following(slave: Mapping[str, IntArray], master: Mapping[str, IntArray], x: 
     """
     both = common_parts(slave, master, x, reach)
     return Following(
-        node=both.met.slave.node,
+        node=both.mortar.slave.node,
         weights=_weights(both),
-        covered=_of_facets(slave, both.met.slave, both.part, both.sizes[0]),
+        covered=_of_facets(slave, both.mortar.slave, both.part, both.sizes[0]),
         facing=_of_facets(
             master,
-            both.met.master,
-            np.bincount(both.j, both.common.measure, len(both.sizes[1])).astype(float),
+            both.mortar.master,
+            np.bincount(both.common.master, both.common.measure, len(both.sizes[1])).astype(float),
             both.sizes[1],
         ),
     )
@@ -81,67 +83,84 @@ class CommonParts:
 
     Parameters
     ----------
-    met
-        The surfaces, with their simplices that may overlap.
+    mortar
+        The surfaces.
+    nodes
+        Number n of the nodes of the model.
+    weights
+        (m, p) weights of the simplices that may overlap for the nodes.
     common
-        Overlaps of the pairs.
+        Overlaps of their simplices.
     functions
         Dual functions on the covered parts.
-    i, j
-        (s,) simplices of both surfaces that overlap.
     part
         (p,) covered length or area of the simplices of the first surface [m^r].
     sizes
         Lengths or areas (p,) and (q,) of the simplices [m^r].
     """
 
-    met: MortarContact
+    mortar: Mortar
+    nodes: int
+    weights: sp.csr_array
     common: Overlap
-    functions: GapWeights
-    i: IntArray
-    j: IntArray
+    functions: Functions
     part: Array
     sizes: tuple[Array, Array]
 
     @property
     def own(self) -> sp.csr_array:
         """Integrals (m, c) of the dual functions times those of the control points [m^r]."""
-        return self.met.slave.nodal(self.functions.own)
+        slave, facets = self.mortar.slave, self.mortar.tables.facets
+        facet, row, column = np.nonzero(self.functions.own)
+        cells, c = facets.cells[facet], slave.control.shape[0]
+        place = (np.take_along_axis(cells, k[:, None], axis=1).ravel() for k in (row, column))
+        return slave.nodal(sp.csr_array((self.functions.own[facet, row, column], tuple(place)), (c, c)))
 
     @property
     def cross(self) -> sp.csr_array:
         """Integrals (m, n) of the dual functions times the motion of the other surface [m^r]."""
-        met = self.met
-        found = self.functions.integrals(self.i, self.common.cross, met.master.corner.T[:, self.j], met.lift.shape[0])
-        return sp.csr_array(met.slave.nodal(found) @ met.lift)
+        slave, master, facets = self.mortar.slave, self.mortar.master, self.mortar.tables.facets
+        block = self.functions.values[self.common.slave] @ self.common.cross
+        cells = np.repeat(facets.cells, np.diff(facets.simplex), axis=0)[self.common.slave]
+        pair, row, column = np.nonzero(block)
+        place = cells[pair, row], master.corner[self.common.master][pair, column]
+        shape = (slave.control.shape[0], master.spread.shape[0])
+        found = slave.nodal(sp.csr_array((block[pair, row, column], place), shape))
+        return sp.csr_array(found @ (master.spread @ master.onto(self.nodes)))
 
 
 def common_parts(slave: Mapping[str, IntArray], master: Mapping[str, IntArray], x: Array, reach: float) -> CommonParts:
     """Common parts of two surfaces; arguments as of :func:`following`."""
-    met = Mortar(slave_facets=slave, master_facets=master).meet(x, x, reach)
-    below = corners_of(met.slave.spread @ (met.control @ x), met.slave.corner)
-    above = corners_of(met.lift @ x, met.master.corner)
-    areas = vector_areas(below)
-    common = met.overlap(below, areas, above, -unit(met.vertex_weights @ areas.T, axis=1))
-    i, j = met.pairs.slave[common.pair], met.pairs.master[common.pair]
-    mass = common.mass(i, below.shape[2])
-    size, other = (np.sqrt(np.sum(a**2, axis=0)) for a in (areas, vector_areas(above)))
-    part = mass.sum(axis=(0, 1))
-    functions = gap_weights(met.slave, met.control @ x, np.where(part > 0.0, part, size), mass)  # dual where covered
-    return CommonParts(met=met, common=common, functions=functions, i=i, j=j, part=part, sizes=(size, other))
+    mortar = Mortar(slave_facets=slave, master_facets=master)
+    met, tables = mortar.meet(x, x, reach), mortar.tables
+    below, above = tables.vertices(x)
+    areas = vector_areas(below, tables.slave.corner)
+    common = met.overlap(below, above, areas, -unit(met.vertex_weights @ areas, axis=1))
+    mass = common.mass(len(areas))
+    size, other = (np.sqrt(np.sum(a**2, axis=1)) for a in (areas, vector_areas(above, tables.master.corner)))
+    part = mass.sum(axis=(1, 2))
+    return CommonParts(
+        mortar=mortar,
+        nodes=len(x),
+        weights=met.vertex_weights,
+        common=common,
+        functions=gap_weights(mortar.slave, below, np.where(part > 0.0, part, size), mass),  # dual where covered
+        part=part,
+        sizes=(size, other),
+    )
 
 
 def _weights(both: CommonParts) -> sp.csr_array:
     """Weights (m, n): the means of the surface, less what the control points have from other nodes than their own."""
-    met, own, cross = both.met, both.own, both.cross
-    if met.slave.sharing is not None:
-        whole = sp.csr_array(own @ met.slave.control)
+    slave, own, cross = both.mortar.slave, both.own, both.cross
+    if slave.sharing is not None:
+        whole = sp.csr_array(own @ slave.control)
         alone = sp.diags_array(np.where(whole.diagonal() == 0.0, 1.0, 0.0))  # nodes off the surface
         return _solved(sp.csc_array(whole + alone), sp.csc_array(cross))
     total = own.diagonal()
     means = sp.csr_array(sp.diags_array(np.where(total > 0.0, 1.0, 0.0) / np.where(total > 0.0, total, 1.0)) @ cross)
-    main = met.slave.control.diagonal()
-    others = sp.csr_array(met.slave.control - sp.diags_array(main))  # of corners, which are their own control points
+    main = slave.control.diagonal()
+    others = sp.csr_array(slave.control - sp.diags_array(main))  # of corners, which are their own control points
     return _without_rounding(sp.csr_array(sp.diags_array(1.0 / main) @ (means - others @ means)))
 
 

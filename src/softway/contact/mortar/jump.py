@@ -7,10 +7,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
-from softway.contact.mortar.facet_pairs import unit, vector_areas
+from softway.contact.mortar.facet_pairs import unit
 from softway.contact.mortar.following import common_parts
 from softway.contact.mortar.linear_surface import LinearSurface
-from softway.contact.mortar.mortar import corners_of
+from softway.kernels.mortar.simplices import vector_areas
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -31,8 +31,8 @@ class FacetNormals:
 
     def at(self, x: Array) -> Array:
         """Unit normals (m, d), into the body, at the positions ``x`` (n, d)."""
-        corners = corners_of(self.surface.spread @ (self.control @ x), self.surface.corner)
-        return -unit(self.weights @ vector_areas(corners).T, axis=1)
+        areas = vector_areas(self.surface.spread @ (self.control @ x), self.surface.corner)
+        return -unit(self.weights @ areas, axis=1)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -82,12 +82,13 @@ def jump(slave: Mapping[str, IntArray], master: Mapping[str, IntArray], x: Array
     ([0.5, 0.5], [[3.0, 0.0, -2.0, -1.0], [0.0, 3.0, -1.0, -2.0]], [[0.0, -1.0], [0.0, -1.0]])
     """
     both = common_parts(slave, master, x, reach)
-    met, own = both.met, sp.csr_array(both.own @ both.met.control)
+    control = both.mortar.slave.onto(len(x))
+    own = sp.csr_array(both.own @ control)
     area = np.asarray(own.sum(axis=1)).ravel()
     here = np.flatnonzero(area > 0.0)
     rows = sp.csr_array(sp.diags_array(1.0 / area[here]) @ sp.csr_array(own - both.cross)[here])
-    normals = FacetNormals(surface=met.slave, control=met.control, weights=sp.csr_array(met.vertex_weights[here]))
-    return Jump(node=met.slave.node[here], rows=rows, area=area[here], normals=normals)
+    normals = FacetNormals(surface=both.mortar.slave, control=control, weights=sp.csr_array(both.weights[here]))
+    return Jump(node=both.mortar.slave.node[here], rows=rows, area=area[here], normals=normals)
 
 
 def end_jump(one: int, two: int, sign: float, nodes: int) -> Jump:

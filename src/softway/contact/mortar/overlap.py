@@ -4,7 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softway.arrays import Array, BoolArray, IntArray
+from softway.arrays import Array, IntArray
+from softway.contact.mortar.facet_pairs import FacetPairs
+from softway.contact.mortar.surface_tables import SurfaceTables
+from softway.kernels.mortar.segments import segment_overlap
+from softway.kernels.mortar.simplices import keep_near
+from softway.kernels.mortar.tables import Pairs
+from softway.kernels.mortar.triangles import triangle_overlap
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -13,45 +19,68 @@ class Overlap:
 
     Parameters
     ----------
-    pair
-        (s,) number of the pair, ascending.
+    slave, master
+        (s,) simplices of the pairs; ``slave`` ascends.
     own
-        (k, k, s) with both coordinates on the slave simplex.
+        (s, k, k) with both coordinates on the slave simplex.
     cross
-        (k, k, s) with one coordinate on the slave simplex, the other on the master simplex.
+        (s, k, k) with one coordinate on the slave simplex, the other on the master simplex.
 
     Examples
     --------
-    Two pairs of segments: the overlap of the first has a length of one, that of the second is empty:
+    Two pairs of segments: the overlap of the first has a length of one, that of the second is half of it:
 
-    >>> third = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6.0
-    >>> own = np.stack([third, 0.0 * third], axis=2)
-    >>> common = Overlap(pair=np.array([4, 7]), own=own, cross=own)
-    >>> common.measure.round(12).tolist(), common.subset(common.measure > 0.0).pair.tolist()
-    ([1.0, 0.0], [4])
+    >>> own = np.array([1.0, 0.5])[:, None, None] * np.array([[2.0, 1.0], [1.0, 2.0]]) / 6.0
+    >>> common = Overlap(slave=np.array([0, 0]), master=np.array([3, 4]), own=own, cross=own)
+    >>> common.measure.round(12).tolist(), common.mass(2).sum(axis=(1, 2)).round(12).tolist()
+    ([1.0, 0.5], [1.5, 0.0])
     """
 
-    pair: IntArray
+    slave: IntArray
+    master: IntArray
     own: Array
     cross: Array
 
     @property
     def measure(self) -> Array:
         """Length or area (s,) of the overlap."""
-        return np.asarray(self.own.sum(axis=(0, 1)))
+        return np.asarray(self.own.sum(axis=(1, 2)))
 
-    def subset(self, which: BoolArray) -> "Overlap":
-        """Subset of the pairs."""
-        return Overlap(
-            pair=self.pair[which],
-            own=np.compress(which, self.own, axis=2),
-            cross=np.compress(which, self.cross, axis=2),
-        )
-
-    def mass(self, simplex: IntArray, count: int) -> Array:
-        """Sums (k, k, count) of ``own`` over the pairs of each slave simplex; ``simplex`` (s,) ascends."""
-        out = np.zeros((*self.own.shape[:2], count))
-        first = np.flatnonzero(np.diff(simplex, prepend=-1))
+    def mass(self, count: int) -> Array:
+        """Sums (count, k, k) of ``own`` over the pairs of each slave simplex."""
+        out = np.zeros((count, *self.own.shape[1:]))
+        first = np.flatnonzero(np.diff(self.slave, prepend=-1))
         if len(first):
-            out[..., simplex[first]] = np.add.reduceat(self.own, first, axis=2)
+            out[self.slave[first]] = np.add.reduceat(self.own, first, axis=0)
         return out
+
+    def pairs(self, count: int) -> Pairs:
+        """Pairs of the slave simplices for the loops."""
+        first = np.searchsorted(self.slave, np.arange(count + 1))
+        return Pairs(first=first, master=self.master, own=self.own, cross=self.cross)
+
+
+def overlap(
+    tables: SurfaceTables, pairs: FacetPairs, below: Array, above: Array, areas: Array, normal: Array
+) -> Overlap:
+    """Overlap of the pairs within their limits.
+
+    Parameters
+    ----------
+    tables, pairs
+        The surfaces, and their simplices that may touch.
+    below, above
+        Vertices (v, d) of the slave and (w, d) of the master [m].
+    areas
+        (p, d) normals of the slave simplices, with their length or area as magnitude.
+    normal
+        (m, d) unit normals at the nodes of the slave, into the body.
+    """
+    i, j, slave, master = pairs.slave, pairs.master, tables.slave.corner, tables.master.corner
+    pair, (own, cross) = np.empty(len(i), np.int64), np.empty((2, len(i), slave.shape[1], slave.shape[1]))
+    if below.shape[1] == 2:
+        count = segment_overlap(below, slave, -normal, above, master, i, j, pair, own, cross)
+    else:
+        count = triangle_overlap(below, slave, above, master, i, j, pair, own, cross)
+    count = keep_near(below, slave, above, master, areas, i, j, pairs.limit, count, pair, own, cross)
+    return Overlap(slave=i[pair[:count]], master=j[pair[:count]], own=own[:count], cross=cross[:count])

@@ -29,6 +29,8 @@ _SHARED = (
     "fused/history_stages.py",
     "fused/inelastic.py",
     "fused/stages.py",
+    "mortar/simplices.py",
+    "mortar/tables.py",
     "multibody/angles.py",
     "multibody/band.py",
     "rigid_contact/cone.py",

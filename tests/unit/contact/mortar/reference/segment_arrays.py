@@ -1,9 +1,9 @@
-"""Overlap of pairs of segments in the plane, projected along the continuous field of slave normals."""
+"""NumPy reference: overlap of pairs of segments in the plane, projected along the continuous field of slave normals."""
 
 import numpy as np
+from overlap_arrays import Overlap
 
 from softway.arrays import Array, IntArray
-from softway.contact.mortar.overlap import Overlap
 
 BEYOND = 0.5
 """Distance beyond the ends of the master, in its lengths, at which a slave point may face its continuation."""

@@ -1,10 +1,10 @@
-"""Overlap of pairs of triangles in space, projected along the normals of the slave triangles."""
+"""NumPy reference: overlap of pairs of triangles in space, projected along the normals of the slave triangles."""
 
 import numpy as np
+from clip_arrays import clip
+from overlap_arrays import Overlap
 
 from softway.arrays import Array, IntArray
-from softway.contact.mortar.overlap import Overlap
-from softway.kernels.geometry.polygon_clipping import clip
 
 EDGE_ON = 1e-10
 """Area over the square of the edges, below which the projected master triangle is degenerate."""

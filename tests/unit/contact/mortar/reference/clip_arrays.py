@@ -1,4 +1,4 @@
-"""Clipping of convex polygons, batched: each polygon is cut by one linear function."""
+"""NumPy reference: clipping of convex polygons, batched: each polygon is cut by one linear function."""
 
 import numpy as np
 

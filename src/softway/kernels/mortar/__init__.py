@@ -1,0 +1,1 @@
+"""Compiled geometry of mortar contact: overlaps of facet pairs, and contact rows."""

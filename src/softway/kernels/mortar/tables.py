@@ -1,0 +1,54 @@
+"""Arrays of two surfaces of simplices for the compiled loops of mortar contact."""
+
+from typing import NamedTuple
+
+from softway.arrays import Array, IntArray
+
+
+class Vertices(NamedTuple):
+    """Vertices of a surface from its nodes, and its simplices.
+
+    Vertex v is the sum of the nodes ``column`` with the factors ``value`` between ``start[v]`` and ``start[v + 1]``;
+    ``corner`` (p, k) are the vertices of the simplices.
+    """
+
+    start: IntArray
+    column: IntArray
+    value: Array
+    corner: IntArray
+
+
+class Facets(NamedTuple):
+    """Facets of the slave, with their test functions.
+
+    ``cells`` (f, b) are control points, which are the first vertices, -1 where a facet has fewer than b; the simplices
+    of a facet are ``simplex[f]`` to ``simplex[f + 1]``.  The test function of a row is the sum of the functions
+    ``place`` of the facets ``facet`` with the factors ``share``, between ``start[r]`` and ``start[r + 1]``.
+    """
+
+    cells: IntArray
+    simplex: IntArray
+    start: IntArray
+    facet: IntArray
+    place: IntArray
+    share: Array
+
+
+class Functions(NamedTuple):
+    """Test functions: ``values`` (p, b, k) at the corners of the simplices, and ``own`` (f, b, b): integrals with the
+    shape functions of the facets over the covered parts [m^r].
+    """
+
+    values: Array
+    own: Array
+
+
+class Pairs(NamedTuple):
+    """Pairs of simplices that overlap: those of a slave simplex are ``first[p]`` to ``first[p + 1]``, with the master
+    simplices ``master`` (s,) and the integrals ``own`` and ``cross`` (s, k, k) of products of coordinates [m^r].
+    """
+
+    first: IntArray
+    master: IntArray
+    own: Array
+    cross: Array

@@ -1,0 +1,162 @@
+"""Overlap of pairs of triangles in space, projected along the normals of the slave triangles.
+
+The master triangle is projected onto the plane of the slave triangle and cut by its edges (Puso and Laursen, 2004), in
+barycentric coordinates of the slave triangle: these are the distances from its edges.
+"""
+
+import numpy as np
+
+from softway.kernels.jit.compilation import inlined, kernel
+
+EDGE_ON = 1e-10
+"""Area over the square of the edges, below which the projected master triangle is degenerate."""
+MOST = 24
+"""Greatest number of corners: three cuts, each of which doubles it at worst, where rounding bends edges on the cut."""
+
+
+@kernel
+def triangle_overlap(slave, corner, master, other, i, j, pair, own, cross):
+    """Overlaps of the pairs of triangles i, j (s,); returns their number.
+
+    Arguments: vertices (v, 3) and corners (p, 3) of the slave, vertices (w, 3) and corners (q, 3) of the master.  The
+    results are the numbers of the pairs with an overlap, and the integrals (s, 3, 3) of products of barycentric
+    coordinates, ``own`` with both on the slave and ``cross`` with one on the slave, the other on the master.
+    """
+    toward, seen, outward = np.empty((2, 3)), np.empty((3, 2)), np.empty((3, 3))
+    polygon, left, last, found, area = np.empty((MOST, 2)), np.empty((MOST, 2)), -1, 0, 0.0
+    for s in range(len(i)):
+        if i[s] != last:
+            last = i[s]
+            area = _toward(slave, corner, last, toward)
+        first = corner[last, 0]
+        for c in range(3):
+            for g in range(2):
+                seen[c, g] = 0.0
+                for x in range(3):
+                    seen[c, g] += toward[g, x] * (master[other[j[s], c], x] - slave[first, x])
+        turn = _from_master(seen, outward)
+        if not _may_overlap(seen, outward, turn):
+            continue
+        polygon[:3] = seen
+        count = _cut(polygon, left)
+        if count > 2 and _moments(left, count, area, found, own) > 0.0:
+            pair[found] = s
+            for a in range(3):
+                for b in range(3):
+                    cross[found, a, b] = 0.0
+                    for c in range(3):
+                        cross[found, a, b] += own[found, a, c] * (outward[(b + 1) % 3, c] / turn)
+            found += 1
+    return found
+
+
+@inlined
+def _toward(slave, corner, i, toward):
+    """Gradients (2, 3) of the last two barycentric coordinates of a slave triangle; returns twice its area."""
+    a, b, c = corner[i]
+    ux, uy, uz = slave[b, 0] - slave[a, 0], slave[b, 1] - slave[a, 1], slave[b, 2] - slave[a, 2]
+    vx, vy, vz = slave[c, 0] - slave[a, 0], slave[c, 1] - slave[a, 1], slave[c, 2] - slave[a, 2]
+    nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    square = nx * nx + ny * ny + nz * nz
+    toward[0, 0], toward[0, 1], toward[0, 2] = vy * nz - vz * ny, vz * nx - vx * nz, vx * ny - vy * nx
+    toward[1, 0], toward[1, 1], toward[1, 2] = ny * uz - nz * uy, nz * ux - nx * uz, nx * uy - ny * ux
+    for g in range(2):
+        for x in range(3):
+            toward[g, x] /= square
+    return np.sqrt(square)
+
+
+@inlined
+def _from_master(seen, outward):
+    """Outward distances (3, 3) of the slave corners from the edges of the master triangle, times the edge lengths.
+
+    ``seen`` (3, 2) are the last two coordinates of the master on the slave.  Returns twice the area of the master
+    relative to that of the slave: negative where the two face each other, zero for a degenerate projection.
+    """
+    square = 0.0
+    for e in range(3):
+        x, y = seen[e, 0], seen[e, 1]
+        run, rise = seen[(e + 1) % 3, 0] - x, seen[(e + 1) % 3, 1] - y
+        outward[e, 0] = rise * x - run * y
+        outward[e, 1], outward[e, 2] = outward[e, 0] - rise, outward[e, 0] + run
+        square += run * run + rise * rise
+    turn = (seen[1, 0] - seen[0, 0]) * (seen[2, 1] - seen[1, 1]) - (seen[1, 1] - seen[0, 1]) * (seen[2, 0] - seen[1, 0])
+    return turn if -turn > EDGE_ON * square else 0.0
+
+
+@inlined
+def _may_overlap(seen, outward, turn):
+    """True unless the edges of one of the triangles show that the two are apart or do not face each other."""
+    if not turn < 0.0:
+        return False
+    most = max(1.0 - seen[0, 0] - seen[0, 1], 1.0 - seen[1, 0] - seen[1, 1], 1.0 - seen[2, 0] - seen[2, 1])
+    if not most > 0.0:
+        return False
+    for g in range(2):
+        if not max(seen[0, g], seen[1, g], seen[2, g]) > 0.0:
+            return False
+    least = -1.0
+    for e in range(3):
+        least = max(least, min(outward[e, 0], outward[e, 1], outward[e, 2]))
+    return least < 0.0
+
+
+@inlined
+def _cut(polygon, out):
+    """Cut the first three corners of ``polygon`` by the edges of the slave: returns the number of corners ``out``.
+
+    Corners at the cut are interpolated along the edge (Sutherland and Hodgman, 1974).
+    """
+    count = 3
+    for side in range(3):
+        left = 0
+        for c in range(count):
+            after = c + 1 if c + 1 < count else 0
+            here, there = _distance(polygon, c, side), _distance(polygon, after, side)
+            if (here >= 0.0) != (there >= 0.0):
+                t = here / (here - there)
+                for x in range(2):
+                    out[left, x] = polygon[c, x] + t * (polygon[after, x] - polygon[c, x])
+                left += 1
+            if there >= 0.0:
+                out[left, 0], out[left, 1] = polygon[after, 0], polygon[after, 1]
+                left += 1
+        count = left
+        for c in range(count):
+            polygon[c, 0], polygon[c, 1] = out[c, 0], out[c, 1]
+    return count
+
+
+@inlined
+def _distance(polygon, c, side):
+    """Barycentric coordinate of a corner: its distance from an edge of the slave."""
+    return polygon[c, side] if side < 2 else 1.0 - polygon[c, 0] - polygon[c, 1]
+
+
+@inlined
+def _moments(polygon, count, area, found, own):
+    """Integrals (3, 3) of products of barycentric coordinates over a polygon, for a triangle of half the ``area``.
+
+    The polygon turns clockwise and is fanned into triangles about its first corner.  Returns the sum of the integrals.
+    """
+    m0 = mx = my = xx = xy = yy = 0.0
+    for c in range(1, count - 1):
+        x, y = polygon[c, 0] - polygon[0, 0], polygon[c, 1] - polygon[0, 1]
+        u, v = polygon[c + 1, 0] - polygon[0, 0], polygon[c + 1, 1] - polygon[0, 1]
+        turn = max(u * y - x * v, 0.0)
+        m0 += 0.5 * turn
+        mx += turn * (x + u) / 6.0
+        my += turn * (y + v) / 6.0
+        xx += turn * (x * x + u * u + x * u) / 12.0
+        xy += turn * (x * y + u * v + 0.5 * (x * v + y * u)) / 12.0
+        yy += turn * (y * y + v * v + y * v) / 12.0
+    start = (1.0 - polygon[0, 0] - polygon[0, 1], polygon[0, 0], polygon[0, 1])
+    mean = (-mx - my, mx, my)
+    second = ((xx + 2.0 * xy + yy, -xx - xy, -xy - yy), (-xx - xy, xx, xy), (-xy - yy, xy, yy))
+    total = 0.0
+    for a in range(3):
+        for b in range(3):
+            value = start[a] * (m0 * start[b] + mean[b]) + start[b] * mean[a] + second[a][b]
+            own[found, a, b] = area * max(value, 0.0)
+            total += own[found, a, b]
+    return total
