@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from softway.arrays import Array, IntArray
+from softway.arrays import Array, BoolArray, IntArray
 
 
 class Vertices(NamedTuple):
@@ -52,3 +52,29 @@ class Pairs(NamedTuple):
     master: IntArray
     own: Array
     cross: Array
+
+
+class Entries(NamedTuple):
+    """Sparse weights (m, n) and slopes (m, n d): entries of the row r are ``start[0, r]`` to ``start[0, r + 1]`` of
+    ``column`` and ``weight``, and ``start[1, r]`` to ``start[1, r + 1]`` of ``component`` and ``slope``.
+    """
+
+    start: IntArray
+    column: IntArray
+    weight: Array
+    component: IntArray
+    slope: Array
+
+
+class Room(NamedTuple):
+    """Sums of one row: terms ``sums`` (u, 2 + d) of the nodes, ``used`` (u,) nodes, their numbers ``listed``,
+    their ``count`` (1,), the sum ``mean`` (d,) of the normals, and a
+    ``vector`` (d,).
+    """
+
+    sums: Array
+    used: BoolArray
+    listed: IntArray
+    count: IntArray
+    mean: Array
+    vector: Array
