@@ -81,6 +81,7 @@ def overlap(
     if below.shape[1] == 2:
         count = segment_overlap(below, slave, -normal, above, master, i, j, pair, own, cross)
     else:
-        count = triangle_overlap(below, slave, above, master, i, j, triangle_room(), pair, own, cross)
+        room = triangle_room(len(slave), len(master))
+        count = triangle_overlap(below, slave, above, master, i, j, room, pair, own, cross)
     count = keep_near(below, slave, above, master, areas, i, j, pairs.limit, count, pair, own, cross)
     return Overlap(slave=i[pair[:count]], master=j[pair[:count]], own=own[:count], cross=cross[:count])

@@ -41,7 +41,7 @@ def gap_rows(
         sums=np.zeros((u, 2 + d)),
         used=np.zeros(u, bool),
         listed=np.empty(u, np.int64),
-        count=np.zeros(1, np.int64),
+        number=np.zeros(1, np.int64),
         mean=np.empty(d),
         vector=np.empty(d),
     )

@@ -17,13 +17,13 @@ def sum_rows(first, slave, master, facets, functions, pairs, facing, leaning, no
     """
     for r in range(first, len(gap)):
         covered = total = 0.0
-        room.count[0] = 0
+        room.number[0] = 0
         for c in range(x.shape[1]):
             room.mean[c] = 0.0
         for use in range(facets.start[r], facets.start[r + 1]):
             covered += _own_part(use, slave, facets, functions, room)
             total += _common_part(use, slave, master, facets, functions, pairs, facing, leaning, room)
-        met = room.count[0]
+        met = room.number[0]
         free = made.start[0, r] + met <= len(made.weight) and made.start[1, r] + x.shape[1] * met <= len(made.slope)
         made.start[0, r + 1], made.start[1, r + 1] = made.start[0, r], made.start[1, r]
         if free and covered > 0.0 and total > 0.0:
@@ -90,8 +90,8 @@ def _spread(surface, vertex, term, amount, room):
     for q in range(surface.start[vertex], surface.start[vertex + 1]):
         column = surface.column[q]
         if not room.used[column]:
-            room.used[column], room.listed[room.count[0]] = True, column
-            room.count[0] += 1
+            room.used[column], room.listed[room.number[0]] = True, column
+            room.number[0] += 1
         room.sums[column, term] += surface.value[q] * amount
 
 
@@ -101,8 +101,8 @@ def _spread_vector(surface, vertex, room):
     for q in range(surface.start[vertex], surface.start[vertex + 1]):
         column = surface.column[q]
         if not room.used[column]:
-            room.used[column], room.listed[room.count[0]] = True, column
-            room.count[0] += 1
+            room.used[column], room.listed[room.number[0]] = True, column
+            room.number[0] += 1
         for c in range(len(room.vector)):
             room.sums[column, SLOPE + c] += surface.value[q] * room.vector[c]
 
@@ -122,7 +122,7 @@ def _sort(listed, count):
 def _write(room, covered, total, node, x, made, end):
     """Write the weights and slopes of a row, without zeros; returns its gap."""
     d, gap = x.shape[1], 0.0
-    for q in range(room.count[0]):
+    for q in range(room.number[0]):
         u = room.listed[q]
         weight = room.sums[u, OWN] / covered - room.sums[u, CROSS] / total
         if weight != 0.0:

@@ -68,13 +68,13 @@ class Entries(NamedTuple):
 
 class Room(NamedTuple):
     """Sums of one row: terms ``sums`` (u, 2 + d) of the nodes, ``used`` (u,) nodes, their numbers ``listed``,
-    their ``count`` (1,), the sum ``mean`` (d,) of the normals, and a
+    their ``number`` (1,), the sum ``mean`` (d,) of the normals, and a
     ``vector`` (d,).
     """
 
     sums: Array
     used: BoolArray
     listed: IntArray
-    count: IntArray
+    number: IntArray
     mean: Array
     vector: Array

@@ -18,10 +18,12 @@ MOST = 24
 
 
 class TriangleRoom(NamedTuple):
-    """Place for one pair: gradients ``toward`` (2, 3), coordinates ``seen`` (3, 2) and ``outward`` (3, 3), corners
-    ``polygon`` and ``cut`` (MOST, 2), and ``moments`` (3, 3).
+    """Circles ``slave`` (p, 4) and ``master`` (q, 4) around triangles, and place for one pair: gradients ``toward``
+    (3, 3), coordinates ``seen`` (3, 2) and ``outward`` (3, 3), corners ``polygon`` and ``cut`` (MOST, 2), ``moments``.
     """
 
+    slave: Array
+    master: Array
     toward: Array
     seen: Array
     outward: Array
@@ -30,9 +32,10 @@ class TriangleRoom(NamedTuple):
     moments: Array
 
 
-def triangle_room() -> TriangleRoom:
-    """Place for one pair."""
-    return TriangleRoom(*(np.empty(shape) for shape in ((2, 3), (3, 2), (3, 3), (MOST, 2), (MOST, 2), (3, 3))))
+def triangle_room(p: int, q: int) -> TriangleRoom:
+    """Place for p slave and q master triangles."""
+    shapes = (p, 4), (q, 4), (3, 3), (3, 2), (3, 3), (MOST, 2), (MOST, 2), (3, 3)
+    return TriangleRoom(*(np.empty(shape) for shape in shapes))
 
 
 @uncounted_kernel
@@ -44,18 +47,24 @@ def triangle_overlap(slave, corner, master, other, i, j, room, pair, own, cross)
     coordinates, ``own`` with both on the slave and ``cross`` with one on the slave, the other on the master.
     """
     last, found, area = -1, 0, 0.0
+    _circles(slave, corner, room.slave)
+    _circles(master, other, room.master)
     for s in range(len(i)):
         if i[s] != last:
             last = i[s]
             area = _toward(slave, corner, last, room.toward)
+        if _apart(room, last, j[s]):
+            continue
         for c in range(3):
             for g in range(2):
                 room.seen[c, g] = 0.0
                 for x in range(3):
                     away = master[other[j[s], c], x] - slave[corner[last, 0], x]
                     room.seen[c, g] += room.toward[g, x] * away
+        if _beyond(room.seen):
+            continue
         turn = _from_master(room.seen, room.outward)
-        if not _may_overlap(room.seen, room.outward, turn):
+        if turn == 0.0 or _behind(room.outward):
             continue
         count = _cut(room.seen, room.polygon, room.cut)
         if count > 2 and _moments(room.cut, count, room.moments) > 0.0:
@@ -70,8 +79,34 @@ def triangle_overlap(slave, corner, master, other, i, j, room, pair, own, cross)
 
 
 @uncounted
+def _circles(vertices, corner, out):
+    """Write the centre of each triangle, and its greatest distance from a corner (q, 4)."""
+    for p in range(len(corner)):
+        square = 0.0
+        for x in range(3):
+            out[p, x] = (vertices[corner[p, 0], x] + vertices[corner[p, 1], x] + vertices[corner[p, 2], x]) / 3.0
+        for c in range(3):
+            away = 0.0
+            for x in range(3):
+                away += (vertices[corner[p, c], x] - out[p, x]) ** 2
+            square = max(square, away)
+        out[p, 3] = np.sqrt(square)
+
+
+@uncounted
+def _apart(room, i, j):
+    """True if the circles of two triangles are apart, as seen along the slave normal."""
+    x, y = room.master[j, 0] - room.slave[i, 0], room.master[j, 1] - room.slave[i, 1]
+    z, both = room.master[j, 2] - room.slave[i, 2], room.master[j, 3] + room.slave[i, 3]
+    height = room.toward[2, 0] * x + room.toward[2, 1] * y + room.toward[2, 2] * z
+    return x * x + y * y + z * z - height * height > both * both
+
+
+@uncounted
 def _toward(slave, corner, i, toward):
-    """Gradients (2, 3) of the last two barycentric coordinates of a slave triangle; returns twice its area."""
+    """Gradients of the last two barycentric coordinates of a slave triangle, and its unit normal; returns twice its
+    area.
+    """
     a, b, c = corner[i, 0], corner[i, 1], corner[i, 2]
     ux, uy, uz = slave[b, 0] - slave[a, 0], slave[b, 1] - slave[a, 1], slave[b, 2] - slave[a, 2]
     vx, vy, vz = slave[c, 0] - slave[a, 0], slave[c, 1] - slave[a, 1], slave[c, 2] - slave[a, 2]
@@ -82,7 +117,9 @@ def _toward(slave, corner, i, toward):
     for g in range(2):
         for x in range(3):
             toward[g, x] /= square
-    return np.sqrt(square)
+    size = np.sqrt(square)
+    toward[2, 0], toward[2, 1], toward[2, 2] = nx / size, ny / size, nz / size
+    return size
 
 
 @uncounted
@@ -90,7 +127,8 @@ def _from_master(seen, outward):
     """Outward distances (3, 3) of the slave corners from the edges of the master triangle, times the edge lengths.
 
     ``seen`` (3, 2) are the last two coordinates of the master on the slave.  Returns twice the area of the master
-    relative to that of the slave: negative where the two face each other, zero for a degenerate projection.
+    relative to that of the slave: negative where the two face each other, otherwise zero, as for a degenerate
+    projection.
     """
     square = 0.0
     for e in range(3):
@@ -104,20 +142,21 @@ def _from_master(seen, outward):
 
 
 @uncounted
-def _may_overlap(seen, outward, turn):
-    """True unless the edges of one of the triangles show that the two are apart or do not face each other."""
-    if not turn < 0.0:
-        return False
+def _beyond(seen):
+    """True if a master triangle lies beyond an edge of the slave triangle."""
     most = max(1.0 - seen[0, 0] - seen[0, 1], 1.0 - seen[1, 0] - seen[1, 1], 1.0 - seen[2, 0] - seen[2, 1])
-    if not most > 0.0:
-        return False
     for g in range(2):
-        if not max(seen[0, g], seen[1, g], seen[2, g]) > 0.0:
-            return False
+        most = min(most, max(seen[0, g], seen[1, g], seen[2, g]))
+    return not most > 0.0
+
+
+@uncounted
+def _behind(outward):
+    """True if the slave triangle lies beyond an edge of the master triangle."""
     least = -1.0
     for e in range(3):
         least = max(least, min(outward[e, 0], outward[e, 1], outward[e, 2]))
-    return least < 0.0
+    return not least < 0.0
 
 
 @uncounted
