@@ -43,7 +43,7 @@ def gap_rows(
         listed=np.empty(u, np.int64),
         number=np.zeros(1, np.int64),
         mean=np.empty(d),
-        vector=np.empty(d),
+        terms=np.empty(1 + d),
     )
     gap, row, made = np.full(m, np.inf), 0, _entries(m, NODES * m, d)
     while True:

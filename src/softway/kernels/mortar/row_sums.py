@@ -49,7 +49,10 @@ def _own_part(use, slave, facets, functions, room):
             amount = facets.share[use] * functions.own[facet, place, b]
             covered += amount
             if amount != 0.0:
-                _spread(slave, facets.cells[facet, b], OWN, amount, room)
+                vertex = facets.cells[facet, b]
+                for q in range(slave.start[vertex], slave.start[vertex + 1]):
+                    _list(slave.column[q], room)
+                    room.sums[slave.column[q], OWN] += slave.value[q] * amount
     return covered
 
 
@@ -65,46 +68,42 @@ def _common_part(use, slave, master, facets, functions, pairs, facing, leaning, 
         if pairs.first[i] == pairs.first[i + 1]:
             continue
         for b in range(k):
+            room.terms[0] = 0.0
             for c in range(d):
-                room.vector[c] = 0.0
+                room.terms[1 + c] = 0.0
                 for a in range(k):
-                    room.vector[c] += share * functions.values[i, place, a] * leaning[i, a, b, c]
-            _spread_vector(slave, slave.corner[i, b], room)
+                    room.terms[1 + c] += share * functions.values[i, place, a] * leaning[i, a, b, c]
+            _spread_terms(slave, slave.corner[i, b], room)
         for s in range(pairs.first[i], pairs.first[i + 1]):
             for b in range(k):
                 amount, corner = 0.0, master.corner[pairs.master[s], b]
                 for a in range(k):
                     amount += share * functions.values[i, place, a] * pairs.cross[s, a, b]
                 total += amount
+                room.terms[0] = amount
                 for c in range(d):
-                    room.vector[c] = -amount * facing[s, c]
+                    room.terms[1 + c] = -amount * facing[s, c]
                     room.mean[c] += amount * facing[s, c]
-                _spread(master, corner, CROSS, amount, room)
-                _spread_vector(master, corner, room)
+                _spread_terms(master, corner, room)
     return total
 
 
 @uncounted
-def _spread(surface, vertex, term, amount, room):
-    """Add an amount at a vertex to a term of its nodes, which are listed."""
+def _spread_terms(surface, vertex, room):
+    """Add the terms of a vertex, the motion of the master and the slopes, to those of its nodes."""
     for q in range(surface.start[vertex], surface.start[vertex + 1]):
         column = surface.column[q]
-        if not room.used[column]:
-            room.used[column], room.listed[room.number[0]] = True, column
-            room.number[0] += 1
-        room.sums[column, term] += surface.value[q] * amount
+        _list(column, room)
+        for c in range(len(room.terms)):
+            room.sums[column, CROSS + c] += surface.value[q] * room.terms[c]
 
 
 @uncounted
-def _spread_vector(surface, vertex, room):
-    """Add the vector at a vertex to the slopes of its nodes, which are listed."""
-    for q in range(surface.start[vertex], surface.start[vertex + 1]):
-        column = surface.column[q]
-        if not room.used[column]:
-            room.used[column], room.listed[room.number[0]] = True, column
-            room.number[0] += 1
-        for c in range(len(room.vector)):
-            room.sums[column, SLOPE + c] += surface.value[q] * room.vector[c]
+def _list(column, room):
+    """Add a node to the list."""
+    if not room.used[column]:
+        room.used[column], room.listed[room.number[0]] = True, column
+        room.number[0] += 1
 
 
 @uncounted

@@ -67,9 +67,8 @@ class Entries(NamedTuple):
 
 
 class Room(NamedTuple):
-    """Sums of one row: terms ``sums`` (u, 2 + d) of the nodes, ``used`` (u,) nodes, their numbers ``listed``,
-    their ``number`` (1,), the sum ``mean`` (d,) of the normals, and a
-    ``vector`` (d,).
+    """Sums of one row: terms ``sums`` (u, 2 + d) of the nodes, ``used`` (u,) nodes and the list ``listed`` of them, of
+    which there are ``number`` (1,), the sum ``mean`` (d,) of the normals, and ``terms`` (1 + d,) of a vertex.
     """
 
     sums: Array
@@ -77,4 +76,4 @@ class Room(NamedTuple):
     listed: IntArray
     number: IntArray
     mean: Array
-    vector: Array
+    terms: Array
