@@ -139,8 +139,8 @@ class MortarContact:
             x[tables.node],
             normal,
         )
-        weights = _rows(made.weight, made.column, made.start[0], n)
-        slopes = _rows(made.slope, made.component, made.start[1], n * d)
+        weights = _rows(made.weight, made.column, made.first, n)
+        slopes = _rows(made.slope, made.component, made.start, n * d)
         return Stencils(gap=gap, normal=normal, weights=weights, slopes=slopes)
 
     def overlap(self, below: Array, above: Array, areas: Array, normal: Array) -> Overlap:

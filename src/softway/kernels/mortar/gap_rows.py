@@ -52,16 +52,17 @@ def gap_rows(
             return gap, made
         more = _entries(m, 2 * len(made.weight) + u, d)
         for old, new in zip(made, more, strict=True):
-            new[..., : old.shape[-1]] = old
+            new[: len(old)] = old
         made = more
 
 
 def _entries(m: int, z: int, d: int) -> Entries:
     """Place for z weights and d z slopes of m rows."""
     return Entries(
-        start=np.zeros((2, m + 1), np.int32),
-        column=np.empty(z, np.int32),
+        first=np.zeros(m + 1, np.int64),
+        column=np.empty(z, np.int64),
         weight=np.empty(z),
-        component=np.empty(d * z, np.int32),
+        start=np.zeros(m + 1, np.int64),
+        component=np.empty(d * z, np.int64),
         slope=np.empty(d * z),
     )

@@ -24,8 +24,8 @@ def sum_rows(first, slave, master, facets, functions, pairs, facing, leaning, no
             covered += _own_part(use, slave, facets, functions, room)
             total += _common_part(use, slave, master, facets, functions, pairs, facing, leaning, room)
         met = room.number[0]
-        free = made.start[0, r] + met <= len(made.weight) and made.start[1, r] + x.shape[1] * met <= len(made.slope)
-        made.start[0, r + 1], made.start[1, r + 1] = made.start[0, r], made.start[1, r]
+        free = made.first[r] + met <= len(made.weight) and made.start[r] + x.shape[1] * met <= len(made.slope)
+        made.first[r + 1], made.start[r + 1] = made.first[r], made.start[r]
         if free and covered > 0.0 and total > 0.0:
             _sort(room.listed, met)
             gap[r] = _write(room, covered, total, node, x, made, r + 1)
@@ -125,15 +125,15 @@ def _write(room, covered, total, node, x, made, end):
         u = room.listed[q]
         weight = room.sums[u, OWN] / covered - room.sums[u, CROSS] / total
         if weight != 0.0:
-            place = made.start[0, end]
+            place = made.first[end]
             made.column[place], made.weight[place] = node[u], weight
-            made.start[0, end] += 1
+            made.first[end] += 1
         for c in range(d):
             slope = room.sums[u, SLOPE + c] / total
             if slope != 0.0:
-                place = made.start[1, end]
+                place = made.start[end]
                 made.component[place], made.slope[place] = d * node[u] + c, slope
-                made.start[1, end] += 1
+                made.start[end] += 1
                 gap += slope * x[u, c]
     return gap
 

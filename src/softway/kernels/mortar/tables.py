@@ -55,13 +55,14 @@ class Pairs(NamedTuple):
 
 
 class Entries(NamedTuple):
-    """Sparse weights (m, n) and slopes (m, n d): entries of the row r are ``start[0, r]`` to ``start[0, r + 1]`` of
-    ``column`` and ``weight``, and ``start[1, r]`` to ``start[1, r + 1]`` of ``component`` and ``slope``.
+    """Sparse weights (m, n) and slopes (m, n d): entries of the row r are ``first[r]`` to ``first[r + 1]`` of ``column``
+    and ``weight``, and ``start[r]`` to ``start[r + 1]`` of ``component`` and ``slope``.
     """
 
-    start: IntArray
+    first: IntArray
     column: IntArray
     weight: Array
+    start: IntArray
     component: IntArray
     slope: Array
 
