@@ -130,15 +130,17 @@ class MortarContact:
         common = self.overlap(below, above, areas, normal)
         size = np.sqrt(np.sum(areas**2, axis=1))
         functions = gap_weights(self.slave, below, size, common.mass(len(size)))
-        gap, pairs = np.full(len(normal), np.inf), common.pairs(len(size))
-        surfaces = tables.slave, tables.master, tables.facets
-        made = gap_rows(*surfaces, functions, pairs, below, above, tables.node, x[tables.node], gap, normal)
-        weights, slopes = (
-            sp.csr_array((value, column, start), shape)
-            for (start, column, value), shape in zip(
-                (made[:3], made[3:]), ((len(gap), n), (len(gap), n * d)), strict=True
-            )
+        gap, made = gap_rows(
+            (tables.slave, tables.master, tables.facets),
+            functions,
+            common.pairs(len(size)),
+            (below, above),
+            tables.node,
+            x[tables.node],
+            normal,
         )
+        weights = _rows(made.weight, made.column, made.first, n)
+        slopes = _rows(made.slope, made.component, made.start, n * d)
         return Stencils(gap=gap, normal=normal, weights=weights, slopes=slopes)
 
     def overlap(self, below: Array, above: Array, areas: Array, normal: Array) -> Overlap:
@@ -149,3 +151,8 @@ class MortarContact:
 def corners_of(vertices: Array, corner: IntArray) -> Array:
     """Coordinates (d, k, p) of the corners (p, k) of simplices, for vertices (v, d)."""
     return np.take(np.ascontiguousarray(vertices.T), corner.T, axis=1)
+
+
+def _rows(value: Array, column: IntArray, start: IntArray, width: int) -> sp.csr_array:
+    """Rows (m, width) of entries for which there is more place than needed."""
+    return sp.csr_array((value[: start[-1]], column[: start[-1]], start), (len(start) - 1, width))

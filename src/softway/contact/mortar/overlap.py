@@ -10,7 +10,7 @@ from softway.contact.mortar.surface_tables import SurfaceTables
 from softway.kernels.mortar.segments import segment_overlap
 from softway.kernels.mortar.simplices import keep_near
 from softway.kernels.mortar.tables import Pairs
-from softway.kernels.mortar.triangles import triangle_overlap
+from softway.kernels.mortar.triangles import triangle_overlap, triangle_room
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -81,6 +81,7 @@ def overlap(
     if below.shape[1] == 2:
         count = segment_overlap(below, slave, -normal, above, master, i, j, pair, own, cross)
     else:
-        count = triangle_overlap(below, slave, above, master, i, j, pair, own, cross)
+        room = triangle_room(len(slave), len(master))
+        count = triangle_overlap(below, slave, above, master, i, j, room, pair, own, cross)
     count = keep_near(below, slave, above, master, areas, i, j, pairs.limit, count, pair, own, cross)
     return Overlap(slave=i[pair[:count]], master=j[pair[:count]], own=own[:count], cross=cross[:count])

@@ -2,19 +2,31 @@
 
 import numpy as np
 
-from softway.kernels.jit.compilation import inlined, kernel
+from softway.arrays import Array, IntArray
+from softway.kernels.jit.compilation import uncounted, uncounted_kernel
 
 
-@kernel
-def vector_areas(vertices, corner):
-    """Outward normals (p, d) of segments (p, 2) or triangles (p, 3), with their length or area as magnitude."""
+def vector_areas(vertices: Array, corner: IntArray) -> Array:
+    """Outward normals (p, d) of segments (p, 2) or triangles (p, 3), with their length or area as magnitude.
+
+    Examples
+    --------
+    >>> vector_areas(np.array([[0.0, 0.0], [2.0, 0.0]]), np.array([[0, 1]])).tolist()
+    [[0.0, -2.0]]
+    """
     out = np.empty((len(corner), vertices.shape[1]))
-    for p in range(len(corner)):
-        vector_area(vertices, corner, p, out, p)
+    _vector_areas(vertices, corner, out)
     return out
 
 
-@inlined
+@uncounted_kernel
+def _vector_areas(vertices, corner, out):
+    """Write the normals of all simplices."""
+    for p in range(len(corner)):
+        vector_area(vertices, corner, p, out, p)
+
+
+@uncounted
 def vector_area(vertices, corner, p, out, row):
     """Write the normal of the simplex p, with its length or area as magnitude, to a row; returns the magnitude."""
     a, b = corner[p, 0], corner[p, 1]
@@ -30,7 +42,7 @@ def vector_area(vertices, corner, p, out, row):
     return np.sqrt(size)
 
 
-@kernel
+@uncounted_kernel
 def keep_near(below, corner, above, other, areas, i, j, limit, count, pair, own, cross):
     """Keep, in place, those of the ``count`` overlaps whose mean distance along the slave normal is within its limit.
 

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from softway.arrays import Array, IntArray
+from softway.arrays import Array, BoolArray, IntArray
 
 
 class Vertices(NamedTuple):
@@ -52,3 +52,29 @@ class Pairs(NamedTuple):
     master: IntArray
     own: Array
     cross: Array
+
+
+class Entries(NamedTuple):
+    """Sparse weights (m, n) and slopes (m, n d): entries of the row r are ``first[r]`` to ``first[r + 1]`` of ``column``
+    and ``weight``, and ``start[r]`` to ``start[r + 1]`` of ``component`` and ``slope``.
+    """
+
+    first: IntArray
+    column: IntArray
+    weight: Array
+    start: IntArray
+    component: IntArray
+    slope: Array
+
+
+class Room(NamedTuple):
+    """Sums of one row: terms ``sums`` (u, 2 + d) of the nodes, ``used`` (u,) nodes and the list ``listed`` of them, of
+    which there are ``number`` (1,), the sum ``mean`` (d,) of the normals, and ``terms`` (1 + d,) of a vertex.
+    """
+
+    sums: Array
+    used: BoolArray
+    listed: IntArray
+    number: IntArray
+    mean: Array
+    terms: Array

@@ -4,9 +4,12 @@ The master triangle is projected onto the plane of the slave triangle and cut by
 barycentric coordinates of the slave triangle: these are the distances from its edges.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
-from softway.kernels.jit.compilation import inlined, kernel
+from softway.arrays import Array
+from softway.kernels.jit.compilation import uncounted, uncounted_kernel
 
 EDGE_ON = 1e-10
 """Area over the square of the edges, below which the projected master triangle is degenerate."""
@@ -14,46 +17,97 @@ MOST = 24
 """Greatest number of corners: three cuts, each of which doubles it at worst, where rounding bends edges on the cut."""
 
 
-@kernel
-def triangle_overlap(slave, corner, master, other, i, j, pair, own, cross):
+class TriangleRoom(NamedTuple):
+    """Circles ``slave`` (p, 4) and ``master`` (q, 4) around triangles, and place for one pair: gradients ``toward``
+    (3, 3), coordinates ``seen`` (3, 2) and ``outward`` (3, 3), corners ``polygon`` and ``cut`` (MOST, 2), ``moments``.
+    """
+
+    slave: Array
+    master: Array
+    toward: Array
+    seen: Array
+    outward: Array
+    polygon: Array
+    cut: Array
+    moments: Array
+
+
+def triangle_room(p: int, q: int) -> TriangleRoom:
+    """Place for p slave and q master triangles."""
+    shapes = (p, 4), (q, 4), (3, 3), (3, 2), (3, 3), (MOST, 2), (MOST, 2), (3, 3)
+    return TriangleRoom(*(np.empty(shape) for shape in shapes))
+
+
+@uncounted_kernel
+def triangle_overlap(slave, corner, master, other, i, j, room, pair, own, cross):
     """Overlaps of the pairs of triangles i, j (s,); returns their number.
 
     Arguments: vertices (v, 3) and corners (p, 3) of the slave, vertices (w, 3) and corners (q, 3) of the master.  The
     results are the numbers of the pairs with an overlap, and the integrals (s, 3, 3) of products of barycentric
     coordinates, ``own`` with both on the slave and ``cross`` with one on the slave, the other on the master.
     """
-    toward, seen, outward = np.empty((2, 3)), np.empty((3, 2)), np.empty((3, 3))
-    polygon, left, last, found, area = np.empty((MOST, 2)), np.empty((MOST, 2)), -1, 0, 0.0
+    last, found, area = -1, 0, 0.0
+    _circles(slave, corner, room.slave)
+    _circles(master, other, room.master)
     for s in range(len(i)):
         if i[s] != last:
             last = i[s]
-            area = _toward(slave, corner, last, toward)
-        first = corner[last, 0]
+            area = _toward(slave, corner, last, room.toward)
+        if _apart(room, last, j[s]):
+            continue
         for c in range(3):
             for g in range(2):
-                seen[c, g] = 0.0
+                room.seen[c, g] = 0.0
                 for x in range(3):
-                    seen[c, g] += toward[g, x] * (master[other[j[s], c], x] - slave[first, x])
-        turn = _from_master(seen, outward)
-        if not _may_overlap(seen, outward, turn):
+                    away = master[other[j[s], c], x] - slave[corner[last, 0], x]
+                    room.seen[c, g] += room.toward[g, x] * away
+        if _beyond(room.seen):
             continue
-        polygon[:3] = seen
-        count = _cut(polygon, left)
-        if count > 2 and _moments(left, count, area, found, own) > 0.0:
+        turn = _from_master(room.seen, room.outward)
+        if turn == 0.0 or _behind(room.outward):
+            continue
+        count = _cut(room.seen, room.polygon, room.cut)
+        if count > 2 and _moments(room.cut, count, room.moments) > 0.0:
             pair[found] = s
             for a in range(3):
                 for b in range(3):
-                    cross[found, a, b] = 0.0
+                    own[found, a, b], cross[found, a, b] = area * room.moments[a, b], 0.0
                     for c in range(3):
-                        cross[found, a, b] += own[found, a, c] * (outward[(b + 1) % 3, c] / turn)
+                        cross[found, a, b] += area * room.moments[a, c] * (room.outward[(b + 1) % 3, c] / turn)
             found += 1
     return found
 
 
-@inlined
+@uncounted
+def _circles(vertices, corner, out):
+    """Write the centre of each triangle, and its greatest distance from a corner (q, 4)."""
+    for p in range(len(corner)):
+        square = 0.0
+        for x in range(3):
+            out[p, x] = (vertices[corner[p, 0], x] + vertices[corner[p, 1], x] + vertices[corner[p, 2], x]) / 3.0
+        for c in range(3):
+            away = 0.0
+            for x in range(3):
+                away += (vertices[corner[p, c], x] - out[p, x]) ** 2
+            square = max(square, away)
+        out[p, 3] = np.sqrt(square)
+
+
+@uncounted
+def _apart(room, i, j):
+    """True if the circles of two triangles are apart, as seen along the slave normal."""
+    x, y = room.master[j, 0] - room.slave[i, 0], room.master[j, 1] - room.slave[i, 1]
+    z, both = room.master[j, 2] - room.slave[i, 2], room.master[j, 3] + room.slave[i, 3]
+    height = room.toward[2, 0] * x + room.toward[2, 1] * y + room.toward[2, 2] * z
+    return x * x + y * y + z * z - height * height > both * both
+
+
+@uncounted
 def _toward(slave, corner, i, toward):
-    """Gradients (2, 3) of the last two barycentric coordinates of a slave triangle; returns twice its area."""
-    a, b, c = corner[i]
+    """Gradients of the last two barycentric coordinates of a slave triangle, and its unit normal; returns twice its
+    area.
+    """
+    a, b, c = corner[i, 0], corner[i, 1], corner[i, 2]
     ux, uy, uz = slave[b, 0] - slave[a, 0], slave[b, 1] - slave[a, 1], slave[b, 2] - slave[a, 2]
     vx, vy, vz = slave[c, 0] - slave[a, 0], slave[c, 1] - slave[a, 1], slave[c, 2] - slave[a, 2]
     nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
@@ -63,15 +117,18 @@ def _toward(slave, corner, i, toward):
     for g in range(2):
         for x in range(3):
             toward[g, x] /= square
-    return np.sqrt(square)
+    size = np.sqrt(square)
+    toward[2, 0], toward[2, 1], toward[2, 2] = nx / size, ny / size, nz / size
+    return size
 
 
-@inlined
+@uncounted
 def _from_master(seen, outward):
     """Outward distances (3, 3) of the slave corners from the edges of the master triangle, times the edge lengths.
 
     ``seen`` (3, 2) are the last two coordinates of the master on the slave.  Returns twice the area of the master
-    relative to that of the slave: negative where the two face each other, zero for a degenerate projection.
+    relative to that of the slave: negative where the two face each other, otherwise zero, as for a degenerate
+    projection.
     """
     square = 0.0
     for e in range(3):
@@ -84,30 +141,33 @@ def _from_master(seen, outward):
     return turn if -turn > EDGE_ON * square else 0.0
 
 
-@inlined
-def _may_overlap(seen, outward, turn):
-    """True unless the edges of one of the triangles show that the two are apart or do not face each other."""
-    if not turn < 0.0:
-        return False
+@uncounted
+def _beyond(seen):
+    """True if a master triangle lies beyond an edge of the slave triangle."""
     most = max(1.0 - seen[0, 0] - seen[0, 1], 1.0 - seen[1, 0] - seen[1, 1], 1.0 - seen[2, 0] - seen[2, 1])
-    if not most > 0.0:
-        return False
     for g in range(2):
-        if not max(seen[0, g], seen[1, g], seen[2, g]) > 0.0:
-            return False
+        most = min(most, max(seen[0, g], seen[1, g], seen[2, g]))
+    return not most > 0.0
+
+
+@uncounted
+def _behind(outward):
+    """True if the slave triangle lies beyond an edge of the master triangle."""
     least = -1.0
     for e in range(3):
         least = max(least, min(outward[e, 0], outward[e, 1], outward[e, 2]))
-    return least < 0.0
+    return not least < 0.0
 
 
-@inlined
-def _cut(polygon, out):
-    """Cut the first three corners of ``polygon`` by the edges of the slave: returns the number of corners ``out``.
+@uncounted
+def _cut(seen, polygon, out):
+    """Cut the triangle ``seen`` (3, 2) by the edges of the slave: corners ``out``, whose number is returned.
 
     Corners at the cut are interpolated along the edge (Sutherland and Hodgman, 1974).
     """
     count = 3
+    for c in range(3):
+        polygon[c, 0], polygon[c, 1] = seen[c, 0], seen[c, 1]
     for side in range(3):
         left = 0
         for c in range(count):
@@ -127,15 +187,15 @@ def _cut(polygon, out):
     return count
 
 
-@inlined
+@uncounted
 def _distance(polygon, c, side):
     """Barycentric coordinate of a corner: its distance from an edge of the slave."""
     return polygon[c, side] if side < 2 else 1.0 - polygon[c, 0] - polygon[c, 1]
 
 
-@inlined
-def _moments(polygon, count, area, found, own):
-    """Integrals (3, 3) of products of barycentric coordinates over a polygon, for a triangle of half the ``area``.
+@uncounted
+def _moments(polygon, count, out):
+    """Integrals (3, 3) of products of barycentric coordinates over a polygon, for a triangle of area 1/2.
 
     The polygon turns clockwise and is fanned into triangles about its first corner.  Returns the sum of the integrals.
     """
@@ -157,6 +217,6 @@ def _moments(polygon, count, area, found, own):
     for a in range(3):
         for b in range(3):
             value = start[a] * (m0 * start[b] + mean[b]) + start[b] * mean[a] + second[a][b]
-            own[found, a, b] = area * max(value, 0.0)
-            total += own[found, a, b]
+            out[a, b] = max(value, 0.0)
+            total += out[a, b]
     return total

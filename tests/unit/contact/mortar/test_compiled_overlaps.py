@@ -6,7 +6,7 @@ import segment_arrays
 import triangle_arrays
 
 from softway.kernels.mortar.segments import segment_overlap
-from softway.kernels.mortar.triangles import triangle_overlap
+from softway.kernels.mortar.triangles import triangle_overlap, triangle_room
 
 PAIRS = 400
 
@@ -18,7 +18,7 @@ def compiled(slave: np.ndarray, master: np.ndarray, normal: np.ndarray | None = 
     corner, each = np.arange(k * s).reshape(k, s).T.copy(), np.arange(s)
     pair, (own, cross) = np.empty(s, np.int64), np.empty((2, s, k, k))
     if normal is None:
-        count = triangle_overlap(below, corner, above, corner, each, each, pair, own, cross)
+        count = triangle_overlap(below, corner, above, corner, each, each, triangle_room(s, s), pair, own, cross)
     else:
         field = np.ascontiguousarray(normal.reshape(d, -1).T)
         count = segment_overlap(below, corner, field, above, corner, each, each, pair, own, cross)

@@ -6,6 +6,7 @@ from row_arrays import rows
 
 from softway.contact.mortar.mortar import Mortar
 from softway.contact.stencils import Stencils
+from softway.kernels.mortar import gap_rows
 from softway.meshes.generators.shapes import box, rectangle
 from softway.meshes.mesh import Mesh
 
@@ -91,3 +92,14 @@ def test_rows_are_the_same_bits_again(kind: str) -> None:
     for one, other in ((first.weights, again.weights), (first.gradient(), again.gradient())):
         assert one.data.tobytes() == other.data.tobytes()
         assert one.indices.tobytes() == other.indices.tobytes()
+
+
+def test_rows_that_need_more_place_are_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    x, mortar = scene(("quad4", "quad8"), 5)
+    met = mortar.meet(x, x, 0.1)
+    wide = met.at(x)
+    monkeypatch.setattr(gap_rows, "NODES", 1)
+    narrow = met.at(x)
+    assert wide.gap.tobytes() == narrow.gap.tobytes()
+    assert (wide.weights != narrow.weights).nnz == 0
+    assert (wide.gradient() != narrow.gradient()).nnz == 0

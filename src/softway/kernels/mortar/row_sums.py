@@ -1,0 +1,149 @@
+"""Sums over the test functions of the slave, one row after the other, node by node."""
+
+import numpy as np
+
+from softway.kernels.jit.compilation import uncounted, uncounted_kernel
+
+OWN, CROSS, SLOPE = 0, 1, 2
+
+
+@uncounted_kernel
+def sum_rows(first, slave, master, facets, functions, pairs, facing, leaning, node, x, room, made, gap, normal):
+    """Rows of the nodes of the slave from ``first`` on, until there is no place for one more; returns the next row.
+
+    Arguments: tables of :mod:`~softway.kernels.mortar.tables`, slopes of the distances, numbers ``node`` (u,) of the
+    nodes in the model, ascending, and their positions ``x`` (u, d).  ``gap`` (m,) and ``normal`` (m, d) are written
+    where the row is met.
+    """
+    for r in range(first, len(gap)):
+        covered = total = 0.0
+        room.number[0] = 0
+        for c in range(x.shape[1]):
+            room.mean[c] = 0.0
+        for use in range(facets.start[r], facets.start[r + 1]):
+            covered += _own_part(use, slave, facets, functions, room)
+            total += _common_part(use, slave, master, facets, functions, pairs, facing, leaning, room)
+        met = room.number[0]
+        free = made.first[r] + met <= len(made.weight) and made.start[r] + x.shape[1] * met <= len(made.slope)
+        made.first[r + 1], made.start[r + 1] = made.first[r], made.start[r]
+        if free and covered > 0.0 and total > 0.0:
+            _sort(room.listed, met)
+            gap[r] = _write(room, covered, total, node, x, made, r + 1)
+            _set_direction(room.mean, normal, r)
+        for q in range(met):
+            column = room.listed[q]
+            room.used[column] = False
+            for term in range(room.sums.shape[1]):
+                room.sums[column, term] = 0.0
+        if not free:
+            return r
+    return len(gap)
+
+
+@uncounted
+def _own_part(use, slave, facets, functions, room):
+    """Add a test function times the shape functions of its facet; returns its integral."""
+    facet, place, covered = facets.facet[use], facets.place[use], 0.0
+    for b in range(facets.cells.shape[1]):
+        if facets.cells[facet, b] >= 0:
+            amount = facets.share[use] * functions.own[facet, place, b]
+            covered += amount
+            if amount != 0.0:
+                vertex = facets.cells[facet, b]
+                for q in range(slave.start[vertex], slave.start[vertex + 1]):
+                    _list(slave.column[q], room)
+                    room.sums[slave.column[q], OWN] += slave.value[q] * amount
+    return covered
+
+
+@uncounted
+def _common_part(use, slave, master, facets, functions, pairs, facing, leaning, room):
+    """Add a test function times the motion of the master and the slopes; returns its integral.
+
+    The normals of the pairs are added up in ``room``.
+    """
+    facet, place, share = facets.facet[use], facets.place[use], facets.share[use]
+    d, k, total = leaning.shape[3], slave.corner.shape[1], 0.0
+    for i in range(facets.simplex[facet], facets.simplex[facet + 1]):
+        if pairs.first[i] == pairs.first[i + 1]:
+            continue
+        for b in range(k):
+            room.terms[0] = 0.0
+            for c in range(d):
+                room.terms[1 + c] = 0.0
+                for a in range(k):
+                    room.terms[1 + c] += share * functions.values[i, place, a] * leaning[i, a, b, c]
+            _spread_terms(slave, slave.corner[i, b], room)
+        for s in range(pairs.first[i], pairs.first[i + 1]):
+            for b in range(k):
+                amount, corner = 0.0, master.corner[pairs.master[s], b]
+                for a in range(k):
+                    amount += share * functions.values[i, place, a] * pairs.cross[s, a, b]
+                total += amount
+                room.terms[0] = amount
+                for c in range(d):
+                    room.terms[1 + c] = -amount * facing[s, c]
+                    room.mean[c] += amount * facing[s, c]
+                _spread_terms(master, corner, room)
+    return total
+
+
+@uncounted
+def _spread_terms(surface, vertex, room):
+    """Add the terms of a vertex, the motion of the master and the slopes, to those of its nodes."""
+    for q in range(surface.start[vertex], surface.start[vertex + 1]):
+        column = surface.column[q]
+        _list(column, room)
+        for c in range(len(room.terms)):
+            room.sums[column, CROSS + c] += surface.value[q] * room.terms[c]
+
+
+@uncounted
+def _list(column, room):
+    """Add a node to the list."""
+    if not room.used[column]:
+        room.used[column], room.listed[room.number[0]] = True, column
+        room.number[0] += 1
+
+
+@uncounted
+def _sort(listed, count):
+    """Sort the first numbers of a list by insertion."""
+    for q in range(1, count):
+        number, place = listed[q], q
+        while place > 0 and listed[place - 1] > number:
+            listed[place] = listed[place - 1]
+            place -= 1
+        listed[place] = number
+
+
+@uncounted
+def _write(room, covered, total, node, x, made, end):
+    """Write the weights and slopes of a row, without zeros; returns its gap."""
+    d, gap = x.shape[1], 0.0
+    for q in range(room.number[0]):
+        u = room.listed[q]
+        weight = room.sums[u, OWN] / covered - room.sums[u, CROSS] / total
+        if weight != 0.0:
+            place = made.first[end]
+            made.column[place], made.weight[place] = node[u], weight
+            made.first[end] += 1
+        for c in range(d):
+            slope = room.sums[u, SLOPE + c] / total
+            if slope != 0.0:
+                place = made.start[end]
+                made.component[place], made.slope[place] = d * node[u] + c, slope
+                made.start[end] += 1
+                gap += slope * x[u, c]
+    return gap
+
+
+@uncounted
+def _set_direction(vector, normal, r):
+    """Write the direction of a vector (d,) as the normal of a row."""
+    size = 0.0
+    for c in range(len(vector)):
+        size += vector[c] ** 2
+    size = np.sqrt(size)
+    for c in range(len(vector)):
+        normal[r, c] = vector[c] / size if size > 0.0 else 0.0
