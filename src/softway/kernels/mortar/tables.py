@@ -55,8 +55,8 @@ class Pairs(NamedTuple):
 
 
 class Entries(NamedTuple):
-    """Sparse weights (m, n) and slopes (m, n d): entries of the row r are ``first[r]`` to ``first[r + 1]`` of ``column``
-    and ``weight``, and ``start[r]`` to ``start[r + 1]`` of ``component`` and ``slope``.
+    """Sparse weights (m, n) and slopes (m, n d): entries of the row r are ``first[r]`` to ``first[r + 1]`` of
+    ``column`` and ``weight``, and ``start[r]`` to ``start[r + 1]`` of ``component`` and ``slope``.
     """
 
     first: IntArray
