@@ -89,9 +89,9 @@ def edge_crossings(x: Array, one: Edges, two: Edges) -> EdgeCrossings:
     normal *= np.where(dot(normal, out) < 0.0, -1.0, 1.0)[:, None]
     convex = _convex(u, *around_one) & _convex(v, *around_two)
     valid = crossing & convex & _among(normal, *around_two) & _among(-normal, *around_one)
-    apart = w - (dot(w, u) / uu)[:, None] * u
-    beside = np.copysign(np.sqrt(dot(apart, apart)), dot(apart, out))
-    gap = np.where(crossing, dot(normal, w), beside)
+    gap, rest = dot(normal, w), np.flatnonzero(~crossing)
+    apart = w[rest] - (dot(w[rest], u[rest]) / uu[rest])[:, None] * u[rest]
+    gap[rest] = np.copysign(np.sqrt(dot(apart, apart)), dot(apart, out[rest]))
     return EdgeCrossings(gap=gap, normal=normal, s=s, t=t, valid=valid)
 
 
