@@ -24,9 +24,8 @@ TOUCHES = {1e-6: 0, 1e-2: 2}
 SENSITIVE = 1.0 / 3.0
 """Greatest difference of the number of touches, relative to it, of variants that are sensitive to all movements. Nodes
 let go there and touch again in neighbouring slabs: the releases are not compared."""
-FIRST = {1e-6: 1e-3, 1e-2: 1.0}
-"""Greatest difference of the instant of the first touch, in slabs: the surfaces of both bodies move, by up to .1 mm in
-the largest cells, and these take up to .9 slabs for it."""
+FIRST = {1e-6: 1e-3, 1e-2: 0.5}
+"""Greatest difference of the instant of the first touch, in slabs."""
 IMPULSE = {1e-6: 1e-4, 1e-2: 0.05}
 """Greatest difference of the impulse of a contact, relative to it."""
 BALANCE = 10.0 * ENERGY
@@ -102,7 +101,9 @@ def test_every_scenario_has_a_variant_that_touches_as_it_does():
         shipped, given = whole(name), small(name)
         assert len(variant.same) > 40 and given.time.end <= shipped.time.end, name
         assert given.contacts == shipped.contacts or "contacts" in variant.changes[0], name
-        assert {type(body) for body in given.bodies.values()} == {type(body) for body in shipped.bodies.values()}, name
+        kinds, those = ({body: type(it) for body, it in x.bodies.items()} for x in (given, shipped))
+        assert kinds.items() <= those.items() and set(kinds.values()) == set(those.values()), name
+        assert len(kinds) == len(those) or any(".copies=" in change for change in variant.changes), name
 
 
 def test_jitter_moves_all_nodes_but_those_that_are_held(name, given):

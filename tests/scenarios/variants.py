@@ -84,7 +84,7 @@ VARIANTS: Mapping[str, Variant] = {
             'bodies.ball.copies=[["0 mm", "0 mm"], ["49 mm", "28.2 mm"], ["49 mm", "-28.2 mm"]]',
             "output.probes[1].of=ball3",
             "time.end=1.6 ms",
-            "time.step=20 us",
+            "time.step=30 us",
         ),
         same="the same ball hits the first three, with longer slabs, until they have shared the impact",
     ),

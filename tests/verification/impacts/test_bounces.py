@@ -15,9 +15,9 @@ pytestmark = pytest.mark.slow
 BODIES = {"cube": cube(4), "ball": ball(4)}
 TIMES = (0.5, 1.0, 2.0)
 """Slabs in units of the time in which a wave crosses the shortest edge."""
-HUMPS = 1.25
-"""Total variation of the force of a bounce over twice its maximum. The force of a cube that rests on its face has two
-humps, since it swings sideways: 1.25 with twelve cells a side, 1.21 with four; the ball has one hump."""
+HUMPS = {"cube": 1.25, "ball": 1.1}
+"""Total variation of the force of a bounce over twice its maximum. The ball has one hump; the force of a cube that
+rests on its face has two, since it swings sideways: 1.21 with four cells a side, 1.41 with eight, 1.25 with twelve."""
 
 
 @pytest.mark.parametrize(("speed", "courant"), [*((0.1, t) for t in TIMES), *((0.2, t) for t in TIMES[1:])])
@@ -28,7 +28,7 @@ def test_ten_bounces(body, speed, courant):
     assert np.abs(march.energy - 1.0).max() <= 1e-9
     assert march.gap.min() >= -1e-12
     assert march.force.min() >= 0.0
-    assert march.variation <= HUMPS
+    assert march.variation <= HUMPS[body]
     assert march.scalar.max() <= 0.5
     assert march.iterations.max() <= 25
 
