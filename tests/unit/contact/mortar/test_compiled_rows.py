@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from facet_solids import PLANE, SOLIDS
 from row_arrays import rows
 
 from softway.contact.mortar.mortar import Mortar
@@ -9,17 +10,6 @@ from softway.contact.stencils import Stencils
 from softway.kernels.mortar import gap_rows
 from softway.meshes.generators.shapes import box, rectangle
 from softway.meshes.mesh import Mesh
-
-SOLIDS = {
-    "bar2": "quad4",
-    "bar3": "quad9",
-    "tri3": "tet4",
-    "tri6": "tet10",
-    "quad4": "hex8",
-    "quad8": "hex20",
-    "quad9": "hex27",
-}
-PLANE = ("bar2", "bar3")
 
 
 def block(kind: str, cells: int, low: tuple[float, ...]) -> Mesh:

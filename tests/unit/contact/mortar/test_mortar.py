@@ -4,6 +4,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from facet_solids import PLANE, SOLIDS
 
 from softway.contact.mortar.mortar import Mortar
 from softway.errors import InputError
@@ -12,16 +13,7 @@ from softway.meshes.element import element, tabulate
 from softway.meshes.generators.shapes import box, rectangle
 from softway.meshes.mesh import Mesh
 
-SOLIDS = {
-    "bar2": "quad4",
-    "bar3": "quad9",
-    "tri3": "tet4",
-    "tri6": "tet10",
-    "quad4": "hex8",
-    "quad8": "hex20",
-    "quad9": "hex27",
-}
-PLANE, SPACE = ("bar2", "bar3"), ("tri3", "tri6", "quad4", "quad8", "quad9")
+SPACE = ("tri3", "tri6", "quad4", "quad8", "quad9")
 KINDS = [*product(PLANE, PLANE), *product(SPACE, SPACE)]
 
 
