@@ -71,7 +71,11 @@ def test_rows_fade_in_when_a_plate_slides_over_an_edge(kind: str) -> None:
 @pytest.mark.parametrize("width", [1e-8, 1e-6, 1e-4, 1e-3, 1e-2, 0.1, 0.3])
 @pytest.mark.parametrize("turn", [0.0, 0.3])
 def test_slivers_in_the_middle_of_a_facet(width: float, turn: float) -> None:
-    """A narrow stripe on a four-node facet: bounded weights that add up to zero, linear fields met."""
+    """A narrow stripe on a four-node facet: bounded weights that add up to zero, linear fields met.
+
+    The corners of the stripe carry a rounding of eps, which is eps / width of the stripe; over random places and turns
+    linear fields are met to 1.3 eps / width at worst, at every width.
+    """
     square = np.array([[0.0, 0.0, 0.0], [1.0, 0.1, 0.0], [1.2, 1.0, 0.0], [0.1, 0.9, 0.0]])
     stripe = np.array([[-0.5, -1.0, 0.0], [-0.5, 1.0, 0.0], [0.5, 1.0, 0.0], [0.5, -1.0, 0.0]]) * np.array(
         [width, 1.0, 1.0]
@@ -85,7 +89,7 @@ def test_slivers_in_the_middle_of_a_facet(width: float, turn: float) -> None:
     assert np.isfinite(rows.gap).all()
     assert np.abs(weights).max() < 2.0 + 2.0 / max(width, 0.02)
     assert np.abs(weights.sum(axis=1)).max() < 1e-13
-    assert np.abs(weights @ x).max() < 1e-9 + 1e-16 / width
+    assert np.abs(weights @ x).max() < 10.0 * np.finfo(float).eps / width
 
 
 def stacked(sizes: tuple[float, float], thickness: float, dim: int) -> tuple[np.ndarray, Mortar, Mesh]:
