@@ -25,7 +25,6 @@ from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks
 from softway.solve.effort import Effort
-from softway.solve.equations.energy_balance import BOUND
 from softway.solve.methods.newton import Newton
 from softway.solve.operators.operator_memory import OperatorMemory
 
@@ -235,8 +234,7 @@ def _tried(
                 ledger=ledger,
                 certificate=certificate,
                 rejections=(),
-                energy_along_motion=attempt.energy_along_motion
-                and bool((np.abs(out.solution.end.scalar) >= BOUND).any()),
+                energy_along_motion=attempt.energy_along_motion and out.solution.end.bounded,
             )
         log.debug("after %d iterations: %s; iterating further", out.iterations, broken)
     raise NoConvergence(f"certificate: {broken}")

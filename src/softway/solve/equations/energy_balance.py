@@ -33,14 +33,16 @@ SLIGHT = 1e-2
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class EnergyClosure:
-    """Completed mean force (n, d); for each solid (parts,) the scalar and the relative ``missing_work``; ``clipped`` if
-    the bounded scalar cannot close the balance; and the energy ``lost`` by dissipation (parts,) [J].
+    """Completed mean force (n, d); for each solid (parts,) the scalar and the relative ``missing_work``; ``bounded`` if
+    the scalar alone does not close the balance of a group; ``clipped`` if that balance is left open; and the energy
+    ``lost`` by dissipation (parts,) [J].
     """
 
     mean: Array
     scalar: Array
     missing_work: Array
     clipped: bool
+    bounded: bool = False
     lost: Array | float = 0.0
 
 
@@ -82,16 +84,15 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
             num[g] += spin.work(moving) @ spin.solve(spin.torque)
             den[g] -= spin.work(moving) @ spin.solve(spin.slope)
     rounding = SUMS * level + floor + np.bincount(label, weights=_blurred(model, ends))
-    bound = BOUND if model.inert else WEIGHING
     rubbing = friction_work(ends.tangential, ends.u1 - ends.u0, label[model.part_of[ends.rows0.node]], len(members))
-    num, den, reset = _without_created_energy((num, den), rounding, rubbing, bound)
+    num, den, reset = _without_created_energy((num, den), rounding, rubbing, model.inert)
     strained = np.bincount(label, weights=np.abs(ends.V0) + np.abs(ends.V1)) > AT_REST * floor
     touched = np.isin(np.arange(len(members)), label[model.part_of[ends.rows0.node[touching]]])
     supply = _viscous_work(model, ends, moving, label) * np.array([spin is None for spin in spins])
     viscous, num = _by_viscous_forces(num, den, supply)
     wanted = np.where(strained | touched, _quotient(num, den, rounding), 0.0)
     wanted, released = _without_snaps(model, ends, label, wanted, num)
-    a = np.clip(wanted, -bound, bound)
+    a = _bounded(wanted, model.inert)
     excess = np.where(reset, np.maximum(rubbing.dissipated(a), 0.0), 0.0)
     mean = ends.mean + model.nodal(a[label]) * (ends.f1 - ends.f0)
     mean += 0.0 if ends.viscous is None else model.nodal(viscous[label]) * ends.viscous
@@ -100,12 +101,17 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
             mean += spin.force(-spin.solve(spin.torque + a[g] * spin.slope))
     work = np.asarray(np.bincount(label, weights=model.space.totals(np.abs(ends.mean * moving))), float)
     missing = np.where(strained, _relative(num, rounding, work), 0.0)
-    rest = np.where((np.abs(wanted) > bound) | (excess > 0.0), num - a * den + excess, 0.0) * model.inert
+    rest = np.where((a != wanted) | (excess > 0.0), num - a * den + excess, 0.0) * model.inert
     great = (np.abs(rest) > np.maximum(SLIGHT * work, TINY * level)) & (not fallback)
     for g in np.flatnonzero(np.where(great, 0.0, rest)).tolist():
         mean += rest[g] * _along_motion(model, ends, moving, members[g])
     return EnergyClosure(
-        mean=mean, scalar=a[label], missing_work=missing[label], clipped=bool(great.any()), lost=released
+        mean=mean,
+        scalar=a[label],
+        missing_work=missing[label],
+        clipped=bool(great.any()),
+        bounded=bool((a != wanted).any()),
+        lost=released,
     )
 
 
@@ -156,15 +162,26 @@ def _quotient(num: Array, den: Array, rounding: Array) -> Array:
         return np.where((np.abs(num) > rounding) & (den != 0.0), num / den, 0.0)
 
 
+def _bounded(wanted: Array, inert: bool) -> Array:
+    """Scalars (groups,) within their bound.
+
+    With inertia they fall as ``1 / wanted`` beyond twice the bound: as the derivative of a balance passes zero, a scalar
+    held at its bound would jump to the other one, and no iteration would converge.
+    """
+    if not inert:
+        return np.clip(wanted, -WEIGHING, WEIGHING)
+    return np.clip(wanted, -BOUND, BOUND) / np.maximum(np.abs(wanted) / (2.0 * BOUND), 1.0)
+
+
 def _without_created_energy(
-    balance: tuple[Array, Array], rounding: Array, rubbing: FrictionWork, bound: float
+    balance: tuple[Array, Array], rounding: Array, rubbing: FrictionWork, inert: bool
 ) -> tuple[Array, Array, BoolArray]:
     """Missing work and its derivative (groups,), without the work of friction where it would create energy.
 
     The third array marks these groups: there the dissipated energy is zero, and the scalar closes the balance with it.
     """
     num, den = balance
-    created = rubbing.dissipated(np.clip(_quotient(num, den, rounding), -bound, bound)) < -rounding
+    created = rubbing.dissipated(_bounded(_quotient(num, den, rounding), inert)) < -rounding
     num = np.where(created, num - rubbing.dissipated(np.zeros(len(num))), num)
     return num, np.where(created, den + rubbing.slope, den), created
 

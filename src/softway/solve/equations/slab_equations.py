@@ -107,6 +107,7 @@ class SlabEquations:
             scalar=completed.scalar,
             missing_work=completed.missing_work,
             clipped=completed.clipped,
+            bounded=completed.bounded,
             rows=rows,
             lost=lost + completed.lost,
             fields=tuple(found.end for found in coupled),

@@ -31,7 +31,8 @@ class SlabStart:
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Evaluation:
     """Equations evaluated at q: residual, end values and mean force (n, d); for each solid (parts,) the scalar a and
-    the relative missing work that it closes; the contact rows at the end; the energy dissipated by bulk viscosity or
+    the relative missing work that it closes; ``clipped`` and ``bounded`` as in
+    :class:`~softway.solve.equations.energy_balance.EnergyClosure`; the contact rows at the end; the energy dissipated by bulk viscosity or
     given to companion fields (parts,), and these fields at the end.
     """
 
@@ -44,5 +45,6 @@ class Evaluation:
     missing_work: Array
     clipped: bool
     rows: ContactRows
+    bounded: bool = False
     lost: Array | float = 0.0
     fields: tuple[FieldState, ...] = ()

@@ -10,7 +10,7 @@ from softway.bodies.internal_force.slab_average import EnergyMomentum, SlabForce
 from softway.model.build import build
 from softway.model.model import Model
 from softway.solve.equations.end_forces import EndForces
-from softway.solve.equations.energy_balance import body_groups, close_energy, end_force_closure
+from softway.solve.equations.energy_balance import EnergyClosure, body_groups, close_energy, end_force_closure
 
 
 def blocks(count: int, contacts: tuple[tuple[str, str], ...], force: SlabForce, held: str = "") -> Model:
@@ -96,3 +96,28 @@ def test_the_work_of_contact_forces_over_the_rounding_of_positions_needs_no_scal
     noise = units * float(np.finfo(float).eps) * extent * force
     found = close_energy(model, replace(e, V1=e.V0 + work + [noise, 0.0]), fallback=False)
     assert (found.scalar != 0.0).tolist() == [scalar, scalar]
+
+
+def test_the_mean_force_is_continuous_where_the_derivative_of_the_balance_passes_zero() -> None:
+    """At a load of buckling the forces of both ends do the same work; the missing work is closed on either side."""
+    model = blocks(1, (), Weighted())
+    e = ends(model)
+    du = e.u1 - e.u0
+    swing = e.f1 - e.f0
+    across = swing - du * np.sum(swing * du) / np.sum(du * du)
+    work = float(np.sum(e.mean * du))
+    left = 0.004 * float(np.abs(e.mean * du).sum())
+    along = left / float(np.sum(du * du)) * du
+    found = [_closed(model, e, across + s * along, e.V0 + work + left) for s in np.linspace(-4.0, 4.0, 1601)]
+    scalars = np.array([f.scalar[0] for f in found])
+    assert scalars.min() == -0.5 and scalars.max() == 0.5
+    assert np.abs(np.diff(scalars)).max() == pytest.approx(0.0025, rel=0.01)
+    forces = np.array([f.mean for f in found])
+    assert np.abs(np.diff(forces, axis=0)).max() < 0.01 * np.abs(across).max()
+    np.testing.assert_allclose(np.sum(forces * du, axis=(1, 2)), work + left, rtol=1e-12)
+    assert not any(f.clipped for f in found)
+
+
+def _closed(model: Model, e: EndForces, swing: np.ndarray, V1: np.ndarray) -> EnergyClosure:
+    """Closure with a difference ``swing`` (n, d) of the forces at both ends around their mean."""
+    return close_energy(model, replace(e, f0=e.mean - 0.5 * swing, f1=e.mean + 0.5 * swing, V1=V1), fallback=False)
