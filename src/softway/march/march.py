@@ -144,7 +144,7 @@ def _next(model: Model, control: StepControl, span: float, before: ModelState, f
     if found.slab.weight == DAMPED:
         return span
     end = found.out.solution.end
-    strained = ((np.abs(end.scalar) > control.scalar) & (end.missing_work > SLIGHT)).any() and not found.out.events
+    strained = model.inert and ((np.abs(end.scalar) > control.scalar) & (end.missing_work > SLIGHT)).any() and not found.out.events
     if strained and length > STRAINED * span:
         log.info("next slab after t = %.6g s halved: large scalar of the energy balance", found.after.time)
         return 0.5 * length
