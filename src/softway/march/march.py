@@ -144,7 +144,11 @@ def _next(model: Model, control: StepControl, span: float, before: ModelState, f
     if found.slab.weight == DAMPED:
         return span
     end = found.out.solution.end
-    strained = model.inert and ((np.abs(end.scalar) > control.scalar) & (end.missing_work > SLIGHT)).any() and not found.out.events
+    strained = (
+        model.inert
+        and ((np.abs(end.scalar) > control.scalar) & (end.missing_work > SLIGHT)).any()
+        and not found.out.events
+    )
     if strained and length > STRAINED * span:
         log.info("next slab after t = %.6g s halved: large scalar of the energy balance", found.after.time)
         return 0.5 * length
@@ -168,6 +172,7 @@ def _step(model: Model, before: State, found: AcceptedSlab, march_state: MarchSt
             iterations=out.iterations,
             pairs=out.pairs,
             factorisations=found.memory.factorisations,
+            renewals=found.memory.renewals,
             passes=out.passes,
             contraction=out.solution.contraction,
             rejections=found.rejections,

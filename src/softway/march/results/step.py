@@ -188,6 +188,8 @@ class Report:
         Number of pairs of nodes, facets or edges that the search found.
     factorisations
         Number of factorisations since the start of the march.
+    renewals
+        Number of these that renewed the operator of the fixed point inside a slab.
     passes
         Number of solutions of the slab with different contact events.
     contraction
@@ -205,6 +207,7 @@ class Report:
     contraction: float = 0.0
     rejections: tuple[str, ...] = ()
     scalars: Mapping[str, float] | None = None
+    renewals: int = 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -106,13 +106,9 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
     for g in np.flatnonzero(np.where(great, 0.0, rest)).tolist():
         mean += rest[g] * _along_motion(model, ends, moving, members[g])
     return EnergyClosure(
-        mean=mean,
-        scalar=a[label],
-        missing_work=missing[label],
-        clipped=bool(great.any()),
-        bounded=bool((a != wanted).any()),
-        lost=released,
-    )
+        mean=mean, scalar=a[label], missing_work=missing[label], lost=released,
+        clipped=bool(great.any()), bounded=bool((a != wanted).any()),
+    )  # fmt: skip
 
 
 def _relative(num: Array, rounding: Array, work: Array) -> Array:
@@ -165,12 +161,12 @@ def _quotient(num: Array, den: Array, rounding: Array) -> Array:
 def _bounded(wanted: Array, inert: bool) -> Array:
     """Scalars (groups,) within their bound.
 
-    With inertia they fall as ``1 / wanted`` beyond twice the bound: as the derivative of a balance passes zero, a scalar
-    held at its bound would jump to the other one, and no iteration would converge.
+    With inertia they fall as ``BOUND**2 / wanted`` beyond it: as the derivative of a balance passes zero, a scalar held
+    at its bound would jump to the other one, and no iteration would converge.
     """
     if not inert:
         return np.clip(wanted, -WEIGHING, WEIGHING)
-    return np.clip(wanted, -BOUND, BOUND) / np.maximum(np.abs(wanted) / (2.0 * BOUND), 1.0)
+    return np.clip(wanted, -BOUND, BOUND) / np.maximum(np.abs(wanted) / BOUND, 1.0)
 
 
 def _without_created_energy(

@@ -32,8 +32,8 @@ class SlabStart:
 class Evaluation:
     """Equations evaluated at q: residual, end values and mean force (n, d); for each solid (parts,) the scalar a and
     the relative missing work that it closes; ``clipped`` and ``bounded`` as in
-    :class:`~softway.solve.equations.energy_balance.EnergyClosure`; the contact rows at the end; the energy dissipated by bulk viscosity or
-    given to companion fields (parts,), and these fields at the end.
+    :class:`~softway.solve.equations.energy_balance.EnergyClosure`; the contact rows at the end; the energy dissipated
+    by bulk viscosity or given to companion fields (parts,), and these fields at the end.
     """
 
     residual: Array

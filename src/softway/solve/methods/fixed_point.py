@@ -21,13 +21,12 @@ from softway.solve.methods.contact_step import contact_step
 from softway.solve.methods.facet_check import check_facets
 from softway.solve.methods.iteration import Guess, Iterate, lost
 from softway.solve.methods.newton import Newton
+from softway.solve.methods.renewal import Course
 from softway.solve.operators import Factored, MatrixFree, Multigrid
-from softway.solve.operators.operator_refresh import refreshed
+from softway.solve.operators.operator_refresh import refreshed, renewed_inside
 
 POOR = 0.8
 """Contraction per iteration above which Newton's method takes over."""
-WINDOW = 10
-"""Number of iterations over which the contraction is measured."""
 LEAST, SWING = 0.125, 0.9
 """Least part of a step, and ratio of successive changes above which a step is shortened."""
 FLOWING, PACE = 5, 0.3
@@ -39,7 +38,7 @@ class FixedPoint:
     """``q <- q - P r(q)`` with a frozen operator P and contact on its compliance, accelerated by Anderson mixing.
 
     The mixing restarts if the contact changes, and after two successive steps without progress.  If the iterates
-    contract poorly, Newton's method takes over.
+    contract poorly or go astray, the operator is renewed at one of them, or Newton's method takes over.
 
     Parameters
     ----------
@@ -52,7 +51,7 @@ class FixedPoint:
     operator
         Kind of operator P; by default chosen by number of unknowns, slab length, shape and memory.
     handover
-        True if Newton's method takes over when the iterates contract poorly.
+        True if the operator is renewed inside a slab, or Newton's method takes over, when the iterates contract poorly.
 
     References
     ----------
@@ -76,7 +75,8 @@ class FixedPoint:
         check_accuracy(self.tolerance, self.limit)
 
     def iterate(self, system: SlabEquations, guess: Guess) -> Iterator[Iterate]:
-        """Iterates from a guess; where they contract poorly, first with nodes kept on their facets, then by Newton.
+        """Iterates from a guess; where they contract poorly, with a new operator, or with nodes kept on their facets
+        and then by Newton's method; where they go astray, from the closest one before.
 
         As in Newton's method, the first step has no scalar where the guess is no solution: its missing work has no
         meaning.  So one step solves a linear law on fixed rows (docs/theory/solver/solver.md).
@@ -87,27 +87,48 @@ class FixedPoint:
             return
         guess = replace(guess, memory=refreshed(system, guess.q, guess.memory, self.operator))
         end = (system if guess.near else system.without_closure()).evaluate(guess.q, guess.impulse)
-        crossing = system.model.contacts.crossing_edges
-        window, poor = (WINDOW, POOR) if system.model.inert else (FLOWING, PACE)
+        course, slow = (Course(), POOR) if system.model.inert else (Course(window=FLOWING), PACE)
         while True:
-            changes: list[float] = []
             for it in self._iterates(system, guess, end):
-                yield it
-                changes = [*changes[-window:], it.change]
-                slow = len(changes) > window and it.change > poor**window * changes[0]
-                if slow and self._hands_over(crossing, it):
+                course = course.after(it)
+                if self._turns_back(course):
                     break
+                yield it
+                if self._leaves_operator(it, course, slow):
+                    break
+            back = course.way_back if self._turns_back(course) else None
+            it = back or it
             if not np.isfinite(it.change):
                 return
-            system, guess = it.system.with_kept_facets(it.system.path.end(it.q), it.active), it.guess
-            if system is it.system:
+            renews = course.contraction <= slow if back is None else course.retreats == 0
+            system, guess = it.system, it.guess
+            if renews:
+                guess = replace(guess, memory=renewed_inside(system, guess.q, guess.memory, self.operator))
+            elif back is None:
+                system = system.with_kept_facets(system.path.end(guess.q), guess.active)
+            if not renews and system is it.system:
                 yield from newton.onward(system, guess)
                 return
+            course = course.renewed() if renews else Course(window=course.window, retreats=course.retreats)
             end = system.evaluate(guess.q, guess.impulse)
 
-    def _hands_over(self, crossing: bool, it: Iterate) -> bool:
-        """True if Newton's method may take over: not on redundant rows, where mixing is faster."""
-        return self.handover and not (crossing and bool(it.active.any()))
+    def _turns_back(self, course: Course) -> bool:
+        """True if the slab goes on from an iterate before the last one."""
+        return self.handover and course.way_back is not None
+
+    def _leaves_operator(self, it: Iterate, course: Course, slow: float) -> bool:
+        """True if the iterates contract so poorly that a new operator or Newton's method pays; above the contraction
+        ``slow`` Newton's method.
+
+        Not on redundant rows, where mixing is faster, and without inertia only for Newton's method.
+        """
+        if not self.handover or (it.system.model.contacts.crossing_edges and bool(it.active.any())):
+            return False
+        if course.contraction > slow:
+            return True
+        scale = it.system.model.space.greatest(it.q, it.system.start.velocity)
+        wanted = self.tolerance * max(scale, 1e-300)
+        return it.system.model.inert and course.asks_for_renewal(wanted, it.memory.price)
 
     def _iterates(self, system: SlabEquations, guess: Guess, end: Evaluation) -> Iterator[Iterate]:
         q, impulse, active, memory = guess.q, guess.impulse, guess.active, guess.memory

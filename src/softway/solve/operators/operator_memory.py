@@ -163,6 +163,8 @@ class OperatorMemory:
         True if the next slab needs a new factor.
     factorisations
         Number of factors made so far.
+    renewals
+        Number of these that the fixed point made inside slabs, at an iterate.
     taken
         Iterations of the slabs since the last factor.
     price
@@ -181,6 +183,7 @@ class OperatorMemory:
     turning: NodalRotation | None = None
     stale: bool = False
     factorisations: int = 0
+    renewals: int = 0
     taken: IterationCount = IterationCount()
     price: float = 0.0
     skin: Skin | None = None

@@ -24,7 +24,7 @@ def refreshed(
     serves = not memory.stale and abs(memory.span / system.equivalent_span - 1.0) <= 1e-9
     memory = restored(system, memory, serves)
     if memory.frozen is None or not serves:
-        memory = renewed(system, q, memory, operator)
+        memory = renewed(system, _place(system, q), memory, operator)
     return memory if system.model.linear else _turned(system, memory)
 
 
@@ -45,14 +45,9 @@ def restored(system: SlabEquations, memory: OperatorMemory, serves: bool) -> Ope
 
 
 def renewed(
-    system: SlabEquations, q: Array, memory: OperatorMemory, operator: Operator | Literal["auto"]
+    system: SlabEquations, u: Array, memory: OperatorMemory, operator: Operator | Literal["auto"]
 ) -> OperatorMemory:
-    """Operator memory with a new operator, made at the start of the slab.
-
-    For path-dependent materials and ties that break it is made at the end position of the guess.
-    """
-    dependent = any_path_dependent(system.model.parts) or system.model.bonds
-    u = system.path.end(q) if dependent else system.start.displacement
+    """Operator memory with a new operator, made at the displacement ``u`` (n, d)."""
     choice = memory.choice
     if choice is None:
         choice = (
@@ -73,6 +68,22 @@ def renewed(
         taken=IterationCount(),
         price=made.price,
     )
+
+
+def renewed_inside(
+    system: SlabEquations, q: Array, memory: OperatorMemory, operator: Operator | Literal["auto"]
+) -> OperatorMemory:
+    """Operator memory with a new operator, made inside a slab at the end position of the iterate q (n, d)."""
+    return replace(renewed(system, system.path.end(q), memory, operator), renewals=memory.renewals + 1)
+
+
+def _place(system: SlabEquations, q: Array) -> Array:
+    """Displacement (n, d) where an operator for the whole slab is made: the start.
+
+    For path-dependent materials and ties that break it is the end position of the guess.
+    """
+    dependent = any_path_dependent(system.model.parts) or system.model.bonds
+    return system.path.end(q) if dependent else system.start.displacement
 
 
 def announce(system: SlabEquations, operator: Operator, again: bool = False) -> None:
