@@ -209,8 +209,8 @@ def _energies(model: Model, ends: EndForces, moving: Array) -> tuple[Array, Arra
     num = ends.V1 - ends.V0 - work - still - driven
     den = model.space.totals((ends.f1 - ends.f0) * moving) + np.bincount(slave, weights=d1 - d0, minlength=n)
     den = den + model.space.totals((model.load - model.load_before) * (du - moving))
-    if ends.rows0.shear.count:
-        num, den = _rough(model, ends, moving)
+    if ends.rows0.shear.count or ends.viscous is not None:
+        num, den = _by_internal_forces(model, ends, moving)
     elif model.driven:
         loads = (model.load_before, model.load)
         r0, r1 = (_support_forces(model, f - q, rows, p) for (f, rows, p), q in zip(ends.both, loads, strict=True))
@@ -222,12 +222,13 @@ def _energies(model: Model, ends: EndForces, moving: Array) -> tuple[Array, Arra
     return num, den, level
 
 
-def _rough(model: Model, ends: EndForces, moving: Array) -> tuple[Array, Array]:
-    """Missing work and its derivative with respect to the scalar a (parts,), with friction.
+def _by_internal_forces(model: Model, ends: EndForces, moving: Array) -> tuple[Array, Array]:
+    """Missing work and its derivative with respect to the scalar a (parts,), with friction or viscosity.
 
     At both ends the internal forces of massless nodes balance loads, contact and supports.  They contain all forces
     that do work there, including friction; only the work of normal forces in closing or opening a gap is excluded.  The
-    numerator then vanishes up to rounding if a linear body stays in contact, sticking or slipping.
+    numerator then vanishes up to rounding if a linear body stays in contact, sticking or slipping.  Viscous stresses
+    make the other form grow with the residual of the massless nodes: iterates swing with it.
     """
     du = ends.u1 - ends.u0
     slave, n = model.part_of[ends.rows0.node], len(model.parts)
