@@ -129,7 +129,7 @@ def test_the_check_says_that_walls_are_divided() -> None:
     assert [note.where for note in notes] == ["bodies.frame.mesh", "bodies.glass.mesh"]
     assert "9 more nodes at half their thickness" in notes[0].problem
     assert "with 16 cells in place of 8" in notes[0].problem
-    assert notes[0].problem.endswith("moments of inertia are 0.99 of those of the body")
+    assert notes[0].problem.endswith("moments of inertia are 0.99 times those of the body")
     assert found.bodies["frame"].cells == 16
     twice = FREE.replace("cells = [8, 1]", "cells = [8, 2]").replace("cells = [10, 1]", "cells = [10, 2]")
     assert not [note for note in sw.check(sw.loads(twice)).notes if "one cell thick" in note.problem]

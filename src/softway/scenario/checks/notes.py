@@ -36,6 +36,8 @@ UNKNOWNS = 20000
 """Number of unknowns up to which sliding bodies are examined for flutter."""
 ROUNDING = 1e-6
 """Distance of facets from the smooth surface, relative to the shortest edge, below which it is rounding."""
+ALIKE = 5e-4
+"""Relative difference of moments of inertia that is not worth a word."""
 
 
 def file_notes(left_out: Mapping[str, Sequence[LeftOut]]) -> tuple[Note, ...]:
@@ -118,8 +120,10 @@ def wall_notes(model: Model, solids: Mapping[str, Solid]) -> tuple[Note, ...]:
             problem = (
                 f"walls one cell thick that may touch: {more} more nodes at half their thickness carry the mass of "
                 f"their faces; the body is computed and recorded with {part.mesh.n_cells} cells in place of "
-                f"{given.n_cells}, and its moments of inertia are {ratio:.3g} of those of the body"
+                f"{given.n_cells}"
             )
+            if abs(ratio - 1.0) > ALIKE:
+                problem += f", and its moments of inertia are {ratio:.3g} times those of the body"
             if shift > ROUNDING * given.edge():
                 problem += f", its centre of mass {shift:.2g} m away"
             remedy = "nothing, if this is meant; or two layers of cells there, or quadratic cells"
