@@ -43,13 +43,16 @@ def dissipated_energy(parts: Sequence[DiscreteSolid], states: MaterialStates) ->
     return sum(p.internal.dissipated_energy(s) for p, s in zip(parts, _given(parts, states), strict=True))
 
 
-def viscous_force(parts: Sequence[DiscreteSolid], u: Array) -> Array | None:
-    """Part (n, d) of the internal force due to the mean rate of the slab [N]; None without viscosity."""
-    return _joined(parts, [p.internal.viscous_force(u[p.nodes]) for p in parts])
+def end_force(parts: Sequence[DiscreteSolid], u: Array) -> tuple[Array, Array, Array | None]:
+    """Energy (parts,) [J] and force (n, d) at the end of a slab, and the part of the force due to the mean rate of the
+    slab (n, d) [N], None without viscosity.
+    """
+    energy, force, viscous = zip(*(p.internal.end_force(u[p.nodes]) for p in parts), strict=True)
+    return np.array(energy), np.concatenate(force), _joined(parts, viscous)
 
 
 def stored_viscous_force(parts: Sequence[DiscreteSolid], states: MaterialStates) -> Array | None:
-    """:func:`viscous_force` (n, d) [N] in the material states, without another evaluation of the laws."""
+    """Viscous part (n, d) of :func:`end_force` [N] in the material states, without another evaluation of the laws."""
     pairs = zip(parts, _given(parts, states), strict=True)
     return _joined(parts, [p.internal.stored_viscous_force(s) for p, s in pairs])
 

@@ -72,8 +72,10 @@ class BodyForce(Protocol):
         """
         ...
 
-    def viscous_force(self, u: Array) -> Array | None:
-        """Part of the force due to the mean rate of the slab, (n, d) [N]; None without viscosity."""
+    def end_force(self, u: Array) -> tuple[float, Array, Array | None]:
+        """Energy [J] and force of :meth:`energy_and_force`, and the part of the force due to the mean rate of the slab,
+        (n, d) [N], None without viscosity, in one evaluation.
+        """
         ...
 
     def slab_average(self, rule: SlabForce, u0: Array, u1: Array) -> Array | None:
@@ -89,7 +91,7 @@ class BodyForce(Protocol):
         ...
 
     def viscous_tangent(self, u: Array) -> csc_array | None:
-        """Derivative of :meth:`viscous_force` on the pattern of the tangent, (n d, n d) [N/m]; None without."""
+        """Derivative of the viscous part of the force on the pattern of the tangent, (n d, n d) [N/m]; None without."""
         ...
 
     def tangent_product(self, u: Array, w: Array) -> Array:

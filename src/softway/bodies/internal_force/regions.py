@@ -1,6 +1,6 @@
 """Internal force of a body with several materials: a sum of forces on shared nodes."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -130,9 +130,11 @@ class RegionForces:
         pairs = zip(self.terms, (force for _, force in found), strict=True)
         return sum(energy for energy, _ in found), self._sum(pairs)
 
-    def viscous_force(self, u: Array) -> Array | None:
-        """Part of the force due to the mean rate of the slab, (n, d) [N]; None without viscosity."""
-        return self._some(lambda t: t.internal.viscous_force(u[t.nodes]))
+    def end_force(self, u: Array) -> tuple[float, Array, Array | None]:
+        """Energy [J] and force of :meth:`energy_and_force`, and the part of the force due to the mean rate of the slab,
+        (n, d) [N], None without viscosity, in one evaluation.
+        """
+        return self._joined({t.region: t.internal.end_force(u[t.nodes]) for t in self.terms})
 
     def slab_average(self, rule: SlabForce, u0: Array, u1: Array) -> Array | None:
         """Force averaged along the chord from u0 to u1 by a rule, (n, d) [N]; None for rules without a chord."""
@@ -147,7 +149,7 @@ class RegionForces:
         return self._matrix([(t, t.internal.secant(u[t.nodes])) for t in self.terms])
 
     def viscous_tangent(self, u: Array) -> csc_array | None:
-        """Derivative of :meth:`viscous_force` on the pattern of the tangent, (n d, n d) [N/m]; None without."""
+        """Derivative of the viscous part of the force on the pattern of the tangent, (n d, n d) [N/m]; None without."""
         found = [(t, t.internal.viscous_tangent(u[t.nodes])) for t in self.terms]
         some = [(term, matrix) for term, matrix in found if matrix is not None]
         return self._matrix(some) if some else None
@@ -182,7 +184,10 @@ class RegionForces:
 
     def stored_force(self, state: MaterialState | None, u: Array) -> tuple[float, Array, Array | None]:
         """Stored energy [J], force (n, d) and its viscous part (n, d) or None [N], of a committed state at u."""
-        found = {t.region: t.internal.stored_force(_own(t, state), u[t.nodes]) for t in self.terms}
+        return self._joined({t.region: t.internal.stored_force(_own(t, state), u[t.nodes]) for t in self.terms})
+
+    def _joined(self, found: Mapping[str, tuple[float, Array, Array | None]]) -> tuple[float, Array, Array | None]:
+        """Energy [J], force (n, d) and its viscous part (n, d) or None [N], from those of the regions."""
         force = self._sum((t, found[t.region][1]) for t in self.terms)
         return sum(energy for energy, _, _ in found.values()), force, self._some(lambda t: found[t.region][2])
 

@@ -6,7 +6,7 @@ from typing import Protocol
 import numpy as np
 
 from softway.arrays import Array
-from softway.bodies.assembled.material_states import viscous_force
+from softway.bodies.assembled.material_states import end_force
 from softway.bodies.internal_force.slab_average import AverageField, DiscreteGradient
 from softway.contact.slab_motion.exact_instants import ExactInstantMean
 from softway.contact.slab_motion.trajectory import Trajectory
@@ -18,19 +18,20 @@ from softway.solve.equations.slab_values import SlabStart
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SlabEnd:
-    """Displacement and internal force (n, d) at the end of a slab, and the part of the force due to the mean rate of
-    the slab.
+    """Displacement (n, d), energy (parts,) and force (n, d) at the end of a slab, and the part of the force due to the
+    mean rate of the slab.
     """
 
     displacement: Array
+    energy: Array
     force: Array
     viscous: Array | None
 
 
-def end_of_slab(model: Model, u1: Array, force: Array) -> SlabEnd:
+def end_of_slab(model: Model, u1: Array) -> SlabEnd:
     """Values at the end of a slab at the displacement ``u1`` (n, d); without inertia no part acts on its own."""
-    viscous = viscous_force(model.parts, u1) if model.inert else None
-    return SlabEnd(displacement=u1, force=force, viscous=viscous)
+    energy, force, viscous = end_force(model.parts, u1)
+    return SlabEnd(displacement=u1, energy=energy, force=force, viscous=viscous if model.inert else None)
 
 
 def passed_on(model: Model, force: Array) -> Array:

@@ -78,8 +78,8 @@ class SlabEquations:
         """Evaluate the residual and its ingredients at q (n, d) with the contact impulses (m,) [N s]."""
         model, start, h = self.model, self.start, self.path.span
         u1 = self.path.end(q)
-        energy, force = model.energy_and_force(u1)
-        end = end_of_slab(model, u1, force)
+        end = end_of_slab(model, u1)
+        energy, force = end.energy, end.force
         mean = self.average.mean(model, start, self.path, q, end)
         viscous = None if end.viscous is None else passed_on(model, end.viscous)
         lost: Array = np.zeros(len(energy))

@@ -88,8 +88,9 @@ class ElasticForce:
         """:meth:`energy` [J] and :meth:`force` (n, d) [N] in one evaluation."""
         return self.work.energy_and_force(u)
 
-    def viscous_force(self, u: Array) -> None:
-        """None: the body has no viscosity."""
+    def end_force(self, u: Array) -> tuple[float, Array, None]:
+        """:meth:`energy_and_force`, and None: the body has no viscosity."""
+        return *self.work.energy_and_force(u), None
 
     def tangent(self, u: Array) -> csc_array:
         """Derivative of the force, (n d, n d) [N/m]; number of a component: ``node * d + component``."""

@@ -36,18 +36,23 @@ class RateArrayEvaluation:
 
     def energy_and_force(self, u: Array, state: MaterialState, span: float) -> tuple[float, Array]:
         """Stored energy plus the energy dissipated in the slab [J], and the force (n, d) [N] at the end of the slab."""
-        H, found = self.response(u, state, span)
+        return self._energy_and_force(u, state, *self.response(u, state, span))
+
+    def _energy_and_force(self, u: Array, state: MaterialState, H: Array, found: PointResponse) -> tuple[float, Array]:
         with np.errstate(invalid="ignore"):
             taken = found.ratio * (found.response.stored + found.response.dissipated)
             flux = self.points.flux(self.points.stress(found), found.F, H)
         energy = float(self.sampling.volume @ (state.stored + taken))
         return energy if np.isfinite(energy) else np.inf, self.sampling.nodal(flux, u)
 
-    def viscous_force(self, u: Array, state: MaterialState, span: float) -> Array | None:
-        """Part of the force due to the mean rate of the slab, (n, d) [N]; None without viscosity."""
+    def end_force(self, u: Array, state: MaterialState, span: float) -> tuple[float, Array, Array | None]:
+        """Energy [J] and force of :meth:`energy_and_force`, and the part of the force due to the mean rate of the slab,
+        (n, d) [N], None without viscosity, in one evaluation.
+        """
         H, found = self.response(u, state, span)
-        viscous = self.points.viscous_stress(found)
-        return None if viscous is None else self.sampling.nodal(self.points.flux(viscous, found.F, H), u)
+        stress = self.points.viscous_stress(found)
+        viscous = None if stress is None else self.sampling.nodal(self.points.flux(stress, found.F, H), u)
+        return *self._energy_and_force(u, state, H, found), viscous
 
     def tangent(self, u: Array, state: MaterialState, span: float) -> csc_array:
         """Derivative of the force, made symmetric, (n d, n d) [N/m]."""
@@ -63,7 +68,7 @@ class RateArrayEvaluation:
         return self.sampling.matrix(self.points.moduli(found, H, secant), flux, u)
 
     def viscous_tangent(self, u: Array, state: MaterialState, span: float) -> csc_array | None:
-        """Derivative of :meth:`viscous_force` on the pattern of the tangent, (n d, n d) [N/m]; None without."""
+        """Derivative of the viscous part of the force on the pattern of the tangent, (n d, n d) [N/m]; None without."""
         law = self.points.law
         if not isinstance(law, Damped):
             return None

@@ -98,9 +98,11 @@ class InelasticForce:
         """Force (n, d) [N] at the end of the slab; ``nan`` where the material is inverted."""
         return self.energy_and_force(u)[1]
 
-    def viscous_force(self, u: Array) -> Array | None:
-        """Part of the force due to the mean rate of the slab, (n, d) [N]; None without viscosity."""
-        return self.work.viscous_force(u, self.state, self.span)
+    def end_force(self, u: Array) -> tuple[float, Array, Array | None]:
+        """Energy [J] and force of :meth:`energy_and_force`, and the part of the force due to the mean rate of the slab,
+        (n, d) [N], None without viscosity, in one evaluation.
+        """
+        return self.work.end_force(u, self.state, self.span)
 
     def slab_average(self, rule: SlabForce, u0: Array, u1: Array) -> None:
         """None: the force is not averaged along a chord."""
@@ -114,7 +116,7 @@ class InelasticForce:
         return self.work.secant(u, self.state, self.span)
 
     def viscous_tangent(self, u: Array) -> csc_array | None:
-        """Derivative of :meth:`viscous_force` on the pattern of the tangent, (n d, n d) [N/m]; None without."""
+        """Derivative of the viscous part of the force on the pattern of the tangent, (n d, n d) [N/m]; None without."""
         return self.plain.viscous_tangent(u, self.state, self.span)
 
     def tangent_product(self, u: Array, w: Array) -> Array:

@@ -51,9 +51,9 @@ class RateKernelEvaluation:
         """Stored energy [J] and force (n, d) [N] of a committed state; None for the viscous part."""
         return *self._force(resting(), state.displacement, state), None
 
-    def viscous_force(self, u: Array, state: MaterialState, span: float) -> Array | None:
-        """None: the law has no viscosity."""
-        return None
+    def end_force(self, u: Array, state: MaterialState, span: float) -> tuple[float, Array, Array | None]:
+        """:meth:`energy_and_force`, and None: the law has no viscosity."""
+        return *self.energy_and_force(u, state, span), None
 
     def tangent(self, u: Array, state: MaterialState, span: float) -> csc_array:
         """Derivative of the force, made symmetric, (n d, n d) [N/m]."""

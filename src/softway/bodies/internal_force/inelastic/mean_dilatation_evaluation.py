@@ -33,9 +33,9 @@ class RateMeanEvaluation:
         """Stored energy [J] and force (n, d) [N] of a committed state; None for the viscous part."""
         return self.kernels.stored_force(state)
 
-    def viscous_force(self, u: Array, state: MaterialState, span: float) -> Array | None:
-        """None: the law has no viscosity."""
-        return None
+    def end_force(self, u: Array, state: MaterialState, span: float) -> tuple[float, Array, Array | None]:
+        """:meth:`energy_and_force`, and None: the law has no viscosity."""
+        return self.kernels.end_force(u, state, span)
 
     def committed(self, u: Array, state: MaterialState, span: float) -> MaterialState:
         """Material state at the end of the slab."""
