@@ -21,7 +21,7 @@ from softway.solve.methods.contact_step import contact_step
 from softway.solve.methods.facet_check import check_facets
 from softway.solve.methods.iteration import Guess, Iterate, lost
 from softway.solve.methods.newton import Newton
-from softway.solve.methods.renewal import Course
+from softway.solve.methods.renewal import RETREATS, WINDOW, Course
 from softway.solve.operators import Factored, MatrixFree, Multigrid
 from softway.solve.operators.operator_refresh import refreshed, renewed_inside
 
@@ -76,7 +76,8 @@ class FixedPoint:
 
     def iterate(self, system: SlabEquations, guess: Guess) -> Iterator[Iterate]:
         """Iterates from a guess; where they contract poorly, with a new operator, or with nodes kept on their facets
-        and then by Newton's method; where they go astray, from the closest one before.
+        and then by Newton's method; where they go astray, from the closest one before.  Without inertia, and on
+        redundant rows of crossing edges, changes rise and fall on the way to a solution: there none is astray.
 
         As in Newton's method, the first step has no scalar where the guess is no solution: its missing work has no
         meaning.  So one step solves a linear law on fixed rows (docs/theory/solver/solver.md).
@@ -87,7 +88,9 @@ class FixedPoint:
             return
         guess = replace(guess, memory=refreshed(system, guess.q, guess.memory, self.operator))
         end = (system if guess.near else system.without_closure()).evaluate(guess.q, guess.impulse)
-        course, slow = (Course(), POOR) if system.model.inert else (Course(window=FLOWING), PACE)
+        window, slow = (WINDOW, POOR) if system.model.inert else (FLOWING, PACE)
+        swings = system.model.contacts.crossing_edges or not system.model.inert
+        course = Course(window=window, retreats=RETREATS if swings else 0)
         while True:
             for it in self._iterates(system, guess, end):
                 course = course.after(it)
