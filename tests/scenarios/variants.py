@@ -48,6 +48,14 @@ class Variant:
 
 
 VARIANTS: Mapping[str, Variant] = {
+    "bag": Variant(
+        changes=(
+            'bodies.ball.copies=[["1 mm", "-70 mm"], ["27 mm", "-66 mm"]]',
+            'bodies.ball.velocity=["0 m/s", "-1 m/s"]',
+            "time.end=16 ms",
+        ),
+        same="the same bag catches two balls, which are thrown into it close together",
+    ),
     "ball_impact": Variant(
         changes=("bodies.ball.mesh.cells=4", "time.end=3 s", "time.step=0.1 s"),
         same="the ball is flattened and leaves the plane at 2.9 s; only the mesh is coarse",
