@@ -124,6 +124,18 @@ VARIANTS: Mapping[str, Variant] = {
         same="three links of the same mesh: the first two tighten, and the third follows",
         sensitive="nodes and edges of links at right angles meet at once; which are first decides what follows",
     ),
+    "crash_tube": Variant(
+        changes=(
+            'bodies.tube.mesh.size=["1.5 mm", "12 mm"]',
+            "bodies.tube.mesh.cells=[2, 5]",
+            'bodies.tube.supports[2].velocity=["0 m/s", "-120 m/s"]',
+            'bodies.tube.supports[2].times=["0 ms", "30 us"]',
+            "time.end=82.6 us",
+            "time.step=2 us",
+        ),
+        same="the same wall, as long as one fold, which closes until it touches itself; twice as fast",
+        held={"tube": {"bottom": (0, 1), "top": (0, 1), "left": (0,), "right": (0,)}},  # clamped ends; buckling faces
+    ),
     "elastic_cradle": Variant(
         changes=(*(f"bodies.disc{k}.mesh.cells=8" for k in range(1, 6)), "time.end=5 ms", "time.step=0.5 ms"),
         same="the same discs and rods; coarser discs, until the pulse has reached the third",
