@@ -23,7 +23,7 @@ help:
 	@echo "make kills  runs killed at 50 random instants, resumed and compared bit by bit: KILLS='--kills 500 --seed 2' for more"
 	@echo "make manual  all verification cases: docs/verification/manual.md, and docs/_build/verification.html with curves"
 	@echo "make fuzz   ten thousand damaged inputs, and five thousand scenarios, meshes and decks mutated by meaning, into docs/verification/robustness.md"
-	@echo "make drops  five hundred random drops, and two hundred with rigid bodies, into the same page"
+	@echo "make drops  five hundred random drops, two hundred with rigid bodies, two hundred assemblies, into the same page"
 	@echo "make endurance  a hundred thousand slabs with all records, and their memory, into the same page"
 	@echo "make docs   pages, reference and examples as HTML in docs/_build/html, none of which needs the network"
 
@@ -100,6 +100,7 @@ fuzz: $(TEST)/ready
 drops: $(TEST)/ready
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(TEST)/bin/python -W ignore tests/robustness/run_drops.py 500 --jobs $(JOBS) --out docs/verification/robustness/drops.jsonl
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(TEST)/bin/python -W ignore tests/robustness/run_drops.py 200 --rigid --jobs $(JOBS) --out docs/verification/robustness/rigid_drops.jsonl
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(TEST)/bin/python -W ignore tests/robustness/run_drops.py 200 --assemblies --jobs $(JOBS) --out docs/verification/robustness/assemblies.jsonl
 	$(TEST)/bin/python tests/robustness/page.py
 
 endurance: $(TEST)/ready

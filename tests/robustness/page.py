@@ -35,11 +35,10 @@ def page(place: Path = PLACE) -> str:
     parts = [HEAD]
     if (place / "fuzz.json").is_file():
         parts.append(fuzz(json.loads((place / "fuzz.json").read_text())))
-    if (place / "drops.jsonl").is_file():
-        parts.append(drops([json.loads(line) for line in (place / "drops.jsonl").read_text().splitlines()]))
-    if (place / "rigid_drops.jsonl").is_file():
-        lines = (place / "rigid_drops.jsonl").read_text().splitlines()
-        parts.append(rigid_drops([json.loads(line) for line in lines]))
+    for name, section in (("drops", drops), ("rigid_drops", rigid_drops), ("assemblies", assemblies)):
+        if (place / f"{name}.jsonl").is_file():
+            lines = (place / f"{name}.jsonl").read_text().splitlines()
+            parts.append(section([json.loads(line) for line in lines]))
     if (place / "endurance.json").is_file():
         parts.append(endurance(json.loads((place / "endurance.json").read_text())))
     return "\n".join([*parts, KNOWN])
@@ -110,11 +109,7 @@ rules Impulse and Paper give no promise on energy. *Slow* is more than five minu
         counts = collections.Counter(d["end"] for d in mine)
         worst = [max((d.get(k, 0.0) for d in mine), default=0.0) for k in ("depth", "tension", "energy", "given_back")]
         rows.append([rule, len(mine), *(counts[e] for e in ENDS), *(f"{w:.1e}" for w in worst)])
-    out = text + table(["rule", "drops", *ENDS, "depth", "tension", "energy", "given back"], rows)
-    kinds = collections.Counter(kind for d in found for kind in d.get("findings", "").split(", ") if kind)
-    if kinds:
-        told = ", ".join(f"{kind} in {count}" for kind, count in sorted(kinds.items()))
-        out += f"\nThe audit found something in {sum(bool(d.get('findings')) for d in found)} drops: {told}.\n"
+    out = text + table(["rule", "drops", *ENDS, "depth", "tension", "energy", "given back"], rows) + _findings(found)
     stopped = [d for d in found if d["end"] not in ("done", "refused")]
     if stopped:
         out += f"\nThe {len(stopped)} that did not finish:\n\n"
@@ -147,6 +142,39 @@ Masses over three decades, five laws, friction, two solvers. Depth is that of dr
     for one in (d for d in found if d["end"] != "done"):
         out += f"\n{one['number']} {one['end']}: {one['why']}\n"
     return out
+
+
+def assemblies(found: list[dict[str, Any]]) -> str:
+    """Random assemblies and how they ended."""
+    text = f"""## Random assemblies
+
+{len(found)} assemblies of three to eight bodies, by `tests/robustness/inputs/assemblies.py`: discs, boxes, thin closed
+rings, strips and glued boxes in the plane, balls, boxes and plates in space, a quarter of them of two materials, that
+fall into a box. Everything may touch everything and itself, most with friction, some pairs with a contact of their own.
+
+"""
+    rows = []
+    for space in ("2D", "3D"):
+        for glued in (False, True):
+            mine = [d for d in found if d["space"] == space and ("glued" in d["pieces"]) == glued]
+            counts = collections.Counter(d["end"] for d in mine)
+            worst = [max((d.get(k, 0.0) for d in mine), default=0.0) for k in ("depth", "tension", "energy")]
+            tries = sum(d.get("slabs", 0) for d in mine), sum(d.get("rejections", 0) for d in mine)
+            name = f"{space}, with ties" if glued else space
+            rows.append([name, len(mine), *(counts[e] for e in ENDS), *tries, *(f"{w:.1e}" for w in worst)])
+    head = ["space", "assemblies", *ENDS, "slabs", "rejections", "depth", "tension", "energy"]
+    out = text + table(head, rows) + _findings(found)
+    for one in (d for d in found if d["end"] != "done"):
+        out += f"\n{one['number']} {one['end']}: {one['why']}\n"
+    return out
+
+
+def _findings(found: list[dict[str, Any]]) -> str:
+    """Sentence on the findings of the audit; empty without any."""
+    kinds = collections.Counter(kind for d in found for kind in d.get("findings", "").split(", ") if kind)
+    told = ", ".join(f"{kind} in {count}" for kind, count in sorted(kinds.items()))
+    some = sum(bool(d.get("findings")) for d in found)
+    return f"\nThe audit found something in {some} of them: {told}.\n" if kinds else ""
 
 
 def endurance(found: dict[str, float]) -> str:
