@@ -20,13 +20,20 @@ def explained(file: Path) -> str:
     return comment.partition(SAID)[2].partition(". ")[0]
 
 
+def measured(problem: str) -> list[str]:
+    """Words of a note that a comment repeats: shares, factors, and walls that are computed otherwise than given."""
+    shares = [f"{share} %" for share in re.findall(r"(\d+)%", problem)]
+    factors = re.findall(r"[\d.]+ times", problem)
+    return shares + factors + re.findall("one cell thick", problem)
+
+
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_the_comment_explains_each_note_of_the_check(file: Path) -> None:
-    """It names the body, or the contact, and every share that a note gives; without notes there is no explanation."""
+    """It names the body, or the contact, and what a note measures; without notes there is no explanation."""
     notes, told = check(load(file)).notes, explained(file)
     assert bool(notes) == bool(told), [str(note) for note in notes]
     for note in notes:
-        shares = re.findall(r"(\d+)%", note.problem)
-        assert shares, f"say here how a comment explains: {note}"
-        assert all(f"{share} %" in told for share in shares), f"{note}\n{told}"
+        words = measured(note.problem)
+        assert words, f"say here how a comment explains: {note}"
+        assert all(word in told for word in words), f"{note}\n{told}"
         assert note.where.split(".")[1] in told, f"{note}\n{told}"
