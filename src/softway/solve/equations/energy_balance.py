@@ -153,19 +153,19 @@ def _by_viscous_forces(num: Array, den: Array, supply: Array) -> tuple[Array, Ar
 
 
 def _quotient(num: Array, den: Array, rounding: Array) -> Array:
-    """Scalars (groups,) that close the balances; zero where the missing work is ``rounding``."""
+    """Scalars (groups,) that close the balances; zero where the missing work is ``rounding``, infinite where none does."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where((np.abs(num) > rounding) & (den != 0.0), num / den, 0.0)
+        return np.where(np.abs(num) > rounding, num / den, 0.0)
 
 
 def _bounded(wanted: Array, inert: bool) -> Array:
-    """Scalars (groups,) within their bound.
+    """Scalars (groups,) within their bound; zero where none closes the balance.
 
     With inertia they fall as ``BOUND**2 / wanted`` beyond it: as the derivative of a balance passes zero, a scalar held
     at its bound would jump to the other one, and no iteration would converge.
     """
     if not inert:
-        return np.clip(wanted, -WEIGHING, WEIGHING)
+        return np.where(np.isfinite(wanted), np.clip(wanted, -WEIGHING, WEIGHING), 0.0)
     return np.clip(wanted, -BOUND, BOUND) / np.maximum(np.abs(wanted) / BOUND, 1.0)
 
 

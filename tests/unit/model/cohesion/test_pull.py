@@ -49,14 +49,18 @@ def test_without_inertia_what_a_snap_releases_is_dissipated() -> None:
 
 
 def test_slow_bars_follow_the_softening_line() -> None:
-    """Shorter than the critical length: force and damage of the closed form at every instant, without inertia."""
+    """Shorter than the critical length: force and damage of the closed form at every instant, without inertia.
+
+    A slab is accepted when its velocities change by less than 1e-11; softening amplifies what is left, and it adds up
+    over forty slabs to a few 1e-10 of the strength.
+    """
     model, energy = bars(1e-2, still=True), 1e-2
     last, first, flexible = 2.0 * energy / 0.1, 1e-4, 2.0 / E
     for step in sw.march(model, until=4.0, step=0.1):
         pulled = 0.02 * step.after.time
         force = min(pulled / (flexible + 1e-3), 0.1 * (last - pulled) / (last - first - 0.1 * flexible))
         found = step.after.displacement["b"][-1, 0] - step.after.displacement["b"][0, 0]
-        assert found * E == pytest.approx(force, abs=1e-11)
+        assert found * E == pytest.approx(force, abs=1e-9 * 0.1)
         opening = pulled - force * flexible
         spent = energy * max(0.0, opening - first) / (last - first)
         assert step.ledger.dissipation == pytest.approx(spent, abs=1e-12)

@@ -115,6 +115,19 @@ def test_the_mean_force_is_continuous_where_the_derivative_of_the_balance_passes
     assert not any(f.clipped for f in found)
 
 
+@pytest.mark.parametrize("share", [0.005, 0.02])
+def test_no_scalar_closes_a_balance_of_equal_end_forces(share: float) -> None:
+    """Their derivative is exactly zero: the missing work is told, and closed along the motion where it is slight."""
+    model = blocks(1, (), Weighted())
+    e = ends(model)
+    du = e.u1 - e.u0
+    work, left = float(np.sum(e.mean * du)), share * float(np.abs(e.mean * du).sum())
+    found = _closed(model, e, np.zeros_like(du), e.V0 + work + left)
+    assert found.scalar[0] == 0.0 and found.bounded and found.clipped == (share > 0.01)
+    missing = left if found.clipped else 0.0
+    assert work + left - float(np.sum(found.mean * du)) == pytest.approx(missing, abs=1e-15)
+
+
 def _closed(model: Model, e: EndForces, swing: np.ndarray, V1: np.ndarray) -> EnergyClosure:
     """Closure with a difference ``swing`` (n, d) of the forces at both ends around their mean."""
     return close_energy(model, replace(e, f0=e.mean - 0.5 * swing, f1=e.mean + 0.5 * swing, V1=V1), fallback=False)
