@@ -153,7 +153,7 @@ def _by_viscous_forces(num: Array, den: Array, supply: Array) -> tuple[Array, Ar
 
 
 def _quotient(num: Array, den: Array, rounding: Array) -> Array:
-    """Scalars (groups,) that close the balances; zero where the missing work is ``rounding``, infinite where none does."""
+    """Scalars (groups,) that close the balances: zero where the missing work is ``rounding``, infinite if none does."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(np.abs(num) > rounding, num / den, 0.0)
 
