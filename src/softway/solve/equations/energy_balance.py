@@ -101,13 +101,14 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
             mean += spin.force(-spin.solve(spin.torque + a[g] * spin.slope))
     work = np.asarray(np.bincount(label, weights=model.space.totals(np.abs(ends.mean * moving))), float)
     missing = np.where(strained, _relative(num, rounding, work), 0.0)
-    rest = np.where((a != wanted) | (excess > 0.0), num - a * den + excess, 0.0) * model.inert
+    bounded = a != wanted
+    rest = np.where(bounded | (excess > 0.0), num - a * den + excess, 0.0) * model.inert
     great = (np.abs(rest) > np.maximum(SLIGHT * work, TINY * level)) & (not fallback)
     for g in np.flatnonzero(np.where(great, 0.0, rest)).tolist():
         mean += rest[g] * _along_motion(model, ends, moving, members[g])
     return EnergyClosure(
         mean=mean, scalar=a[label], missing_work=missing[label], lost=released,
-        clipped=bool(great.any()), bounded=bool((a != wanted).any()),
+        clipped=bool(great.any()), bounded=bool(bounded.any()),
     )  # fmt: skip
 
 

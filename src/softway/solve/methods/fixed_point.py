@@ -89,17 +89,17 @@ class FixedPoint:
         guess = replace(guess, memory=refreshed(system, guess.q, guess.memory, self.operator))
         end = (system if guess.near else system.without_closure()).evaluate(guess.q, guess.impulse)
         window, slow = (WINDOW, POOR) if system.model.inert else (FLOWING, PACE)
-        swings = system.model.contacts.crossing_edges or not system.model.inert
-        course = Course(window=window, retreats=RETREATS if swings else 0)
+        turns = self.handover and system.model.inert and not system.model.contacts.crossing_edges
+        course = Course(window=window, retreats=0 if turns else RETREATS)
         while True:
             for it in self._iterates(system, guess, end):
                 course = course.after(it)
-                if self._turns_back(course):
+                if course.way_back is not None:
                     break
                 yield it
                 if self._leaves_operator(it, course, slow):
                     break
-            back = course.way_back if self._turns_back(course) else None
+            back = course.way_back
             it = back or it
             if not np.isfinite(it.change):
                 return
@@ -114,10 +114,6 @@ class FixedPoint:
                 return
             course = course.renewed() if renews else Course(window=course.window, retreats=course.retreats)
             end = system.evaluate(guess.q, guess.impulse)
-
-    def _turns_back(self, course: Course) -> bool:
-        """True if the slab goes on from an iterate before the last one."""
-        return self.handover and course.way_back is not None
 
     def _leaves_operator(self, it: Iterate, course: Course, slow: float) -> bool:
         """True if the iterates contract so poorly that a new operator or Newton's method pays; above the contraction
