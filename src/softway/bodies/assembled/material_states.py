@@ -1,6 +1,6 @@
 """Material states of all solids, from slab to slab."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -47,8 +47,7 @@ def end_force(parts: Sequence[DiscreteSolid], u: Array) -> tuple[Array, Array, A
     """Energy (parts,) [J] and force (n, d) at the end of a slab, and the part of the force due to the mean rate of the
     slab (n, d) [N], None without viscosity.
     """
-    energy, force, viscous = zip(*(p.internal.end_force(u[p.nodes]) for p in parts), strict=True)
-    return np.array(energy), np.concatenate(force), _joined(parts, viscous)
+    return _assembled(parts, (p.internal.end_force(u[p.nodes]) for p in parts))
 
 
 def stored_viscous_force(parts: Sequence[DiscreteSolid], states: MaterialStates) -> Array | None:
@@ -60,7 +59,14 @@ def stored_viscous_force(parts: Sequence[DiscreteSolid], states: MaterialStates)
 def stored_force(parts: Sequence[DiscreteSolid], states: MaterialStates, u: Array) -> tuple[Array, Array, Array | None]:
     """Stored energy (parts,) [J], force (n, d) and its viscous part [N] in the material states, at u (n, d)."""
     pairs = zip(parts, _given(parts, states), strict=True)
-    energy, force, viscous = zip(*(p.internal.stored_force(s, u[p.nodes]) for p, s in pairs), strict=True)
+    return _assembled(parts, (p.internal.stored_force(s, u[p.nodes]) for p, s in pairs))
+
+
+def _assembled(
+    parts: Sequence[DiscreteSolid], found: Iterable[tuple[float, Array, Array | None]]
+) -> tuple[Array, Array, Array | None]:
+    """Energy (parts,) [J], force (n, d) and its viscous part [N], None without viscosity, from those of the solids."""
+    energy, force, viscous = zip(*found, strict=True)
     return np.array(energy), np.concatenate(force), _joined(parts, viscous)
 
 
