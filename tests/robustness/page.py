@@ -106,9 +106,7 @@ rules Impulse and Paper give no promise on energy. *Slow* is more than five minu
     rows = []
     for rule in ("Energy", "Impulse", "Paper"):
         mine = [d for d in found if d["rule"] == rule]
-        counts = collections.Counter(d["end"] for d in mine)
-        worst = [max((d.get(k, 0.0) for d in mine), default=0.0) for k in ("depth", "tension", "energy", "given_back")]
-        rows.append([rule, len(mine), *(counts[e] for e in ENDS), *(f"{w:.1e}" for w in worst)])
+        rows.append([rule, *_ends(mine), *_worst(mine, "given_back")])
     out = text + table(["rule", "drops", *ENDS, "depth", "tension", "energy", "given back"], rows) + _findings(found)
     stopped = [d for d in found if d["end"] not in ("done", "refused")]
     if stopped:
@@ -135,13 +133,8 @@ Masses over three decades, five laws, friction, two solvers. Depth is that of dr
     rows = []
     for family in ("falls", "hangs", "carries", "chain"):
         mine = [d for d in found if d["family"] == family]
-        counts = collections.Counter(d["end"] for d in mine)
-        worst = [max((d[k] for d in mine), default=0.0) for k in ("depth", "tension", "energy")]
-        rows.append([family, len(mine), *(counts[e] for e in ENDS), *(f"{w:.1e}" for w in worst)])
-    out = text + table(["family", "scenes", *ENDS, "depth", "tension", "energy"], rows)
-    for one in (d for d in found if d["end"] != "done"):
-        out += f"\n{one['number']} {one['end']}: {one['why']}\n"
-    return out
+        rows.append([family, *_ends(mine), *_worst(mine)])
+    return text + table(["family", "scenes", *ENDS, "depth", "tension", "energy"], rows) + _unfinished(found)
 
 
 def assemblies(found: list[dict[str, Any]]) -> str:
@@ -157,16 +150,26 @@ fall into a box. Everything may touch everything and itself, most with friction,
     for space in ("2D", "3D"):
         for glued in (False, True):
             mine = [d for d in found if d["space"] == space and ("glued" in d["pieces"]) == glued]
-            counts = collections.Counter(d["end"] for d in mine)
-            worst = [max((d.get(k, 0.0) for d in mine), default=0.0) for k in ("depth", "tension", "energy")]
             tries = sum(d.get("slabs", 0) for d in mine), sum(d.get("rejections", 0) for d in mine)
-            name = f"{space}, with ties" if glued else space
-            rows.append([name, len(mine), *(counts[e] for e in ENDS), *tries, *(f"{w:.1e}" for w in worst)])
+            rows.append([f"{space}, with ties" if glued else space, *_ends(mine), *tries, *_worst(mine)])
     head = ["space", "assemblies", *ENDS, "slabs", "rejections", "depth", "tension", "energy"]
-    out = text + table(head, rows) + _findings(found)
-    for one in (d for d in found if d["end"] != "done"):
-        out += f"\n{one['number']} {one['end']}: {one['why']}\n"
-    return out
+    return text + table(head, rows) + _findings(found) + _unfinished(found)
+
+
+def _ends(mine: list[dict[str, Any]]) -> list[int]:
+    """Number of scenes, and of those with each end."""
+    counts = collections.Counter(d["end"] for d in mine)
+    return [len(mine), *(counts[e] for e in ENDS)]
+
+
+def _worst(mine: list[dict[str, Any]], *more: str) -> list[str]:
+    """Greatest depth, tension and error of energy, and of ``more`` figures."""
+    return [f"{max((d.get(k, 0.0) for d in mine), default=0.0):.1e}" for k in ("depth", "tension", "energy", *more)]
+
+
+def _unfinished(found: list[dict[str, Any]]) -> str:
+    """A line on each scene that did not finish."""
+    return "".join(f"\n{d['number']} {d['end']}: {d['why']}\n" for d in found if d["end"] != "done")
 
 
 def _findings(found: list[dict[str, Any]]) -> str:
