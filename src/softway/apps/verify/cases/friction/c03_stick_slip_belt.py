@@ -1,7 +1,7 @@
 """C03: stick-slip of a sprung mass on a moving belt; static friction is twice kinetic friction.
 
-Stiff block on two feet, see ``scenes/sprung.py``. Both feet carry the same part of the weight and of the spring force,
-so they break away together.
+Stiff elastic block on two feet, see ``scenes/sprung.py``. Both feet carry the same part of the weight and of the spring
+force, so they break away together. Beside it a rigid block.
 """
 
 from dataclasses import dataclass
@@ -11,6 +11,7 @@ import numpy as np
 
 import softway as sw
 from softway.apps.verify.case import Outcome
+from softway.apps.verify.cases.friction.rigid_bodies import on_belt
 from softway.apps.verify.scenes.sprung import Sprung
 from softway.arrays import Array
 from softway.record.view.plots.curves import Curve, Panel
@@ -45,13 +46,31 @@ def carried(step: float = 1e-3) -> Course:
     )
 
 
+@cache
+def carried_rigid(step: float = 1e-3) -> Course:
+    """March of a rigid block from rest on the belt, with the weight and the friction of the case."""
+    steps = on_belt(belt=BELT, stiffness=100.0, static=0.4, kinetic=0.2, step=step)
+    events = {kind: tuple(e.time for s in steps for e in s.events if e.kind == kind) for kind in ("slip", "stick")}
+    return Course(
+        time=np.array([s.time for s in steps]),
+        place=np.array([s.bodies["b"].centre[0] for s in steps]),
+        slips=events["slip"],
+        sticks=events["stick"],
+    )
+
+
 def compute() -> Outcome:
     """Compute with slabs of 1 ms."""
-    course = carried()
-    found = {
-        "x_max": float(course.place.max()),
-        "time of slip": course.sticks[0] - course.slips[0],
-        "period": course.slips[1] - course.slips[0],
-    }
-    curve = Curve(x=course.time, y=1e3 * course.place, label="softway")
-    return Outcome(values=found, panels=(Panel(title="Place of the block", x="t [s]", y="x [mm]", curves=(curve,)),))
+    courses = {"": carried(), ", rigid": carried_rigid()}
+    found = {}
+    for name, course in courses.items():
+        found[f"x_max{name}"] = float(course.place.max())
+        found[f"time of slip{name}"] = course.sticks[0] - course.slips[0]
+        found[f"period{name}"] = course.slips[1] - course.slips[0]
+    # the elastic block starts just before it breaks away
+    late = {"": 0.0, ", rigid": courses[""].slips[0] - courses[", rigid"].slips[0]}
+    curves = tuple(
+        Curve(x=course.time + late[name], y=1e3 * course.place, label=f"softway{name}")
+        for name, course in courses.items()
+    )
+    return Outcome(values=found, panels=(Panel(title="Place of the block", x="t [s]", y="x [mm]", curves=curves),))

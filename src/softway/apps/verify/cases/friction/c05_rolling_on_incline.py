@@ -1,4 +1,7 @@
-"""C05: round bodies roll or slip down an incline from rest; accelerations are averaged over many facets."""
+"""C05: round bodies roll or slip down an incline from rest.
+
+The accelerations of elastic bodies are averaged over many facets; rigid bodies are round.
+"""
 
 from collections.abc import Mapping
 from functools import cache
@@ -7,6 +10,7 @@ import numpy as np
 
 import softway as sw
 from softway.apps.verify.case import Outcome
+from softway.apps.verify.cases.friction.rigid_bodies import Rolling, rolled_down
 from softway.apps.verify.scenes.rolling import Course, rolled
 from softway.meshes.generators.recipes import MeshSource, Ring
 from softway.record.view.plots.curves import Curve, Panel
@@ -17,6 +21,9 @@ SOURCES: Mapping[str, MeshSource] = {
     "cylinder": sw.meshes.Disc(radius=RADIUS, cells=16),
     "ring": Ring(inner=0.09, outer=RADIUS, cells=(2, 64)),
 }
+
+BETA = {"ball": 0.4, "cylinder": 0.5, "ring": 1.0}
+"""Moment of inertia of round bodies over m r^2; the ring is thin."""
 
 
 @cache
@@ -36,17 +43,28 @@ def torque(course: Course) -> float:
     return float(np.polyfit(course.time, course.spin, 1)[0]) * RADIUS * course.beta
 
 
+def gone_rigid(body: str, slope: float, mu: float, until: float, step: float) -> Rolling:
+    """March a rigid body on an incline until a time [s]."""
+    return rolled_down(radius=RADIUS, beta=BETA[body], slope=slope, mu=mu, speed=0.0, until=until, step=step)
+
+
 def compute() -> Outcome:
-    """Compute the four bodies."""
-    courses = {
-        "cylinder rolls": gone("cylinder", 0.4, 0.5, 0.4, 1e-3),
-        "ball rolls": gone("ball", 0.4, 0.5, 0.4, 2e-3),
-        "ball slips": gone("ball", 0.8, 0.1, 0.2, 2e-3),
-        "ring slips": gone("ring", 0.6, 0.15, 0.4, 1e-3),
+    """Compute the four bodies, elastic and rigid."""
+    asked = {
+        "cylinder rolls": ("cylinder", 0.4, 0.5, 0.4, 1e-3),
+        "ball rolls": ("ball", 0.4, 0.5, 0.4, 2e-3),
+        "ball slips": ("ball", 0.8, 0.1, 0.2, 2e-3),
+        "ring slips": ("ring", 0.6, 0.15, 0.4, 1e-3),
     }
+    courses = {name: gone(*words) for name, words in asked.items()}
+    rigid = {name: gone_rigid(*words) for name, words in asked.items()}
     found = {f"acceleration, {name}": acceleration(course) for name, course in courses.items()}
     found["beta times r alpha, ring slips"] = torque(courses["ring slips"])
     creep = [c.creep[~c.slides].max(initial=0.0) for name, c in courses.items() if name.endswith("rolls")]
     found["slip velocity where they roll"] = float(max(creep))
+    found |= {f"acceleration, {name}, rigid": float(c.velocity[-1] / c.time[-1]) for name, c in rigid.items()}
+    found["slip velocity where they roll, rigid"] = max(
+        float(np.abs(c.slip).max()) for name, c in rigid.items() if name.endswith("rolls")
+    )
     curves = tuple(Curve(x=c.time, y=c.velocity, label=name) for name, c in courses.items())
     return Outcome(values=found, panels=(Panel(title="Down the incline", x="t [s]", y="v [m/s]", curves=curves),))

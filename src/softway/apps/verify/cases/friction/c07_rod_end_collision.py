@@ -1,10 +1,11 @@
-"""C07: end of a rod hits the ground: rigid collision of ``softway.apps.verify.exact.rigid_impact``."""
+"""C07: end of a rod hits the ground: the collision of ``softway.apps.verify.exact.rigid_impact``, and a rigid body."""
 
 from math import cos, sin
 
 import numpy as np
 
 from softway.apps.verify.case import Outcome
+from softway.apps.verify.cases.friction import rigid_bodies
 from softway.apps.verify.exact.rigid_impact import Collision, collide
 from softway.arrays import Array
 
@@ -24,9 +25,10 @@ def fallen(along: float, mu: float) -> tuple[Array, Collision]:
 
 def compute() -> Outcome:
     """Compute both velocities with the three friction coefficients."""
-    rows = []
+    rows, marched = [], []
     for along in SPEEDS:
         for mu in FRICTION:
             after, met = fallen(along, mu)
             rows.append([*after.tolist(), float(met.impulse[1]), float(met.impulse[0])])
-    return Outcome(values={"after the impact": rows})
+            marched.append(rigid_bodies.fallen(speed=along, mu=mu, length=LENGTH, angle=ANGLE, restitution=RESTITUTION))
+    return Outcome(values={"after the impact": rows, "after the impact, marched": marched})
