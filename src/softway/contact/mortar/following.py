@@ -22,6 +22,8 @@ from softway.kernels.mortar.tables import Functions
 
 LEAST = 1e-14
 """Weight below which a node has no part in the motion of another."""
+SLIVER = 1e-9
+"""Covered fraction around a node below which it is off the surface."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -154,14 +156,22 @@ def _weights(both: CommonParts) -> sp.csr_array:
     """Weights (m, n): the means of the surface, less what the control points have from other nodes than their own."""
     slave, own, cross = both.mortar.slave, both.own, both.cross
     if slave.sharing is not None:
-        whole = sp.csr_array(own @ slave.control)
-        alone = sp.diags_array(np.where(whole.diagonal() == 0.0, 1.0, 0.0))  # nodes off the surface
-        return _solved(sp.csc_array(whole + alone), sp.csc_array(cross))
+        on = np.where(own.diagonal() > SLIVER * _around(slave, both.sizes[0]), 1.0, 0.0)
+        whole = sp.diags_array(on) @ own @ slave.control + sp.diags_array(1.0 - on)
+        return _solved(sp.csc_array(whole), sp.csc_array(sp.diags_array(on) @ cross))
     total = own.diagonal()
     means = sp.csr_array(sp.diags_array(np.where(total > 0.0, 1.0, 0.0) / np.where(total > 0.0, total, 1.0)) @ cross)
     main = slave.control.diagonal()
     others = sp.csr_array(slave.control - sp.diags_array(main))  # of corners, which are their own control points
     return _without_rounding(sp.csr_array(sp.diags_array(1.0 / main) @ (means - others @ means)))
+
+
+def _around(surface: LinearSurface, sizes: Array) -> Array:
+    """Length or area (m,) around the control points of the nodes, from those (p,) of the simplices [m^r]."""
+    corner = surface.corner
+    share = np.repeat(sizes / corner.shape[1], corner.shape[1])
+    around = np.bincount(corner.ravel(), share, surface.spread.shape[0])
+    return np.asarray(around[: len(surface.node)], float)
 
 
 def _solved(own: sp.csc_array, cross: sp.csc_array) -> sp.csr_array:

@@ -77,3 +77,20 @@ def test_without_the_tie_it_is_not(cell: str) -> None:
     model = sw.build(sw.Scene(bodies=scene.bodies, loads=scene.loads))
     u = model.points @ gradient.T
     assert np.abs(model.force(u) - model.load).max() > 1e-2 * np.abs(model.force(u)).max()
+
+
+@pytest.mark.parametrize("inset", [0.5, 1.0, 1.5])
+@pytest.mark.parametrize("angle", [0.0, 0.7])
+def test_a_pane_on_a_part_of_a_surface_follows_it(inset: float, angle: float) -> None:
+    """Facets that are covered by half, or to rounding, do not matter: the pane follows a linear field of the plate."""
+    place = sw.bodies.Placement(
+        rotations=(sw.bodies.Rotation(angle=angle, axis=(1.0, 2.0, 0.0)),), about=(0.0, 0.0, 0.0)
+    )
+    plate = place.applied(box((5.0, 5.0, 1.0), (5, 5, 1), cell="hex20"))
+    size = 5.0 - 2.0 * inset
+    pane = place.applied(box((size, size, 0.5), (3, 3, 1), cell="hex20", origin=(inset, inset, 1.0)))
+    law = sw.LinearElastic(E=E, nu=NU)
+    solids = {name: sw.Solid(mesh=m, material=law, density=1.0) for name, m in (("plate", plate), ("pane", pane))}
+    model = sw.build(sw.Scene(bodies=solids, ties=(sw.Tie(between=("plate.top", "pane.bottom")),)))
+    u = model.points @ np.random.default_rng(4).normal(size=(3, 3))
+    np.testing.assert_allclose(model.dofs.nodes(model.dofs.unknowns(u)), u, atol=1e-12 * np.abs(u).max())
