@@ -1,4 +1,4 @@
-"""Polynomial curves and surface patches: points, tangents and closest points, batched.
+"""Polynomial curves and surface patches: monomials, and closest points in a compiled loop.
 
 A facet is a polynomial in its local coordinates, ``X(xi) = sum_m A_m prod_j xi_j^powers[m, j]`` with powers up to two.
 The foot of a point x on the facet satisfies ``(x - X) . dX/dxi_j = 0``.  It is found by Newton's method.  Where the
@@ -12,6 +12,7 @@ from math import perm
 import numpy as np
 
 from softway.arrays import Array, IntArray
+from softway.kernels.jit.compilation import uncounted, uncounted_kernel
 
 ITERATIONS = 30
 """Greatest number of iterations; a foot that still moves then is accepted."""
@@ -52,15 +53,6 @@ def _monomial(local: Array, exponents: list[int], derivative: tuple[int, ...]) -
     return factor, values
 
 
-def places(local: Array, powers: IntArray, terms: Array, derivative: tuple[int, ...]) -> Array:
-    """Points (d, p) of facets with the coefficients ``terms`` (b, d, p), or their derivatives."""
-    out = np.zeros(terms.shape[1:])
-    for (factor, values), term in zip(monomials(local, powers, derivative), terms, strict=True):
-        if factor:
-            out += factor * term if values is None else (factor * values) * term
-    return out
-
-
 def feet(x: Array, powers: IntArray, terms: Array, start: Array, low: float, high: float) -> Array:
     """Local coordinates (r, p) of the feet of points on curves (r = 1) or surface patches (r = 2).
 
@@ -87,48 +79,104 @@ def feet(x: Array, powers: IntArray, terms: Array, start: Array, low: float, hig
     >>> feet(x, np.array([[0], [1], [2]]), terms, np.full((1, 2), 0.2), -1.0, 2.0).round(12).tolist()
     [[0.0, 0.7]]
     """
-    step = _line_step if powers.shape[1] == 1 else _sheet_step
     limit = STEP if powers.sum(axis=1).max() > 1 else np.inf
     out = np.clip(start, low, high)
-    todo, here = np.arange(x.shape[1]), out
-    for _ in range(ITERATIONS):
-        move = step(x, powers, terms, here)
-        move *= np.minimum(1.0, limit / np.maximum(np.abs(move).max(axis=0), STEP))
-        after = np.clip(here + move, low, high)
-        moving = np.abs(after - here).max(axis=0) > STILL
-        out[:, todo] = here = after
-        if not moving.any():
-            break
-        if 2 * np.count_nonzero(moving) < len(todo):
-            todo, here = todo[moving], here[:, moving]
-            x, terms = x[:, moving], terms[:, :, moving]
+    _find(x, powers, terms, out, low, high, limit, np.empty((6, len(x))))
     return out
 
 
-def _dot(u: Array, v: Array) -> Array:
-    return np.asarray(np.einsum("ip,ip->p", u, v))
+@uncounted_kernel
+def _find(x, powers, terms, local, low, high, limit, work):
+    """Move the local coordinates (r, p) of all points to their feet.
+
+    ``work`` (6, d) holds the vector from the foot to the point, the tangents u and v, and the second derivatives uu, uv
+    and vv.
+    """
+    for p in range(x.shape[1]):
+        for _ in range(ITERATIONS):
+            _derivatives(x, powers, terms, local, p, work)
+            if powers.shape[1] == 1:
+                first, second = _line_step(work), 0.0
+            else:
+                first, second = _sheet_step(work)
+            scale = min(1.0, limit / max(abs(first), abs(second), STEP))
+            way = _moved(local, 0, p, first * scale, low, high)
+            if powers.shape[1] == 2:
+                way = max(way, _moved(local, 1, p, second * scale, low, high))
+            if not way > STILL:
+                break
 
 
-def _line_step(x: Array, powers: IntArray, terms: Array, local: Array) -> Array:
-    """Newton step (1, p) on curves."""
-    r = x - places(local, powers, terms, (0,))
-    along, bend = places(local, powers, terms, (1,)), places(local, powers, terms, (2,))
-    metric = _dot(along, along)
-    slope = metric - _dot(r, bend)
-    slope = np.where(slope > 0.1 * metric, slope, metric)
-    return np.asarray(_dot(r, along) / slope)[None]
+@uncounted
+def _moved(local, j, p, step, low, high):
+    """Move one local coordinate of a point within the bounds; returns the distance."""
+    before = local[j, p]
+    after = before + step
+    if after < low:
+        after = low
+    if after > high:
+        after = high
+    local[j, p] = after
+    return abs(after - before)
 
 
-def _sheet_step(x: Array, powers: IntArray, terms: Array, local: Array) -> Array:
-    """Newton step (2, p) on surface patches."""
-    r = x - places(local, powers, terms, (0, 0))
-    u, v = places(local, powers, terms, (1, 0)), places(local, powers, terms, (0, 1))
-    uu, uv, vv = _dot(u, u), _dot(u, v), _dot(v, v)
-    a, b, c = (
-        metric - _dot(r, places(local, powers, terms, twice))
-        for metric, twice in ((uu, (2, 0)), (uv, (1, 1)), (vv, (0, 2)))
-    )
-    flat = ~((a > 0.0) & (a * c - b * b > 0.1 * (uu * vv - uv * uv)))
-    a, b, c = np.where(flat, uu, a), np.where(flat, uv, b), np.where(flat, vv, c)
-    f, g = _dot(r, u), _dot(r, v)
-    return np.stack([c * f - b * g, a * g - b * f]) / (a * c - b * b)
+@uncounted
+def _derivatives(x, powers, terms, local, p, work):
+    """Write the vector from the point of a facet to x, its tangents, and its second derivatives."""
+    sheet = powers.shape[1] == 2
+    for i in range(len(x)):
+        work[0, i] = x[i, p]
+        for row in range(1, 6):
+            work[row, i] = 0.0
+    for m in range(len(powers)):
+        e, f = _powers(local[0, p], powers[m, 0]), (1.0, 0.0, 0.0)
+        if sheet:
+            f = _powers(local[1, p], powers[m, 1])
+        for i in range(len(x)):
+            term = terms[m, i, p]
+            work[0, i] -= e[0] * f[0] * term
+            work[1, i] += e[1] * f[0] * term
+            work[2, i] += e[0] * f[1] * term
+            work[3, i] += e[2] * f[0] * term
+            work[4, i] += e[1] * f[1] * term
+            work[5, i] += e[0] * f[2] * term
+
+
+@uncounted
+def _powers(xi, exponent):
+    """Power 0, 1 or 2 of a local coordinate with its derivatives."""
+    if exponent == 0:
+        return 1.0, 0.0, 0.0
+    if exponent == 1:
+        return xi, 1.0, 0.0
+    return xi * xi, 2.0 * xi, 2.0
+
+
+@uncounted
+def _times(work, a, b):
+    """Product of two of the vectors."""
+    out = 0.0
+    for i in range(work.shape[1]):
+        out += work[a, i] * work[b, i]
+    return out
+
+
+@uncounted
+def _line_step(work):
+    """Newton step on a curve."""
+    metric = _times(work, 1, 1)
+    slope = metric - _times(work, 0, 3)
+    if not slope > 0.1 * metric:
+        slope = metric
+    return _times(work, 0, 1) / slope
+
+
+@uncounted
+def _sheet_step(work):
+    """Newton step on a surface patch."""
+    uu, uv, vv = _times(work, 1, 1), _times(work, 1, 2), _times(work, 2, 2)
+    a, b, c = uu - _times(work, 0, 3), uv - _times(work, 0, 4), vv - _times(work, 0, 5)
+    if not (a > 0.0 and a * c - b * b > 0.1 * (uu * vv - uv * uv)):
+        a, b, c = uu, uv, vv
+    f, g, det = _times(work, 0, 1), _times(work, 0, 2), a * c - b * b
+    return (c * f - b * g) / det, (a * g - b * f) / det

@@ -3,10 +3,16 @@
 import numpy as np
 import pytest
 
-from softway.kernels.geometry.curved_facets import feet, places
+from softway.kernels.geometry.curved_facets import feet, monomials
 
 LINE = np.array([[0], [1], [2]])
 SHEET = np.array([[0, 0], [0, 1], [1, 0], [1, 1], [0, 2], [2, 0]])
+
+
+def places(local: np.ndarray, powers: np.ndarray, terms: np.ndarray, derivative: tuple[int, ...]) -> np.ndarray:
+    """Points (d, p) of facets with the coefficients (b, d, p), or their derivatives."""
+    values = [f * (1.0 if v is None else v) for f, v in monomials(local, powers, derivative)]
+    return np.einsum("bp,bdp->dp", np.stack([np.broadcast_to(v, local.shape[1]) for v in values]), terms)
 
 
 @pytest.mark.parametrize("powers", [LINE, SHEET])
@@ -42,3 +48,11 @@ def test_a_foot_stops_at_the_bounds() -> None:
     terms = np.zeros((3, 2, 1))
     terms[1, 0] = 1.0
     assert feet(np.array([[7.0], [1.0]]), LINE, terms, np.full((1, 1), 0.5), -1.0, 2.0).tolist() == [[2.0]]
+
+
+def test_a_foot_does_not_depend_on_the_points_beside_it() -> None:
+    rng = np.random.default_rng(3)
+    terms, x = rng.normal(size=(len(SHEET), 3, 40)), rng.normal(size=(3, 40))
+    start = np.full((2, 40), 0.5)
+    alone = [feet(x[:, [p]], SHEET, terms[:, :, [p]], start[:, [p]], -1.0, 2.0) for p in range(40)]
+    assert (feet(x, SHEET, terms, start, -1.0, 2.0) == np.concatenate(alone, axis=1)).all()
