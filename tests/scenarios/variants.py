@@ -197,6 +197,19 @@ VARIANTS: Mapping[str, Variant] = {
         same="same platen, friction and slabs; a third of the way down",
         held={"ring": {"bottom": (1,), "top": (1,)}},  # plane of symmetry, contact that starts flush
     ),
+    "phone_drop": Variant(
+        changes=(
+            "bodies.glass.mesh.cells=[4, 2, 1]",
+            "time.end=60 us",
+            "time.step=20 us",
+        ),
+        same="the same parts with a coarser pane; the corner lands, and the glue takes the pane along",
+        held={
+            "frame": {"front": (0, 1, 2), "screws": (0, 1, 2)},
+            "glass": {"top": (0, 1, 2)},
+            "cover": {"inside": (0, 1, 2)},
+        },  # glued surfaces
+    ),
     "sandwich_plate": Variant(
         changes=(
             "bodies.plate.mesh.mesh.cells=[30, 4]",

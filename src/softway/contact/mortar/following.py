@@ -22,8 +22,8 @@ from softway.kernels.mortar.tables import Functions
 
 LEAST = 1e-14
 """Weight below which a node has no part in the motion of another."""
-SLIVER = 1e-9
-"""Covered fraction around a node below which it is off the surface."""
+SLIVER = 1e-6
+"""Covered fraction of a simplex, or around a node, below which it is off the surface."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -146,7 +146,7 @@ def common_parts(slave: Mapping[str, IntArray], master: Mapping[str, IntArray], 
         nodes=len(x),
         weights=met.vertex_weights,
         common=common,
-        functions=gap_weights(mortar.slave, below, np.where(part > 0.0, part, size), mass),  # dual where covered
+        functions=gap_weights(mortar.slave, below, np.where(part > SLIVER * size, part, size), mass),  # dual where covered
         part=part,
         sizes=(size, other),
     )
