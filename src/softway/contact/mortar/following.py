@@ -146,7 +146,9 @@ def common_parts(slave: Mapping[str, IntArray], master: Mapping[str, IntArray], 
         nodes=len(x),
         weights=met.vertex_weights,
         common=common,
-        functions=gap_weights(mortar.slave, below, np.where(part > SLIVER * size, part, size), mass),  # dual where covered
+        functions=gap_weights(
+            mortar.slave, below, np.where(part > SLIVER * size, part, size), mass
+        ),  # dual where covered
         part=part,
         sizes=(size, other),
     )
