@@ -201,7 +201,7 @@ VARIANTS: Mapping[str, Variant] = {
         changes=(
             "bodies.glass.mesh.cells=[4, 2, 1]",
             "time.end=60 us",
-            "time.step=20 us",
+            "time.step=15 us",
         ),
         same="the same parts with a coarser pane; the corner lands, and the glue takes the pane along",
         held={
