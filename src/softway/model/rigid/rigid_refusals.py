@@ -23,8 +23,8 @@ def require_fitting(scene: Scene, rigid: RigidBodies, solids: Sequence[Solid]) -
     ------
     InputError
         For scaled inertia, a static start, rules of impact other than Energy with one scalar, the name of a rigid body
-        that another body has, contacts with a body without a surface, and bodies that can leave the axis of bodies of
-        revolution.
+        that another body has, contacts with a body without a surface or without inertia, and bodies that can leave the
+        axis of bodies of revolution.
     """
     if scene.inertia.factor != 1.0:
         problem = f"{type(scene.inertia).__name__} with rigid bodies, which have their full mass"
@@ -42,7 +42,7 @@ def require_fitting(scene: Scene, rigid: RigidBodies, solids: Sequence[Solid]) -
 
 
 def _require_names(scene: Scene, mechanism: Mechanism) -> None:
-    """Refuse names that two bodies have, and contacts with bodies without a surface."""
+    """Refuse names that two bodies have, and contacts with bodies without a surface or without inertia."""
     twice = sorted(scene.bodies.keys() & mechanism.bodies.keys())
     if twice:
         raise InputError(f"mechanism.bodies.{twice[0]}", "is the name of another body of the scene", "another name")
@@ -51,6 +51,10 @@ def _require_names(scene: Scene, mechanism: Mechanism) -> None:
         if body is not None and body.shape is None:
             problem = f"{contact.opponent!r} has no surface"
             raise InputError(f"contacts[{k}].between", problem, f"a shape of bodies.{contact.opponent}")
+        if body is not None and not body.tensor.any():
+            problem = "zero for a body with contact: nothing that touches it would turn it"
+            remedy = "its moment of inertia, or a density in place of mass, centre and inertia"
+            raise InputError(f"bodies.{contact.opponent}.inertia", problem, remedy)
 
 
 def _require_on_axis(rigid: RigidBodies) -> None:

@@ -52,6 +52,7 @@ TABLE: Table = {
     "a tag of a rigid body": Try(
         MIXED, "contacts=[{between=['b.top', 'r.face']}]", "its name", "contacts=[{between=['b.top', 'r']}]"
     ),
+    "no inertia": Try(MIXED, "bodies.r.inertia=0", "its moment of inertia", "bodies.r.inertia=0.1"),
     "no surface": Try(
         MIXED,
         "bodies.r={kind='Rigid', mass=1, centre=[0.5, 0.3], inertia=0.1}",
