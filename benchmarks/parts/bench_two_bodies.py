@@ -38,7 +38,7 @@ class Cost:
 
 
 def scene(cells: int, friction: float | None, touching: bool = True) -> sw.Scene:
-    """A cube of ``cells`` + 1 cells an edge at rest, and a smaller one of ``cells`` above it, which falls and slides."""
+    """A cube of ``cells`` + 1 cells an edge at rest, and a smaller one of ``cells`` that falls and slides on it."""
     law = sw.NeoHookean(E=1e4, nu=0.3)
     size, start = (0.96, 0.9, 0.96), (0.03, 0.041, 1.0 + GAP)
     below = sw.meshes.Box(size=(1.0, 1.0, 1.0), cells=(cells + 1,) * 3)
