@@ -3,7 +3,8 @@
 import pytest
 
 from softway.solve.linear.backends import Cholmod, Mumps, Pardiso
-from softway.solve.linear.interface import LinearSolver, SuperLU
+from softway.solve.linear.backends.superlu import SuperLU
+from softway.solve.linear.interface import LinearSolver
 from softway.testing import check_solver
 
 SOLVERS: list[tuple[str | None, LinearSolver]] = [

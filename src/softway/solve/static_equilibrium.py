@@ -16,7 +16,7 @@ from softway.solve.constraints.friction_contact import solve_friction
 from softway.solve.constraints.normal_active_set import RowConditions, rounded, solve_normal_contact
 from softway.solve.constraints.return_map import NO_SLIP, SlipConditions
 from softway.solve.effort import Effort
-from softway.solve.linear.interface import SuperLU
+from softway.solve.linear.backends.superlu import SuperLU
 from softway.solve.operators.choice import factor_operations
 from softway.solve.stagnation import Stagnation
 

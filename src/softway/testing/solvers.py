@@ -5,7 +5,7 @@ import scipy.sparse as sp
 
 from softway.arrays import Array
 from softway.errors import NoConvergence
-from softway.solve.linear.interface import Factor, LinearSolver, number_type
+from softway.solve.linear.interface import CondensingFactor, Factor, LinearSolver, number_type
 from softway.testing.verdict import close, require
 
 ACCURACY = {"double": 1e-12, "single": 1e-4}
@@ -21,15 +21,17 @@ def check_solver(solver: LinearSolver) -> None:
     Checked: accuracy for one, several and no right-hand sides; arguments left unchanged; other values on the same
     pattern; several factors at the same time; bitwise reproducible results; systems of one and two unknowns.
     Indefinite matrices must be solved or refused, and singular matrices and matrices with NaN must be refused.
+    Schur complements, where factors offer them, are compared with solutions.
 
     Examples
     --------
-    >>> from softway.solve.linear.interface import SuperLU
+    >>> from softway.solve.linear.backends.superlu import SuperLU
     >>> check_solver(SuperLU())
     """
     _accuracy(solver)
     _arguments(solver)
     _refactored(solver)
+    _condensed(solver)
     _repeated(solver)
     _small(solver)
     _indefinite(solver)
@@ -111,6 +113,26 @@ def _refactored(solver: LinearSolver) -> None:
         )
     del analysis
     _solves(solver, second, _other(), "a factor is lost when its analysis is deleted")
+
+
+def _condensed(solver: LinearSolver) -> None:
+    """Schur complements of unknowns in any order; an indefinite matrix may have none."""
+    which = np.array([200, 3, 64, 0, 215])
+    for matrix in (_lattice(), _sorted(_lattice() - 4.03 * sp.eye_array(216))):
+        try:
+            factor = solver.factor(matrix)
+        except NoConvergence:
+            continue
+        if not isinstance(factor, CondensingFactor):
+            return
+        found, again = factor.schur_complement(which), factor.schur_complement(which)
+        if found is not None and again is not None:
+            inverse = factor.solve(np.eye(216)[:, which])[which]
+            close(
+                found @ inverse, np.eye(5), 10.0 * ACCURACY[solver.precision], solver, "the Schur complement is wrong"
+            )
+            require(np.array_equal(found, again), solver, "a second Schur complement differs")
+            _solves(solver, factor, matrix, "the factor is lost with the Schur complement")
 
 
 def _repeated(solver: LinearSolver) -> None:

@@ -16,7 +16,7 @@ from softway.model.model import Model
 from softway.solve.constraints.compliance import FrozenOperator, frozen_operator, row_basis
 from softway.solve.constraints.normal_active_set import multipliers
 from softway.solve.constraints.row_basis import RowCoefficients
-from softway.solve.linear.interface import SuperLU
+from softway.solve.linear.backends.superlu import SuperLU
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -7,7 +7,8 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
 from softway.model.model import Model
-from softway.solve.linear.interface import Factor, SuperLU
+from softway.solve.linear.backends.superlu import SuperLU
+from softway.solve.linear.interface import Factor
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

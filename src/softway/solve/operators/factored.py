@@ -9,7 +9,8 @@ from softway.arrays import Array
 from softway.model.model import Model
 from softway.solve.equations.slab_matrix import SlabMatrix
 from softway.solve.linear.backends.choice import best_solver, require_solver, solver_named
-from softway.solve.linear.interface import Analysis, Factor, LinearSolver, Precision, SuperLU, counted, number_type
+from softway.solve.linear.backends.superlu import SuperLU
+from softway.solve.linear.interface import Analysis, Factor, LinearSolver, Precision, counted, number_type
 from softway.solve.operators.interface import BuiltOperator
 from softway.solve.operators.positive_definite import positive_definite_factor
 

@@ -35,7 +35,7 @@ def positive_definite_factor(analysis: Analysis, matrix: sp.csc_array) -> Factor
 
     Examples
     --------
-    >>> from softway.solve.linear.interface import SuperLU
+    >>> from softway.solve.linear.backends.superlu import SuperLU
     >>> saddle = sp.csc_array(np.array([[1.0, 2.0], [2.0, 1.0]]))
     >>> positive_definite_factor(SuperLU(), saddle).solve(np.array([9.0, 9.0]))  # 3/8 of the sums 3 do not suffice
     array([2., 2.])

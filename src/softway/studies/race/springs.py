@@ -11,7 +11,8 @@ from softway.bodies.setup.loads import traction_force
 from softway.errors import InputError
 from softway.model.model import Model
 from softway.solve.linear.backends.choice import best_solver
-from softway.solve.linear.interface import Analysis, Factor, SuperLU
+from softway.solve.linear.backends.superlu import SuperLU
+from softway.solve.linear.interface import Analysis, Factor
 from softway.solve.operators.factored import FEW
 
 LEAST = 0.1

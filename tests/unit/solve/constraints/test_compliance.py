@@ -18,7 +18,7 @@ from softway.model.model import Model
 from softway.solve.constraints.compliance import FrozenOperator, RowBasis, frozen_operator, row_basis
 from softway.solve.constraints.normal_active_set import delassus, multipliers
 from softway.solve.constraints.row_basis import UnitRows
-from softway.solve.linear.interface import SuperLU
+from softway.solve.linear.backends.superlu import SuperLU
 
 kinds = pytest.mark.parametrize("kind", ["rows", "components", "both"])
 NODES = 5

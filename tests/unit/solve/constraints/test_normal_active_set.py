@@ -12,7 +12,7 @@ from softway.errors import NoConvergence
 from softway.solve.constraints.compliance import FrozenOperator, RowBasis, frozen_operator
 from softway.solve.constraints.normal_active_set import RowConditions, solve_normal_contact
 from softway.solve.constraints.row_basis import CombinedRows
-from softway.solve.linear.interface import SuperLU
+from softway.solve.linear.backends.superlu import SuperLU
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,8 @@ import scipy.sparse as sp
 
 from softway.errors import InputError, NoConvergence
 from softway.solve.linear.backends import Cholmod, Mumps, Pardiso, best_solver, choice, solver_named
-from softway.solve.linear.interface import LinearSolver, SuperLU
+from softway.solve.linear.backends.superlu import SuperLU
+from softway.solve.linear.interface import LinearSolver
 
 
 def lattice(side: int) -> sp.csc_array:
@@ -168,3 +169,21 @@ def test_the_schur_complement_is_the_inverse_of_the_compliance(precision: str, a
     np.testing.assert_allclose(condensed.condense(b), np.linalg.solve(columns[last], x[last]), rtol=10 * accuracy)
     np.testing.assert_allclose(condensed.expand(x[last]), x, rtol=10 * accuracy, atol=accuracy)
     np.testing.assert_allclose(condensed.solve(b), x, rtol=10 * accuracy, atol=accuracy)
+
+
+@pytest.mark.parametrize(("precision", "accuracy"), [("double", 1e-12), ("single", 1e-5)])
+def test_pardiso_eliminates_all_unknowns_but_a_few(precision: str, accuracy: float) -> None:
+    pytest.importorskip("pypardiso", reason="pypardiso is not installed")
+    matrix, stay = lattice(12), np.array([3, 0, 77, 143, 50])
+    found = Pardiso(precision, threads=1).factor(matrix).schur_complement(stay)
+    dense, others = matrix.toarray(), np.setdiff1d(np.arange(144), stay)
+    rest = np.linalg.solve(dense[np.ix_(others, others)], dense[np.ix_(others, stay)])
+    expected = dense[np.ix_(stay, stay)] - dense[np.ix_(stay, others)] @ rest
+    np.testing.assert_allclose(found, expected, atol=accuracy)
+    np.testing.assert_allclose(found, found.T, atol=0.0)
+
+
+def test_an_indefinite_matrix_is_not_condensed() -> None:
+    pytest.importorskip("pypardiso", reason="pypardiso is not installed")
+    factor = Pardiso(threads=1).factor(sp.csc_array(lattice(6) - 1.93 * sp.eye_array(36)))
+    assert factor.schur_complement(np.arange(4)) is None

@@ -15,7 +15,8 @@ from softway.laws.bulk import LinearElastic
 from softway.meshes.generators.shapes import rectangle
 from softway.model.build import build
 from softway.model.scene import Scene
-from softway.solve.linear.interface import LinearSolver, SuperLU
+from softway.solve.linear.backends.superlu import SuperLU
+from softway.solve.linear.interface import LinearSolver
 from softway.solve.linear.mass_solver import mass_solver
 
 SOLVERS = [SuperLU()]

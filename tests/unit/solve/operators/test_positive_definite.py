@@ -6,7 +6,8 @@ import scipy.sparse as sp
 
 from softway.errors import NoConvergence
 from softway.solve.linear.backends.choice import best_solver
-from softway.solve.linear.interface import LinearSolver, SuperLU
+from softway.solve.linear.backends.superlu import SuperLU
+from softway.solve.linear.interface import LinearSolver
 from softway.solve.operators.positive_definite import SHIFTS, positive_definite_factor
 
 SOLVERS = [SuperLU(), best_solver()]

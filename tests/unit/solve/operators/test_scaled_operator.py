@@ -4,7 +4,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.solve.constraints.compliance import FrozenOperator, RowBasis
-from softway.solve.linear.interface import SuperLU
+from softway.solve.linear.backends.superlu import SuperLU
 
 SIZE, SCALE = 6, 2.5
 

@@ -12,7 +12,8 @@ from softway.errors import InputError, NoConvergence
 from softway.solve.linear.backends.cholmod import Cholmod
 from softway.solve.linear.backends.mumps import Mumps
 from softway.solve.linear.backends.pardiso import Pardiso
-from softway.solve.linear.interface import LOG, LinearSolver, Precision, SuperLU, counted, number_type
+from softway.solve.linear.backends.superlu import SuperLU
+from softway.solve.linear.interface import LOG, LinearSolver, Precision, counted, number_type
 
 Made = Callable[[Precision, int | None], LinearSolver]
 

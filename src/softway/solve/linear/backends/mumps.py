@@ -9,8 +9,9 @@ import scipy.sparse as sp
 from scipy.linalg import lu_factor, lu_solve
 
 from softway.arrays import Array, IntArray
-from softway.solve.linear.interface import Precision, counted, finite, number_type, unfactored
+from softway.solve.linear.interface import Factor, Precision, counted, finite, number_type, unfactored
 from softway.solve.linear.pattern import Pattern
+from softway.solve.linear.power_scaling import enlarged, reduced
 
 THREADS = 16
 """Entry of ``icntl`` that sets the number of threads."""
@@ -60,7 +61,7 @@ class Mumps:
         analysis.idle.append(analysis.context(matrix))
         return analysis
 
-    def factor(self, matrix: sp.csc_array) -> "_Factor":
+    def factor(self, matrix: sp.csc_array) -> Factor:
         """Analyse and factor a sparse symmetric matrix (f, f)."""
         return self.analyse(matrix).factor(matrix)
 
@@ -100,8 +101,9 @@ class _Analysis:
     pattern: Pattern
     idle: list[Any]
 
-    def factor(self, matrix: sp.csc_array) -> "_Factor":
+    def factor(self, matrix: sp.csc_array) -> Factor:
         finite(matrix)
+        matrix, power = enlarged(matrix, self.solver.precision)
         self.pattern.require(matrix)
         context = self.context(matrix)
         kind = np.dtype(number_type(self.solver.precision))
@@ -112,7 +114,7 @@ class _Analysis:
             raise unfactored(matrix.shape[0], error) from None
         factor = _Factor(context, kind, int(context.factor_stats.nonzeros) * kind.itemsize)
         weakref.finalize(factor, self.idle.append, context).atexit = False
-        return factor
+        return reduced(factor, power)
 
     def context(self, matrix: sp.csc_array) -> Any:
         """Analysed memory for a matrix of this pattern."""

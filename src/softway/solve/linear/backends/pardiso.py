@@ -11,31 +11,28 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from softway.arrays import Array, IntArray
-from softway.solve.linear.interface import LOG, Precision, by_columns, counted, finite, number_type, unfactored
+from softway.solve.linear.backends.pardiso_call import (
+    ANALYSE,
+    ANALYSE_AND_FACTOR,
+    DEFINITE,
+    ENTRIES,
+    ERRORS,
+    FACTOR,
+    FORGET,
+    FORGET_FACTOR,
+    INDEFINITE,
+    NOT_DEFINITE,
+    PERTURBED,
+    SIZE,
+    SOLVE,
+    TYPE,
+    Ints,
+    PardisoCall,
+    address,
+)
+from softway.solve.linear.interface import LOG, Factor, Precision, by_columns, counted, finite, number_type, unfactored
 from softway.solve.linear.pattern import Pattern
-
-Ints = NDArray[np.int32]
-
-ANALYSE, FACTOR, SOLVE, FORGET_FACTOR, FORGET = 11, 22, 33, 0, -1
-DEFINITE, INDEFINITE = 2, -2
-NOT_DEFINITE = -4
-ONE, SIZE, TYPE, PHASE, COUNT, QUIET, ERROR = range(7)
-"""Places of the numbers that are passed to PARDISO by address."""
-ERRORS = {
-    -1: "inconsistent input",
-    -2: "not enough memory",
-    -3: "no ordering found",
-    -4: "a pivot is zero or of the wrong sign",
-    -5: "internal error",
-    -7: "a diagonal entry is zero",
-    -8: "too many entries for indices of 32 bits",
-}
-OWN, ORDERING, REFINEMENTS, SMALLEST, PERTURBED, ENTRIES, PIVOTING, TWO_LEVELS, SINGLE = 0, 1, 7, 9, 13, 17, 20, 23, 27
-"""Places of ``iparm``.  With several threads only the two-level factor gives reproducible solutions."""
-
-PARAMETERS = {OWN: 1, ORDERING: 2, REFINEMENTS: 0, SMALLEST: 13, ENTRIES: -1, PIVOTING: 1}
-"""Nested dissection, no refinement, pivots below 1e-13 of the matrix are perturbed, factor entries are counted, pivots
-of one or two rows if indefinite."""
+from softway.solve.linear.power_scaling import enlarged, reduced
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +82,7 @@ class Pardiso:
         analysis.idle[DEFINITE].append(analysis.handle(DEFINITE, analysis.upper.values(matrix, analysis.kind)))
         return analysis
 
-    def factor(self, matrix: sp.csc_array) -> "_Factor":
+    def factor(self, matrix: sp.csc_array) -> Factor:
         """Analyse and factor a sparse symmetric matrix (f, f)."""
         return self.analyse(matrix).factor(matrix)
 
@@ -100,10 +97,6 @@ def _library() -> ctypes.CDLL:
 
         library: ctypes.CDLL = ps.libmkl
         return library
-
-
-def _address(array: NDArray[Any]) -> int:
-    return int(array.__array_interface__["data"][0])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -144,61 +137,11 @@ class _Upper:
         return values
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Call:
-    """Call of PARDISO with the memory of one matrix, its ``numbers`` and ``parameters``.
-
-    ``head``, ``pattern`` and ``tail`` are addresses in the order of its arguments.
-    """
-
-    limit: Any
-    function: Any
-    threads: int
-    numbers: Ints
-    parameters: Ints
-    kept: tuple[NDArray[Any], ...]
-    head: tuple[int, ...]
-    pattern: tuple[int, ...]
-    tail: tuple[int, ...]
-
-    @classmethod
-    def of(cls, library: ctypes.CDLL, threads: int, upper: "_Upper", kind: type, definite: int) -> "_Call":
-        function = library["pardiso"]
-        function.argtypes, function.restype = [ctypes.c_void_p] * 16, None
-        state, parameters, numbers = np.zeros(64, np.int64), np.zeros(64, np.int32), np.zeros(7, np.int32)
-        for place, value in PARAMETERS.items():
-            parameters[place] = value
-        parameters[TWO_LEVELS], parameters[SINGLE] = threads > 1, kind is np.float32
-        numbers[[ONE, SIZE, TYPE]] = 1, len(upper.rows) - 1, definite
-        at = [_address(numbers) + 4 * k for k in range(len(numbers))]
-        return cls(
-            limit=library["MKL_Set_Num_Threads_Local"],
-            function=function,
-            threads=threads,
-            numbers=numbers,
-            parameters=parameters,
-            kept=(state, upper.rows, upper.columns),
-            head=(_address(state), at[ONE], at[ONE], at[TYPE], at[PHASE], at[SIZE]),
-            pattern=(_address(upper.rows), _address(upper.columns), 0, at[COUNT]),
-            tail=(_address(parameters), at[QUIET]),
-        )
-
-    def __call__(self, phase: int, values: int = 0, count: int = 1, b: int = 0, x: int = 0) -> int:
-        """Run a phase and return its error, with the addresses of entries, ``count`` right-hand sides and solutions."""
-        self.numbers[PHASE], self.numbers[COUNT] = phase, count
-        before = self.limit(self.threads)
-        try:
-            self.function(*self.head, values, *self.pattern, *self.tail, b, x, _address(self.numbers) + 4 * ERROR)
-        finally:
-            self.limit(before)
-        return int(self.numbers[ERROR])
-
-
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
 class _Handle:
     """Owner of the memory of one matrix in PARDISO."""
 
-    call: _Call
+    call: PardisoCall
 
 
 def _retire(handle: _Handle, idle: list[_Handle]) -> None:
@@ -220,31 +163,32 @@ class _Analysis:
     kind: type[np.floating[Any]]
     idle: dict[int, list[_Handle]]
 
-    def factor(self, matrix: sp.csc_array) -> "_Factor":
+    def factor(self, matrix: sp.csc_array) -> Factor:
         finite(matrix)
+        matrix, power = enlarged(matrix, "single" if self.kind is np.float32 else "double")
         values = self.upper.values(matrix, self.kind)
         handle = self.handle(DEFINITE, values)
-        definite, error = DEFINITE, handle.call(FACTOR, _address(values))
+        definite, error = DEFINITE, handle.call(FACTOR, address(values))
         if error == NOT_DEFINITE:
             LOG.debug("an operator of %d unknowns is not positive definite: factored as L D L^T", matrix.shape[0])
             handle = self.handle(INDEFINITE, values)
-            definite, error = INDEFINITE, handle.call(FACTOR, _address(values))
+            definite, error = INDEFINITE, handle.call(FACTOR, address(values))
         if error or handle.call.parameters[PERTURBED]:
             raise unfactored(
                 matrix.shape[0], ERRORS.get(error, f"PARDISO: error {error}") if error else "it is singular"
             )
         factor = _Factor(handle, values, int(handle.call.parameters[ENTRIES]) * values.itemsize)
         weakref.finalize(factor, _retire, handle, self.idle[definite]).atexit = False
-        return factor
+        return reduced(factor, power)
 
     def handle(self, definite: int, values: NDArray[Any]) -> _Handle:
         """Analysed handle for matrices of the kind ``definite``."""
         if self.idle[definite]:
             return self.idle[definite].pop()
-        call = _Call.of(self.library, self.threads, self.upper, self.kind, definite)
+        call = PardisoCall.of(self.library, self.threads, (self.upper.rows, self.upper.columns), self.kind, definite)
         handle = _Handle(call)
         weakref.finalize(handle, call, FORGET).atexit = False
-        if error := call(ANALYSE, _address(values)):
+        if error := call(ANALYSE, address(values)):
             raise unfactored(len(self.upper.rows) - 1, ERRORS.get(error, f"PARDISO: error {error}"))
         return handle
 
@@ -269,6 +213,22 @@ class _Factor:
     def _rows(self, b: Array) -> Array:
         right = np.ascontiguousarray(b, self.values.dtype)
         x = np.empty_like(right)
-        if error := self.handle.call(SOLVE, _address(self.values), len(b), _address(right), _address(x)):
+        if error := self.handle.call(SOLVE, address(self.values), len(b), address(right), address(x)):
             raise unfactored(b.shape[1], ERRORS.get(error, f"PARDISO: error {error}"))
         return np.asarray(x, float)
+
+    def schur_complement(self, which: IntArray) -> Array | None:
+        """Schur complement (k, k) at the unknowns ``which`` (k,), by a factor of its own that ends there; None if the
+        matrix is not positive definite.
+        """
+        if self.indefinite:
+            return None
+        call = self.handle.call.condensing(which)
+        out = np.zeros((len(which), len(which)), self.values.dtype)
+        unused = np.zeros(int(call.numbers[SIZE]), self.values.dtype)
+        error = call(ANALYSE_AND_FACTOR, address(self.values), 1, address(unused), address(out))
+        call(FORGET)
+        if error or call.parameters[PERTURBED]:
+            return None
+        place = np.searchsorted(np.sort(which), which)
+        return np.asarray(out[np.ix_(place, place)], float)
