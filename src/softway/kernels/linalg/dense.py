@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg.lapack import dgetrf, dgetrs, dpotrf, dpotrs
+from scipy.linalg.lapack import dgetrf, dgetrs, dpotrf, dpotri, dpotrs
 
 from softway.arrays import Array, IntArray
 from softway.errors import NoConvergence
@@ -24,10 +24,14 @@ class DenseFactor:
         """Solution (k,), refined iteratively with the original matrix."""
         if not len(b):
             return np.zeros(0)
-        x = np.asarray(dgetrs(self.factor, self.pivots, b)[0], float)
+        x = self.once(b)
         for _ in range(3):
-            x = x + dgetrs(self.factor, self.pivots, b - self.matrix @ x)[0]
+            x = x + self.once(b - self.matrix @ x)
         return x
+
+    def once(self, b: Array) -> Array:
+        """Solution (k,) without refinement."""
+        return np.asarray(dgetrs(self.factor, self.pivots, b)[0], float) if len(b) else np.zeros(0)
 
 
 def factored(matrix: Array) -> DenseFactor:
@@ -101,3 +105,18 @@ def nested(matrix: Array) -> NestedFactor:
     if failed:
         raise NoConvergence(f"the compliance of {len(matrix)} contact rows is not positive")
     return NestedFactor(matrix, lower)
+
+
+def inverse_positive(matrix: Array) -> Array | None:
+    """Inverse of a dense symmetric positive definite matrix (k, k), which is overwritten; None if it is not positive.
+
+    Examples
+    --------
+    >>> inverse_positive(np.array([[2.0, 1.0], [1.0, 2.0]])).round(12).tolist()
+    [[0.666666666667, -0.333333333333], [-0.333333333333, 0.666666666667]]
+    """
+    lower, failed = dpotrf(matrix.T, lower=1, clean=1, overwrite_a=1)
+    if failed:
+        return None
+    half, failed = dpotri(lower, lower=1, overwrite_c=1)
+    return None if failed else np.asarray(half + np.tril(half, -1).T, float)

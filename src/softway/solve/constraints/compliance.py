@@ -11,7 +11,9 @@ from softway.bodies.dof_map import DofMap
 from softway.contact.contact_rows import ContactRows
 from softway.kernels.linalg.dense import DenseFactor
 from softway.solve.constraints.column_cache import ColumnCache
+from softway.solve.constraints.recent_factor import RecentFactor
 from softway.solve.constraints.row_basis import CombinedRows, RowCoefficients, UnitRows
+from softway.solve.linear.condensed_compliance import condensed_compliance
 from softway.solve.linear.interface import Factor, LinearSolver
 
 TOGETHER = 64
@@ -78,9 +80,9 @@ class FrozenOperator:
     The operator of a slab is ``R A R^T``; R is by default the identity.  Contact directions rotate with the nodes: the
     compliance stays the same.
 
-    ``table`` (columns (b,) of ``B^T A^-1 B``), ``solutions`` (columns (f,) of ``A^-1 B`` for directions that are rows)
-    and ``factored_sets`` (factored compliances of active sets) are caches, filled on demand.  Their values depend on A
-    and B only, up to rounding also on the batches of columns, which ``table`` keeps.
+    ``table`` (columns (b,) of ``B^T A^-1 B``), ``solutions`` (columns (f,) of ``A^-1 B`` for few directions that are
+    rows) and ``factored_sets`` (factored compliances of active sets) are caches, filled on demand.  Their values depend
+    on A and B only, up to rounding also on the batches of columns, which ``table`` keeps.
 
     Parameters
     ----------
@@ -98,6 +100,8 @@ class FrozenOperator:
         Number type of the stored solutions: no more digits than the factor has.
     scale
         Factor of all solutions: the operator is ``R A R^T / scale``.
+    recent
+        Factored compliance of an earlier iteration of the slab, for rows that hardly change; None to factor it anew.
     """
 
     factor: Factor
@@ -106,6 +110,7 @@ class FrozenOperator:
     local: Factor | None = None
     kind: type[np.floating[Any]] = np.float64
     scale: float = 1.0
+    recent: RecentFactor | None = None
     table: ColumnCache = field(default_factory=ColumnCache)
     solutions: ColumnCache = field(default_factory=ColumnCache)
     factored_sets: dict[bytes, DenseFactor] = field(default_factory=dict)
@@ -119,6 +124,10 @@ class FrozenOperator:
     def turned(self, turning: sp.csr_array | None) -> "FrozenOperator":
         """Operator with the same factor, for nodes rotated by R (f, f) since it was made."""
         return replace(self, turning=turning)
+
+    def in_iteration(self) -> "FrozenOperator":
+        """Operator for the iterations of one slab, which share factored compliances of rows that hardly change."""
+        return replace(self, recent=RecentFactor())
 
     def scaled(self, scale: float) -> "FrozenOperator":
         """Operator with the same factor, divided by ``scale``."""
@@ -181,6 +190,8 @@ class FrozenOperator:
         if self.local is not None or index[-1] >= self.basis.known:
             return self._answered(push)
         self.fill(index)
+        if len(self.solutions.missing(index)):
+            return self._answered(push)
         return self._times(self.solutions.product(index, push[index]))
 
     def _answered(self, push: Array) -> Array:
@@ -194,8 +205,17 @@ class FrozenOperator:
         return np.asarray(self.basis.directions @ (np.pad(amounts, (0, missing)) if missing else amounts))
 
     def fill(self, which: IntArray) -> None:
-        """Compute the missing columns of the directions ``which`` (k,), in one batch."""
+        """Compute the missing columns of the directions ``which`` (k,), in one batch.
+
+        Many are taken from one Schur complement, with those of all other directions; then no ``solutions`` are stored:
+        :meth:`solve_push` solves for the sum, which is cheaper.
+        """
         missing, directions = self.table.missing(which), self.basis.directions
+        together = None if self.local is not None else condensed_compliance(self.factor, directions, len(missing))
+        if together is not None:
+            missing = self.table.missing(np.arange(len(together)))
+            self.table.add(missing, together[missing])
+            return
         known = 0 if self.local is not None else self.basis.known
         self.table.reserve(len(missing))
         if known:

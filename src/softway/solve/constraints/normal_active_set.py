@@ -199,6 +199,25 @@ def delassus(frozen: FrozenOperator, active: RowCoefficients) -> Array:
     return active.folded(frozen.square(used))
 
 
+def multipliers(frozen: FrozenOperator, active: RowCoefficients, wanted: Array) -> tuple[Array, ContactPush]:
+    """Multipliers (k,) of the active rows that move them by ``wanted`` (k,), and their contact forces."""
+
+    def pushed(force: Array) -> ContactPush:
+        directions = active.spread(force)
+        return ContactPush(directions=directions, sensed=frozen.compliance_times(directions))
+
+    recent = frozen.recent if isinstance(active, CombinedRows) else None
+    if recent is not None:
+        found = recent.refined(wanted, pushed, lambda push: active.from_basis(push.sensed))
+        if found is not None:
+            return found
+    factor = _factored_compliance(frozen, active)
+    if recent is not None:
+        recent.keep(factor)
+    force = factor.solve(wanted / frozen.scale)
+    return force, pushed(force)
+
+
 def _factored_compliance(frozen: FrozenOperator, active: RowCoefficients) -> DenseFactor:
     """Factored compliance of the active rows (k,), unscaled; kept for all slabs if directions are rows."""
     plain = frozen.scaled(1.0)
@@ -209,10 +228,3 @@ def _factored_compliance(frozen: FrozenOperator, active: RowCoefficients) -> Den
         frozen.factored_sets.clear()
         frozen.factored_sets[key] = factored(delassus(plain, active))
     return frozen.factored_sets[key]
-
-
-def multipliers(frozen: FrozenOperator, active: RowCoefficients, wanted: Array) -> tuple[Array, ContactPush]:
-    """Multipliers (k,) of the active rows that move them by ``wanted`` (k,), and their contact forces."""
-    force = _factored_compliance(frozen, active).solve(wanted / frozen.scale)
-    directions = active.spread(force)
-    return force, ContactPush(directions=directions, sensed=frozen.compliance_times(directions))

@@ -131,8 +131,8 @@ class FixedPoint:
 
     def _iterates(self, system: SlabEquations, guess: Guess, end: Evaluation) -> Iterator[Iterate]:
         q, impulse, active, memory = guess.q, guess.impulse, guess.active, guess.memory
-        frozen = memory.frozen
-        assert frozen is not None
+        assert memory.frozen is not None
+        frozen = memory.frozen.in_iteration()
         dofs, space = system.model.dofs, system.model.space
         system = system.prepared(frozen)
         mixing = _Mixing(Anderson(self.depth, space), frozen, space)

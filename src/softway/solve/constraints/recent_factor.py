@@ -1,0 +1,67 @@
+"""Solutions for active rows that hardly change between iterations, with the factor of an earlier iteration.
+
+The compliance S of combined rows changes with every iterate.  Its factor costs more than all else in the iteration;
+S times a vector is cheap.  So the factor S_0 of an earlier iteration of the slab serves as long as the refinement
+``x <- x + S_0^-1 (b - S x)`` converges fast.  The result is that of a new factor up to rounding.
+"""
+
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.kernels.linalg.dense import DenseFactor
+
+Push = TypeVar("Push")
+
+ACCURATE = 1e-13
+"""Residual at which the refinement ends, relative to the right-hand side."""
+FAST = 0.1
+"""Greatest factor of residuals in succession; above it a new factor is cheaper."""
+
+
+class RecentFactor:
+    """Factored compliance of active rows in an earlier iteration; none at the start of a slab.
+
+    Examples
+    --------
+    >>> from softway.kernels.linalg.dense import factored
+    >>> recent = RecentFactor()
+    >>> recent.keep(factored(np.diag([1.0, 2.0])))
+    >>> force, motion = recent.refined(np.ones(2), lambda x: np.array([1.01, 2.01]) * x, lambda motion: motion)
+    >>> force.round(6).tolist(), bool(abs(motion - 1.0).max() < 1e-13)
+    ([0.990099, 0.497512], True)
+    >>> recent.refined(np.ones(2), lambda x: x, lambda motion: motion) is None  # half as stiff: too far away
+    True
+    """
+
+    __slots__ = ("factor",)
+
+    def __init__(self) -> None:
+        self.factor: DenseFactor | None = None
+
+    def keep(self, factor: DenseFactor) -> None:
+        """Keep a factor in place of the last one."""
+        self.factor = factor
+
+    def refined(
+        self, wanted: Array, push: Callable[[Array], Push], measure: Callable[[Push], Array]
+    ) -> tuple[Array, Push] | None:
+        """Forces (k,) that move the rows by ``wanted`` (k,), and what they ``push``; ``measure`` gives the motion (k,)
+        of the rows in it.  None if the factor is of other rows or the refinement converges slowly.
+        """
+        if self.factor is None or len(self.factor.matrix) != len(wanted):
+            return None
+        last = float(np.abs(wanted).max(initial=0.0))
+        force, left, goal = np.zeros(len(wanted)), wanted, ACCURATE * last
+        while True:
+            force = force + self.factor.once(left)
+            pushed = push(force)
+            left = wanted - measure(pushed)
+            now = float(np.abs(left).max(initial=0.0))
+            if now <= goal:
+                return force, pushed
+            if not now <= FAST * last:
+                return None
+            last = now
