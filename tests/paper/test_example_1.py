@@ -133,6 +133,7 @@ def test_the_positions_follow_the_exact_bar_as_far_as_two_elements_can(name: str
     assert tip <= 0.0125
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["paper", "paper, extrapolated", "impulse", "energy"])
 def test_in_large_deformation_the_curves_are_the_same(name: str) -> None:
     """Neo-Hookean bar at v/c = 0.01: within 1 % of the largest displacement; St Venant-Kirchhoff lets go 1 % later."""

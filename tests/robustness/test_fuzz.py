@@ -54,6 +54,7 @@ def test_any_text_is_read_or_refused(text):
         loads(text)
 
 
+@pytest.mark.slow
 def test_a_short_run_of_endurance():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -245,7 +245,7 @@ VARIANTS: Mapping[str, Variant] = {
 """Variant of every scenario, by the name of its file."""
 
 
-LONG = frozenset({"bag", "phone_drop"})
+LONG = frozenset({"bag", "bar_through_die", "chain", "phone_drop", "snap_fit"})
 """Scenarios whose small variants, too, take tens of seconds where they run several times or with many frames."""
 
 

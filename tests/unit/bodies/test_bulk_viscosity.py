@@ -23,6 +23,7 @@ def fronts(solver: object, shock: sw.bodies.BulkViscosity | None) -> tuple[sw.St
     return last, sw.build(scene).stress("bar", last.after.displacement["bar"])[:, 0, 0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solver", [sw.FixedPoint(), sw.Explicit()], ids=["implicit", "explicit"])
 def test_a_front_oscillates_less_and_the_loss_is_dissipation(solver):
     plain, rough = fronts(solver, None)

@@ -25,6 +25,7 @@ def fallen_rod(speed: float, friction: float, restitution: float) -> MechanismSt
     return next(iter(march(mechanism, until=1e-3, step=1e-3)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("given", "expected"), CASES)
 def test_a_rod_whose_end_hits_the_floor(given: tuple[float, float], expected: list[float]) -> None:
     """It slides, sticks, or slides back (Routh)."""
@@ -34,6 +35,7 @@ def test_a_rod_whose_end_hits_the_floor(given: tuple[float, float], expected: li
     assert step.dissipation > 0.0 and abs(step.energy_error) < 1e-15
 
 
+@pytest.mark.slow
 def test_a_rod_that_touches_and_moves_away_has_no_impact() -> None:
     rod = Rigid(mass=1.0, centre=(0.0, 0.0), inertia=1.0 / 12.0, velocity=(0.3, 1.0), spin=0.2)
     tip = (-0.5 * cos(0.7), -0.5 * sin(0.7))

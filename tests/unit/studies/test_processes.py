@@ -30,6 +30,7 @@ def test_an_interruption_that_a_finaliser_swallows_comes_again(capfd):
     assert "Traceback" not in capfd.readouterr().err
 
 
+@pytest.mark.slow
 def test_workers_that_are_done_end_quietly(capfd):
     assert sorted(answer for _, answer, _ in answers(["a", "bb"], len, 2)) == [1, 2]
     assert not capfd.readouterr().err

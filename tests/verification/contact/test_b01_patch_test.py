@@ -33,7 +33,9 @@ def test_the_stress_is_uniform(dim):
     assert patch.settlement == pytest.approx(np.full(len(patch.settlement), exact.settlement), rel=1e-9)
 
 
-@pytest.mark.parametrize(("dim", "cell"), [(2, "quad8"), (2, "quad9"), (3, "hex20")])
+@pytest.mark.parametrize(
+    ("dim", "cell"), [(2, "quad8"), (2, "quad9"), pytest.param(3, "hex20", marks=pytest.mark.slow)]
+)
 def test_the_stress_is_uniform_in_quadratic_cells(dim, cell):
     """Uniform pressure pulls at the corners of eight-node facets; what is left is rounding here, too."""
     patch = pressed(dim, cell=cell)

@@ -45,6 +45,7 @@ def test_the_pressure_is_that_of_hertz_at_every_node(contact):
     assert (np.diff(contact.pressure[contact.closed]) < 0.0).all()
 
 
+@pytest.mark.slow
 def test_the_remaining_error_is_the_finite_radius_of_the_cylinder():
     """On a finer mesh the peak stays 0.29 percent below Hertz's, b^2/(4 R^2); at a quarter of the load a quarter."""
     missed = [

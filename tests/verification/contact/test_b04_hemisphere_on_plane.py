@@ -62,6 +62,7 @@ def test_the_exponent(series):
     assert slope == pytest.approx(1.5, abs=0.03)
 
 
+@pytest.mark.slow
 def test_the_force_converges_with_the_mesh():
     """At second order to the force of quadratic cells."""
     fine = pressed(APPROACH, 10, "quad9").force.sum()

@@ -53,6 +53,7 @@ def test_the_exact_motion_has_the_known_release_and_loss(name: str) -> None:
     assert motion.energy(UNTIL) == pytest.approx(0.5 * (1.0 - lost), abs=1e-12)
 
 
+@pytest.mark.slow
 @every
 def test_the_loss_is_exact(name: str) -> None:
     *_, lost = RULES[name]
@@ -89,6 +90,7 @@ def test_the_motion_converges_at_second_order(name: str) -> None:
     assert order(speeds, STEPS) >= 1.9
 
 
+@pytest.mark.slow
 def test_better_weights_have_smaller_phase_errors() -> None:
     """Table of the case at h = 0.01: 9.5e-4 with the end peaks, 4e-5 with the fourth-order weight; it admits 1e-4."""
     quantity = next(q for q in results.case("A03")["qoi"] if q["name"] == "u(t) table csv")

@@ -1,10 +1,13 @@
 """A10 and A12: thrown bars in inches and pounds, read from a scenario file, and in SI units."""
 
+import pytest
+
 import results
 import softway as sw
 from softway.apps.verify.scenes import bars
 
 
+@pytest.mark.slow
 def test_rod_in_inches_and_pounds() -> None:
     assert results.missed("A10") == set()
 

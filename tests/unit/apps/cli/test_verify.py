@@ -44,6 +44,7 @@ def test_wrong_words(words: list[str], told: str, here: Path, capsys: pytest.Cap
     assert not list(here.iterdir())
 
 
+@pytest.mark.slow
 def test_a_miss_with_a_known_cause_is_told_and_no_failure(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Hertz's half-space in place of a ball."""
     assert main(["verify", "B04", "--quiet", "--json", "table.json"]) == 0

@@ -59,6 +59,7 @@ def mixed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Result, ...]:
         return verified(cases, jobs=1)
 
 
+@pytest.mark.slow
 def test_a_case_that_fails_does_not_reach_another(mixed: tuple[Result, ...]) -> None:
     assert [r.case.id for r in mixed] == ["A02", "A12", "A01"]
     assert [r.passed for r in mixed] == [False, False, True]

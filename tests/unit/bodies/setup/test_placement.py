@@ -112,6 +112,7 @@ def march_of(angle, mirrored):
     return list(sw.march(sw.Scene(bodies=image, contacts=(contact,)), until=1.5, step=0.05))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mirrored", [False, True], ids=["turned", "mirrored"])
 def test_a_group_that_is_placed_together_moves_the_same(mirrored):
     """The same energies and contact forces, whatever the frame."""

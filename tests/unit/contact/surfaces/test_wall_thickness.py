@@ -95,6 +95,7 @@ def test_no_row_of_two_plates_starts_deeper_than_a_quarter_of_their_thickness(me
         sunk[model.parts[1].nodes, 2] = -0.02 * t
 
 
+@pytest.mark.slow
 def test_two_thin_plates_march_through_touch_and_release() -> None:
     """Whole surface against whole surface."""
     model, _ = plates(0.3, None)

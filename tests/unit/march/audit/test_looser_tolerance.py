@@ -33,6 +33,7 @@ def work(steps: list[sw.Step]) -> float:
     return sum(s.report.iterations for s in steps) + price * steps[-1].report.factorisations
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-5, 1e-6, 1e-7])
 def test_looser_is_not_slower(close, tolerance):
     loose = marched(tolerance)

@@ -46,6 +46,7 @@ def test_a_ball_bounces_with_its_energy_and_momentum(bounce: list[sw.Step]) -> N
     assert min(s.certificate.min_force for s in bounce) >= 0.0
 
 
+@pytest.mark.slow
 def test_only_nodes_near_the_touch_are_in_equilibrium_of_their_own() -> None:
     """A small part of the surface of a fine ball as it touches; none before."""
     model = sw.build(thrown(10, gap=5e-3))
@@ -84,6 +85,7 @@ def test_a_spinning_ball_in_flight_keeps_what_it_has() -> None:
     assert last.momentum[0] == pytest.approx(first.momentum[0], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_one_correction_is_as_good_as_equilibrium(monkeypatch: pytest.MonkeyPatch, bounce: list[sw.Step]) -> None:
     """The ball that leaves is the same as where all nodes without inertia count as near the touch."""
     near = contact_equilibrium.touched_nodes

@@ -35,7 +35,7 @@ def scene(above: int, below: int) -> sw.Scene:
     )
 
 
-@pytest.mark.parametrize(("above", "below"), [(3, 3), (3, 4)])
+@pytest.mark.parametrize(("above", "below"), [(3, 3), pytest.param(3, 4, marks=pytest.mark.minutes)])
 def test_flush_blocks_slide_with_friction(above, below):
     steps = list(sw.march(scene(above, below), until=0.06, step=5e-3))
     assert len(steps) <= 14

@@ -165,6 +165,7 @@ def test_a_slab_longer_than_the_contact(shop, rule: ImpactRule) -> None:
         assert motion.energy_error <= 1e-11
 
 
+@pytest.mark.slow
 def test_the_balanced_jump_converges_to_the_motion_of_the_mesh(shop) -> None:
     """Second order through touch and release, towards the bar of four cells integrated exactly."""
     exact = semidiscrete.solve(semidiscrete.bar(4), np.zeros(5), np.ones(5), gap=0.103, until=2.4)

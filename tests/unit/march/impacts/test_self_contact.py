@@ -118,6 +118,7 @@ def test_friction_of_two_sided_rows_is_that_of_the_surface() -> None:
     assert before - after == pytest.approx(mu * normal, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_events_tell_who_touches() -> None:
     found = {e.bodies for s in discs((Contact(between="all"),)) for e in s.events if e.kind == "touch"}
     assert found <= {("a", "b"), ("b", "a"), ("a", "c"), ("c", "a")}

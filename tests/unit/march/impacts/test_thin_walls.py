@@ -134,6 +134,7 @@ def test_around_a_roller_as_with_eight_cells() -> None:
     assert found[0] == pytest.approx(found[1], rel=0.03)
 
 
+@pytest.mark.slow
 def test_a_plate_between_two_tools_slips_on_both_faces() -> None:
     """Nodes without mass on both faces: N = 2 E A d / t on each, and mu N once the tools have slid far enough."""
     stiff, size, depth, way, mu = 1e4, 0.3, 1e-4, 4e-4, 0.2

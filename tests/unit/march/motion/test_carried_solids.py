@@ -24,6 +24,7 @@ ROD = sw.Solid(
 """Rod from x = 0 to 1 with wave speed 1 and mass 1, held at its left and carried at its right."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mass", [2.0, 0.05], ids=["heavy", "light"])
 def test_a_mass_at_the_end_of_a_rod_swings_with_its_frequency(mass):
     omega = brentq(lambda w: w * np.tan(w) - 1.0 / mass, 1e-6, np.pi / 2 - 1e-9)

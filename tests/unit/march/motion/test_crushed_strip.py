@@ -39,6 +39,7 @@ def place(steps: tuple[Step, ...]) -> np.ndarray:
     return steps[-1].after.displacement["strip"]
 
 
+@pytest.mark.slow
 def test_with_inertia_no_slab_is_tried_again() -> None:
     """Where the scalar jumped between its bounds, 371 attempts failed and the march ended at half of its way."""
     steps = crushed(True)

@@ -82,7 +82,9 @@ METHODS = {
 }
 
 
-@pytest.mark.parametrize("friction", [None, sw.Coulomb(mu=0.3)], ids=["smooth", "rough"])
+@pytest.mark.parametrize(
+    "friction", [None, pytest.param(sw.Coulomb(mu=0.3), marks=pytest.mark.slow)], ids=["smooth", "rough"]
+)
 @pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
 def test_a_block_on_inclined_rollers_hits_a_wall(method: object, friction: object) -> None:
     """Against the problem along the axes, to rounding and the tolerance of the method."""

@@ -84,6 +84,7 @@ def test_a_rigid_mass_hits_an_elastic_rod_as_by_st_venant():
             assert step.after.rigid["ram"].velocity[0] == pytest.approx(exact, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_rigid_sphere_on_an_elastic_block_touches_for_hertz_s_time():
     radius, density, young, nu, speed = 0.01, 7850.0, 210e9, 0.3, 1.0
     mass = 4.0 / 3.0 * np.pi * radius**3 * density
@@ -152,6 +153,7 @@ def test_a_box_that_slides_on_an_elastic_layer_is_braked_by_coulomb_s_law():
     assert max(abs(s.ledger.energy_error) for s in steps) < 1e-10 * energy
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("restitution", "mu"), [(1.0, 0.0), (0.5, 0.2)], ids=["elastic", "rough"])
 def test_a_disc_bounces_between_a_solid_and_a_stop_and_goes_on_after_a_checkpoint(restitution, mu):
     ceiling = PlaneStop(between=("ground", "disc"), point=PLACE, plane=(0.0, 8.2), normal=(0.0, -1.0), radius=1.0,

@@ -64,6 +64,7 @@ def test_a_block_that_spins_breaks_apart(contact: bool) -> None:
     assert min((c.min_gap for s in steps for c in s.ledger.contacts.values()), default=0.0) > -1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "method",
     [sw.Newton(), sw.FixedPoint(operator=sw.solve.MatrixFree()), sw.FixedPoint(operator=sw.solve.Multigrid())],
@@ -94,6 +95,7 @@ def test_a_march_goes_on_with_the_same_bits() -> None:
     np.testing.assert_allclose(near, mine, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_bodies_in_space_break_apart() -> None:
     """A block of tetrahedra on one of hexahedra that spins: energy, momentum and angular momentum are kept."""
     thrown = sw.bodies.Affine(gradient=((0.1, -0.8, 0.3), (0.8, 0.0, -0.5), (-0.3, 0.5, 0.8)))

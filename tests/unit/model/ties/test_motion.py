@@ -65,6 +65,7 @@ def test_layers_that_do_not_match_keep_all_balances(method: sw.FixedPoint | sw.N
     np.testing.assert_allclose(model.dofs.nodes(model.dofs.unknowns(u)), u, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_three_layers_and_a_tool() -> None:
     """A stack of three layers that do not match falls on the floor and rebounds: the energy is kept."""
     down = sw.bodies.Uniform(value=(0.05, -0.2))

@@ -100,7 +100,16 @@ def test_a_spring_that_turns_too_far_between_instants_is_left_out(tmp_path):
     assert "turns too far" in found.left_out[0] and "the potential energy" not in found.balances and not found.findings
 
 
-@pytest.mark.parametrize("name", ["bearing_clearance", "newtons_cradle", "tippe_top", "toggle_snap", "woodpecker"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "bearing_clearance",
+        "newtons_cradle",
+        pytest.param("tippe_top", marks=pytest.mark.slow),
+        "toggle_snap",
+        "woodpecker",
+    ],
+)
 def test_shipped_mechanisms_have_no_findings(name, tmp_path):
     run = sw.run(sw.load(FOLDER / f"{name}.toml"), tmp_path / "run")
     found = audit(run)

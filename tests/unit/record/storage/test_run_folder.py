@@ -77,6 +77,7 @@ def test_of_the_threads_that_run_into_one_new_folder_one_runs(bar, tmp_path, num
     assert sorted(p.name for p in tmp_path.iterdir()) == [f"run{attempt}" for attempt in range(4)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("overwrite", ["no", "yes"])
 def test_of_the_processes_that_run_into_one_new_folder_one_runs(tmp_path, overwrite):
     out = tmp_path / "run"

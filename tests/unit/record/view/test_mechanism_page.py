@@ -62,6 +62,7 @@ def test_pictures_of_a_long_run_are_chosen(tmp_path):
     assert page(run, ()).count("<img") == FRAMES + 1
 
 
+@pytest.mark.slow
 def test_the_command_writes_and_opens_it(run, monkeypatch, capsys):
     opened = []
     monkeypatch.setattr(command.webbrowser, "open", opened.append)

@@ -73,7 +73,7 @@ def tip(solid: sw.Solid) -> float:
     return float(initial_state(model).start.displacement[model.parts[0].mesh.nodes("right"), 1].mean())
 
 
-@pytest.mark.parametrize("law", [PLASTIC, VISCOUS, RUBBER])
+@pytest.mark.parametrize("law", [PLASTIC, pytest.param(VISCOUS, marks=pytest.mark.minutes), RUBBER])
 def test_linear_quadrilaterals_are_noted_and_mean_dilatation_helps(law: Material) -> None:
     (note,) = notes(square(law))
     assert note.startswith(f"quad4 lock with {type(law).__name__}, ") and note.endswith('; dilatation = "mean"')
@@ -83,7 +83,7 @@ def test_linear_quadrilaterals_are_noted_and_mean_dilatation_helps(law: Material
     assert wrong > 0.4 and 0.0 < remedied < 0.4 * wrong
 
 
-@pytest.mark.parametrize("law", [PLASTIC, VISCOUS, RUBBER])
+@pytest.mark.parametrize("law", [PLASTIC, pytest.param(VISCOUS, marks=pytest.mark.minutes), RUBBER])
 def test_linear_triangles_are_noted_and_only_quadratic_ones_help(law: Material) -> None:
     (note,) = notes(square(law, cell="tri3"))
     assert note.startswith("tri3 lock with") and note.endswith('quadratic cells (tri6) with dilatation = "corner"')

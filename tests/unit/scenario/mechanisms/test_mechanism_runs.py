@@ -29,7 +29,7 @@ NAMES = (
     "slider_crank",
     "squeezer",
     "thrown_ball",
-    "tippe_top",
+    pytest.param("tippe_top", marks=pytest.mark.slow),
     "toggle_snap",
     "woodpecker",
 )
@@ -264,6 +264,7 @@ def test_a_velocity_that_joints_do_not_allow_is_told(crank, tmp_path):
     assert crank.summary["spin_change_start"] == 0.0 < wrong.summary["spin_change_start"] < 50.0
 
 
+@pytest.mark.slow
 def test_a_sweep_runs_mechanisms(tmp_path):
     found = sw.sweep(
         FOLDER / "hammer_on_stop.toml",

@@ -57,6 +57,7 @@ def test_an_interrupted_run_ends_with_the_same_bits(name, tmp_path):
     assert sw.resume(run.path).status == "done"  # a complete run is left as it is
 
 
+@pytest.mark.slow
 def test_a_killed_run_goes_on_from_its_last_checkpoint(tmp_path):
     """The lines after the checkpoint, the last of them torn, are computed again."""
     whole = sw.run(scenario("woodpecker"), tmp_path / "whole")

@@ -31,6 +31,7 @@ def run(tmp_path_factory):
     return sw.run(scenario(), tmp_path_factory.mktemp("with_solids") / "run")
 
 
+@pytest.mark.slow
 def test_the_tables_hold_the_motion_of_the_march(run):
     checked = check(scenario())
     steps = list(march(checked.model, until=6e-3, step=checked.step))
@@ -118,6 +119,7 @@ def test_an_overlapped_stop_is_found(tmp_path):
     assert any("the stop 'limit' is overlapped" in text for text in audited_among_solids(changed, stopped).findings)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("more", [(), (STOP,)], ids=["contact", "contact and stop"])
 def test_an_interrupted_run_ends_with_the_same_bits(more, tmp_path):
     whole = sw.run(scenario(*more), tmp_path / "whole")
@@ -135,6 +137,7 @@ def test_an_interrupted_run_ends_with_the_same_bits(more, tmp_path):
         assert "limit" in whole.events["contact"].tolist()
 
 
+@pytest.mark.slow
 def test_a_flexible_rod_moves_the_slider_nearly_as_a_rigid_one(tmp_path):
     changes = ("bodies.rod.mesh.cells=[6, 1]", "bodies.rod.material.E=200 GPa", "time.end=20 ms", "time.step=1 ms")
     run = sw.run(sw.load(FOLDER / "flexible_crank.toml", changes), tmp_path / "run")

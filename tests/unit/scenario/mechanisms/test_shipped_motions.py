@@ -131,6 +131,7 @@ def pose(motion: Table, row: int, start: tuple[float, float]) -> Array:
     return np.array([motion[key][row] for key in keys]) + [0.0, *start, 0.0, 0.0, 0.0]
 
 
+@pytest.mark.slow
 def test_woodpecker_flies_and_swings_as_lagrange_says():
     run = motion_of("woodpecker", "time.step=0.25 ms", "output.fields_every=0.25 ms")
     motion, events = run.motion, run.events

@@ -118,6 +118,7 @@ def test_two_folders_with_modules_of_one_name(place, tmp_path):
     assert bar(place, "bodies.bar.material={kind='my_law:Soft', stiffness=2}").stiffness == 2.0
 
 
+@pytest.mark.slow
 def test_a_run_records_the_module_that_it_was_read_with(place):
     """Also where another scenario has brought one of the same name since, with a law or a function."""
     other = place / "other"
