@@ -19,7 +19,7 @@ from softway.bodies.inertia.matrix_sum import bonded_sum
 from softway.bodies.rigid_motion import CarriedNodes, RigidMotion, RigidShape
 from softway.bodies.setup.directions import DirectedMotion
 from softway.bodies.solid import Solid, Tool
-from softway.contact.assembly.declared import resolved
+from softway.contact.assembly.declared import at_declared, declared_numbers, resolved
 from softway.contact.impact_rule import Energy, ImpactRule
 from softway.errors import InputError
 from softway.model.cohesive_ties import CohesiveTies, intact
@@ -42,11 +42,14 @@ def build(scene: Scene) -> Model:
     InputError
         With the place in the scene: if a tag matches nothing, a body does not exist, or dimensions are mixed.
     """
-    return _model(with_named_contacts(scene))
+    members = _members(scene)
+    numbers = declared_numbers(scene.contacts, *members)
+    with at_declared(numbers):
+        return _model(replace(scene, contacts=resolved(scene.contacts, *members)), numbers)
 
 
-def _model(scene: Scene) -> Model:
-    """Model of a scene whose contacts name all their members."""
+def _model(scene: Scene, declared: tuple[int, ...]) -> Model:
+    """Model of a scene whose contacts name all their members, with the numbers of the declared ones."""
     timing, factor, (rigid, motions) = _timing(scene), scene.inertia.factor, _rigid(scene)
     tools, massless = _tools(scene, rigid, motions), timing.massless and factor > 0.0
     laid = laid_out(scene, motions, tools, massless)
@@ -85,22 +88,17 @@ def _model(scene: Scene) -> Model:
         companions=intact(laid.bonds, displacement),
         tools=tools,
         rigid=rigid,
+        declared=declared,
     )
 
 
-def with_named_contacts(scene: Scene) -> Scene:
-    """Scene whose contacts name all their members.
-
-    Raises
-    ------
-    InputError
-        If a list of members has no solid.
-    """
+def _members(scene: Scene) -> tuple[list[str], list[str]]:
+    """Names of the solids, and of the tools and rigid bodies with a surface."""
     tools = [name for name, body in scene.bodies.items() if isinstance(body, Tool)]
     if scene.mechanism is not None:
         tools += [name for name, body in scene.mechanism.bodies.items() if body.shape is not None]
     solids = [name for name, body in scene.bodies.items() if isinstance(body, Solid)]
-    return replace(scene, contacts=resolved(scene.contacts, solids, tools))
+    return solids, tools
 
 
 def _part_of(parts: Sequence[DiscreteSolid]) -> IntArray:

@@ -85,6 +85,8 @@ class Model:
         Tools, and shapes of rigid bodies in their motions, by name.
     rigid
         Rigid bodies; None without.
+    declared
+        Number in the scene as it was given of each contact.
     """
 
     scene: Scene
@@ -116,6 +118,7 @@ class Model:
     companions: tuple[FieldEquations, ...] = ()
     tools: Mapping[str, Tool | RigidShape] = field(default_factory=dict)
     rigid: RigidBodies | None = None
+    declared: tuple[int, ...] = ()
 
     @property
     def free(self) -> BoolArray:

@@ -2,7 +2,9 @@
 with each tool.
 """
 
+import re
 from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 
 from softway.contact.contact import Contact
@@ -17,7 +19,7 @@ def resolved(contacts: Sequence[Contact], solids: Collection[str], tools: Collec
     Raises
     ------
     InputError
-        If a list has no solid; the place begins with ``contacts[k]``.
+        If a list has no solid, or only pairs of other contacts; the place begins with ``contacts[k]``.
 
     Examples
     --------
@@ -27,23 +29,44 @@ def resolved(contacts: Sequence[Contact], solids: Collection[str], tools: Collec
     ball-floor ('ball', 'floor')
     plate-floor ('plate', 'floor')
     """
-    own: list[Contact] = []
-    with_tools: list[Contact] = []
+    return tuple(contact for _, contact in _numbered(contacts, solids, tools))
+
+
+def declared_numbers(contacts: Sequence[Contact], solids: Collection[str], tools: Collection[str]) -> tuple[int, ...]:
+    """Number of the declared contact of which each of the :func:`resolved` ones is a part.
+
+    Examples
+    --------
+    >>> declared_numbers([Contact(between="all")], solids=["ball", "plate"], tools=["floor"])
+    (0, 0, 0)
+    """
+    return tuple(k for k, _ in _numbered(contacts, solids, tools))
+
+
+def _numbered(
+    contacts: Sequence[Contact], solids: Collection[str], tools: Collection[str]
+) -> list[tuple[int, Contact]]:
+    """Resolved contacts with the numbers of the declared ones."""
+    own: list[tuple[int, Contact]] = []
+    with_tools: list[tuple[int, Contact]] = []
     given = {frozenset(c.bodies) for c in contacts if not c.many}
     for k, contact in enumerate(contacts):
         if not contact.many:
-            own.append(contact)
+            own.append((k, contact))
             continue
         names = contact.names or tuple(name for solid in solids for name in (solid, solid)) + tuple(tools)
         mine = tuple(name for name in names if name not in tools)
         if not mine:
             raise InputError(f"contacts[{k}].between", f"{list(names)} has no solid", "at least one solid")
         found = _with_tools(contact, mine, [n for n in names if n in tools])
-        met = [c for c in found if frozenset(c.bodies) not in given]
-        given |= {frozenset(c.bodies) for c in met}
-        own.append(replace(contact, between=mine, name=contact.label) if len(mine) > 1 else met.pop(0))
+        met = [(k, c) for c in found if frozenset(c.bodies) not in given]
+        given |= {frozenset(c.bodies) for _, c in met}
+        if len(mine) == 1 and not met:
+            problem = f"{list(names)}: another contact is of each of these pairs"
+            raise InputError(f"contacts[{k}].between", problem, "leave this contact out")
+        own.append((k, replace(contact, between=mine, name=contact.label)) if len(mine) > 1 else met.pop(0))
         with_tools += met
-    return (*own, *with_tools)
+    return [*own, *with_tools]
 
 
 def _with_tools(contact: Contact, solids: Sequence[str], tools: Sequence[str]) -> Iterator[Contact]:
@@ -51,3 +74,28 @@ def _with_tools(contact: Contact, solids: Sequence[str], tools: Sequence[str]) -
     for tool in tools:
         for solid in dict.fromkeys(solids):
             yield replace(contact, between=(solid, tool), name="", method=None)
+
+
+@contextmanager
+def at_declared(numbers: Sequence[int]) -> Iterator[None]:
+    """Name the declared contact in the place of an :class:`~softway.errors.InputError` raised inside: ``numbers`` are
+    those of the resolved contacts.
+
+    Examples
+    --------
+    >>> try:
+    ...     with at_declared((0, 0, 0)):
+    ...         raise InputError("contacts[2].start", "starts inside")
+    ... except InputError as error:
+    ...     print(error)
+    contacts[0].start: starts inside
+    """
+    try:
+        yield
+    except InputError as error:
+        counted = re.match(r"contacts\[(\d+)\]", error.where)
+        k = int(counted[1]) if counted else len(numbers)
+        if k >= len(numbers) or numbers[k] == k or counted is None:
+            raise
+        place = f"contacts[{numbers[k]}]{error.where[counted.end() :]}"
+        raise InputError(place, error.problem, error.remedy) from None

@@ -9,6 +9,7 @@ from softway.bodies.assembled import material_states
 from softway.bodies.assembled.nodal_loads import dead_load
 from softway.bodies.elements.section import Axisymmetric
 from softway.bodies.rigid_body_modes import HeldParts, free_motions
+from softway.contact.assembly.declared import at_declared
 from softway.contact.contact import NodeToSurface
 from softway.errors import Cancel, InputError
 from softway.march.model_state import ModelState
@@ -52,7 +53,8 @@ def initial_state(
         If ``cancel`` requests it at an iteration of an equilibrium.
     """
     model = model.during((), span)
-    rest = _resting(model, cancel, Effort(tell=watched(trying)))
+    with at_declared(model.declared):
+        rest = _resting(model, cancel, Effort(tell=watched(trying)))
     u, pressure = rest.displacement, rest.pressure
     energy, force = model.energy_and_force(u)
     states = material_states.committed(model.parts, u)

@@ -171,7 +171,7 @@ def contact_notes(model: Model) -> tuple[Note, ...]:
         found = _worst(misfit(one, other, fit) for one, other in combinations(surfaces, 2))
         least = ROUNDING * min(float(model.edge[model.parts[n].nodes].min()) for n in model.contact_solids[k])
         if found is not None and found.off > max(least, SHARE * abs(found.gap)):
-            notes.append(_off(k, contact, found, tool is not None))
+            notes.append(_off(model.declared[k], contact, found, tool is not None))
     return tuple(notes)
 
 
@@ -250,7 +250,7 @@ def flutter_notes(model: Model, state: ModelState, span: float, end: float) -> t
     )
     most = max(mode.damping_time for mode in modes)
     remedy = f"nothing, if this is meant; or the material Kelvin, with viscosities above {most:.2g} s times its moduli"
-    return (Note(where=f"contacts[{first}].friction", problem=problem, remedy=remedy),)
+    return (Note(where=f"contacts[{model.declared[first]}].friction", problem=problem, remedy=remedy),)
 
 
 def _surfaces(model: Model, contact: Contact) -> list[tuple[int, str]]:

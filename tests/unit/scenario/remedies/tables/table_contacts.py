@@ -16,6 +16,9 @@ BREAKS = "contacts=[] & bodies.c.mesh.origin=[0, -0.99] & " + (
 )
 HELD = "bodies.b.supports=[{on='left'}] & bodies.c.supports=[{on='right'}]"
 FLOOR = TWO + '[bodies.w]\nkind = "Tool"\nshape = { kind = "HalfSpace", point = [0, -2], normal = [0, 1] }'
+SHAFT = FLOOR + '\n[bodies.v]\nkind = "Tool"\nshape = { kind = "HalfSpace", point = [3, 0], normal = [-1, 0] }'
+"""Two squares between a floor and a wall."""
+PAIRED = "{between=['b', 'w']}, {between=['b', 'v']}"
 THREE = f"""{TWO}
 [bodies.d]
 mesh = {{ kind = "Rectangle", size = [1, 1], cells = [2, 2], origin = [0, -0.99] }}
@@ -153,6 +156,12 @@ TABLE: Table = {
         f"{PAIR}=['b.bottom', 'c.top']",
     ),
     "tools alone": Try(PLANE, f"{PAIR}=['w', 'w', 'w']", "known: b", f"{PAIR}=['b', 'b', 'w']"),
+    "list of pairs of others": Try(
+        SHAFT,
+        f"contacts=[{PAIRED}, {{between=['b', 'w', 'v']}}]",
+        "leave this contact out",
+        f"contacts=[{PAIRED}]",
+    ),
     "no whole facet": Try(
         TWO,
         f"{PAIR}=['b.corner', 'c.top'] & bodies.b.mesh={{kind='MeshFile', path='tagged.inp'}} & "
