@@ -45,11 +45,12 @@ def build(scene: Scene) -> Model:
     members = _members(scene)
     numbers = declared_numbers(scene.contacts, *members)
     with at_declared(numbers):
-        return _model(replace(scene, contacts=resolved(scene.contacts, *members)), numbers)
+        model = _model(replace(scene, contacts=resolved(scene.contacts, *members)))
+    return replace(model, declared=numbers)
 
 
-def _model(scene: Scene, declared: tuple[int, ...]) -> Model:
-    """Model of a scene whose contacts name all their members, with the numbers of the declared ones."""
+def _model(scene: Scene) -> Model:
+    """Model of a scene whose contacts name all their members."""
     timing, factor, (rigid, motions) = _timing(scene), scene.inertia.factor, _rigid(scene)
     tools, massless = _tools(scene, rigid, motions), timing.massless and factor > 0.0
     laid = laid_out(scene, motions, tools, massless)
@@ -88,7 +89,6 @@ def _model(scene: Scene, declared: tuple[int, ...]) -> Model:
         companions=intact(laid.bonds, displacement),
         tools=tools,
         rigid=rigid,
-        declared=declared,
     )
 
 

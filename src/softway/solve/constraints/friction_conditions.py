@@ -159,15 +159,20 @@ class FrictionResidual:
     chord: Array | None = None
 
     @property
+    def status(self) -> bytes:
+        """Which rows touch and slip."""
+        return self.touch.tobytes() + self.slips.tobytes()
+
+    @property
     def worst(self) -> float:
         """Greatest violation beyond rounding."""
         return float(np.maximum(np.abs(self.missed) - self.rounding, 0.0).max(initial=0.0))
 
 
-def friction_residual(problem: FrictionProblem, x: Array) -> FrictionResidual:
-    """Evaluate the contact conditions after the changes x (c (1 + k),)."""
+def friction_residual(problem: FrictionProblem, x: Array, moved: Array | None = None) -> FrictionResidual:
+    """Evaluate the contact conditions after the changes x (c (1 + k),), which have ``moved`` the rows (c (1 + k),)."""
     p, s = problem.multipliers(x)
-    gap, slip = problem.split(problem.free + problem.compliance @ x)
+    gap, slip = problem.split(problem.free + (problem.compliance @ x if moved is None else moved))
     k, chord = s.shape[1], chord_slope(problem.law.turning, s)
     s = chord_force(problem.law.turning, s)
     touch = p - gap / problem.normal_compliance > 0.0

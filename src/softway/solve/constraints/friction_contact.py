@@ -16,8 +16,9 @@ from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import NoConvergence
 from softway.solve.constraints.compliance import FrozenOperator
 from softway.solve.constraints.friction_conditions import friction_problem
-from softway.solve.constraints.friction_newton import solve_multipliers
+from softway.solve.constraints.friction_newton import KeptNewton, solve_multipliers
 from softway.solve.constraints.normal_active_set import RowConditions, delassus, without_contact
+from softway.solve.constraints.return_map import SlipConditions
 from softway.solve.constraints.row_basis import RowCoefficients
 from softway.solve.effort import Effort
 
@@ -57,9 +58,8 @@ def solve_friction(
         rest[here] = 0.0
         lifted = coefficients.spread(rest)
         now = loaded - np.where(open_, coefficients.from_basis(frozen.compliance_times(lifted)), 0.0)
-        matrix = delassus(frozen, part)
-        problem = friction_problem(matrix, now[here], law.subset(index), previous[here], rows.rounding, effort)
-        x[here], slips = solve_multipliers(problem, x[here])
+        known = law.subset(index), previous[here]
+        x[here], slips = _multipliers(frozen, part, now[here], known, x[here], (rows.rounding, effort))
         push = part.spread(x[here])
         gap = now[:m] + coefficients.from_basis(frozen.compliance_times(push))[:m]
         fresh = rows.unilateral & ~near & (gap < -floor)
@@ -72,6 +72,31 @@ def solve_friction(
     multiplier[here] = previous[here] + x[here]
     active = np.concatenate([multiplier[:m] > 0.0, np.isin(np.arange(m), index[slips])])
     return free + frozen.solve_push(push - lifted), multiplier, active
+
+
+def _multipliers(
+    frozen: FrozenOperator,
+    part: RowCoefficients,
+    free: Array,
+    known: tuple[SlipConditions, Array],
+    x: Array,
+    settings: tuple[float, Effort | None],
+) -> tuple[Array, BoolArray]:
+    """Changes of the multipliers of some rows, and which of them slip; with the factor of an earlier iteration of the
+    slab where that serves.
+    """
+    recent, (law, previous) = frozen.recent, known
+    if recent is not None and recent.friction is not None:
+        found = recent.friction.solved(
+            free, law, previous, x, lambda y: part.from_basis(frozen.compliance_times(part.spread(y)))
+        )
+        if found is not None:
+            return found
+    problem = friction_problem(delassus(frozen, part), free, law, previous, *settings)
+    x, slips = solve_multipliers(problem, x)
+    if recent is not None and problem.count:
+        recent.friction = KeptNewton.at(problem, x)
+    return x, slips
 
 
 def stacked(index: IntArray, m: int, k: int) -> IntArray:

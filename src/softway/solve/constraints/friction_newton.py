@@ -4,6 +4,7 @@ The unknowns are the changes of the previous multipliers
 (:class:`~softway.solve.constraints.friction_conditions.FrictionProblem`).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -48,6 +49,8 @@ DEPENDENT, SUSPECT = 1e-11, 1e-9
 columns is computed."""
 CONVERGED = 1e-14
 """Residual, relative to the motion by the forces, at the level of rounding."""
+ACCURATE = 1e-13
+"""Residual, relative to the motion by the forces, at which steps with a kept factor end."""
 
 
 def solve_multipliers(problem: FrictionProblem, x: Array) -> tuple[Array, BoolArray]:
@@ -76,6 +79,48 @@ def solve_multipliers(problem: FrictionProblem, x: Array) -> tuple[Array, BoolAr
             raise
         effort.unstuck += 1
     return _released(problem, x, replace(law, slip_at_limit=True))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class KeptNewton:
+    """Factored linearisation at the solution of a ``problem``, for problems of rows that have turned a little.
+
+    ``status`` tells which rows touched and slipped.
+    """
+
+    problem: FrictionProblem
+    factor: tuple[Array, IntArray]
+    status: bytes
+
+    @classmethod
+    def at(cls, problem: FrictionProblem, x: Array) -> "KeptNewton":
+        """Factored linearisation at the solution x (c (1 + k),) of a problem."""
+        residual = friction_residual(problem, x)
+        factor = lu_factor(linearised(problem, residual), overwrite_a=True, check_finite=False)
+        return cls(problem, factor, residual.status)
+
+    def solved(
+        self, free: Array, law: SlipConditions, previous: Array, x: Array, moved: Callable[[Array], Array]
+    ) -> tuple[Array, BoolArray] | None:
+        """Changes of the multipliers (c (1 + k),) from a guess x, and slipping rows (c,), without a new factor.
+
+        ``moved`` gives the motion (c (1 + k),) of the rows by changes of the multipliers.  None if other rows touch or
+        slip, if friction drops with the slip, or where the violation does not fall by ``FALLS`` in each step.
+        """
+        if len(x) != len(self.problem.free) or law.stick_at_any_force:
+            return None
+        problem = replace(self.problem, free=free, law=law, previous=previous)
+        if law.drops(np.maximum(problem.multipliers(x)[0], 0.0)):
+            return None
+        residual = friction_residual(problem, x, moved(x))
+        while residual.status == self.status:
+            if residual.worst <= max(ACCURATE * _size(problem, x, residual), problem.rounding):
+                return _clean(problem, x, residual), residual.slips & residual.touch
+            x, before = x - lu_solve(self.factor, residual.missed, check_finite=False), residual.worst
+            residual = friction_residual(problem, x, moved(x))
+            if not residual.worst <= FALLS * before:
+                break
+        return None
 
 
 def _released(problem: FrictionProblem, x: Array, law: SlipConditions, rounds: int = ROUNDS) -> tuple[Array, BoolArray]:
@@ -163,9 +208,8 @@ def _newton(problem: FrictionProblem, x: Array) -> tuple[Array, bool]:
         if _converged(problem, x, residual, seen.since):
             return x, True
         problem.effort.step(f"friction of {problem.count} rows, step {count} of Newton's method")
-        status = residual.touch.tobytes() + residual.slips.tobytes()
-        if factor is None or residual.worst > FALLS * before or status != last_status:
-            last_status = status
+        if factor is None or residual.worst > FALLS * before or residual.status != last_status:
+            last_status = residual.status
             factor = lu_factor(linearised(problem, residual), overwrite_a=True, check_finite=False)
         step, before = lu_solve(factor, residual.missed, check_finite=False), residual.worst
         if not np.isfinite(step).all():

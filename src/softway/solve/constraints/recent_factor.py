@@ -12,6 +12,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.kernels.linalg.dense import DenseFactor
+from softway.solve.constraints.friction_newton import KeptNewton
 
 Push = TypeVar("Push")
 
@@ -22,7 +23,8 @@ FAST = 0.1
 
 
 class RecentFactor:
-    """Factored compliance of active rows in an earlier iteration; none at the start of a slab.
+    """Factored compliance of active rows in an earlier iteration, and the linearisation of their friction; none at the
+    start of a slab.
 
     Examples
     --------
@@ -36,10 +38,11 @@ class RecentFactor:
     True
     """
 
-    __slots__ = ("factor",)
+    __slots__ = ("factor", "friction")
 
     def __init__(self) -> None:
         self.factor: DenseFactor | None = None
+        self.friction: KeptNewton | None = None
 
     def keep(self, factor: DenseFactor) -> None:
         """Keep a factor in place of the last one."""

@@ -21,7 +21,7 @@ from softway.solve.constraints.friction_conditions import (
     gauss_seidel,
     linearised,
 )
-from softway.solve.constraints.friction_newton import STUCK, _newton, solve_multipliers
+from softway.solve.constraints.friction_newton import STUCK, KeptNewton, _newton, solve_multipliers
 from softway.solve.constraints.return_map import STEEPEST, SlipConditions, return_map
 from softway.solve.constraints.turning_slip import chord_force, end_force
 from softway.solve.effort import Effort
@@ -365,3 +365,43 @@ def test_a_problem_is_given_up_by_its_steps():
     told = "attempt given up after 0 iterations, 0 factors and 6 steps of the contact problems, of 5 allowed; the last"
     with pytest.raises(NoConvergence, match=told):
         solve_multipliers(replace(hard, effort=Effort(limit=0.1)), np.zeros(30))
+
+
+@pytest.mark.parametrize("k", [1, 2])
+@pytest.mark.parametrize("law", [Coulomb(mu=0.3), Tresca(shear=0.2), NortonHoff(alpha=0.3, p=1.0)], ids=str)
+def test_rows_that_turn_a_little_are_solved_for_with_the_kept_factor(law, k):
+    """Forces and slipping rows are those of their own problem."""
+    solved = 0
+    for seed in range(10):
+        first = problem(seed, 8, k, law)
+        x, _ = solve_multipliers(first, np.zeros(len(first.free)))
+        kept, rng = KeptNewton.at(first, x), np.random.default_rng(seed)
+        turn = rng.normal(scale=1e-4, size=first.compliance.shape)
+        now = replace(first, compliance=first.compliance + turn + turn.T, free=first.free + 1e-4 * x)
+        expected, slips = solve_multipliers(now, x)
+        found = kept.solved(now.free, now.law, now.previous, x, lambda y, now=now: now.compliance @ y)
+        if friction_residual(now, expected).status == kept.status:
+            assert found is not None
+            np.testing.assert_allclose(found[0], expected, atol=1e-11)
+            np.testing.assert_array_equal(found[1], slips)
+            solved += 1
+        else:
+            assert found is None
+    assert solved >= 8, "a few rows come to touch or slip"
+
+
+def test_the_kept_factor_is_not_for_other_rows_nor_for_friction_that_drops():
+    first = problem(0, 6, 2, Coulomb(mu=0.3))
+    x, _ = solve_multipliers(first, np.zeros(len(first.free)))
+    kept = KeptNewton.at(first, x)
+
+    def moved(y):
+        return first.compliance @ y
+
+    assert kept.solved(first.free, first.law, first.previous, x, moved) is not None
+    assert kept.solved(first.free[:9], first.law, first.previous[:9], x[:9], moved) is None
+    dropping = slipping(StaticKinetic(mu_s=0.4, mu_k=0.2), 6, 2)
+    assert kept.solved(first.free, dropping, first.previous, x, moved) is None
+    assert kept.solved(first.free, replace(first.law, stick_at_any_force=True), first.previous, x, moved) is None
+    assert kept.solved(first.free + 1.0, first.law, first.previous, x, moved) is None, "all rows are open"
+    assert kept.solved(first.free, first.law, first.previous, x, lambda y: 40.0 * y) is None, "much stiffer"
