@@ -63,7 +63,8 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
     A slab that fails with an old operator is first tried again with a new one, one in which Newton's method does not
     converge by the fixed point, and one with an indefinite operator by a positive definite one.  If the scalar cannot
     close the energy balance at half the length either, it is closed along the motion, also in the following slabs.  A
-    slab inside which a body comes to rest is tried again with its end at that instant; the slab after it is damped.
+    slab inside which a body comes to rest is tried again with its end at that instant; the slab after it is damped
+    if there are massless nodes.
     ``memory`` is that of the march state, with its operator if available.
 
     Raises
@@ -78,10 +79,12 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
     halted = positive_definite = False
     unbalanced = PATIENCE if history.energy_along_motion else 0
     fresh, first = memory.origin is None, stepper
+    massive = stepper.model.space.every(stepper.model.massive)
     while length > least and not (crawls and reasons):
         heed(stepper.cancel, now.time)
         end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
-        slab = Slab(start=now.time, end=end, weight=DAMPED if history.halted else settings.weight)
+        damped = history.halted and not massive
+        slab = Slab(start=now.time, end=end, weight=DAMPED if damped else settings.weight)
         try:
             attempt = Attempt(
                 approach=settings.control.approach,
@@ -89,6 +92,7 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
                 cancel=stepper.cancel,
                 effort=_effort(stepper, march_state.slabs + 1, slab),
                 positive_definite=positive_definite,
+                rested=history.halted,
             )
             found = _tried(stepper, march_state, slab, memory, attempt)
             return replace(found, rejections=tuple(reasons), halted=halted)
@@ -219,7 +223,7 @@ def _tried(
     model, now = stepper.model, march_state.state
     broken: str | None = "no solution"
     for after, out, new in advance(stepper, now, slab, memory, attempt):
-        if slab.weight != DAMPED:
+        if slab.weight != DAMPED and not attempt.rested:
             slip_end(model, now, out, slab.span)
             slip_start(model, now, out, partial(_stuck, stepper, now, slab, new, attempt))
         ledger = audit(model, march_state.account, now, out, after)

@@ -34,7 +34,8 @@ def solve_friction(
     """Solve the contact problem with friction for a free solution: solution (f,), multipliers and active rows.
 
     The normal multipliers (m,) are followed by the tangential ones (m k,), row by row; the touching rows (m,) by the
-    slipping rows (m,).  The free solution contains the ``previous`` multipliers already.
+    slipping rows (m,).  The free solution contains the ``previous`` multipliers already.  Rows ``equal`` stay closed,
+    also in tension.
 
     Raises
     ------
@@ -43,12 +44,14 @@ def solve_friction(
     """
     law, (m, k) = rows.slipping, rows.slipping.shift.shape
     offset = np.concatenate([rows.target, law.shift.ravel()])
-    open_ = np.concatenate([rows.unilateral, np.repeat(rows.unilateral, k)])
+    pressed = np.zeros(m, bool) if law.given is None else law.given > 0.0
+    some = rows.unilateral | rows.equal | pressed
+    open_ = np.concatenate([some, np.repeat(some, k)])
     loaded = np.where(open_, coefficients.from_basis(frozen.restrict(free)) - offset, 0.0)
     slack = np.where(
         open_, coefficients.from_basis(without_contact(free, frozen, coefficients.spread(previous))) - offset, 0.0
     )
-    floor, near = rows.missable(slack[:m]), rows.unilateral & guess[:m]
+    floor, near = rows.missable(slack[:m]), rows.equal | pressed | (rows.unilateral & guess[:m])
     x = np.zeros(len(previous))
     for _ in range(30 + m):
         index = np.flatnonzero(near)
@@ -58,7 +61,8 @@ def solve_friction(
         lifted = coefficients.spread(rest)
         now = loaded - np.where(open_, coefficients.from_basis(frozen.compliance_times(lifted)), 0.0)
         matrix = delassus(frozen, part)
-        problem = friction_problem(matrix, now[here], law.subset(index), previous[here], rows.rounding, effort)
+        known = law.subset(index), previous[here], rows.rounding, effort, rows.equal[index]
+        problem = friction_problem(matrix, now[here], *known)
         x[here], slips = solve_multipliers(problem, x[here])
         push = part.spread(x[here])
         gap = now[:m] + coefficients.from_basis(frozen.compliance_times(push))[:m]
@@ -70,7 +74,7 @@ def solve_friction(
         raise NoConvergence(f"the {m} contact rows have no solution")
     multiplier = np.zeros(len(previous))
     multiplier[here] = previous[here] + x[here]
-    active = np.concatenate([multiplier[:m] > 0.0, np.isin(np.arange(m), index[slips])])
+    active = np.concatenate([rows.equal | (multiplier[:m] > 0.0), np.isin(np.arange(m), index[slips])])
     return free + frozen.solve_push(push - lifted), multiplier, active
 
 

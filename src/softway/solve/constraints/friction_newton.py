@@ -147,7 +147,7 @@ def _approached(attempt: NewtonAttempt, rounds: int = ROUNDS) -> tuple[Array, Bo
         if seen.since > PATIENCE:
             break
     if converged:
-        return _clean(problem, x, residual), residual.slips & residual.touch
+        return _clean(problem, x, residual), residual.slips
     if not np.isfinite(residual.worst):
         raise NoConvergence(f"friction of {problem.count} contact rows: the forces are not finite")
     size = _size(problem, x, residual)
@@ -163,7 +163,7 @@ def _newton(problem: FrictionProblem, x: Array) -> tuple[Array, bool]:
         if _converged(problem, x, residual, seen.since):
             return x, True
         problem.effort.step(f"friction of {problem.count} rows, step {count} of Newton's method")
-        status = residual.touch.tobytes() + residual.slips.tobytes()
+        status = residual.touch.tobytes() + residual.slips.tobytes() + residual.bent.tobytes()
         if factor is None or residual.worst > FALLS * before or status != last_status:
             last_status = status
             factor = lu_factor(linearised(problem, residual), overwrite_a=True, check_finite=False)
@@ -226,7 +226,7 @@ def _size(problem: FrictionProblem, x: Array, residual: FrictionResidual) -> flo
 def _clean(problem: FrictionProblem, x: Array, residual: FrictionResidual) -> Array:
     """Changes with zero multipliers on rows that do not touch, and without tension by rounding."""
     c = problem.count
-    touch = np.concatenate([residual.touch, np.repeat(residual.touch, problem.law.shift.shape[1])])
+    touch = np.concatenate([residual.touch, np.repeat(residual.rubs, problem.law.shift.shape[1])])
     out = np.where(touch, x, -problem.previous)
-    out[:c] = np.maximum(out[:c], -problem.previous[:c])
+    out[:c] = np.where(problem.equal, out[:c], np.maximum(out[:c], -problem.previous[:c]))
     return out
