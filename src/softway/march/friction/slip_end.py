@@ -23,6 +23,7 @@ def slip_end(model: Model, now: ModelState, out: SlabResult, span: float) -> Non
     """Refuse a slab inside which a slipping contact comes to rest.
 
     Friction reverses or vanishes when its power crosses zero: a slab beyond that instant would push the body back.
+    Contact nodes with inertia that stick at the end of the slab have come to rest in it.
 
     Raises
     ------
@@ -32,7 +33,10 @@ def slip_end(model: Model, now: ModelState, out: SlabResult, span: float) -> Non
     first = out.system.contact.initial.rows
     if not first.shear.count:
         return
-    weight = -now.traction * (now.sliding & now.closed)[:, None]
+    slips = now.sliding & now.closed
+    if model.space.every(model.massive):
+        slips &= out.friction.sliding
+    weight = -now.traction * slips[:, None]
     ends = now.start.velocity, out.solution.last.q
     found = []
     for contact in np.unique(first.contact[weight.any(axis=1)]).tolist():
