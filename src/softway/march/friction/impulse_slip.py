@@ -17,7 +17,7 @@ from softway.arrays import Array, BoolArray
 from softway.contact.contact_rows import ContactRows
 from softway.contact.slab_motion.trajectory import ContactEvents
 from softway.march.model_state import ModelState
-from softway.march.results.friction_result import FrictionResult, come_to_rest
+from softway.march.results.friction_result import RESTED, FrictionResult
 from softway.model.model import Model
 from softway.solve.constraints.return_map import NO_SLIP, SlipConditions
 from softway.solve.methods.iteration import Solution
@@ -128,9 +128,21 @@ def initial_slip(
         velocity=velocity,
         moves=moves,
         onward=moves & lasting & ~halts if shear.tangents.shape[1] > 1 else none,
-        rested=come_to_rest(model, now, rows, span) if rested else none,
+        rested=_come_to_rest(now, rows, velocity) if rested else none,
     )
     return out.halted(rows, guess) or out
+
+
+def _come_to_rest(now: ModelState, rows: ContactRows, velocity: Array) -> BoolArray:
+    """Rows (m,) of contacts whose friction has no power at the start, with the slip velocities (m, d) there [m/s]."""
+    out = np.zeros(len(rows.node), bool)
+    if now.slip is None:
+        return out
+    power, usual = (np.abs(np.einsum("md,md->m", now.traction, w)) for w in (velocity, now.slip))
+    for contact in np.unique(rows.contact[now.sliding]).tolist():
+        here = rows.contact == contact
+        out[here] = power[here].sum() <= RESTED * usual[here].sum()
+    return out
 
 
 def closed_fractions(closed: BoolArray, events: ContactEvents) -> Array:

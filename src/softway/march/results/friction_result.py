@@ -111,17 +111,13 @@ def _rested(model: Model, now: ModelState, slab: Slab, rows: ContactRows) -> Boo
 
     It is the slab after one that ended where the power of the friction vanished (``march/friction/slip_end.py``).
     """
-    if slab.weight != EndPeaks(theta=1.0):
-        return np.zeros(len(rows.node), bool)
-    return come_to_rest(model, now, rows, slab.span)
-
-
-def come_to_rest(model: Model, now: ModelState, rows: ContactRows, span: float) -> BoolArray:
-    """Rows (m,) of contacts whose friction has no power at the start of a slab of length ``span`` [s]."""
     out = np.zeros(len(rows.node), bool)
+    if slab.weight != EndPeaks(theta=1.0):
+        return out
     shear, forces = now.force_rows(rows).shear, now.traction * (now.sliding & now.closed)[:, None]
     power, usual = (
-        -np.sum(forces * shear.slip(span * v), axis=1) for v in (model.follow @ now.start.velocity, now.start.velocity)
+        -np.sum(forces * shear.slip(slab.span * v), axis=1)
+        for v in (model.follow @ now.start.velocity, now.start.velocity)
     )
     for contact in np.unique(rows.contact[now.sliding]).tolist():
         here = rows.contact == contact

@@ -61,9 +61,7 @@ def impulsive_result(
         force=through / h,
         push=push,
         support=support,
-        work=float(through @ rows.tool_motion) / h
-        + friction.work
-        + support_work(model, system.path, support, moved, q),
+        work=tools + support_work(model, system.path, support, moved, q),
         dissipation=touch.loss(model, rows, events, found, (now.start.velocity, q), h) + friction.dissipation,
         events=_events(now, slab, system, current, solution, found, friction),
         pairs=pairs,
