@@ -23,7 +23,7 @@ from softway.march.start.slab_length import proposed
 from softway.march.step_control import CRAWL, ENDLESS
 from softway.model.model import Model
 from softway.model.slab import Slab
-from softway.model.time_weight import EndPeaks
+from softway.model.time_weight import EndPeaks, TimeWeight
 from softway.solve.effort import Effort
 from softway.solve.methods.newton import Newton
 from softway.solve.operators.operator_memory import OperatorMemory
@@ -63,8 +63,7 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
     A slab that fails with an old operator is first tried again with a new one, one in which Newton's method does not
     converge by the fixed point, and one with an indefinite operator by a positive definite one.  If the scalar cannot
     close the energy balance at half the length either, it is closed along the motion, also in the following slabs.  A
-    slab inside which a body comes to rest is tried again with its end at that instant; the slab after it is damped
-    if there are massless nodes.
+    slab inside which a body comes to rest is tried again with its end at that instant; the slab after it is damped.
     ``memory`` is that of the march state, with its operator if available.
 
     Raises
@@ -79,12 +78,10 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
     halted = positive_definite = False
     unbalanced = PATIENCE if history.energy_along_motion else 0
     fresh, first = memory.origin is None, stepper
-    massive = stepper.model.space.every(stepper.model.massive)
     while length > least and not (crawls and reasons):
         heed(stepper.cancel, now.time)
         end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
-        damped = history.halted and not massive
-        slab = Slab(start=now.time, end=end, weight=DAMPED if damped else settings.weight)
+        slab = Slab(start=now.time, end=end, weight=_weight(stepper.model, march_state))
         try:
             attempt = Attempt(
                 approach=settings.control.approach,
@@ -114,6 +111,12 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
     reason = _reason(march_state, reasons, crawls) + _touching(stepper.model, now) + _crushed(stepper.model, now)
     raise NumericsError(reason, now.time, _remedy(stepper, march_state))
+
+
+def _weight(model: Model, march_state: MarchState) -> TimeWeight:
+    """Virtual time function of the next slab: after a stop that of a damped slab if there are massless nodes."""
+    damped = march_state.step_history.halted and not model.space.every(model.massive)
+    return DAMPED if damped else march_state.settings.weight
 
 
 def _effort(stepper: Stepper, number: int, slab: Slab) -> Effort:

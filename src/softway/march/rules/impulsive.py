@@ -16,7 +16,6 @@ from softway.contact.slab_motion.trajectory import Trajectory, bent
 from softway.errors import NoConvergence
 from softway.march.friction.impulse_slip import ImpulseSlip, closed_fractions, initial_slip, steady_push
 from softway.march.model_state import ModelState
-from softway.march.results.impulsive_result import impulsive_result, known_impulses
 from softway.march.rules.event_iteration import (
     EventIteration,
     with_new_events,
@@ -24,9 +23,16 @@ from softway.march.rules.event_iteration import (
     without_adhesion,
     without_events,
 )
+from softway.march.rules.impulsive_result import impulsive_result, known_impulses
 from softway.march.rules.slab_rule import Attempt, Solutions, require_nodal
-from softway.march.rules.split_elements import split_elements
-from softway.march.rules.touch import InelasticImpact, NodalStop, Touch, VelocityJump, without_own_inertia
+from softway.march.rules.touch import (
+    InelasticImpact,
+    NodalStop,
+    Touch,
+    VelocityJump,
+    split_elements,
+    without_own_inertia,
+)
 from softway.march.rules.velocity_jumps import velocity_jumps
 from softway.march.step_control import require_slow
 from softway.model.model import Model
@@ -170,9 +176,6 @@ def _system(
         jumps=tuple((j.instant, j.field) for j in found),
         bends=model.bends(slab.start, slab.end),
     )
-    target = rows.tool_motion / slab.span - rows.normal_component(np.where(model.free, 0.0, given))
-    known = known_impulses(current, found, slab.span, touch), closed_fractions(now.closed, events), given
-    slipping = slip.conditions(model, now, rows, known, attempt.stick_at_any_force)
     return SlabEquations(
         model=model,
         start=now.start,
@@ -181,12 +184,7 @@ def _system(
         average=touch.average(slab.weight),
         contact=FixedContact(
             rows=rows,
-            conditions=RowConditions(
-                target=target,
-                equal=events.closed if slipping.frictionless else events.closed & rows.reachable(model.dofs),
-                unilateral=np.zeros_like(events.closed),
-                slipping=slipping,
-            ),
+            conditions=_conditions(model, now, current, found, (given, touch), slip, attempt),
             initial=InitialContact(rows=rows, pressure=now.pressure, traction=now.traction),
         ),
         unbalanced=sum((j.field for j in found if not touch.balanced), np.zeros(model.shape)),
@@ -194,6 +192,29 @@ def _system(
         given=given,
         effort=attempt.effort,
         positive_definite=attempt.positive_definite,
+    )
+
+
+def _conditions(
+    model: Model,
+    now: ModelState,
+    current: EventIteration,
+    found: tuple[VelocityJump, ...],
+    how: tuple[Array, Touch],
+    slip: ImpulseSlip,
+    attempt: Attempt,
+) -> RowConditions:
+    """Conditions on the contact rows; ``how`` are the prescribed velocities (n, d) at the end, and the touches."""
+    given, touch = how
+    closed, rows = current.events.closed, current.rows
+    target = rows.tool_motion / slip.span - rows.normal_component(np.where(model.free, 0.0, given))
+    known = known_impulses(current, found, slip.span, touch), closed_fractions(now.closed, current.events), given
+    slipping = slip.conditions(model, now, rows, known, attempt.stick_at_any_force)
+    return RowConditions(
+        target=target,
+        equal=closed if slipping.frictionless else closed & rows.reachable(model.dofs),
+        unilateral=np.zeros_like(closed),
+        slipping=slipping,
     )
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray
 from softway.errors import NoConvergence
-from softway.solve.constraints.return_map import SlipConditions, return_map
+from softway.solve.constraints.return_map import SlipConditions, return_map, undriven
 from softway.solve.constraints.turning_slip import chord_force, chord_slope, end_force
 from softway.solve.effort import Effort
 
@@ -221,17 +221,6 @@ def friction_residual(problem: FrictionProblem, x: Array) -> FrictionResidual:
         pressure_slope=found.pressure_slope,
         chord=chord,
     )
-
-
-def undriven(law: SlipConditions, trial: Array) -> tuple[Array, Array | None]:
-    """Trials (c, k) without their part along the slip at the start, and the directions (c, k) of the parts left out.
-
-    The directions are zero where nothing is left out, and None for a law without such a condition.
-    """
-    if law.undriven is None:
-        return trial, None
-    part = np.maximum(np.einsum("ck,ck->c", trial, law.undriven), 0.0)[:, None]
-    return trial - part * law.undriven, np.where(part > 0.0, law.undriven, 0.0)
 
 
 def linearised(problem: FrictionProblem, residual: FrictionResidual) -> Array:

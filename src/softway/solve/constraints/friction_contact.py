@@ -45,8 +45,7 @@ def solve_friction(
     law, (m, k) = rows.slipping, rows.slipping.shift.shape
     offset = np.concatenate([rows.target, law.shift.ravel()])
     pressed = np.zeros(m, bool) if law.given is None else law.given > 0.0
-    some = rows.unilateral | rows.equal | pressed
-    open_ = np.concatenate([some, np.repeat(some, k)])
+    open_ = np.concatenate([some := rows.unilateral | rows.equal | pressed, np.repeat(some, k)])
     loaded = np.where(open_, coefficients.from_basis(frozen.restrict(free)) - offset, 0.0)
     slack = np.where(
         open_, coefficients.from_basis(without_contact(free, frozen, coefficients.spread(previous))) - offset, 0.0
@@ -56,13 +55,11 @@ def solve_friction(
     for _ in range(30 + m):
         index = np.flatnonzero(near)
         here = stacked(index, m, k)
-        part, rest = coefficients.subset(here), previous.copy()
-        rest[here] = 0.0
+        part, rest = coefficients.subset(here), np.where(np.isin(np.arange(len(previous)), here), 0.0, previous)
         lifted = coefficients.spread(rest)
         now = loaded - np.where(open_, coefficients.from_basis(frozen.compliance_times(lifted)), 0.0)
-        matrix = delassus(frozen, part)
-        known = law.subset(index), previous[here], rows.rounding, effort, rows.equal[index]
-        problem = friction_problem(matrix, now[here], *known)
+        known = previous[here], rows.rounding, effort, rows.equal[index]
+        problem = friction_problem(delassus(frozen, part), now[here], law.subset(index), *known)
         x[here], slips = solve_multipliers(problem, x[here])
         push = part.spread(x[here])
         gap = now[:m] + coefficients.from_basis(frozen.compliance_times(push))[:m]

@@ -222,3 +222,14 @@ def return_map(law: SlipConditions, trial: Array, pressed: Array, stiffness: Arr
         steep = np.where(np.isinf(change), 1.0, change / (change + stiffness))
     force = np.where(slips, np.where(np.isinf(change), np.maximum(trial - stiffness * slip, 0.0), force), trial)
     return ReturnedForces(force=force, slips=slips, steep=steep, pressure_slope=pressure_slope * (1.0 - steep))
+
+
+def undriven(law: SlipConditions, trial: Array) -> tuple[Array, Array | None]:
+    """Trials (c, k) without their part along the slip at the start, and the directions (c, k) of the parts left out.
+
+    The directions are zero where nothing is left out, and None for a law without such a condition.
+    """
+    if law.undriven is None:
+        return trial, None
+    part = np.maximum(np.einsum("ck,ck->c", trial, law.undriven), 0.0)[:, None]
+    return trial - part * law.undriven, np.where(part > 0.0, law.undriven, 0.0)

@@ -13,7 +13,7 @@ FLOOR = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)
 
 
 def block(*, velocity, E=1e9, cells=2, dim=2, lift=0.0, density=1000.0):
-    up = np.eye(dim)[-1]
+    np.eye(dim)[-1]
     mesh = (
         sw.meshes.Rectangle(size=(0.1, 0.1), cells=(cells, cells))
         if dim == 2

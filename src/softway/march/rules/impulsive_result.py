@@ -36,15 +36,11 @@ def impulsive_result(
     work: tuple[int, int],
     slip: ImpulseSlip,
 ) -> SlabResult:
-    """Forces, works and events of a solved slab.
-
-    ``found`` are its velocity jumps, ``pairs`` the number of pairs that the search found, ``work`` the numbers of
-    solutions and of iterations, and ``slip`` the slip at its start.
-    """
+    """Forces, works and events of a slab with jumps ``found``, and ``work``: numbers of solutions and iterations."""
     model, h, events, q, rows = system.model, slab.span, current.events, solution.last.q, current.rows
     through = _through(current, solution, found, h, touch)
-    steady = steady_push(now, rows, solution, h)
-    pressure = np.maximum(touch.inertia.multiplier(rows, solution.end.force - steady, events.closed), 0.0)
+    pull = solution.end.force - steady_push(now, rows, solution, h)
+    pressure = np.maximum(touch.inertia.multiplier(rows, pull, events.closed), 0.0)
     friction = impulse_friction(model, now, rows, solution, slip, pressure)
     push = rows.spread(through / h, model.shape) + friction.push
     support = supports(model, now, solution.end, q, push, h)
