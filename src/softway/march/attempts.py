@@ -58,13 +58,12 @@ class AcceptedSlab:
 
 
 def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory: OperatorMemory) -> AcceptedSlab:
-    """Find the next accepted slab, with cutbacks of its length to one half.
+    """Find the next accepted slab, with cutbacks to half its length; ``memory`` has an operator if available.
 
     A slab that fails with an old operator is first tried again with a new one, one in which Newton's method does not
     converge by the fixed point, and one with an indefinite operator by a positive definite one.  If the scalar cannot
     close the energy balance at half the length either, it is closed along the motion, also in the following slabs.  A
     slab inside which a body comes to rest is tried again with its end at that instant; the slab after it is damped.
-    ``memory`` is that of the march state, with its operator if available.
 
     Raises
     ------

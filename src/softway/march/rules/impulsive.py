@@ -182,11 +182,7 @@ def _system(
         weight=slab.weight,
         path=path,
         average=touch.average(slab.weight),
-        contact=FixedContact(
-            rows=rows,
-            conditions=_conditions(model, now, current, found, (given, touch), slip, attempt),
-            initial=InitialContact(rows=rows, pressure=now.pressure, traction=now.traction),
-        ),
+        contact=_contact(model, now, current, found, (given, touch), slip, attempt),
         unbalanced=sum((j.field for j in found if not touch.balanced), np.zeros(model.shape)),
         impulses=rows.spread(impulses, model.shape),
         given=given,
@@ -195,7 +191,7 @@ def _system(
     )
 
 
-def _conditions(
+def _contact(
     model: Model,
     now: ModelState,
     current: EventIteration,
@@ -203,19 +199,21 @@ def _conditions(
     how: tuple[Array, Touch],
     slip: ImpulseSlip,
     attempt: Attempt,
-) -> RowConditions:
-    """Conditions on the contact rows; ``how`` are the prescribed velocities (n, d) at the end, and the touches."""
+) -> FixedContact:
+    """Contact rows with their conditions; ``how`` are the prescribed velocities (n, d) at the end, and the touches."""
     given, touch = how
     closed, rows = current.events.closed, current.rows
     target = rows.tool_motion / slip.span - rows.normal_component(np.where(model.free, 0.0, given))
     known = known_impulses(current, found, slip.span, touch), closed_fractions(now.closed, current.events), given
     slipping = slip.conditions(model, now, rows, known, attempt.stick_at_any_force)
-    return RowConditions(
+    conditions = RowConditions(
         target=target,
         equal=closed if slipping.frictionless else closed & rows.reachable(model.dofs),
         unilateral=np.zeros_like(closed),
         slipping=slipping,
     )
+    initial = InitialContact(rows=rows, pressure=now.pressure, traction=now.traction)
+    return FixedContact(rows=rows, conditions=conditions, initial=initial)
 
 
 def _first(system: SlabEquations, q: Array, memory: OperatorMemory) -> Guess:

@@ -38,9 +38,8 @@ def impulsive_result(
 ) -> SlabResult:
     """Forces, works and events of a slab with jumps ``found``, and ``work``: numbers of solutions and iterations."""
     model, h, events, q, rows = system.model, slab.span, current.events, solution.last.q, current.rows
-    through = _through(current, solution, found, h, touch)
-    pull = solution.end.force - steady_push(now, rows, solution, h)
-    pressure = np.maximum(touch.inertia.multiplier(rows, pull, events.closed), 0.0)
+    through, pull = _through(current, solution, found, h, touch), steady_push(now, rows, solution, h)
+    pressure = np.maximum(touch.inertia.multiplier(rows, solution.end.force - pull, events.closed), 0.0)
     friction = impulse_friction(model, now, rows, solution, slip, pressure)
     push = rows.spread(through / h, model.shape) + friction.push
     support = supports(model, now, solution.end, q, push, h)
