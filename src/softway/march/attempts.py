@@ -75,8 +75,7 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
     least, crawls = settings.control.least * history.span, history.recent_rejections > settings.control.patience
     reasons: list[str] = []
     halted = positive_definite = False
-    unbalanced = PATIENCE if history.energy_along_motion else 0
-    fresh, first = memory.origin is None, stepper
+    fresh, first, unbalanced = memory.origin is None, stepper, PATIENCE if history.energy_along_motion else 0
     while length > least and not (crawls and reasons):
         heed(stepper.cancel, now.time)
         end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
