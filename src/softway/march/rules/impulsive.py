@@ -140,7 +140,8 @@ def nodal_stop(model: Model, method: FixedPoint | Newton, weight: TimeWeight) ->
     Raises
     ------
     InputError
-        If unknowns move several components of nodes, a friction law lets nothing stick, or elements that cannot be split are to be split.
+        If unknowns move several components of nodes, a friction law lets nothing stick, or elements that cannot be
+        split are to be split.
     """
     require_nodal(model, str(model.timing))
     require_stick_limit(model, str(model.timing))
