@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from time import perf_counter
 
-from groups import accuracy, cube, methods, parts, piles
+from groups import accuracy, blocks, cube, methods, parts, piles
 from groups.asked import Asked
 from processes.apart import Failed
 from record.figures import Figure, read, regressions, unmatched, written
@@ -40,6 +40,9 @@ GROUPS: dict[str, Group] = {
     "history": parts.history,
     "factor": parts.factors,
     "contact": parts.contact,
+    "unmet": blocks.unmet,
+    "pressed": blocks.pressed,
+    "blocks": blocks.blocks,
     "slab": parts.slabs,
     "pile": piles.pile,
     "large": cube.large,

@@ -136,9 +136,47 @@ def pile(count: list[int], until: float) -> dict[str, Any]:
     return asdict(measured((count[0], count[1], count[2]), until))
 
 
+def collision(cells: int, divide: float = 1.0) -> dict[str, Any]:
+    """The peers' problem of two bodies; ``divide`` shortens its slabs."""
+    from collision import collision as marched
+
+    return marched(cells, divide)
+
+
+def pressed(cells: int, slabs: int, friction: float | None) -> dict[str, Any]:
+    """Slabs of two blocks in contact against slabs without it."""
+    from bench_two_bodies import measured
+
+    return asdict(measured(cells, slabs, friction))
+
+
+def unmet(cells: int, slabs: int, resting: bool) -> dict[str, float]:
+    """Slabs with contact that never closes, and with the floor alone."""
+    from bench_open_contact import measured
+
+    return measured(cells, slabs, resting)
+
+
 PROBLEMS: dict[str, Callable[..., Any]] = {
     f.__name__: f
-    for f in (cube, inertia, explicit, compact, impact, bent, block, kernels, history, factor, contact, slabs, pile)
+    for f in (
+        cube,
+        inertia,
+        explicit,
+        compact,
+        impact,
+        bent,
+        block,
+        kernels,
+        history,
+        factor,
+        contact,
+        slabs,
+        pile,
+        collision,
+        pressed,
+        unmet,
+    )  # fmt: skip
 }
 
 

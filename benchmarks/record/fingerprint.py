@@ -30,6 +30,7 @@ THROWN = (
     "src/softway/apps/verify/scenes/cube.py",
 )
 PARTS, METHODS = "benchmarks/groups/parts.py", "benchmarks/groups/methods.py"
+BLOCKS = "benchmarks/groups/blocks.py"
 BENCHES = {
     "start": (METHODS,),
     "drop": THROWN,
@@ -42,6 +43,15 @@ BENCHES = {
     "history": (PARTS, "benchmarks/parts/bench_history.py"),
     "factor": (PARTS, "benchmarks/parts/bench_factor.py"),
     "contact": (PARTS, "benchmarks/parts/bench_contact.py"),
+    "unmet": (BLOCKS, "benchmarks/parts/bench_open_contact.py"),
+    "pressed": (BLOCKS, "benchmarks/parts/bench_two_bodies.py"),
+    "blocks": (
+        BLOCKS,
+        "benchmarks/groups/force.py",
+        "benchmarks/groups/peers.py",
+        "benchmarks/peers",
+        "benchmarks/processes/collision.py",
+    ),  # fmt: skip
     "slab": (PARTS, "benchmarks/parts/bench_slab.py"),
     "pile": ("benchmarks/groups/piles.py", "benchmarks/parts/bench_pile.py"),
     "large": THROWN[::3],

@@ -13,6 +13,9 @@ from softway.apps.cli.commands import app
 
 pytestmark = pytest.mark.slow
 
+LONG = ("forming", "stops", "view")
+"""Pages whose commands together take a minute or more."""
+
 
 @pytest.fixture(scope="module")
 def reader(tmp_path_factory):
@@ -21,7 +24,12 @@ def reader(tmp_path_factory):
 
 
 @pytest.mark.parametrize(
-    "page", [p for p in PAGES if p.name not in ELSEWHERE and any(steps(p))], ids=lambda p: f"{p.parent.name}-{p.stem}"
+    "page",
+    [
+        pytest.param(p, marks=pytest.mark.minutes if p.stem in LONG else [], id=f"{p.parent.name}-{p.stem}")
+        for p in PAGES
+        if p.name not in ELSEWHERE and any(steps(p))
+    ],
 )
 def test_what_the_page_says_runs(page, reader, monkeypatch):
     monkeypatch.chdir(reader.folder)

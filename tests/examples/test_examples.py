@@ -11,7 +11,10 @@ pytestmark = pytest.mark.slow
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples" / "gallery").rglob("*.py"))
 
 
-@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "example",
+    [pytest.param(e, marks=pytest.mark.minutes if e.stem == "upsetting" else [], id=e.stem) for e in EXAMPLES],
+)
 def test_an_example_runs(example, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     try:

@@ -28,7 +28,7 @@ def thrown(step: float, solver: sw.FixedPoint | sw.Newton) -> tuple[float, int]:
     return sum(s.report.iterations for s in steps) / len(steps), steps[-1].report.factorisations
 
 
-@pytest.mark.parametrize("step", [0.05, 0.2])
+@pytest.mark.parametrize("step", [pytest.param(0.05, marks=pytest.mark.slow), 0.2])
 def test_the_fixed_point_takes_more_iterations_and_fewer_factors(step):
     """Newton's method factors in each of its iterations, the fixed point a few times in the march."""
     plain, anderson, newton = (

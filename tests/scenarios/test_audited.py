@@ -13,7 +13,7 @@ from softway.record.audit.folder import frames_audited
 from softway.record.read.findings import BETWEEN, DISSIPATION, ENERGY, INVERTED, MOMENTUM, OVERLAP, SPIN
 from softway.scenario.files import loads
 from softway.scenario.text.templates import templates
-from variants import SCENARIOS, VARIANTS, names, small, whole
+from variants import SCENARIOS, VARIANTS, each, names, small, whole
 
 WITHIN = 0.25
 """Greatest difference of the depth that a sentence tells, relative to the depth: figures are rounded upwards."""
@@ -56,7 +56,7 @@ def test_the_audit_finds_what_the_file_says(name, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", sorted(VARIANTS))
+@pytest.mark.parametrize("name", each())
 def test_balances_hold_in_every_slab(name, tmp_path, monkeypatch):
     """Small variants, with a frame and an audit at each slab."""
     monkeypatch.setattr(watch, "APART", 1)

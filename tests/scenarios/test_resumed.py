@@ -6,12 +6,12 @@ import pytest
 
 import softway as sw
 from records import differences
-from variants import VARIANTS, small
+from variants import each, small
 
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.parametrize("name", sorted(VARIANTS))
+@pytest.mark.parametrize("name", each())
 def test_a_resumed_run_has_the_same_bits(name, tmp_path):
     given = small(name)
     given = small(name, f"output.fields_every={given.time.end / 4} s")

@@ -3,6 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
+
+import pytest
 
 from softway.scenario.files import load
 from softway.scenario.scenario import Scenario
@@ -240,6 +243,15 @@ VARIANTS: Mapping[str, Variant] = {
     ),
 }
 """Variant of every scenario, by the name of its file."""
+
+
+LONG = frozenset({"bag", "phone_drop"})
+"""Scenarios whose small variants, too, take tens of seconds where they run several times or with many frames."""
+
+
+def each() -> list[Any]:
+    """Parameters of a test of every small variant: those of ``LONG`` are for the tests that take minutes."""
+    return [pytest.param(name, marks=pytest.mark.minutes if name in LONG else []) for name in sorted(VARIANTS)]
 
 
 def names() -> list[str]:

@@ -62,6 +62,7 @@ def test_the_numbers_of_a_certificate_have_their_units(square):
         assert re.search(rf"{name}\s+\S+ {unit}\s", shown), name
 
 
+@pytest.mark.slow
 def test_a_scenario_is_a_table(pytestconfig):
     for file in sorted((pytestconfig.rootpath / "scenarios").glob("*.toml")):
         scenario = load(file)

@@ -20,6 +20,7 @@ def aligned(request: pytest.FixtureRequest) -> Shot:
     return b09_fast_thin_bodies.aligned(request.param)
 
 
+@pytest.mark.minutes
 def test_case():
     assert results.missed("B09") == set()
 

@@ -8,7 +8,9 @@ from softway.apps.verify.cases.forming.e03_ring_test import ALPHAS, ring
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.parametrize("alpha", ALPHAS)
+@pytest.mark.parametrize(
+    "alpha", [pytest.param(a, marks=pytest.mark.minutes if a == max(ALPHAS) else []) for a in ALPHAS]
+)
 def test_the_radii(alpha: float) -> None:
     *_, force, outer, outer_platen, inner, inner_platen = results.case("E03")["reference"]["table"][str(alpha)][-1]
     press = ring(alpha)

@@ -25,6 +25,7 @@ def test_a_block_comes_back():
     assert max(abs(s.ledger.energy_error) for s in way.steps) < 1e-9 * MASS * 0.5 * SPEED**2
 
 
+@pytest.mark.slow
 def test_a_block_stays():
     """It stops where it should to 1e-7, and does not creep in 10 s, which are 200 slabs: its own vibrations remain."""
     known, way = REFERENCE["mu_0_5"], thrown(0.5)

@@ -26,11 +26,13 @@ def test_case() -> None:
     assert results.missed("A04") == set()
 
 
+@pytest.mark.slow
 def test_the_end_of_the_motion_converges_at_second_order() -> None:
     for weight in (sw.model.EndPeaks(), bars.FOURTH):
         assert order([error(h, weight) for h in STEPS], STEPS) >= 1.9
 
 
+@pytest.mark.slow
 def test_the_weights_differ_in_their_phase_errors() -> None:
     """At h = 0.02: 4.7e-3 with the end peaks, half of it constant, a quarter in the middle, 4e-5 of fourth order."""
     found = [error(0.02, w) for w in WEIGHTS]

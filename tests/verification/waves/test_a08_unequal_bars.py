@@ -21,6 +21,7 @@ def collision(request: pytest.FixtureRequest) -> tuple[Collision, float, str]:
     return *thrown(case, dim), case
 
 
+@pytest.mark.minutes
 def test_case():
     assert results.missed("A08") == set()
 

@@ -17,6 +17,7 @@ def march() -> bars.Record:
     return dropped(100, None, 25.2)
 
 
+@pytest.mark.minutes
 def test_case() -> None:
     """Ten bounces with 100 elements and the automatic step; the case allows 200 for the last five."""
     assert results.missed("A09") == set()

@@ -85,8 +85,9 @@ def facet_pairs(
 ) -> FacetPairs:
     """Find the pairs that may touch between two configurations.
 
-    Their paths come within ``reach``.  At the start they face each other and the master is not behind the slave; at
-    the start or at the end it is within ``reach`` in front of the slave.
+    Their paths come within ``reach``.  At the start they face each other and the master is not behind the slave along
+    its normal, or along the direction midway between both normals where no thin body limits the overlap; at the start
+    or at the end it is within ``reach`` in front of the slave.
 
     Parameters
     ----------
@@ -115,7 +116,10 @@ def facet_pairs(
     size = np.maximum(_sizes(slave[0])[i], _sizes(master[0])[j])
     start, end = (_heights(below, above, i, j) for below, above in zip(slave, master, strict=True))
     walls = [np.broadcast_to(t, c[0].shape[2])[k] for t, c, k in zip(thickness, (slave, master), (i, j), strict=True)]
-    kept = (start[1] >= -admissible_depth(DEEP * size, walls[0] + walls[1])) & (np.minimum(start[0], end[0]) <= reach)
+    depth = admissible_depth(DEEP * size, walls[0] + walls[1])
+    between = _height_between(slave[0], master[0], unit(np.take(own, i, axis=1) - np.take(other, j, axis=1)), i, j)
+    overlap = -np.where(depth < DEEP * size, start[1], np.maximum(start[1], between))
+    kept = (overlap <= depth) & (np.minimum(start[0], end[0]) <= reach)
     i, j, size = i[kept], j[kept], size[kept]
     motion = _centre_motion(slave)[:, i] - _centre_motion(master)[:, j]
     return FacetPairs(slave=i, master=j, limit=FEW * size + reach + np.sqrt(np.sum(motion**2, axis=0)))
@@ -134,6 +138,12 @@ def _heights(slave: Array, master: Array, i: IntArray, j: IntArray) -> tuple[Arr
     base = np.sum(normal[:, None] * slave, axis=0)
     over = np.einsum("ds,dks->ks", np.take(normal, i, axis=1), np.take(master, j, axis=2))
     return over.min(axis=0) - base.max(axis=0)[i], over.max(axis=0) - base.min(axis=0)[i]
+
+
+def _height_between(slave: Array, master: Array, direction: Array, i: IntArray, j: IntArray) -> Array:
+    """Height (s,) of the highest corner of the masters above the lowest one of the slaves, along directions (d, s)."""
+    low = np.einsum("ds,dks->ks", direction, np.take(slave, i, axis=2)).min(axis=0)
+    return np.asarray(np.einsum("ds,dks->ks", direction, np.take(master, j, axis=2)).max(axis=0) - low)
 
 
 def _sizes(corners: Array) -> Array:

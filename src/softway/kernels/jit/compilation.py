@@ -67,6 +67,11 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     return _kept(njit, function, _KERNEL)
 
 
+def unfused_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Make a kernel whose products and sums are rounded one by one, as in NumPy and SciPy."""
+    return _kept(njit, function, _KERNEL | {"fastmath": False})
+
+
 def inlined(function: Callable[..., Any]) -> Callable[..., Any]:
     """Make a function that is inlined in stages and kernels."""
     return njit(**_PART)(function)

@@ -95,7 +95,8 @@ def picture(run: Records, what: str = "bodies", look: PictureOptions = STANDARD)
         figure = (history if what == "history" else _scene_of(run))(run, look)
         found = sentences(gathered(stored(run.events)))
         if found:
-            figure.supxlabel("\n".join(found), x=0.01, ha="left", fontsize=8, color=RED)
+            lines = [*filter(None, [figure.get_supxlabel()]), *found]
+            figure.supxlabel("\n".join(lines), x=0.01, ha="left", fontsize=8, color=RED)
         return Picture(figure, look.dpi)
 
 

@@ -63,7 +63,7 @@ class ColumnCache:
 
     def square(self, which: IntArray) -> Array:
         """Rows and columns (k, k) of a symmetric matrix, of stored columns."""
-        return np.asarray(self.stored[np.ix_(self.place[which], which)].T)
+        return np.asarray(np.take(self.stored[self.place[which]], which, axis=1).T)
 
     def product(self, which: IntArray, amounts: Array, length: int | None = None) -> Array:
         """Sum (m,) of columns times amounts (k,), or its first values up to a ``length``."""

@@ -6,6 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
+from softway.kernels.linalg.congruence import congruence
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,8 +71,7 @@ class CombinedRows:
 
     def folded(self, compliance: Array) -> Array:
         """Compliance (m, m) of the rows from that of the used directions (k, k)."""
-        inner = self.matrix[:, self.used]
-        return np.asarray((inner @ compliance) @ inner.T)
+        return congruence(sp.csr_array(self.matrix[:, self.used]), compliance)
 
 
 RowCoefficients = UnitRows | CombinedRows

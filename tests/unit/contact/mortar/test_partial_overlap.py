@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from softway.contact.mortar.facet_pairs import facet_pairs
 from softway.contact.mortar.mortar import Mortar, MortarContact
 from softway.contact.stencils import Stencils
 from softway.meshes.generators.shapes import box, rectangle
@@ -163,3 +164,15 @@ def test_a_smaller_block_on_a_larger_one_and_the_reverse() -> None:
         found = np.isfinite(rows.gap)
         assert np.allclose(rows.gap[found], 0.01, atol=1e-13)
         assert found.sum() == (9 if sizes[0] > sizes[1] else 4)
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.7, -2.0])
+@pytest.mark.parametrize("depth", [0.1, 0.19, 0.23, 0.6])
+def test_a_leaning_facet_beside_another_stays_a_pair_however_far_behind_its_plane(depth: float, turn: float) -> None:
+    """Facets of two coarse round bodies in contact: the bodies roll, and the line of the slave passes a corner."""
+    turned = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    slave = turned @ np.array([[0.0, 1.0], [0.0, 0.0]])  # outward is down
+    master = turned @ np.array([[2.05, 1.62], [depth + 0.61, depth]])
+    for thickness, kept in ((np.inf, True), (0.3, depth <= 0.15)):
+        pair = facet_pairs((slave[:, :, None],) * 2, (master[:, :, None],) * 2, 1.0, (thickness, thickness))
+        assert len(pair.slave) == kept

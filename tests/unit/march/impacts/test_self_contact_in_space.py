@@ -34,7 +34,7 @@ def surface(mesh: sw.Mesh) -> IntArray:
     return np.asarray(mesh.boundary()["quad4"])
 
 
-@pytest.mark.slow
+@pytest.mark.minutes
 def test_the_folds_of_a_crushed_strip_meet_and_part_again() -> None:
     """A column of rubber, 2 x 2 x 30 cells, is driven to a third of its length; its sides meet on 23 slabs or more."""
     plain = Box(size=(0.08, 0.08, 1.0), cells=(2, 2, 30)).build()

@@ -57,7 +57,9 @@ def test_without_inertia_slabs_keep_their_length() -> None:
     assert max(abs(s.ledger.energy_error) for s in steps) < 1e-5 * steps[-1].ledger.work_external
 
 
-@pytest.mark.parametrize(("inert", "works", "places"), [(False, 2e-3, 5e-4), (True, 3e-2, 3e-2)])
+@pytest.mark.parametrize(
+    ("inert", "works", "places"), [(False, 2e-3, 5e-4), pytest.param(True, 3e-2, 3e-2, marks=pytest.mark.slow)]
+)
 def test_slabs_of_a_quarter_have_the_same_answer(inert: bool, works: float, places: float) -> None:
     """Work and dissipation relative to the work, places relative to the height."""
     long, short = crushed(inert), crushed(inert, 4 * SLABS)

@@ -33,6 +33,7 @@ def test_strong_damping_costs_few_iterations(viscosity, most, method):
     assert max(abs(s.ledger.energy_error) for s in steps) < method.tolerance * steps[0].ledger.energy_kinetic
 
 
+@pytest.mark.slow
 def test_a_damped_block_slides_to_rest():
     """The slab after the halt, whose peak is at its end, keeps the momentum balance with viscous stresses too."""
     scene = sw.Scene(
@@ -70,6 +71,7 @@ def drooping_strip(step: float) -> list[sw.Step]:
     return list(sw.march(scene, until=0.03, step=step))
 
 
+@pytest.mark.slow
 def test_a_damped_strip_with_nodes_without_inertia_sags_without_rejections():
     """The balance by the forces of massless nodes: the boxed form took 32 iterations a slab and 24 rejections.
 

@@ -286,7 +286,7 @@ end = "5.4 ms"
 """
 
 
-@pytest.mark.slow
+@pytest.mark.minutes
 def test_the_walls_of_a_hollow_ball_pass_through_each_other(tmp_path: Path) -> None:
     run = sw.run(loads(HOLLOW), tmp_path / "run")
     assert run.summary["penetration_worst"] < 1e-12 and run.status == "done, with findings"

@@ -12,6 +12,7 @@ from softway.record.conduct import record_run
 from softway.record.read.frames import Cells, Frame
 from softway.record.read.surface_mesh import SHAPES, at_nodes, exaggeration, rigid, skin_of
 from softway.record.storage.run_folder import RunFolder
+from softway.record.view import pictures as view
 from softway.record.view.bodies.body_placement import body_placement
 from softway.record.view.bodies.colour_field import range_of
 from softway.record.view.bodies.surroundings import camera, edges, strokes
@@ -31,6 +32,14 @@ def test_pictures_of_every_kind_of_body(run):
     files = pictures(run)
     assert [f.name for f in files] == ["bodies.png", "history.png"]
     assert all(f.read_bytes().startswith(PNG) and f.stat().st_size > 10_000 for f in files)
+
+
+def test_findings_stand_below_the_description(run, monkeypatch):
+    pytest.importorskip("matplotlib")
+    before = view.picture(run).figure.get_supxlabel()
+    monkeypatch.setattr(view, "sentences", lambda _: ["ball overlaps floor by 1 mm"])
+    assert view.picture(run).figure.get_supxlabel() == "\n".join(filter(None, [before, "ball overlaps floor by 1 mm"]))
+    assert view.picture(run, "history").figure.get_supxlabel() == "ball overlaps floor by 1 mm"
 
 
 def test_pictures_go_where_they_are_asked(bar, tmp_path):

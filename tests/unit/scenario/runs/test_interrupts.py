@@ -194,6 +194,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 def test_workers_that_are_interrupted_while_they_start_are_quiet(tmp_path):
     (tmp_path / "script.py").write_text(WORKER)
     here = str(Path(sw.__file__).parents[1])

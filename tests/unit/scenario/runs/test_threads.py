@@ -104,7 +104,7 @@ def hasty():
     sys.setswitchinterval(before)
 
 
-@pytest.mark.parametrize("kernels", [1, 2])
+@pytest.mark.parametrize("kernels", [1, pytest.param(2, marks=pytest.mark.minutes)])
 def test_runs_in_four_threads(serial, tmp_path, hasty, kernels):
     """With a picture of each, on one thread and on two for the kernels of each; the style of pictures is put back."""
     style = dict(mpl.rcParams)

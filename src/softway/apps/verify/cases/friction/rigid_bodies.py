@@ -13,12 +13,17 @@ G = 9.81
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Rolling:
-    """Course (n,) of a round body: time [s], velocity and slip along the slope [m/s], and spin [rad/s]."""
+    """Course (n,) of a round body of a radius [m]: time [s], velocity along the slope [m/s], and spin [rad/s]."""
 
+    radius: float
     time: Array
     velocity: Array
-    slip: Array
     spin: Array
+
+    @property
+    def slip(self) -> Array:
+        """Velocity (n,) of its lowest point along the slope [m/s]."""
+        return self.velocity - self.radius * self.spin
 
 
 def on_belt(*, belt: float, stiffness: float, static: float, kinetic: float, step: float) -> list[MechanismStep]:
@@ -58,7 +63,7 @@ def rolled_down(
     steps = list(march(mechanism, until=until, step=step))
     speeds = np.array([s.bodies["b"].velocity @ along for s in steps])
     spin = -np.array([s.bodies["b"].spin[2] for s in steps])
-    return Rolling(time=np.array([s.time for s in steps]), velocity=speeds, slip=speeds - radius * spin, spin=spin)
+    return Rolling(radius=radius, time=np.array([s.time for s in steps]), velocity=speeds, spin=spin)
 
 
 def fallen(*, speed: float, mu: float, length: float, angle: float, restitution: float) -> list[float]:
