@@ -48,8 +48,8 @@ class SlipConditions:
     turning
         (m, k) the same along the tangents (``turning_slip.py``).
     given
-        (m,) normal multipliers known beforehand, which press a row in addition to those that are solved for; None if
-        there are none.
+        (m,) normal multipliers known beforehand, which press a row in addition to those that are solved for, in rows
+        whose ``unit`` is that of the time in which they are closed; None if there are none.
     undriven
         (m, k) unit directions of the slip at the start, along which no force may push; zero for rows without such a
         condition, None if there are none.
@@ -111,7 +111,11 @@ class SlipConditions:
     def _at_rest(self, pressed: Array) -> Array:
         """Stick limit (m,) of rows under normal multipliers (m,)."""
         pressed = self.pressing(pressed)
-        return np.minimum(self.friction.limit(self.unit * pressed) / self.unit, STEEPEST * pressed)
+        return np.minimum(self.friction.limit(self.unit * pressed) / self.unit, self._most(pressed))
+
+    def _most(self, pressed: Array) -> Array:
+        """Greatest multipliers (m,) under total normal multipliers (m,); infinite where ``unit`` fades with contact."""
+        return STEEPEST * pressed if self.given is None else np.full(len(pressed), np.inf)
 
     def drops(self, pressed: Array) -> bool:
         """True if friction is lower in slip than at rest, under normal multipliers (m,)."""
@@ -128,14 +132,15 @@ class SlipConditions:
         change, value = np.nan_to_num(change, nan=0.0, posinf=np.inf, neginf=-np.inf), value / self.unit
         if self.given is not None:
             pressure_slope = np.where(pressed > 0.0, pressure_slope, 0.0)
-        lifted = value > STEEPEST * pressed
+        most = self._most(pressed)
+        lifted = value > most
         if lifted.any():
-            value = np.where(lifted, STEEPEST * pressed, value)
+            value = np.where(lifted, most, value)
             change = np.where(lifted, 0.0, change)
             pressure_slope = np.where(lifted, STEEPEST, pressure_slope)
         if not self.slip_at_limit:
             return value, change, pressure_slope
-        limit = np.minimum(self.friction.limit(self.unit * pressed) / self.unit, STEEPEST * pressed)
+        limit = np.minimum(self.friction.limit(self.unit * pressed) / self.unit, most)
         secant = limit / np.where(pressed > 0.0, pressed, np.inf)
         return (
             np.where(self.sliding, value, limit),
