@@ -36,13 +36,16 @@ def slip_end(model: Model, now: ModelState, out: SlabResult, span: float) -> Non
     if not first.shear.count:
         return
     weight = -now.traction * (now.sliding & now.closed)[:, None]
-    ends = now.start.velocity, out.solution.last.q
+    ends, massive = (now.start.velocity, out.solution.last.q), model.space.every(model.massive)
     found = []
     for contact in np.unique(first.contact[weight.any(axis=1)]).tolist():
         here = weight * (first.contact == contact)[:, None]
+        slides = here * out.friction.sliding[:, None] if massive else here
+        here = slides if slides.any() else here
         one, other = (float(np.sum(here * first.shear.slip(span * (model.follow @ v)))) for v in ends)
         if other < SLOWED * one:
-            fraction = _stopped(model, now, out, here, span)
+            stuck = massive and not out.friction.sliding[here.any(axis=1)].any()
+            fraction = _stopped(model, now, out, here, span, stuck)
             if EARLY < fraction < LATE:
                 found.append(fraction)
     if found:
@@ -59,14 +62,14 @@ def _slides_back(before: float, after: float, steady: float, part: float) -> boo
     return steady < 0.0 < friction and steady - before + 2.0 * friction < 0.0
 
 
-def _stopped(model: Model, now: ModelState, out: SlabResult, weight: Array, span: float) -> float:
+def _stopped(model: Model, now: ModelState, out: SlabResult, weight: Array, span: float, stuck: bool) -> float:
     """Fraction of the slab after which friction stops a body with friction forces ``weight`` (m, d); 1 if it does not.
 
     The response z of the slab to these forces has the kinetic part e = z.Mz and the elastic part E = z.Az - z.Mz.  The
     power of the slip is ``z.Mv``.  To change it by P the forces need the energy ``P^2/2e``; the strain energy due to
     them is ``h^2 E/8``.  Friction stops the body if the first energy is greater, its elasticity if the second is.
-    Nodes with inertia stick up to the end of the slab with a part of their friction: if the body would slide back, the
-    power is continued from the start of the slab instead.
+    Nodes with inertia are ``stuck`` up to the end of the slab, with a part of their friction: if the body would slide
+    back, the power is continued from the start of the slab instead.
     """
     frozen, rows = out.solution.last.memory.frozen, out.system.contact.initial.rows
     assert frozen is not None
@@ -82,8 +85,8 @@ def _stopped(model: Model, now: ModelState, out: SlabResult, weight: Array, span
     velocities = now.start.velocity, out.solution.last.q, now.start.velocity + span * now.acceleration
     before, after, steady = (model.space.total(moved * v) - tool for v in velocities)
     part = -float(np.sum(weight * out.friction.mean)) / float(np.sum(weight**2))
-    if model.space.every(model.massive) and part < WHOLE and _slides_back(before, after, steady, part):
-        after = steady
+    if stuck:
+        after = steady if part < WHOLE and _slides_back(before, after, steady, part) else before
     if not before > 0.0 > after or (before - after) ** 2 <= STIFF * 0.25 * span**2 * inertia * elastic:
         return 1.0
     return before / (before - after)
