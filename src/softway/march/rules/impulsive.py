@@ -24,7 +24,7 @@ from softway.march.rules.event_iteration import (
     without_events,
 )
 from softway.march.rules.impulsive_result import impulsive_result, known_impulses
-from softway.march.rules.slab_rule import Attempt, Solutions, require_nodal, require_stick_limit
+from softway.march.rules.slab_rule import Attempt, Solutions, require_nodal
 from softway.march.rules.touch import (
     InelasticImpact,
     NodalStop,
@@ -126,10 +126,9 @@ def inelastic_impact(model: Model, method: FixedPoint | Newton, weight: TimeWeig
     Raises
     ------
     InputError
-        If unknowns move several components of nodes, a friction law lets nothing stick.
+        If unknowns move several components of nodes.
     """
     require_nodal(model, str(model.timing))
-    require_stick_limit(model, str(model.timing))
     inertia = impact_multipliers(model)
     return Impulsive(method=method, inertia=inertia, touch=InelasticImpact(inertia=inertia))
 
@@ -140,11 +139,9 @@ def nodal_stop(model: Model, method: FixedPoint | Newton, weight: TimeWeight) ->
     Raises
     ------
     InputError
-        If unknowns move several components of nodes, a friction law lets nothing stick, or elements that cannot be
-        split are to be split.
+        If unknowns move several components of nodes, or elements that cannot be split are to be split.
     """
     require_nodal(model, str(model.timing))
-    require_stick_limit(model, str(model.timing))
     declared = cast(Paper, model.timing)
     split = split_elements(model) if declared.split == "triangle" else None
     inertia = impact_multipliers(model)

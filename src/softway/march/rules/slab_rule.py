@@ -113,19 +113,6 @@ def require_frictionless(model: Model, rule: str) -> None:
         raise InputError("contacts[0].friction", f"friction with {rule}", "the rule Energy, located = false")
 
 
-def require_stick_limit(model: Model, rule: str) -> None:
-    """Refuse friction laws that let nothing stick, for a rule whose contact nodes have inertia.
-
-    Raises
-    ------
-    InputError
-        If a law has no limit at rest.
-    """
-    for k, law in enumerate(model.friction.laws):
-        if not law.frictionless and not float(law.limit(np.array(1.0))) > 0.0:
-            raise InputError(f"contacts[{k}].friction", f"{law} with {rule}", "the rule Energy, located = false")
-
-
 def require_nodal(model: Model, rule: str) -> None:
     """Refuse unknowns that move several components, for a rule that treats nodes one by one.
 
