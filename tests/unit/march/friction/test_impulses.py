@@ -171,9 +171,3 @@ def test_a_march_goes_on_from_a_state_bit_by_bit(rule):
         assert np.array_equal(getattr(rest[-1].after, name)["block"], getattr(whole[-1].after, name)["block"])
     for name in ("traction", "sliding", "slip"):
         assert np.array_equal(getattr(rest[-1].after, name)["floor"], getattr(whole[-1].after, name)["floor"])
-
-
-@pytest.mark.parametrize("rule", RULES, ids=str)
-def test_laws_without_a_limit_at_rest_are_refused(rule):
-    with pytest.raises(sw.InputError, match="Lubricated"):
-        next(iter(sw.march(sliding(rule, friction=sw.laws.Lubricated(viscosity=0.1, film=1e-4)), until=0.1, step=0.01)))
