@@ -96,6 +96,11 @@ class ImpulseSlip:
         stops = self.onward & (along < SLOWED * np.einsum("md,md->m", self.velocity, self.velocity))
         return replace(self, onward=self.onward & ~stops) if stops.any() else None
 
+    def turned(self, end: Array) -> BoolArray:
+        """Rows (m,) that were driven back in the slab, to slip velocities (m, d) at its end against those at its start."""
+        along = np.einsum("md,md->m", end, self.velocity)
+        return np.asarray(self.moves & (along < -MOVES * np.einsum("md,md->m", self.velocity, self.velocity)))
+
 
 def initial_slip(
     model: Model,
@@ -173,8 +178,8 @@ def impulse_friction(
         return FrictionResult.none(rows, model.shape)
     law = solution.last.system.contact.conditions.slipping
     impulse = shear.vectors(shear.components(solution.last.impulse[m:]))
-    sliding = solution.last.active[m:]
     last = shear.slip(h * solution.last.q) / h
+    sliding = solution.last.active[m:] | slip.turned(last)
     mean = 0.5 * (np.where(rows.near[:, None], shear.slip(h * now.start.velocity) / h, 0.0) + last)
     lost = -np.einsum("md,md->m", impulse, mean)
     traction = impulse * np.asarray(law.unit)[:, None]

@@ -37,14 +37,14 @@ def slip_end(model: Model, now: ModelState, out: SlabResult, span: float) -> Non
         return
     weight = -now.traction * (now.sliding & now.closed)[:, None]
     ends, massive = (now.start.velocity, out.solution.last.q), model.space.every(model.massive)
-    found = []
+    slipping, found = out.solution.last.active[len(first.node) :], []
     for contact in np.unique(first.contact[weight.any(axis=1)]).tolist():
         here = weight * (first.contact == contact)[:, None]
-        slides = here * out.friction.sliding[:, None] if massive else here
+        slides = here * slipping[:, None] if massive else here
         here = slides if slides.any() else here
         one, other = (float(np.sum(here * first.shear.slip(span * (model.follow @ v)))) for v in ends)
         if other < SLOWED * one:
-            stuck = massive and not out.friction.sliding[here.any(axis=1)].any()
+            stuck = massive and not slipping[here.any(axis=1)].any()
             fraction = _stopped(model, now, out, here, span, stuck)
             if EARLY < fraction < LATE:
                 found.append(fraction)

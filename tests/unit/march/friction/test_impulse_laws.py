@@ -78,4 +78,4 @@ def test_friction_without_pressure_is_steady(rule):
 def test_a_law_of_the_root_of_the_speed_stops_the_block(rule):
     time, speed = slowed(rule, sw.laws.NortonHoffFriction(alpha=0.9, p=0.5), 0.05, until=3.6)
     assert np.abs(speed - root(time)).max() < 1e-3
-    assert abs(speed[-1]) < 1e-6
+    assert 0.0 <= speed[-1] < 1e-3 * SPEED
