@@ -14,6 +14,9 @@ EARLY = 1e-6
 """Fraction of a slab before which a body is at rest from its start."""
 LATE = 1.0 - 1e-9
 """Fraction of a slab after which the instant is its end."""
+BACK = 1e-3
+"""Power of the slip back at the end of a slab, relative to that of the slip at its start, above which a body was driven
+back."""
 WHOLE = 1.0 - 1e-6
 """Part of the friction of steady slip above which a body is in steady slip up to the end of the slab."""
 STIFF = 4.0
@@ -53,13 +56,14 @@ def slip_end(model: Model, now: ModelState, out: SlabResult, span: float) -> Non
 
 
 def _slides_back(before: float, after: float, steady: float, part: float) -> bool:
-    """True if a body that a ``part`` of the friction of steady slip brings to rest at the end of a slab slides back.
+    """True if a body whose slip ends in a slab with a ``part`` of the friction of steady slip is driven or slides back.
 
     ``before`` and ``after`` are the powers at the ends of the slab, ``steady`` the one at its end in steady slip.  They
     change by the other forces and by friction, which has the other sign after the stop.
     """
     friction = (after - steady) / (1.0 - part)
-    return steady < 0.0 < friction and steady - before + 2.0 * friction < 0.0
+    back = after < -BACK * before or steady - before + 2.0 * friction < 0.0
+    return steady < 0.0 < friction and back
 
 
 def _stopped(model: Model, now: ModelState, out: SlabResult, weight: Array, span: float, stuck: bool) -> float:

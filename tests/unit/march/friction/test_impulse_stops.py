@@ -61,7 +61,7 @@ def test_the_stop_tends_to_that_of_the_energy_rule(rule):
         ours, theirs = (s.after.displacement["b"][:, 0].mean() for s in ends)
         off.append(abs(ours - theirs))
         assert theirs == pytest.approx(0.5 / brake, rel=1e-5)
-        assert off[-1] < 0.5 * brake * step**2 + 1e-6
+        assert off[-1] < brake * step**2 / 8.0 + 1e-6
 
 
 @pytest.mark.parametrize("rule", RULES, ids=str)
