@@ -97,7 +97,7 @@ class ImpulseSlip:
         return replace(self, onward=self.onward & ~stops) if stops.any() else None
 
     def turned(self, end: Array) -> BoolArray:
-        """Rows (m,) that were driven back in the slab, to slip velocities (m, d) at its end against those at its start."""
+        """Rows (m,) driven back in the slab: their slip velocities (m, d) at its ``end`` oppose those at its start."""
         along = np.einsum("md,md->m", end, self.velocity)
         return np.asarray(self.moves & (along < -MOVES * np.einsum("md,md->m", self.velocity, self.velocity)))
 

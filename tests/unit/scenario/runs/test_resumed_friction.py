@@ -28,7 +28,7 @@ kind = "Gravity"
 acceleration = [0.0, -9.81]
 
 [time]
-end = "12 ms"
+end = "7.5 ms"
 step = "0.3 ms"
 
 [output]
@@ -37,7 +37,7 @@ checkpoints = {{ every = "0 s", keep = 3 }}
 
 
 @pytest.mark.parametrize("rule", ["Impulse", "Paper"])
-@pytest.mark.parametrize("after", [4, 17, 31])
+@pytest.mark.parametrize("after", [6, 19])
 def test_a_stopped_run_is_resumed_with_the_same_bits(rule, after, tmp_path):
     scenario = loads(TEXT.format(rule=rule))
     whole = sw.run(scenario, tmp_path / "whole")
@@ -50,5 +50,5 @@ def test_a_stopped_run_is_resumed_with_the_same_bits(rule, after, tmp_path):
         sw.run(scenario, tmp_path / "stopped", progress=stop)
     resumed = sw.resume(tmp_path / "stopped")
     assert whole.history["dissipation"][-1] > 0.0 and resumed.events.rows == whole.events.rows > 4
-    for name in whole.history.columns if hasattr(whole.history, "columns") else ("energy_kinetic", "dissipation"):
+    for name in ("energy_kinetic", "energy_strain", "dissipation", "contact.block.bottom-floor.force_t"):
         assert np.array_equal(whole.history[name], resumed.history[name], equal_nan=True)
