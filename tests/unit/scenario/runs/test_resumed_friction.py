@@ -49,6 +49,6 @@ def test_a_stopped_run_is_resumed_with_the_same_bits(rule, after, tmp_path):
     with pytest.raises(KeyboardInterrupt):
         sw.run(scenario, tmp_path / "stopped", progress=stop)
     resumed = sw.resume(tmp_path / "stopped")
-    assert whole.history["dissipation"][-1] > 0.0 and resumed.events.rows == whole.events.rows > 4
+    assert whole.history["dissipation"][-1] > 0.0 and resumed.events.rows == whole.events.rows > 2
     for name in ("energy_kinetic", "energy_strain", "dissipation", "contact.block.bottom-floor.force_t"):
         assert np.array_equal(whole.history[name], resumed.history[name], equal_nan=True)
