@@ -33,7 +33,8 @@ class Paper:
     rule loses the kinetic energy of the node (docs/theory/contact/contact.md).  Between two deformable bodies the
     touching nodes of both share the jump in proportion to their masses.  Nodes without an inertia of their own
     (corners of tri6, tet10, quad8 and hex20 with the consistent mass) are stopped as by ``Impulse``.  The stop of a
-    node may create energy where its neighbours move against it; the audit then has a finding.
+    node may create energy where its neighbours move against it; the audit then has a finding.  Friction is that of
+    ``Impulse``.
 
     Parameters
     ----------
@@ -61,7 +62,8 @@ class Impulse:
     """Mass-consistent velocity jump: ``v+ = v- - M^-1 G^T (G M^-1 G^T)^-1 G v-`` at the instant t_c.
 
     All nodes balance the momentum.  The kinetic energy ``1/2 p |v_n|`` of the jump is lost; the ledger counts it as
-    dissipation.
+    dissipation.  Friction acts by impulses of whole slabs, those of jumps included: sliding is of second order in time,
+    a touch of first (docs/theory/contact/friction.md).
 
     Examples
     --------

@@ -23,7 +23,7 @@ from softway.march.start.slab_length import proposed
 from softway.march.step_control import CRAWL, ENDLESS
 from softway.model.model import Model
 from softway.model.slab import Slab
-from softway.model.time_weight import EndPeaks
+from softway.model.time_weight import EndPeaks, TimeWeight
 from softway.solve.effort import Effort
 from softway.solve.methods.newton import Newton
 from softway.solve.operators.operator_memory import OperatorMemory
@@ -58,13 +58,12 @@ class AcceptedSlab:
 
 
 def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory: OperatorMemory) -> AcceptedSlab:
-    """Find the next accepted slab, with cutbacks of its length to one half.
+    """Find the next accepted slab, with cutbacks to half its length; ``memory`` has an operator if available.
 
     A slab that fails with an old operator is first tried again with a new one, one in which Newton's method does not
     converge by the fixed point, and one with an indefinite operator by a positive definite one.  If the scalar cannot
     close the energy balance at half the length either, it is closed along the motion, also in the following slabs.  A
     slab inside which a body comes to rest is tried again with its end at that instant; the slab after it is damped.
-    ``memory`` is that of the march state, with its operator if available.
 
     Raises
     ------
@@ -76,12 +75,11 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
     least, crawls = settings.control.least * history.span, history.recent_rejections > settings.control.patience
     reasons: list[str] = []
     halted = positive_definite = False
-    unbalanced = PATIENCE if history.energy_along_motion else 0
-    fresh, first = memory.origin is None, stepper
+    fresh, first, unbalanced = memory.origin is None, stepper, PATIENCE if history.energy_along_motion else 0
     while length > least and not (crawls and reasons):
         heed(stepper.cancel, now.time)
         end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
-        slab = Slab(start=now.time, end=end, weight=DAMPED if history.halted else settings.weight)
+        slab = Slab(start=now.time, end=end, weight=_weight(stepper.model, march_state))
         try:
             attempt = Attempt(
                 approach=settings.control.approach,
@@ -89,6 +87,7 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
                 cancel=stepper.cancel,
                 effort=_effort(stepper, march_state.slabs + 1, slab),
                 positive_definite=positive_definite,
+                rested=history.halted,
             )
             found = _tried(stepper, march_state, slab, memory, attempt)
             return replace(found, rejections=tuple(reasons), halted=halted)
@@ -110,6 +109,12 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
     reason = _reason(march_state, reasons, crawls) + _touching(stepper.model, now) + _crushed(stepper.model, now)
     raise NumericsError(reason, now.time, _remedy(stepper, march_state))
+
+
+def _weight(model: Model, march_state: MarchState) -> TimeWeight:
+    """Virtual time function of the next slab: after a stop that of a damped slab if there are massless nodes."""
+    damped = march_state.step_history.halted and not model.space.every(model.massive)
+    return DAMPED if damped else march_state.settings.weight
 
 
 def _effort(stepper: Stepper, number: int, slab: Slab) -> Effort:
@@ -219,7 +224,7 @@ def _tried(
     model, now = stepper.model, march_state.state
     broken: str | None = "no solution"
     for after, out, new in advance(stepper, now, slab, memory, attempt):
-        if slab.weight != DAMPED:
+        if slab.weight != DAMPED and not attempt.rested:
             slip_end(model, now, out, slab.span)
             slip_start(model, now, out, partial(_stuck, stepper, now, slab, new, attempt))
         ledger = audit(model, march_state.account, now, out, after)

@@ -75,6 +75,7 @@ def _energetic(
     level += float(model.kinetic(before.start.velocity).sum())
     if limited and found.energy_error > GAINED * level + rest:
         return f"the energy grows by {found.energy_error:.3g} J of {level:.3g} J: the slab is too long for its touches"
+    level += max(ledger.dissipation, 0.0) if limited else 0.0
     moved = np.abs(after.start.displacement - before.start.displacement).max(axis=1)
     if error <= (growth + ENERGY) * level + rest + model.space.total(_blurred(model, after) * moved):
         return None

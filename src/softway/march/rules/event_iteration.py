@@ -79,19 +79,23 @@ def with_new_events(
     found: Solution,
     inertia: ImpactMultipliers,
     touch: Touch,
+    friction: Array | float = 0.0,
 ) -> EventIteration | None:
-    """Add the touches and releases that the solution requires; None if there are none."""
+    """Add the touches and releases that the solution requires; None if there are none.
+
+    ``friction`` (n, d) are the nodal forces of friction, which closed rows may have to balance.
+    """
     rows, events, end = current.rows, current.events, found.end
     gap = rows.gap(end.displacement)
     below = ~events.closed & (gap < -rounding(model, rows, end.displacement)) & rows.reachable(model.dofs)
     below &= within_reach(model, rows, now, found.last.q, system.path.span)
     if below.any():
         return _touching(model, now, system, current, found.last.q, below, touch)
-    pull = inertia.multiplier(rows, end.force, events.closed)
+    pull = inertia.multiplier(rows, end.force - friction, events.closed)
     floor = 1e-11 * max(model.space.greatest(end.force), float(np.abs(pull).max(initial=0.0)))
     tense = events.closed & ~current.may_not_release & (pull < -floor)
     if tense.any():
-        return _releasing(model, system, current, found.last.q, tense, pull, inertia)
+        return _releasing(model, system, current, found.last.q, tense, pull, inertia, friction)
     return None
 
 
@@ -214,6 +218,7 @@ def _releasing(
     tense: BoolArray,
     pull: Array,
     inertia: ImpactMultipliers,
+    friction: Array | float,
 ) -> EventIteration:
     """Release the closed rows with a reaction in tension at the end, at the instant where it vanishes."""
     events = current.events
@@ -224,7 +229,7 @@ def _releasing(
     for instant in instants(np.where(tense, events.touch, np.nan)):
         here = tense & at(events.touch, instant)
         after = events.closed & (~(events.touch > instant) | here)
-        first[here] = sequence.reactions(model.force(system.path.at(instant, q)), after)[here]
+        first[here] = sequence.reactions(model.force(system.path.at(instant, q)) - friction, after)[here]
     begin = np.nan_to_num(events.touch)
     release = np.minimum(begin + (1.0 - begin) * fading(first, pull), 1.0 - 1e-9)
     return replace(

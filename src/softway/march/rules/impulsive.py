@@ -4,26 +4,18 @@ The slab is first solved with the rows closed at its start, and then again with 
 releases that the solution requires, until there are no new ones.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import cast
 
 import numpy as np
 
 from softway.arrays import Array
+from softway.contact.contact_set import SlabContacts
 from softway.contact.impact_rule import Paper
 from softway.contact.slab_motion.trajectory import Trajectory, bent
 from softway.errors import NoConvergence
+from softway.march.friction.impulse_slip import ImpulseSlip, closed_fractions, initial_slip, steady_push
 from softway.march.model_state import ModelState
-from softway.march.results.friction_result import FrictionResult
-from softway.march.results.slab_result import (
-    Balances,
-    SlabResult,
-    contact_event,
-    ordered_events,
-    support_work,
-    supports,
-)
-from softway.march.results.step import Event
 from softway.march.rules.event_iteration import (
     EventIteration,
     with_new_events,
@@ -31,9 +23,16 @@ from softway.march.rules.event_iteration import (
     without_adhesion,
     without_events,
 )
-from softway.march.rules.slab_rule import Attempt, Solutions, require_frictionless, require_nodal
-from softway.march.rules.split_elements import split_elements
-from softway.march.rules.touch import InelasticImpact, NodalStop, Touch, VelocityJump, without_own_inertia
+from softway.march.rules.impulsive_result import impulsive_result, known_impulses
+from softway.march.rules.slab_rule import Attempt, Solutions, require_nodal
+from softway.march.rules.touch import (
+    InelasticImpact,
+    NodalStop,
+    Touch,
+    VelocityJump,
+    split_elements,
+    without_own_inertia,
+)
 from softway.march.rules.velocity_jumps import velocity_jumps
 from softway.march.step_control import require_slow
 from softway.model.model import Model
@@ -73,33 +72,52 @@ class Impulsive:
         require_slow(model, pairs, now.start.displacement, coasting, attempt.approach)
         current, facets = without_events(model, now, pairs, pairs.at(coasting), guess, slab.span), pairs
         method, iterations = cancellable(self.method, attempt.cancel, slab.start), 0
+        halts = np.zeros(len(now.closed), bool)
         for passes in range(1, PASSES + 1):
             found = velocity_jumps(model, current.rows, current.events, now.closed, self.touch, slab.span)
-            system = _system(model, now, slab, current, found, given, self.touch)
-            system = replace(system, effort=attempt.effort, positive_definite=attempt.positive_definite)
-            closed = current.events.closed
-            first = Guess(q=guess, impulse=np.zeros(len(closed)), active=closed, memory=memory)
-            iterates = method.iterate(system, first)
+            slip = initial_slip(model, now, current.rows, current.events, guess, (slab.span, attempt.rested), halts)
+            system = _system(model, now, slab, current, found, given, self.touch, slip, attempt)
+            iterates = method.iterate(system, _first(system, guess, memory))
             for solution in iterate(system, iterates, method.tolerance, method.limit):
                 u1, memory = solution.end.displacement, solution.last.memory
                 if passes == KEEP_FACETS_AFTER and pairs.fixed_rows is None:
                     facets = pairs.with_kept_facets(u1)
-                revision = with_new_facets(model, now, facets, current, solution, slab.span) or with_new_events(
-                    model, now, system, current, solution, self.inertia, self.touch
-                )
-                if revision is None and self.touch.balanced:
-                    revision = without_adhesion(current, found)
+                revision = self._revision(model, now, system, current, facets, solution, found)
+                stopped = slip.halted(current.rows, solution.last.q)
+                if revision is None and stopped is not None:
+                    revision, halts = current, halts | (slip.onward & ~stopped.onward)
                 if revision is not None:
                     break
                 if facets is not pairs and not pairs.apart(u1):
                     raise NoConvergence("nodes kept on their facets overlap other facets")
                 work = passes, iterations + solution.iterations
-                yield _outcome(now, slab, system, current, solution, found, self, pairs.found, work), memory
+                yield (
+                    impulsive_result(now, slab, system, current, solution, found, self.touch, pairs.found, work, slip),
+                    memory,
+                )
             else:
                 return
             iterations += solution.iterations
             current, guess = revision, solution.last.q
         raise NoConvergence(f"the contact events were not found in {PASSES} solutions of the slab")
+
+    def _revision(
+        self,
+        model: Model,
+        now: ModelState,
+        system: SlabEquations,
+        current: EventIteration,
+        facets: SlabContacts,
+        solution: Solution,
+        found: tuple[VelocityJump, ...],
+    ) -> EventIteration | None:
+        """Contact events and rows that a solution requires in place of the current ones; None if there are none."""
+        span = system.path.span
+        friction = steady_push(now, current.rows, solution, span)
+        revision = with_new_facets(model, now, facets, current, solution, span) or with_new_events(
+            model, now, system, current, solution, self.inertia, self.touch, friction
+        )
+        return without_adhesion(current, found) if revision is None and self.touch.balanced else revision
 
 
 def inelastic_impact(model: Model, method: FixedPoint | Newton, weight: TimeWeight) -> Impulsive:
@@ -108,9 +126,9 @@ def inelastic_impact(model: Model, method: FixedPoint | Newton, weight: TimeWeig
     Raises
     ------
     InputError
-        If a contact has friction.
+        If unknowns move several components of nodes.
     """
-    _require_nodes(model)
+    require_nodal(model, str(model.timing))
     inertia = impact_multipliers(model)
     return Impulsive(method=method, inertia=inertia, touch=InelasticImpact(inertia=inertia))
 
@@ -121,19 +139,14 @@ def nodal_stop(model: Model, method: FixedPoint | Newton, weight: TimeWeight) ->
     Raises
     ------
     InputError
-        If a contact has friction, or elements that cannot be split are to be split.
+        If unknowns move several components of nodes, or elements that cannot be split are to be split.
     """
-    _require_nodes(model)
+    require_nodal(model, str(model.timing))
     declared = cast(Paper, model.timing)
     split = split_elements(model) if declared.split == "triangle" else None
     inertia = impact_multipliers(model)
     touch = NodalStop(inertia=inertia, shared=without_own_inertia(model), approach=declared.approach, split=split)
     return Impulsive(method=method, inertia=inertia, touch=touch)
-
-
-def _require_nodes(model: Model) -> None:
-    require_frictionless(model, str(model.timing))
-    require_nodal(model, str(model.timing))
 
 
 def _system(
@@ -144,6 +157,8 @@ def _system(
     found: tuple[VelocityJump, ...],
     given: Array,
     touch: Touch,
+    slip: ImpulseSlip,
+    attempt: Attempt,
 ) -> SlabEquations:
     """Equations of the slab with its contact events."""
     rows, events = current.rows, current.events
@@ -161,124 +176,49 @@ def _system(
         jumps=tuple((j.instant, j.field) for j in found),
         bends=model.bends(slab.start, slab.end),
     )
-    target = rows.tool_motion / slab.span - rows.normal_component(np.where(model.free, 0.0, given))
     return SlabEquations(
         model=model,
         start=now.start,
         weight=slab.weight,
         path=path,
         average=touch.average(slab.weight),
-        contact=FixedContact(
-            rows=rows,
-            conditions=RowConditions(target=target, equal=events.closed, unilateral=np.zeros_like(events.closed)),
-            initial=InitialContact(rows=rows, pressure=now.pressure, traction=now.traction),
-        ),
+        contact=_contact(model, now, current, found, (given, touch), slip, attempt),
         unbalanced=sum((j.field for j in found if not touch.balanced), np.zeros(model.shape)),
         impulses=rows.spread(impulses, model.shape),
         given=given,
+        effort=attempt.effort,
+        positive_definite=attempt.positive_definite,
     )
 
 
-def _outcome(
+def _contact(
+    model: Model,
     now: ModelState,
-    slab: Slab,
-    system: SlabEquations,
     current: EventIteration,
-    solution: Solution,
     found: tuple[VelocityJump, ...],
-    rule: Impulsive,
-    pairs: int,
-    work: tuple[int, int],
-) -> SlabResult:
-    model, h, events, q, rows = system.model, slab.span, current.events, solution.last.q, current.rows
-    through = _through(current, solution, found, h, rule.touch)
-    pull = rule.inertia.multiplier(rows, solution.end.force, events.closed)
-    push = rows.spread(through / h, model.shape)
-    support = supports(model, now, solution.end, q, push, h)
-    moved = solution.end.displacement - now.start.displacement
-    return SlabResult(
-        system=system,
-        solution=solution,
-        rows=rows,
-        velocity=q,
-        acceleration=_acceleration(model, now, current, found, q, h),
-        closed=events.closed,
-        pressure=np.maximum(pull, 0.0),
-        force=through / h,
-        push=push,
-        support=support,
-        work=float(through @ rows.tool_motion) / h + support_work(model, system.path, support, moved, q),
-        dissipation=rule.touch.loss(model, rows, events, found, (now.start.velocity, q), h),
-        events=_events(now, slab, system, current, solution, found),
-        pairs=pairs,
-        passes=work[0],
-        iterations=work[1],
-        friction=FrictionResult.none(rows, model.shape),
-        required=_required(rule.touch.balanced, bool(found or events.closed.any())),
+    how: tuple[Array, Touch],
+    slip: ImpulseSlip,
+    attempt: Attempt,
+) -> FixedContact:
+    """Contact rows with their conditions; ``how`` are the prescribed velocities (n, d) at the end, and the touches."""
+    given, touch = how
+    closed, rows = current.events.closed, current.rows
+    target = rows.tool_motion / slip.span - rows.normal_component(np.where(model.free, 0.0, given))
+    known = known_impulses(current, found, slip.span, touch), closed_fractions(now.closed, current.events), given
+    slipping = slip.conditions(model, now, rows, known, attempt.stick_at_any_force)
+    conditions = RowConditions(
+        target=target,
+        equal=closed if slipping.frictionless else closed & rows.reachable(model.dofs),
+        unilateral=np.zeros_like(closed),
+        slipping=slipping,
     )
+    initial = InitialContact(rows=rows, pressure=now.pressure, traction=now.traction)
+    return FixedContact(rows=rows, conditions=conditions, initial=initial)
 
 
-def _required(balanced: bool, touched: bool) -> Balances:
-    """Balances that a slab has to keep: in free flight, weights may let the energy swing about its mean."""
-    return Balances(energy="limited" if balanced and touched else "free", momentum=balanced)
-
-
-def _acceleration(
-    model: Model, now: ModelState, current: EventIteration, found: tuple[VelocityJump, ...], q: Array, h: float
-) -> Array:
-    """Slope (n, d) of the velocity at the end of the slab, without the jumps."""
-    events, rows = current.events, current.rows
-    jumped = sum((j.field for j in found), np.zeros(model.shape))
-    slope = (q - now.start.velocity - jumped) / h
-    with np.errstate(divide="ignore", invalid="ignore"):
-        released = np.where(
-            events.freedom > 0.0, (rows.normal_component(q) - rows.tool_motion / h) / (h * events.freedom), 0.0
-        )
-    kinked = np.where(events.kinked, released - rows.normal_component(slope), 0.0)
-    return np.asarray(slope + rows.motion(kinked, events.kinked, model.free))
-
-
-def _through(
-    current: EventIteration, solution: Solution, found: tuple[VelocityJump, ...], span: float, touch: Touch
-) -> Array:
-    """Impulses (m,) of the contact rows over the slab [N s]."""
-    closed = current.events.closed
-    kicks = sum((j.impulse for j in found), np.zeros(len(closed)))
-    kept = np.where(closed, solution.last.impulse, 0.0)
-    return current.impulse * span + kept + np.where(closed & touch.balanced, 0.0, kicks)
-
-
-def _events(
-    now: ModelState,
-    slab: Slab,
-    system: SlabEquations,
-    current: EventIteration,
-    solution: Solution,
-    found: tuple[VelocityJump, ...],
-) -> tuple[Event, ...]:
-    """Touches and releases in order; of a node that touches and releases at one instant the touch comes first."""
-    model, events, end = system.model, current.events, solution.end.displacement
-    after: Array = current.rows.normal_component(solution.last.q) - current.rows.tool_motion / slab.span
-    out = [
-        contact_event(
-            model,
-            now,
-            slab,
-            current.rows,
-            end,
-            int(r),
-            "touch",
-            j.instant,
-            (float(j.speed[r]), 0.0),
-            float(j.impulse[r]),
-        )
-        for j in found
-        for r in np.flatnonzero(j.hits)
-    ]
-    out += [
-        contact_event(
-            model, now, slab, current.rows, end, int(r), "release", float(events.release[r]), (0.0, float(after[r]))
-        )
-        for r in np.flatnonzero(np.isfinite(events.release))
-    ]
-    return ordered_events(out, slab)
+def _first(system: SlabEquations, q: Array, memory: OperatorMemory) -> Guess:
+    """Initial values of a solution, without contact impulses."""
+    conditions = system.contact.conditions
+    k, none = conditions.slipping.shift.size, np.zeros(len(conditions.slipping.shift), bool)
+    active = np.concatenate([conditions.equal, none])
+    return Guess(q=q, impulse=np.zeros(len(conditions.equal) + k), active=active, memory=memory)

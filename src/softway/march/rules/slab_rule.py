@@ -42,6 +42,8 @@ class Attempt:
         Counted work of the attempt.
     positive_definite
         True if the operators have to be positive definite.
+    rested
+        True if bodies have come to rest at the start of the slab.
     guess
         Solution of the slab with rigid bodies in nearly the same motion; None without.
     tolerance
@@ -56,6 +58,7 @@ class Attempt:
     cancel: Cancel | None = None
     effort: Effort = field(default_factory=Effort)
     positive_definite: bool = False
+    rested: bool = False
     guess: Guess | None = None
     tolerance: float = 0.0
     follower: Follower | None = None

@@ -6,7 +6,7 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray
 from softway.errors import NoConvergence
-from softway.solve.constraints.return_map import SlipConditions, return_map
+from softway.solve.constraints.return_map import SlipConditions, return_map, undriven
 from softway.solve.constraints.turning_slip import chord_force, chord_slope, end_force
 from softway.solve.effort import Effort
 
@@ -38,6 +38,8 @@ class FrictionProblem:
         (c,) compliance of each row along its normal; ``tangential_compliance`` (c,) along its surface.
     previous
         (c (1 + k),) previous multipliers.
+    equal
+        (c,) rows that stay closed, also in tension.
     rounding
         Rounding error of gaps and slips.
     effort
@@ -50,6 +52,7 @@ class FrictionProblem:
     normal_compliance: Array
     tangential_compliance: Array
     previous: Array
+    equal: BoolArray
     rounding: float = 0.0
     effort: Effort = field(default_factory=Effort)
 
@@ -57,6 +60,12 @@ class FrictionProblem:
     def count(self) -> int:
         """Number of rows."""
         return len(self.normal_compliance)
+
+    @property
+    def pressed(self) -> BoolArray:
+        """Rows (c,) that only the normal multipliers known beforehand press."""
+        none = np.zeros(self.count, bool)
+        return none if self.law.given is None else np.asarray((self.law.given > 0.0) & ~self.equal)
 
     def split(self, x: Array) -> tuple[Array, Array]:
         """Normal (c,) and tangential (c, k) parts."""
@@ -105,8 +114,11 @@ def friction_problem(
     previous: Array | None = None,
     rounding: float = 0.0,
     effort: Effort | None = None,
+    equal: BoolArray | None = None,
 ) -> FrictionProblem:
     """Contact problem of rows with their compliance, and with gaps and slips under the ``previous`` multipliers.
+
+    Rows ``equal`` (c,) stay closed, also in tension.
 
     Raises
     ------
@@ -126,6 +138,7 @@ def friction_problem(
         normal_compliance=np.maximum(diagonal[:count], least),
         tangential_compliance=np.maximum(tangential_compliance, least),
         previous=np.zeros(len(free)) if previous is None else previous,
+        equal=np.zeros(count, bool) if equal is None else equal,
         rounding=rounding,
         effort=effort or Effort(),
     )
@@ -139,12 +152,13 @@ class FrictionResidual:
     ----------
     missed, rounding
         (c (1 + k),) violation of the conditions in units of y, and its part by rounding of the multipliers.
-    touch, slips
-        (c,) rows that touch and slip.
+    touch, rubs, slips, bent
+        (c,) rows whose gap is closed, that touch in the slab, that slip, and whose force is not the trial.
     direction
         (c, k) directions of the trials.
     slope, pressure_slope
-        (c, k, k) and (c,) derivatives of the forces with respect to the trials and to the normal multipliers.
+        (c, k, k) and (c,) derivatives of the forces of bent rows with respect to the trials and to the normal
+        multipliers.
     chord
         (c, k, k) derivatives of the chord forces of slip that turns; None if no slip can turn.
     """
@@ -152,7 +166,9 @@ class FrictionResidual:
     missed: Array
     rounding: Array
     touch: BoolArray
+    rubs: BoolArray
     slips: BoolArray
+    bent: BoolArray
     direction: Array
     slope: Array
     pressure_slope: Array
@@ -160,8 +176,8 @@ class FrictionResidual:
 
     @property
     def status(self) -> bytes:
-        """Which rows touch and slip."""
-        return self.touch.tobytes() + self.slips.tobytes()
+        """Which rows touch, slip, and have other forces than their trials."""
+        return self.touch.tobytes() + self.slips.tobytes() + self.bent.tobytes()
 
     @property
     def worst(self) -> float:
@@ -175,29 +191,38 @@ def friction_residual(problem: FrictionProblem, x: Array, moved: Array | None = 
     gap, slip = problem.split(problem.free + (problem.compliance @ x if moved is None else moved))
     k, chord = s.shape[1], chord_slope(problem.law.turning, s)
     s = chord_force(problem.law.turning, s)
-    touch = p - gap / problem.normal_compliance > 0.0
-    trial = s - slip / problem.tangential_compliance[:, None]
+    touch = problem.equal | (~problem.pressed & (p - gap / problem.normal_compliance > 0.0))
+    rubs = touch | problem.pressed
+    trial, along = undriven(problem.law, s - slip / problem.tangential_compliance[:, None])
     size = np.linalg.norm(trial, axis=1)
     direction = trial / np.maximum(size, 1e-300)[:, None]
-    found = return_map(problem.law, size, np.maximum(p, 0.0), 1.0 / problem.tangential_compliance)
-    slips = touch & found.slips
+    normal = np.where(problem.equal, p, np.maximum(p, 0.0))
+    found = return_map(problem.law, size, normal, 1.0 / problem.tangential_compliance)
+    slips = rubs & found.slips
+    bent = slips if along is None else slips | (rubs & along.any(axis=1))
     missed_s = np.where(
-        slips[:, None], (s - found.force[:, None] * direction) * problem.tangential_compliance[:, None], slip
+        bent[:, None], (s - found.force[:, None] * direction) * problem.tangential_compliance[:, None], slip
     )
     missed_p = np.where(touch, gap, p * problem.normal_compliance)
-    missed_s = np.where(touch[:, None], missed_s, s * problem.tangential_compliance[:, None])
+    missed_s = np.where(rubs[:, None], missed_s, s * problem.tangential_compliance[:, None])
     turn = np.where(size > 0.0, found.force / np.maximum(size, 1e-300), 0.0)[:, None, None]
     projector = direction[:, :, None] * direction[:, None, :]
-    rounding_s = np.where(touch & ~slips, 0.0, EPS * np.linalg.norm(s, axis=1) * problem.tangential_compliance)
+    rounding_s = np.where(rubs & ~bent, 0.0, EPS * np.linalg.norm(s, axis=1) * problem.tangential_compliance)
+    slope = turn * (np.eye(k) - projector) + found.steep[:, None, None] * projector
+    if along is not None:
+        slope = np.where(slips[:, None, None], slope, np.eye(k))
+        slope = slope - np.einsum("cij,cj->ci", slope, along)[:, :, None] * along[:, None, :]
     return FrictionResidual(
         missed=np.concatenate([missed_p, missed_s.ravel()]),
         rounding=np.concatenate(
             [np.where(touch, 0.0, EPS * np.abs(p) * problem.normal_compliance), np.repeat(rounding_s, k)]
         ),
         touch=touch,
+        rubs=rubs,
         slips=slips,
+        bent=bent,
         direction=direction,
-        slope=turn * (np.eye(k) - projector) + found.steep[:, None, None] * projector,
+        slope=slope,
         pressure_slope=found.pressure_slope,
         chord=chord,
     )
@@ -205,26 +230,25 @@ def friction_residual(problem: FrictionProblem, x: Array, moved: Array | None = 
 
 def linearised(problem: FrictionProblem, residual: FrictionResidual) -> Array:
     """Derivatives (c (1 + k), c (1 + k)) of the violation of the conditions."""
-    c, W, touch, slips = problem.count, problem.compliance, residual.touch, residual.slips
+    c, W, touch, rubs, bent = problem.count, problem.compliance, residual.touch, residual.rubs, residual.bent
     k = residual.direction.shape[1]
     diagonal = np.arange(c)
     places = c + k * diagonal[:, None] + np.arange(k)
     matrix = W.copy()
-    matrix[:c][~touch], matrix[places[~touch].ravel()] = 0.0, 0.0
+    matrix[:c][~touch], matrix[places[~rubs].ravel()] = 0.0, 0.0
     matrix[diagonal, diagonal] += np.where(touch, LIFT, 1.0) * problem.normal_compliance
-    matrix[places, places] += (np.where(touch, LIFT, 1.0) * problem.tangential_compliance)[:, None]
+    matrix[places, places] += (np.where(rubs, LIFT, 1.0) * problem.tangential_compliance)[:, None]
     at, tangential_compliance, slope = (
-        places[slips],
-        problem.tangential_compliance[slips][:, None, None],
-        residual.slope[slips],
+        places[bent],
+        problem.tangential_compliance[bent][:, None, None],
+        residual.slope[bent],
     )
     matrix[at] = np.einsum("cij,cjn->cin", slope, W[at]) if k > 1 else slope * W[at]
     own = np.eye(k) - slope
-    own = own if residual.chord is None else np.einsum("cij,cjn->cin", own, residual.chord[slips])
+    own = own if residual.chord is None else np.einsum("cij,cjn->cin", own, residual.chord[bent])
     matrix[at[:, :, None], at[:, None, :]] += tangential_compliance * own
-    matrix[at, diagonal[slips][:, None]] -= (
-        tangential_compliance[:, 0] * residual.pressure_slope[slips, None] * residual.direction[slips]
-    )
+    pressure_slope = np.where(residual.slips, residual.pressure_slope, 0.0)[bent, None]
+    matrix[at, diagonal[bent][:, None]] -= tangential_compliance[:, 0] * pressure_slope * residual.direction[bent]
     return matrix
 
 
@@ -241,7 +265,7 @@ def gauss_seidel(problem: FrictionProblem, x: Array, count: int) -> Array:
     """
     c, W = problem.count, problem.compliance
     most = GROWN * problem.usual_force(x)
-    x, previous = x.copy(), problem.previous
+    x, previous, pressed = x.copy(), problem.previous, problem.pressed
     k = (len(x) - c) // c
     parts = [problem.law.subset(np.array([i])) for i in range(c)]
     for sweep in range(1, count + 1):
@@ -250,7 +274,8 @@ def gauss_seidel(problem: FrictionProblem, x: Array, count: int) -> Array:
         for i in range(c):
             at = c + k * i + np.arange(k)
             gap = problem.free[i] + W[i] @ x
-            x[i] = max(x[i] - gap / problem.normal_compliance[i], -previous[i])
+            x[i] = -previous[i] if pressed[i] else x[i] - gap / problem.normal_compliance[i]
+            x[i] = x[i] if problem.equal[i] else max(x[i], -previous[i])
             if not abs(x[i]) <= most:
                 return before
             slip = problem.free[at] + W[at] @ x
@@ -261,10 +286,11 @@ def gauss_seidel(problem: FrictionProblem, x: Array, count: int) -> Array:
                 raise NoConvergence(f"a contact row has the compliance {soft:g} along the surface")
             stiff = 1.0 / soft
             trial = chord_force(parts[i].turning, (previous[at] + x[at])[None])[0] - stiff * slip
+            trial = undriven(parts[i], trial[None])[0][0]
             size = np.linalg.norm(trial)
-            pressed = np.maximum(previous[i : i + 1] + x[i : i + 1], 0.0)
-            sticks = size <= parts[i].limit(pressed)[0]
-            force = size if sticks else return_map(parts[i], np.array([size]), pressed, np.array([stiff])).force[0]
+            normal = previous[i : i + 1] + x[i : i + 1]
+            sticks = size <= parts[i].limit(normal)[0]
+            force = size if sticks else return_map(parts[i], np.array([size]), normal, np.array([stiff])).force[0]
             x[at] = end_force(parts[i].turning, (force * trial / max(size, 1e-300))[None])[0] - previous[at]
             if not np.abs(x[at]).max(initial=0.0) <= most:
                 return before

@@ -35,7 +35,8 @@ def solve_friction(
     """Solve the contact problem with friction for a free solution: solution (f,), multipliers and active rows.
 
     The normal multipliers (m,) are followed by the tangential ones (m k,), row by row; the touching rows (m,) by the
-    slipping rows (m,).  The free solution contains the ``previous`` multipliers already.
+    slipping rows (m,).  The free solution contains the ``previous`` multipliers already.  Rows ``equal`` stay closed,
+    also in tension.
 
     Raises
     ------
@@ -44,21 +45,21 @@ def solve_friction(
     """
     law, (m, k) = rows.slipping, rows.slipping.shift.shape
     offset = np.concatenate([rows.target, law.shift.ravel()])
-    open_ = np.concatenate([rows.unilateral, np.repeat(rows.unilateral, k)])
+    pressed = np.zeros(m, bool) if law.given is None else law.given > 0.0
+    open_ = np.concatenate([some := rows.unilateral | rows.equal | pressed, np.repeat(some, k)])
     loaded = np.where(open_, coefficients.from_basis(frozen.restrict(free)) - offset, 0.0)
     slack = np.where(
         open_, coefficients.from_basis(without_contact(free, frozen, coefficients.spread(previous))) - offset, 0.0
     )
-    floor, near = rows.missable(slack[:m]), rows.unilateral & guess[:m]
+    floor, near = rows.missable(slack[:m]), rows.equal | pressed | (rows.unilateral & guess[:m])
     x = np.zeros(len(previous))
     for _ in range(30 + m):
         index = np.flatnonzero(near)
         here = stacked(index, m, k)
-        part, rest = coefficients.subset(here), previous.copy()
-        rest[here] = 0.0
+        part, rest = coefficients.subset(here), np.where(np.isin(np.arange(len(previous)), here), 0.0, previous)
         lifted = coefficients.spread(rest)
         now = loaded - np.where(open_, coefficients.from_basis(frozen.compliance_times(lifted)), 0.0)
-        known = law.subset(index), previous[here]
+        known = law.subset(index), previous[here], rows.equal[index]
         x[here], slips = _multipliers(frozen, part, now[here], known, x[here], (rows.rounding, effort))
         push = part.spread(x[here])
         gap = now[:m] + coefficients.from_basis(frozen.compliance_times(push))[:m]
@@ -70,7 +71,7 @@ def solve_friction(
         raise NoConvergence(f"the {m} contact rows have no solution")
     multiplier = np.zeros(len(previous))
     multiplier[here] = previous[here] + x[here]
-    active = np.concatenate([multiplier[:m] > 0.0, np.isin(np.arange(m), index[slips])])
+    active = np.concatenate([rows.equal | (multiplier[:m] > 0.0), np.isin(np.arange(m), index[slips])])
     return free + frozen.solve_push(push - lifted), multiplier, active
 
 
@@ -78,21 +79,21 @@ def _multipliers(
     frozen: FrozenOperator,
     part: RowCoefficients,
     free: Array,
-    known: tuple[SlipConditions, Array],
+    known: tuple[SlipConditions, Array, BoolArray],
     x: Array,
     settings: tuple[float, Effort | None],
 ) -> tuple[Array, BoolArray]:
     """Changes of the multipliers of some rows, and which of them slip; with the factor of an earlier iteration of the
     slab where that serves.
     """
-    recent, (law, previous) = frozen.recent, known
+    recent, (law, previous, equal) = frozen.recent, known
     if recent is not None and recent.friction is not None:
         found = recent.friction.solved(
-            free, law, previous, x, lambda y: part.from_basis(frozen.compliance_times(part.spread(y)))
+            free, known, x, lambda y: part.from_basis(frozen.compliance_times(part.spread(y)))
         )
         if found is not None:
             return found
-    problem = friction_problem(delassus(frozen, part), free, law, previous, *settings)
+    problem = friction_problem(delassus(frozen, part), free, law, previous, *settings, equal)
     x, slips = solve_multipliers(problem, x)
     if recent is not None and problem.count:
         recent.friction = KeptNewton.at(problem, x)

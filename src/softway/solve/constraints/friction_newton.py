@@ -100,22 +100,28 @@ class KeptNewton:
         return cls(problem, factor, residual.status)
 
     def solved(
-        self, free: Array, law: SlipConditions, previous: Array, x: Array, moved: Callable[[Array], Array]
+        self,
+        free: Array,
+        known: tuple[SlipConditions, Array, BoolArray],
+        x: Array,
+        moved: Callable[[Array], Array],
     ) -> tuple[Array, BoolArray] | None:
         """Changes of the multipliers (c (1 + k),) from a guess x, and slipping rows (c,), without a new factor.
 
-        ``moved`` gives the motion (c (1 + k),) of the rows by changes of the multipliers.  None if other rows touch or
-        slip, if friction drops with the slip, or where the violation does not fall by ``FALLS`` in each step.
+        ``known`` are the law, the previous multipliers and the rows that stay closed.  ``moved`` gives the motion
+        (c (1 + k),) of the rows by changes of the multipliers.  None if other rows touch or slip, if friction drops
+        with the slip, or where the violation does not fall by ``FALLS`` in each step.
         """
+        law, previous, equal = known
         if len(x) != len(self.problem.free) or law.stick_at_any_force:
             return None
-        problem = replace(self.problem, free=free, law=law, previous=previous)
+        problem = replace(self.problem, free=free, law=law, previous=previous, equal=equal)
         if law.drops(np.maximum(problem.multipliers(x)[0], 0.0)):
             return None
         residual = friction_residual(problem, x, moved(x))
         while residual.status == self.status:
             if residual.worst <= max(ACCURATE * _size(problem, x, residual), problem.rounding):
-                return _clean(problem, x, residual), residual.slips & residual.touch
+                return _clean(problem, x, residual), residual.slips
             x, before = x - lu_solve(self.factor, residual.missed, check_finite=False), residual.worst
             residual = friction_residual(problem, x, moved(x))
             if not residual.worst <= FALLS * before:
@@ -192,7 +198,7 @@ def _approached(attempt: NewtonAttempt, rounds: int = ROUNDS) -> tuple[Array, Bo
         if seen.since > PATIENCE:
             break
     if converged:
-        return _clean(problem, x, residual), residual.slips & residual.touch
+        return _clean(problem, x, residual), residual.slips
     if not np.isfinite(residual.worst):
         raise NoConvergence(f"friction of {problem.count} contact rows: the forces are not finite")
     size = _size(problem, x, residual)
@@ -270,7 +276,7 @@ def _size(problem: FrictionProblem, x: Array, residual: FrictionResidual) -> flo
 def _clean(problem: FrictionProblem, x: Array, residual: FrictionResidual) -> Array:
     """Changes with zero multipliers on rows that do not touch, and without tension by rounding."""
     c = problem.count
-    touch = np.concatenate([residual.touch, np.repeat(residual.touch, problem.law.shift.shape[1])])
+    touch = np.concatenate([residual.touch, np.repeat(residual.rubs, problem.law.shift.shape[1])])
     out = np.where(touch, x, -problem.previous)
-    out[:c] = np.maximum(out[:c], -problem.previous[:c])
+    out[:c] = np.where(problem.equal, out[:c], np.maximum(out[:c], -problem.previous[:c]))
     return out

@@ -38,11 +38,12 @@ class ImpactMultipliers:
     def _active(self, rows: ContactRows, closed: BoolArray) -> tuple[IntArray, RowCoefficients]:
         """Closed rows that can move (k,), with their coefficients along the contact directions."""
         index = np.flatnonzero(closed & rows.reachable(self.model.dofs))
-        return index, self.mass.coefficients(rows, self.model.dofs).subset(index)
+        return index, self.mass.coefficients(rows.without_friction(), self.model.dofs).subset(index)
 
 
 def impact_multipliers(model: Model) -> ImpactMultipliers:
     """Factor the mass matrix of a model whose nodes all have inertia."""
     mass = model.dofs.matrix(sp.csc_array(sp.kron(model.mass, sp.eye_array(model.shape[1]), format="csc")))
-    directions = row_basis(model.rows(model.displacement), model.dofs, model.contacts.fixed, model.touchable)
+    rows = model.rows(model.displacement).without_friction()
+    directions = row_basis(rows, model.dofs, model.contacts.fixed, model.touchable)
     return ImpactMultipliers(model=model, mass=frozen_operator(mass, directions, SuperLU()))

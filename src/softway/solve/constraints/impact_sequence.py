@@ -25,7 +25,7 @@ class ImpactSequence:
     def __init__(self, inertia: ImpactMultipliers, rows: ContactRows, order: IntArray) -> None:
         self._inertia = inertia
         self._order = order[rows.reachable(inertia.model.dofs)[order]]
-        self._coefficients = inertia.mass.coefficients(rows, inertia.model.dofs)
+        self._coefficients = inertia.mass.coefficients(rows.without_friction(), inertia.model.dofs)
         self._factor: NestedFactor | None = None
 
     def stopped(self, approach: Array, closed: BoolArray) -> tuple[Array, Array]:

@@ -31,7 +31,7 @@ class SlipConditions:
     speed_factor
         Speed per unit of the slip y.
     unit
-        Force per unit of the multipliers.
+        Force per unit of the multipliers, for all rows or for each (m,).
     ahead, before
         Extrapolation of the speed, see above; ``before`` (m,) [m/s].
     sliding
@@ -47,12 +47,18 @@ class SlipConditions:
         None if no direction can turn.
     turning
         (m, k) the same along the tangents (``turning_slip.py``).
+    given
+        (m,) normal multipliers known beforehand, which press a row in addition to those that are solved for, in rows
+        whose ``unit`` is that of the time in which they are closed; None if there are none.
+    undriven
+        (m, k) unit directions of the slip at the start, along which no force may push; zero for rows without such a
+        condition, None if there are none.
     """
 
     friction: FrictionRows
     shift: Array
     speed_factor: float
-    unit: float
+    unit: float | Array
     ahead: float
     before: Array
     sliding: BoolArray
@@ -60,6 +66,8 @@ class SlipConditions:
     slip_at_limit: bool = False
     way: Array | None = None
     turning: Array | None = None
+    given: Array | None = None
+    undriven: Array | None = None
 
     @property
     def frictionless(self) -> bool:
@@ -78,7 +86,14 @@ class SlipConditions:
             sliding=self.sliding[which],
             way=None if self.way is None else self.way[which],
             turning=None if self.turning is None else self.turning[which],
+            unit=self.unit[which] if isinstance(self.unit, np.ndarray) else self.unit,
+            given=None if self.given is None else self.given[which],
+            undriven=None if self.undriven is None else self.undriven[which],
         )
+
+    def pressing(self, pressed: Array) -> Array:
+        """Normal multipliers (m,) that press the rows, with those known beforehand."""
+        return pressed if self.given is None else np.maximum(pressed + self.given, 0.0)
 
     def with_slipping(self, which: BoolArray) -> "SlipConditions":
         """Conditions with the rows ``which`` (m,) counted as slipping at the start."""
@@ -95,28 +110,37 @@ class SlipConditions:
 
     def _at_rest(self, pressed: Array) -> Array:
         """Stick limit (m,) of rows under normal multipliers (m,)."""
-        return np.minimum(self.friction.limit(self.unit * pressed) / self.unit, STEEPEST * pressed)
+        pressed = self.pressing(pressed)
+        return np.minimum(self.friction.limit(self.unit * pressed) / self.unit, self._most(pressed))
+
+    def _most(self, pressed: Array) -> Array:
+        """Greatest multipliers (m,) under total normal multipliers (m,); infinite where ``unit`` fades with contact."""
+        return STEEPEST * pressed if self.given is None else np.full(len(pressed), np.inf)
 
     def drops(self, pressed: Array) -> bool:
         """True if friction is lower in slip than at rest, under normal multipliers (m,)."""
-        force = self.unit * pressed
+        force = self.unit * self.pressing(pressed)
         return bool((self.friction.resistance(np.zeros(len(force)), force)[0] < self.friction.limit(force)).any())
 
     def resistance(self, slip: Array, pressed: Array) -> tuple[Array, Array, Array]:
         """Multiplier (m,) of slips ``|y|`` (m,), with its derivatives with respect to slip and normal multiplier."""
         late = (1.0 + self.ahead) * self.speed_factor * slip - self.ahead * self.before
+        pressed = self.pressing(pressed)
         value, slope, pressure_slope = self.friction.resistance(np.maximum(late, 0.0), self.unit * pressed)
         with np.errstate(invalid="ignore"):
             change = np.where(late >= 0.0, slope * ((1.0 + self.ahead) * self.speed_factor / self.unit), 0.0)
         change, value = np.nan_to_num(change, nan=0.0, posinf=np.inf, neginf=-np.inf), value / self.unit
-        lifted = value > STEEPEST * pressed
+        if self.given is not None:
+            pressure_slope = np.where(pressed > 0.0, pressure_slope, 0.0)
+        most = self._most(pressed)
+        lifted = value > most
         if lifted.any():
-            value = np.where(lifted, STEEPEST * pressed, value)
+            value = np.where(lifted, most, value)
             change = np.where(lifted, 0.0, change)
             pressure_slope = np.where(lifted, STEEPEST, pressure_slope)
         if not self.slip_at_limit:
             return value, change, pressure_slope
-        limit = self._at_rest(pressed)
+        limit = np.minimum(self.friction.limit(self.unit * pressed) / self.unit, most)
         secant = limit / np.where(pressed > 0.0, pressed, np.inf)
         return (
             np.where(self.sliding, value, limit),
@@ -203,3 +227,14 @@ def return_map(law: SlipConditions, trial: Array, pressed: Array, stiffness: Arr
         steep = np.where(np.isinf(change), 1.0, change / (change + stiffness))
     force = np.where(slips, np.where(np.isinf(change), np.maximum(trial - stiffness * slip, 0.0), force), trial)
     return ReturnedForces(force=force, slips=slips, steep=steep, pressure_slope=pressure_slope * (1.0 - steep))
+
+
+def undriven(law: SlipConditions, trial: Array) -> tuple[Array, Array | None]:
+    """Trials (c, k) without their part along the slip at the start, and the directions (c, k) of the parts left out.
+
+    The directions are zero where nothing is left out, and None for a law without such a condition.
+    """
+    if law.undriven is None:
+        return trial, None
+    part = np.maximum(np.einsum("ck,ck->c", trial, law.undriven), 0.0)[:, None]
+    return trial - part * law.undriven, np.where(part > 0.0, law.undriven, 0.0)

@@ -379,7 +379,7 @@ def test_rows_that_turn_a_little_are_solved_for_with_the_kept_factor(law, k):
         turn = rng.normal(scale=1e-4, size=first.compliance.shape)
         now = replace(first, compliance=first.compliance + turn + turn.T, free=first.free + 1e-4 * x)
         expected, slips = solve_multipliers(now, x)
-        found = kept.solved(now.free, now.law, now.previous, x, lambda y, now=now: now.compliance @ y)
+        found = kept.solved(now.free, (now.law, now.previous, now.equal), x, lambda y, now=now: now.compliance @ y)
         if friction_residual(now, expected).status == kept.status:
             assert found is not None
             np.testing.assert_allclose(found[0], expected, atol=1e-11)
@@ -395,13 +395,15 @@ def test_the_kept_factor_is_not_for_other_rows_nor_for_friction_that_drops():
     x, _ = solve_multipliers(first, np.zeros(len(first.free)))
     kept = KeptNewton.at(first, x)
 
+    known = first.law, first.previous, first.equal
+
     def moved(y):
         return first.compliance @ y
 
-    assert kept.solved(first.free, first.law, first.previous, x, moved) is not None
-    assert kept.solved(first.free[:9], first.law, first.previous[:9], x[:9], moved) is None
+    assert kept.solved(first.free, known, x, moved) is not None
+    assert kept.solved(first.free[:9], known, x[:9], moved) is None
     dropping = slipping(StaticKinetic(mu_s=0.4, mu_k=0.2), 6, 2)
-    assert kept.solved(first.free, dropping, first.previous, x, moved) is None
-    assert kept.solved(first.free, replace(first.law, stick_at_any_force=True), first.previous, x, moved) is None
-    assert kept.solved(first.free + 1.0, first.law, first.previous, x, moved) is None, "all rows are open"
-    assert kept.solved(first.free, first.law, first.previous, x, lambda y: 40.0 * y) is None, "much stiffer"
+    assert kept.solved(first.free, (dropping, *known[1:]), x, moved) is None
+    assert kept.solved(first.free, (replace(first.law, stick_at_any_force=True), *known[1:]), x, moved) is None
+    assert kept.solved(first.free + 1.0, known, x, moved) is None, "all rows are open"
+    assert kept.solved(first.free, known, x, lambda y: 40.0 * y) is None, "much stiffer"

@@ -1,0 +1,140 @@
+"""Result of a slab (time step) with contact nodes with inertia, from its solution and its contact events."""
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.march.friction.impulse_slip import ImpulseSlip, impulse_friction, steady_push
+from softway.march.friction.stick_slip_events import stick_slip_events
+from softway.march.model_state import ModelState
+from softway.march.results.friction_result import FrictionResult
+from softway.march.results.slab_result import (
+    Balances,
+    SlabResult,
+    contact_event,
+    ordered_events,
+    support_work,
+    supports,
+)
+from softway.march.results.step import Event
+from softway.march.rules.event_iteration import EventIteration
+from softway.march.rules.touch import Touch, VelocityJump
+from softway.model.model import Model
+from softway.model.slab import Slab
+from softway.solve.equations.slab_equations import SlabEquations
+from softway.solve.methods.iteration import Solution
+
+
+def impulsive_result(
+    now: ModelState,
+    slab: Slab,
+    system: SlabEquations,
+    current: EventIteration,
+    solution: Solution,
+    found: tuple[VelocityJump, ...],
+    touch: Touch,
+    pairs: int,
+    work: tuple[int, int],
+    slip: ImpulseSlip,
+) -> SlabResult:
+    """Forces, works and events of a slab with jumps ``found``, and ``work``: numbers of solutions and iterations."""
+    model, h, events, q, rows = system.model, slab.span, current.events, solution.last.q, current.rows
+    through, pull = _through(current, solution, found, h, touch), steady_push(now, rows, solution, h)
+    pressure = np.maximum(touch.inertia.multiplier(rows, solution.end.force - pull, events.closed), 0.0)
+    friction = impulse_friction(model, now, rows, solution, slip, pressure)
+    push = rows.spread(through / h, model.shape) + friction.push
+    support = supports(model, now, solution.end, q, push, h)
+    moved = solution.end.displacement - now.start.displacement
+    tools = float(through @ rows.tool_motion) / h + friction.work
+    return SlabResult(
+        system=system,
+        solution=solution,
+        rows=rows,
+        velocity=q,
+        acceleration=_acceleration(model, now, current, found, q, h),
+        closed=events.closed,
+        pressure=pressure,
+        force=through / h,
+        push=push,
+        support=support,
+        work=tools + support_work(model, system.path, support, moved, q),
+        dissipation=touch.loss(model, rows, events, found, (now.start.velocity, q), h) + friction.dissipation,
+        events=_events(now, slab, system, current, solution, found, friction),
+        pairs=pairs,
+        passes=work[0],
+        iterations=work[1],
+        friction=friction,
+        required=_required(touch.balanced, bool(found or events.closed.any())),
+    )
+
+
+def _required(balanced: bool, touched: bool) -> Balances:
+    """Balances that a slab has to keep: in free flight, weights may let the energy swing about its mean."""
+    return Balances(energy="limited" if balanced and touched else "free", momentum=balanced)
+
+
+def _acceleration(
+    model: Model, now: ModelState, current: EventIteration, found: tuple[VelocityJump, ...], q: Array, h: float
+) -> Array:
+    """Slope (n, d) of the velocity at the end of the slab, without the jumps."""
+    events, rows = current.events, current.rows
+    jumped = sum((j.field for j in found), np.zeros(model.shape))
+    slope = (q - now.start.velocity - jumped) / h
+    with np.errstate(divide="ignore", invalid="ignore"):
+        released = np.where(
+            events.freedom > 0.0, (rows.normal_component(q) - rows.tool_motion / h) / (h * events.freedom), 0.0
+        )
+    kinked = np.where(events.kinked, released - rows.normal_component(slope), 0.0)
+    return np.asarray(slope + rows.motion(kinked, events.kinked, model.free))
+
+
+def _through(
+    current: EventIteration, solution: Solution, found: tuple[VelocityJump, ...], span: float, touch: Touch
+) -> Array:
+    """Impulses (m,) of the contact rows over the slab [N s]."""
+    closed = current.events.closed
+    return known_impulses(current, found, span, touch) + np.where(closed, solution.last.impulse[: len(closed)], 0.0)
+
+
+def known_impulses(current: EventIteration, found: tuple[VelocityJump, ...], span: float, touch: Touch) -> Array:
+    """Impulses (m,) of the contact rows that are not multipliers of the slab: of releases and of jumps [N s]."""
+    closed = current.events.closed
+    kicks = sum((j.impulse for j in found), np.zeros(len(closed)))
+    return current.impulse * span + np.where(closed & touch.balanced, 0.0, kicks)
+
+
+def _events(
+    now: ModelState,
+    slab: Slab,
+    system: SlabEquations,
+    current: EventIteration,
+    solution: Solution,
+    found: tuple[VelocityJump, ...],
+    friction: FrictionResult,
+) -> tuple[Event, ...]:
+    """Touches and releases in order; of a node that touches and releases at one instant the touch comes first."""
+    model, events, end = system.model, current.events, solution.end.displacement
+    after: Array = current.rows.normal_component(solution.last.q) - current.rows.tool_motion / slab.span
+    out = [
+        contact_event(
+            model,
+            now,
+            slab,
+            current.rows,
+            end,
+            int(r),
+            "touch",
+            j.instant,
+            (float(j.speed[r]), 0.0),
+            float(j.impulse[r]),
+        )
+        for j in found
+        for r in np.flatnonzero(j.hits)
+    ]
+    out += [
+        contact_event(
+            model, now, slab, current.rows, end, int(r), "release", float(events.release[r]), (0.0, float(after[r]))
+        )
+        for r in np.flatnonzero(np.isfinite(events.release))
+    ]
+    out += stick_slip_events(model, now, slab, solution, (current.rows, current.rows), friction)
+    return ordered_events(out, slab)
