@@ -71,6 +71,7 @@ REASONS = {
     "bodies/inertia/mass_matrix.py: condensation": INNER,
     "bodies/inertia/mass_redistribution.py: redistribute_mass": INNER,
     "bodies/internal_force/inelastic/inelastic_force.py: inelastic_force": "a mesh admits no plates in space",
+    "contact/assembly/declared.py: at_declared": "errors of others: tests/unit/contact/assembly/test_declared.py",
     "contact/mortar/linear_surface.py: linear_surface": INNER,
     "contact/assembly/methods.py: with_tool": "a closed surface that a tie covers: no rim is left",
     "contact/surfaces/boundary.py: __post_init__": INNER,
