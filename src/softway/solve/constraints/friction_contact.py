@@ -18,6 +18,7 @@ from softway.solve.constraints.compliance import FrozenOperator
 from softway.solve.constraints.friction_conditions import friction_problem
 from softway.solve.constraints.friction_newton import KeptNewton, solve_multipliers
 from softway.solve.constraints.normal_active_set import RowConditions, delassus, without_contact
+from softway.solve.constraints.recent_factor import FEW
 from softway.solve.constraints.return_map import SlipConditions
 from softway.solve.constraints.row_basis import RowCoefficients
 from softway.solve.effort import Effort
@@ -86,7 +87,7 @@ def _multipliers(
     """Changes of the multipliers of some rows, and which of them slip; with the factor of an earlier iteration of the
     slab where that serves.
     """
-    recent, (law, previous, equal) = frozen.recent, known
+    recent, (law, previous, equal) = frozen.recent if len(x) >= FEW else None, known
     if recent is not None and recent.friction is not None:
         found = recent.friction.solved(
             free, known, x, lambda y: part.from_basis(frozen.compliance_times(part.spread(y)))

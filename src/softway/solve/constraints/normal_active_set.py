@@ -16,6 +16,7 @@ from softway.errors import NoConvergence
 from softway.kernels.linalg.active_set import exchanged, most_sweeps
 from softway.kernels.linalg.dense import DenseFactor, factored
 from softway.solve.constraints.compliance import FrozenOperator
+from softway.solve.constraints.recent_factor import FEW
 from softway.solve.constraints.return_map import NO_SLIP, SlipConditions
 from softway.solve.constraints.row_basis import CombinedRows, RowCoefficients
 from softway.solve.effort import Effort
@@ -206,7 +207,7 @@ def multipliers(frozen: FrozenOperator, active: RowCoefficients, wanted: Array) 
         directions = active.spread(force)
         return ContactPush(directions=directions, sensed=frozen.compliance_times(directions))
 
-    recent = frozen.recent if isinstance(active, CombinedRows) else None
+    recent = frozen.recent if isinstance(active, CombinedRows) and len(wanted) >= FEW else None
     if recent is not None:
         found = recent.refined(wanted, pushed, lambda push: active.from_basis(push.sensed))
         if found is not None:

@@ -16,6 +16,8 @@ from softway.solve.constraints.friction_newton import KeptNewton
 
 Push = TypeVar("Push")
 
+FEW = 32
+"""Number of rows below which a new factor is as cheap."""
 ACCURATE = 1e-13
 """Residual at which the refinement ends, relative to the right-hand side."""
 FAST = 0.1
