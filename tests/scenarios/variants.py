@@ -188,8 +188,8 @@ VARIANTS: Mapping[str, Variant] = {
     ),
     "ring_in_ring": Variant(
         changes=(
-            "bodies.small.mesh.cells=[2, 32]",
-            "bodies.large.mesh.cells=[2, 40]",
+            "bodies.small.mesh.cells=[2, 40]",
+            "bodies.large.mesh.cells=[2, 48]",
             "time.end=3.4 ms",
             "time.step=0.1 ms",
         ),

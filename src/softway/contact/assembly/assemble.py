@@ -160,7 +160,7 @@ def _methods(contact: Contact, given: _Given, thickness: Array) -> ContactMethod
     surfaces = given.surfaces(contact)
     if not contact.many:
         _require_apart(contact, surfaces, given.joined)
-        return of_two(contact, surfaces[0], surfaces[1], thickness)
+        return of_two(contact, surfaces[0], surfaces[1], thickness, given.points)
     own = [given.surfaces(c) for c in given.contacts if not c.many and given.tool(c) is None]
     body = np.repeat(np.arange(len(given.parts)), [p.mesh.n_nodes for p in given.parts])
     glue = None if given.joined is None else given.joined.neighbours

@@ -70,13 +70,17 @@ def _outer(mesh: Mesh, nodes: IntArray) -> IntArray:
     return found if len(found) else nodes
 
 
-def of_two(contact: Contact, one: BodySurface, other: BodySurface, thickness: Array) -> ContactMethods:
-    """Contact of two solids: the finer surface is the slave; sharp corners and edges have their own rows."""
+def of_two(contact: Contact, one: BodySurface, other: BodySurface, thickness: Array, points: Array) -> ContactMethods:
+    """Contact of two solids: the finer surface is the slave; sharp corners and edges have their own rows.
+
+    ``thickness`` (n,) is that of the bodies behind the nodes, ``points`` (n, d) are the reference positions [m].
+    """
     fine, coarse = finer_first(one, other)
     located, dim = not contact.timing.massless, fine.side.dim
     method = contact.method or (NodeToSurface() if dim == 1 or located else DualMortar())
     found: list[SurfacePair]
     overlap: tuple[SurfacePair, ...] = ()
+    raised = 0.0
     if isinstance(method, NodeToSurface):
         found = [
             _on(fine.side.nodes, fine, coarse, thickness),
@@ -86,21 +90,25 @@ def of_two(contact: Contact, one: BodySurface, other: BodySurface, thickness: Ar
         problem = f"DualMortar with {contact.timing}" if located else "DualMortar between bars in 1D"
         raise InputError("method", problem, "NodeToSurface, or nothing")
     else:
-        found = [Mortar(slave_facets=fine.side.facets, master_facets=coarse.side.facets, thickness=thickness)]
+        sides = fine.side.facets, coarse.side.facets
+        mortar = Mortar(slave_facets=sides[0], master_facets=sides[1], thickness=thickness, points=points)
+        raised, found = mortar.greatest_height, [mortar]
         found += [_on(fine.corners, fine, coarse, thickness), _on(coarse.corners, coarse, fine, thickness)]
         overlap = (_on(fine.side.nodes, fine, coarse, thickness), _on(coarse.side.nodes, coarse, fine, thickness))
     found = [m for m in found if len(m.node)]
     if fine.edges is not None and coarse.edges is not None and len(fine.edges.ends) and len(coarse.edges.ends):
         found.append(EdgeToEdge(first=fine.edges, second=coarse.edges))
     nodes = np.concatenate([one.side.nodes, other.side.nodes])
-    edges, margin = (fine.edge, coarse.edge), margin_of((fine, coarse), ~np.eye(2, dtype=bool))
+    edges, margin = (fine.edge, coarse.edge), margin_of((fine, coarse), ~np.eye(2, dtype=bool), raised)
     return ContactMethods(methods=tuple(found), nodes=nodes, edges=edges, overlap=overlap, margin=margin)
 
 
-def margin_of(surfaces: Sequence[BodySurface], meet: BoolArray) -> SearchMargin:
-    """Margin of the search of surfaces that may ``meet`` (k, k)."""
-    edge = max(s.edge for s in surfaces)
-    return SearchMargin(distance=FRACTION * edge, sides=tuple(s.side for s in surfaces), meet=meet)
+def margin_of(surfaces: Sequence[BodySurface], meet: BoolArray, raised: float = 0.0) -> SearchMargin:
+    """Margin of the search of surfaces that may ``meet`` (k, k), which touch when their facets are ``raised`` [m] apart
+    at most.
+    """
+    distance = FRACTION * max(s.edge for s in surfaces) + raised
+    return SearchMargin(distance=distance, sides=tuple(s.side for s in surfaces), meet=meet, raised=raised)
 
 
 def _on(nodes: IntArray, own: BodySurface, surface: BodySurface, thickness: Array) -> NodeToFacet:

@@ -11,6 +11,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
+from softway.contact.mortar.curved_surface import curved_surface
 from softway.contact.mortar.facet_pairs import FacetPairs, Margin, facet_pairs, unit
 from softway.contact.mortar.gap_weights import gap_weights
 from softway.contact.mortar.linear_surface import LinearSurface, linear_surface
@@ -31,6 +32,8 @@ class Mortar:
         Facet cell name -> (f, b) node numbers of the model, turned outward.
     thickness
         (n,) thickness of the bodies behind the nodes [m]; by default infinite.
+    points
+        (n, d) reference positions, at which the surfaces are curved [m]; by default they are flat.
 
     Examples
     --------
@@ -46,6 +49,7 @@ class Mortar:
     slave_facets: Mapping[str, IntArray]
     master_facets: Mapping[str, IntArray]
     thickness: Array | None = None
+    points: Array | None = None
     slave: LinearSurface = field(init=False, repr=False)
     master: LinearSurface = field(init=False, repr=False)
     tables: SurfaceTables = field(init=False, repr=False)
@@ -54,7 +58,8 @@ class Mortar:
     def __post_init__(self) -> None:
         object.__setattr__(self, "slave", linear_surface(self.slave_facets))
         object.__setattr__(self, "master", linear_surface(self.master_facets))
-        object.__setattr__(self, "tables", surface_tables(self.slave, self.master))
+        offsets = None if self.points is None else self._offsets(self.points)
+        object.__setattr__(self, "tables", surface_tables(self.slave, self.master, offsets))
         object.__setattr__(self, "support", self._vertex_weights(np.arange(len(self.slave.corner))))
 
     @property
@@ -79,6 +84,20 @@ class Mortar:
             pairs=pairs,
             vertex_weights=self._vertex_weights(np.unique(pairs.slave)),
         )
+
+    @property
+    def greatest_height(self) -> float:
+        """Bound of the heights of both surfaces above their simplices in the reference, added up [m]."""
+        if self.points is None:
+            return 0.0
+        found = self.tables.heights(self.points, *self.tables.vertices(self.points))
+        return sum(float(form.max(initial=0.0)) for form in found)
+
+    def _offsets(self, points: Array) -> tuple[sp.csr_array, sp.csr_array] | None:
+        """Offsets (p v, n) and (q v, n) of both surfaces from their simplices; None if both are flat."""
+        one = curved_surface(self.slave, self.slave_facets, points)
+        two = curved_surface(self.master, self.master_facets, points)
+        return (one, two) if one.nnz or two.nnz else None
 
     def _vertex_weights(self, taking_part: IntArray) -> sp.csr_array:
         """Weights (m, p) of the slave simplices ``taking_part`` (k,) for the nodes."""
@@ -135,6 +154,7 @@ class MortarContact:
             functions,
             common.pairs(len(size)),
             (below, above),
+            tables.heights(x, below, above),
             tables.node,
             x[tables.node],
             normal,

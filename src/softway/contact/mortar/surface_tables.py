@@ -6,6 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
+from softway.contact.mortar.curved_surface import forms
 from softway.contact.mortar.linear_surface import LinearSurface, pieces
 from softway.kernels.mortar.tables import Facets, Vertices
 
@@ -24,6 +25,8 @@ class SurfaceTables:
         The same for the loops, with the simplices.
     facets
         Facets of the slave.
+    offsets
+        (p v, u) and (q v, u) offsets of the curved surfaces from their simplices; without rows if both are flat.
     """
 
     node: IntArray
@@ -32,15 +35,26 @@ class SurfaceTables:
     slave: Vertices
     master: Vertices
     facets: Facets
+    offsets: tuple[sp.csr_array, sp.csr_array]
 
     def vertices(self, x: Array) -> tuple[Array, Array]:
         """Vertices (v, d) of the slave and (w, d) of the master at the positions x (n, d) of all nodes."""
         here = x[self.node]
         return self.below @ here, self.above @ here
 
+    def heights(self, x: Array, below: Array, above: Array) -> tuple[Array, Array]:
+        """Heights (p, k, k) and (q, k, k) of both surfaces above their simplices at the positions x (n, d), with their
+        vertices, as quadratic forms of coordinates [m]; none if both are flat.
+        """
+        here = x[self.node]
+        one, two = ((o @ here) if o.shape[0] else np.zeros((0, here.shape[1])) for o in self.offsets)
+        return forms(one, below, self.slave.corner), forms(two, above, self.master.corner)
 
-def surface_tables(slave: LinearSurface, master: LinearSurface) -> SurfaceTables:
-    """Arrays of two surfaces.
+
+def surface_tables(
+    slave: LinearSurface, master: LinearSurface, offsets: tuple[sp.csr_array, sp.csr_array] | None = None
+) -> SurfaceTables:
+    """Arrays of two surfaces, with the ``offsets`` (p v, n) and (q v, n) of the curved ones from their simplices.
 
     Examples
     --------
@@ -52,12 +66,14 @@ def surface_tables(slave: LinearSurface, master: LinearSurface) -> SurfaceTables
     """
     node = np.union1d(slave.node, master.node)
     below, above = (_from_nodes(surface, node) for surface in (slave, master))
+    bent = [sp.csr_array((0, len(node)))] * 2 if offsets is None else [sp.csr_array(o[:, node]) for o in offsets]
     return SurfaceTables(
         node=node,
         below=below,
         above=above,
-        slave=_vertices(below, slave.corner),
-        master=_vertices(above, master.corner),
+        slave=_vertices(below, slave),
+        master=_vertices(above, master),
+        offsets=(bent[0], bent[1]),
         facets=_facets(slave),
     )
 
@@ -70,10 +86,10 @@ def _from_nodes(surface: LinearSurface, node: IntArray) -> sp.csr_array:
     return sp.csr_array((made.data, (row, place[column])), (made.shape[0], len(node)))
 
 
-def _vertices(matrix: sp.csr_array, corner: IntArray) -> Vertices:
-    """Matrix of the vertices and corners (p, k) of the simplices for the loops."""
-    start, column, corner = (np.ascontiguousarray(a, np.int64) for a in (matrix.indptr, matrix.indices, corner))
-    return Vertices(start=start, column=column, value=matrix.data, corner=corner)
+def _vertices(matrix: sp.csr_array, surface: LinearSurface) -> Vertices:
+    """Matrix of the vertices, and simplices, for the loops."""
+    start, column, corner = (np.ascontiguousarray(a, np.int64) for a in (matrix.indptr, matrix.indices, surface.corner))
+    return Vertices(start=start, column=column, value=matrix.data, corner=corner, centre=surface.spread.shape[1])
 
 
 def _facets(slave: LinearSurface) -> Facets:

@@ -3,8 +3,8 @@
 At a node with the normal n, an edge to a neighbour with the tangent t and the length c has the curvature
 ``(n' - n) . t / c``.  The least squares of all edges give the curvature of the surface in any direction.  At the
 distance s from the node, the smooth surface stands ``curvature s (c - s) / 2`` off a straight facet, at most its
-sagitta ``curvature c^2 / 8``; in space this holds along both principal directions.  Where nodes lie opposite nodes, it
-does not matter.
+sagitta ``curvature c^2 / 8``; in space this holds along both principal directions.  It matters where nodes meet facets,
+unless nodes lie opposite nodes.
 """
 
 from dataclasses import dataclass
@@ -17,8 +17,6 @@ from softway.contact.surfaces.boundary import SHARP, ContactSurface
 from softway.contact.tangential_rows import tangents
 from softway.meshes.cells import CELLS
 
-CONTROL = 1.0 / 3.0
-"""Distance of the control points of a mortar facet from its quadratic curve, in sagittas."""
 CONFORMING = 0.3
 """Relative curvature of two surfaces, relative to the greater one, below which they conform to each other."""
 
@@ -71,8 +69,8 @@ class Misfit:
     gap: float
 
 
-def curved_surface(side: ContactSurface, x: Array, mortar: bool) -> CurvedSurface:
-    """Curvature of a surface at positions ``x`` (n, d); ``mortar`` if linear facets replace quadratic ones.
+def curved_surface(side: ContactSurface, x: Array) -> CurvedSurface:
+    """Curvature of a surface at positions ``x`` (n, d).
 
     Examples
     --------
@@ -81,7 +79,7 @@ def curved_surface(side: ContactSurface, x: Array, mortar: bool) -> CurvedSurfac
     >>> turn = np.arange(60) * np.pi / 30
     >>> circle = 2.0 * np.column_stack([np.cos(turn), np.sin(turn)])
     >>> side = ContactSurface(facets={"bar2": np.stack([np.arange(60), np.roll(np.arange(60), -1)], axis=1)})
-    >>> made = curved_surface(side, circle, mortar=True)
+    >>> made = curved_surface(side, circle)
     >>> made.off(np.array([0]), 0.5 * (circle[1:2] - circle[:1])).round(4).tolist()
     [0.0027]
     """
@@ -113,7 +111,7 @@ def curved_surface(side: ContactSurface, x: Array, mortar: bool) -> CurvedSurfac
         curvature=_fitted(both[:, 0], step, bent, normal),
         first=first,
         edges=step,
-        factor=1.0 if degree == 1 else CONTROL if mortar else 0.0,
+        factor=1.0 if degree == 1 else 0.0,
     )
 
 

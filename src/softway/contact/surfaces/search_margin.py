@@ -30,6 +30,8 @@ class SearchMargin:
         The surfaces.
     meet
         (k, k) symmetric; True for surfaces that may touch each other.
+    raised
+        Greatest distance of their facets at which they touch, since they are curved [m].
 
     Examples
     --------
@@ -45,13 +47,14 @@ class SearchMargin:
     distance: float
     sides: tuple[ContactSurface, ...]
     meet: BoolArray
+    raised: float = 0.0
 
     def needed(self, deviation: Array) -> float:
         """Distance [m] within which the surfaces had to be paired, with a ``deviation`` (n,) of each node from the
         expected motion: the greatest sum for two surfaces that may touch.
         """
         found = np.array([_magnified(side) * deviation[side.nodes].max(initial=0.0) for side in self.sides])
-        return float(np.where(self.meet, found[:, None] + found, 0.0).max(initial=0.0))
+        return self.raised + float(np.where(self.meet, found[:, None] + found, 0.0).max(initial=0.0))
 
     def apart(self, x0: Array, x1: Array, distance: float) -> bool:
         """True if no facets of two surfaces come within a distance [m] on the way from x0 to x1 (n, d).

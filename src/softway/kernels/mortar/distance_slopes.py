@@ -3,40 +3,72 @@
 The derivatives are explained in docs/theory/contact/mortar.md.
 """
 
+from typing import NamedTuple
+
+import numpy as np
+
+from softway.arrays import Array
 from softway.kernels.jit.compilation import uncounted, uncounted_kernel
+from softway.kernels.mortar.heights import add_heights, tilt
 from softway.kernels.mortar.simplices import vector_area
 
 STEEP = 0.2
 """Lower bound of the cosine between two surfaces when their distance is measured."""
 
 
-@uncounted_kernel
-def distance_slopes(slave, master, pairs, below, above, square, gradient, facing, leaning):
-    """Slopes of the distances: ``facing`` (s, d) of the pairs, and ``leaning`` (p, k, k, d) of the slave simplices.
+class SlopeRoom(NamedTuple):
+    """Place for one pair: the unit normal ``square`` (1, d) and the gradients ``gradient`` (k, d) of the slave, the
+    normal ``normal`` (1, d) and the gradients ``along`` (k, d) of the master, coordinates ``at`` (k,), and heights
+    ``rise`` (k,) at the corners of the slave.
+    """
 
-    The former are those of a shift of the slave.  The latter are integrals of coordinates on the slave times the change
-    of the distance when its corners move: this also turns the direction in which it is measured.  Without the turn a
-    row of two surfaces that are not parallel would have a moment.  ``square`` (1, d) and ``gradient`` (k, d) are room.
+    square: Array
+    gradient: Array
+    normal: Array
+    along: Array
+    at: Array
+    rise: Array
+
+
+def slope_room(k: int, d: int) -> SlopeRoom:
+    """Place for simplices of k corners in d dimensions."""
+    return SlopeRoom(*(np.zeros(shape) for shape in ((1, d), (k, d), (1, d), (k, d), (k,), (k,))))
+
+
+@uncounted_kernel
+def distance_slopes(slave, master, pairs, below, above, heights, room, out):
+    """Slopes of the distances, and heights along them, see :class:`~softway.kernels.mortar.tables.Distances`.
+
+    ``heights`` (p, k, k) and (q, k, k) are those above the simplices of slave and master; none of flat surfaces.
+
+    The slopes under a motion of the corners of the slave also turn the direction in which the distance is measured.
+    Without the turn a row of two surfaces that are not parallel would have a moment.
     """
     d, p, k = below.shape[1], slave.corner.shape[0], slave.corner.shape[1]
     for i in range(p):
         if pairs.first[i] < pairs.first[i + 1]:
-            _gradients(below, slave.corner, i, square, gradient)
+            _gradients(below, slave.corner, i, room.square, room.gradient)
         for s in range(pairs.first[i], pairs.first[i + 1]):
-            _face(above, master.corner, pairs.master[s], square, facing, s)
+            cosine = _face(above, master.corner, pairs.master[s], room, out.facing, s)
+            if len(heights[1]) and cosine > 0.0:
+                _gradients(above, master.corner, pairs.master[s], room.normal, room.along)
+                add_heights(slave, master, heights, pairs, below, above, i, s, cosine, room, out.height)
+                for a in range(k):
+                    tilt(heights[1], pairs.master[s], pairs.cross[s, a], cosine, room, out.facing[s, a])
             for a in range(k):
                 distance = 0.0
                 for b in range(k):
                     own, cross = slave.corner[i, b], master.corner[pairs.master[s], b]
                     for c in range(d):
                         both = pairs.own[s, a, b] * below[own, c] - pairs.cross[s, a, b] * above[cross, c]
-                        distance += facing[s, c] * both
+                        distance += out.facing[s, a, c] * both
                 for b in range(k):
                     lean = 0.0
                     for c in range(d):
-                        lean += gradient[b, c] * facing[s, c]
+                        lean += room.gradient[b, c] * out.facing[s, a, c]
                     for c in range(d):
-                        leaning[i, a, b, c] += pairs.own[s, a, b] * facing[s, c] - distance * lean * square[0, c]
+                        shift = pairs.own[s, a, b] * out.facing[s, a, c]
+                        out.leaning[i, a, b, c] += shift - distance * lean * room.square[0, c]
 
 
 @uncounted
@@ -59,11 +91,14 @@ def _gradients(vertices, corner, i, square, gradient):
 
 
 @uncounted
-def _face(vertices, corner, j, square, facing, s):
-    """Slopes of the distance along a slave normal: the master normal divided by its cosine."""
-    size, cosine = vector_area(vertices, corner, j, facing, s), 0.0
-    for c in range(facing.shape[1]):
-        facing[s, c] /= size if size > 0.0 else 1.0
-        cosine -= square[0, c] * facing[s, c]
-    for c in range(facing.shape[1]):
-        facing[s, c] /= max(cosine, STEEP)
+def _face(vertices, corner, j, room, facing, s):
+    """Slopes of the distance along a slave normal: the master normal divided by its cosine, which is returned."""
+    size, cosine = vector_area(vertices, corner, j, room.normal, 0), 0.0
+    for c in range(facing.shape[2]):
+        room.normal[0, c] /= size if size > 0.0 else 1.0
+        cosine -= room.square[0, c] * room.normal[0, c]
+    cosine = max(cosine, STEEP)
+    for a in range(facing.shape[1]):
+        for c in range(facing.shape[2]):
+            facing[s, a, c] = room.normal[0, c] / cosine
+    return cosine if size > 0.0 else 0.0

@@ -3,9 +3,9 @@
 import numpy as np
 
 from softway.arrays import Array, IntArray
-from softway.kernels.mortar.distance_slopes import distance_slopes
+from softway.kernels.mortar.distance_slopes import distance_slopes, slope_room
 from softway.kernels.mortar.row_sums import sum_rows
-from softway.kernels.mortar.tables import Entries, Facets, Functions, Pairs, Room, Vertices
+from softway.kernels.mortar.tables import Distances, Entries, Facets, Functions, Pairs, Room, Vertices
 
 NODES = 40
 """Number of nodes of a row for which there is place at first."""
@@ -16,6 +16,7 @@ def gap_rows(
     functions: Functions,
     pairs: Pairs,
     vertices: tuple[Array, Array],
+    heights: tuple[Array, Array],
     node: IntArray,
     x: Array,
     normal: Array,
@@ -28,6 +29,8 @@ def gap_rows(
         Tables of slave, master and facets; test functions; pairs of simplices that overlap.
     vertices
         (v, d) of the slave and (w, d) of the master [m].
+    heights
+        (p, k, k) and (q, k, k) above their simplices, as quadratic forms of coordinates [m]; none of flat surfaces.
     node, x
         (u,) numbers of the nodes of both surfaces in the model, ascending, and their positions (u, d) [m].
     normal
@@ -35,19 +38,21 @@ def gap_rows(
     """
     slave, master, facets = surfaces
     (u, d), m, (p, k) = x.shape, len(normal), slave.corner.shape
-    facing, leaning = np.empty((len(pairs.master), d)), np.zeros((p, k, k, d))
-    distance_slopes(slave, master, pairs, *vertices, np.empty((1, d)), np.empty((k, d)), facing, leaning)
+    count = len(pairs.master)
+    distances = Distances(facing=np.empty((count, k, d)), height=np.zeros((count, k)), leaning=np.zeros((p, k, k, d)))
+    distance_slopes(slave, master, pairs, *vertices, heights, slope_room(k, d), distances)
     room = Room(
         sums=np.zeros((u, 2 + d)),
         used=np.zeros(u, bool),
         listed=np.empty(u, np.int64),
         number=np.zeros(1, np.int64),
         mean=np.empty(d),
+        height=np.empty(1),
         terms=np.empty(1 + d),
     )
     gap, row, made = np.full(m, np.inf), 0, _entries(m, NODES * m, d)
     while True:
-        row = sum_rows(row, slave, master, facets, functions, pairs, facing, leaning, node, x, room, made, gap, normal)
+        row = sum_rows(row, slave, master, facets, functions, pairs, distances, node, x, room, made, gap, normal)
         if row == m:
             return gap, made
         more = _entries(m, 2 * len(made.weight) + u, d)

@@ -8,27 +8,27 @@ OWN, CROSS, SLOPE = 0, 1, 2
 
 
 @uncounted_kernel
-def sum_rows(first, slave, master, facets, functions, pairs, facing, leaning, node, x, room, made, gap, normal):
+def sum_rows(first, slave, master, facets, functions, pairs, distances, node, x, room, made, gap, normal):
     """Rows of the nodes of the slave from ``first`` on, until there is no place for one more; returns the next row.
 
-    Arguments: tables of :mod:`~softway.kernels.mortar.tables`, slopes of the distances, numbers ``node`` (u,) of the
+    Arguments: tables of :mod:`~softway.kernels.mortar.tables`, numbers ``node`` (u,) of the
     nodes in the model, ascending, and their positions ``x`` (u, d).  ``gap`` (m,) and ``normal`` (m, d) are written
     where the row is met.
     """
     for r in range(first, len(gap)):
         covered = total = 0.0
-        room.number[0] = 0
+        room.number[0], room.height[0] = 0, 0.0
         for c in range(x.shape[1]):
             room.mean[c] = 0.0
         for use in range(facets.start[r], facets.start[r + 1]):
             covered += _own_part(use, slave, facets, functions, room)
-            total += _common_part(use, slave, master, facets, functions, pairs, facing, leaning, room)
+            total += _common_part(use, slave, master, facets, functions, pairs, distances, room)
         met = room.number[0]
         free = made.first[r] + met <= len(made.weight) and made.start[r] + x.shape[1] * met <= len(made.slope)
         made.first[r + 1], made.start[r + 1] = made.first[r], made.start[r]
         if free and covered > 0.0 and total > 0.0:
             _sort(room.listed, met)
-            gap[r] = _write(room, covered, total, node, x, made, r + 1)
+            gap[r] = _write(room, covered, total, node, x, made, r + 1) - room.height[0] / total
             _set_direction(room.mean, normal, r)
         for q in range(met):
             column = room.listed[q]
@@ -57,13 +57,13 @@ def _own_part(use, slave, facets, functions, room):
 
 
 @uncounted
-def _common_part(use, slave, master, facets, functions, pairs, facing, leaning, room):
+def _common_part(use, slave, master, facets, functions, pairs, distances, room):
     """Add a test function times the motion of the master and the slopes; returns its integral.
 
-    The normals of the pairs are added up in ``room``.
+    The normals of the pairs and the heights are added up in ``room``.
     """
     facet, place, share = facets.facet[use], facets.place[use], facets.share[use]
-    d, k, total = leaning.shape[3], slave.corner.shape[1], 0.0
+    d, k, total = distances.leaning.shape[3], slave.corner.shape[1], 0.0
     for i in range(facets.simplex[facet], facets.simplex[facet + 1]):
         if pairs.first[i] == pairs.first[i + 1]:
             continue
@@ -72,19 +72,23 @@ def _common_part(use, slave, master, facets, functions, pairs, facing, leaning, 
             for c in range(d):
                 room.terms[1 + c] = 0.0
                 for a in range(k):
-                    room.terms[1 + c] += share * functions.values[i, place, a] * leaning[i, a, b, c]
+                    room.terms[1 + c] += share * functions.values[i, place, a] * distances.leaning[i, a, b, c]
             _spread_terms(slave, slave.corner[i, b], room)
         for s in range(pairs.first[i], pairs.first[i + 1]):
+            for a in range(k):
+                room.height[0] += share * functions.values[i, place, a] * distances.height[s, a]
             for b in range(k):
-                amount, corner = 0.0, master.corner[pairs.master[s], b]
+                for term in range(1 + d):
+                    room.terms[term] = 0.0
                 for a in range(k):
-                    amount += share * functions.values[i, place, a] * pairs.cross[s, a, b]
-                total += amount
-                room.terms[0] = amount
+                    amount = share * functions.values[i, place, a] * pairs.cross[s, a, b]
+                    room.terms[0] += amount
+                    for c in range(d):
+                        room.terms[1 + c] -= amount * distances.facing[s, a, c]
+                total += room.terms[0]
                 for c in range(d):
-                    room.terms[1 + c] = -amount * facing[s, c]
-                    room.mean[c] += amount * facing[s, c]
-                _spread_terms(master, corner, room)
+                    room.mean[c] -= room.terms[1 + c]
+                _spread_terms(master, master.corner[pairs.master[s], b], room)
     return total
 
 

@@ -9,13 +9,14 @@ class Vertices(NamedTuple):
     """Vertices of a surface from its nodes, and its simplices.
 
     Vertex v is the sum of the nodes ``column`` with the factors ``value`` between ``start[v]`` and ``start[v + 1]``;
-    ``corner`` (p, k) are the vertices of the simplices.
+    ``corner`` (p, k) are the vertices of the simplices; from ``centre`` on they are centres of four-node facets.
     """
 
     start: IntArray
     column: IntArray
     value: Array
     corner: IntArray
+    centre: int
 
 
 class Facets(NamedTuple):
@@ -54,6 +55,18 @@ class Pairs(NamedTuple):
     cross: Array
 
 
+class Distances(NamedTuple):
+    """Distance of the surfaces of the pairs: slopes ``facing`` (s, k, d) under a shift of the slave, for each of its
+    coordinates, integrals ``height`` (s, k) of coordinates and the heights of both surfaces along the distance
+    [m^(r+1)], and integrals ``leaning`` (p, k, k, d) of coordinates on the slave and the slopes under a motion of its
+    corners [m^r].
+    """
+
+    facing: Array
+    height: Array
+    leaning: Array
+
+
 class Entries(NamedTuple):
     """Sparse weights (m, n) and slopes (m, n d): entries of the row r are ``first[r]`` to ``first[r + 1]`` of
     ``column`` and ``weight``, and ``start[r]`` to ``start[r + 1]`` of ``component`` and ``slope``.
@@ -69,7 +82,8 @@ class Entries(NamedTuple):
 
 class Room(NamedTuple):
     """Sums of one row: terms ``sums`` (u, 2 + d) of the nodes, ``used`` (u,) nodes and the list ``listed`` of them, of
-    which there are ``number`` (1,), the sum ``mean`` (d,) of the normals, and ``terms`` (1 + d,) of a vertex.
+    which there are ``number`` (1,), the sums ``mean`` (d,) of the normals and ``height`` (1,) of the heights, and
+    ``terms`` (1 + d,) of a vertex.
     """
 
     sums: Array
@@ -77,4 +91,5 @@ class Room(NamedTuple):
     listed: IntArray
     number: IntArray
     mean: Array
+    height: Array
     terms: Array

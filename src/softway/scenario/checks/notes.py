@@ -155,16 +155,18 @@ def _inertia(mass: csr_array, points: Array) -> tuple[Array, Array]:
 def contact_notes(model: Model) -> tuple[Note, ...]:
     """Notes on contacts of curved surfaces whose facets stand off the curve as far as the gap or interference is.
 
-    Against a tool only the nodes of the solid count, and the facets of the tool.
+    Against a tool only the nodes of the solid count, and the facets of the tool. Mortar contact measures gaps on the
+    curve itself.
     """
     notes, curved = [], partial(_curved, model)
     for k, contact in enumerate(model.scene.contacts):
         tool = model.tools.get(contact.opponent) if model.against_tool[k] else None
         second = None if tool is None else curved_tool(tool)
-        if model.shape[1] == 1 or (tool is not None and second is None):
+        nodes = tool is not None or contact.many or isinstance(contact.method, NodeToSurface)
+        mortar = contact.timing.massless and not nodes
+        if model.shape[1] == 1 or mortar or (tool is not None and second is None):
             continue
-        mortar = contact.timing.massless and not (contact.many or isinstance(contact.method, NodeToSurface))
-        surfaces = [curved(*place, mortar) for place in _surfaces(model, contact)]
+        surfaces = [curved(*place) for place in _surfaces(model, contact)]
         if second is not None:
             surfaces = [replace(surfaces[0], factor=0.0), second]
         fit = contact.start == "fit"
@@ -264,11 +266,19 @@ def _worst(found: Iterable[Misfit | None]) -> Misfit | None:
     return max((f for f in found if f is not None), key=lambda f: f.off / max(abs(f.gap), f.off, 1e-300), default=None)
 
 
-def _curved(model: Model, number: int, tag: str, mortar: bool) -> CurvedSurface:
+def _curved(model: Model, number: int, tag: str) -> CurvedSurface:
     """Curvature of a surface of a solid at the initial displacement."""
     part = model.parts[number]
     facets = {name: nodes + part.nodes.start for name, nodes in part.mesh.facets_on(tag).items()}
-    return curved_surface(ContactSurface(facets=facets), model.points + model.displacement, mortar)
+    return curved_surface(ContactSurface(facets=facets), model.points + model.displacement)
+
+
+_OTHERWISE = {
+    (True, False): "smooth = true for a shape without sharp edges",
+    (False, False): "method = DualMortar, which measures gaps on the curves",
+    (False, True): "a contact of these two surfaces of its own, with mortar gaps on the curves",
+}
+"""What to do about facets off the curve, by whether a tool and whether many surfaces are in the contact."""
 
 
 def _off(k: int, contact: Contact, found: Misfit, tool: bool) -> Note:
@@ -280,7 +290,6 @@ def _off(k: int, contact: Contact, found: Misfit, tool: bool) -> Note:
         f"the facets of {whose} stand up to {found.off:.3g} m off the curves through their "
         f"nodes, and {what}{share}: pressures may be wrong by this share, and more from node to node"
     )
-    remedy = "the same nodes along both surfaces, or shorter edges: half the edge leaves a quarter of the distance"
-    if tool:
-        remedy = "smooth = true for a shape without sharp edges, or " + remedy.partition("or ")[2]
+    shorter = "shorter edges: half the edge leaves a quarter of the distance"
+    remedy = f"{_OTHERWISE[tool, contact.many]}, or {shorter}"
     return Note(where=f"contacts[{k}].between", problem=problem, remedy=remedy)

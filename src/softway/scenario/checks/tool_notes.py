@@ -33,7 +33,7 @@ def curved_tool(tool: Tool | RigidShape) -> CurvedSurface | None:
         return None
     cells = facets.cells[:, ::-1] if hollow else facets.cells
     side = ContactSurface(facets={SEGMENT[facets.dim]: cells})
-    return curved_surface(side, tool.motion.at(0.0).place(facets.points), mortar=False)
+    return curved_surface(side, tool.motion.at(0.0).place(facets.points))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
