@@ -19,6 +19,7 @@ from softway.march.results.step import Certificate, Ledger
 from softway.march.results.trying import watched
 from softway.march.rules.slab_rule import Attempt
 from softway.march.slab.slab_step import Stepper, advance
+from softway.march.start.knots import slab_end
 from softway.march.start.slab_length import proposed
 from softway.march.step_control import CRAWL, ENDLESS
 from softway.model.model import Model
@@ -70,7 +71,7 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
     NumericsError
         If no slab was accepted.
     """
-    now, until, settings = march_state.state, march_state.settings.until, march_state.settings
+    now, settings = march_state.state, march_state.settings
     history = march_state.step_history
     least, crawls = settings.control.least * history.span, history.recent_rejections > settings.control.patience
     reasons: list[str] = []
@@ -78,7 +79,7 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
     fresh, first, unbalanced = memory.origin is None, stepper, PATIENCE if history.energy_along_motion else 0
     while length > least and not (crawls and reasons):
         heed(stepper.cancel, now.time)
-        end = until if abs(now.time + length - until) < 1e-9 * length else now.time + length
+        end = slab_end(stepper.ends, settings.until, now.time, length)
         slab = Slab(start=now.time, end=end, weight=_weight(stepper.model, march_state))
         try:
             attempt = Attempt(

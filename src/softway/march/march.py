@@ -15,6 +15,7 @@ from softway.march.results.step import Report, Step
 from softway.march.results.trying import TryWatch
 from softway.march.rules.slab_rule import Method
 from softway.march.slab.slab_step import Stepper
+from softway.march.start.knots import slab_length
 from softway.march.start.preparation import prepare
 from softway.march.step_control import StepControl, crushing, may_grow
 from softway.model.build import build
@@ -51,7 +52,8 @@ def march(
     until
         End time [s].
     step
-        Slab length [s], shortened to divide the duration evenly; ``auto`` is the time in which a wave crosses the
+        Slab length [s], shortened to divide the duration evenly, and the times between the knots of loads and
+        prescribed motions (``control.knots``); ``auto`` is the time in which a wave crosses the
         shortest edge, divided by the square root of 2: there the leading dispersion of a consistent mass and of the end
         peaks cancel (docs/theory/time/time.md).  Without inertia it is the time in which tools and driven supports move
         by a quarter of the shortest edge, at most a twentieth of the duration.
@@ -97,13 +99,10 @@ def march(
 
 def _steps(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
     model, settings, span = stepper.model, march_state.settings, march_state.step_history.span
-    until, least = settings.until, settings.control.least * span
-    memory, before = march_state.memory, split_states(model, march_state.state)
+    until, memory, before = settings.until, march_state.memory, split_states(model, march_state.state)
     cells = crushing(model, stepper.method)
     while march_state.state.time < until - 1e-9 * span:
-        time = march_state.state.time
-        length = min(march_state.step_history.length, until - time)
-        length = until - time if until - time - length < least else length
+        length = slab_length(stepper.ends, march_state)
         require_progress(stepper, march_state, length)
         found = accept_slab(stepper, march_state, length, memory)
         if memory.choice is None and found.memory.choice is not None:

@@ -46,6 +46,9 @@ class StepControl:
         Number of rejections among slabs shorter than ``CRAWL`` of the requested length, less a quarter of such slabs
         without rejection, after which the march ends with the reason: it would continue for hours by halving slabs.
         Slabs so short that more than ``ENDLESS`` of them are left count as rejections.
+    knots
+        True for slabs that end where loads and prescribed motions bend: at knots of their tables that are half a slab
+        or more apart.
 
     References
     ----------
@@ -63,6 +66,7 @@ class StepControl:
     growth: float = 0.01
     least: float = 1e-7
     patience: int = 300
+    knots: bool = True
 
     def __post_init__(self) -> None:
         positive(

@@ -32,13 +32,15 @@ class Stepper:
     """Model with its contact rule, prepared for a march by a method; ``cancel`` may cancel the march, ``trying`` is
     called after every iterate.
 
-    ``second`` is the rule for slabs in which the method does not converge; by default they are shortened.
+    ``second`` is the rule for slabs in which the method does not converge; by default they are shortened.  ``ends`` are
+    instants at which slabs end, see :func:`~softway.march.start.knots.slab_ends`.
     """
 
     model: Model
     method: Method
     rule: SlabRule
     second: SlabRule | None = None
+    ends: tuple[float, ...] = ()
     cancel: Cancel | None = None
     trying: TryWatch | None = None
 

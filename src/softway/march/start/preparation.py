@@ -1,6 +1,6 @@
 """Preparation of a march: contact rule, initial state and slab length, without a slab."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from softway.errors import Cancel, within
 from softway.march.audit.ledger import initial_ledger, open_account
@@ -9,6 +9,7 @@ from softway.march.model_state import join_states
 from softway.march.results.trying import TryWatch
 from softway.march.slab.slab_step import Stepper, stepper
 from softway.march.start.initial_state import initial_state
+from softway.march.start.knots import slab_ends
 from softway.march.start.slab_length import proposed
 from softway.model.model import Model
 from softway.model.scene import State
@@ -57,7 +58,8 @@ def prepare(
     march_state = _begun(model, settings, state, cancel, trying)
     if not march_state.slabs and not (isinstance(stepping, Explicit) and settings.step == "auto"):  # auto is stable
         require_stable(model, march_state.state.start.displacement, stepping, march_state.step_history.span)
-    return Preparation(stepper=prepared, march_state=march_state)
+    ends = slab_ends(model, settings, march_state.step_history.span)
+    return Preparation(stepper=replace(prepared, ends=ends), march_state=march_state)
 
 
 def _begun(

@@ -84,3 +84,18 @@ def test_groups_follow_the_rows() -> None:
     rows = model.rows(model.displacement)
     touching = rows.near & (model.part_of[rows.node] == 0)
     assert body_groups(model, (rows, touching)).tolist() == [0, 0, 1]
+
+
+def test_rows_of_many_bodies_are_d_for_each_surface_node() -> None:
+    """Not for each pair: thirty discs in a grid have 435 pairs."""
+    disc = sw.meshes.Disc(radius=0.5, cells=4)
+    places = [(1.02 * i, 1.02 * j) for i in range(6) for j in range(5)]
+    bodies = {
+        f"disc{k}": sw.Solid(
+            mesh=disc, material=sw.NeoHookean(E=1.0, nu=0.3), density=1.0, place=Placement(translation=place)
+        )
+        for k, place in enumerate(places)
+    }
+    model = built(Contact(between="all"), **bodies)
+    on_surface = sum(len(part.mesh.nodes("surface")) for part in model.parts)
+    assert len(model.contacts.node) == 2 * on_surface == 480

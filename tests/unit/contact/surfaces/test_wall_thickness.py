@@ -50,12 +50,24 @@ def test_a_fine_wall_against_coarse_facets_is_thin() -> None:
     assert found[wall.nodes("top")] == pytest.approx(0.4)
 
 
+def folded(points: np.ndarray, t: float) -> np.ndarray:
+    """Places of the nodes of a strip of length 8 that is folded about its middle, its legs 2 t rad to each other."""
+    angle = t
+    s, inner = points[:, 0] - 4.0, 0.5 * t - points[:, 1]
+    along, across = np.abs(s), np.where(s < 0.0, -1.0, 1.0)
+    legs = [along * np.cos(angle) + inner * np.sin(angle), across * (along * np.sin(angle) - inner * np.cos(angle))]
+    mitre = [inner / np.sin(angle), np.zeros_like(s)]
+    return np.where(np.abs(s) < 1e-9, mitre, legs).T
+
+
 @pytest.mark.parametrize("t", [0.02, 0.05, 0.15, 0.3])
 @pytest.mark.parametrize("mortar", [True, False])
-def test_a_strip_does_not_touch_its_own_back(t: float, mortar: bool) -> None:
+@pytest.mark.parametrize("fold", [True, False])
+def test_a_strip_does_not_touch_its_own_back(t: float, mortar: bool, fold: bool) -> None:
     """Facets of length 1, walls down to a fiftieth of it: without the thickness the thin ones are paired."""
     mesh = sw.meshes.Rectangle(size=(8.0, t), cells=(8, 2)).build()
     x, top, bottom = mesh.points, surface(mesh, "top"), surface(mesh, "bottom")
+    x = folded(x, t) if fold else x
 
     def rows(thickness: np.ndarray | None) -> int:
         pair: SurfacePair = NodeToFacet(slaves=top.nodes, side=bottom, own=top, thickness=thickness)
@@ -63,8 +75,21 @@ def test_a_strip_does_not_touch_its_own_back(t: float, mortar: bool) -> None:
             pair = Mortar(slave_facets=top.facets, master_facets=bottom.facets, thickness=thickness)
         return int(np.isfinite(pair.meet(x, x, 1.0).at(x).gap).sum())
 
-    assert rows(nodal_thickness(x, [surface(mesh)])) == 0
+    assert rows(nodal_thickness(mesh.points, [surface(mesh)])) == 0
     assert (rows(None) > 0) == (t <= (0.2 if mortar else 0.1))
+
+
+def test_a_folded_strip_meets_its_other_leg_and_not_its_back() -> None:
+    """A body with itself, its thickness a twentieth of its facets: pairs through the wall have gaps of minus that."""
+    t = 0.05
+    mesh = sw.meshes.Rectangle(size=(8.0, t), cells=(8, 2)).build()
+    body = sw.Solid(mesh=mesh, material=sw.NeoHookean(E=1.0, nu=0.3), density=1.0)
+    model = sw.build(sw.Scene(bodies={"a": body}, contacts=(sw.Contact(between=("a", "a")),)))
+    u = folded(model.points, t) - model.points
+    rows = model.contacts.rest(u, 0.0).at(u)
+    gap = rows.gap(u)[rows.near]
+    assert len(gap) >= 4 and gap.min() > 0.5 * t
+    assert set(rows.node[rows.near]) <= set(model.parts[0].mesh.nodes("bottom"))
 
 
 def plates(gap: float, method: object) -> tuple[Model, float]:

@@ -66,6 +66,36 @@ def test_the_ends_of_a_ring_meet_and_part_without_crossing() -> None:
     np.testing.assert_allclose(momentum - momentum[0], 0.0, atol=1e-10)
 
 
+def crushed(contacts: tuple[Contact, ...]) -> tuple[list, int]:
+    """March of a rubber strip, 2 x 50 cells, that is crushed to a third, and the greatest number of its crossings."""
+    plain = rectangle((0.04, 1.0), (2, 50), origin=(-0.02, 0.0))
+    x = np.array(plain.points)
+    x[:, 0] += 0.01 * np.sin(np.pi * x[:, 1]) + 0.004 * np.sin(3.0 * np.pi * x[:, 1])
+    mesh = sw.Mesh(points=x, blocks=plain.blocks, tags=plain.tags)
+    held = (
+        sw.Fixed(on="bottom"),
+        sw.Driven(on="top", components="y", velocity=-5.0),
+        sw.Fixed(on="top", components="x"),
+    )
+    solid = sw.Solid(mesh=mesh, material=sw.NeoHookean(E=1e6, nu=0.4), density=1000.0, supports=held)
+    steps = list(sw.march(sw.Scene(bodies={"s": solid}, contacts=contacts), until=0.1334, step=2.3e-4))
+    segments = np.concatenate([f[:, :2] for f in mesh.boundary().values()])
+    return steps, max(crossings(x + s.after.displacement["s"], segments) for s in steps[::8])
+
+
+@pytest.mark.minutes
+def test_the_folds_of_a_crushed_strip_touch_and_do_not_cross() -> None:
+    """Self-contact takes at most 1.3 times the iterations of a slab without, in which the folds cross."""
+    (plain, through), (steps, cross) = crushed(()), crushed((Contact(between=("s", "s"), name="self"),))
+    assert through > 0 and cross == 0
+    assert sum(s.ledger.contacts["self"].count > 0 for s in steps) > 10
+    energy = max(s.ledger.energy_kinetic + s.ledger.energy_strain for s in steps)
+    assert max(abs(s.ledger.energy_error) for s in steps) < 1e-11 * energy
+    assert not any(s.report.rejections for s in steps)
+    mine, others = (np.mean([s.report.iterations for s in run]) for run in (steps, plain))
+    assert mine < 1.3 * others
+
+
 def discs(contacts: tuple[Contact, ...]) -> list:
     """Three rubber discs: one flies into two that touch neither each other nor the first."""
     places, speeds = ((-0.25, 0.02), (0.0, 0.115), (0.0, -0.115)), ((3.0, 0.0), (0.0, 0.0), (0.0, 0.0))
