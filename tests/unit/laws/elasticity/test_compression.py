@@ -47,6 +47,7 @@ def bar(material: StVenantKirchhoff | NeoHookean, speed: float) -> sw.Scene:
     return sw.Scene(bodies={"bar": body, "wall": wall}, contacts=(sw.Contact(between=("bar", "wall")),))
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("speed", [0.1, 0.2])
 def test_a_plane_impact_leaves_the_stretch_of_the_simple_wave(speed: float) -> None:
     steps = list(sw.march(bar(StVenantKirchhoff(E=1.0), speed), until=END, step=0.5 * STEP))

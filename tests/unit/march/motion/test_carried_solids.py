@@ -69,6 +69,7 @@ def test_a_free_hub_with_a_beam_keeps_energy_momentum_and_spin(mass):
     assert np.ptp([s.ledger.spin[2] for s in steps]) < 1e-4 * first.spin[2]
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("mass", [2.0, 0.1, 0.01])
 def test_a_carrier_costs_at_most_half_as_many_iterations_again(mass):
     pin = Hinge(between=("ground", "hub"), at=(0.0, 0.0))
@@ -77,6 +78,7 @@ def test_a_carrier_costs_at_most_half_as_many_iterations_again(mass):
     assert np.mean(free) <= 1.5 * np.mean(held)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mass", [2.0, 0.02], ids=["heavy", "light"])
 def test_a_carrier_that_touches_another_solid_keeps_energy_and_momentum(mass):
     ball = {"centre": (2.1, 2.55), "radius": 0.5}

@@ -34,6 +34,7 @@ def scene(block=BLOCK, disc=DISC, mu=0.0, **mechanism):
     )
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("mass", [20.0, 0.02], ids=["heavy", "lighter than a cell"])
 @pytest.mark.parametrize("mu", [0.0, 0.3], ids=["smooth", "rough"])
 def test_energy_and_momentum_are_kept_through_an_impact(mass, mu):
