@@ -12,6 +12,7 @@ def test_rod_in_inches_and_pounds() -> None:
     assert results.missed("A10") == set()
 
 
+@pytest.mark.slow
 def test_steel_bar() -> None:
     assert results.missed("A12") == set()
 

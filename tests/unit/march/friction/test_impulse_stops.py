@@ -93,6 +93,7 @@ def test_touches_and_releases_err_as_without_friction():
         assert np.log(errors[0] / errors[1]) / np.log(4.0) > 1.2
 
 
+@pytest.mark.slow
 @pytest.mark.few(1)
 @pytest.mark.parametrize("rule", RULES, ids=str)
 def test_oblique_impacts_tend_to_those_of_the_energy_rule(rule):
@@ -106,6 +107,7 @@ def test_oblique_impacts_tend_to_those_of_the_energy_rule(rule):
     assert np.log2(off[0] / off[1]) > 1.4
 
 
+@pytest.mark.slow
 @pytest.mark.few(1)
 @pytest.mark.parametrize("rule", RULES, ids=str)
 def test_an_oblique_impact_is_of_first_order_in_time(rule):

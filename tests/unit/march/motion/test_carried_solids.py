@@ -115,6 +115,7 @@ def test_a_carrier_welded_to_the_ground_stays():
     assert np.abs(last[left]).max() < 1e-15 and np.abs(last).max() > 1e-4
 
 
+@pytest.mark.slow
 def test_a_beam_on_a_hinged_hub_turns_about_the_hinge():
     pin = Hinge(between=("ground", "hub"), at=(0.0, 0.0))
     steps = list(march(spinning(joints={"pin": pin}), until=0.5, step=0.01))
@@ -136,6 +137,7 @@ def test_a_march_goes_on_with_the_same_bits_after_a_checkpoint():
         assert one.ledger.energy_error == other.ledger.energy_error
 
 
+@pytest.mark.slow
 def test_a_march_goes_on_from_a_state():
     whole = list(march(spinning(), until=0.2, step=0.01))
     rest = list(march(spinning(), until=0.2, step=0.01, state=whole[9].after))

@@ -36,6 +36,7 @@ checkpoints = {{ every = "0 s", keep = 3 }}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.few(2)
 @pytest.mark.parametrize("rule", ["Impulse", "Paper"])
 @pytest.mark.parametrize("after", [6, 19])
