@@ -11,7 +11,7 @@ help:
 	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
 	@echo "make test   unit tests, verification cases, doctests"
 	@echo "make test-slow  those that take long: many impacts, fine meshes, kills, sweeps, every command of the pages"
-	@echo "make test-pages  what takes minutes: commands of the pages, every scenario, more seeds, a fresh clone to its first picture"
+	@echo "make test-pages  what takes minutes: commands of the pages, every scenario, more seeds and values, a fresh clone to its first picture"
 	@echo "make test-processors  make test with the instructions of several processors, into docs/verification/processors.md; SETS=nehalem for one"
 	@echo "make test-view the page of softway view in a Chromium without a screen, which has to be there"
 	@echo "make coverage  the same, with the lines and branches that did not run"

@@ -3,15 +3,17 @@
 The figures go to ``benchmarks/results/latest.json`` and ``docs/verification/benchmarks.md``, with the date and the
 commit of the measured code.  ``--only`` replaces those of some groups.  ``--check`` writes nothing: it compares with
 the stored figures, and fails where a ratio got worse by more than a fifth, twice in a row.  ``--smoke`` computes every
-figure with the smallest meshes and writes nothing.  ``--page`` measures nothing: it writes the page again, without the
-figures of code that has changed since.  Peers are named with their interpreters, ``--peer NGSolve=python3``, or in the
-environment, ``SOFTWAY_PEERS="NGSolve=python3 GetFEM=python3"``; without one, the stored time stands in, marked.
+figure with the smallest meshes, two groups at a time, and writes nothing.  ``--page`` measures nothing: it writes the
+page again, without the figures of code that has changed since.  Peers are named with their interpreters, ``--peer
+NGSolve=python3``, or in the environment, ``SOFTWAY_PEERS="NGSolve=python3 GetFEM=python3"``; without one, the stored
+time stands in, marked.
 """
 
 import argparse
 import os
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from time import perf_counter
 
@@ -132,11 +134,12 @@ def checked(asked: Asked, names: list[str], origins: Mapping[str, Origin]) -> in
     return 1 if worse or failed or refused else 0
 
 
-def collected(asked: Asked, names: Iterable[str]) -> tuple[dict[str, Figure], dict[str, str]]:
-    """The figures of some groups, and of those that failed the reason."""
-    figures, failed = {}, {}
-    for name in names:
-        found, why = measured(asked, name)
+def collected(asked: Asked, names: Iterable[str], at_once: int = 1) -> tuple[dict[str, Figure], dict[str, str]]:
+    """The figures of some groups, so many ``at_once``, and of those that failed the reason."""
+    figures, failed, names = {}, {}, list(names)
+    with ThreadPoolExecutor(at_once) as pool:
+        results = list(pool.map(lambda name: measured(asked, name), names))
+    for name, (found, why) in zip(names, results, strict=True):
         figures |= found
         failed |= {name: why} if why else {}
     return figures, failed
@@ -171,7 +174,7 @@ def main() -> int:
     if chosen.check:
         return checked(asked, names, origins)
     if chosen.depth == "smoke":
-        _, failed = collected(asked, names)
+        _, failed = collected(asked, names, at_once=2)
     else:
         failed = measured_and_kept(asked, names, stored if chosen.only else {}, origins if chosen.only else {})
     for name, why in failed.items():

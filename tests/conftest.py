@@ -1,8 +1,13 @@
-"""What all tests share: pictures without a screen, reproducible generated cases, processes that can be interrupted."""
+"""What all tests share: pictures without a screen, reproducible generated cases, processes that can be interrupted,
+few values of tests that have many, and which tests of several processes stay together.
+"""
 
 import signal
+from collections import defaultdict
+from typing import Any
 
 import matplotlib as mpl
+import pytest
 from hypothesis import settings
 
 mpl.use("Agg")
@@ -11,3 +16,36 @@ settings.load_profile("softway")
 
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # begun in the background: processes of tests would inherit it
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Of the values of a test with ``few(n)``, n that are spread evenly stay; the others are for ``minutes``.
+
+    Values that are collected alone, by their names, stay.
+    """
+    values: dict[str, list[pytest.Item]] = defaultdict(list)
+    for item in items:
+        if item.get_closest_marker("few"):
+            values[item.nodeid.partition("[")[0]].append(item)
+    for group in values.values():
+        (most,) = group[0].get_closest_marker("few").args
+        last = len(group) - 1
+        kept = {round(k * last / max(most - 1, 1)) for k in range(most)} if most <= last else range(last + 1)
+        for place in set(range(last + 1)).difference(kept):
+            group[place].add_marker(pytest.mark.minutes)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Files go to processes as a whole, those of mechanisms to one process and those of piles: their kernels take
+    most of the time of compilation, and every process compiles those that it finds on no disk.
+    """
+    from xdist.scheduler import LoadScopeScheduling
+
+    class Together(LoadScopeScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            *_, folder, _ = nodeid.partition("::")[0].split("/")
+            return folder if folder in ("mechanisms", "piles") else str(super()._split_scope(nodeid))
+
+    return Together(config, log) if config.getvalue("dist") == "loadscope" else None

@@ -22,7 +22,7 @@ def drop(asked: Asked) -> Iterator[Figure]:
     ours: dict[str, dict[str, Any]] = {}
     for size in asked.pick(("3k",), ("3k", "30k", "100k")):
         cells, name = asked.cells(size), f"drop/{size}"
-        repeats, counts = (2 if size == "3k" else 1), ((1,) if size == "100k" else (1, 2))
+        repeats, counts = (asked.size(2, 1) if size == "3k" else 1), ((1,) if size == "100k" else (1, 2))
         runs = {n: [alone("cube", threads=n, cells=cells) for _ in range(repeats)] for n in counts}
         ours[size] = min(runs[1], key=lambda r: r["result"]["wall"])
         touching = sum(ours[size]["result"]["touching"])
@@ -31,7 +31,7 @@ def drop(asked: Asked) -> Iterator[Figure]:
         if size == "3k":
             for peer in peers.IMPLICIT:
                 rivals += peers.whole(asked, peer, name, cells)
-                runs[1].append(alone("cube", cells=cells))
+                runs[1] += [] if asked.smoke else [alone("cube", cells=cells)]
         elif size == "30k":
             rivals = [t for p in peers.IMPLICIT for t in peers.sampled(asked, p, name, cells, slabs)]
         yield from peers.figures(rivals, name)
@@ -98,7 +98,8 @@ def explicit(asked: Asked) -> Iterator[Figure]:
     """Central differences on tetrahedra: the whole run against Akantu, a step against MuJoCo."""
     fine = asked.size(17, 4)
     for size, cells in asked.pick({"3k": 9}, {"3k": asked.size(9, 3), "30k tetrahedra": fine}).items():
-        facts = min((alone("explicit", cells=cells)["result"] for _ in range(3)), key=lambda r: r["wall"])
+        found = [alone("explicit", cells=cells)["result"] for _ in range(asked.size(3, 1))]
+        facts = min(found, key=lambda r: r["wall"])
         name = f"explicit/{size}"
         rival = peers.whole(asked, "Akantu", name, cells)
         yield from peers.figures(rival, name)
@@ -121,7 +122,7 @@ def explicit(asked: Asked) -> Iterator[Figure]:
 
 def compact(asked: Asked) -> Iterator[Figure]:
     """A ball of quadratic tetrahedra all of whose surface may touch a floor, against bare central differences."""
-    for cells in asked.pick((8,), (8, 18)):
+    for cells in asked.pick((8,), (asked.size(8, 2), asked.size(18, 4))):
         facts, name = alone("compact", cells=cells)["result"], f"explicit/ball, {cells} cells"
         plain, slab = facts["bare"], float(np.mean(facts["used"][1:]))
         for what, ours, base in (("slab", 1e3 * slab, 1e3 * plain["slab"]), ("run", facts["cpu"], plain["run"])):

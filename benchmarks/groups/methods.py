@@ -19,7 +19,7 @@ def newton(asked: Asked) -> Iterator[Figure]:
     sizes = {"3k": (12, 40, 3.0), "30k": (26, 6, 5.0), "100k": (38, 2, 12.0)}
     for size in asked.pick(("3k",), ("3k", "30k"), tuple(sizes)):
         cells, slabs, target = sizes[size]
-        yield from _raced(f"newton/ball, {size}", "impact", asked.size(cells, 6), asked.size(slabs, 3), target)
+        yield from _raced(f"newton/ball, {size}", "impact", asked.size(cells, 4), asked.size(slabs, 3), target)
     if asked.depth != "quick":
         cells = asked.size(9, 2)
         yield from _raced("newton/clamped beam, 30k", "bent", cells, asked.size(12, 3), 4.0)

@@ -86,7 +86,9 @@ def discs() -> sw.Scene:
     return sw.Scene(bodies=bodies, contacts=(sw.Contact(between=("left", "right")),))
 
 
-@pytest.mark.parametrize("method", [sw.FixedPoint(), sw.Newton()], ids=["fixed-point", "newton"])
+@pytest.mark.parametrize(
+    "method", [sw.FixedPoint(), pytest.param(sw.Newton(), marks=pytest.mark.slow)], ids=["fixed-point", "newton"]
+)
 def test_a_march_takes_all_sums_from_its_space(method: sw.FixedPoint | sw.Newton) -> None:
     """The same motion to rounding, with the sums in two parts."""
     model = build(discs())

@@ -13,6 +13,7 @@ from softway.apps.cli.commands import app
 
 pytestmark = pytest.mark.slow
 
+SHIPPED = sorted(ROOT.glob("scenarios/*.toml"))
 LONG = ("forming", "stops", "view")
 """Pages whose commands together take a minute or more."""
 
@@ -36,9 +37,15 @@ def test_what_the_page_says_runs(page, reader, monkeypatch):
     reader.read(page)
 
 
-@pytest.mark.parametrize("file", sorted(ROOT.glob("scenarios/*.toml")), ids=lambda file: file.stem)
+def test_the_gallery_runs_every_scenario():
+    text = GALLERY.read_text(encoding="utf-8")
+    assert [f.name for f in SHIPPED if f"softway run scenarios/{f.name} " not in text] == []
+
+
+@pytest.mark.few(4)
+@pytest.mark.parametrize("file", SHIPPED, ids=lambda file: file.stem)
 def test_a_scenario_of_the_gallery_is_right(file):
-    assert f"softway run scenarios/{file.name} " in GALLERY.read_text(encoding="utf-8")
+    """By the command line; tests/unit/scenario/checks/test_check.py checks all of them."""
     assert main(["check", str(file), "--quiet"]) == 0
 
 

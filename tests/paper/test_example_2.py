@@ -99,6 +99,7 @@ def difference(rule: str, gap: float, material: sw.NeoHookean | sw.laws.StVenant
     return float(np.abs(large.displacement / SPEED - small.displacement).max() / np.abs(small.displacement).max())
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize(
     ("rule", "gap"),
     [

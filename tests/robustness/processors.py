@@ -22,24 +22,34 @@ from typing import Any
 from page import table
 
 ROOT = Path(__file__).parents[2]
-READING = (
+LEFT = (
+    "benchmarks",
     "house",
     "examples",
     "robustness",
+    "contracts/test_laws.py",
+    "scenarios/test_notes.py",
     "unit/apps",
+    "unit/bodies",
+    "unit/kernels",
+    "unit/laws",
     "unit/meshes",
+    "unit/obstacles",
     "unit/record",
     "unit/studies",
     "unit/scenario",
+    "unit/testing",
 )
-"""Folders of tests that read, refuse, write and show: what they compute, other tests compute, too."""
+"""Tests that read, refuse, write and show, or compute forces and laws in closed form: they decide nothing by numbers
+that may be rounded either way, and what they compute, other tests compute, too.
+"""
 QUICK = (
     "-q",
     "--dist",
     "loadscope",
     "-m",
     "not slow and not minutes",
-    *(f"--ignore=tests/{folder}" for folder in READING),
+    *(f"--ignore=tests/{place}" for place in LEFT),
 )
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 AVX2 = frozenset({"avx2", "fma"})
@@ -113,7 +123,7 @@ def counted(told: str) -> dict[str, int]:
 
 def examined(it: Instructions, jobs: int, more: Sequence[str]) -> dict[str, Any]:
     """The quick tests with a set, told as they go: how many passed, failed and were skipped, and which failed."""
-    command = [sys.executable, "-m", "pytest", "-n", str(jobs), *QUICK, *more]
+    command = [sys.executable, "-m", "pytest", "-n", str(jobs), *QUICK, *(more or ["tests"])]
     lines = []
     with subprocess.Popen(
         command, cwd=ROOT, env=it.environment(os.environ), stdout=subprocess.PIPE, text=True, encoding="utf-8"

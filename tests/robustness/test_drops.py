@@ -166,6 +166,8 @@ def test_corners_without_an_inertia_of_their_own_give_no_energy():
     assert "dissipation" not in told["findings"]
 
 
+@pytest.mark.slow
+@pytest.mark.few(1)
 @pytest.mark.parametrize("number", [1, 9])
 def test_assemblies_of_thin_rings_end(number):
     """Rings that may touch themselves; rows through their own walls once stopped them or took hundreds of slabs."""

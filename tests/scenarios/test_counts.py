@@ -3,11 +3,12 @@
 import pytest
 
 from counts import KINDS, counted, stored
+from variants import LONG
 
 WITHIN = 0.05
 """Greatest difference, relative to the stored number."""
 CASES = [
-    pytest.param(kind, name, marks=[pytest.mark.slow] if kind == "whole" else [])
+    pytest.param(kind, name, marks=[pytest.mark.slow] if kind == "whole" or name in LONG else [])
     for kind, (_, names) in KINDS.items()
     for name in names
 ]

@@ -12,7 +12,7 @@ from jitter import jittered
 from softway.contact.impact_rule import Energy
 from softway.scenario.scenario import Scenario
 from softway.tolerances import ENERGY
-from variants import MECHANISMS, SCENARIOS, VARIANTS, small, whole
+from variants import MECHANISMS, SCENARIOS, VARIANTS, each, small, whole
 
 pytestmark = pytest.mark.slow
 
@@ -40,7 +40,7 @@ def ended(scenario: Scenario, folder: Path) -> sw.Run:
         return sw.Run(folder)
 
 
-@pytest.fixture(scope="module", params=sorted(VARIANTS))
+@pytest.fixture(scope="module", params=each())
 def name(request) -> str:
     return str(request.param)
 

@@ -35,6 +35,7 @@ def test_impact_of_a_block(law, tmp_path):
     assert summary["penetration_worst"] < 1e-12
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("name", ["lead", "natural rubber", "wood Douglas fir"])
 def test_a_bar_of_the_library_carries_its_wave(name):
     """A bar that meets a wall touches it for 2 L/c, c of its material."""

@@ -63,6 +63,7 @@ def test_a_march_can_be_continued_from_any_state(shop, fall, plain, rule: Impact
         assert kinds[0][len(kinds[0]) - len(kinds[1]) :] == kinds[1]
 
 
+@pytest.mark.few(10)
 @rules
 @pytest.mark.parametrize(
     "method", [Newton(), FixedPoint(depth=0, limit=200), FixedPoint(depth=2), FixedPoint(tolerance=1e-13)], ids=str

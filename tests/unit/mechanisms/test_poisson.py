@@ -48,6 +48,7 @@ def test_a_rod_that_touches_and_moves_away_has_no_impact() -> None:
         assert not step.events and step.dissipation == 0.0
 
 
+@pytest.mark.few(20)
 @pytest.mark.parametrize("speed", np.linspace(-3.0, 3.0, 13))
 @pytest.mark.parametrize("friction", [0.1, 0.4, 0.9, 1.7])
 def test_a_single_impact_creates_no_energy(speed: float, friction: float) -> None:

@@ -38,6 +38,7 @@ def test_the_rings_move_and_are_stressed_as_lames(fitted, name):
     assert hoop == pytest.approx(expected[1], abs=0.02 * EXACT.pressure)
 
 
+@pytest.mark.slow
 def test_they_stay_at_rest(fitted):
     """A march from the fit, of slabs in which a wave crosses two cells, moves nothing.
 

@@ -12,6 +12,7 @@ def test_the_case() -> None:
     assert results.missed("E01") == set()
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("m", [1.0, 0.5, 0.3, 0.1])
 def test_the_force_is_the_formula(m: float) -> None:
     press = upset(m, 20)

@@ -139,6 +139,7 @@ def require_kept(march: Impact) -> None:
     assert march.gap >= -1e-12
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize(("pair", "method"), MET)
 def test_energy_momentum_and_spin_are_kept(pair, method):
     """With the force that closes the balance of angular momentum."""
@@ -162,6 +163,7 @@ def test_in_steps_a_thousandth_as_long(method):
     assert march.gap >= -1e-12
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("method", ["mortar", "nodes"])
 @pytest.mark.parametrize("pair", ["squares", "cubes"])
 def test_by_default_the_spin_converges(pair, method):

@@ -40,6 +40,7 @@ def test_the_weights_differ_in_their_phase_errors() -> None:
     assert np.array(found) / found[0] == pytest.approx([1.0, 0.5, 0.25, 0.008], abs=0.01)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("weight", WEIGHTS, ids=str)
 def test_the_energy_of_the_slab_is_constant(weight: TimeWeight) -> None:
     """It is T + V + h^2 (m2/2 - 1/4) 1/2 v K v for the moments 1/2, m2: with the end peaks T + V itself."""

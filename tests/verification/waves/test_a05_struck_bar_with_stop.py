@@ -56,6 +56,7 @@ def test_case() -> None:
     assert results.missed("A05") == set()
 
 
+@pytest.mark.few(6)
 @pytest.mark.parametrize("k", range(len(SEQUENCES)), ids=lambda k: name(SEQUENCES[k]))
 def test_every_event_is_found_in_its_order(k: int) -> None:
     """h = 0.02.  Touches and releases at one instant are there too: the bar pulls its tip back at once.

@@ -12,10 +12,12 @@ def test_rod_in_inches_and_pounds() -> None:
     assert results.missed("A10") == set()
 
 
+@pytest.mark.slow
 def test_steel_bar() -> None:
     assert results.missed("A12") == set()
 
 
+@pytest.mark.slow
 def test_the_instant_of_the_touch_in_units_is_exact() -> None:
     """To the rounding of the coordinates, L / v times 1e-16."""
     assert results.verdicts("A10")["t_impact"].error <= 1e-15 * 10.0 / 202.2

@@ -110,6 +110,7 @@ def with_mass_of_the_box(across: int) -> Record:
     return recorded(sw.march(replace(model, mass=mass, total=total), until=UNTIL, step=STEP))
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("across", [1, 2])
 @pytest.mark.parametrize("frame", FRAMES)
 def test_the_box_moves_as_the_bar(frame, across):
@@ -121,6 +122,7 @@ def test_the_box_moves_as_the_bar(frame, across):
     assert np.abs(box.force / WIDTH**2 - bar.force).max() <= 1e-9
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize("kind", ["touch", "release"])
 @pytest.mark.parametrize("across", [1, 2])
 @pytest.mark.parametrize("frame", FRAMES)

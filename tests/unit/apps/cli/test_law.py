@@ -61,6 +61,7 @@ def place(tmp_path, monkeypatch):
     sys.modules.pop("wrong_law", None)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("name", ["Hencky", "MooneyRivlin", "LinearOrthotropic", "J2", "NortonHoff", "Stribeck"])
 def test_laws_of_softway_pass(name, capsys):
     assert main(["check-law", name]) == 0

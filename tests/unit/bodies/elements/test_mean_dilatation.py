@@ -66,6 +66,7 @@ def corner_of_cook(cell: str, n: int, nu: float, dilatation: str) -> float:
     return float(at.start.displacement[np.argmin(np.abs(points - [48.0, 60.0]).sum(axis=1)), 1])
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("nu", [0.4999, 0.5])
 @pytest.mark.parametrize("cell", ["tri6", "quad8", "quad9"])
 def test_taylor_and_hoods_cells_do_not_lock(cell: str, nu: float) -> None:

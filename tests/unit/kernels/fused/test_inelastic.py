@@ -74,6 +74,7 @@ def plain(body: InelasticForce) -> InelasticForce:
     return replace(body, work=body.plain)
 
 
+@pytest.mark.few(30)
 @pytest.mark.parametrize(("law", "cell", "section"), EVERY)
 def test_kernels_agree_with_arrays(law: RateLaw, cell: str, section: Section) -> None:
     mesh = irregular_patch(cell)
@@ -88,6 +89,7 @@ def test_kernels_agree_with_arrays(law: RateLaw, cell: str, section: Section) ->
     assert flowed > 0.0
 
 
+@pytest.mark.few(9)
 @pytest.mark.parametrize("name", ["hypoelastic", "linear", "both"])
 @pytest.mark.parametrize(
     ("cell", "section"),

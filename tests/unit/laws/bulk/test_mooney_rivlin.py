@@ -17,6 +17,7 @@ def cauchy(law, stretches):
     return S.diagonal() * squares / np.prod(stretches)
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("bulk", [1e-2, 2e9])
 @pytest.mark.parametrize(("c10", "c01"), [(1.0, 0.0), (0.0, 1.0), (0.3, 0.1), (1.6e5, 6e3)])
 def test_examination(c10, c01, bulk):

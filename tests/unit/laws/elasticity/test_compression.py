@@ -47,6 +47,8 @@ def bar(material: StVenantKirchhoff | NeoHookean, speed: float) -> sw.Scene:
     return sw.Scene(bodies={"bar": body, "wall": wall}, contacts=(sw.Contact(between=("bar", "wall")),))
 
 
+@pytest.mark.slow
+@pytest.mark.few(1)
 @pytest.mark.parametrize("speed", [0.1, 0.2])
 def test_a_plane_impact_leaves_the_stretch_of_the_simple_wave(speed: float) -> None:
     steps = list(sw.march(bar(StVenantKirchhoff(E=1.0), speed), until=END, step=0.5 * STEP))
@@ -55,6 +57,7 @@ def test_a_plane_impact_leaves_the_stretch_of_the_simple_wave(speed: float) -> N
     assert np.mean(stretch[2:8]) == pytest.approx(expected, rel=5e-4)
 
 
+@pytest.mark.slow
 def test_a_faster_impact_collapses_st_venant_kirchhoff_and_not_neo_hookean_matter() -> None:
     with pytest.raises(sw.NumericsError, match="'bar' is crushed to") as failed:
         list(sw.march(bar(StVenantKirchhoff(E=1.0), 0.3), until=END, step=STEP))

@@ -36,6 +36,7 @@ def root(t):
     return np.clip(np.sqrt(SPEED) - 0.45 * t, 0.0, None) ** 2
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize(
     ("law", "exact"),
     [

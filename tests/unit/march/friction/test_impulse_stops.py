@@ -77,6 +77,7 @@ def test_the_balance_of_energy_closes_through_a_stop(rule):
     assert closed > 10
 
 
+@pytest.mark.slow
 def test_touches_and_releases_err_as_without_friction():
     """The error of the energy is that of the events of the normal motion, and shrinks with them."""
     found = {
@@ -92,6 +93,8 @@ def test_touches_and_releases_err_as_without_friction():
         assert np.log(errors[0] / errors[1]) / np.log(4.0) > 1.2
 
 
+@pytest.mark.slow
+@pytest.mark.few(1)
 @pytest.mark.parametrize("rule", RULES, ids=str)
 def test_oblique_impacts_tend_to_those_of_the_energy_rule(rule):
     """Sliding impact and rebound: places on finer meshes, with slabs in proportion; the kicks vanish."""
@@ -104,6 +107,8 @@ def test_oblique_impacts_tend_to_those_of_the_energy_rule(rule):
     assert np.log2(off[0] / off[1]) > 1.4
 
 
+@pytest.mark.slow
+@pytest.mark.few(1)
 @pytest.mark.parametrize("rule", RULES, ids=str)
 def test_an_oblique_impact_is_of_first_order_in_time(rule):
     """The jump of the velocity along the surface is not in the path inside the slab of the touch."""

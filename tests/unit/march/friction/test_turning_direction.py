@@ -79,6 +79,7 @@ def missed(name: str, step: float, lengths: Sequence[float]) -> float:
     return float(np.linalg.norm(place - point(LAWS[name])))
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("lengths", [EVEN, UNEVEN], ids=["even", "two to one"])
 @pytest.mark.parametrize("name", LAWS)
 def test_a_puck_turns_with_second_order(name: str, lengths: Sequence[float]) -> None:

@@ -154,6 +154,7 @@ def test_blocks_on_a_shaking_floor(law, seed):
     assert np.abs(errors).max() < 1e-10
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("law", ["tresca", "film"])
 def test_with_central_differences_energy_from_turning_slip_is_an_error_of_the_balance(law):
     """They have no scalar that could close it: the ledger tells the energy as what it is."""

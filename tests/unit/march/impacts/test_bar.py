@@ -42,6 +42,7 @@ def test_the_force_changes_the_momentum(shop, rule: ImpactRule) -> None:
     assert all(s.ledger.contacts["body.right-wall"].force_n >= -1e-12 for s in motion.steps)
 
 
+@pytest.mark.few(6)
 @lossless
 @pytest.mark.parametrize("mass", [Consistent(), Lumped()], ids=["consistent", "lumped"])
 @pytest.mark.parametrize("step", [0.04, 0.25, 2.5])
@@ -179,6 +180,7 @@ def test_the_balanced_jump_converges_to_the_motion_of_the_mesh(shop) -> None:
     assert np.log2(errors[0] / errors[2]) / 2.0 == pytest.approx(2.0, abs=0.3)
 
 
+@pytest.mark.few(6)
 @lossy
 @pytest.mark.parametrize("weight", [Momentum(), Collocation(), EndPeaks(theta=0.7), EndPeaks(theta=1.0)], ids=str)
 def test_every_weight_goes_with_the_rules_of_nodes_with_inertia(shop, rule: ImpactRule, weight: object) -> None:

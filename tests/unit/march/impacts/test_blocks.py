@@ -33,6 +33,7 @@ def passed(motion, rule: ImpactRule, momentum: float = 1e-11) -> None:
     assert (np.diff([0.0, *dissipated]) >= -1e-15).all()
 
 
+@pytest.mark.few(5)
 @rules
 @pytest.mark.parametrize("angle", [0.0, 0.2, np.pi / 4], ids=["flat", "tilted", "corner"])
 def test_a_block_on_the_floor(shop, rule: ImpactRule, angle: float) -> None:
@@ -41,6 +42,7 @@ def test_a_block_on_the_floor(shop, rule: ImpactRule, angle: float) -> None:
     assert motion.last.ledger.momentum[1] > 0.0, "it comes back"
 
 
+@pytest.mark.few(4)
 @rules
 @pytest.mark.parametrize("cell", ["tri3", "quad8", "quad9", "tri6"])
 def test_other_cells(shop, rule: ImpactRule, cell: str) -> None:
@@ -72,6 +74,7 @@ def test_a_cylinder_around_the_axis(shop, rule: ImpactRule) -> None:
     assert change == pytest.approx(motion.impulse, rel=1e-11)
 
 
+@pytest.mark.few(5)
 @rules
 @pytest.mark.parametrize("cell", ["hex8", "hex20", "tet4"])
 def test_a_cube_in_space(shop, rule: ImpactRule, cell: str) -> None:

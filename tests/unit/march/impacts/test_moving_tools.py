@@ -65,6 +65,7 @@ def test_a_wall_that_hits_a_bar_is_a_bar_that_hits_a_wall(shop, rule: ImpactRule
     assert last.work_external == pytest.approx(struck.impulse, rel=1e-11), "force times the velocity of the wall"
 
 
+@pytest.mark.few(5)
 @rules
 @pytest.mark.parametrize("velocity", [-0.5, 0.3, 1.0])
 def test_the_motion_is_the_same_in_every_inertial_frame(shop, rule: ImpactRule, velocity: float) -> None:

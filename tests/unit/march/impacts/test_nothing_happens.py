@@ -20,6 +20,7 @@ laws = pytest.mark.parametrize("law", LAWS, ids=lambda m: type(m).__name__)
 methods = pytest.mark.parametrize("method", METHODS, ids=lambda m: type(m).__name__)
 
 
+@pytest.mark.few(16)
 @laws
 @pytest.mark.parametrize("method", [sw.FixedPoint(), sw.Explicit()], ids=lambda m: type(m).__name__)
 @pytest.mark.parametrize("dilatation", ["point", "mean"])
@@ -36,6 +37,7 @@ def test_a_body_at_rest_stays_at_rest(law: sw.LinearElastic, method: sw.Explicit
     assert not steps[-1].events
 
 
+@pytest.mark.few(16)
 @methods
 @pytest.mark.parametrize("inertia", [sw.bodies.Full(), sw.bodies.Off()], ids=lambda i: type(i).__name__)
 @pytest.mark.parametrize("rule", [None, Energy(), Impulse(), Paper()], ids=lambda r: type(r).__name__)

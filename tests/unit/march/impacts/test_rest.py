@@ -76,6 +76,7 @@ def test_a_motion_that_is_about_to_die_out_goes_on(shop) -> None:
         assert not s.report.rejections
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("rule", RULES, ids=name)
 def test_a_bar_that_sinks_into_its_weight(shop, rule: ImpactRule) -> None:
     """From rest on the floor under gravity: it vibrates about u = -g (x - x^2/2) / c^2 and never lets go."""

@@ -87,6 +87,7 @@ def test_a_block_and_its_mirror_image_meet_as_on_a_floor(shop, method: object) -
     np.testing.assert_allclose(force, [s.ledger.contacts["body.bottom-floor"].force_n for s in alone.steps], atol=1e-9)
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize("method", [BOTH, DualMortar()], ids=["nodes", "mortar"])
 @pytest.mark.parametrize("cell", ["quad4", "quad8", "hex8", "hex20"])
 def test_bodies_that_meet_off_centre_keep_energy_momentum_and_spin(shop, cell: str, method: object) -> None:
@@ -176,6 +177,7 @@ def test_without_contact_they_pass_through_each_other(shop) -> None:
     np.testing.assert_allclose(last.after.velocity["a"], [[0.0, 0.1]] * 16, atol=1e-15)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("between", [("upper", "lower"), ("upper.bottom", "lower.top")])
 @pytest.mark.parametrize("depth", [0.005, 0.05])
 def test_free_blocks_that_overlap_are_moved_apart_and_stay(between: tuple[str, str], depth: float) -> None:

@@ -69,6 +69,7 @@ def test_a_free_hub_with_a_beam_keeps_energy_momentum_and_spin(mass):
     assert np.ptp([s.ledger.spin[2] for s in steps]) < 1e-4 * first.spin[2]
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("mass", [2.0, 0.1, 0.01])
 def test_a_carrier_costs_at_most_half_as_many_iterations_again(mass):
     pin = Hinge(between=("ground", "hub"), at=(0.0, 0.0))
@@ -77,6 +78,7 @@ def test_a_carrier_costs_at_most_half_as_many_iterations_again(mass):
     assert np.mean(free) <= 1.5 * np.mean(held)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mass", [2.0, 0.02], ids=["heavy", "light"])
 def test_a_carrier_that_touches_another_solid_keeps_energy_and_momentum(mass):
     ball = {"centre": (2.1, 2.55), "radius": 0.5}
@@ -113,6 +115,7 @@ def test_a_carrier_welded_to_the_ground_stays():
     assert np.abs(last[left]).max() < 1e-15 and np.abs(last).max() > 1e-4
 
 
+@pytest.mark.slow
 def test_a_beam_on_a_hinged_hub_turns_about_the_hinge():
     pin = Hinge(between=("ground", "hub"), at=(0.0, 0.0))
     steps = list(march(spinning(joints={"pin": pin}), until=0.5, step=0.01))
@@ -134,6 +137,7 @@ def test_a_march_goes_on_with_the_same_bits_after_a_checkpoint():
         assert one.ledger.energy_error == other.ledger.energy_error
 
 
+@pytest.mark.slow
 def test_a_march_goes_on_from_a_state():
     whole = list(march(spinning(), until=0.2, step=0.01))
     rest = list(march(spinning(), until=0.2, step=0.01, state=whole[9].after))

@@ -88,6 +88,7 @@ def test_the_table_is_followed_exactly(shop, rule: ImpactRule) -> None:
 BENT = Driven(on="left", velocity=(0.0, 1.0, 0.0, 0.3), times=(0.0, 0.5, 1.0, 1.5))
 
 
+@pytest.mark.few(16)
 @pytest.mark.parametrize("slabs", [1, 3, 7])
 @pytest.mark.parametrize("inertia", [Full(), Off()], ids=lambda i: type(i).__name__)
 @pytest.mark.parametrize("tag", ["left", "right"])
@@ -121,6 +122,7 @@ TRAVELS = [
 ]
 
 
+@pytest.mark.few(40)
 @pytest.mark.parametrize("slabs", [1, 3, 20])
 @pytest.mark.parametrize("inertia", [Full(), Off()], ids=lambda i: type(i).__name__)
 @pytest.mark.parametrize("tag", ["left", "right"])
@@ -149,6 +151,7 @@ def test_a_smooth_travel(shop, rule: ImpactRule, travel: MotionLaw, tag: str, in
 UP_AND_DOWN = RatePolyline(times=(0.0, 0.5, 1.0), rates=(0.0, 1.0, 0.0))
 
 
+@pytest.mark.few(8)
 @pytest.mark.parametrize("slabs", [1, 3, 20])
 @pytest.mark.parametrize("travel", [UP_AND_DOWN, *TRAVELS], ids=lambda t: type(t).__name__)
 def test_a_tool_follows_its_law_exactly(shop, travel: MotionLaw, slabs: int) -> None:

@@ -34,6 +34,8 @@ def scene(block=BLOCK, disc=DISC, mu=0.0, **mechanism):
     )
 
 
+@pytest.mark.slow
+@pytest.mark.few(2)
 @pytest.mark.parametrize("mass", [20.0, 0.02], ids=["heavy", "lighter than a cell"])
 @pytest.mark.parametrize("mu", [0.0, 0.3], ids=["smooth", "rough"])
 def test_energy_and_momentum_are_kept_through_an_impact(mass, mu):
@@ -115,6 +117,7 @@ def test_a_rigid_sphere_on_an_elastic_block_touches_for_hertz_s_time():
     assert np.ptp(momenta) < 1e-12 * mass * speed
 
 
+@pytest.mark.slow
 def test_a_very_heavy_body_moves_the_solid_as_a_tool_does():
     down = (0.0, -1.0)
     disc = replace(DISC, mass=1e9, inertia=1e9, velocity=down, spin=0.0)

@@ -34,6 +34,7 @@ def rolling(dim: int, beta: float, speed: float, slope: float = 0.0, **words: ob
     return Mechanism(bodies={"b": body}, stops={"s": stop}, gravity=(0.0, -G, 0.0)[:dim])
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize("h", [0.01, 0.0037, 0.001])
 @pytest.mark.parametrize(("dim", "beta"), [(2, 0.5), (2, 1.0), (3, 0.4)])
 def test_a_ball_that_rolls_comes_to_rest(dim: int, beta: float, h: float) -> None:

@@ -133,6 +133,7 @@ def test_a_pulled_block_slips_when_the_pull_exceeds_the_friction_at_rest() -> No
     assert s.time > begins + 0.5
 
 
+@pytest.mark.slow
 def test_a_box_on_a_conveyor_takes_twice_the_energy_that_it_gets() -> None:
     """It slides until it has the speed of the belt: the belt does the work m v^2, half of it is dissipated."""
     m, speed, friction = 3.0, 2.0, 0.3

@@ -27,6 +27,8 @@ def bars(energy: float, contact: bool = False, still: bool = False) -> Model:
     return sw.build(sw.Scene(bodies={"a": left, "b": right}, ties=(tie,), contacts=contacts, inertia=inertia))
 
 
+@pytest.mark.slow
+@pytest.mark.few(2)
 @pytest.mark.parametrize("energy", [2e-3, 2e-4], ids=["stable", "snap"])
 @pytest.mark.parametrize("contact", [False, True], ids=["alone", "contact"])
 def test_bars_pulled_apart_dissipate_the_fracture_energy(energy: float, contact: bool) -> None:

@@ -43,6 +43,7 @@ def test_matching_layers_are_one_body(cell: str) -> None:
     assert np.abs(mine).max() > 0.2
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize(
     "method",
     [

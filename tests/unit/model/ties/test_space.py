@@ -50,9 +50,8 @@ def test_layers_that_do_not_match_keep_all_balances() -> None:
     assert drift(steps, "momentum") < 1e-12 and drift(steps, "spin") < 1e-10
 
 
-@pytest.mark.parametrize(
-    "cells", [(3, 3, 2), pytest.param((4, 4, 2), marks=pytest.mark.slow)], ids=["matching", "not matching"]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("cells", [(3, 3, 2), (4, 4, 2)], ids=["matching", "not matching"])
 def test_contact_beside_the_glue(cells: tuple[int, int, int]) -> None:
     """A tied block slides into another one and onto a floor, with friction, both across its glue."""
     thrown = sw.bodies.Uniform(value=(0.3, 0.0, -0.1))

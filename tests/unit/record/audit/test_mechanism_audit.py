@@ -62,6 +62,7 @@ def test_each_joint_holds_and_a_moved_body_is_found(kind, tmp_path):
     assert any("the joint 'it'" in sentence for sentence in audit(run).findings)
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize(("kind", "column"), [*((kind, "velocity_x") for kind in sorted(JOINTS)), ("hinge", "spin_x")])
 def test_a_velocity_that_opens_a_joint_is_found(kind, column, tmp_path):
     run = sw.run(shaken(JOINTS[kind]), tmp_path / "run")
@@ -128,6 +129,7 @@ PLANTED = {
 }
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize("column", sorted(PLANTED))
 def test_planted_errors_are_found(column, tmp_path):
     run = sw.run(sw.load(FOLDER / "hammer_on_stop.toml"), tmp_path / "run")

@@ -124,6 +124,7 @@ def arch(bodies: Solids, turned: float) -> Array:
     return np.stack([(radius + 0.05 - y) * np.sin(angle), (radius + 0.05 - y) * np.cos(angle), *z], axis=1)
 
 
+@pytest.mark.few(5)
 @pytest.mark.parametrize("cell", PLANE + SPACE)
 def test_a_strip_bent_through_itself(cell: str) -> None:
     recipe = recipes.Rectangle if cell in PLANE else recipes.Box

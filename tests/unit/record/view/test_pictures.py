@@ -27,6 +27,7 @@ def run(fake, tmp_path):
     return record_run(fake.steps(), fake.opening(), RunFolder(out=tmp_path / "run"), title="Made up")
 
 
+@pytest.mark.few(5)
 def test_pictures_of_every_kind_of_body(run):
     pytest.importorskip("matplotlib")
     files = pictures(run)
@@ -34,6 +35,7 @@ def test_pictures_of_every_kind_of_body(run):
     assert all(f.read_bytes().startswith(PNG) and f.stat().st_size > 10_000 for f in files)
 
 
+@pytest.mark.few(2)
 def test_findings_stand_below_the_description(run, monkeypatch):
     pytest.importorskip("matplotlib")
     before = view.picture(run).figure.get_supxlabel()

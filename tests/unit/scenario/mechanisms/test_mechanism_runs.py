@@ -84,6 +84,7 @@ def test_shipped_mechanisms_keep_energy_and_joints(shipped):
     assert shipped.history["time"][-1] == shipped.motion["time"][-1] == found["time_end"]
 
 
+@pytest.mark.few(4)
 def test_a_run_of_the_stored_scenario_has_the_same_bits(shipped, tmp_path):
     again = sw.run(sw.loads(shipped.scenario), tmp_path / "again")
     for name in TABLES:

@@ -44,6 +44,7 @@ def require_same(run: sw.Run, whole: sw.Run) -> None:
     assert one == other and run.status == "done" and not listed(run.path)
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("name", sorted(ENDS))
 def test_an_interrupted_run_ends_with_the_same_bits(name, tmp_path):
     whole = sw.run(scenario(name), tmp_path / "whole")

@@ -27,6 +27,8 @@ from try_it import Call, Try, refusal, sites
 import softway
 from softway.errors import InputError
 
+pytestmark = pytest.mark.slow
+
 TABLES: tuple[ModuleType, ...] = (
     table_bodies,
     table_contacts,
@@ -135,7 +137,6 @@ def wrong(case: Try | Call, first: InputError | None, after: InputError | None) 
     return "" if case.then in str(after or "") else f"has another message after {first}\n  {after}"
 
 
-@pytest.mark.slow
 def test_a_remedy_that_is_followed_leads_on(tried: Tried) -> None:
     found = {name: wrong(CASES[name], *errors) for name, errors in tried.items()}
     assert not any(found.values()), "\n".join(f"{name} {text}" for name, text in found.items() if text)

@@ -36,6 +36,8 @@ checkpoints = {{ every = "0 s", keep = 3 }}
 """
 
 
+@pytest.mark.slow
+@pytest.mark.few(2)
 @pytest.mark.parametrize("rule", ["Impulse", "Paper"])
 @pytest.mark.parametrize("after", [6, 19])
 def test_a_stopped_run_is_resumed_with_the_same_bits(rule, after, tmp_path):

@@ -40,6 +40,7 @@ start = "fit"
 """
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("law", LAWS)
 def test_a_block_is_pressed_by_the_law(law: str) -> None:
     motion = f"{{ kind = 'Sliding', direction = [0.0, 1.0], travel = {law} }}"

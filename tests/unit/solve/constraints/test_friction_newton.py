@@ -133,6 +133,7 @@ def test_the_force_at_the_end_turns_with_the_slip():
     assert not end_force(before, np.zeros((500, 2))).any() and not chord_force(before, np.zeros((500, 2))).any()
 
 
+@pytest.mark.few(15)
 @pytest.mark.parametrize("seed", range(20))
 @pytest.mark.parametrize("law", [Coulomb(mu=0.4), Tresca(shear=0.3), NortonHoff(alpha=0.5, p=0.5)], ids=repr)
 def test_forces_that_turn_obey_the_law_and_take_energy(seed, law):
@@ -151,6 +152,7 @@ def test_forces_that_turn_obey_the_law_and_take_energy(seed, law):
     assert (np.sum(s * slip, axis=1)[slips] <= -0.86 * (np.linalg.norm(s, axis=1) * speed)[slips]).all()
 
 
+@pytest.mark.few(30)
 @pytest.mark.parametrize("k", [1, 2])
 @pytest.mark.parametrize("seed", range(20))
 @pytest.mark.parametrize("law", [Coulomb(mu=0.4), Tresca(shear=0.3), NortonHoff(alpha=0.5, p=0.5)], ids=repr)

@@ -63,6 +63,7 @@ CASES = {
 }
 
 
+@pytest.mark.few(5)
 @pytest.mark.parametrize("case", CASES)
 def test_one_law_under_several_names_is_the_body_of_one_law(case: str) -> None:
     law, solid, settings = CASES[case]

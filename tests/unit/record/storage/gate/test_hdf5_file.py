@@ -125,6 +125,7 @@ TOOLS: dict[str, Any] = {
 }  # fmt: skip
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize("harm", TOOLS)
 def test_tools_that_are_none_are_not_drawn(forged, harm):
     pytest.importorskip("matplotlib")
