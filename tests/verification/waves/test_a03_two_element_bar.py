@@ -62,7 +62,6 @@ def test_the_loss_is_exact(name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.few(2)
 @every
 def test_the_energy_that_is_left_converges(name: str) -> None:
     """Kinetic and strain energy at the end; what the balance lacks falls with h^2 or faster."""

@@ -94,7 +94,6 @@ def test_touches_and_releases_err_as_without_friction():
 
 
 @pytest.mark.slow
-@pytest.mark.few(1)
 @pytest.mark.parametrize("rule", RULES, ids=str)
 def test_oblique_impacts_tend_to_those_of_the_energy_rule(rule):
     """Sliding impact and rebound: places on finer meshes, with slabs in proportion; the kicks vanish."""
@@ -108,7 +107,6 @@ def test_oblique_impacts_tend_to_those_of_the_energy_rule(rule):
 
 
 @pytest.mark.slow
-@pytest.mark.few(1)
 @pytest.mark.parametrize("rule", RULES, ids=str)
 def test_an_oblique_impact_is_of_first_order_in_time(rule):
     """The jump of the velocity along the surface is not in the path inside the slab of the touch."""
