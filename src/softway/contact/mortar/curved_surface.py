@@ -1,16 +1,17 @@
-"""Offsets of a curved surface from the simplices that replace it, as sums of nodal positions.
+"""Offsets of a curved surface from the simplices that replace it.
 
 Linear facets are chords of the body that was meshed: its surface bulges between the nodes as the nodes around tell
-(:mod:`~softway.contact.mortar.bulges`). Quadratic facets are curved themselves, and stand off the simplices over their
-control points. Both follow the motion of the nodes (docs/theory/contact/mortar.md).
+(:mod:`~softway.contact.mortar.bulges`), and follows their motion. Quadratic facets are curved themselves, and stand off
+the simplices over their control points by heights of the reference (docs/theory/contact/mortar.md).
 """
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
 
-from softway.arrays import Array, IntArray
+from softway.arrays import Array, BoolArray, IntArray
 from softway.contact.mortar.bulges import bulges
 from softway.contact.mortar.linear_surface import LINEAR, LinearSurface, control
 from softway.contact.surfaces.facet_geometry import kind_of
@@ -21,13 +22,35 @@ from softway.meshes.element import completion
 SLIGHT = 1e-4
 """Angle between the ends of a simplex, below which its offsets fade: flat surfaces stay flat when they bend."""
 FLAT = 1e-9
-"""Share of the offsets of a surface below which it is flat."""
+"""Share of the heights of a simplex below which it is flat."""
 _BETWEEN = {2: ((0, 1),), 3: ((0, 1), (0, 2), (1, 2))}
 """Pairs of corners of a simplex, by the number of its corners."""
 
 
-def curved_surface(surface: LinearSurface, facets: Mapping[str, IntArray], points: Array) -> sp.csr_array:
-    """Offsets of the curved surface at the corners of its simplices, and between pairs of corners.
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class CurvedSurface:
+    """Heights of a surface above p simplices.
+
+    Parameters
+    ----------
+    offsets
+        (p v, n) offsets at the corners of the simplices, and between pairs of corners, as sums of nodal positions that
+        follow the motion: v = 3 of a segment, 6 of a triangle. The factors of a row add up to zero.
+    fixed
+        (p, k, k) heights of the reference that a simplex carries with it, as quadratic forms of coordinates [m].
+    """
+
+    offsets: sp.csr_array
+    fixed: Array
+
+    @property
+    def flat(self) -> bool:
+        """True if there are no heights."""
+        return not self.offsets.nnz and not self.fixed.any()
+
+
+def curved_surface(surface: LinearSurface, facets: Mapping[str, IntArray], points: Array) -> CurvedSurface:
+    """Heights of the curved surface above its simplices.
 
     Parameters
     ----------
@@ -38,10 +61,6 @@ def curved_surface(surface: LinearSurface, facets: Mapping[str, IntArray], point
     points
         (n, d) reference positions of the model [m].
 
-    Returns
-    -------
-    (p v, n) with rows that add up to zero: v = 3 offsets of a segment, 6 of a triangle. Empty if the surface is flat.
-
     Examples
     --------
     Facets of a circle of radius two: the middle of a chord is 2 (1 - cos(pi / 60)) = 0.00274 below it.
@@ -51,26 +70,29 @@ def curved_surface(surface: LinearSurface, facets: Mapping[str, IntArray], point
     >>> circle = 2.0 * np.column_stack([np.cos(turn), np.sin(turn)])
     >>> facets = {"bar2": np.stack([np.arange(60), np.roll(np.arange(60), -1)], axis=1)}
     >>> made = curved_surface(linear_surface(facets), facets, circle)
-    >>> float(np.linalg.norm((made @ circle)[2]).round(5))
+    >>> float(np.linalg.norm((made.offsets @ circle)[2]).round(5))
     0.00274
     """
     facets = {cell: cells for cell, cells in facets.items() if len(cells)}
     edges = bulges({c: n for c, n in facets.items() if CELLS[c].order == 1}, points)
     offsets: dict[str, list[sp.csr_array]] = {}
+    moving: dict[str, list[BoolArray]] = {}
     for cell, cells in facets.items():
         given = edges[cell] if cell in edges else _nodes(cells, len(points))
         matrix = offset_matrix(cell)
         wide = sp.kron(sp.eye_array(len(cells)), matrix.reshape(-1, matrix.shape[2]), format="csr")
         offsets.setdefault(LINEAR[cell][0], []).append(sp.csr_array(wide @ given))
+        moving.setdefault(LINEAR[cell][0], []).append(np.full(len(cells) * len(matrix), cell in edges))
     made = sp.csr_array(sp.vstack([o for parts in offsets.values() for o in parts]))
+    follows = np.concatenate([m for parts in moving.values() for m in parts])
     vertices = surface.spread @ (surface.control @ points[surface.node])
-    share = _share(forms(made @ points, vertices, surface.corner), vertices[surface.corner])
-    if share.max(initial=0.0) <= FLAT:
-        return sp.csr_array(made.shape)
-    made = sp.csr_array(sp.diags_array(np.repeat(share, made.shape[0] // len(share))) @ made)
+    form = forms(made @ points, vertices, surface.corner)
+    share = _share(form, vertices[surface.corner])
+    share[share <= FLAT] = 0.0
+    made = sp.csr_array(sp.diags_array(np.repeat(share * follows, made.shape[0] // len(share))) @ made)
     made.eliminate_zeros()
     made.sort_indices()
-    return made
+    return CurvedSurface(offsets=made, fixed=np.where(follows, 0.0, share)[:, None, None] * form)
 
 
 def _share(form: Array, corners: Array) -> Array:

@@ -11,7 +11,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
-from softway.contact.mortar.curved_surface import curved_surface
+from softway.contact.mortar.curved_surface import CurvedSurface, curved_surface
 from softway.contact.mortar.facet_pairs import FacetPairs, Margin, facet_pairs, unit
 from softway.contact.mortar.gap_weights import gap_weights
 from softway.contact.mortar.linear_surface import LinearSurface, linear_surface
@@ -58,8 +58,8 @@ class Mortar:
     def __post_init__(self) -> None:
         object.__setattr__(self, "slave", linear_surface(self.slave_facets))
         object.__setattr__(self, "master", linear_surface(self.master_facets))
-        offsets = None if self.points is None else self._offsets(self.points)
-        object.__setattr__(self, "tables", surface_tables(self.slave, self.master, offsets))
+        curved = None if self.points is None else self._curved(self.points)
+        object.__setattr__(self, "tables", surface_tables(self.slave, self.master, curved))
         object.__setattr__(self, "support", self._vertex_weights(np.arange(len(self.slave.corner))))
 
     @property
@@ -93,11 +93,11 @@ class Mortar:
         found = self.tables.heights(self.points, *self.tables.vertices(self.points))
         return sum(float(form.max(initial=0.0)) for form in found)
 
-    def _offsets(self, points: Array) -> tuple[sp.csr_array, sp.csr_array] | None:
-        """Offsets (p v, n) and (q v, n) of both surfaces from their simplices; None if both are flat."""
+    def _curved(self, points: Array) -> tuple[CurvedSurface, CurvedSurface] | None:
+        """Heights of both surfaces above their simplices; None if both are flat."""
         one = curved_surface(self.slave, self.slave_facets, points)
         two = curved_surface(self.master, self.master_facets, points)
-        return (one, two) if one.nnz or two.nnz else None
+        return None if one.flat and two.flat else (one, two)
 
     def _vertex_weights(self, taking_part: IntArray) -> sp.csr_array:
         """Weights (m, p) of the slave simplices ``taking_part`` (k,) for the nodes."""

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
-from softway.contact.mortar.curved_surface import forms
+from softway.contact.mortar.curved_surface import CurvedSurface, forms
 from softway.contact.mortar.linear_surface import LinearSurface, pieces
 from softway.kernels.mortar.tables import Facets, Vertices
 
@@ -25,8 +25,8 @@ class SurfaceTables:
         The same for the loops, with the simplices.
     facets
         Facets of the slave.
-    offsets
-        (p v, u) and (q v, u) offsets of the curved surfaces from their simplices; without rows if both are flat.
+    curved
+        Heights of both surfaces, with offsets from the u nodes; None if both are flat.
     """
 
     node: IntArray
@@ -35,7 +35,7 @@ class SurfaceTables:
     slave: Vertices
     master: Vertices
     facets: Facets
-    offsets: tuple[sp.csr_array, sp.csr_array]
+    curved: tuple[CurvedSurface, CurvedSurface] | None
 
     def vertices(self, x: Array) -> tuple[Array, Array]:
         """Vertices (v, d) of the slave and (w, d) of the master at the positions x (n, d) of all nodes."""
@@ -46,15 +46,21 @@ class SurfaceTables:
         """Heights (p, k, k) and (q, k, k) of both surfaces above their simplices at the positions x (n, d), with their
         vertices, as quadratic forms of coordinates [m]; none if both are flat.
         """
-        here = x[self.node]
-        one, two = ((o @ here) if o.shape[0] else np.zeros((0, here.shape[1])) for o in self.offsets)
-        return forms(one, below, self.slave.corner), forms(two, above, self.master.corner)
+        if self.curved is None:
+            none = np.zeros((0, below.shape[1], below.shape[1]))
+            return none, none
+        one, two = self.curved
+        here, simplices = x[self.node], (self.slave.corner, self.master.corner)
+        return (
+            forms(one.offsets @ here, below, simplices[0]) + one.fixed,
+            forms(two.offsets @ here, above, simplices[1]) + two.fixed,
+        )
 
 
 def surface_tables(
-    slave: LinearSurface, master: LinearSurface, offsets: tuple[sp.csr_array, sp.csr_array] | None = None
+    slave: LinearSurface, master: LinearSurface, curved: tuple[CurvedSurface, CurvedSurface] | None = None
 ) -> SurfaceTables:
-    """Arrays of two surfaces, with the ``offsets`` (p v, n) and (q v, n) of the curved ones from their simplices.
+    """Arrays of two surfaces, which may be ``curved``.
 
     Examples
     --------
@@ -66,14 +72,16 @@ def surface_tables(
     """
     node = np.union1d(slave.node, master.node)
     below, above = (_from_nodes(surface, node) for surface in (slave, master))
-    bent = [sp.csr_array((0, len(node)))] * 2 if offsets is None else [sp.csr_array(o[:, node]) for o in offsets]
+    if curved is not None:
+        one, two = (CurvedSurface(offsets=sp.csr_array(c.offsets[:, node]), fixed=c.fixed) for c in curved)
+        curved = one, two
     return SurfaceTables(
         node=node,
         below=below,
         above=above,
         slave=_vertices(below, slave),
         master=_vertices(above, master),
-        offsets=(bent[0], bent[1]),
+        curved=curved,
         facets=_facets(slave),
     )
 
