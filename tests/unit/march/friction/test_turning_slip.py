@@ -133,7 +133,7 @@ def energies(steps: Iterable[sw.Step]) -> tuple[np.ndarray, np.ndarray, float]:
     [
         (ball_on_box, 0.00035681805, sw.Newton(), 10, 5.5),
         (rubber_on_metal, 3.1108489e-05, sw.FixedPoint(), 42, 9.1),
-        (ring_on_disc, 0.00036278357, sw.FixedPoint(), 6, 11.0),
+        (ring_on_disc, 0.00036278357, sw.FixedPoint(), 6, 16.0),  # its quadratic facets turn by 26 degrees
     ],
     ids=lambda x: getattr(x, "__name__", ""),
 )
