@@ -291,5 +291,8 @@ def _off(k: int, contact: Contact, found: Misfit, tool: bool) -> Note:
         f"nodes, and {what}{share}: pressures may be wrong by this share, and more from node to node"
     )
     shorter = "shorter edges: half the edge leaves a quarter of the distance"
-    remedy = f"{_OTHERWISE[tool, contact.many]}, or {shorter}"
+    otherwise = (
+        _OTHERWISE[tool, contact.many] if contact.timing.massless or tool else "the same nodes along both surfaces"
+    )
+    remedy = f"{otherwise}, or {shorter}"
     return Note(where=f"contacts[{k}].between", problem=problem, remedy=remedy)

@@ -17,7 +17,7 @@ TWO_PARTS = sw.Mesh(
 )
 
 
-def checked(facets: tuple[int, int], cell: str = "quad4", method: object = None) -> tuple[str, ...]:
+def checked(facets: tuple[int, int], cell: str = "quad4", **given: object) -> tuple[str, ...]:
     """Notes on the press fit of B06 with these numbers of facets, as text."""
     law = sw.LinearElastic(E=210e9, nu=0.3)
     supports = (sw.Fixed(on="start", components="y"), sw.Fixed(on="end", components="x"))
@@ -25,7 +25,7 @@ def checked(facets: tuple[int, int], cell: str = "quad4", method: object = None)
         name: sw.Solid(mesh=mesh, material=law, density=7850.0, section=sw.bodies.PlaneStress(), supports=supports)
         for name, mesh in zip(SIDES, rings(facets, cell), strict=True)
     }
-    contact = sw.Contact(between=("inner.outer", "outer.inner"), name="fit", start="fit", method=method)
+    contact = sw.Contact(between=("inner.outer", "outer.inner"), name="fit", start="fit", **given)
     found = sw.check(sw.Scenario(bodies=bodies, contacts=(contact,), time=sw.Time(end=1e-6)))
     return tuple(str(note) for note in found.notes)
 
@@ -51,10 +51,15 @@ def test_press_fit_whose_facets_do_not_match_is_noted_with_the_numbers() -> None
     assert checked((160, 128), method=nodes) == () and error((160, 128), nodes) < 0.3 * error((40, 32), nodes)
 
 
+def test_mortar_is_no_remedy_for_rules_that_refuse_it() -> None:
+    (note,) = checked((40, 32), timing=sw.contact.Impulse())
+    assert "DualMortar" not in note and "the same nodes along both surfaces, or shorter edges" in note
+
+
 @pytest.mark.slow
 def test_quadratic_facets_are_curved_themselves() -> None:
     assert checked((40, 32), "quad9") == ()
-    assert checked((40, 32), "quad9", sw.contact.NodeToSurface()) == ()
+    assert checked((40, 32), "quad9", method=sw.contact.NodeToSurface()) == ()
 
 
 @pytest.mark.parametrize("gap", [0.0, 1e-3])
