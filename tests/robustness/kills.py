@@ -23,7 +23,7 @@ from softway.record.storage.checkpoint import listed
 ROOT = Path(__file__).parents[2]
 SCENARIOS = {
     "scenarios/paper_bar.toml": ("output.checkpoints.every=0.2 s",),
-    "tests/robustness/inputs/skid.toml": (),
+    "tests/robustness/inputs/marched/skid.toml": (),
     "scenarios/block_on_sphere.toml": ("output.checkpoints.every=0.5 s", "time.end=2 ms"),
 }
 """Scenarios with what is set."""

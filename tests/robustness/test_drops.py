@@ -1,13 +1,15 @@
 """Drops that once stopped, found no end or broke off, and what they were about."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 import scipy.sparse as sp
 
 import softway as sw
-from run_drops import fall, fall_together
+from inputs.drops import Drop
+from run_drops import fall, fall_together, judged
 from softway.bodies.inertia.mass_matrix import Consistent
 from softway.bodies.inertia.mass_redistribution import redistribute_mass
 from softway.contact.contact_rows import ContactRows
@@ -16,6 +18,10 @@ from softway.march.audit.certificate import violation
 from softway.march.march import march
 from softway.meshes.generators.shapes import box
 from softway.model.build import build
+from softway.scenario.hints.units_text import Units
+
+RIM = Path(__file__).parent / "inputs" / "marched" / "rim.toml"
+"""A cylinder that lands on the middle of its rim."""
 
 
 def boxes() -> sw.Scene:
@@ -50,6 +56,14 @@ def test_flush_blocks_press_each_other_without_halving():
     assert len(steps) == 10
     assert max(s.ledger.contacts["above-below"].force_n for s in steps) > 0.01
     assert abs(steps[-1].ledger.energy_error) < 1e-10 * steps[0].ledger.energy_kinetic
+
+
+@pytest.mark.slow
+def test_a_cylinder_lands_on_the_middle_node_of_its_rim():
+    told = judged(Drop(number=0, text=RIM.read_text(), traits={}), Units.standard())
+    assert told["end"] == "done", told["why"]
+    assert told["rejections"] == 0
+    assert told["energy"] < 1e-11
 
 
 def test_a_bar_in_free_fall_asks_newton_for_a_few_iterations():

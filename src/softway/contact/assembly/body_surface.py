@@ -66,7 +66,7 @@ def body_surface(
         return BodySurface(side=side, corners=np.zeros(0, int), edges=None, edge=part.mesh.edge())
     lengths = np.linalg.norm(points[side.table[:, 1]] - points[side.table[:, 0]], axis=1)
     edges = side.sharp_edges(points) if dim == 3 else None
-    corners = side.sharp_corners(points) if edges is None else np.unique(edges.ends)
+    corners = side.sharp_corners(points) if edges is None else side.nodes_on(edges)
     return BodySurface(side=side, corners=corners, edges=edges, edge=float(lengths.mean()))
 
 

@@ -155,6 +155,26 @@ class ContactSurface:
         turn = np.arctan2(dot(np.cross(one, two), _unit(last - first)), dot(one, two))
         return edges.subset(turn > SHARP)
 
+    def nodes_on(self, edges: Edges) -> IntArray:
+        """Sorted nodes (k,) of some of its edges: ends and, of quadratic facets, the nodes in their middle.
+
+        Examples
+        --------
+        >>> side = ContactSurface(facets={"tri6": np.array([[0, 1, 2, 3, 4, 5]])})
+        >>> side.nodes_on(Edges(ends=np.array([[2, 1]]), wings=np.array([[0, 0]]))).tolist()
+        [1, 2, 4]
+        """
+        found = [edges.ends.ravel()]
+        keys = edges.ends.min(axis=1) + 1j * edges.ends.max(axis=1)
+        for kind, nodes in self.facets.items():
+            count = CELLS[kind].corners
+            if nodes.shape[1] < 2 * count:
+                continue
+            first, second = nodes[:, :count], np.roll(nodes[:, :count], -1, axis=1)
+            ours = np.isin(np.minimum(first, second) + 1j * np.maximum(first, second), keys)
+            found.append(nodes[:, count : 2 * count][ours])
+        return np.unique(np.concatenate(found))
+
     def edges(self) -> Edges:
         """All edges between two facets."""
         corners = [found[:, : CELLS[kind].corners] for kind, found in self.facets.items()]

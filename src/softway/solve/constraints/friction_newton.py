@@ -49,6 +49,9 @@ DEPENDENT, SUSPECT = 1e-11, 1e-9
 columns is computed."""
 CONVERGED = 1e-14
 """Residual, relative to the motion by the forces, at the level of rounding."""
+INCONSISTENT = 1e-7
+"""Residual, relative to the motion by the forces, left in the end by dependent rows that contradict each other: rows of
+one point that stick on several walls leave no motion to close all their gaps."""
 ACCURATE = 1e-13
 """Residual, relative to the motion by the forces, at which steps with a kept factor end."""
 
@@ -177,7 +180,7 @@ def _approached(attempt: NewtonAttempt, rounds: int = ROUNDS) -> tuple[Array, Bo
 
     If it has not converged, a sequence of proximal problems is solved: their multipliers are drawn to the previous
     ones, less and less (Rockafellar 1976, Monotone operators and the proximal point algorithm, SIAM J. Control Optim.
-    14, 877).  The limit of the sequence solves the original problem.
+    14, 877).  The limit of the sequence solves the original problem, up to a residual of ``INCONSISTENT``.
 
     Raises
     ------
@@ -197,11 +200,11 @@ def _approached(attempt: NewtonAttempt, rounds: int = ROUNDS) -> tuple[Array, Bo
         converged = _converged(problem, x, residual, seen.since)
         if seen.since > PATIENCE:
             break
-    if converged:
+    size = _size(problem, x, residual)
+    if converged or residual.worst <= INCONSISTENT * size:
         return _clean(problem, x, residual), residual.slips
     if not np.isfinite(residual.worst):
         raise NoConvergence(f"friction of {problem.count} contact rows: the forces are not finite")
-    size = _size(problem, x, residual)
     raise NoConvergence(f"friction of {problem.count} contact rows leaves {residual.worst:.1e} of {size:.1e}")
 
 

@@ -74,6 +74,14 @@ def test_sharp_edges_of_a_box(cell: str) -> None:
         assert ((outside < 0.0) | (outside > np.array([1.0, 2.0, 3.0]))).any(axis=1).all()
 
 
+@pytest.mark.parametrize("cell", ["tet10", "hex20", "hex27"])
+def test_nodes_in_the_middle_of_edges_are_on_them(cell: str) -> None:
+    mesh = box((1.0, 1.0, 1.0), (2, 3, 1), cell=cell)
+    side = ContactSurface(facets=mesh.boundary())
+    outer = np.isclose(mesh.points, 0.0) | np.isclose(mesh.points, 1.0)
+    assert side.nodes_on(side.sharp_edges(mesh.points)).tolist() == np.flatnonzero(outer.sum(axis=1) >= 2).tolist()
+
+
 def test_a_ball_and_a_notch_have_no_sharp_convex_edges() -> None:
     mesh = ball(1.0, 8)
     assert len(ContactSurface(facets=mesh.boundary()).sharp_edges(mesh.points).ends) == 0

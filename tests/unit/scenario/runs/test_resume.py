@@ -25,7 +25,7 @@ from softway.scenario.files import loads
 
 pytestmark = pytest.mark.slow
 
-BLOCK = (Path(__file__).parents[3] / "robustness" / "inputs" / "skid.toml").read_text(encoding="utf-8")
+BLOCK = (Path(__file__).parents[3] / "robustness" / "inputs" / "marched" / "skid.toml").read_text(encoding="utf-8")
 BAR = """
 [bodies.bar]
 kind = "Solid"

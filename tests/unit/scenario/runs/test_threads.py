@@ -18,7 +18,7 @@ from softway.scenario.files import loads
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[4]
-SKID = (ROOT / "tests" / "robustness" / "inputs" / "skid.toml").read_text(encoding="utf-8")
+SKID = (ROOT / "tests" / "robustness" / "inputs" / "marched" / "skid.toml").read_text(encoding="utf-8")
 BAR = (ROOT / "scenarios" / "paper_bar.toml").read_text(encoding="utf-8").replace('end = "4 s"', 'end = "0.6 s"')
 BALL = """
 [bodies.ball]

@@ -280,6 +280,36 @@ def test_the_same_row_twice_shares_the_force():
     assert it.free + it.compliance @ x == pytest.approx(np.zeros(4), abs=1e-13)
 
 
+def wedged(seed: int, contradiction: float) -> FrictionProblem:
+    """Two rows of one point, on walls across each other, under forces that let both stick.
+
+    One gap contradicts the others by a part of the greatest gap or slip: no motion of the point closes both.
+    """
+    rng = np.random.default_rng(seed)
+    axes = np.linalg.qr(rng.normal(size=(3, 3)))[0].T
+    directions = axes[[0, 1, 1, 2, 0, 2]]
+    root = rng.normal(size=(3, 3))
+    compliance = directions @ (root @ root.T + np.eye(3)) @ directions.T
+    forces = np.concatenate([rng.uniform(1.0, 2.0, size=2), 0.1 * rng.normal(size=4)])
+    free = -compliance @ forces
+    free[1] -= contradiction * np.abs(free).max()
+    return friction_problem(compliance, free, slipping(Coulomb(mu=0.49), 2, 2))
+
+
+@pytest.mark.parametrize("contradiction", [0.0, 1e-12, 1e-10, 1e-9, 1e-8])
+def test_rows_of_one_point_that_contradict_each_other_find_forces(contradiction: float) -> None:
+    for seed in range(40):
+        it = wedged(seed, contradiction)
+        x, slips = solve_multipliers(it, np.zeros(6))
+        p, s = it.split(x)
+        gap, slip = it.split(it.free + it.compliance @ x)
+        scale = np.abs(it.free).max()
+        assert (p >= 0.0).all()
+        assert (np.linalg.norm(s, axis=1) <= 0.49 * p * (1.0 + 1e-6)).all()
+        assert gap.min() > -10.0 * (contradiction + 1e-13) * scale
+        assert np.abs(slip[(p > 0.0) & ~slips]).max(initial=0.0) < 10.0 * (contradiction + 1e-13) * scale
+
+
 @dataclass(frozen=True)
 class Counted:
     """A law of friction that is asked a limited number of times."""
