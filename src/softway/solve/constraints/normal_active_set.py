@@ -203,7 +203,7 @@ def multipliers(frozen: FrozenOperator, active: RowCoefficients, wanted: Array) 
             return found
     factor = _factored_compliance(frozen, active)
     if recent is not None:
-        recent.keep(factor)
+        recent.factor = factor
     force = factor.solve(wanted / frozen.scale)
     return force, pushed(force)
 
