@@ -28,6 +28,8 @@ class NodalCurvature:
 
     Parameters
     ----------
+    node
+        (k,) sorted numbers of the corner nodes.
     points
         (k, d) positions of the corner nodes [m].
     normal
@@ -40,6 +42,7 @@ class NodalCurvature:
         Distance of the facets from the smooth surface, relative to that of straight facets.
     """
 
+    node: IntArray
     points: Array
     normal: Array
     curvature: Array
@@ -53,13 +56,23 @@ class NodalCurvature:
 
     def off(self, node: IntArray, step: Array) -> Array:
         """Distance (p,) of the facets from the smooth surface, at tangential steps (p, d) from nodes (p,) [m]."""
+        values, axes, reach = self._principal()
+        along = np.abs(np.einsum("pd,pdi->pi", step, axes[node]))
+        bow = 0.5 * along * np.maximum(reach[node] - along, 0.0)
+        return np.asarray(self.factor * (np.abs(values[node]) * bow).sum(axis=1))
+
+    def outside(self) -> Array:
+        """Greatest distance (k,) by which the facets around each node stand outside of the smooth surface [m]."""
+        values, _, reach = self._principal()
+        return np.asarray(self.factor * (np.maximum(-values, 0.0) * reach**2 / 8.0).sum(axis=1))
+
+    def _principal(self) -> tuple[Array, Array, Array]:
+        """Principal curvatures (k, d) [1/m], their directions (k, d, d), and the extent (k, d) of the edges [m]."""
         values, axes = np.linalg.eigh(self.curvature)
         row = np.repeat(np.arange(len(self.points)), np.diff(self.first))
         reach = np.zeros(values.shape)
         np.maximum.at(reach, row, np.abs(np.einsum("ed,edi->ei", self.edges, axes[row])))
-        along = np.abs(np.einsum("pd,pdi->pi", step, axes[node]))
-        bow = 0.5 * along * np.maximum(reach[node] - along, 0.0)
-        return np.asarray(self.factor * (np.abs(values[node]) * bow).sum(axis=1))
+        return values, axes, reach
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -107,6 +120,7 @@ def nodal_curvature(side: ContactSurface, x: Array) -> NodalCurvature:
     bent = np.where(smooth[both].all(axis=1), bent, 0.0)
     degree = max(CELLS[kind].order for kind in side.facets)
     return NodalCurvature(
+        node=node,
         points=x[node],
         normal=normal,
         curvature=_fitted(both[:, 0], step, bent, normal),
