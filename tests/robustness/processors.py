@@ -118,10 +118,10 @@ SETS = {
 
 HEAD = """# Processors
 
-`make test-processors` makes this page: the tests of `make test` that compute, with the instructions of several
-processors. The last digits of sums and products differ with the code that OpenBLAS, MKL and Numba take for a processor,
-and with the number of threads; no result may hang on them. `make test-processors SETS=nehalem` runs one set. A set is
-skipped where the processor lacks its instructions.
+`make test-processors` makes this page: the tests of `make test` that decide by numbers, with the instructions of
+several processors. The last digits of sums and products differ with the code that OpenBLAS, MKL and Numba take for a
+processor, and with the number of threads; no result may hang on them. `make test-processors SETS=nehalem` runs one set.
+A set is skipped where the processor lacks its instructions.
 
 """
 
