@@ -1,8 +1,8 @@
 """The commands and the Python of a page, in their order.
 
 A block ``sh`` holds commands, one on a line; a comment ``# exit 2`` says how one ends if not with 0, and one with the
-word *minutes* that it takes too long for a test. A block ``python`` is run in the names of those before it,
-and a block after ``<!-- file: NAME -->`` is saved under that name.
+words *half a minute* or *minutes* that it takes too long for a test. A block ``python`` is run in the names of those
+before it, and a block after ``<!-- file: NAME -->`` is saved under that name.
 """
 
 import re
@@ -13,7 +13,7 @@ from pathlib import Path
 
 BLOCK = re.compile(r"^(?:<!-- file: (\S+) -->\n)?```(sh|console|python|toml)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 EXIT = re.compile(r"#\s*exit (\d+)\s*$")
-LONG = re.compile(r"#.*\bminutes\b")
+LONG = re.compile(r"#.*\b(half a minute|minutes)\b")
 
 
 @dataclass(frozen=True)

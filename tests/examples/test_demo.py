@@ -19,7 +19,7 @@ def demo(monkeypatch, tmp_path):
     return module
 
 
-@pytest.mark.slow
+@pytest.mark.minutes
 def test_the_examples_of_the_paper(demo, tmp_path, capsys):
     demo.show_example_1()
     demo.show_example_2()

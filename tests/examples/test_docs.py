@@ -14,7 +14,7 @@ from softway.apps.cli.commands import app
 pytestmark = pytest.mark.slow
 
 SHIPPED = sorted(ROOT.glob("scenarios/*.toml"))
-LONG = ("forming", "stops", "view")
+LONG = ("forming", "mechanism", "stops", "view")
 """Pages whose commands together take a minute or more."""
 
 
@@ -45,7 +45,7 @@ def test_the_gallery_runs_every_scenario():
 @pytest.mark.few(4)
 @pytest.mark.parametrize("file", SHIPPED, ids=lambda file: file.stem)
 def test_a_scenario_of_the_gallery_is_right(file):
-    """By the command line; tests/unit/scenario/checks/test_check.py checks all of them."""
+    """By the command line; tests/scenarios/test_notes.py checks all of them."""
     assert main(["check", str(file), "--quiet"]) == 0
 
 

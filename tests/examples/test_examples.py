@@ -13,7 +13,10 @@ EXAMPLES = sorted((Path(__file__).parents[2] / "examples" / "gallery").rglob("*.
 
 @pytest.mark.parametrize(
     "example",
-    [pytest.param(e, marks=pytest.mark.minutes if e.stem == "upsetting" else [], id=e.stem) for e in EXAMPLES],
+    [
+        pytest.param(e, marks=pytest.mark.minutes if e.stem in ("finer_meshes", "upsetting") else [], id=e.stem)
+        for e in EXAMPLES
+    ],
 )
 def test_an_example_runs(example, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

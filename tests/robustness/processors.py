@@ -24,24 +24,50 @@ from page import table
 ROOT = Path(__file__).parents[2]
 LEFT = (
     "benchmarks",
-    "house",
+    "contracts",
     "examples",
+    "house",
+    "paper",
     "robustness",
-    "contracts/test_laws.py",
     "scenarios/test_notes.py",
     "unit/apps",
     "unit/bodies",
+    "unit/contact/node_to_surface/test_node_to_facet.py",
     "unit/kernels",
     "unit/laws",
+    "unit/march/audit",
+    "unit/march/friction/test_impulse_laws.py",
+    "unit/march/motion/test_free_bodies.py",
+    "unit/march/motion/test_path_dependent_laws.py",
+    "unit/march/rules/test_central_difference.py",
+    "unit/march/test_march_state.py",
+    "unit/mechanisms/test_couplings.py",
+    "unit/mechanisms/test_forces.py",
+    "unit/mechanisms/test_march_state.py",
+    "unit/mechanisms/test_motors.py",
     "unit/meshes",
+    "unit/model",
     "unit/obstacles",
+    "unit/piles",
     "unit/record",
-    "unit/studies",
     "unit/scenario",
+    "unit/solve/equations",
+    "unit/solve/linear",
+    "unit/studies",
     "unit/testing",
+    "verification/elements",
+    "verification/exact",
+    "verification/forming",
+    "verification/large_deformation",
+    "verification/mechanisms",
+    "verification/test_cases.py",
+    "verification/test_catalogue.py",
+    "verification/tools",
+    "verification/waves",
 )
-"""Tests that read, refuse, write and show, or compute forces and laws in closed form: they decide nothing by numbers
-that may be rounded either way, and what they compute, other tests compute, too.
+"""Tests that decide nothing by numbers that may be rounded either way: they read, refuse, write and show, compute
+forces and laws in closed form, motions without contact, or one march twice; balls of piles are swept until they
+converge. The single bars of the paper and of the waves meet their walls in ``unit/march/impacts``, too.
 """
 QUICK = (
     "-q",
@@ -92,10 +118,10 @@ SETS = {
 
 HEAD = """# Processors
 
-`make test-processors` makes this page: the tests of `make test` that compute, with the instructions of several
-processors. The last digits of sums and products differ with the code that OpenBLAS, MKL and Numba take for a processor,
-and with the number of threads; no result may hang on them. `make test-processors SETS=nehalem` runs one set. A set is
-skipped where the processor lacks its instructions.
+`make test-processors` makes this page: the tests of `make test` that decide by numbers, with the instructions of
+several processors. The last digits of sums and products differ with the code that OpenBLAS, MKL and Numba take for a
+processor, and with the number of threads; no result may hang on them. `make test-processors SETS=nehalem` runs one set.
+A set is skipped where the processor lacks its instructions.
 
 """
 

@@ -155,6 +155,7 @@ def test_a_block_slides_off_the_edge_of_a_table(rule):
 
 
 @pytest.mark.slow
+@pytest.mark.few(1)
 @pytest.mark.parametrize("number", [58, 425], ids=["J2", "NeoHookean"])
 def test_crushed_blocks_that_rub_go_on_with_a_definite_operator(number):
     """At 0.14 and 0.26 of the wave speed their massless nodes lose their stability; they used to stop there."""
@@ -172,7 +173,7 @@ def test_nodes_inside_a_coarse_facet_do_not_end_a_march():
     assert "overlap" in told["findings"]
 
 
-@pytest.mark.slow
+@pytest.mark.minutes
 def test_corners_without_an_inertia_of_their_own_give_no_energy():
     """A ring of tri6 under the literal rule; its corners, stopped alone, created 8e-4 of the energy."""
     told = fall(9)

@@ -37,7 +37,7 @@ def test_nothing_of_a_mutated_mesh_file_is_lost_in_silence():
 
 @pytest.mark.slow
 def test_mutated_scenarios_are_computed_or_refused():
-    verdicts = [judged_scenario(number) for number in (1, 2, 3, 6, 7, 9, 10, 15, 24, 26)]
+    verdicts = [judged_scenario(number) for number in (1, 3, 7, 15, 26)]
     assert not {verdict for verdict in verdicts if verdict not in ("ok", "refused", "failed")}
 
 

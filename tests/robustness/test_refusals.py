@@ -60,6 +60,7 @@ def test_what_is_too_much_or_forbidden(tmp_path, capsys, change, where, problem)
     assert "try:" in said
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("change", ["time.step=auto", "time.weight=Momentum", "solver.kind=Explicit"])
 @pytest.mark.parametrize("step", ["auto", "50 ms"])
 def test_a_body_that_is_held_everywhere_ends_or_is_refused(tmp_path, capsys, change, step):

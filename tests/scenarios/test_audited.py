@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import softway as sw
-from counts import CHEAP
 from softway.record.audit import watch
 from softway.record.audit.folder import frames_audited
 from softway.record.read.findings import BETWEEN, DISSIPATION, ENERGY, INVERTED, MOMENTUM, OVERLAP, SPIN
@@ -19,7 +18,9 @@ WITHIN = 0.25
 """Greatest difference of the depth that a sentence tells, relative to the depth: figures are rounded upwards."""
 COARSE = {"oblique_blocks": {MOMENTUM}}
 """Findings of small variants only: an edge of two cells turns the normals of its mean gaps by more than a tenth."""
-MARKS = {name: pytest.mark.slow if name in CHEAP else pytest.mark.minutes for name in VARIANTS}
+SLOW = ("ball_impact", "block_on_sphere", "stamp_on_pad")
+"""Scenarios that are audited as they are shipped without those for ``minutes``: cheap ones, two with findings."""
+MARKS = {name: pytest.mark.slow if name in SLOW else pytest.mark.minutes for name in VARIANTS}
 
 
 def sentence(name: str) -> str:
@@ -56,6 +57,7 @@ def test_the_audit_finds_what_the_file_says(name, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.few(12)
 @pytest.mark.parametrize("name", each())
 def test_balances_hold_in_every_slab(name, tmp_path, monkeypatch):
     """Small variants, with a frame and an audit at each slab."""

@@ -8,7 +8,7 @@ from variants import LONG
 WITHIN = 0.05
 """Greatest difference, relative to the stored number."""
 CASES = [
-    pytest.param(kind, name, marks=[pytest.mark.slow] if kind == "whole" or name in LONG else [])
+    pytest.param(kind, name, marks=pytest.mark.minutes if kind == "whole" else pytest.mark.slow if name in LONG else [])
     for kind, (_, names) in KINDS.items()
     for name in names
 ]

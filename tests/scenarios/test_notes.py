@@ -30,7 +30,9 @@ def measured(problem: str) -> list[str]:
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_the_comment_explains_each_note_of_the_check(file: Path) -> None:
     """It names the body, or the contact, and what a note measures; without notes there is no explanation."""
-    notes, told = check(load(file)).notes, explained(file)
+    checked, told = check(load(file)), explained(file)
+    assert checked.slabs >= 1
+    notes = checked.notes
     assert bool(notes) == bool(told), [str(note) for note in notes]
     for note in notes:
         words = measured(note.problem)

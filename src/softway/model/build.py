@@ -19,7 +19,7 @@ from softway.bodies.inertia.matrix_sum import bonded_sum
 from softway.bodies.rigid_motion import CarriedNodes, RigidMotion, RigidShape
 from softway.bodies.setup.directions import DirectedMotion
 from softway.bodies.solid import Solid, Tool
-from softway.contact.assembly.declared import at_declared, declared_numbers, resolved
+from softway.contact.assembly.declared import at_declared, resolved
 from softway.contact.impact_rule import Energy, ImpactRule
 from softway.errors import InputError
 from softway.model.cohesive_ties import CohesiveTies, intact
@@ -42,10 +42,10 @@ def build(scene: Scene) -> Model:
     InputError
         With the place in the scene: if a tag matches nothing, a body does not exist, or dimensions are mixed.
     """
-    members = _members(scene)
-    numbers = declared_numbers(scene.contacts, *members)
+    found = resolved(scene.contacts, *_members(scene))
+    numbers = tuple(number for number, _ in found)
     with at_declared(numbers):
-        model = _model(replace(scene, contacts=resolved(scene.contacts, *members)))
+        model = _model(replace(scene, contacts=tuple(contact for _, contact in found)))
     return replace(model, declared=numbers)
 
 

@@ -125,7 +125,10 @@ def kept(march_state: sw.MarchState) -> sw.MarchState:
     return unpacked(text, {name: np.array(values) for name, values in arrays.items()})
 
 
-@pytest.mark.parametrize("name", CASES)
+LONG = ("Impulse", "J2 with friction", "on a floor")
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.slow if n in LONG else []) for n in CASES])
 def test_a_march_goes_on_with_the_same_bits(name: str) -> None:
     scene, asked = CASES[name]
     model = sw.build(scene)

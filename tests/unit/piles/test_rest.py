@@ -20,6 +20,7 @@ def gaps(step: PileStep, radius: float) -> np.ndarray:
     return np.asarray(np.linalg.norm(step.centres[first] - step.centres[second], axis=1) - 2.0 * radius)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("restitution", [0.0, 0.5])
 @pytest.mark.parametrize("seed", [0, 1])
 def test_discs_come_to_rest_and_stay(restitution: float, seed: int) -> None:

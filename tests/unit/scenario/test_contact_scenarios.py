@@ -21,6 +21,10 @@ COARSE = {
     "stamp_on_pad": ("bodies.pad.mesh.cells=[5, 5, 2]", "time.step=0.2 ms"),
     "oblique_blocks": ("bodies.still.mesh.cells=[3, 3, 3]", "bodies.thrown.mesh.cells=[4, 4, 4]", "time.step=0.1 ms"),
 }
+LONG = ("ring_in_ring", "bar_through_die")
+names = pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=pytest.mark.minutes if n in LONG else []) for n in COARSE]
+)
 
 
 def scenario(name: str) -> sw.Scenario:
@@ -28,13 +32,24 @@ def scenario(name: str) -> sw.Scenario:
     return load(FOLDER / f"{name}.toml", COARSE[name], units=UNITS)
 
 
+class Runs:
+    """The coarse runs, each computed when it is first asked for."""
+
+    def __init__(self) -> None:
+        self.done: dict[str, sw.Run] = {}
+
+    def __getitem__(self, name: str) -> sw.Run:
+        if name not in self.done:
+            self.done[name] = sw.run(scenario(name))
+        return self.done[name]
+
+
 @pytest.fixture(scope="module")
-def runs() -> dict[str, sw.Run]:
-    """The coarse runs."""
-    return {name: sw.run(scenario(name)) for name in COARSE}
+def runs() -> Runs:
+    return Runs()
 
 
-@pytest.mark.parametrize("name", COARSE)
+@names
 def test_contact_holds_and_the_energy_balance_is_closed(name, runs):
     found = runs[name].summary
     (contact,) = found["contacts"].values()
@@ -45,14 +60,14 @@ def test_contact_holds_and_the_energy_balance_is_closed(name, runs):
     assert found["certificate"]["min_force"] >= 0.0
 
 
-@pytest.mark.parametrize("name", COARSE)
+@names
 def test_nodes_approach_before_they_touch(name, runs):
     events = runs[name].events
     touches = np.array([kind == "touch" for kind in events["kind"]])
     assert (events["normal_velocity_before"][touches] <= 1e-12).all()
 
 
-@pytest.mark.parametrize("name", ["ring_in_ring", "oblique_blocks"])
+@pytest.mark.parametrize("name", [pytest.param("ring_in_ring", marks=pytest.mark.minutes), "oblique_blocks"])
 def test_free_bodies_keep_momentum_and_angular_momentum(name, runs):
     history, length = runs[name].history, np.abs(runs[name].fields.cells.reference).max()
     momenta = np.array([history[f"momentum_{i}"] for i in "xyz"])
@@ -71,6 +86,7 @@ def test_a_node_between_two_faces_of_a_crushed_edge():
     assert run.summary["certificate"]["min_gap"] > -1e-15
 
 
+@pytest.mark.minutes
 def test_the_large_ring_gains_what_the_small_one_loses(runs):
     """Masses of polygons with parabolic edges: parabolas add two thirds of chord times sagitta to a straight edge."""
     history = runs["ring_in_ring"].history
@@ -81,6 +97,7 @@ def test_the_large_ring_gains_what_the_small_one_loses(runs):
     assert history["small"][-1] < 2.5 and history["large"][-1] > 0.1
 
 
+@pytest.mark.minutes
 def test_the_push_on_the_bar(runs):
     """It is the derivative of the stored energy: high while the die fills, none on average while the bar slides, and
     its work is the energy of the bar all through.

@@ -32,7 +32,7 @@ LAWS = [
 ]
 
 
-@pytest.mark.few(5)
+@pytest.mark.few(3)
 @pytest.mark.parametrize("law", LAWS, ids=str)
 def test_our_laws_pass(law) -> None:
     check_law(law)

@@ -39,6 +39,7 @@ def test_the_rings_move_and_are_stressed_as_lames(fitted, name):
 
 
 @pytest.mark.slow
+@pytest.mark.few(3)
 def test_they_stay_at_rest(fitted):
     """A march from the fit, of slabs in which a wave crosses two cells, moves nothing.
 

@@ -57,7 +57,7 @@ def test_blocks_with_their_whole_surfaces(aside):
     assert march.error <= 1e-8
 
 
-@pytest.mark.parametrize("name", b09_fast_thin_bodies.PLATES)
+@pytest.mark.parametrize("name", ["corner on face", pytest.param("edge on edge", marks=pytest.mark.minutes)])
 def test_plates_that_meet_with_edges_and_corners(name):
     """No node of a surface comes near the place where edges cross; the touch is that of the plates as rigid bodies.
 

@@ -20,7 +20,7 @@ HUMPS = {"cube": 1.25, "ball": 1.1}
 rests on its face has two, since it swings sideways: 1.21 with four cells a side, 1.41 with eight, 1.25 with twelve."""
 
 
-@pytest.mark.few(4)
+@pytest.mark.few(2)
 @pytest.mark.parametrize(("speed", "courant"), [*((0.1, t) for t in TIMES), *((0.2, t) for t in TIMES[1:])])
 @pytest.mark.parametrize("body", BODIES)
 def test_ten_bounces(body, speed, courant):

@@ -66,6 +66,7 @@ def test_the_fields_open_in_pyvista(energy):
     assert {"displacement", "velocity"} <= set(grid.point_data)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("rule", [sw.contact.Impulse(), sw.contact.Paper(), sw.contact.Paper(approach="extrapolated")])
 def test_the_other_rules_run_it_too(rule):
     """They lose energy at every touch and may not gain any; the impulse is that of the floor."""

@@ -163,6 +163,7 @@ def errors(body: str) -> Array:
     return np.array(found)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("body", BODIES)
 def test_second_order_through_touches(body):
     """Node after node of the lower face touches, five and 25 of them."""

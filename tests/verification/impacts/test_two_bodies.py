@@ -163,7 +163,7 @@ def test_in_steps_a_thousandth_as_long(method):
     assert march.gap >= -1e-12
 
 
-@pytest.mark.few(2)
+@pytest.mark.few(1)
 @pytest.mark.parametrize("method", ["mortar", "nodes"])
 @pytest.mark.parametrize("pair", ["squares", "cubes"])
 def test_by_default_the_spin_converges(pair, method):

@@ -40,7 +40,7 @@ def solved(name: str) -> discrete.Motion:
     return discrete.solve(mesh, np.zeros(3), np.ones(3), gap=0.0, until=UNTIL, rule=rule)
 
 
-@pytest.mark.slow
+@pytest.mark.minutes
 def test_case() -> None:
     assert results.missed("A03") == set()
 
@@ -54,6 +54,7 @@ def test_the_exact_motion_has_the_known_release_and_loss(name: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.few(2)
 @every
 def test_the_loss_is_exact(name: str) -> None:
     *_, lost = RULES[name]
@@ -62,6 +63,7 @@ def test_the_loss_is_exact(name: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.few(2)
 @every
 def test_the_energy_that_is_left_converges(name: str) -> None:
     """Kinetic and strain energy at the end; what the balance lacks falls with h^2 or faster."""
@@ -72,6 +74,8 @@ def test_the_energy_that_is_left_converges(name: str) -> None:
         assert np.abs(march.error).max() <= 0.01 * step**2
 
 
+@pytest.mark.slow
+@pytest.mark.few(2)
 @every
 def test_the_release_converges_at_second_order(name: str) -> None:
     exact = solved(name).times("release")[0]

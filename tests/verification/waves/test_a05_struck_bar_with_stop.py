@@ -52,6 +52,7 @@ def compared(march: bars.Record, sequence: dict) -> tuple[float, float, float]:
     )
 
 
+@pytest.mark.minutes
 def test_case() -> None:
     assert results.missed("A05") == set()
 
@@ -72,6 +73,7 @@ def test_every_event_is_found_in_its_order(k: int) -> None:
     assert march.gap.min() >= -1e-12
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("k", [3, 13], ids=lambda k: name(SEQUENCES[k]))
 def test_instants_and_displacements_are_of_second_order(k: int) -> None:
     marches = coarse(k), marched(SEQUENCES[k], 0.01)

@@ -11,7 +11,7 @@ from softway.apps.verify.scenes.colliding import Collision
 
 pytestmark = pytest.mark.slow
 
-SPACES = [("a", 1), ("a", 2), ("a", 3), ("b", 1), ("b", 2), ("c", 1)]
+SPACES = [("a", 1), ("a", 2), pytest.param(("a", 3), marks=pytest.mark.minutes), ("b", 1), ("b", 2), ("c", 1)]
 
 
 @pytest.fixture(scope="module", params=SPACES, ids=lambda p: f"{p[0]}-{p[1]}D")

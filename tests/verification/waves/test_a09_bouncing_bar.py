@@ -13,8 +13,8 @@ pytestmark = pytest.mark.slow
 
 @pytest.fixture(scope="module")
 def march() -> bars.Record:
-    """The march of the case: 100 elements, automatic step."""
-    return dropped(100, None, 25.2)
+    """The march of the case, 100 elements with the automatic step, for half as long: five bounces."""
+    return dropped(100, None, 13.2)
 
 
 @pytest.mark.minutes
@@ -29,7 +29,8 @@ def test_up_to_the_fifth_bounce_the_instants_are_closer(march: bars.Record) -> N
 
 
 def test_every_contact_lasts_a_round_trip(march: bars.Record) -> None:
-    lengths = np.array([end - start for start, end in march.contacts(apart=1.0)[:9]])
+    lengths = np.array([end - start for start, end in march.contacts(apart=1.0)[:5]])
+    assert len(lengths) == 5
     assert np.abs(lengths - 2.0 / 3.0).max() <= 0.05
 
 
@@ -39,7 +40,7 @@ def test_the_force_of_the_first_contact_grows_linearly(march: bars.Record) -> No
 
 
 def test_the_lower_end_falls_as_the_exact_bar(march: bars.Record) -> None:
-    exact = waves.solve(BAR, 25.0)
+    exact = waves.solve(BAR, 13.0)
     error = march.displacement[:, 0] + exact.tip(march.times)
     early = march.times <= 11.0
     assert np.abs(error[early]).max() <= 0.25
@@ -52,6 +53,7 @@ def test_energy_and_penetration(march: bars.Record) -> None:
     assert march.power.max() <= 1e-12 * ENERGY
 
 
+@pytest.mark.minutes
 def test_six_periods_of_fifty_elements() -> None:
     """Twelve bounces: the energy stays, nothing penetrates, the contact force does no work.
 

@@ -11,8 +11,11 @@ from softway.contact.contact import Contact
 from softway.errors import InputError
 
 
-def resolved(contacts: Sequence[Contact], solids: Collection[str], tools: Collection[str]) -> tuple[Contact, ...]:
-    """Contacts whose members are all named: each of one solid and a tool, or of solids only.
+def resolved(
+    contacts: Sequence[Contact], solids: Collection[str], tools: Collection[str]
+) -> tuple[tuple[int, Contact], ...]:
+    """Contacts whose members are all named, each of one solid and a tool, or of solids only, and the number of the
+    declared contact of which each is a part.
 
     Those with the tools of a list follow the declared ones, so that the numbers of the declared ones stay.
 
@@ -23,30 +26,12 @@ def resolved(contacts: Sequence[Contact], solids: Collection[str], tools: Collec
 
     Examples
     --------
-    >>> for contact in resolved([Contact(between="all")], solids=["ball", "plate"], tools=["floor"]):
-    ...     print(contact.label, contact.names)
-    all ('ball', 'ball', 'plate', 'plate')
-    ball-floor ('ball', 'floor')
-    plate-floor ('plate', 'floor')
+    >>> for number, contact in resolved([Contact(between="all")], solids=["ball", "plate"], tools=["floor"]):
+    ...     print(number, contact.label, contact.names)
+    0 all ('ball', 'ball', 'plate', 'plate')
+    0 ball-floor ('ball', 'floor')
+    0 plate-floor ('plate', 'floor')
     """
-    return tuple(contact for _, contact in _numbered(contacts, solids, tools))
-
-
-def declared_numbers(contacts: Sequence[Contact], solids: Collection[str], tools: Collection[str]) -> tuple[int, ...]:
-    """Number of the declared contact of which each of the :func:`resolved` ones is a part.
-
-    Examples
-    --------
-    >>> declared_numbers([Contact(between="all")], solids=["ball", "plate"], tools=["floor"])
-    (0, 0, 0)
-    """
-    return tuple(k for k, _ in _numbered(contacts, solids, tools))
-
-
-def _numbered(
-    contacts: Sequence[Contact], solids: Collection[str], tools: Collection[str]
-) -> list[tuple[int, Contact]]:
-    """Resolved contacts with the numbers of the declared ones."""
     own: list[tuple[int, Contact]] = []
     with_tools: list[tuple[int, Contact]] = []
     given = {frozenset(c.bodies) for c in contacts if not c.many}
@@ -66,7 +51,7 @@ def _numbered(
             raise InputError(f"contacts[{k}].between", problem, "leave this contact out")
         own.append((k, replace(contact, between=mine, name=contact.label)) if len(mine) > 1 else met.pop(0))
         with_tools += met
-    return [*own, *with_tools]
+    return (*own, *with_tools)
 
 
 def _with_tools(contact: Contact, solids: Sequence[str], tools: Sequence[str]) -> Iterator[Contact]:

@@ -14,10 +14,9 @@ from scipy.sparse.csgraph import connected_components
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.contact.surfaces.boundary import SHARP
+from softway.contact.surfaces.continued_edges import continued_edges
 from softway.contact.tangential_rows import tangents
 
-CONTINUED = -0.5
-"""Greatest cosine between an edge and another one that continues it at the end of a surface."""
 EVEN = 2.0
 """Length of an edge, relative to the one that continues it, up to which the angle at their node curves it fully: the
 angle between the chord of a small round and a long flat facet belongs to the round."""
@@ -122,7 +121,7 @@ def _ends(
     node, group = np.repeat(corners.node, 2), np.repeat(fan, 2)
     step = points[other] - points[node]
     length = np.linalg.norm(step, axis=1)
-    opposite, continued = _continued(group, step / length[:, None])
+    opposite, continued = continued_edges(group, step / length[:, None])
     beyond = length[opposite]
     even = np.minimum(1.0, EVEN * beyond / length) ** 2
     scale = -0.25 * even * length**2 / (length + beyond)
@@ -246,20 +245,3 @@ def _fans(corners: _Corners) -> tuple[IntArray, BoolArray]:
     fan = np.asarray(connected_components(joined, directed=False)[1], dtype=np.int64)
     follows = np.diff(joined.indptr) > (1 if plane else 0)  # in the plane a corner is at its own node
     return fan, np.bincount(fan, ~follows) == 0.0
-
-
-def _continued(fan: IntArray, unit: Array) -> tuple[IntArray, BoolArray]:
-    """Directions (e,) that continue the directions (e, d) of the same fan (e,) best, and if they do."""
-    order = np.argsort(fan, kind="stable")
-    count = np.bincount(fan)
-    width, first = count[fan[order]], (np.cumsum(count) - count)[fan[order]]
-    begin = np.cumsum(width) - width
-    row = np.repeat(np.arange(len(order)), width)
-    other = np.arange(len(row)) - np.repeat(begin, width) + np.repeat(first, width)
-    cosine = np.einsum("ed,ed->e", unit[order][row], unit[order][other])
-    least = np.minimum.reduceat(cosine, begin)
-    best = np.flatnonzero(cosine == least[row])
-    place = best[np.searchsorted(row[best], np.arange(len(order)))]
-    opposite, found = np.empty(len(fan), dtype=np.int64), np.zeros(len(fan), dtype=bool)
-    opposite[order], found[order] = order[other[place]], least < CONTINUED
-    return opposite, found

@@ -14,6 +14,7 @@ from scipy.spatial import cKDTree
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.contact.surfaces.boundary import SHARP, ContactSurface
+from softway.contact.surfaces.continued_edges import continued_edges
 from softway.contact.tangential_rows import tangents
 from softway.meshes.cells import CELLS
 
@@ -22,11 +23,13 @@ CONFORMING = 0.3
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class CurvedSurface:
+class NodalCurvature:
     """Curvature and edges of a surface at its corner nodes.
 
     Parameters
     ----------
+    node
+        (k,) sorted numbers of the corner nodes.
     points
         (k, d) positions of the corner nodes [m].
     normal
@@ -39,6 +42,7 @@ class CurvedSurface:
         Distance of the facets from the smooth surface, relative to that of straight facets.
     """
 
+    node: IntArray
     points: Array
     normal: Array
     curvature: Array
@@ -52,13 +56,23 @@ class CurvedSurface:
 
     def off(self, node: IntArray, step: Array) -> Array:
         """Distance (p,) of the facets from the smooth surface, at tangential steps (p, d) from nodes (p,) [m]."""
+        values, axes, reach = self._principal()
+        along = np.abs(np.einsum("pd,pdi->pi", step, axes[node]))
+        bow = 0.5 * along * np.maximum(reach[node] - along, 0.0)
+        return np.asarray(self.factor * (np.abs(values[node]) * bow).sum(axis=1))
+
+    def outside(self) -> Array:
+        """Greatest distance (k,) by which the facets around each node stand outside of the smooth surface [m]."""
+        values, _, reach = self._principal()
+        return np.asarray(self.factor * (np.maximum(-values, 0.0) * reach**2 / 8.0).sum(axis=1))
+
+    def _principal(self) -> tuple[Array, Array, Array]:
+        """Principal curvatures (k, d) [1/m], their directions (k, d, d), and the extent (k, d) of the edges [m]."""
         values, axes = np.linalg.eigh(self.curvature)
         row = np.repeat(np.arange(len(self.points)), np.diff(self.first))
         reach = np.zeros(values.shape)
         np.maximum.at(reach, row, np.abs(np.einsum("ed,edi->ei", self.edges, axes[row])))
-        along = np.abs(np.einsum("pd,pdi->pi", step, axes[node]))
-        bow = 0.5 * along * np.maximum(reach[node] - along, 0.0)
-        return np.asarray(self.factor * (np.abs(values[node]) * bow).sum(axis=1))
+        return values, axes, reach
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,7 +83,7 @@ class Misfit:
     gap: float
 
 
-def curved_surface(side: ContactSurface, x: Array) -> CurvedSurface:
+def nodal_curvature(side: ContactSurface, x: Array) -> NodalCurvature:
     """Curvature of a surface at positions ``x`` (n, d).
 
     Examples
@@ -79,7 +93,7 @@ def curved_surface(side: ContactSurface, x: Array) -> CurvedSurface:
     >>> turn = np.arange(60) * np.pi / 30
     >>> circle = 2.0 * np.column_stack([np.cos(turn), np.sin(turn)])
     >>> side = ContactSurface(facets={"bar2": np.stack([np.arange(60), np.roll(np.arange(60), -1)], axis=1)})
-    >>> made = curved_surface(side, circle)
+    >>> made = nodal_curvature(side, circle)
     >>> made.off(np.array([0]), 0.5 * (circle[1:2] - circle[:1])).round(4).tolist()
     [0.0027]
     """
@@ -101,11 +115,12 @@ def curved_surface(side: ContactSurface, x: Array) -> CurvedSurface:
     both = both[order]
     first = np.searchsorted(both[:, 0], np.arange(len(node) + 1))
     step = x[node[both[:, 1]]] - x[node[both[:, 0]]]
-    normal = _turned(normal, both, step, back, first, smooth)
+    normal = _turned(normal, both, step, back, smooth)
     bent = np.einsum("ed,ed->e", normal[both[:, 1]] - normal[both[:, 0]], step) / np.einsum("ed,ed->e", step, step)
     bent = np.where(smooth[both].all(axis=1), bent, 0.0)
     degree = max(CELLS[kind].order for kind in side.facets)
-    return CurvedSurface(
+    return NodalCurvature(
+        node=node,
         points=x[node],
         normal=normal,
         curvature=_fitted(both[:, 0], step, bent, normal),
@@ -115,7 +130,7 @@ def curved_surface(side: ContactSurface, x: Array) -> CurvedSurface:
     )
 
 
-def misfit(one: CurvedSurface, other: CurvedSurface, fit: bool) -> Misfit | None:
+def misfit(one: NodalCurvature, other: NodalCurvature, fit: bool) -> Misfit | None:
     """Greatest distance of facets from the smooth surface where two surfaces meet; None where they meet nowhere.
 
     With ``fit`` the surfaces meet where they overlap, and ``gap`` is the deepest overlap, negative.  Otherwise they
@@ -130,7 +145,7 @@ def misfit(one: CurvedSurface, other: CurvedSurface, fit: bool) -> Misfit | None
     return Misfit(off=float(off[near].max(initial=0.0)), gap=least)
 
 
-def _seen(one: CurvedSurface, other: CurvedSurface, fit: bool) -> tuple[Array, Array, Array]:
+def _seen(one: NodalCurvature, other: NodalCurvature, fit: bool) -> tuple[Array, Array, Array]:
     """Distances (p,) of the facets of ``other`` at the nodes of ``one``, gaps (p,), and True (p,) where they meet."""
     far, near = cKDTree(other.points).query(one.points)
     away = one.points - other.points[near]
@@ -149,18 +164,14 @@ def _seen(one: CurvedSurface, other: CurvedSurface, fit: bool) -> tuple[Array, A
     return other.off(near, step), gap, beside & (greater > 0.0) & (np.abs(own + opposite) <= CONFORMING * greater)
 
 
-def _turned(normal: Array, both: IntArray, step: Array, back: IntArray, first: IntArray, smooth: BoolArray) -> Array:
+def _turned(normal: Array, both: IntArray, step: Array, back: IntArray, smooth: BoolArray) -> Array:
     """Normals (k, d) at the ends of a surface, turned as if it went on; those of one facet stand askew.
 
     An edge (e, d) that no other one continues at its first node, but one at its second, has the same angle to both
     normals on a circle.  ``back`` (e,) is the number of the reversed edge.
     """
     unit = step / np.linalg.norm(step, axis=1, keepdims=True)
-    count = np.diff(first)[both[:, 0]]
-    row = np.repeat(np.arange(len(both)), count)
-    other = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count) + first[both[row, 0]]
-    continued = np.zeros(len(both), dtype=bool)
-    np.logical_or.at(continued, row, np.einsum("ed,ed->e", unit[row], unit[other]) < -0.5)
+    _, continued = continued_edges(both[:, 0], unit)
     end = np.flatnonzero(~continued & continued[back] & smooth[both].all(axis=1))
     slope = np.einsum("ed,ed->e", normal[both[end, 1]] + normal[both[end, 0]], unit[end])
     out = normal.copy()

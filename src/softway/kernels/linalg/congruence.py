@@ -10,7 +10,7 @@ from softway.arrays import Array
 from softway.kernels.jit.compilation import unfused_kernel
 
 WIDTH = 64
-"""Columns of a block."""
+"""Rows of the matrix in a block."""
 
 
 def congruence(rows: sp.csr_array, matrix: Array) -> Array:
@@ -22,24 +22,24 @@ def congruence(rows: sp.csr_array, matrix: Array) -> Array:
     [[15.0]]
     """
     k, b = rows.shape
-    products, out = np.empty((b, k)), np.empty((k, k))
-    right_products(rows.data, rows.indices, rows.indptr, np.ascontiguousarray(matrix.T, float), products)
-    left_products(rows.data, rows.indices, rows.indptr, products, out)
-    return out.T
+    half, out = np.empty((b, k)), np.empty((k, k), order="F")
+    products_with_rows(np.ascontiguousarray(matrix.T, float), rows.data, rows.indices, rows.indptr, half)
+    products_with_rows(half.T, rows.data, rows.indices, rows.indptr, out)
+    return out
 
 
 @unfused_kernel
-def right_products(value, column, first, rows, products):
-    """Write ``(C A)^T`` into ``products`` (b, k), for the rows (b, b) of ``A^T``; C (k, b) has the entries ``value`` in
-    ``column``, from ``first`` (k + 1,) on.
+def products_with_rows(matrix, value, column, first, out):
+    """Write ``M C^T`` (m, k) into ``out``, for a dense ``matrix`` M (m, b) and sparse rows C (k, b) with the entries
+    ``value`` in ``column``, from ``first`` (k + 1,) on.
     """
-    k, b = len(first) - 1, len(rows)
+    (m, b), k = matrix.shape, len(first) - 1
     block, total = np.empty((b, WIDTH)), np.empty(WIDTH)
-    for start in range(0, b, WIDTH):
-        width = min(WIDTH, b - start)
+    for start in range(0, m, WIDTH):
+        width = min(WIDTH, m - start)
         for a in range(b):
             for w in range(width):
-                block[a, w] = rows[start + w, a]
+                block[a, w] = matrix[start + w, a]
         for i in range(k):
             total[:] = 0.0
             for q in range(first[i], first[i + 1]):
@@ -47,24 +47,4 @@ def right_products(value, column, first, rows, products):
                 for w in range(WIDTH):
                     total[w] += amount * part[w]
             for w in range(width):
-                products[start + w, i] = total[w]
-
-
-@unfused_kernel
-def left_products(value, column, first, products, out):
-    """Write ``C products`` (k, k) into ``out``, for ``products`` (b, k) and C as in :func:`right_products`."""
-    k, total = len(first) - 1, np.empty(WIDTH)
-    block = np.empty((len(products), WIDTH))
-    for start in range(0, k, WIDTH):
-        width = min(WIDTH, k - start)
-        for a in range(len(products)):
-            for w in range(width):
-                block[a, w] = products[a, start + w]
-        for i in range(k):
-            total[:] = 0.0
-            for q in range(first[i], first[i + 1]):
-                amount, part = value[q], block[column[q]]
-                for w in range(WIDTH):
-                    total[w] += amount * part[w]
-            for w in range(width):
-                out[i, start + w] = total[w]
+                out[start + w, i] = total[w]

@@ -23,7 +23,7 @@ from softway.march.rules.event_iteration import (
     without_adhesion,
     without_events,
 )
-from softway.march.rules.impulsive_result import impulsive_result, known_impulses
+from softway.march.rules.impulsive_result import ImpulsiveSolution, impulsive_result, known_impulses
 from softway.march.rules.slab_rule import Attempt, Solutions, require_nodal
 from softway.march.rules.touch import (
     InelasticImpact,
@@ -44,7 +44,7 @@ from softway.solve.equations.slab_contact import FixedContact, InitialContact
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.methods.cancellable import cancellable
 from softway.solve.methods.fixed_point import FixedPoint
-from softway.solve.methods.iteration import Guess, Solution, iterate
+from softway.solve.methods.iteration import Guess, iterate
 from softway.solve.methods.newton import Newton
 from softway.solve.operators.operator_memory import OperatorMemory
 from softway.tolerances import KEEP_FACETS_AFTER
@@ -82,7 +82,8 @@ class Impulsive:
                 u1, memory = solution.end.displacement, solution.last.memory
                 if passes == KEEP_FACETS_AFTER and pairs.fixed_rows is None:
                     facets = pairs.with_kept_facets(u1)
-                revision = self._revision(model, now, system, current, facets, solution, found)
+                solved = ImpulsiveSolution(now, slab, system, current, solution, found, self.touch)
+                revision = self._revision(model, solved, facets)
                 stopped = slip.halted(current.rows, solution.last.q)
                 if revision is None and stopped is not None:
                     revision, halts = current, halts | (slip.onward & ~stopped.onward)
@@ -91,33 +92,22 @@ class Impulsive:
                 if facets is not pairs and not pairs.apart(u1):
                     raise NoConvergence("nodes kept on their facets overlap other facets")
                 work = passes, iterations + solution.iterations
-                yield (
-                    impulsive_result(now, slab, system, current, solution, found, self.touch, pairs.found, work, slip),
-                    memory,
-                )
+                yield impulsive_result(solved, slip, pairs.found, work), memory
             else:
                 return
             iterations += solution.iterations
             current, guess = revision, solution.last.q
         raise NoConvergence(f"the contact events were not found in {PASSES} solutions of the slab")
 
-    def _revision(
-        self,
-        model: Model,
-        now: ModelState,
-        system: SlabEquations,
-        current: EventIteration,
-        facets: SlabContacts,
-        solution: Solution,
-        found: tuple[VelocityJump, ...],
-    ) -> EventIteration | None:
+    def _revision(self, model: Model, solved: ImpulsiveSolution, facets: SlabContacts) -> EventIteration | None:
         """Contact events and rows that a solution requires in place of the current ones; None if there are none."""
+        now, system, current, solution = solved.now, solved.system, solved.current, solved.solution
         span = system.path.span
         friction = steady_push(now, current.rows, solution, span)
         revision = with_new_facets(model, now, facets, current, solution, span) or with_new_events(
             model, now, system, current, solution, self.inertia, self.touch, friction
         )
-        return without_adhesion(current, found) if revision is None and self.touch.balanced else revision
+        return without_adhesion(current, solved.found) if revision is None and self.touch.balanced else revision
 
 
 def inelastic_impact(model: Model, method: FixedPoint | Newton, weight: TimeWeight) -> Impulsive:

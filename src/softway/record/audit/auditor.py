@@ -9,6 +9,7 @@ import numpy as np
 from softway.arrays import Array, BoolArray
 from softway.bodies.prescribed_motion import PlacedShape
 from softway.march.results.step import Event
+from softway.record.audit.geometry.chords import outside
 from softway.record.audit.geometry.inverted import inverted
 from softway.record.audit.geometry.overlap import overlaps
 from softway.record.audit.geometry.solids import Solids, solids
@@ -21,6 +22,8 @@ VISIBLE = 1e-3
 picture a thousand pixels wide."""
 THIN = 1e-2
 """Depth relative to the shortest line of the boundary, from which it is a finding in thin and finely meshed bodies."""
+TOLD = 0.1
+"""Share of an overlap from which the finding tells what facets stand out of the curves through their nodes."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -72,12 +75,17 @@ class Auditor:
         """Nodes (n,) behind each tool that is an open surface."""
         return {name: behind(self.solids, tool) for name, tool in self.tools.items()}
 
+    @cached_property
+    def _outside(self) -> Array:
+        """Distance (n,) by which the facets around each node stand out of the curve at rest [m]."""
+        return outside(self.solids)
+
     def look(self, time: float, x: Array, tools: Mapping[str, PlacedShape]) -> Depths:
         """Overlaps and inverted cells at a time [s] with the nodes at x (n, d) [m], and the tools at their places."""
         found = [*self._bodies(x), *self._tools(tools, x)]
         nodes = max((f.depth for f in found if f.at_node), default=0.0)
         between = max((f.depth for f in found), default=0.0)
-        seen = (self._told(time, f) for f in found if f.depth > self._limit(f))
+        seen = (self._told(time, f, x) for f in found if f.depth > self._limit(f))
         return Depths(nodes=nodes, between=between, findings=(*seen, *self._inverted(time, x)))
 
     def _limit(self, found: Overlap) -> float:
@@ -108,7 +116,7 @@ class Auditor:
             for s in sunk(self.solids, x, tool, self._behind[name]):
                 yield Overlap(self.solids.names[s.body], name, s.node, s.at_node, s.place, s.depth)
 
-    def _told(self, time: float, found: Overlap) -> Event:
+    def _told(self, time: float, found: Overlap, x: Array) -> Event:
         """Finding of an overlap."""
         node = self._number(found.own, found.node)
         where = (
@@ -119,11 +127,27 @@ class Auditor:
             time,
             OVERLAP if found.at_node else BETWEEN,
             sorted((found.own, found.other), key=self._order),
-            f"{where} is {found.depth:.3g} m inside {what}",
+            f"{where} is {found.depth:.3g} m inside {what}{self._chords(found, x)}",
             node=node,
             place=found.place,
             depth=found.depth,
         )
+
+    def _chords(self, found: Overlap, x: Array) -> str:
+        """How much of an overlap of two solids may be that of chords alone; empty for a small share.
+
+        Nodes are on the curve of their own surface, places between them are not.
+        """
+        if found.own == found.other or found.other not in self.solids.names:
+            return ""
+        solids, body = self.solids, self.solids.names.index(found.other)
+        nodes = solids.surface[solids.owner[solids.surface] == body]
+        nearest = nodes[np.argmin(np.linalg.norm(x[nodes] - found.place, axis=1))]
+        chord = float(self._outside[nearest] + (0.0 if found.at_node else self._outside[found.node]))
+        if chord < TOLD * found.depth:
+            return ""
+        part = f"up to {min(chord, found.depth):.3g} m"
+        return f"; of this, {part} is the sagitta of facets, and no overlap of the curves through their nodes"
 
     def _inverted(self, time: float, x: Array) -> Iterator[Event]:
         """Worst inverted cell of each body."""

@@ -16,7 +16,7 @@ from softway.bodies.solid import Solid
 from softway.contact.assembly.tie import Tie
 from softway.contact.contact import Contact, NodeToSurface
 from softway.contact.surfaces.boundary import ContactSurface
-from softway.contact.surfaces.sagitta import CurvedSurface, Misfit, curved_surface, misfit
+from softway.contact.surfaces.sagitta import Misfit, NodalCurvature, misfit, nodal_curvature
 from softway.errors import Note, within
 from softway.laws.cohesive_law import BilinearCohesive
 from softway.march.friction.flutter import sliding_flutter
@@ -26,7 +26,7 @@ from softway.meshes.files.listed_mesh import LeftOut
 from softway.model.model import Model
 from softway.scenario.checks.locking import locking_notes
 from softway.scenario.checks.names import mesh_of
-from softway.scenario.checks.tool_notes import curved_tool
+from softway.scenario.checks.tool_notes import tool_curvature
 
 SHARE = 0.1
 """Distance of facets from the smooth surface, relative to the gap or interference, beyond which it is noted."""
@@ -158,15 +158,15 @@ def contact_notes(model: Model) -> tuple[Note, ...]:
     Against a tool only the nodes of the solid count, and the facets of the tool. Mortar contact measures gaps on the
     curve itself.
     """
-    notes, curved = [], partial(_curved, model)
+    notes, curvature = [], partial(_curvature, model)
     for k, contact in enumerate(model.scene.contacts):
         tool = model.tools.get(contact.opponent) if model.against_tool[k] else None
-        second = None if tool is None else curved_tool(tool)
+        second = None if tool is None else tool_curvature(tool)
         nodes = tool is not None or contact.many or isinstance(contact.method, NodeToSurface)
         mortar = contact.timing.massless and not nodes
         if model.shape[1] == 1 or mortar or (tool is not None and second is None):
             continue
-        surfaces = [curved(*place) for place in _surfaces(model, contact)]
+        surfaces = [curvature(*place) for place in _surfaces(model, contact)]
         if second is not None:
             surfaces = [replace(surfaces[0], factor=0.0), second]
         fit = contact.start == "fit"
@@ -266,11 +266,11 @@ def _worst(found: Iterable[Misfit | None]) -> Misfit | None:
     return max((f for f in found if f is not None), key=lambda f: f.off / max(abs(f.gap), f.off, 1e-300), default=None)
 
 
-def _curved(model: Model, number: int, tag: str) -> CurvedSurface:
+def _curvature(model: Model, number: int, tag: str) -> NodalCurvature:
     """Curvature of a surface of a solid at the initial displacement."""
     part = model.parts[number]
     facets = {name: nodes + part.nodes.start for name, nodes in part.mesh.facets_on(tag).items()}
-    return curved_surface(ContactSurface(facets=facets), model.points + model.displacement)
+    return nodal_curvature(ContactSurface(facets=facets), model.points + model.displacement)
 
 
 _OTHERWISE = {

@@ -9,7 +9,7 @@ from softway.arrays import Array
 from softway.bodies.rigid_motion import RigidShape
 from softway.bodies.solid import Solid, Tool
 from softway.contact.surfaces.boundary import ContactSurface
-from softway.contact.surfaces.sagitta import CurvedSurface, curved_surface
+from softway.contact.surfaces.sagitta import NodalCurvature, nodal_curvature
 from softway.errors import Note
 from softway.meshes.generators.recipes import UNITS, Divided, MeshFile
 from softway.meshes.mesh import Mesh
@@ -24,7 +24,7 @@ SEGMENT = {2: "bar2", 3: "tri3"}
 """Facets of a tool by the dimension of space."""
 
 
-def curved_tool(tool: Tool | RigidShape) -> CurvedSurface | None:
+def tool_curvature(tool: Tool | RigidShape) -> NodalCurvature | None:
     """Curvature of a tool of flat facets at its place at the start; None for another tool."""
     hollow = isinstance(tool.shape, Cavity)
     shape = tool.shape.of if isinstance(tool.shape, Cavity) else tool.shape
@@ -33,7 +33,7 @@ def curved_tool(tool: Tool | RigidShape) -> CurvedSurface | None:
         return None
     cells = facets.cells[:, ::-1] if hollow else facets.cells
     side = ContactSurface(facets={SEGMENT[facets.dim]: cells})
-    return curved_surface(side, tool.motion.at(0.0).place(facets.points))
+    return nodal_curvature(side, tool.motion.at(0.0).place(facets.points))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -27,7 +27,7 @@ NEWTON = 25
 HALVINGS = 6
 """Halvings of a step that would increase the violation."""
 FALLS = 0.1
-"""Reduction of the violation by a step above which the linearisation is renewed."""
+"""Reduction of a residual by a step above which a new factor is cheaper than more steps."""
 STUCK = 3
 """Searches without result for forces that let rows at rest stick, after which an attempt at a slab makes no more."""
 SWEEPS = 10
@@ -53,7 +53,7 @@ INCONSISTENT = 1e-7
 """Residual, relative to the motion by the forces, left in the end by dependent rows that contradict each other: rows of
 one point that stick on several walls leave no motion to close all their gaps."""
 ACCURATE = 1e-13
-"""Residual, relative to the motion by the forces, at which steps with a kept factor end."""
+"""Residual, relative to the motion of the rows, at which steps with a kept factor end."""
 
 
 def solve_multipliers(problem: FrictionProblem, x: Array) -> tuple[Array, BoolArray]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softway.arrays import Array, BoolArray, IntArray
+from softway.arrays import Array, BoolArray, IntArray, greatest
 from softway.errors import NoConvergence
 from softway.kernels.linalg.active_set import exchanged, most_sweeps
 from softway.kernels.linalg.dense import DenseFactor, factored
@@ -49,17 +49,6 @@ class RowConditions:
         """Admissible violation of the targets by rounding; ``slack`` (m,) are the present differences from them."""
         target = np.where(self.equal | self.unilateral, self.target, 0.0)
         return max(1e-14 * max(greatest(slack), greatest(target), 1e-300), self.rounding)
-
-
-def greatest(values: Array) -> float:
-    """Greatest magnitude of values of any shape, without a copy of them; zero for empty arrays.
-
-    Examples
-    --------
-    >>> greatest(np.array([[0.5, -2.0]])), greatest(np.zeros(0))
-    (2.0, 0.0)
-    """
-    return max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))
 
 
 REDUNDANT = 10
@@ -214,7 +203,7 @@ def multipliers(frozen: FrozenOperator, active: RowCoefficients, wanted: Array) 
             return found
     factor = _factored_compliance(frozen, active)
     if recent is not None:
-        recent.keep(factor)
+        recent.factor = factor
     force = factor.solve(wanted / frozen.scale)
     return force, pushed(force)
 

@@ -12,27 +12,23 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.kernels.linalg.dense import DenseFactor
-from softway.solve.constraints.friction_newton import KeptNewton
+from softway.solve.constraints.friction_newton import ACCURATE, FALLS, KeptNewton
 
 Push = TypeVar("Push")
 
 FEW = 32
 """Number of rows below which a new factor is as cheap."""
-ACCURATE = 1e-13
-"""Residual at which the refinement ends, relative to the right-hand side."""
-FAST = 0.1
-"""Greatest factor of residuals in succession; above it a new factor is cheaper."""
 
 
 class RecentFactor:
     """Factored compliance of active rows in an earlier iteration, and the linearisation of their friction; none at the
-    start of a slab.
+    start of a slab. The iterations write both attributes.
 
     Examples
     --------
     >>> from softway.kernels.linalg.dense import factored
     >>> recent = RecentFactor()
-    >>> recent.keep(factored(np.diag([1.0, 2.0])))
+    >>> recent.factor = factored(np.diag([1.0, 2.0]))
     >>> force, motion = recent.refined(np.ones(2), lambda x: np.array([1.01, 2.01]) * x, lambda motion: motion)
     >>> force.round(6).tolist(), bool(abs(motion - 1.0).max() < 1e-13)
     ([0.990099, 0.497512], True)
@@ -45,10 +41,6 @@ class RecentFactor:
     def __init__(self) -> None:
         self.factor: DenseFactor | None = None
         self.friction: KeptNewton | None = None
-
-    def keep(self, factor: DenseFactor) -> None:
-        """Keep a factor in place of the last one."""
-        self.factor = factor
 
     def refined(
         self, wanted: Array, push: Callable[[Array], Push], measure: Callable[[Push], Array]
@@ -67,6 +59,6 @@ class RecentFactor:
             now = float(np.abs(left).max(initial=0.0))
             if now <= goal:
                 return force, pushed
-            if not now <= FAST * last:
+            if not now <= FALLS * last:
                 return None
             last = now

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from softway.arrays import Array, IntArray
+from softway.arrays import Array, IntArray, greatest
 from softway.solve.linear.interface import CondensingFactor, Factor, Precision
 
 GREAT = 60
@@ -25,8 +25,8 @@ def exponent(values: Array) -> int:
     >>> exponent(np.array([0.25, -1.0])), exponent(np.zeros(2))
     (59, 0)
     """
-    greatest = max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))
-    return GREAT - int(np.frexp(greatest)[1]) if greatest > 0.0 and np.isfinite(greatest) else 0
+    most = greatest(values)
+    return GREAT - int(np.frexp(most)[1]) if most > 0.0 and np.isfinite(most) else 0
 
 
 def enlarged(matrix: sp.csc_array, precision: Precision) -> tuple[sp.csc_array, int]:

@@ -3,7 +3,7 @@
 import pytest
 
 import softway as sw
-from softway.contact.assembly.declared import at_declared, declared_numbers, resolved
+from softway.contact.assembly.declared import at_declared, resolved
 from softway.contact.contact import Contact
 from softway.errors import InputError
 from softway.laws.friction.coulomb import Coulomb
@@ -14,12 +14,12 @@ SOLIDS, TOOLS = ("a", "b"), ("floor", "wall")
 
 
 def told(*contacts: Contact) -> list[tuple[str, tuple[str, ...]]]:
-    return [(c.label, c.names) for c in resolved(contacts, SOLIDS, TOOLS)]
+    return [(c.label, c.names) for _, c in resolved(contacts, SOLIDS, TOOLS)]
 
 
 def test_pairs_stay_as_they_are() -> None:
     pairs = (Contact(between=("a.left", "floor")), Contact(between=("a", "b"), name="both"))
-    assert resolved(pairs, SOLIDS, TOOLS) == pairs
+    assert resolved(pairs, SOLIDS, TOOLS) == tuple(enumerate(pairs))
 
 
 def test_all_is_every_surface_with_every_other_itself_and_the_tools() -> None:
@@ -43,7 +43,8 @@ def test_a_list_names_its_members_and_its_tools() -> None:
 
 def test_declared_contacts_keep_their_numbers_and_laws() -> None:
     rough = Coulomb(mu=0.5)
-    found = resolved((Contact(between="all"), Contact(between=("b", "floor"), friction=rough)), SOLIDS, TOOLS)
+    contacts = (Contact(between="all"), Contact(between=("b", "floor"), friction=rough))
+    found = [c for _, c in resolved(contacts, SOLIDS, TOOLS)]
     assert [c.label for c in found] == ["all", "b-floor", "a-floor", "a-wall", "b-wall"]
     assert found[1].friction is rough
     assert found[2].friction.frictionless
@@ -51,7 +52,7 @@ def test_declared_contacts_keep_their_numbers_and_laws() -> None:
 
 def test_friction_of_all_is_that_of_its_tools() -> None:
     rough = Coulomb(mu=0.2)
-    assert {c.friction for c in resolved((Contact(between="all", friction=rough),), SOLIDS, TOOLS)} == {rough}
+    assert {c.friction for _, c in resolved((Contact(between="all", friction=rough),), SOLIDS, TOOLS)} == {rough}
 
 
 def test_tools_alone_are_refused() -> None:
@@ -67,8 +68,7 @@ def test_a_list_of_pairs_that_others_have_is_refused() -> None:
 
 def test_every_part_has_the_number_of_its_contact() -> None:
     contacts = (Contact(between=("b", "floor")), Contact(between=("a", "b", "floor")), Contact(between="all"))
-    found = zip(declared_numbers(contacts, SOLIDS, TOOLS), resolved(contacts, SOLIDS, TOOLS), strict=True)
-    assert [(k, c.names) for k, c in found] == [
+    assert [(k, c.names) for k, c in resolved(contacts, SOLIDS, TOOLS)] == [
         (0, ("b", "floor")),
         (1, ("a", "b")),
         (2, ("a", "a", "b", "b")),

@@ -5,7 +5,7 @@ import pytest
 
 from softway.arrays import Array
 from softway.contact.surfaces.boundary import ContactSurface
-from softway.contact.surfaces.sagitta import curved_surface, misfit
+from softway.contact.surfaces.sagitta import misfit, nodal_curvature
 from softway.meshes.generators.graded import ring
 from softway.meshes.generators.shapes import KINDS, ball, box, rectangle
 from softway.meshes.mesh import Mesh
@@ -19,7 +19,7 @@ def surface(mesh: Mesh, tag: str = "surface") -> ContactSurface:
 def middles(mesh: Mesh, tag: str) -> Array:
     """Distance (f,) of the facets from the smooth surface in the middle of the first edge of each facet."""
     side = surface(mesh, tag)
-    made = curved_surface(side, mesh.points)
+    made = nodal_curvature(side, mesh.points)
     ends = np.concatenate([f[:, :2] for f in side.facets.values()])
     corners = np.unique(np.concatenate([f[:, : 2 if mesh.dim == 2 else 4] for f in side.facets.values()]))
     half = 0.5 * (mesh.points[ends[:, 1]] - mesh.points[ends[:, 0]])
@@ -51,7 +51,7 @@ def tube(around: int, along: int, radius: float, thick: float) -> Mesh:
 def test_cylinder_is_curved_around_and_straight_along_its_axis(along: int) -> None:
     mesh = tube(12, along, 1.0, 0.2)
     side = surface(mesh, "right")
-    made = curved_surface(side, mesh.points)
+    made = nodal_curvature(side, mesh.points)
     inner = np.flatnonzero((made.points[:, :2] > 0.3).all(axis=1))
     axis = np.tile([0.0, 0.0, 1.0], (len(inner), 1))
     around = np.cross(axis, made.normal[inner])
@@ -64,13 +64,13 @@ def test_cylinder_is_curved_around_and_straight_along_its_axis(along: int) -> No
 @pytest.mark.parametrize("cell", [*KINDS[2], *KINDS[3]])
 def test_flat_faces_and_sharp_edges_have_no_sagitta(cell: str) -> None:
     flat = rectangle((1.0, 2.0), (3, 4), cell=cell) if cell in KINDS[2] else box((1.0, 2.0, 1.0), (3, 4, 2), cell=cell)
-    made = curved_surface(surface(flat), flat.points)
+    made = nodal_curvature(surface(flat), flat.points)
     assert np.abs(made.curvature).max() == 0.0
 
 
 def test_sphere_has_the_same_curvature_in_all_directions() -> None:
     mesh = ball(1.0, 16)
-    made = curved_surface(surface(mesh), mesh.points)
+    made = nodal_curvature(surface(mesh), mesh.points)
     trace = np.trace(made.curvature, axis1=1, axis2=2)
     assert np.median(trace) == pytest.approx(2.0, rel=0.05)
 
@@ -85,8 +85,8 @@ def pair(facets: tuple[int, int], gap: float, cell: str = "quad4") -> tuple[Mesh
 def test_facets_that_do_not_match_stand_off_by_the_greater_sagitta(gap: float) -> None:
     inner, outer = pair((40, 32), gap)
     found = misfit(
-        curved_surface(surface(inner, "outer"), inner.points),
-        curved_surface(surface(outer, "inner"), outer.points),
+        nodal_curvature(surface(inner, "outer"), inner.points),
+        nodal_curvature(surface(outer, "inner"), outer.points),
         fit=gap < 0.0,
     )
     assert found is not None
@@ -96,18 +96,18 @@ def test_facets_that_do_not_match_stand_off_by_the_greater_sagitta(gap: float) -
 
 def test_facets_that_match_meet_without_misfit() -> None:
     inner, outer = pair((32, 32), -1e-5)
-    sides = [curved_surface(surface(m, tag), m.points) for m, tag in ((inner, "outer"), (outer, "inner"))]
+    sides = [nodal_curvature(surface(m, tag), m.points) for m, tag in ((inner, "outer"), (outer, "inner"))]
     found = misfit(sides[0], sides[1], fit=True)
     assert found is not None and found.off < 1e-3 * 6e-6 and found.gap == pytest.approx(-1e-5, rel=1e-3)
 
 
 def test_tubes_with_other_cells_along_the_axis_only_meet_without_misfit() -> None:
     inner, outer = tube(12, 3, 0.8, 0.2002), tube(12, 5, 1.0, 0.5)
-    sides = [curved_surface(surface(m, tag), m.points) for m, tag in ((inner, "right"), (outer, "left"))]
+    sides = [nodal_curvature(surface(m, tag), m.points) for m, tag in ((inner, "right"), (outer, "left"))]
     found = misfit(sides[0], sides[1], fit=True)
     assert found is not None and found.off < 1e-6 and found.gap == pytest.approx(-2e-4, rel=0.1)
     other = tube(17, 5, 1.0, 0.5)
-    found = misfit(sides[0], curved_surface(surface(other, "left"), other.points), fit=True)
+    found = misfit(sides[0], nodal_curvature(surface(other, "left"), other.points), fit=True)
     assert found is not None and found.off == pytest.approx(1.0 - np.cos(np.pi / 48), rel=0.1)
 
 
@@ -115,5 +115,5 @@ def test_ball_on_a_plane_does_not_conform() -> None:
     disc = ring(0.1, 1.0, cells=(4, 60), angle=2.0 * np.pi)
     floor = rectangle((4.0, 1.0), (30, 4))
     floor = Mesh(points=floor.points + np.array([-2.0, -2.0]), blocks=floor.blocks, tags=floor.tags)
-    sides = [curved_surface(surface(m, tag), m.points) for m, tag in ((disc, "outer"), (floor, "top"))]
+    sides = [nodal_curvature(surface(m, tag), m.points) for m, tag in ((disc, "outer"), (floor, "top"))]
     assert misfit(sides[0], sides[1], fit=False) is None

@@ -74,7 +74,7 @@ def plain(body: InelasticForce) -> InelasticForce:
     return replace(body, work=body.plain)
 
 
-@pytest.mark.few(30)
+@pytest.mark.few(17)
 @pytest.mark.parametrize(("law", "cell", "section"), EVERY)
 def test_kernels_agree_with_arrays(law: RateLaw, cell: str, section: Section) -> None:
     mesh = irregular_patch(cell)
@@ -181,7 +181,10 @@ def test_cells_of_two_kinds() -> None:
     compare(body.during(memory, 1.0), noise(mesh, 0.05, 5), noise(mesh, 1.0, 2))
 
 
-@pytest.mark.parametrize(("cell", "dilatation"), [*product(["hex8", "tet4", "quad4"], ["point"]), ("hex8", "mean")])
+@pytest.mark.parametrize(
+    ("cell", "dilatation"),
+    [*product(["hex8", "tet4", "quad4"], ["point"]), pytest.param("hex8", "mean", marks=pytest.mark.minutes)],
+)
 def test_the_bits_do_not_depend_on_the_threads(cell: str, dilatation: Dilating) -> None:
     n = 16 if cell == "hex8" else 18
     mesh = rectangle((3.0, 1.0), cells=(150, 60)) if cell == "quad4" else box((1.0,) * 3, cells=(n, n, n), cell=cell)
@@ -207,6 +210,7 @@ def everything(body: InelasticForce, u: Array) -> list[Array]:
     return [np.array(energy), force, again, tangent, blocks, body.tangent_product(u, force), *memory]
 
 
+@pytest.mark.few(7)
 @pytest.mark.parametrize("dilatation", ["point", "mean"])
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 def test_one_inverted_cell_spoils_no_other(law: RateLaw, dilatation: Dilating) -> None:

@@ -36,7 +36,7 @@ def root(t):
     return np.clip(np.sqrt(SPEED) - 0.45 * t, 0.0, None) ** 2
 
 
-@pytest.mark.few(4)
+@pytest.mark.few(3)
 @pytest.mark.parametrize(
     ("law", "exact"),
     [
@@ -75,6 +75,7 @@ def test_friction_without_pressure_is_steady(rule):
     assert speed == pytest.approx(SPEED - 0.5 * time, abs=1e-12)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("rule", RULES, ids=str)
 def test_a_law_of_the_root_of_the_speed_stops_the_block(rule):
     time, speed = slowed(rule, sw.laws.NortonHoffFriction(alpha=0.9, p=0.5), 0.05, until=3.6)

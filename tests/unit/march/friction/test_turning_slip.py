@@ -145,6 +145,7 @@ def test_bodies_that_spring_back_get_no_energy_from_friction(scene, step, method
     assert mean < 1.1 * iterations
 
 
+@pytest.mark.few(7)
 @pytest.mark.parametrize("seed", [0, 3])
 @pytest.mark.parametrize("law", LAWS)
 def test_blocks_on_a_shaking_floor(law, seed):

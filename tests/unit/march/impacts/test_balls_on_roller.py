@@ -40,7 +40,7 @@ def test_a_node_that_another_touch_pushes_away_is_not_pulled_back():
     assert not any(s.report.rejections for s in steps)
 
 
-@pytest.mark.parametrize("seed", [5, 7, *(pytest.param(s, marks=pytest.mark.minutes) for s in (10, 12, 17))])
+@pytest.mark.parametrize("seed", [7, *(pytest.param(s, marks=pytest.mark.minutes) for s in (5, 10, 12, 17))])
 def test_no_slab_gives_much_energy(seed: int):
     """Nodes go over edges of the other ball, and edges around a corner that lies on a facet are nearly parallel rows.
 

@@ -69,8 +69,8 @@ def test_a_free_hub_with_a_beam_keeps_energy_momentum_and_spin(mass):
     assert np.ptp([s.ledger.spin[2] for s in steps]) < 1e-4 * first.spin[2]
 
 
-@pytest.mark.few(2)
-@pytest.mark.parametrize("mass", [2.0, 0.1, 0.01])
+@pytest.mark.few(1)
+@pytest.mark.parametrize("mass", [0.01, 0.1, 2.0])
 def test_a_carrier_costs_at_most_half_as_many_iterations_again(mass):
     pin = Hinge(between=("ground", "hub"), at=(0.0, 0.0))
     scenes = spinning(1e9, joints={"pin": pin}), spinning(mass)  # the first hub turns as nothing can change it

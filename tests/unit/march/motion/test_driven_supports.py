@@ -222,6 +222,7 @@ def test_a_body_that_is_moved_as_a_whole(shop, rule: ImpactRule, options: dict[s
     assert motion.last.ledger.work_external == pytest.approx(0.0, abs=1e-14)
 
 
+@pytest.mark.few(3)
 @rules
 @pytest.mark.parametrize("force", [Weighted(), DiscreteGradient()], ids=lambda f: type(f).__name__)
 def test_a_pull_in_another_frame(shop, rule: ImpactRule, force: object) -> None:

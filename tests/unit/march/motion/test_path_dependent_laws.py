@@ -49,6 +49,7 @@ def marched(scene: sw.Scene, until: float = 2.0, **given: object) -> list[Step]:
     return list(sw.march(scene, until=until, **given))
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize("name", LAWS)
 def test_the_energy_balance_closes(name: str) -> None:
     """Through impact and release: what is stored, dissipated and left in the motion is what there was."""

@@ -15,6 +15,7 @@ def whole(tmp_path_factory):
     return sw.run(made, tmp_path_factory.mktemp("damaged") / "run").path
 
 
+@pytest.mark.few(6)
 @pytest.mark.parametrize("name", ["provenance.json", "summary.json", "history.csv", "events.csv"])
 @pytest.mark.parametrize("left", [0, 25, None])
 def test_a_damaged_file_is_named(whole, tmp_path, capsys, name, left):

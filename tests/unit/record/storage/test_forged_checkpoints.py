@@ -250,15 +250,15 @@ def test_a_state_with_any_part_exchanged_ends_in_order(stopped, tmp_path, gate):
         {"kind": "Near"},
     ]
     admitted = []
-    for _ in range(300):
+    for _ in range(150):
         about = about_of(content)
         holder, key = chance.choice(list(places_of(about)))
         holder[key] = chance.choice(odd)
         harmed = with_about(content, {"march_state": None, **about})
         if usable(tmp_path / "one", harmed, gate):
             admitted.append(harmed)
-    assert 0 < len(admitted) < 100
-    for number, harmed in enumerate(admitted[:5]):
+    assert 0 < len(admitted) < 50
+    for number, harmed in enumerate(admitted[:3]):
         shutil.copytree(stopped, tmp_path / f"run{number}")
         forge(listed(tmp_path / f"run{number}")[0], harmed)
         assert main(["resume", str(tmp_path / f"run{number}"), "--quiet"]) in (0, 2, 3)

@@ -38,10 +38,9 @@ def changed(*changes, of="paper_bar.toml"):
 
 
 @pytest.mark.parametrize("file", FILES, ids=[f.stem for f in FILES])
-def test_every_scenario_is_right_and_survives_writing(file):
+def test_every_scenario_survives_writing(file):
+    """That it is right, tests/scenarios/test_notes.py finds."""
     scenario = load(file, units=UNITS)
-    checked = check(scenario)
-    assert checked.slabs >= 1
     assert loads(dumps(scenario), units=UNITS) == scenario
 
 

@@ -92,9 +92,12 @@ def scenario(case: Mapping[str, str]) -> Scenario:
     return loads(TEXT.format(**{"tag": "surface", **case}), units=UNITS)
 
 
-def cases() -> Iterator[dict[str, str]]:
-    """Every thirteenth case: the numbers of choices are not divisible by 13, so all pairs of choices occur."""
-    for values in islice(product(*CHOICES.values()), 0, None, 13):
+every = pytest.mark.parametrize("every", [31, pytest.param(13, marks=pytest.mark.minutes)])
+
+
+def cases(every: int) -> Iterator[dict[str, str]]:
+    """Every so many cases, a number that divides no number of choices; all pairs of choices occur."""
+    for values in islice(product(*CHOICES.values()), 0, None, every):
         yield dict(zip(CHOICES, values, strict=True))
 
 
@@ -119,7 +122,8 @@ def ways(remedy: str) -> Iterator[Mapping[str, str]]:
             yield REMEDIES[alone]
 
 
-def test_every_remedy_leads_to_a_run_and_none_in_a_circle() -> None:
+@every
+def test_every_remedy_leads_to_a_run_and_none_in_a_circle(every: int) -> None:
     """Followed one after another, in every order, remedies never lead back to a case that was refused before."""
     refused: dict[tuple[tuple[str, str], ...], InputError | None] = {}
 
@@ -140,7 +144,7 @@ def test_every_remedy_leads_to_a_run_and_none_in_a_circle() -> None:
             other = refused[tuple(sorted(new.items()))]
             assert other is None or other.problem != error.problem, f"{change} has no effect: {error}"
 
-    for case in cases():
+    for case in cases(every):
         follow(case, ())
     problems = {e.problem for e in refused.values() if e is not None}
     assert len(problems) > 15, problems
@@ -158,7 +162,8 @@ def marched(case: Mapping[str, str]) -> str:
     return ""
 
 
-def test_the_check_refuses_all_that_a_march_refuses() -> None:
-    for case in cases():
+@every
+def test_the_check_refuses_all_that_a_march_refuses(every: int) -> None:
+    for case in cases(every):
         error = refusal(case)
         assert marched(case) == ("" if error is None else str(error)), case

@@ -103,6 +103,7 @@ PLANTED = {
 }
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize(("name", "column"), sorted(PLANTED))
 def test_a_changed_record_is_found(name, column, run, tmp_path, capsys):
     changed = planted(run, tmp_path / "run", name, column, 1e-6)

@@ -202,7 +202,7 @@ def jellett(run: sw.Run) -> Array:
     return np.array(found)
 
 
-@pytest.mark.slow
+@pytest.mark.minutes
 def test_tippe_top_turns_over_and_keeps_its_constant():
     coarse, fine = motion_of("tippe_top"), motion_of("tippe_top", "time.step=0.1 ms")
     change = [np.ptp(jellett(run)) / jellett(run)[0] for run in (coarse, fine)]

@@ -399,6 +399,7 @@ def test_a_problem_is_given_up_by_its_steps():
         solve_multipliers(replace(hard, effort=Effort(limit=0.1)), np.zeros(30))
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("k", [1, 2])
 @pytest.mark.parametrize("law", [Coulomb(mu=0.3), Tresca(shear=0.2), NortonHoff(alpha=0.3, p=1.0)], ids=str)
 def test_rows_that_turn_a_little_are_solved_for_with_the_kept_factor(law, k):

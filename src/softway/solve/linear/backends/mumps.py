@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.linalg import lu_factor, lu_solve
 
 from softway.arrays import Array, IntArray
 from softway.solve.linear.interface import Factor, Precision, counted, finite, number_type, unfactored
@@ -65,23 +64,6 @@ class Mumps:
         """Analyse and factor a sparse symmetric matrix (f, f)."""
         return self.analyse(matrix).factor(matrix)
 
-    def schur(self, matrix: sp.csc_array, last: IntArray) -> "Condensed":
-        """Factor a matrix (f, f) up to the unknowns ``last`` (k,), with the Schur complement for these.
-
-        Raises
-        ------
-        NoConvergence
-            If the factored part of the matrix is singular.
-        """
-        context = self._loaded(matrix)
-        try:
-            lower = context.schur(last)
-        except RuntimeError as error:
-            raise unfactored(matrix.shape[0], error) from None
-        full = np.tril(lower) + np.tril(lower, -1).T
-        complement = np.asarray(full, float)
-        return Condensed(context, complement, lu_factor(complement), np.dtype(number_type(self.precision)))
-
     def _loaded(self, matrix: sp.csc_array) -> Any:
         from mumps import Context
 
@@ -107,12 +89,14 @@ class _Analysis:
         self.pattern.require(matrix)
         context = self.context(matrix)
         kind = np.dtype(number_type(self.solver.precision))
-        context.set_matrix(matrix.astype(kind), symmetric=True)
+        kept = matrix.astype(kind)
+        context.set_matrix(kept, symmetric=True)
         try:
             context.factor(reuse_analysis=True)
         except RuntimeError as error:
             raise unfactored(matrix.shape[0], error) from None
-        factor = _Factor(context, kind, int(context.factor_stats.nonzeros) * kind.itemsize)
+        size = int(context.factor_stats.nonzeros) * kind.itemsize
+        factor = _Factor(self.solver, kept, context, kind, size)
         weakref.finalize(factor, self.idle.append, context).atexit = False
         return reduced(factor, power)
 
@@ -130,8 +114,10 @@ class _Analysis:
 
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
 class _Factor:
-    """Factor in the memory of MUMPS."""
+    """Factor of a ``matrix`` (f, f) in the memory of MUMPS."""
 
+    solver: Mumps
+    matrix: sp.csc_array
     context: Any
     kind: np.dtype[Any]
     bytes: int
@@ -145,28 +131,14 @@ class _Factor:
             return np.zeros(b.shape)
         return np.asarray(self.context.solve(np.array(b, self.kind, order="F"), overwrite_b=True), float)
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Condensed:
-    """Matrix factored up to its last unknowns.
-
-    ``complement`` (k, k) is ``A_ll - A_lr A_rr^-1 A_rl`` for the last unknowns l and the rest r: the inverse of the
-    rows and columns l of A^-1. ``dense`` is its factor.
-    """
-
-    context: Any
-    complement: Array
-    dense: tuple[Array, IntArray]
-    kind: np.dtype[Any]
-
-    def condense(self, b: Array) -> Array:
-        """``b_l - A_lr A_rr^-1 b_r`` (k,) of a right-hand side b (f,)."""
-        return np.array(self.context.schur_condense(np.array(b, self.kind)), float)
-
-    def expand(self, x: Array) -> Array:
-        """Solution (f,) with the last unknowns x (k,), for the right-hand side condensed last."""
-        return np.array(self.context.schur_expand(x), float)
-
-    def solve(self, b: Array) -> Array:
-        """Solution of A x = b (f,)."""
-        return self.expand(lu_solve(self.dense, self.condense(b)))
+    def schur_complement(self, which: IntArray) -> Array | None:
+        """Schur complement (k, k) at the unknowns ``which`` (k,), by a factor of its own that ends there; None if the
+        matrix is not positive definite.
+        """
+        if self.indefinite:
+            return None
+        try:
+            lower = self.solver._loaded(self.matrix).schur(which)
+        except RuntimeError:
+            return None
+        return np.asarray(np.tril(lower) + np.tril(lower, -1).T, float)
