@@ -93,9 +93,9 @@ class Energy:
     calm
         Filter of the velocity at the end of slabs in which bodies slip, from 0 (none) to 1, against flutter that the
         slabs do not resolve: ``0.2`` stops it where slabs are longer than 4 over its angular frequency.  The energy
-        that it takes is part of the dissipation; a resolved vibration of angular frequency w loses the part
-        ``2 calm (h w/2)^4`` of its energy in a slab of length h (docs/theory/contact/friction.md).  For FixedPoint and
-        Newton, without rigid bodies.
+        that it takes is part of the dissipation.  A resolved vibration of angular frequency w loses the part
+        ``calm (h w/2)^4`` of its energy in a slab of length h (docs/theory/contact/friction.md).  For the methods
+        FixedPoint and Newton, without rigid bodies.
 
     Examples
     --------

@@ -1,6 +1,6 @@
 """Filter of the velocity of sliding bodies at the end of a slab (time step), against flutter that slabs do not resolve.
 
-    v1 <- v1 - calm H^2 (v1 - vs),      H = (M + h^2/4 K~)^-1 (h^2/4) K~
+    v1 <- v1 - calm H^2 (v1 - vs),      H = (M + h^2/4 K~)^-1 h^2/4 K~
 
 K~ is the stiffness of the nodes with inertia: massless nodes are in equilibrium, with the normals of closed rows held,
 and the tangents of sticking ones.  vs is a motion with the tools and supports that needs no change of the internal
