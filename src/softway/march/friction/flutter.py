@@ -56,7 +56,7 @@ class Flutter:
         --------
         >>> one = Flutter(growth=0.07, frequency=2.0)
         >>> round(one.in_slabs(0.1), 4), round(one.in_slabs(10.0), 4), round(one.in_slabs(10.0, calm=0.2), 4)
-        (1.007, 1.0069, 0.9083)
+        (1.007, 1.0069, 0.9029)
         """
         half = 0.5 * span * (1j * self.frequency + self.growth)
         return float(abs((1.0 + half) / (1.0 - half)) * np.sqrt(1.0 - calm * self._unresolved(span) ** 2))

@@ -296,7 +296,7 @@ def test_what_it_changes_is_of_third_order() -> None:
     changed = []
     for h in (0.1, 0.05):
         ends = [
-            list(sw.march(sliding(calm=calm, mu=0.02, cells=(3, 2)), until=1.6, step=h))[-1].after.velocity["block"]
+            list(sw.march(sliding(calm=calm, mu=0.02, cells=(3, 2)), until=0.8, step=h))[-1].after.velocity["block"]
             for calm in (0.0, 1.0)
         ]
         changed.append(np.abs(ends[1] - ends[0]).max())
