@@ -90,21 +90,32 @@ class Energy:
         Number of cells over which the inertia of the contact nodes is spread, at most half the depth of the body: more
         cells make the force start more smoothly, fewer keep the inertia closer to its place
         (docs/theory/contact/overshoot.md).
+    calm
+        Filter of the velocity at the end of slabs in which bodies slip, from 0 (none) to 1, against flutter that the
+        slabs do not resolve: ``0.2`` stops it where slabs are longer than 4 over its angular frequency.  The energy
+        that it takes is part of the dissipation.  A resolved vibration of angular frequency w loses the part
+        ``calm (h w/2)^4`` of its energy in a slab of length h (docs/theory/contact/friction.md).  For the methods
+        FixedPoint and Newton, without rigid bodies.
 
     Examples
     --------
-    >>> Energy().located
-    False
+    >>> Energy().located, Energy(calm=0.2).calm
+    (False, 0.2)
     """
 
     massless: ClassVar[bool] = True
 
     located: bool = False
     spread: int = 5
+    calm: float = 0.0
 
     def __post_init__(self) -> None:
         if self.spread < 1:
             raise InputError("spread", f"{self.spread} cells", "1 or more")
+        if not 0.0 <= self.calm <= 1.0:
+            raise InputError("calm", f"{self.calm:g}", "a number from 0 to 1, such as 0.2")
+        if self.located and self.calm > 0.0:
+            raise InputError("calm", f"{self.calm:g} with located = true, which has no friction", "located = false")
 
 
 __all__ = ["Energy", "Impulse", "Paper"]

@@ -47,17 +47,36 @@ class Flutter:
         """Ratio of viscosities to moduli at which the vibration does not grow [s]."""
         return 2.0 * self.growth / self.frequency**2
 
-    def in_slabs(self, span: float) -> float:
-        """Factor by which the amplitude grows in one slab of length ``span`` [s].
+    def in_slabs(self, span: float, calm: float = 0.0) -> float:
+        """Factor by which the amplitude grows in one slab of length ``span`` [s]; estimated with the filter ``calm``.
+
+        The filter takes ``calm H^2`` of the velocity, and half of it of the vibration, which has the displacement, too.
 
         Examples
         --------
         >>> one = Flutter(growth=0.07, frequency=2.0)
-        >>> round(one.in_slabs(0.1), 4), round(one.in_slabs(10.0), 4)
-        (1.007, 1.0069)
+        >>> round(one.in_slabs(0.1), 4), round(one.in_slabs(10.0), 4), round(one.in_slabs(10.0, calm=0.2), 4)
+        (1.007, 1.0069, 0.9029)
         """
         half = 0.5 * span * (1j * self.frequency + self.growth)
-        return float(abs((1.0 + half) / (1.0 - half)))
+        return float(abs((1.0 + half) / (1.0 - half)) * np.sqrt(1.0 - calm * self._unresolved(span) ** 2))
+
+    def stopping_calm(self, span: float) -> float:
+        """Least filter ``calm`` with which the vibration does not grow in slabs of length ``span`` [s]; above 1 there
+        is none.
+
+        Examples
+        --------
+        >>> one = Flutter(growth=0.2, frequency=1.34)
+        >>> round(one.stopping_calm(8.0), 3), one.stopping_calm(0.3) > 1.0
+        (0.107, True)
+        """
+        return float((1.0 - self.in_slabs(span) ** -2) / self._unresolved(span) ** 2)
+
+    def _unresolved(self, span: float) -> float:
+        """Eigenvalue H of the filter, see :mod:`softway.march.friction.calm`."""
+        square = (0.5 * span * self.frequency) ** 2
+        return square / (1.0 + square)
 
 
 def sliding_flutter(model: Model, state: ModelState) -> tuple[Flutter, ...]:

@@ -178,6 +178,8 @@ def central_difference(model: Model, method: Explicit, weight: TimeWeight) -> Ce
         raise InputError("solver", problem, "the timing Energy, or the solver FixedPoint")
     if model.timing.located:
         raise InputError("solver", "Explicit with located = true", "located = false, or the solver FixedPoint")
+    if model.timing.calm > 0.0:
+        raise InputError("solver", f"Explicit with calm = {model.timing.calm:g}", "calm = 0, or the solver FixedPoint")
     require_nodal(model, "Explicit")
     require_motion_alone(model, "Explicit")
     light = ~model.massive

@@ -6,6 +6,9 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray
 from softway.contact.contact_set import SlabContacts
+from softway.contact.impact_rule import Energy
+from softway.errors import InputError
+from softway.march.friction.calm import calmed
 from softway.march.model_state import ModelState
 from softway.march.results.friction_result import first_impulses
 from softway.march.results.slab_result import EnergyBalance, SlabResult
@@ -38,10 +41,14 @@ from softway.solve.operators.operator_memory import OperatorMemory
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Equilibrated:
-    """Slabs with massless contact nodes in equilibrium; contact rows are inequalities on the gap at the end."""
+    """Slabs with massless contact nodes in equilibrium; contact rows are inequalities on the gap at the end.
+
+    ``calm`` is the filter of the velocity in slabs that slip, see :func:`~softway.march.friction.calm.calmed`.
+    """
 
     method: FixedPoint | Newton
     contact: MasslessContact
+    calm: float = 0.0
 
     def solve(self, model: Model, now: ModelState, slab: Slab, memory: OperatorMemory, attempt: Attempt) -> Solutions:
         """Solutions of the slab, each more accurate than the previous one."""
@@ -72,7 +79,8 @@ class Equilibrated:
         if follower is not None:
             system = replace(system, model=follower.model, follower=follower)
         velocity = end_velocity(system.model, slab, solution.last.q)
-        return slab_result(self.contact, system.model, now, slab, system, solution, found, velocity)
+        out = slab_result(self.contact, system.model, now, slab, system, solution, found, velocity)
+        return calmed(now, slab, out, self.calm) if self.calm > 0.0 else out
 
 
 def _guess(
@@ -130,7 +138,10 @@ def equilibrated(model: Model, method: FixedPoint | Newton, weight: TimeWeight) 
     Raises
     ------
     InputError
-        If the time weight does not fit.
+        If the time weight does not fit, or the velocity shall be filtered beside rigid bodies.
     """
     require_end_points(model, weight)
-    return Equilibrated(method=method, contact=EndForceContact())
+    calm = model.timing.calm if isinstance(model.timing, Energy) else 0.0
+    if calm > 0.0 and model.rigid is not None:
+        raise InputError("contacts[0].timing.calm", f"{calm:g} beside rigid bodies", "calm = 0")
+    return Equilibrated(method=method, contact=EndForceContact(), calm=calm)

@@ -40,7 +40,6 @@ from softway.scenario.checks.notes import (
     cohesion_notes,
     contact_notes,
     file_notes,
-    flutter_notes,
     tie_notes,
     wall_notes,
 )
@@ -50,7 +49,7 @@ from softway.scenario.checks.scales import BodyScales, ContactScales, body_scale
 from softway.scenario.checks.softening_notes import softening_notes
 from softway.scenario.checks.tool_notes import unit_notes
 from softway.scenario.checks.value_types import require
-from softway.scenario.checks.velocity_notes import velocity_notes
+from softway.scenario.checks.velocity_notes import flutter_notes, velocity_notes
 from softway.scenario.scenario import Scenario
 
 MOST = 1_000_000_000

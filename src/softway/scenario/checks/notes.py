@@ -19,8 +19,6 @@ from softway.contact.surfaces.boundary import ContactSurface
 from softway.contact.surfaces.sagitta import Misfit, NodalCurvature, misfit, nodal_curvature
 from softway.errors import Note, within
 from softway.laws.cohesive_law import BilinearCohesive
-from softway.march.friction.flutter import sliding_flutter
-from softway.march.model_state import ModelState
 from softway.meshes.examination import examined
 from softway.meshes.files.listed_mesh import LeftOut
 from softway.model.model import Model
@@ -30,10 +28,6 @@ from softway.scenario.checks.tool_notes import tool_curvature
 
 SHARE = 0.1
 """Distance of facets from the smooth surface, relative to the gap or interference, beyond which it is noted."""
-LOUD = 1e3
-"""Growth of vibrations in a run from which flutter is noted."""
-UNKNOWNS = 20000
-"""Number of unknowns up to which sliding bodies are examined for flutter."""
 ROUNDING = 1e-6
 """Distance of facets from the smooth surface, relative to the shortest edge, below which it is rounding."""
 ALIKE = 5e-4
@@ -228,31 +222,6 @@ def _zone(part: DiscreteSolid, law: BilinearCohesive) -> float:
     """Length of the zone in which glue on a solid softens [m], ``modulus energy / strength^2`` of the shorter mode."""
     density, speed = part.materials.stiffest(part.internal.section)
     return min(density * speed**2 * energy / strength**2 for strength, energy in (law.opening, law.sliding))
-
-
-def flutter_notes(model: Model, state: ModelState, span: float, end: float) -> tuple[Note, ...]:
-    """Note on bodies that slide from the start and whose vibrations grow under friction until the ``end`` [s], in slabs
-    of length ``span`` [s]; bodies with a history, which may damp them, are not examined.
-    """
-    if model.dofs.size > UNKNOWNS or any(part.internal.path_dependent for part in model.parts):
-        return ()
-    try:
-        modes = sliding_flutter(model, state)
-    except RuntimeError:  # rows that depend on each other
-        return ()
-    worst = max(modes, key=lambda mode: mode.in_slabs(span), default=None)
-    folds = 0.0 if worst is None else float(np.log(worst.in_slabs(span)) * end / span)
-    if worst is None or folds < np.log(LOUD):
-        return ()
-    first = int(model.contacts.contact[np.flatnonzero(state.closed & state.sliding)[0]])
-    problem = (
-        f"the sliding body flutters: friction makes a vibration of {worst.frequency / (2.0 * np.pi):.3g} Hz grow by "
-        f"{worst.in_slabs(span) - 1.0:.2g} of its amplitude in a slab, and 1e{folds / np.log(10.0):.0f} times until "
-        "the end if it slides so long"
-    )
-    most = max(mode.damping_time for mode in modes)
-    remedy = f"nothing, if this is meant; or the material Kelvin, with viscosities above {most:.2g} s times its moduli"
-    return (Note(where=f"contacts[{model.declared[first]}].friction", problem=problem, remedy=remedy),)
 
 
 def _surfaces(model: Model, contact: Contact) -> list[tuple[int, str]]:

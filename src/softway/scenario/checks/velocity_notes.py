@@ -1,4 +1,6 @@
-"""Notes on initial velocities that supports take away."""
+"""Notes on initial velocities that supports take away, and with which bodies slide and flutter."""
+
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -6,9 +8,21 @@ from softway.arrays import Array
 from softway.bodies.discretised import DiscreteSolid, supported_components
 from softway.bodies.setup.initial_fields import sample
 from softway.bodies.solid import Driven, Guided, Solid
+from softway.contact.impact_rule import Energy
 from softway.errors import Note
+from softway.march.friction.flutter import Flutter, sliding_flutter
+from softway.march.model_state import ModelState
 from softway.model.model import Model
 from softway.tolerances import MOTION
+
+LOUD = 1e3
+"""Growth of vibrations in a run from which flutter is noted."""
+UNKNOWNS = 20000
+"""Number of unknowns up to which sliding bodies are examined for flutter."""
+UNRESOLVED = 4.0
+"""Product of angular frequency and slab length above which a vibration is not resolved, and a filter stops it."""
+USUAL, MARGIN = 0.2, 1.5
+"""Usual filter, and factor of the least one that stops a vibration."""
 
 
 def velocity_notes(model: Model) -> tuple[Note, ...]:
@@ -51,3 +65,44 @@ def _note(model: Model, part: DiscreteSolid, solid: Solid, given: Array, taken: 
     if not driven:
         remedy += f', such as kind = "Profile" with zero on {found[0][1].on!r}'
     return Note(where=f"bodies.{part.name}.velocity", problem=problem, remedy=remedy)
+
+
+def flutter_notes(model: Model, state: ModelState, span: float, end: float) -> tuple[Note, ...]:
+    """Note on bodies that slide from the start and whose vibrations grow under friction until the ``end`` [s], in slabs
+    of length ``span`` [s]; bodies with a history, which may damp them, are not examined.
+    """
+    if model.dofs.size > UNKNOWNS or any(part.internal.path_dependent for part in model.parts):
+        return ()
+    try:
+        modes = sliding_flutter(model, state)
+    except RuntimeError:  # rows that depend on each other
+        return ()
+    calm = model.timing.calm if isinstance(model.timing, Energy) else 0.0
+    worst = max(modes, key=lambda mode: mode.in_slabs(span, calm), default=None)
+    factor = 1.0 if worst is None else worst.in_slabs(span, calm)
+    folds = float(np.log(factor) * end / span)
+    if worst is None or folds < np.log(LOUD):
+        return ()
+    first = int(model.contacts.contact[np.flatnonzero(state.closed & state.sliding)[0]])
+    problem = (
+        f"the sliding body flutters: friction makes a vibration of {worst.frequency / (2.0 * np.pi):.3g} Hz grow by "
+        f"{factor - 1.0:.2g} of its amplitude in a slab, and 1e{folds / np.log(10.0):.0f} times until "
+        "the end if it slides so long"
+    )
+    if calm > 0.0 and span * worst.frequency < UNRESOLVED:
+        problem += f"; calm = {calm:g} does not stop it, as slabs of {span:.3g} s resolve it"
+    most = max(mode.damping_time for mode in modes)
+    remedy = f"nothing, if this is meant; or the material Kelvin, with viscosities above {most:.2g} s times its moduli"
+    remedy += _filter(model, modes, span)
+    return (Note(where=f"contacts[{model.declared[first]}].friction", problem=problem, remedy=remedy),)
+
+
+def _filter(model: Model, modes: Sequence[Flutter], span: float) -> str:
+    """The filter of the velocity as a remedy for vibrations in slabs of length ``span`` [s], none of which is resolved;
+    else, and with another rule or rigid bodies, empty.
+    """
+    enough = max(USUAL, np.ceil(10.0 * MARGIN * max(mode.stopping_calm(span) for mode in modes)) / 10.0)
+    resolved = any(span * mode.frequency < UNRESOLVED for mode in modes)
+    if resolved or enough > 1.0 or model.rigid is not None or not isinstance(model.timing, Energy):
+        return ""
+    return f"; or, as the slabs do not resolve it, the timing Energy with calm = {enough:.1g}"

@@ -221,6 +221,13 @@ TABLE: Table = {
         "contacts[0].friction=Frictionless",
     ),
     "spread": Try(PLANE, "contacts[0].timing={kind='Energy', spread=0}", "1 or more", "contacts[0].timing.spread=1"),
+    "calm": Try(PLANE, "contacts[0].timing={kind='Energy', calm=2}", "from 0 to 1", "contacts[0].timing.calm=0.2"),
+    "calm, located": Try(
+        PLANE,
+        "contacts[0].timing={kind='Energy', calm=0.2, located=true}",
+        "located = false",
+        "contacts[0].timing.located=false",
+    ),
     "method of nothing": Try(PLANE, "contacts[0].method=DualMorter", "DualMortar", "contacts[0].method=NodeToSurface"),
     "negative friction": Try(
         PLANE, "contacts[0].friction={kind='Coulomb', mu=-1}", "zero or more", "contacts[0].friction.mu=0"

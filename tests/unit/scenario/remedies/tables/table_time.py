@@ -15,10 +15,12 @@ from softway.scenario.scenario import Probe
 BARS = {"b": Interval(length=1.0, cells=2).build()}
 END = "time.weight={kind='Collocation', at=[1], weights=[1]}"
 HELD = "bodies.b.supports=[{on='left'}]"
+CALM = "contacts[0].timing={kind='Energy', calm=0.2}"
 LOCATED = "contacts[0].timing={kind='Energy', located=true}"
 LARGE = "bodies.b.material.kind=NeoHookean"
 MOVING = "bodies.w.motion={kind='Translation', velocity=[0, 0.1]}"
 ROUGH = "contacts[0].friction={kind='Coulomb', mu=0.3}"
+BESIDE = f"{PLANE}[bodies.r]\nkind = 'Rigid'\nmass = 1\ncentre = [5, 5]\ninertia = 1\n"
 MOMENTUM = "time.weight=Momentum"
 
 
@@ -126,6 +128,9 @@ TABLE: Table = {
         PLANE, f"solver=Explicit & {LOCATED}", "located = false", "contacts[0].timing.located=false"
     ),
     "explicit located, solver": Try(PLANE, f"solver=Explicit & {LOCATED}", "FixedPoint", "solver=FixedPoint"),
+    "explicit calm": Try(PLANE, f"solver=Explicit & {CALM}", "calm = 0", "contacts[0].timing.calm=0"),
+    "explicit calm, solver": Try(PLANE, f"solver=Explicit & {CALM}", "FixedPoint", "solver=FixedPoint"),
+    "calm beside rigid bodies": Try(BESIDE, CALM, "calm = 0", "contacts[0].timing.calm=0"),
     "located, large": Try(PLANE, f"{LOCATED} & {LARGE}", "located = false", "contacts[0].timing.located=false"),
     "located, small": Try(PLANE, f"{LOCATED} & {LARGE}", "LinearElastic", "bodies.b.material.kind=LinearElastic"),
     "located, moving": Try(PLANE, f"{LOCATED} & {MOVING}", "located = false", "contacts[0].timing.located=false"),
