@@ -59,7 +59,8 @@ class Contact:
     method
         Contact method between two solids; by default :class:`~softway.contact.DualMortar`, or
         :class:`~softway.contact.NodeToSurface` between bars, for lists, for bodies with themselves, and
-        with the rules Paper and Impulse.  Contact with a tool is always between nodes and the tool.
+        with the rules Paper and Impulse.  Two surfaces of one body may have mortar, if they have no node in common.
+        Contact with a tool is always between nodes and the tool.
     friction
         Friction law; by default there is no friction.
     start
@@ -93,8 +94,9 @@ class Contact:
 
     @property
     def many(self) -> bool:
-        """True for lists, bodies with themselves, and ``"all"``."""
-        return len(self.names) != 2 or len(set(self.bodies)) == 1
+        """True for lists, bodies with themselves, and ``"all"``; not for mortar between two surfaces of one body."""
+        mortar = isinstance(self.method, DualMortar) and len(self.surfaces) == 2
+        return len(self.names) != 2 or (len(set(self.bodies)) == 1 and not mortar)
 
     @property
     def bodies(self) -> tuple[str, ...]:

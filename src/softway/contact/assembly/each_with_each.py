@@ -53,7 +53,9 @@ def each_with_each(
     """
     if contact.method is not None and not isinstance(contact.method, NodeToSurface):
         raise InputError(
-            "method", f"{contact.method} for {contact.label!r}", "NodeToSurface, or contacts of two solids"
+            "method",
+            f"{contact.method} for {contact.label!r}",
+            "NodeToSurface, or a contact of two surfaces for each mortar",
         )
     if not contact.timing.massless:
         raise InputError("timing", f"{contact.timing} for {contact.label!r}", "Energy, or contacts of two solids")

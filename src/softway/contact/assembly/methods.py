@@ -90,6 +90,7 @@ def of_two(contact: Contact, one: BodySurface, other: BodySurface, thickness: Ar
         problem = f"DualMortar with {contact.timing}" if located else "DualMortar between bars in 1D"
         raise InputError("method", problem, "NodeToSurface, or nothing")
     else:
+        _require_no_common_node(contact, one, other)
         sides = fine.side.facets, coarse.side.facets
         mortar = Mortar(slave_facets=sides[0], master_facets=sides[1], thickness=thickness, points=points)
         raised, found = mortar.greatest_height, [mortar]
@@ -101,6 +102,13 @@ def of_two(contact: Contact, one: BodySurface, other: BodySurface, thickness: Ar
     nodes = np.concatenate([one.side.nodes, other.side.nodes])
     edges, margin = (fine.edge, coarse.edge), margin_of((fine, coarse), ~np.eye(2, dtype=bool), raised)
     return ContactMethods(methods=tuple(found), nodes=nodes, edges=edges, overlap=overlap, margin=margin)
+
+
+def _require_no_common_node(contact: Contact, one: BodySurface, other: BodySurface) -> None:
+    """Refuse mortar between two surfaces of a body that adjoin each other."""
+    if len(np.intersect1d(one.side.nodes, other.side.nodes)):
+        problem = f"DualMortar between {contact.names[0]!r} and {contact.names[1]!r}, which have nodes in common"
+        raise InputError("method", problem, "NodeToSurface, or surfaces that are apart from each other")
 
 
 def margin_of(surfaces: Sequence[BodySurface], meet: BoolArray, raised: float = 0.0) -> SearchMargin:

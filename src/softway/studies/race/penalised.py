@@ -48,7 +48,7 @@ def penalised(
         During the iteration, if ``cancel`` returns True.
     """
     for k, contact in enumerate(scene.contacts):
-        if contact.many:
+        if contact.many or len(set(contact.bodies)) == 1:
             raise InputError(f"contacts[{k}].between", f"{contact.label!r} in a race", "contacts of two bodies")
     _require_permanent(scene)
     contacts = tuple(

@@ -66,6 +66,45 @@ def test_the_ends_of_a_ring_meet_and_part_without_crossing() -> None:
     np.testing.assert_allclose(momentum - momentum[0], 0.0, atol=1e-10)
 
 
+def overlap(x: Array, nodes: Array, facets: Array) -> float:
+    """Greatest depth of nodes (k,) behind the segments (s, 2) that they are next to, at positions x (n, 2)."""
+    a, b = x[facets[:, 0]], x[facets[:, 1]]
+    along = (b - a) / np.linalg.norm(b - a, axis=1)[:, None]
+    outward = np.column_stack([along[:, 1], -along[:, 0]])
+    offset = x[nodes][:, None] - a
+    depth, place = -np.sum(offset * outward, axis=2), np.sum(offset * along, axis=2)
+    beside = (place > 0.0) & (place < np.linalg.norm(b - a, axis=1)) & (depth < 0.02)
+    return float(np.where(beside, depth, 0.0).max())
+
+
+@pytest.mark.slow
+def test_two_surfaces_of_a_body_meet_by_mortar() -> None:
+    """The flat ends of the ring, under contact of the whole ring with itself: means are closed, nodes nearly."""
+    ends = Contact(between=("s.left", "s.right"), method=sw.contact.DualMortar())
+    steps, _ = closed((Contact(between=("s", "s")), ends))
+    mesh = ring().mesh
+    segments = np.concatenate([f[:, :2] for f in mesh.boundary().values()])
+    sides = [(mesh.nodes(tag), segments[np.isin(segments, mesh.nodes(tag)).all(axis=1)]) for tag in ("left", "right")]
+    places = [mesh.points + s.after.displacement["s"] for s in steps]
+    deepest = max(overlap(x, sides[k][0], sides[1 - k][1]) for x in places for k in (0, 1))
+    assert deepest < 0.01 * 0.03
+    touching = [bool(s.after.closed["s.left-s.right"].any()) for s in steps]
+    assert any(touching)
+    assert not touching[-1]
+    start = steps[0].ledger.energy_kinetic
+    assert max(abs(s.ledger.energy_error) for s in steps) < 1e-11 * start
+    assert not any(s.report.rejections for s in steps)
+    momentum = np.array([s.ledger.momentum for s in steps])
+    np.testing.assert_allclose(momentum - momentum[0], 0.0, atol=1e-10)
+
+
+def test_mortar_needs_two_surfaces_that_are_apart() -> None:
+    for between in (("s.left", "s.top"), ("s", "s")):
+        contact = Contact(between=between, method=sw.contact.DualMortar())
+        with pytest.raises(sw.InputError, match=r"contacts\[0\].method"):
+            build(sw.Scene(bodies={"s": ring()}, contacts=(contact,)))
+
+
 def crushed(contacts: tuple[Contact, ...]) -> tuple[list, int]:
     """March of a rubber strip, 2 x 50 cells, that is crushed to a third, and the greatest number of its crossings."""
     plain = rectangle((0.04, 1.0), (2, 50), origin=(-0.02, 0.0))

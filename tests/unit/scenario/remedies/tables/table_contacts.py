@@ -143,6 +143,12 @@ TABLE: Table = {
         "NodeToSurface",
         "contacts[0].method=NodeToSurface",
     ),
+    "mortar of surfaces that adjoin": Try(
+        TWO,
+        f"{PAIR}=['b.left', 'b.top'] & contacts[0].method={{kind='DualMortar'}}",
+        "surfaces that are apart",
+        f"{PAIR}=['b.left', 'b.right']",
+    ),
     "friction by area for all": Try(
         TWO,
         f"{PAIR}=all & contacts[0].friction={{kind='Tresca', shear=1000}}",
