@@ -32,10 +32,8 @@ class Nodes:
     glue: sp.csr_array | None
 
 
-FLAT = {"tri3", "quad4"}
-"""Kinds of facets with straight edges."""
 SLOTS = 4
-"""Rows of each edge: an edge over a quadrilateral crosses two of its diagonals and two of its edges."""
+"""Rows of each edge: an edge over a bilinear facet crosses two of its diagonals and two of its edges."""
 
 
 def each_with_each(
@@ -71,42 +69,63 @@ def each_with_each(
         glue=nodes.glue,
         apart=tuple(_members(two, ~np.eye(2, dtype=bool), side, len(nodes.body)) for two in own),
     )
-    found = _on_flat_facets(pairs, nodes.thickness) if set(side.facets) <= FLAT else _on_facets(pairs, nodes.thickness)
+    found = (_in_plane if side.dim < 3 else _in_space)(pairs, nodes.thickness)
     lengths, margin = tuple(s.edge for s in surfaces), margin_of(surfaces, meet)
     return ContactMethods(methods=found, nodes=side.nodes, edges=lengths, margin=margin)
 
 
-def _on_facets(pairs: AdmissiblePairs, thickness: Array) -> tuple[SurfacePair, ...]:
-    """Nodes on facets and, in space, sharp edges on sharp edges."""
+def _in_plane(pairs: AdmissiblePairs, thickness: Array) -> tuple[SurfacePair, ...]:
+    """Nodes on facets."""
     side = pairs.side
-    nodes = NodeToFacet(slaves=side.nodes, side=side, own=side, thickness=thickness, admissible=pairs)
-    if side.dim < 3:
-        return (nodes,)
-    edges = side.sharp_edges(pairs.points)
-    return (nodes, EdgeToEdge(first=edges, second=edges, admissible=pairs, thickness=thickness))
+    return (NodeToFacet(slaves=side.nodes, side=side, own=side, thickness=thickness, admissible=pairs),)
 
 
-def _on_flat_facets(pairs: AdmissiblePairs, thickness: Array) -> tuple[SurfacePair, ...]:
-    """Nodes on triangles and edges on all edges of triangles, of quadrilaterals split about their centres."""
+def _in_space(pairs: AdmissiblePairs, thickness: Array) -> tuple[SurfacePair, ...]:
+    """Nodes on facets, linear ones as triangles, and edges on all edges of the triangles that make up the facets."""
     split = SplitSurface(given=pairs.side, count=len(pairs.points))
-    quads, side = split.quads, split.side
-    of_nodes = [np.concatenate([v, v[quads].all(axis=1)]) for v in (m.nodes for m in (pairs.members, *pairs.apart))]
-    members = [
-        Members(nodes=nodes, facets=split.of_facets(m.facets), meet=m.meet)
-        for nodes, m in zip(of_nodes, (pairs.members, *pairs.apart), strict=True)
-    ]
-    body = np.concatenate([pairs.body, pairs.body[quads[:, 0]]])
-    flat = AdmissiblePairs(
-        points=split.positions(pairs.points), body=body, side=side, members=members[0], apart=tuple(members[1:])
-    )
-    wall = np.concatenate([thickness, thickness[quads].min(axis=1)])
-    nodes = NodeToFacet(slaves=pairs.side.nodes, side=side, own=side, thickness=wall, admissible=flat, over=True)
-    every = side.edges()
+    wall = split.with_centres(thickness, _least)
+    on_side, on_flat = _split_pairs(pairs, split)
+    side, slaves = split.side, pairs.side.nodes
+    nodes = NodeToFacet(slaves=slaves, side=side, own=side, thickness=wall, admissible=on_side, over=True)
+    every = split.flat.edges()
     own = np.asarray((every.ends < split.count).all(axis=1))
     first = every.subset(own)
     second = first.joined(every.subset(~own))
-    edges = EdgeToEdge(first=first, second=second, admissible=flat, thickness=wall, slots=SLOTS)
+    edges = EdgeToEdge(first=first, second=second, admissible=on_flat, thickness=wall, slots=SLOTS)
     return tuple(OnSplitSurface(method=m, surface=split) for m in (nodes, edges))
+
+
+def _split_pairs(pairs: AdmissiblePairs, split: SplitSurface) -> tuple[AdmissiblePairs, AdmissiblePairs]:
+    """Pairs of nodes with the facets for nodes of a split surface, and pairs of edges of its triangles."""
+    given, found = (pairs.members, *pairs.apart), []
+    of_nodes = [split.with_centres(m.nodes, _every) for m in given]
+    for side, of_facets in ((split.side, split.of_facets), (split.flat, split.of_triangles)):
+        facets = [of_facets(m.facets) for m in given]
+        members = [Members(nodes=n, facets=f, meet=m.meet) for n, f, m in zip(of_nodes, facets, given, strict=True)]
+        found.append(
+            AdmissiblePairs(
+                points=split.positions(pairs.points),
+                body=split.with_centres(pairs.body, _first),
+                side=side,
+                members=members[0],
+                apart=tuple(members[1:]),
+                glue=None if pairs.glue is None else split.with_alone(pairs.glue),
+                whole=split.whole,
+            )
+        )
+    return found[0], found[1]
+
+
+def _least(values: Array) -> Array:
+    return np.asarray(values.min(axis=1))
+
+
+def _every(values: BoolArray) -> BoolArray:
+    return np.asarray(values.all(axis=1))
+
+
+def _first(values: IntArray) -> IntArray:
+    return values[:, 0]
 
 
 def _follows_pressure(law: FrictionLaw) -> bool:

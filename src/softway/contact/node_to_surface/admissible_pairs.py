@@ -63,6 +63,8 @@ class AdmissiblePairs:
         Surfaces that are left out, as they have a contact of their own.
     glue
         (n, n) pattern of nodes that ties move together, and of each node with itself: their neighbours never meet.
+    whole
+        (w, b) groups of nodes that are neighbours; by default the nodes of each facet.
 
     Examples
     --------
@@ -82,15 +84,15 @@ class AdmissiblePairs:
     members: Members
     apart: tuple[Members, ...] = ()
     glue: sp.csr_array | None = None
+    whole: IntArray | None = None
     ring: sp.csr_array = field(init=False)
     beside: sp.csr_array = field(init=False)
     normals: Array = field(init=False)
 
     def __post_init__(self) -> None:
-        table, n = self.side.table, len(self.points)
-        facet = np.repeat(np.arange(len(table)), table.shape[1])
-        at = sp.csr_array((np.ones(table.size, np.int32), (table.ravel(), facet)), shape=(n, len(table)))
-        beside = sp.csr_array(at @ at.T)
+        at = _incidence(self.side.table, len(self.points))
+        among = at if self.whole is None else _incidence(self.whole, len(self.points))
+        beside = sp.csr_array(among @ among.T)
         if self.glue is not None:
             beside = sp.csr_array(self.glue @ beside @ self.glue)
         ring = sp.csr_array(beside @ at)
@@ -137,6 +139,12 @@ class AdmissiblePairs:
         leaving = dot(self.normals[node], feet.offset) > 0.0
         turned = dot(self.normals[node], feet.normal) < SMOOTH
         return np.asarray(behind & close & leaving & turned)
+
+
+def _incidence(table: IntArray, nodes: int) -> sp.csr_array:
+    """Pattern (nodes, k) of the nodes in the groups ``table`` (k, b)."""
+    group = np.repeat(np.arange(len(table)), table.shape[1])
+    return sp.csr_array((np.ones(table.size, np.int32), (table.ravel(), group)), shape=(nodes, len(table)))
 
 
 def _entries(matrix: sp.csr_array, row: IntArray, column: IntArray) -> BoolArray:

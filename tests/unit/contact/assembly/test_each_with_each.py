@@ -99,3 +99,28 @@ def test_rows_of_many_bodies_are_d_for_each_surface_node() -> None:
     model = built(Contact(between="all"), **bodies)
     on_surface = sum(len(part.mesh.nodes("surface")) for part in model.parts)
     assert len(model.contacts.node) == 2 * on_surface == 480
+
+
+@pytest.mark.parametrize("cell", ["hex8", "hex20"])
+def test_neighbours_across_a_tie_never_meet_in_space(cell: str) -> None:
+    """Nodes of the upper block at the rim of the glue, and the facets of the lower one there."""
+    shapes = (((2.0, 1.0, 1.0), (4, 4, 3), (0.0, 0.0, 0.0)), ((1.0, 1.0, 1.0), (4, 5, 4), (0.5, 0.0, 1.0)))
+    bodies = {
+        name: sw.Solid(
+            mesh=sw.meshes.Box(size=size, cells=cells, origin=origin, cell=cell),
+            material=sw.NeoHookean(E=1.0, nu=0.3),
+            density=1.0,
+        )
+        for name, (size, cells, origin) in zip("ab", shapes, strict=True)
+    }
+    ties = (sw.Tie(between=("a.top", "b.bottom")),)
+    model = build(sw.Scene(bodies=bodies, contacts=(Contact(between="all"),), ties=ties))
+    may, count = model.contacts.methods[0].method.admissible, len(model.points)
+    glue = may.glue.tocoo()
+    across = (glue.row < count) & (glue.col < count) & (may.body[glue.row] == 1) & (may.body[glue.col] == 0)
+    found = 0
+    for node, other in zip(glue.row[across], glue.col[across], strict=True):
+        facets = np.flatnonzero((may.side.table == other).any(axis=1))
+        assert not may.nodes_and_facets(np.full(len(facets), node), facets).any()
+        found += len(facets)
+    assert found > 10
