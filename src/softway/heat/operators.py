@@ -1,0 +1,202 @@
+"""Heat content of the nodes, heat flow between them, and heat exchange at surfaces, with their derivatives."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.arrays import Array
+from softway.bodies.setup.heat_loads import Convection, HeatFlux, Radiation
+from softway.heat.heat_model import HeatCells, HeatModel, HeatSurface
+from softway.heat.phase import liquid_part
+
+STEFAN_BOLTZMANN = 5.670374419e-8
+"""Constant of Stefan and Boltzmann [W/(m^2 K^4)] (CODATA 2018)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Thermal:
+    """Temperatures and contents of n nodes and E cells at one instant.
+
+    Parameters
+    ----------
+    unknowns
+        (n,) temperatures [K], or specific contents [J/kg] where latent heat is at the nodes.
+    temperature, stretch
+        (n,) temperatures [K], and their derivatives along the unknowns.
+    content
+        (n,) heat contents [J].
+    capacity
+        (n, n) derivative of the contents along the unknowns.
+    liquid
+        (E,) share of the cells that conducts like the liquid.
+    liquid_slope
+        (E, n) its derivative along the unknowns.
+    melted
+        (E,) share of the cells that has taken latent heat.
+    """
+
+    unknowns: Array
+    temperature: Array
+    stretch: Array
+    content: Array
+    capacity: sp.csr_array
+    liquid: Array
+    liquid_slope: sp.csr_array
+    melted: Array
+
+
+def unknowns_of(model: HeatModel, temperature: Array) -> Array:
+    """Unknowns (n,) of temperatures (n,) [K]: matter at melting is solid."""
+    out = temperature.copy()
+    for part in model.parts:
+        if part.at_nodes:
+            out[part.nodes] = part.curve.content(temperature[part.nodes])
+    return out
+
+
+def thermal(model: HeatModel, unknowns: Array) -> Thermal:
+    """Temperatures and contents of given unknowns (n,)."""
+    n = model.n_nodes
+    temperature, stretch = unknowns.copy(), np.ones(n)
+    content, capacity = np.empty(n), np.empty(n)
+    share, share_slope = np.zeros(n), np.zeros(n)
+    for part in model.parts:
+        here, x = part.nodes, unknowns[part.nodes]
+        if part.at_nodes:
+            temperature[here], stretch[here] = part.curve.temperature(x)
+            content[here], capacity[here] = x, 1.0
+            share[here], share_slope[here] = part.curve.liquid_share(x, temperature[here])
+        else:
+            content[here], capacity[here] = part.curve.content(x), part.curve.capacity(x)
+    content, matrix = model.mass * content, sp.csr_array(sp.diags_array(model.mass * capacity))
+    melted, by_nodes = _mean_shares(model, share, share_slope)
+    liquid, cut_slope, latent, latent_slope = _cut(model, temperature)
+    mixed = np.zeros(model.n_cells, dtype=bool)
+    for part in model.parts:
+        mixed[part.cells] = part.mixed
+        if not part.at_nodes:
+            melted[part.cells] = liquid[part.cells]
+    liquid[mixed] = melted[mixed]
+    slope = cut_slope @ sp.diags_array(stretch) + sp.diags_array(mixed.astype(float)) @ by_nodes
+    return Thermal(
+        unknowns=unknowns, temperature=temperature, stretch=stretch, content=content + latent,
+        capacity=matrix + latent_slope, liquid=liquid, liquid_slope=sp.csr_array(slope), melted=melted,
+    )  # fmt: skip
+
+
+def _cut(model: HeatModel, temperature: Array) -> tuple[Array, sp.csr_array, Array, sp.csr_array]:
+    """Share (E,) of the cells above melting, and the latent heat (n,) of that part [J], each with its derivative."""
+    n, E = model.n_nodes, model.n_cells
+    liquid, latent = np.zeros(E), np.zeros(n)
+    slope, latent_slope = sp.csr_array((E, n)), sp.csr_array((n, n))
+    for block in model.simplices:
+        part, grown = liquid_part(temperature[block.nodes] - block.melting)
+        liquid += np.bincount(block.numbers, block.share * part.sum(axis=1), E)
+        cut = grown.any(axis=(1, 2))
+        nodes, k, heat = block.nodes[cut], block.nodes.shape[1], block.heat * block.mass
+        columns = (block.share[cut, None] * grown[cut].sum(axis=1)).ravel()
+        places = np.repeat(block.numbers[cut], k), nodes.ravel()
+        slope = slope + sp.csr_array((columns, places), shape=(E, n))
+        if block.heat:
+            latent += np.bincount(block.nodes.ravel(), (heat[:, None] * part).ravel(), n)
+            both = np.repeat(nodes, k, axis=1).ravel(), np.tile(nodes, (1, k)).ravel()
+            entries = (heat[cut, None, None] * grown[cut]).ravel()
+            latent_slope = latent_slope + sp.csr_array((entries, both), shape=(n, n))
+    return liquid, slope, latent, latent_slope
+
+
+def _mean_shares(model: HeatModel, share: Array, slope: Array) -> tuple[Array, sp.csr_array]:
+    """Mean liquid shares (E,) of the nodes of the cells, and their derivative (E, n), from those of the nodes (n,)."""
+    liquid = np.zeros(model.n_cells)
+    total = sp.csr_array((model.n_cells, model.n_nodes))
+    for cells in model.cells:
+        if cells.law.latent is not None:
+            a = cells.nodes.shape[1]
+            liquid[cells.numbers] = share[cells.nodes].mean(axis=1)
+            places = np.repeat(cells.numbers, a), cells.nodes.ravel()
+            total = total + sp.csr_array((slope[cells.nodes].ravel() / a, places), shape=total.shape)
+    return liquid, total
+
+
+def heat_flow(
+    model: HeatModel, temperature: Array, liquid: Array, slopes: bool
+) -> tuple[Array, sp.csr_array, sp.csr_array]:
+    """Heat (n,) that flows out of the nodes by conduction [W], and its derivatives.
+
+    Parameters
+    ----------
+    model
+        Model.
+    temperature, liquid
+        (n,) temperatures [K], and (E,) liquid shares of the cells.
+    slopes
+        False to leave the derivatives out.
+
+    Returns
+    -------
+    flow
+        (n,) [W]; its sum is zero.
+    by_temperature, by_liquid
+        (n, n) derivative along the temperatures [W/K], and (n, E) along the liquid shares [W]; empty if left out.
+    """
+    flow = np.zeros(model.n_nodes)
+    blocks, columns = [], []
+    for cells in model.cells:
+        at = temperature[cells.nodes]
+        k, by_k, by_share = _conductivity(cells, at @ cells.N.T, liquid[cells.numbers])
+        falls = np.einsum("eqar,ea->eqr", cells.gradients, at)
+        weight = cells.volume[..., None]
+        np.add.at(flow, cells.nodes, np.einsum("eqar,eqr->ea", cells.gradients, weight * k * falls))
+        if not slopes:
+            continue
+        block = np.einsum("eqar,eqr,eqbr->eab", cells.gradients, weight * k, cells.gradients, optimize=True)
+        if not cells.law.constant:
+            turned = np.einsum("eqar,eqr->eqa", cells.gradients, weight * by_k * falls)
+            block = block + np.einsum("eqa,qb->eab", turned, cells.N)
+            column = np.einsum("eqar,eqr->ea", cells.gradients, weight * by_share * falls)
+            places = cells.nodes.ravel(), np.repeat(cells.numbers, cells.nodes.shape[1])
+            columns.append(sp.csr_array((column.ravel(), places), shape=(model.n_nodes, model.n_cells)))
+        blocks.append(block[..., None, None])
+    by_liquid = sum(columns, sp.csr_array((model.n_nodes, model.n_cells)))
+    if not slopes:
+        return flow, sp.csr_array((model.n_nodes, model.n_nodes)), by_liquid
+    found = model.pattern.assemble(blocks)
+    matrix = sp.csr_array((found.data, found.indices, found.indptr), shape=found.shape)
+    return flow, matrix, sp.csr_array(by_liquid)
+
+
+def _conductivity(cells: HeatCells, temperature: Array, liquid: Array) -> tuple[Array, Array, Array]:
+    """Conductivities (e, q, r), and their derivatives along the temperature and the liquid share of the cells."""
+    r = cells.gradients.shape[-1]
+    solid, by_solid = cells.law.along_axes(temperature, r)
+    if cells.law.latent is None or cells.law.liquid is cells.law:
+        return solid, by_solid, np.zeros_like(solid)
+    molten, by_molten = cells.law.liquid.along_axes(temperature, r)
+    share = liquid[:, None, None]
+    return solid + share * (molten - solid), by_solid + share * (by_molten - by_solid), molten - solid
+
+
+def surface_heat(surface: HeatSurface, temperature: Array, factor: float) -> tuple[Array, Array]:
+    """Heat (p,) into a body at the points of a surface [W], and its derivative along their temperatures [W/K].
+
+    Parameters
+    ----------
+    surface
+        Surface.
+    temperature
+        (n,) temperatures [K].
+    factor
+        Mean amplitude of the load.
+    """
+    load, areas = surface.load, surface.areas
+    match load:
+        case HeatFlux():
+            return areas * load.value * factor, np.zeros_like(areas)
+        case Convection():
+            at = surface.points @ temperature
+            return areas * load.coefficient * (load.ambient * factor - at), -areas * load.coefficient
+        case Radiation():
+            at = surface.points @ temperature
+            scale = areas * load.emissivity * STEFAN_BOLTZMANN
+            return scale * ((load.ambient * factor) ** 4 - at**4), -4.0 * scale * at**3
