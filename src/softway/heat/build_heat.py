@@ -83,7 +83,7 @@ def _part(name: str, body: Conductor, n: int, e: int) -> tuple[HeatPart, Section
     part = HeatPart(
         name=name, mesh=mesh, nodes=slice(n, n + mesh.n_nodes), cells=slice(e, e + mesh.n_cells), law=body.law,
         curve=content_curve(body.law, latent=at_nodes), at_nodes=at_nodes,
-        mixed=melts is not None and (melts.half_range > 0.0 or "hex20" in mesh.blocks),
+        mixed=melts is not None and "hex20" in mesh.blocks,
         volume=np.concatenate([mass.sum(axis=1) for _, _, mass in quadrature.blocks]) / body.density,
     )  # fmt: skip
     return part, section, quadrature
