@@ -87,7 +87,7 @@ def put_at_once(model: HeatModel, before: Thermal, time: float) -> tuple[Thermal
 def balance(model: HeatModel, before: Thermal, stage: Stage, unknowns: Array, *, slopes: bool) -> Balance:
     """Balance of the heats at unknowns (n,) of the end of a stage, with its derivatives if ``slopes`` are wanted."""
     h, theta, n = stage.span, stage.theta, model.n_nodes
-    after = thermal(model, unknowns)
+    after = thermal(model, unknowns, slopes)
     mean = (1.0 - theta) * before.temperature + theta * after.temperature
     liquid = (1.0 - theta) * before.liquid + theta * after.liquid
     flow, matrix, by_liquid = heat_flow(model, mean, liquid, slopes)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from softway.arrays import Array
+from softway.arrays import Array, BoolArray
 from softway.bodies.setup.heat_loads import Convection, HeatFlux, Radiation
 from softway.heat.heat_model import HeatCells, HeatModel, HeatSurface
 from softway.heat.phase import liquid_part
@@ -55,8 +55,8 @@ def unknowns_of(model: HeatModel, temperature: Array) -> Array:
     return out
 
 
-def thermal(model: HeatModel, unknowns: Array) -> Thermal:
-    """Temperatures and contents of given unknowns (n,)."""
+def thermal(model: HeatModel, unknowns: Array, slopes: bool = True) -> Thermal:
+    """Temperatures and contents of given unknowns (n,); without ``slopes`` its sparse derivatives are empty."""
     n = model.n_nodes
     temperature, stretch = unknowns.copy(), np.ones(n)
     content, capacity = np.empty(n), np.empty(n)
@@ -69,54 +69,65 @@ def thermal(model: HeatModel, unknowns: Array) -> Thermal:
             share[here], share_slope[here] = part.curve.liquid_share(x, temperature[here])
         else:
             content[here], capacity[here] = part.curve.content(x), part.curve.capacity(x)
-    content, matrix = model.mass * content, sp.csr_array(sp.diags_array(model.mass * capacity))
-    melted, by_nodes = _mean_shares(model, share, share_slope)
-    liquid, cut_slope, latent, latent_slope = _cut(model, temperature)
+    melted = _mean_shares(model, share)
+    liquid, latent, cut_slope, latent_slope = _cut(model, temperature, slopes)
     mixed = np.zeros(model.n_cells, dtype=bool)
     for part in model.parts:
         mixed[part.cells] = part.mixed
         if not part.at_nodes:
             melted[part.cells] = liquid[part.cells]
     liquid[mixed] = melted[mixed]
-    slope = cut_slope @ sp.diags_array(stretch) + sp.diags_array(mixed.astype(float)) @ by_nodes
+    matrix, slope = sp.csr_array((n, n)), sp.csr_array((model.n_cells, n))
+    if slopes:
+        matrix = sp.csr_array(sp.diags_array(model.mass * capacity)) + latent_slope
+        slope = cut_slope @ sp.diags_array(stretch)
+    if slopes and mixed.any():
+        slope = slope + _mean_slopes(model, mixed, share_slope)
     return Thermal(
-        unknowns=unknowns, temperature=temperature, stretch=stretch, content=content + latent,
-        capacity=matrix + latent_slope, liquid=liquid, liquid_slope=sp.csr_array(slope), melted=melted,
+        unknowns=unknowns, temperature=temperature, stretch=stretch, content=model.mass * content + latent,
+        capacity=matrix, liquid=liquid, liquid_slope=sp.csr_array(slope), melted=melted,
     )  # fmt: skip
 
 
-def _cut(model: HeatModel, temperature: Array) -> tuple[Array, sp.csr_array, Array, sp.csr_array]:
-    """Share (E,) of the cells above melting, and the latent heat (n,) of that part [J], each with its derivative."""
+def _cut(model: HeatModel, temperature: Array, slopes: bool) -> tuple[Array, Array, sp.csr_array, sp.csr_array]:
+    """Share (E,) of the cells above melting, the latent heat (n,) of that part [J], and their derivatives."""
     n, E = model.n_nodes, model.n_cells
     liquid, latent = np.zeros(E), np.zeros(n)
     slope, latent_slope = sp.csr_array((E, n)), sp.csr_array((n, n))
     for block in model.simplices:
         part, grown = liquid_part(temperature[block.nodes] - block.melting)
         liquid += np.bincount(block.numbers, block.share * part.sum(axis=1), E)
-        cut = grown.any(axis=(1, 2))
-        nodes, k, heat = block.nodes[cut], block.nodes.shape[1], block.heat * block.mass
+        heat = block.heat * block.mass
+        latent += np.bincount(block.nodes.ravel(), (heat[:, None] * part).ravel(), n)
+        cut = np.flatnonzero(grown.any(axis=(1, 2)))
+        if not slopes or not cut.size:
+            continue
+        nodes, k = block.nodes[cut], block.nodes.shape[1]
         columns = (block.share[cut, None] * grown[cut].sum(axis=1)).ravel()
-        places = np.repeat(block.numbers[cut], k), nodes.ravel()
-        slope = slope + sp.csr_array((columns, places), shape=(E, n))
+        slope = slope + sp.csr_array((columns, (np.repeat(block.numbers[cut], k), nodes.ravel())), shape=(E, n))
         if block.heat:
-            latent += np.bincount(block.nodes.ravel(), (heat[:, None] * part).ravel(), n)
             both = np.repeat(nodes, k, axis=1).ravel(), np.tile(nodes, (1, k)).ravel()
             entries = (heat[cut, None, None] * grown[cut]).ravel()
             latent_slope = latent_slope + sp.csr_array((entries, both), shape=(n, n))
-    return liquid, slope, latent, latent_slope
+    return liquid, latent, slope, latent_slope
 
 
-def _mean_shares(model: HeatModel, share: Array, slope: Array) -> tuple[Array, sp.csr_array]:
-    """Mean liquid shares (E,) of the nodes of the cells, and their derivative (E, n), from those of the nodes (n,)."""
+def _mean_shares(model: HeatModel, share: Array) -> Array:
+    """Mean liquid shares (E,) of the nodes of the cells, from those of the nodes (n,)."""
     liquid = np.zeros(model.n_cells)
+    for cells in (c for c in model.cells if c.law.latent is not None):
+        liquid[cells.numbers] = share[cells.nodes].mean(axis=1)
+    return liquid
+
+
+def _mean_slopes(model: HeatModel, mixed: BoolArray, slope: Array) -> sp.csr_array:
+    """Derivative (E, n) of the mean shares of the ``mixed`` cells (E,), from those of the nodes (n,)."""
     total = sp.csr_array((model.n_cells, model.n_nodes))
-    for cells in model.cells:
-        if cells.law.latent is not None:
-            a = cells.nodes.shape[1]
-            liquid[cells.numbers] = share[cells.nodes].mean(axis=1)
-            places = np.repeat(cells.numbers, a), cells.nodes.ravel()
-            total = total + sp.csr_array((slope[cells.nodes].ravel() / a, places), shape=total.shape)
-    return liquid, total
+    for cells in (c for c in model.cells if mixed[c.numbers].any()):
+        a = cells.nodes.shape[1]
+        places = np.repeat(cells.numbers, a), cells.nodes.ravel()
+        total = total + sp.csr_array((slope[cells.nodes].ravel() / a, places), shape=total.shape)
+    return total
 
 
 def heat_flow(
