@@ -9,7 +9,7 @@ from softway.arrays import Array
 from softway.heat.heat_model import HeatModel
 from softway.heat.operators import Thermal, heat_flow, surface_heat, thermal
 
-ROUNDING = 8.0 * float(np.finfo(float).eps)
+ROUNDING = 2.0 * float(np.finfo(float).eps)
 """Rounding of the sum of the heats of the nodes, relative to the terms that they are summed from."""
 
 

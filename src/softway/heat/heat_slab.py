@@ -17,7 +17,7 @@ from softway.solve.linear.interface import Factor, LinearSolver
 
 ITERATIONS = 60
 """Greatest number of iterations in a stage."""
-TOLERANCE = 1e-11
+TOLERANCE = 1e-12
 """Greatest sum of the unbalanced heats of the nodes, relative to the heats that take part."""
 SHORTENINGS = 30
 """Greatest number of shorter corrections that are tried."""
