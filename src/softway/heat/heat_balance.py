@@ -7,7 +7,7 @@ import scipy.sparse as sp
 
 from softway.arrays import Array
 from softway.heat.heat_model import HeatModel
-from softway.heat.operators import Thermal, heat_flow, surface_heat, thermal
+from softway.heat.operators import Entries, Thermal, heat_flow, surface_heat, thermal
 
 ROUNDING = 2.0 * float(np.finfo(float).eps)
 """Rounding of the sum of the heats of the nodes, relative to the terms that they are summed from."""
@@ -47,7 +47,7 @@ class Balance:
     moved
         Sum of the magnitudes of the heats that take part [J].
     matrix
-        (n, n) derivative of the values along the unknowns; empty if left out.
+        (n, n) derivative of the values along the unknowns; None if left out.
     mean
         (n,) temperatures at which the heat flows [K].
     """
@@ -55,7 +55,7 @@ class Balance:
     after: Thermal
     values: Array
     moved: float
-    matrix: sp.csr_array
+    matrix: sp.csr_array | None
     mean: Array
 
 
@@ -86,7 +86,7 @@ def put_at_once(model: HeatModel, before: Thermal, time: float) -> tuple[Thermal
 
 def balance(model: HeatModel, before: Thermal, stage: Stage, unknowns: Array, *, slopes: bool) -> Balance:
     """Balance of the heats at unknowns (n,) of the end of a stage, with its derivatives if ``slopes`` are wanted."""
-    h, theta, n = stage.span, stage.theta, model.n_nodes
+    h, theta = stage.span, stage.theta
     after = thermal(model, unknowns, slopes)
     mean = (1.0 - theta) * before.temperature + theta * after.temperature
     liquid = (1.0 - theta) * before.liquid + theta * after.liquid
@@ -96,14 +96,30 @@ def balance(model: HeatModel, before: Thermal, stage: Stage, unknowns: Array, *,
     for surface, factor in zip(model.surfaces, _factors(model, stage), strict=True):
         heat, slope = surface_heat(surface, mean, factor)
         values, moved = values - h * (surface.points.T @ heat), moved + h * np.abs(heat).sum()
-        if slopes:
+        if matrix is not None and slope.any():
             matrix = matrix - surface.points.T @ sp.diags_array(slope) @ surface.points
     for power in _powers(model, stage):
         values, moved = values - h * power, moved + h * np.abs(power).sum()
-    total = sp.csr_array((n, n))
-    if slopes:
-        total = after.capacity + (theta * h) * (matrix @ sp.diags_array(after.stretch) + by_liquid @ after.liquid_slope)
-    return Balance(after=after, values=values, moved=float(moved), matrix=sp.csr_array(total), mean=mean)
+    total = None if matrix is None else _matrix(after, matrix, by_liquid, theta * h)
+    return Balance(after=after, values=values, moved=float(moved), matrix=total, mean=mean)
+
+
+def _matrix(after: Thermal, conduction: sp.csr_array, by_liquid: Entries, span: float) -> sp.csr_array:
+    """Derivative (n, n) of the balance: capacity and latent heat, and ``span`` [s] times that of the heat flow."""
+    n, E = len(after.unknowns), len(after.liquid)
+    diagonal = np.arange(n)
+    capacity = _assembled(((diagonal, diagonal, after.capacity), *after.latent_slope), (n, n))
+    flow = conduction.copy()
+    flow.data *= span * after.stretch[flow.indices]
+    if by_liquid and after.liquid_slope:
+        flow = flow + span * (_assembled(by_liquid, (n, E)) @ _assembled(after.liquid_slope, (E, n)))
+    return sp.csr_array(capacity + flow)
+
+
+def _assembled(entries: Entries, shape: tuple[int, int]) -> sp.csr_array:
+    """Matrix of some entries."""
+    rows, columns, values = (np.concatenate(part) for part in zip(*entries, strict=True))
+    return sp.csr_array((values, (rows, columns)), shape=shape)
 
 
 def heats(model: HeatModel, before: Thermal, stage: Stage, found: Balance) -> Array:

@@ -95,8 +95,7 @@ def solve_stage(
             gone = heats(model, before, stage, found)
             return StageResult(after=found.after, heats=gone, iterations=iteration, factor=frozen)
         if model.linear and frozen is None:
-            matrix = sp.csc_array(found.matrix[free][:, free])
-            frozen = HeatFactor(span=stage.theta * stage.span, factor=linear.factor(matrix))
+            frozen = HeatFactor(span=stage.theta * stage.span, factor=linear.factor(_of_free(found, free)))
         step = _newton(found, free) if frozen is None else frozen.factor.solve(-found.values[free])
         unknowns = _corrected(model, before, stage, unknowns, step, free, found)
     raise NoConvergence(f"the heats of the nodes are not balanced after {ITERATIONS} iterations")
@@ -107,9 +106,15 @@ def _newton(found: Balance, free: BoolArray) -> Array:
     if not free.any():
         return np.zeros(0)
     try:
-        return np.asarray(splu(sp.csc_matrix(found.matrix[free][:, free])).solve(-found.values[free]))
+        return np.asarray(splu(sp.csc_matrix(_of_free(found, free))).solve(-found.values[free]))
     except RuntimeError as error:
         raise NoConvergence(f"the matrix of the slab is singular ({error})") from None
+
+
+def _of_free(found: Balance, free: BoolArray) -> sp.csc_array:
+    """Rows and columns (f, f) of the free nodes."""
+    assert found.matrix is not None
+    return sp.csc_array(found.matrix[free][:, free])
 
 
 def _corrected(

@@ -5,13 +5,16 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from softway.arrays import Array, BoolArray
+from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.setup.heat_loads import Convection, HeatFlux, Radiation
 from softway.heat.heat_model import HeatCells, HeatModel, HeatSurface
 from softway.heat.phase import liquid_part
 
 STEFAN_BOLTZMANN = 5.670374419e-8
 """Constant of Stefan and Boltzmann [W/(m^2 K^4)] (CODATA 2018)."""
+
+Entries = tuple[tuple[IntArray, IntArray, Array], ...]
+"""Entries of a sparse matrix in groups of rows, columns and values; entries of one place add up."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -27,11 +30,13 @@ class Thermal:
     content
         (n,) heat contents [J].
     capacity
-        (n, n) derivative of the contents along the unknowns.
+        (n,) derivative of the contents along the unknowns of the same nodes, without latent heat in cut cells.
+    latent_slope
+        Entries of the derivative (n, n) of that latent heat along the temperatures [J/K].
     liquid
         (E,) share of the cells that conducts like the liquid.
     liquid_slope
-        (E, n) its derivative along the unknowns.
+        Entries of its derivative (E, n) along the unknowns.
     melted
         (E,) share of the cells that has taken latent heat.
     """
@@ -40,9 +45,10 @@ class Thermal:
     temperature: Array
     stretch: Array
     content: Array
-    capacity: sp.csr_array
+    capacity: Array
+    latent_slope: Entries
     liquid: Array
-    liquid_slope: sp.csr_array
+    liquid_slope: Entries
     melted: Array
 
 
@@ -56,7 +62,7 @@ def unknowns_of(model: HeatModel, temperature: Array) -> Array:
 
 
 def thermal(model: HeatModel, unknowns: Array, slopes: bool = True) -> Thermal:
-    """Temperatures and contents of given unknowns (n,); without ``slopes`` its sparse derivatives are empty."""
+    """Temperatures and contents of given unknowns (n,); without ``slopes`` the derivatives with entries are empty."""
     n = model.n_nodes
     temperature, stretch = unknowns.copy(), np.ones(n)
     content, capacity = np.empty(n), np.empty(n)
@@ -77,23 +83,20 @@ def thermal(model: HeatModel, unknowns: Array, slopes: bool = True) -> Thermal:
         if not part.at_nodes:
             melted[part.cells] = liquid[part.cells]
     liquid[mixed] = melted[mixed]
-    matrix, slope = sp.csr_array((n, n)), sp.csr_array((model.n_cells, n))
-    if slopes:
-        matrix = sp.csr_array(sp.diags_array(model.mass * capacity)) + latent_slope
-        slope = cut_slope @ sp.diags_array(stretch)
+    slope = tuple((rows, columns, values * stretch[columns]) for rows, columns, values in cut_slope)
     if slopes and mixed.any():
-        slope = slope + _mean_slopes(model, mixed, share_slope)
+        slope = (*slope, *_mean_slopes(model, mixed, share_slope))
     return Thermal(
         unknowns=unknowns, temperature=temperature, stretch=stretch, content=model.mass * content + latent,
-        capacity=matrix, liquid=liquid, liquid_slope=sp.csr_array(slope), melted=melted,
+        capacity=model.mass * capacity, latent_slope=latent_slope, liquid=liquid, liquid_slope=slope, melted=melted,
     )  # fmt: skip
 
 
-def _cut(model: HeatModel, temperature: Array, slopes: bool) -> tuple[Array, Array, sp.csr_array, sp.csr_array]:
+def _cut(model: HeatModel, temperature: Array, slopes: bool) -> tuple[Array, Array, Entries, Entries]:
     """Share (E,) of the cells above melting, the latent heat (n,) of that part [J], and their derivatives."""
     n, E = model.n_nodes, model.n_cells
     liquid, latent = np.zeros(E), np.zeros(n)
-    slope, latent_slope = sp.csr_array((E, n)), sp.csr_array((n, n))
+    slope, latent_slope = [], []
     for block in model.simplices:
         part, grown = liquid_part(temperature[block.nodes] - block.melting)
         liquid += np.bincount(block.numbers, block.share * part.sum(axis=1), E)
@@ -104,12 +107,11 @@ def _cut(model: HeatModel, temperature: Array, slopes: bool) -> tuple[Array, Arr
             continue
         nodes, k = block.nodes[cut], block.nodes.shape[1]
         columns = (block.share[cut, None] * grown[cut].sum(axis=1)).ravel()
-        slope = slope + sp.csr_array((columns, (np.repeat(block.numbers[cut], k), nodes.ravel())), shape=(E, n))
+        slope.append((np.repeat(block.numbers[cut], k), nodes.ravel(), columns))
         if block.heat:
             both = np.repeat(nodes, k, axis=1).ravel(), np.tile(nodes, (1, k)).ravel()
-            entries = (heat[cut, None, None] * grown[cut]).ravel()
-            latent_slope = latent_slope + sp.csr_array((entries, both), shape=(n, n))
-    return liquid, latent, slope, latent_slope
+            latent_slope.append((*both, (heat[cut, None, None] * grown[cut]).ravel()))
+    return liquid, latent, tuple(slope), tuple(latent_slope)
 
 
 def _mean_shares(model: HeatModel, share: Array) -> Array:
@@ -120,19 +122,18 @@ def _mean_shares(model: HeatModel, share: Array) -> Array:
     return liquid
 
 
-def _mean_slopes(model: HeatModel, mixed: BoolArray, slope: Array) -> sp.csr_array:
+def _mean_slopes(model: HeatModel, mixed: BoolArray, slope: Array) -> Entries:
     """Derivative (E, n) of the mean shares of the ``mixed`` cells (E,), from those of the nodes (n,)."""
-    total = sp.csr_array((model.n_cells, model.n_nodes))
-    for cells in (c for c in model.cells if mixed[c.numbers].any()):
-        a = cells.nodes.shape[1]
-        places = np.repeat(cells.numbers, a), cells.nodes.ravel()
-        total = total + sp.csr_array((slope[cells.nodes].ravel() / a, places), shape=total.shape)
-    return total
+    return tuple(
+        (np.repeat(c.numbers, c.nodes.shape[1]), c.nodes.ravel(), slope[c.nodes].ravel() / c.nodes.shape[1])
+        for c in model.cells
+        if mixed[c.numbers].any()
+    )
 
 
 def heat_flow(
     model: HeatModel, temperature: Array, liquid: Array, slopes: bool
-) -> tuple[Array, sp.csr_array, sp.csr_array]:
+) -> tuple[Array, sp.csr_array | None, Entries]:
     """Heat (n,) that flows out of the nodes by conduction [W], and its derivatives.
 
     Parameters
@@ -149,10 +150,12 @@ def heat_flow(
     flow
         (n,) [W]; its sum is zero.
     by_temperature, by_liquid
-        (n, n) derivative along the temperatures [W/K], and (n, E) along the liquid shares [W]; empty if left out.
+        (n, n) derivative along the temperatures [W/K], and entries of that (n, E) along the liquid shares [W]; None
+        and empty if left out.
     """
     flow = np.zeros(model.n_nodes)
-    blocks, columns = [], []
+    blocks: list[Array] = []
+    columns = []
     for cells in model.cells:
         at = temperature[cells.nodes]
         k, by_k, by_share = _conductivity(cells, at @ cells.N.T, liquid[cells.numbers])
@@ -165,16 +168,14 @@ def heat_flow(
         if not cells.law.constant:
             turned = np.einsum("eqar,eqr->eqa", cells.gradients, weight * by_k * falls)
             block = block + np.einsum("eqa,qb->eab", turned, cells.N)
+        if cells.law.latent is not None:
             column = np.einsum("eqar,eqr->ea", cells.gradients, weight * by_share * falls)
-            places = cells.nodes.ravel(), np.repeat(cells.numbers, cells.nodes.shape[1])
-            columns.append(sp.csr_array((column.ravel(), places), shape=(model.n_nodes, model.n_cells)))
+            columns.append((cells.nodes.ravel(), np.repeat(cells.numbers, cells.nodes.shape[1]), column.ravel()))
         blocks.append(block[..., None, None])
-    by_liquid = sum(columns, sp.csr_array((model.n_nodes, model.n_cells)))
     if not slopes:
-        return flow, sp.csr_array((model.n_nodes, model.n_nodes)), by_liquid
+        return flow, None, ()
     found = model.pattern.assemble(blocks)
-    matrix = sp.csr_array((found.data, found.indices, found.indptr), shape=found.shape)
-    return flow, matrix, sp.csr_array(by_liquid)
+    return flow, sp.csr_array((found.data, found.indices, found.indptr), shape=found.shape), tuple(columns)
 
 
 def _conductivity(cells: HeatCells, temperature: Array, liquid: Array) -> tuple[Array, Array, Array]:
