@@ -72,6 +72,14 @@ def test_smaller_cells_and_slabs_bring_the_front_closer() -> None:
     assert errors[1] < 0.6 * errors[0]
 
 
+@pytest.mark.parametrize("latent", ["cell", "node"])
+def test_a_single_slab_of_an_hour_converges(latent: str) -> None:
+    """Twenty cells freeze in one slab of two halves; its ledger closes, although it is not accurate."""
+    (step,) = freezing(ice(), 100, latent, 3600.0)
+    assert step.ledger.relative_error < 1e-9
+    assert abs((0.1 - step.liquid_volume["water"]) / front(3600.0) - 1.0) < 0.05
+
+
 def test_water_freezes_on_irregular_triangles() -> None:
     mesh = rectangle((0.1, 0.006), (50, 3), cell="tri3")
     inner = np.setdiff1d(np.arange(mesh.n_nodes), mesh.nodes("surface"))
