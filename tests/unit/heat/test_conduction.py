@@ -153,12 +153,12 @@ def test_a_conductivity_over_temperature_has_the_steady_state_of_kirchhoff() -> 
     ends = heat.Temperature(on="b0.left", value=300.0), heat.Temperature(on="b0.right", value=500.0)
     step = last(bar(8, law=law), loads=ends, until=6.0, step=0.05)
     x = np.linspace(0.0, 1.0, 9)
-    exact = 300.0 + 100.0 * (np.sqrt(1.0 + 8.0 * x) - 1.0)  # 1 u + u^2 / 200 = 400 x, u the rise
+    exact = 300.0 + 100.0 * (np.sqrt(1.0 + 8.0 * x) - 1.0)  # u + u^2 / 200 = 400 x of the rise u
     assert step.temperature["b0"] == pytest.approx(exact, abs=1e-6)
     assert step.ledger.relative_error < 1e-9
 
 
-def test_an_edge_of_a_conductivity_and_a_capacity_over_temperature_is_of_second_order() -> None:
+def test_a_conductivity_and_a_capacity_over_temperature_are_of_second_order() -> None:
     table = heat.TemperatureTable(temperatures=(280.0, 420.0), values=(1.0, 2.0))
     law = heat.Conduction(conductivity=table, capacity=table)
     found = []
