@@ -1,7 +1,8 @@
 """softway: dynamic contact of solids, with the velocity as unknown and contact as a constraint on it.
 
 Names that nearly every program needs are here.  The others are one dot deeper: ``softway.bodies``, ``contact``,
-``laws``, ``mechanisms``, ``meshes``, ``model``, ``obstacles``, ``piles``, ``record``, ``solve`` and ``studies``.
+``heat``, ``laws``, ``mechanisms``, ``meshes``, ``model``, ``obstacles``, ``piles``, ``record``, ``solve`` and
+``studies``.
 """
 
 import logging
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from softway import bodies as bodies
 from softway import contact as contact
+from softway import heat as heat
 from softway import laws as laws
 from softway import mechanisms as mechanisms
 from softway import meshes as meshes

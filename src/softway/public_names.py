@@ -4,7 +4,8 @@ from importlib import import_module
 from typing import Any
 
 PACKAGES = (
-    "bodies", "contact", "laws", "mechanisms", "meshes", "model", "obstacles", "piles", "record", "solve", "studies",
+    "bodies", "contact", "heat", "laws", "mechanisms", "meshes", "model", "obstacles", "piles", "record", "solve",
+    "studies",
 )  # fmt: skip
 """Packages that export the names of softway that are one dot deeper."""
 

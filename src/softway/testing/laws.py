@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from softway.laws.conformance import asked, lacking
 from softway.laws.friction_law import FrictionLaw
 from softway.laws.law import RateLaw, StoredEnergy
+from softway.scenario.text.conformance import asked, lacking
 from softway.testing.described import DESCRIBED
 from softway.testing.examination import Examination, Finding, findings, require_all
 from softway.testing.friction import FRICTION_LAW

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from softway.bodies.rigid_body_modes import free_motions
+from softway.bodies.assembled.rigid_body_modes import free_motions
 
 CUBE = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]) + 7.0
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])

@@ -69,6 +69,8 @@ CASES: Mapping[str, tuple[float, str]] = {
     "F10": (12.0, "rigid_contact.f10_painleve_rod"),
     "F11": (0.1, "mechanisms.f11_free_top"),
     "F12": (0.4, "mechanisms.f12_bricard"),
+    "G01": (5.5, "heat.g01_freezing_water"),
+    "G03": (0.5, "heat.g03_braking_block"),
     "classic": (1.0, "classic"),
     "peers": (3.0, "peers"),
 }

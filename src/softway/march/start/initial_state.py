@@ -7,8 +7,8 @@ import numpy as np
 from softway.arrays import Array, IntArray
 from softway.bodies.assembled import material_states
 from softway.bodies.assembled.nodal_loads import dead_load
+from softway.bodies.assembled.rigid_body_modes import HeldParts, free_motions
 from softway.bodies.elements.section import Axisymmetric
-from softway.bodies.rigid_body_modes import HeldParts, free_motions
 from softway.contact.assembly.declared import at_declared
 from softway.contact.contact import NodeToSurface
 from softway.errors import Cancel, InputError

@@ -17,7 +17,7 @@ from types import FunctionType
 from typing import Any
 
 from softway.errors import InputError
-from softway.laws.conformance import asked, lacking
+from softway.scenario.text.conformance import asked, lacking
 
 _OURS = "softway."
 READING = RLock()

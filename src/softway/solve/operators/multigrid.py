@@ -9,7 +9,7 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator
 
 from softway.arrays import Array
-from softway.bodies.rigid_body_modes import motion_names, rigid_motions
+from softway.bodies.assembled.rigid_body_modes import motion_names, rigid_motions
 from softway.errors import InputError
 from softway.model.model import Model
 from softway.solve.checks import check_products

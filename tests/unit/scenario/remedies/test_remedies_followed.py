@@ -12,6 +12,7 @@ import pytest
 import remedy_files
 import table_bodies
 import table_contacts
+import table_heat
 import table_laws
 import table_mechanisms
 import table_members
@@ -32,6 +33,7 @@ pytestmark = pytest.mark.slow
 TABLES: tuple[ModuleType, ...] = (
     table_bodies,
     table_contacts,
+    table_heat,
     table_laws,
     table_mechanisms,
     table_rigid,
@@ -49,6 +51,7 @@ CASES: Mapping[str, Try | Call] = {
 PARTS = (
     "bodies",
     "contact",
+    "heat",
     "laws",
     "march",
     "mechanisms",

@@ -1,0 +1,1 @@
+"""Cases of group G: heat conduction and change of phase."""

@@ -1,0 +1,107 @@
+"""Description of a body that conducts heat and does not move."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.bodies.elements.section import Section
+from softway.bodies.setup.initial_fields import Profile
+from softway.errors import InputError, positive
+from softway.laws.heat.conduction import Conduction
+from softway.meshes.generators.recipes import MeshSource
+from softway.meshes.mesh import Mesh
+from softway.units import Kelvin, KilogramPerCubicMetre
+
+TemperatureField = Kelvin | Profile | Array | Callable[[Array], Array]
+"""Uniform temperature, profile of numbers along an axis, nodal values (n,), or a function of the points (n, d)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Conductor:
+    """Body with a temperature and no motion.
+
+    Parameters
+    ----------
+    mesh
+        Mesh, or recipe of a mesh.
+    law
+        Law of conduction.
+    density
+        Mass per volume [kg/m^3], positive.
+    section
+        Section of the elements; by default bar of unit area, a slice of unit thickness, or volume.
+    temperature
+        Initial temperature [K]: a number, a profile of numbers, nodal values (n,), or a function of the points (n, d).
+    latent
+        Place of the latent heat: ``cell``, the liquid part of the cells that the temperature of melting cuts, or
+        ``node``, the nodes.  That of a mushy range is always at the nodes.
+
+    Raises
+    ------
+    InputError
+        If the density is not positive, or there is no such place of latent heat.
+
+    Examples
+    --------
+    >>> import softway as sw
+    >>> steel = Conduction(conductivity=50.0, capacity=500.0)
+    >>> bar = sw.meshes.Interval(length=0.1, cells=10)
+    >>> Conductor(mesh=bar, law=steel, density=7800.0, temperature=293.15).latent
+    'cell'
+    """
+
+    mesh: MeshSource | Mesh
+    law: Conduction
+    density: KilogramPerCubicMetre
+    section: Section | None = None
+    temperature: Annotated[TemperatureField, "K"]
+    latent: Literal["cell", "node"] = "cell"
+
+    def __post_init__(self) -> None:
+        positive(density=self.density)
+        if self.latent not in ("cell", "node"):
+            raise InputError("latent", f"{self.latent!r}", "'cell' or 'node'")
+
+
+def sample_temperature(field: TemperatureField, mesh: Mesh) -> Array:
+    """Nodal temperatures (n,) [K] of a field.
+
+    Raises
+    ------
+    InputError
+        If the temperatures are not positive and finite, or their number is not that of the nodes.
+
+    Examples
+    --------
+    >>> from softway.meshes.generators.shapes import interval
+    >>> sample_temperature(Profile(at=(0.0, 1.0), values=(300.0, 400.0)), interval(1.0, cells=2)).tolist()
+    [300.0, 350.0, 400.0]
+    """
+    if isinstance(field, Profile):
+        found = _profile(field, mesh)
+    elif callable(field):
+        found = np.array(field(mesh.points), dtype=float)
+    else:
+        found = np.array(field, dtype=float)
+        found = np.full(mesh.n_nodes, float(found)) if found.ndim == 0 else found
+    if found.shape != (mesh.n_nodes,):
+        raise InputError(
+            "", f"temperatures of shape {found.shape}", f"one number, or numbers of shape ({mesh.n_nodes},)"
+        )
+    if not ((found > 0.0) & (found < np.inf)).all():
+        raise InputError("", f"{found.min():g} K", "positive temperatures in kelvin, 273.15 K above those in Celsius")
+    return found
+
+
+def _profile(field: Profile, mesh: Mesh) -> Array:
+    """Nodal values (n,) of a profile of numbers."""
+    at, values = np.asarray(field.at, float), np.asarray(field.values, float)
+    axis = "xyz".find(field.axis)
+    fits = len(field.axis) == 1 and 0 <= axis < mesh.dim
+    if not fits or values.ndim != 1 or at.shape != values.shape or not (np.diff(at) > 0.0).all() or not at.size:
+        problem = f"a profile along {field.axis!r} of {len(field.values)} values at {len(field.at)} coordinates"
+        raise InputError("", problem, "an axis of the mesh, increasing coordinates, and a number for each")
+    return np.asarray(np.interp(mesh.points[:, axis], at, values))

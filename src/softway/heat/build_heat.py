@@ -1,0 +1,175 @@
+"""Discretisation of conductors: capacities, cells, simplices of latent heat, boundary conditions."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.arrays import Array, IntArray
+from softway.bodies.conductor import Conductor, sample_temperature
+from softway.bodies.elements.section import Axisymmetric, Section, check_section, default_section
+from softway.bodies.inertia.mass_matrix import Body, Lumped, body_of, nodal_mass
+from softway.bodies.setup.heat_loads import HeatSource, Radiation, Temperature, place_of, surface_points
+from softway.errors import InputError, within
+from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, HeatSurface, Simplices
+from softway.heat.phase import simplices_of
+from softway.kernels.assembly.assembler import assembler
+from softway.kernels.geometry.jacobians import cell_geometry
+from softway.laws.heat.heat_content import content_curve
+from softway.meshes.element import element, exact_degree, stiffness_degree
+from softway.meshes.mesh import Mesh
+
+
+def build_heat(scene: HeatScene) -> HeatModel:
+    """Discretise the conductors of a scene.
+
+    Raises
+    ------
+    InputError
+        With the place in the scene: no bodies, loads on bodies or tags that are not there, temperatures that are not
+        positive, a section or a conductivity that does not fit the mesh, latent heat in cells that have no simplices.
+
+    Examples
+    --------
+    >>> import softway as sw
+    >>> law = sw.heat.Conduction(conductivity=1.0, capacity=1.0)
+    >>> mesh = sw.meshes.Interval(length=1.0, cells=2)
+    >>> bar = sw.heat.Conductor(mesh=mesh, law=law, density=1.0, temperature=300.0)
+    >>> build_heat(HeatScene(bodies={"bar": bar})).mass.tolist()
+    [0.25, 0.5, 0.25]
+    """
+    if not scene.bodies:
+        raise InputError("bodies", "no bodies", "at least one Conductor")
+    parts: list[HeatPart] = []
+    cells: list[HeatCells] = []
+    simplices: list[Simplices] = []
+    masses, initial, n, e = [], [], 0, 0
+    for name, body in scene.bodies.items():
+        with within(f"bodies.{name}"):
+            part, section, quadrature = _part(name, body, n, e)
+            cells.extend(_cells(part, section))
+            simplices.extend(_simplices(part, section, quadrature))
+            with within("temperature"):
+                initial.append(sample_temperature(body.temperature, part.mesh))
+        parts.append(part)
+        masses.append(nodal_mass(part.mesh, body.density, section, Lumped()).diagonal())
+        n, e = part.nodes.stop, part.cells.stop
+    surfaces, sources, held = _loads(scene, {part.name: part for part in parts}, n)
+    linear = all(p.law.constant for p in parts) and not any(isinstance(s.load, Radiation) for s in surfaces)
+    return HeatModel(
+        parts=tuple(parts), cells=tuple(cells), simplices=tuple(simplices), mass=np.concatenate(masses),
+        pattern=assembler([c.nodes for c in cells], n, 1), surfaces=surfaces, sources=sources, held=held,
+        initial=np.concatenate(initial), linear=linear, n_cells=e,
+    )  # fmt: skip
+
+
+def section_of(body: Conductor, mesh: Mesh) -> Section:
+    """Section of a conductor, checked against its mesh."""
+    section = default_section(mesh) if body.section is None else body.section
+    check_section(mesh, section)
+    return section
+
+
+def _part(name: str, body: Conductor, n: int, e: int) -> tuple[HeatPart, Section, Body]:
+    """Body with its first node ``n`` and its first cell ``e``."""
+    with within("mesh"):
+        mesh = body.mesh if isinstance(body.mesh, Mesh) else body.mesh.build()
+    section = section_of(body, mesh)
+    melts = body.law.latent
+    at_nodes = melts is not None and (body.latent == "node" or melts.half_range > 0.0)
+    if melts is not None and not at_nodes and "hex20" in mesh.blocks:
+        raise InputError("latent", "'cell' in hex20, which have no simplices between their nodes", "'node', or hex27")
+    quadrature = body_of(mesh, section, body.density)
+    part = HeatPart(
+        name=name, mesh=mesh, nodes=slice(n, n + mesh.n_nodes), cells=slice(e, e + mesh.n_cells), law=body.law,
+        curve=content_curve(body.law, latent=at_nodes), at_nodes=at_nodes,
+        mixed=melts is not None and "hex20" in mesh.blocks,
+        volume=np.concatenate([mass.sum(axis=1) for _, _, mass in quadrature.blocks]) / body.density,
+    )  # fmt: skip
+    return part, section, quadrature
+
+
+def _cells(part: HeatPart, section: Section) -> list[HeatCells]:
+    """Cells of a body by type."""
+    found, first = [], part.cells.start
+    round_axis = 2 if isinstance(section, Axisymmetric) else 0
+    for name, nodes in part.mesh.blocks.items():
+        degree = stiffness_degree(name) if part.law.constant else exact_degree(name)
+        table, x = element(name, degree + round_axis), part.mesh.points[nodes]
+        gradients, measures, _ = cell_geometry(x, table.dN, table.weights)
+        volume = measures * section.measure(np.einsum("qa,ead->eqd", table.N, x))
+        numbers = first + np.arange(len(nodes))
+        nodes = nodes + part.nodes.start
+        with within("law"):
+            for law in (part.law, part.law.liquid):
+                law.along_axes(np.ones(1), gradients.shape[-1])
+        found.append(
+            HeatCells(law=part.law, nodes=nodes, N=table.N, gradients=gradients, volume=volume, numbers=numbers)
+        )
+        first += len(nodes)
+    return found
+
+
+def _simplices(part: HeatPart, section: Section, quadrature: Body) -> list[Simplices]:
+    """Simplices of a body that melts by their number of corners; their masses add up to those of the cells."""
+    if part.law.latent is None or part.mixed:
+        return []
+    found, first = [], part.cells.start
+    for table, nodes, mass in quadrature.blocks:
+        local = np.array(simplices_of(table.cell))
+        corners = part.mesh.points[nodes][:, local]
+        edges = corners[:, :, 1:] - corners[:, :, :1]
+        size = np.sqrt(np.linalg.det(edges @ np.swapaxes(edges, -1, -2)))
+        size = size * section.measure(corners.mean(axis=2))
+        share = size / size.sum(axis=1, keepdims=True)
+        cell = np.repeat(np.arange(len(nodes)), len(local))
+        found.append(
+            Simplices(
+                nodes=nodes[:, local].reshape(len(cell), -1) + part.nodes.start,
+                mass=(share * mass.sum(axis=1, keepdims=True)).ravel(), share=share.ravel(), numbers=first + cell,
+                melting=part.law.latent.melting, heat=0.0 if part.at_nodes else part.law.latent.heat,
+            )
+        )  # fmt: skip
+        first += len(nodes)
+    return found
+
+
+Loads = tuple[tuple[HeatSurface, ...], tuple[tuple[HeatSource, Array], ...], tuple[tuple[Temperature, IntArray], ...]]
+
+
+def _loads(scene: HeatScene, parts: Mapping[str, HeatPart], n: int) -> Loads:
+    """Surfaces, sources, and nodes with prescribed temperatures, of which each belongs to one load."""
+    surfaces: list[HeatSurface] = []
+    sources: list[tuple[HeatSource, Array]] = []
+    owner = np.full(n, -1)
+    for k, load in enumerate(scene.loads):
+        name, tag = place_of(load)
+        with within(f"loads[{k}].{'of' if isinstance(load, HeatSource) else 'on'}"):
+            if name not in parts:
+                raise InputError("", f"there is no body {name!r}", ", ".join(repr(known) for known in parts))
+            part = parts[name]
+            section = section_of(scene.bodies[name], part.mesh)
+            match load:
+                case Temperature():
+                    owner[part.nodes.start + part.mesh.nodes(tag)] = k
+                case HeatSource():
+                    sources.append((load, _source(part, section, tag, n)))
+                case _:
+                    table, areas = surface_points(part.mesh, section, tag)
+                    data = (table.data, table.indices + part.nodes.start, table.indptr)
+                    points = sp.csr_array(data, shape=(len(areas), n))
+                    surfaces.append(HeatSurface(load=load, points=points, areas=areas))
+    held = [(load, np.flatnonzero(owner == k)) for k, load in enumerate(scene.loads) if isinstance(load, Temperature)]
+    return tuple(surfaces), tuple(sources), tuple(held)
+
+
+def _source(part: HeatPart, section: Section, region: str, n: int) -> Array:
+    """Integrals (n,) of the shape functions over the cells of a region [m^3]."""
+    inside = np.zeros(part.mesh.n_cells)
+    inside[part.mesh.cells(region)] = 1.0
+    out, first = np.zeros(n), 0
+    for table, nodes, volume in body_of(part.mesh, section, 1.0).blocks:
+        kept = volume * inside[first : first + len(nodes), None]
+        np.add.at(out, nodes + part.nodes.start, kept @ table.N)
+        first += len(nodes)
+    return out

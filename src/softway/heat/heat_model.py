@@ -1,0 +1,164 @@
+"""Discretised conductors: nodes of all bodies in one numbering, capacities, cells, boundary conditions."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.conductor import Conductor
+from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, SurfaceHeat, Temperature
+from softway.kernels.assembly.assembler import Assembler
+from softway.laws.heat.conduction import Conduction
+from softway.laws.heat.heat_content import ContentCurve
+from softway.meshes.mesh import Mesh
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HeatScene:
+    """Conductors, and the boundary conditions and sources of their heat: an immutable description.
+
+    Parameters
+    ----------
+    bodies
+        Conductors by name.
+    loads
+        Temperatures, heat fluxes, convection, radiation and sources.  Surfaces without any are insulated.  Where two
+        temperatures meet in a node, the later one holds.
+
+    Examples
+    --------
+    >>> HeatScene(bodies={}).loads
+    ()
+    """
+
+    bodies: Mapping[str, Conductor]
+    loads: tuple[HeatLoad, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class HeatPart:
+    """Discretised conductor.
+
+    Parameters
+    ----------
+    name
+        Name in the scene.
+    mesh
+        Its mesh.
+    nodes, cells
+        Its nodes and cells among those of all bodies.
+    law
+        Law of conduction.
+    curve
+        Specific content of a node, with the latent heat if it is held at the nodes.
+    at_nodes
+        True if the unknowns of the nodes are contents: latent heat is at the nodes.
+    mixed
+        True if a cell conducts like the mixture at its nodes, False if it does by the part that is above melting.
+    volume
+        (e,) volumes of the cells [m^3].
+    """
+
+    name: str
+    mesh: Mesh
+    nodes: slice
+    cells: slice
+    law: Conduction
+    curve: ContentCurve
+    at_nodes: bool
+    mixed: bool
+    volume: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class HeatCells:
+    """Cells of one type of a body: nodes (e, a), shape functions N (q, a), gradients (e, q, a, r) [1/m], volumes (e, q)
+    [m^3] of the points, and numbers (e,) among all cells.
+    """
+
+    law: Conduction
+    nodes: IntArray
+    N: Array
+    gradients: Array
+    volume: Array
+    numbers: IntArray
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Simplices:
+    """Simplices that the temperature of melting may cut: nodes (s, k), masses (s,) [kg], shares (s,) of their cells,
+    numbers (s,) of these among all cells; their latent heat [J/kg] is zero where it is at the nodes.
+    """
+
+    nodes: IntArray
+    mass: Array
+    share: Array
+    numbers: IntArray
+    melting: float
+    heat: float
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class HeatSurface:
+    """Heat exchange at points of a surface: interpolation (p, n) and areas (p,) [m^2]."""
+
+    load: SurfaceHeat
+    points: sp.csr_array
+    areas: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class HeatModel:
+    """Discretised conductors of n nodes and E cells.
+
+    Parameters
+    ----------
+    parts
+        Bodies.
+    cells
+        Their cells by type.
+    simplices
+        Simplices of the bodies that melt.
+    mass
+        (n,) lumped masses [kg].
+    pattern
+        Assembly of cell matrices.
+    surfaces
+        Heat exchange at surfaces.
+    sources
+        Sources with their nodal volumes (n,) [m^3].
+    held
+        Prescribed temperatures with their nodes.
+    initial
+        (n,) initial temperatures [K].
+    linear
+        True if the content is linear in the temperature, and the heat flow too.
+    n_cells
+        Number E of cells.
+    """
+
+    parts: tuple[HeatPart, ...]
+    cells: tuple[HeatCells, ...]
+    simplices: tuple[Simplices, ...]
+    mass: Array
+    pattern: Assembler
+    surfaces: tuple[HeatSurface, ...]
+    sources: tuple[tuple[HeatSource, Array], ...]
+    held: tuple[tuple[Temperature, IntArray], ...]
+    initial: Array
+    linear: bool
+    n_cells: int
+
+    @property
+    def n_nodes(self) -> int:
+        """Number n of nodes."""
+        return len(self.mass)
+
+    def free_nodes(self) -> BoolArray:
+        """Nodes (n,) without a prescribed temperature."""
+        free = np.ones(self.n_nodes, dtype=bool)
+        for _, nodes in self.held:
+            free[nodes] = False
+        return free

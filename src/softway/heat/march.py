@@ -1,0 +1,231 @@
+"""March of heat conduction: slabs between the knots of loads, damped after sudden changes."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from math import ceil
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.bodies.setup.knots import knots_of_table
+from softway.errors import Cancel, InputError, NoConvergence, NumericsError, heed
+from softway.heat.build_heat import build_heat
+from softway.heat.heat_balance import Stage, put_at_once
+from softway.heat.heat_model import HeatModel, HeatScene
+from softway.heat.heat_slab import HeatFactor, StageResult, solve_stage
+from softway.heat.ledger import HeatLedger, booked, opened
+from softway.heat.operators import Thermal, thermal, unknowns_of
+from softway.solve.linear.backends.superlu import SuperLU
+from softway.solve.linear.interface import LinearSolver
+from softway.units import Second
+
+HALVINGS = 8
+"""Greatest number of halvings of a slab that does not converge."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class HeatState:
+    """State of a march after a slab, from which another march may go on.
+
+    Parameters
+    ----------
+    time
+        [s].
+    unknowns
+        (n,) temperatures [K], or specific contents [J/kg] where latent heat is at the nodes.
+    ledger
+        Ledger since the start.
+    """
+
+    time: float
+    unknowns: Array
+    ledger: HeatLedger
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class HeatStep:
+    """Slab of a march of heat conduction.
+
+    Parameters
+    ----------
+    time
+        Time of its end [s].
+    temperature
+        Body -> (n,) temperatures of its nodes [K].
+    liquid
+        Body that melts -> (e,) liquid share of its cells.
+    liquid_volume
+        Body that melts -> volume of its liquid [m^3]; fronts are known from it, not from an isotherm.
+    ledger
+        Heats.
+    iterations
+        Number of iterations of the slab.
+    damped
+        True for a slab of two halves whose heat flows at the temperature of their ends.
+    state
+        State for another march that goes on.
+    """
+
+    time: float
+    temperature: Mapping[str, Array]
+    liquid: Mapping[str, Array]
+    liquid_volume: Mapping[str, float]
+    ledger: HeatLedger
+    iterations: int
+    damped: bool
+    state: HeatState
+
+
+def march_heat(
+    scene: HeatScene | HeatModel,
+    *,
+    until: Second,
+    step: Second,
+    state: HeatState | None = None,
+    damped: bool = True,
+    linear: LinearSolver = SuperLU(),
+    cancel: Cancel | None = None,
+) -> Iterator[HeatStep]:
+    """Slabs of heat conduction from the start, or from ``state``, to the time ``until``.
+
+    Slabs end at the knots of the loads.  The heat flows at the mean temperature of a slab, which is of second order.
+    The first slab, and the first one after a knot, is taken in two halves whose heat flows at the temperature of their
+    ends, so that a sudden change does not ring.
+
+    Parameters
+    ----------
+    scene
+        Conductors with their loads, or a model built of them.
+    until
+        End time [s].
+    step
+        Length of the slabs [s], shortened to divide the times between knots evenly.
+    state
+        State after a step of another march of the same scene.
+    damped
+        False for no damped slab.
+    linear
+        Direct solver of models whose conductivity and capacity do not depend on the temperature.
+    cancel
+        Callback before every slab that may cancel the march.
+
+    Raises
+    ------
+    InputError
+        Before the first step: of :func:`~softway.heat.build_heat.build_heat`; a step or an end that is not after the
+        start; a state of another scene.
+    NumericsError
+        If a slab does not converge at a 256th of its length either; earlier steps stay valid.
+    Cancelled
+        If ``cancel`` requests it.
+
+    Examples
+    --------
+    >>> import softway as sw
+    >>> law = sw.heat.Conduction(conductivity=50.0, capacity=500.0)
+    >>> mesh = sw.meshes.Interval(length=0.1, cells=10)
+    >>> bar = sw.heat.Conductor(mesh=mesh, law=law, density=7800.0, temperature=300.0)
+    >>> heated = sw.heat.HeatFlux(on="bar.left", value=1e5)
+    >>> *_, last = march_heat(sw.heat.HeatScene(bodies={"bar": bar}, loads=(heated,)), until=10.0, step=1.0)
+    >>> round(last.ledger.heat_in, 3), last.ledger.relative_error < 1e-12
+    (1000000.0, True)
+    """
+    model = build_heat(scene) if isinstance(scene, HeatScene) else scene
+    unknowns = unknowns_of(model, model.initial) if state is None else state.unknowns
+    begin = 0.0 if state is None else state.time
+    if unknowns.shape != (model.n_nodes,):
+        raise InputError("state", f"{len(unknowns)} nodes, the scene has {model.n_nodes}", "a state of the same scene")
+    if not begin < until < np.inf:
+        raise InputError("until", f"{until:g} s after a start at {begin:g} s", "a later time")
+    if not 0.0 < step < np.inf:
+        raise InputError("step", f"{step:g} s is not positive", "a positive time")
+    before = thermal(model, unknowns)
+    ledger = opened(before.content, _count(model)) if state is None else state.ledger
+    start = HeatState(time=begin, unknowns=unknowns, ledger=ledger)
+    return _slabs(model, start, before, until, step, damped, linear, cancel)
+
+
+def _count(model: HeatModel) -> int:
+    """Number of loads."""
+    return len(model.surfaces) + len(model.sources) + len(model.held)
+
+
+def _slabs(
+    model: HeatModel,
+    state: HeatState,
+    before: Thermal,
+    until: float,
+    step: float,
+    damped: bool,
+    linear: LinearSolver,
+    cancel: Cancel | None,
+) -> Iterator[HeatStep]:
+    """Slabs between the knots."""
+    ledger, factor = state.ledger, None
+    ends = [state.time, *(t for t in _knots(model) if state.time < t < until), until]
+    for low, high in zip(ends[:-1], ends[1:], strict=True):
+        count = ceil((high - low) / step * (1.0 - 1e-9))
+        for k in range(count):
+            start = low + (high - low) * (k / count)
+            end = high if k + 1 == count else low + (high - low) * ((k + 1) / count)
+            heed(cancel, start)
+            before, jumped = put_at_once(model, before, start)
+            ledger = booked(ledger, before.content, _padded(model, jumped))
+            calm = damped and k == 0
+            slab = Stage(start=start, span=(high - low) / count, theta=1.0 if calm else 0.5)
+            found = _accepted(model, before, slab, calm, factor, linear)
+            before, factor = found.after, found.factor
+            ledger = booked(ledger, before.content, found.heats)
+            yield _step(model, end, before, ledger, found.iterations, calm)
+
+
+def _accepted(
+    model: HeatModel,
+    before: Thermal,
+    slab: Stage,
+    halves: bool,
+    factor: HeatFactor | None,
+    linear: LinearSolver,
+    depth: int = 0,
+) -> StageResult:
+    """Slab in one stage or in two halves; in damped halves if it does not converge."""
+    if not halves:
+        try:
+            return solve_stage(model, before, slab, factor, linear)
+        except NoConvergence as error:
+            if depth == HALVINGS:
+                raise NumericsError(
+                    str(error), slab.start, "shorter slabs, or a smaller jump of a temperature"
+                ) from None
+    half = 0.5 * slab.span
+    first = _accepted(model, before, Stage(start=slab.start, span=half, theta=1.0), False, factor, linear, depth + 1)
+    rest = Stage(start=slab.start + half, span=half, theta=1.0)
+    last = _accepted(model, first.after, rest, False, first.factor, linear, depth + 1)
+    return replace(last, heats=first.heats + last.heats, iterations=first.iterations + last.iterations)
+
+
+def _padded(model: HeatModel, jumped: Array) -> Array:
+    """Heats (k,) of all loads from those of the prescribed temperatures, the last ones."""
+    return np.concatenate([np.zeros(_count(model) - len(jumped)), jumped])
+
+
+def _knots(model: HeatModel) -> tuple[float, ...]:
+    """Instants at which an amplitude bends [s]."""
+    loads = [*(s.load for s in model.surfaces), *(load for load, _ in model.sources), *(load for load, _ in model.held)]
+    return tuple(sorted({t for a in (load.amplitude for load in loads) for t in knots_of_table(a.times, a.factors)}))
+
+
+def _step(model: HeatModel, end: float, after: Thermal, ledger: HeatLedger, iterations: int, damped: bool) -> HeatStep:
+    """Step of a slab."""
+    melting = [part for part in model.parts if part.law.latent is not None]
+    liquid = {part.name: after.melted[part.cells] for part in melting}
+    return HeatStep(
+        time=end,
+        temperature={part.name: after.temperature[part.nodes] for part in model.parts},
+        liquid=liquid,
+        liquid_volume={part.name: float(part.volume @ liquid[part.name]) for part in melting},
+        ledger=ledger,
+        iterations=iterations,
+        damped=damped,
+        state=HeatState(time=end, unknowns=after.unknowns, ledger=ledger),
+    )

@@ -1,0 +1,214 @@
+"""Heat content of the nodes, heat flow between them, and heat exchange at surfaces, with their derivatives."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.setup.heat_loads import Convection, HeatFlux, Radiation
+from softway.heat.heat_model import HeatCells, HeatModel, HeatSurface
+from softway.heat.phase import liquid_part
+
+STEFAN_BOLTZMANN = 5.670374419e-8
+"""Constant of Stefan and Boltzmann [W/(m^2 K^4)] (CODATA 2018)."""
+
+Entries = tuple[tuple[IntArray, IntArray, Array], ...]
+"""Entries of a sparse matrix in groups of rows, columns and values; entries of one place add up."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Thermal:
+    """Temperatures and contents of n nodes and E cells at one instant.
+
+    Parameters
+    ----------
+    unknowns
+        (n,) temperatures [K], or specific contents [J/kg] where latent heat is at the nodes.
+    temperature, stretch
+        (n,) temperatures [K], and their derivatives along the unknowns.
+    content
+        (n,) heat contents [J].
+    capacity
+        (n,) derivative of the contents along the unknowns of the same nodes, without latent heat in cut cells.
+    latent_slope
+        Entries of the derivative (n, n) of that latent heat along the temperatures [J/K].
+    liquid
+        (E,) share of the cells that conducts like the liquid.
+    liquid_slope
+        Entries of its derivative (E, n) along the unknowns.
+    melted
+        (E,) share of the cells that has taken latent heat.
+    """
+
+    unknowns: Array
+    temperature: Array
+    stretch: Array
+    content: Array
+    capacity: Array
+    latent_slope: Entries
+    liquid: Array
+    liquid_slope: Entries
+    melted: Array
+
+
+def unknowns_of(model: HeatModel, temperature: Array) -> Array:
+    """Unknowns (n,) of temperatures (n,) [K]: matter at melting is solid."""
+    out = temperature.copy()
+    for part in model.parts:
+        if part.at_nodes:
+            out[part.nodes] = part.curve.content(temperature[part.nodes])
+    return out
+
+
+def thermal(model: HeatModel, unknowns: Array, slopes: bool = True) -> Thermal:
+    """Temperatures and contents of given unknowns (n,); without ``slopes`` the derivatives with entries are empty."""
+    n = model.n_nodes
+    temperature, stretch = unknowns.copy(), np.ones(n)
+    content, capacity = np.empty(n), np.empty(n)
+    share, share_slope = np.zeros(n), np.zeros(n)
+    for part in model.parts:
+        here, x = part.nodes, unknowns[part.nodes]
+        if part.at_nodes:
+            temperature[here], stretch[here] = part.curve.temperature(x)
+            content[here], capacity[here] = x, 1.0
+            share[here], share_slope[here] = part.curve.liquid_share(x, temperature[here])
+        else:
+            content[here], capacity[here] = part.curve.content(x), part.curve.capacity(x)
+    melted = _mean_shares(model, share)
+    liquid, latent, cut_slope, latent_slope = _cut(model, temperature, slopes)
+    mixed = np.zeros(model.n_cells, dtype=bool)
+    for part in model.parts:
+        mixed[part.cells] = part.mixed
+        if not part.at_nodes:
+            melted[part.cells] = liquid[part.cells]
+    liquid[mixed] = melted[mixed]
+    slope = tuple((rows, columns, values * stretch[columns]) for rows, columns, values in cut_slope)
+    if slopes and mixed.any():
+        slope = (*slope, *_mean_slopes(model, mixed, share_slope))
+    return Thermal(
+        unknowns=unknowns, temperature=temperature, stretch=stretch, content=model.mass * content + latent,
+        capacity=model.mass * capacity, latent_slope=latent_slope, liquid=liquid, liquid_slope=slope, melted=melted,
+    )  # fmt: skip
+
+
+def _cut(model: HeatModel, temperature: Array, slopes: bool) -> tuple[Array, Array, Entries, Entries]:
+    """Share (E,) of the cells above melting, the latent heat (n,) of that part [J], and their derivatives."""
+    n, E = model.n_nodes, model.n_cells
+    liquid, latent = np.zeros(E), np.zeros(n)
+    slope, latent_slope = [], []
+    for block in model.simplices:
+        part, grown = liquid_part(temperature[block.nodes] - block.melting)
+        liquid += np.bincount(block.numbers, block.share * part.sum(axis=1), E)
+        heat = block.heat * block.mass
+        latent += np.bincount(block.nodes.ravel(), (heat[:, None] * part).ravel(), n)
+        cut = np.flatnonzero(grown.any(axis=(1, 2)))
+        if not slopes or not cut.size:
+            continue
+        nodes, k = block.nodes[cut], block.nodes.shape[1]
+        columns = (block.share[cut, None] * grown[cut].sum(axis=1)).ravel()
+        slope.append((np.repeat(block.numbers[cut], k), nodes.ravel(), columns))
+        if block.heat:
+            both = np.repeat(nodes, k, axis=1).ravel(), np.tile(nodes, (1, k)).ravel()
+            latent_slope.append((*both, (heat[cut, None, None] * grown[cut]).ravel()))
+    return liquid, latent, tuple(slope), tuple(latent_slope)
+
+
+def _mean_shares(model: HeatModel, share: Array) -> Array:
+    """Mean liquid shares (E,) of the nodes of the cells, from those of the nodes (n,)."""
+    liquid = np.zeros(model.n_cells)
+    for cells in (c for c in model.cells if c.law.latent is not None):
+        liquid[cells.numbers] = share[cells.nodes].mean(axis=1)
+    return liquid
+
+
+def _mean_slopes(model: HeatModel, mixed: BoolArray, slope: Array) -> Entries:
+    """Derivative (E, n) of the mean shares of the ``mixed`` cells (E,), from those of the nodes (n,)."""
+    return tuple(
+        (np.repeat(c.numbers, c.nodes.shape[1]), c.nodes.ravel(), slope[c.nodes].ravel() / c.nodes.shape[1])
+        for c in model.cells
+        if mixed[c.numbers].any()
+    )
+
+
+def heat_flow(
+    model: HeatModel, temperature: Array, liquid: Array, slopes: bool
+) -> tuple[Array, sp.csr_array | None, Entries]:
+    """Heat (n,) that flows out of the nodes by conduction [W], and its derivatives.
+
+    Parameters
+    ----------
+    model
+        Model.
+    temperature, liquid
+        (n,) temperatures [K], and (E,) liquid shares of the cells.
+    slopes
+        False to leave the derivatives out.
+
+    Returns
+    -------
+    flow
+        (n,) [W]; its sum is zero.
+    by_temperature, by_liquid
+        (n, n) derivative along the temperatures [W/K], and entries of that (n, E) along the liquid shares [W]; None
+        and empty if left out.
+    """
+    flow = np.zeros(model.n_nodes)
+    blocks: list[Array] = []
+    columns = []
+    for cells in model.cells:
+        at = temperature[cells.nodes]
+        k, by_k, by_share = _conductivity(cells, at @ cells.N.T, liquid[cells.numbers])
+        falls = np.einsum("eqar,ea->eqr", cells.gradients, at)
+        weight = cells.volume[..., None]
+        np.add.at(flow, cells.nodes, np.einsum("eqar,eqr->ea", cells.gradients, weight * k * falls))
+        if not slopes:
+            continue
+        block = np.einsum("eqar,eqr,eqbr->eab", cells.gradients, weight * k, cells.gradients, optimize=True)
+        if not cells.law.constant:
+            turned = np.einsum("eqar,eqr->eqa", cells.gradients, weight * by_k * falls)
+            block = block + np.einsum("eqa,qb->eab", turned, cells.N)
+        if cells.law.latent is not None:
+            column = np.einsum("eqar,eqr->ea", cells.gradients, weight * by_share * falls)
+            columns.append((cells.nodes.ravel(), np.repeat(cells.numbers, cells.nodes.shape[1]), column.ravel()))
+        blocks.append(block[..., None, None])
+    if not slopes:
+        return flow, None, ()
+    found = model.pattern.assemble(blocks)
+    return flow, sp.csr_array((found.data, found.indices, found.indptr), shape=found.shape), tuple(columns)
+
+
+def _conductivity(cells: HeatCells, temperature: Array, liquid: Array) -> tuple[Array, Array, Array]:
+    """Conductivities (e, q, r), and their derivatives along the temperature and the liquid share of the cells."""
+    r = cells.gradients.shape[-1]
+    solid, by_solid = cells.law.along_axes(temperature, r)
+    if cells.law.latent is None or cells.law.liquid is cells.law:
+        return solid, by_solid, np.zeros_like(solid)
+    molten, by_molten = cells.law.liquid.along_axes(temperature, r)
+    share = liquid[:, None, None]
+    return solid + share * (molten - solid), by_solid + share * (by_molten - by_solid), molten - solid
+
+
+def surface_heat(surface: HeatSurface, temperature: Array, factor: float) -> tuple[Array, Array]:
+    """Heat (p,) into a body at the points of a surface [W], and its derivative along their temperatures [W/K].
+
+    Parameters
+    ----------
+    surface
+        Surface.
+    temperature
+        (n,) temperatures [K].
+    factor
+        Mean amplitude of the load.
+    """
+    load, areas = surface.load, surface.areas
+    match load:
+        case HeatFlux():
+            return areas * load.value * factor, np.zeros_like(areas)
+        case Convection():
+            at = surface.points @ temperature
+            return areas * load.coefficient * (load.ambient * factor - at), -areas * load.coefficient
+        case Radiation():
+            at = surface.points @ temperature
+            scale = areas * load.emissivity * STEFAN_BOLTZMANN
+            return scale * ((load.ambient * factor) ** 4 - at**4), -4.0 * scale * at**3

@@ -1,0 +1,129 @@
+"""Refusals of conductors, their laws and boundary conditions, which come from Python only."""
+
+from collections.abc import Callable
+from math import inf
+
+import numpy as np
+from try_it import Call, Table
+
+import softway as sw
+from softway.bodies.conductor import sample_temperature
+from softway.meshes.generators.shapes import box, interval, rectangle
+
+heat = sw.heat
+LAW = heat.Conduction(conductivity=1.0, capacity=1.0)
+MELTS = heat.Conduction(conductivity=1.0, capacity=1.0, latent=heat.Latent(heat=1.0, melting=300.0))
+BAR = interval(1.0, cells=2)
+SQUARE = rectangle((1.0, 1.0), (2, 2))
+CORNER = SQUARE.with_tag("corner", lambda x: (x < 0.1).all(axis=1))
+COLD = (2.0, 1.0)
+
+
+def body(**given: object) -> sw.heat.Conductor:
+    """A bar at 300 K."""
+    return heat.Conductor(**{"mesh": BAR, "law": LAW, "density": 1.0, "temperature": 300.0, **given})  # type: ignore[arg-type]
+
+
+def built(*loads: object, **given: object) -> object:
+    """Model of a bar with loads."""
+    return heat.build_heat(heat.HeatScene(bodies={"b": body(**given)}, loads=loads))  # type: ignore[arg-type]
+
+
+def marched(**given: object) -> object:
+    """March of a bar."""
+    times = {"until": 1.0, "step": 0.5, **given}
+    return heat.march_heat(heat.HeatScene(bodies={"b": body()}), **times)  # type: ignore[arg-type]
+
+
+def call(wrong: Callable[[], object], remedy: str, right: Callable[[], object]) -> Call:
+    """Call that is wrong, and one that is right."""
+    return Call(lambda _: wrong(), remedy, lambda _: right())
+
+
+def table(temperatures: tuple[float, ...], values: tuple[float, ...]) -> sw.heat.TemperatureTable:
+    """Table of values."""
+    return heat.TemperatureTable(temperatures=temperatures, values=values)
+
+
+def profile(axis: str = "x", values: tuple[float, ...] = (300.0, 310.0)) -> sw.bodies.Profile:
+    """Profile of temperatures."""
+    return sw.bodies.Profile(axis=axis, at=(0.0, 1.0), values=values)
+
+
+STATE = heat.HeatState(
+    time=0.0,
+    unknowns=np.full(4, 300.0),
+    ledger=heat.HeatLedger(heat_content=0.0, heat_in=0.0, heat_out=0.0, error=0.0),
+)
+TABLE: Table = {
+    "values of a table": call(lambda: table(COLD, (1.0,)), "one value for each", lambda: table((1.0,), (1.0,))),
+    "falling temperatures": call(lambda: table(COLD, (1.0, 1.0)), "in kelvin", lambda: table((1.0, 2.0), (1.0, 1.0))),
+    "zero of a table": call(lambda: table((1.0,), (0.0,)), "positive values", lambda: table((1.0,), (1.0,))),
+    "mushy down to zero": call(
+        lambda: heat.Latent(heat=1.0, melting=300.0, half_range=400.0),
+        "less than the temperature of melting",
+        lambda: heat.Latent(heat=1.0, melting=300.0, half_range=1.0),
+    ),
+    "a liquid that melts": call(
+        lambda: heat.Latent(heat=1.0, melting=300.0, liquid=MELTS),
+        "omit it",
+        lambda: heat.Latent(heat=1.0, melting=300.0, liquid=LAW),
+    ),
+    "four axes": call(
+        lambda: heat.Conduction(conductivity=(1.0,) * 4, capacity=1.0),
+        "each axis of space",
+        lambda: heat.Conduction(conductivity=(1.0,) * 3, capacity=1.0),
+    ),
+    "no capacity": call(
+        lambda: heat.Conduction(conductivity=1.0, capacity=0.0),
+        "a positive number",
+        lambda: heat.Conduction(conductivity=1.0, capacity=1.0),
+    ),
+    "a bar along two axes": call(
+        lambda: built(law=heat.Conduction(conductivity=(1.0, 2.0), capacity=1.0)),
+        "one number in bars",
+        lambda: built(law=heat.Conduction(conductivity=(1.0, 2.0), capacity=1.0), mesh=SQUARE),
+    ),
+    "elsewhere": call(lambda: body(latent="edge"), "'cell' or 'node'", lambda: body(latent="node")),
+    "temperatures of two nodes": call(
+        lambda: sample_temperature(np.full(2, 300.0), BAR),
+        "shape (3,)",
+        lambda: sample_temperature(np.full(3, 300.0), BAR),
+    ),
+    "degrees below zero": call(
+        lambda: built(temperature=-10.0), "273.15 K above those in Celsius", lambda: built(temperature=263.15)
+    ),
+    "a profile along y": call(
+        lambda: built(temperature=profile("y")), "an axis of the mesh", lambda: built(temperature=profile())
+    ),
+    "whiter than black": call(
+        lambda: heat.Radiation(on="b", emissivity=2.0, ambient=300.0),
+        "1 for a black surface",
+        lambda: heat.Radiation(on="b", emissivity=1.0, ambient=300.0),
+    ),
+    "a cold wall": call(
+        lambda: heat.Temperature(on="b", value=-10.0),
+        "in kelvin",
+        lambda: heat.Temperature(on="b", value=263.15),
+    ),
+    "endless flux": call(
+        lambda: heat.HeatFlux(on="b", value=inf), "a finite number", lambda: heat.HeatFlux(on="b", value=1.0)
+    ),
+    "flux on a corner": call(
+        lambda: built(heat.HeatFlux(on="b.corner", value=1.0), mesh=CORNER),
+        "a tag of a side",
+        lambda: built(heat.HeatFlux(on="b.left", value=1.0), mesh=CORNER),
+    ),
+    "flux on nobody": call(
+        lambda: built(heat.HeatFlux(on="c", value=1.0)), "'b'", lambda: built(heat.HeatFlux(on="b", value=1.0))
+    ),
+    "no conductor": call(lambda: heat.build_heat(heat.HeatScene(bodies={})), "at least one Conductor", built),
+    "latent heat of hex20": call(
+        lambda: built(law=MELTS, mesh=box((1.0,) * 3, (1, 1, 1), cell="hex20")),
+        "'node', or hex27",
+        lambda: built(law=MELTS, mesh=box((1.0,) * 3, (1, 1, 1), cell="hex20"), latent="node"),
+    ),
+    "a state of another scene": call(lambda: marched(state=STATE), "a state of the same scene", marched),
+    "until the start": call(lambda: marched(until=0.0), "a later time", marched),
+    "no step": call(lambda: marched(step=0.0), "a positive time", marched),
+}
