@@ -19,8 +19,8 @@ class HeatLedger:
     error
         Content less that at the start, less ``heat_in``, plus ``heat_out`` [J].
     by_load
-        (k,) heat that each load has brought [J]: loads on surfaces first, then sources, then prescribed temperatures, each
-        in the order of the scene.
+        (k,) heat that each load has brought [J]: first loads on surfaces, then sources, then prescribed temperatures,
+        each in the order of the scene.
 
     Examples
     --------
