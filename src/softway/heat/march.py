@@ -194,9 +194,8 @@ def _accepted(
             return solve_stage(model, before, slab, factor, linear)
         except NoConvergence as error:
             if depth == HALVINGS:
-                raise NumericsError(
-                    str(error), slab.start, "shorter slabs, or a smaller jump of a temperature"
-                ) from None
+                remedy = 'latent = "node" where matter melts, or shorter slabs'
+                raise NumericsError(str(error), slab.start, remedy) from None
     half = 0.5 * slab.span
     first = _accepted(model, before, Stage(start=slab.start, span=half, theta=1.0), False, factor, linear, depth + 1)
     rest = Stage(start=slab.start + half, span=half, theta=1.0)
