@@ -22,6 +22,8 @@ from softway.scenario.hints.units_text import Units
 
 RIM = Path(__file__).parent / "inputs" / "marched" / "rim.toml"
 """A cylinder that lands on the middle of its rim."""
+CORNER = Path(__file__).parent / "inputs" / "marched" / "corner.toml"
+"""A plate that lands on a corner, which slips away from the plate above it."""
 
 
 def boxes() -> sw.Scene:
@@ -63,6 +65,15 @@ def test_a_cylinder_lands_on_the_middle_node_of_its_rim():
     told = judged(Drop(number=0, text=RIM.read_text(), traits={}), Units.standard())
     assert told["end"] == "done", told["why"]
     assert told["rejections"] == 0
+    assert told["energy"] < 1e-11
+
+
+@pytest.mark.slow
+def test_a_corner_of_massless_nodes_slips_from_one_equilibrium_to_another():
+    """Between them its equilibrium is unstable: however short, slabs have no solution nearby."""
+    told = judged(Drop(number=0, text=CORNER.read_text(), traits={}), Units.standard())
+    assert told["end"] == "done", told["why"]
+    assert told["slabs"] < 100
     assert told["energy"] < 1e-11
 
 

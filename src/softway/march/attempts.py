@@ -3,6 +3,7 @@
 import logging
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import cast
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.results.step import Certificate, Ledger
 from softway.march.results.trying import watched
-from softway.march.rules.slab_rule import Attempt
+from softway.march.rules.slab_rule import Attempt, SlabRule
 from softway.march.slab.slab_step import Stepper, advance
 from softway.march.start.knots import slab_end
 from softway.march.start.slab_length import proposed
@@ -62,7 +63,8 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
     """Find the next accepted slab, with cutbacks to half its length; ``memory`` has an operator if available.
 
     A slab that fails with an old operator is first tried again with a new one, one in which Newton's method does not
-    converge by the fixed point, and one with an indefinite operator by a positive definite one.  If the scalar cannot
+    converge by the fixed point, and one with an indefinite operator by a positive definite one, and then by Newton's
+    method.  If the scalar cannot
     close the energy balance at half the length either, it is closed along the motion, also in the following slabs.  A
     slab inside which a body comes to rest is tried again with its end at that instant; the slab after it is damped.
 
@@ -101,15 +103,27 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
             reasons.append(f"h = {slab.span:.3g} s: {failure}")
         except NoConvergence as failure:
             reasons.append(f"h = {slab.span:.3g} s: {failure}")
-            indefinite = attempt.effort.indefinite
-            if (stepper is first and first.second is not None) or (indefinite and not positive_definite):
-                stepper, positive_definite = replace(first, rule=first.second or first.rule), indefinite
-            else:
-                length, stepper, positive_definite = 0.5 * length if fresh else length, first, False
-            fresh, memory = True, memory.failed()
+            rule, positive_definite = _other_way(first, stepper.rule, attempt)
+            length = 0.5 * length if fresh and rule is first.rule and not positive_definite else length
+            stepper, fresh, memory = replace(first, rule=rule), True, memory.failed()
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
     reason = _reason(march_state, reasons, crawls) + _touching(stepper.model, now) + _crushed(stepper.model, now)
     raise NumericsError(reason, now.time, _remedy(stepper, march_state))
+
+
+def _other_way(first: Stepper, rule: SlabRule, failed: Attempt) -> tuple[SlabRule, bool]:
+    """Rule of the next attempt at a slab that failed by ``rule``, and whether its operators are positive definite.
+
+    Newton's method is followed by the fixed point, the fixed point with an indefinite operator by one with positive
+    definite operators, and that by Newton's method with such operators.  The last of them is followed by the first.
+    """
+    other, indefinite = first.second, failed.effort.indefinite
+    begins = other is not None and rule is first.rule
+    if begins and isinstance(first.method, Newton):
+        return cast(SlabRule, other), indefinite
+    if indefinite and not failed.positive_definite:
+        return rule, True
+    return (cast(SlabRule, other), True) if begins and failed.positive_definite else (first.rule, False)
 
 
 def _weight(model: Model, march_state: MarchState) -> TimeWeight:

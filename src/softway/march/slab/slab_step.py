@@ -32,8 +32,8 @@ class Stepper:
     """Model with its contact rule, prepared for a march by a method; ``cancel`` may cancel the march, ``trying`` is
     called after every iterate.
 
-    ``second`` is the rule for slabs in which the method does not converge; by default they are shortened.  ``ends`` are
-    instants at which slabs end, see :func:`~softway.march.start.knots.slab_ends`.
+    ``second`` is the rule by another method for slabs in which the method does not converge; by default they are
+    shortened.  ``ends`` are instants at which slabs end, see :func:`~softway.march.start.knots.slab_ends`.
     """
 
     model: Model
@@ -58,8 +58,11 @@ def stepper(
     if model.rigid is not None and isinstance(method, Explicit):
         raise InputError("solver", "Explicit with rigid bodies", "FixedPoint or Newton")
     rule, second = slab_rule(model, method, weight), None
-    if isinstance(method, Newton) and method.handover:
-        second = slab_rule(model, FixedPoint(tolerance=method.tolerance), weight)
+    match method:
+        case Newton(handover=True):
+            second = slab_rule(model, FixedPoint(tolerance=method.tolerance), weight)
+        case FixedPoint(handover=True):
+            second = slab_rule(model, Newton(tolerance=method.tolerance, limit=2 * method.limit), weight)
     return Stepper(model=model, method=method, rule=rule, second=second, cancel=cancel, trying=trying)
 
 

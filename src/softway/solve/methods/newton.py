@@ -17,6 +17,7 @@ from softway.solve.equations.slab_values import Evaluation
 from softway.solve.methods.contact_step import contact_step
 from softway.solve.methods.facet_check import check_facets
 from softway.solve.methods.iteration import Guess, Iterate, lost
+from softway.solve.methods.late_mixing import LateMixing
 from softway.solve.operators.factored import Factored
 from softway.solve.operators.operator_memory import IterationCount, OperatorMemory, OperatorOrigin
 from softway.solve.operators.operator_refresh import analyst, announce
@@ -35,6 +36,7 @@ class Newton:
 
     The step is halved while the next correction by the same operator would be longer than this one (natural
     monotonicity test), and taken in full if this never ends.  The scalar of the Energy rule is lagged in the operator.
+    Iterates that converge slowly by positive definite operators in place of indefinite ones are mixed.
 
     Parameters
     ----------
@@ -82,7 +84,7 @@ class Newton:
 
     def _iterates(self, system: SlabEquations, guess: Guess, end: Evaluation) -> Iterator[Iterate]:
         q, impulse, active, memory = guess.q, guess.impulse, guess.active, guess.memory
-        space = system.model.space
+        space, mixing = system.model.space, LateMixing.of(system)
         for count in itertools.count():
             system = system.with_kept_facets_after(end.displacement, active, count)
             if not space.every(np.isfinite(end.residual)):
@@ -93,7 +95,8 @@ class Newton:
             frozen = memory.frozen
             assert frozen is not None
             found = contact_step(system, frozen, q, end, impulse, active)
-            step, active = found.q - q, found.active
+            before, step = q, found.q - q
+            kept, active = bool((found.active == active).all()), found.active
             q, end = self._line_searched(system, q, step, found.impulse, frozen)
             change = space.greatest(step)
             sound, completed = check_facets(system, q, change)
@@ -110,6 +113,8 @@ class Newton:
             if completed is not system:
                 system, end = completed, completed.evaluate(q, found.impulse)
             impulse = found.impulse
+            if mixing.steady(change, kept):
+                q, impulse, end = mixing.mixed(system, before, q, impulse) or (q, impulse, end)
 
     def _renewed(self, system: SlabEquations, memory: OperatorMemory, end: Evaluation) -> OperatorMemory:
         """Operator memory with the operator at the end of the slab; later slabs may use it."""

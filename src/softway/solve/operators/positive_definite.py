@@ -7,7 +7,7 @@ from softway.arrays import Array
 from softway.errors import NoConvergence
 from softway.solve.linear.interface import Analysis, Factor, finite
 
-SHIFTS = tuple(2.0**k for k in range(-6, 2))
+SHIFTS = tuple(4.0**k for k in range(-8, -3)) + tuple(2.0**k for k in range(-5, 2))
 """Multiples of the sums of absolute entries that are tried; with the last one every matrix is positive definite."""
 
 
