@@ -13,7 +13,7 @@ from softway.contact.contact import Contact, NodeToSurface
 from softway.contact.node_to_surface.admissible_pairs import AdmissiblePairs, Members
 from softway.contact.node_to_surface.edge_to_edge import EdgeToEdge
 from softway.contact.node_to_surface.node_to_facet import NodeToFacet
-from softway.contact.node_to_surface.split_facets import OnSplitSurface, SplitSurface
+from softway.contact.node_to_surface.split_facets import OnSplitSurface, SplitSurface, first_corner
 from softway.contact.stencils import SurfacePair
 from softway.contact.surfaces.boundary import ContactSurface
 from softway.errors import InputError
@@ -105,7 +105,7 @@ def _split_pairs(pairs: AdmissiblePairs, split: SplitSurface) -> tuple[Admissibl
         found.append(
             AdmissiblePairs(
                 points=split.positions(pairs.points),
-                body=split.with_centres(pairs.body, _first),
+                body=split.with_centres(pairs.body, first_corner),
                 side=side,
                 members=members[0],
                 apart=tuple(members[1:]),
@@ -122,10 +122,6 @@ def _least(values: Array) -> Array:
 
 def _every(values: BoolArray) -> BoolArray:
     return np.asarray(values.all(axis=1))
-
-
-def _first(values: IntArray) -> IntArray:
-    return values[:, 0]
 
 
 def _follows_pressure(law: FrictionLaw) -> bool:

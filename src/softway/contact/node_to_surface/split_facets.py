@@ -146,7 +146,8 @@ class SplitSurface:
         return means
 
 
-def _first(nodes: IntArray) -> IntArray:
+def first_corner(nodes: IntArray) -> IntArray:
+    """Values (k,) at the first corners, from those (k, c) at all of them."""
     return nodes[:, 0]
 
 
@@ -191,7 +192,7 @@ class OnSplitSurface:
     def node(self) -> IntArray:
         """Node (m,) of each row; the first corner for a centre."""
         node, surface = self.method.node, self.surface
-        return np.asarray(surface.with_centres(np.arange(surface.count), _first)[node])
+        return np.asarray(surface.with_centres(np.arange(surface.count), first_corner)[node])
 
     def meet(self, x0: Array, x1: Array, reach: float, margin: float | None = None) -> "SplitContact":
         """Pairs that may touch in a slab from positions x0 to about x1 (n, 3), within ``reach`` [m].
