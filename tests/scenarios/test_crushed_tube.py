@@ -43,13 +43,13 @@ def test_alexanders_force_has_its_rounded_coefficients() -> None:
     assert alexander(1.0) == pytest.approx(moment * (20.73 * sqrt(2.0 * RADIUS / WALL) + 2.0 * pi), rel=1e-3)
 
 
-def test_four_walls_fold_back_onto_each_other(run: sw.Run) -> None:
-    """Along the middle of the wall the height goes down four times; forces are carried at three heights."""
-    mesh, frame = whole("crash_tube").bodies["tube"].mesh.build(), run.fields[-1]
-    middle = np.flatnonzero(np.isclose(mesh.points[:, 0], RADIUS))
-    height = frame["points"][middle[np.argsort(mesh.points[middle, 1])], 1]
-    falls = np.diff(height) < 0.0
-    assert np.count_nonzero(falls[1:] & ~falls[:-1]) == 4
+def test_folds_go_outwards_twice_and_lie_on_each_other(run: sw.Run) -> None:
+    """The middle of the wall is farthest out, farthest in and farthest out; forces are carried at three heights."""
+    rest, frame = run.fields.cells.reference, run.fields[-1]
+    faces = [np.flatnonzero(np.isclose(rest[:, 0], RADIUS + side * WALL / 2.0)) for side in (-1.0, 1.0)]
+    inner, outer = (frame["points"][face[np.argsort(rest[face, 1])]] for face in faces)
+    outwards = np.sign(np.diff((inner + outer)[:, 0] / 2.0))
+    assert outwards[np.flatnonzero(np.diff(outwards, prepend=0.0))].tolist() == [1.0, -1.0, 1.0, -1.0]
     pressed = np.sort(frame["points"][frame["contact_force"] > 0.0, 1])
     assert np.count_nonzero(np.diff(pressed) > WALL) == 2
 
@@ -71,5 +71,5 @@ def test_the_mean_force_is_that_of_closed_forms(run: sw.Run) -> None:
     stress = history["dissipation"][-1] / (frame["plastic_strain"].mean() * volume)
     assert 800e6 < stress < 1200e6
     force = history["work_external"][-1] / TRAVEL
-    assert force == pytest.approx(1.22 * alexander(stress), rel=0.05)
-    assert force == pytest.approx(abramowicz_jones(stress), rel=0.1)
+    assert force == pytest.approx(1.16 * alexander(stress), rel=0.05)
+    assert force == pytest.approx(0.91 * abramowicz_jones(stress), rel=0.05)
