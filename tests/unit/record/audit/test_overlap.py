@@ -124,6 +124,17 @@ def arch(bodies: Solids, turned: float) -> Array:
     return np.stack([(radius + 0.05 - y) * np.sin(angle), (radius + 0.05 - y) * np.cos(angle), *z], axis=1)
 
 
+@pytest.mark.parametrize("cell", ["tri6", "quad8", "quad9"])
+def test_bodies_that_bend_together_do_not_overlap(cell: str) -> None:
+    """Six and four edges on one parabola are the same curve, although straight lines between their nodes cross."""
+    bodies = together(square(6, cell), square(4, cell))
+    bent = moved(bodies, 1, [0.0, 1.0])
+    bent[:, 1] += 0.2 * bent[:, 0] ** 2
+    assert max(deepest(bodies, bent)) < 1e-12
+    bent[bodies.owner == 1, 1] -= 1e-3
+    assert deepest(bodies, bent)[1] == pytest.approx(1e-3, rel=0.1)
+
+
 @pytest.mark.few(5)
 @pytest.mark.parametrize("cell", PLANE + SPACE)
 def test_a_strip_bent_through_itself(cell: str) -> None:

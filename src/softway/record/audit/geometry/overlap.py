@@ -151,8 +151,9 @@ def _bulges(solids: Solids, x: Array) -> Array:
 
 
 def _crossed(solids: Solids, x: Array, window: Window) -> Points:
-    """Points between the crossings of the lines of the boundary with its flat pieces."""
-    lines = solids.lines[window.reached(solids.lines)]
+    """Points between the crossings of the lines of the boundary with its flat pieces, in the facets of the lines."""
+    number = np.flatnonzero(window.reached(solids.lines.ends))
+    lines = solids.lines.ends[number]
     pieces = solids.flat[window.reached(solids.flat)]
     ends, corners = x[lines], x[pieces]
     i, j = near(ends.min(axis=1), ends.max(axis=1), corners.min(axis=1), corners.max(axis=1))
@@ -160,11 +161,9 @@ def _crossed(solids: Solids, x: Array, window: Window) -> Points:
     keep &= ~(lines[i][:, :, None] == pieces[j][:, None, :]).any(axis=(1, 2))
     i, j = i[keep], j[keep]
     fraction, hit = crossings(ends[i], corners[j])
-    samples = between(i[hit], fraction[hit])
-    first, last = lines[samples.line].T
-    share = samples.fraction[:, None]
-    place, rest = (at[first] + share * (at[last] - at[first]) for at in (x, solids.reference))
-    return Points(ends=lines[samples.line], place=place, rest=rest)
+    samples = between(number[i[hit]], fraction[hit])
+    place, rest = (solids.on_lines(samples.line, samples.fraction, at) for at in (x, solids.reference))
+    return Points(ends=solids.lines.ends[samples.line], place=place, rest=rest)
 
 
 def _curved(solids: Solids, x: Array, window: Window) -> Iterator[Points]:

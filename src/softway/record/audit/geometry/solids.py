@@ -8,6 +8,7 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.meshes.cells import CELLS, FACETS, FLAT
+from softway.meshes.element import tabulate
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -30,6 +31,26 @@ class Block:
     nodes: IntArray
     body: IntArray
     outer: BoolArray
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Lines:
+    """Lines between nodes of the boundary, each in one of the facets that have it.
+
+    Parameters
+    ----------
+    ends
+        (k, 2) nodes at their ends, the lower number first.
+    facet, kind
+        (k,) number of the facet among those of its type, and number of that type.
+    local
+        (k, 2) numbers of the two nodes in the facet.
+    """
+
+    ends: IntArray
+    facet: IntArray
+    kind: IntArray
+    local: IntArray
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -81,13 +102,36 @@ class Solids:
         return np.concatenate(pieces) if pieces else np.zeros((0, self.dim), np.int64)
 
     @cached_property
-    def lines(self) -> IntArray:
-        """Ends (k, 2) of the lines of the boundary: the edges of its flat pieces, each once."""
-        flat = self.flat
-        if self.dim < 2:
-            return np.zeros((0, 2), np.int64)
-        ring = flat if self.dim == 2 else np.concatenate([flat[:, [0, 1]], flat[:, [1, 2]], flat[:, [2, 0]]])
-        return np.unique(np.sort(ring, axis=1), axis=0)
+    def lines(self) -> Lines:
+        """Lines of the boundary: the edges of its flat pieces, each once."""
+        found = [np.zeros((0, 6), np.int64)]
+        for kind, (name, facets) in enumerate(self.facets.items() if self.dim > 1 else ()):
+            number = np.arange(len(facets))
+            for piece in FLAT[name]:
+                for a, b in ((0, 1), (1, 2), (2, 0))[: 1 if self.dim == 2 else 3]:
+                    first, last = piece[a], piece[b]
+                    fixed = [np.full(len(facets), value) for value in (kind, first, last)]
+                    found.append(np.stack([facets[:, first], facets[:, last], number, *fixed], axis=1))
+        rows = np.concatenate(found)
+        turned = rows[:, 0] > rows[:, 1]
+        rows[turned] = rows[turned][:, [1, 0, 2, 3, 5, 4]]
+        _, once = np.unique(rows[:, :2], axis=0, return_index=True)
+        ends, facet, local = np.split(rows[once], [2, 4], axis=1)
+        return Lines(ends=ends, facet=facet[:, 0], kind=facet[:, 1], local=local)
+
+    def on_lines(self, line: IntArray, fraction: Array, x: Array) -> Array:
+        """Points (k, d) of the facets at fractions (k,) of their lines (k,), for positions x (n, d) of the nodes [m].
+
+        They are in the facet, curved as it is, where its reference coordinates go straight from one end to the other.
+        """
+        out, lines = np.zeros((len(line), self.dim)), self.lines
+        for kind, (name, facets) in enumerate(self.facets.items()):
+            here = np.flatnonzero(lines.kind[line] == kind)
+            if here.size:
+                first, last = CELLS[name].nodes[lines.local[line[here]].T]
+                shares, _ = tabulate(name, first + fraction[here, None] * (last - first))
+                out[here] = np.einsum("kb,kbd->kd", shares, x[facets[lines.facet[line[here]]]])
+        return out
 
     @cached_property
     def extents(self) -> Array:
@@ -98,9 +142,9 @@ class Solids:
     @cached_property
     def shortest(self) -> Array:
         """Length (bodies,) of the shortest line of the boundary of each body at rest [m]."""
-        ends = self.reference[self.lines]
+        ends = self.reference[self.lines.ends]
         out = np.full(len(self.names), np.inf)
-        np.minimum.at(out, self.owner[self.lines[:, 0]], np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
+        np.minimum.at(out, self.owner[self.lines.ends[:, 0]], np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
         return out
 
     @property
