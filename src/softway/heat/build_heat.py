@@ -15,9 +15,18 @@ from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, H
 from softway.heat.phase import simplices_of
 from softway.kernels.assembly.assembler import assembler
 from softway.kernels.geometry.jacobians import cell_geometry
+from softway.laws.heat.conduction import Conduction
 from softway.laws.heat.heat_content import content_curve
+from softway.laws.heat.temperature_table import value_at
 from softway.meshes.element import element, exact_degree, stiffness_degree
 from softway.meshes.mesh import Mesh
+
+FRONT = 1e-5
+"""Range of temperatures of a front, relative to the latent heat over the capacity of the solid.
+
+A cell that is at melting throughout has no front in it.  Without a range its content would be any, and the balance of
+the heats would have no solution that a temperature describes.
+"""
 
 
 def build_heat(scene: HeatScene) -> HeatModel:
@@ -83,7 +92,7 @@ def _part(name: str, body: Conductor, n: int, e: int) -> tuple[HeatPart, Section
     part = HeatPart(
         name=name, mesh=mesh, nodes=slice(n, n + mesh.n_nodes), cells=slice(e, e + mesh.n_cells), law=body.law,
         curve=content_curve(body.law, latent=at_nodes), at_nodes=at_nodes,
-        mixed=melts is not None and "hex20" in mesh.blocks,
+        zero=0.0 if melts is None else melts.melting, mixed=melts is not None and "hex20" in mesh.blocks,
         volume=np.concatenate([mass.sum(axis=1) for _, _, mass in quadrature.blocks]) / body.density,
     )  # fmt: skip
     return part, section, quadrature
@@ -127,11 +136,18 @@ def _simplices(part: HeatPart, section: Section, quadrature: Body) -> list[Simpl
             Simplices(
                 nodes=nodes[:, local].reshape(len(cell), -1) + part.nodes.start,
                 mass=(share * mass.sum(axis=1, keepdims=True)).ravel(), share=share.ravel(), numbers=first + cell,
-                melting=part.law.latent.melting, heat=0.0 if part.at_nodes else part.law.latent.heat,
+                width=front_width(part.law),
+                heat=0.0 if part.at_nodes else part.law.latent.heat,
             )
         )  # fmt: skip
         first += len(nodes)
     return found
+
+
+def front_width(law: Conduction) -> float:
+    """Range of temperatures above melting [K] in which cut cells melt."""
+    assert law.latent is not None
+    return FRONT * law.latent.heat / float(value_at(law.capacity, np.array(law.latent.melting)))
 
 
 Loads = tuple[tuple[HeatSurface, ...], tuple[tuple[HeatSource, Array], ...], tuple[tuple[Temperature, IntArray], ...]]

@@ -7,7 +7,7 @@ import scipy.sparse as sp
 
 from softway.arrays import Array
 from softway.heat.heat_model import HeatModel
-from softway.heat.operators import Entries, Thermal, heat_flow, surface_heat, thermal
+from softway.heat.operators import Entries, Thermal, heat_flow, surface_heat, thermal, unknowns_of
 
 ROUNDING = 2.0 * float(np.finfo(float).eps)
 """Rounding of the sum of the heats of the nodes, relative to the terms that they are summed from."""
@@ -63,10 +63,7 @@ def prescribed(model: HeatModel, unknowns: Array, time: float) -> Array:
     """Unknowns (n,) with those of the prescribed temperatures of a time [s]."""
     out = unknowns.copy()
     for load, nodes in model.held:
-        out[nodes] = load.at(time)
-        for part in (p for p in model.parts if p.at_nodes):
-            own = nodes[(nodes >= part.nodes.start) & (nodes < part.nodes.stop)]
-            out[own] = part.curve.content(np.full(len(own), load.at(time)))
+        out[nodes] = unknowns_of(model, np.full(model.n_nodes, load.at(time)))[nodes]
     return out
 
 

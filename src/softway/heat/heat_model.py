@@ -55,6 +55,8 @@ class HeatPart:
         Specific content of a node, with the latent heat if it is held at the nodes.
     at_nodes
         True if the unknowns of the nodes are contents: latent heat is at the nodes.
+    zero
+        Temperature from which the unknowns of the nodes are counted where they are temperatures [K].
     mixed
         True if a cell conducts like the mixture at its nodes, False if it does by the part that is above melting.
     volume
@@ -68,6 +70,7 @@ class HeatPart:
     law: Conduction
     curve: ContentCurve
     at_nodes: bool
+    zero: float
     mixed: bool
     volume: Array
 
@@ -89,14 +92,15 @@ class HeatCells:
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Simplices:
     """Simplices that the temperature of melting may cut: nodes (s, k), masses (s,) [kg], shares (s,) of their cells,
-    numbers (s,) of these among all cells; their latent heat [J/kg] is zero where it is at the nodes.
+    numbers (s,) of these among all cells; their latent heat [J/kg] is zero where it is at the nodes, and matter melts
+    from the temperature of melting over a ``width`` [K].
     """
 
     nodes: IntArray
     mass: Array
     share: Array
     numbers: IntArray
-    melting: float
+    width: float
     heat: float
 
 

@@ -32,7 +32,8 @@ class HeatState:
     time
         [s].
     unknowns
-        (n,) temperatures [K], or specific contents [J/kg] where latent heat is at the nodes.
+        (n,) temperatures [K], above melting where cells melt, or specific contents [J/kg] where latent heat is at
+        the nodes.
     ledger
         Ledger since the start.
     """

@@ -8,7 +8,7 @@ import scipy.sparse as sp
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.setup.heat_loads import Convection, HeatFlux, Radiation
 from softway.heat.heat_model import HeatCells, HeatModel, HeatSurface
-from softway.heat.phase import liquid_part
+from softway.heat.phase import melted_part
 
 STEFAN_BOLTZMANN = 5.670374419e-8
 """Constant of Stefan and Boltzmann [W/(m^2 K^4)] (CODATA 2018)."""
@@ -24,7 +24,8 @@ class Thermal:
     Parameters
     ----------
     unknowns
-        (n,) temperatures [K], or specific contents [J/kg] where latent heat is at the nodes.
+        (n,) temperatures [K], above melting where cells melt, or specific contents [J/kg] where latent heat is at
+        the nodes.
     temperature, stretch
         (n,) temperatures [K], and their derivatives along the unknowns.
     content
@@ -56,15 +57,15 @@ def unknowns_of(model: HeatModel, temperature: Array) -> Array:
     """Unknowns (n,) of temperatures (n,) [K]: matter at melting is solid."""
     out = temperature.copy()
     for part in model.parts:
-        if part.at_nodes:
-            out[part.nodes] = part.curve.content(temperature[part.nodes])
+        here = part.nodes
+        out[here] = part.curve.content(temperature[here]) if part.at_nodes else temperature[here] - part.zero
     return out
 
 
 def thermal(model: HeatModel, unknowns: Array, slopes: bool = True) -> Thermal:
     """Temperatures and contents of given unknowns (n,); without ``slopes`` the derivatives with entries are empty."""
     n = model.n_nodes
-    temperature, stretch = unknowns.copy(), np.ones(n)
+    temperature, stretch, over = np.empty(n), np.ones(n), unknowns.copy()
     content, capacity = np.empty(n), np.empty(n)
     share, share_slope = np.zeros(n), np.zeros(n)
     for part in model.parts:
@@ -73,10 +74,13 @@ def thermal(model: HeatModel, unknowns: Array, slopes: bool = True) -> Thermal:
             temperature[here], stretch[here] = part.curve.temperature(x)
             content[here], capacity[here] = x, 1.0
             share[here], share_slope[here] = part.curve.liquid_share(x, temperature[here])
+            over[here] = temperature[here] - part.zero
         else:
-            content[here], capacity[here] = part.curve.content(x), part.curve.capacity(x)
+            temperature[here] = x + part.zero
+            content[here] = part.curve.content(temperature[here])
+            capacity[here] = part.curve.capacity(temperature[here])
     melted = _mean_shares(model, share)
-    liquid, latent, cut_slope, latent_slope = _cut(model, temperature, slopes)
+    liquid, latent, cut_slope, latent_slope = _cut(model, over, slopes)
     mixed = np.zeros(model.n_cells, dtype=bool)
     for part in model.parts:
         mixed[part.cells] = part.mixed
@@ -92,13 +96,13 @@ def thermal(model: HeatModel, unknowns: Array, slopes: bool = True) -> Thermal:
     )  # fmt: skip
 
 
-def _cut(model: HeatModel, temperature: Array, slopes: bool) -> tuple[Array, Array, Entries, Entries]:
+def _cut(model: HeatModel, over: Array, slopes: bool) -> tuple[Array, Array, Entries, Entries]:
     """Share (E,) of the cells above melting, the latent heat (n,) of that part [J], and their derivatives."""
     n, E = model.n_nodes, model.n_cells
     liquid, latent = np.zeros(E), np.zeros(n)
     slope, latent_slope = [], []
     for block in model.simplices:
-        part, grown = liquid_part(temperature[block.nodes] - block.melting)
+        part, grown = melted_part(over[block.nodes], block.width)
         liquid += np.bincount(block.numbers, block.share * part.sum(axis=1), E)
         heat = block.heat * block.mass
         latent += np.bincount(block.nodes.ravel(), (heat[:, None] * part).ravel(), n)
