@@ -141,10 +141,10 @@ def rounding(model: HeatModel, before: Thermal, stage: Stage) -> float:
 
 
 def _factors(model: HeatModel, stage: Stage) -> list[float]:
-    """Mean amplitudes of the loads on surfaces."""
-    return [surface.load.amplitude.mean(stage.start, stage.end) for surface in model.surfaces]
+    """mean factors of the loads on surfaces."""
+    return [surface.load.ramp.mean(stage.start, stage.end) for surface in model.surfaces]
 
 
 def _powers(model: HeatModel, stage: Stage) -> list[Array]:
     """Mean powers (n,) of the sources [W]."""
-    return [load.value * load.amplitude.mean(stage.start, stage.end) * at for load, at in model.sources]
+    return [load.value * load.ramp.mean(stage.start, stage.end) * at for load, at in model.sources]

@@ -5,14 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import splu
 
 from softway.arrays import Array, BoolArray
 from softway.errors import NoConvergence
 from softway.heat.heat_balance import Balance, Stage, balance, heats, prescribed, rounding
 from softway.heat.heat_model import HeatModel
 from softway.heat.operators import Thermal
-from softway.solve.linear.backends.superlu import SuperLU
+from softway.solve.linear.backends.superlu import SuperLU, factor_unsymmetric
 from softway.solve.linear.interface import Factor, LinearSolver
 
 ITERATIONS = 60
@@ -80,7 +79,7 @@ def solve_stage(
     Raises
     ------
     NoConvergence
-        If the heats of the nodes are not balanced after 60 iterations.
+        If the heats of the nodes are not balanced after 60 iterations, or a matrix is singular.
     """
     free = model.free_nodes()
     unknowns = prescribed(model, before.unknowns, stage.end)
@@ -94,21 +93,17 @@ def solve_stage(
         if iteration and size <= TOLERANCE * found.moved + floor:
             gone = heats(model, before, stage, found)
             return StageResult(after=found.after, heats=gone, iterations=iteration, factor=frozen)
-        if model.linear and frozen is None:
-            frozen = HeatFactor(span=stage.theta * stage.span, factor=linear.factor(_of_free(found, free)))
-        step = _newton(found, free) if frozen is None else frozen.factor.solve(-found.values[free])
+        if frozen is not None:
+            step = frozen.factor.solve(-found.values[free])
+        elif not free.any():
+            step = np.zeros(0)
+        else:
+            kind = linear.factor if model.linear else factor_unsymmetric
+            factored = kind(_of_free(found, free))
+            frozen = HeatFactor(span=stage.theta * stage.span, factor=factored) if model.linear else None
+            step = factored.solve(-found.values[free])
         unknowns = _corrected(model, before, stage, unknowns, step, free, found)
     raise NoConvergence(f"the heats of the nodes are not balanced after {ITERATIONS} iterations")
-
-
-def _newton(found: Balance, free: BoolArray) -> Array:
-    """Correction (f,) by Newton's method."""
-    if not free.any():
-        return np.zeros(0)
-    try:
-        return np.asarray(splu(sp.csc_matrix(_of_free(found, free))).solve(-found.values[free]))
-    except RuntimeError as error:
-        raise NoConvergence(f"the matrix of the slab is singular ({error})") from None
 
 
 def _of_free(found: Balance, free: BoolArray) -> sp.csc_array:

@@ -210,9 +210,9 @@ def _padded(model: HeatModel, jumped: Array) -> Array:
 
 
 def _knots(model: HeatModel) -> tuple[float, ...]:
-    """Instants at which an amplitude bends [s]."""
+    """Instants at which a ramp bends [s]."""
     loads = [*(s.load for s in model.surfaces), *(load for load, _ in model.sources), *(load for load, _ in model.held)]
-    return tuple(sorted({t for a in (load.amplitude for load in loads) for t in knots_of_table(a.times, a.factors)}))
+    return tuple(sorted({t for a in (load.ramp for load in loads) for t in knots_of_table(a.times, a.factors)}))
 
 
 def _step(model: HeatModel, end: float, after: Thermal, ledger: HeatLedger, iterations: int, damped: bool) -> HeatStep:

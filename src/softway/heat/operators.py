@@ -203,7 +203,7 @@ def surface_heat(surface: HeatSurface, temperature: Array, factor: float) -> tup
     temperature
         (n,) temperatures [K].
     factor
-        Mean amplitude of the load.
+        Mean factor of the load.
     """
     load, areas = surface.load, surface.areas
     match load:
