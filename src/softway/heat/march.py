@@ -36,11 +36,14 @@ class HeatState:
         the nodes.
     ledger
         Ledger since the start.
+    slabs
+        Number of slabs since the start.
     """
 
     time: float
     unknowns: Array
     ledger: HeatLedger
+    slabs: int = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -76,6 +79,10 @@ class HeatStep:
     damped: bool
     state: HeatState
 
+    def march_state(self) -> HeatState:
+        """State for another march, as the steps of other marches have it."""
+        return self.state
+
 
 def march_heat(
     scene: HeatScene | HeatModel,
@@ -102,7 +109,8 @@ def march_heat(
     step
         Length of the slabs [s], shortened to divide the times between knots evenly.
     state
-        State after a step of another march of the same scene.
+        State after a step of another march of the same scene.  If it is the end of one of the slabs of a march from
+        zero to ``until``, the march goes on as that one, with the same bits; else it begins anew there.
     damped
         False for no damped slab.
     linear
@@ -143,7 +151,24 @@ def march_heat(
     before = thermal(model, unknowns)
     ledger = opened(before.content, _count(model)) if state is None else state.ledger
     start = HeatState(time=begin, unknowns=unknowns, ledger=ledger)
-    return _slabs(model, start, before, until, step, damped, linear, cancel)
+    return _slabs(model, start, before, _planned(model, begin, until, step), damped, linear, cancel)
+
+
+def heat_at_start(model: HeatModel) -> HeatStep:
+    """State at the start of a march as a step of no slab, before prescribed temperatures act.
+
+    Examples
+    --------
+    >>> import softway as sw
+    >>> law = sw.heat.Conduction(conductivity=50.0, capacity=500.0)
+    >>> mesh = sw.meshes.Interval(length=0.1, cells=1)
+    >>> bar = sw.heat.Conductor(mesh=mesh, law=law, density=7800.0, temperature=300.0)
+    >>> heat_at_start(build_heat(HeatScene(bodies={"bar": bar}))).temperature["bar"].tolist()
+    [300.0, 300.0]
+    """
+    before = thermal(model, unknowns_of(model, model.initial))
+    state = HeatState(time=0.0, unknowns=before.unknowns, ledger=opened(before.content, _count(model)))
+    return _step(model, state, before, 0, damped=False)
 
 
 def _count(model: HeatModel) -> int:
@@ -151,33 +176,56 @@ def _count(model: HeatModel) -> int:
     return len(model.surfaces) + len(model.sources) + len(model.held)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Planned:
+    """Slab of a march: ``first`` is True at the start and after a knot."""
+
+    start: float
+    end: float
+    span: float
+    first: bool
+
+
+def _planned(model: HeatModel, begin: float, until: float, step: float) -> list[_Planned]:
+    """Slabs after ``begin``: those of the march from zero if one of them ends there, else those of one from there."""
+    whole = _plan(model, 0.0, until, step)
+    rest = [slab for slab in whole if slab.start >= begin]
+    return rest if rest and rest[0].start == begin else _plan(model, begin, until, step)
+
+
+def _plan(model: HeatModel, begin: float, until: float, step: float) -> list[_Planned]:
+    """Slabs from ``begin`` on: equal ones between the knots."""
+    ends, found = [begin, *(t for t in _knots(model) if begin < t < until), until], []
+    for low, high in zip(ends[:-1], ends[1:], strict=True):
+        count = ceil((high - low) / step * (1.0 - 1e-9))
+        at = [low + (high - low) * (k / count) for k in range(count)] + [high]
+        span = (high - low) / count
+        found += [_Planned(start=at[k], end=at[k + 1], span=span, first=k == 0) for k in range(count)]
+    return found
+
+
 def _slabs(
     model: HeatModel,
     state: HeatState,
     before: Thermal,
-    until: float,
-    step: float,
+    planned: list[_Planned],
     damped: bool,
     linear: LinearSolver,
     cancel: Cancel | None,
 ) -> Iterator[HeatStep]:
-    """Slabs between the knots."""
-    ledger, factor = state.ledger, None
-    ends = [state.time, *(t for t in _knots(model) if state.time < t < until), until]
-    for low, high in zip(ends[:-1], ends[1:], strict=True):
-        count = ceil((high - low) / step * (1.0 - 1e-9))
-        for k in range(count):
-            start = low + (high - low) * (k / count)
-            end = high if k + 1 == count else low + (high - low) * ((k + 1) / count)
-            heed(cancel, start)
-            before, jumped = put_at_once(model, before, start)
-            ledger = booked(ledger, before.content, _padded(model, jumped))
-            calm = damped and k == 0
-            slab = Stage(start=start, span=(high - low) / count, theta=1.0 if calm else 0.5)
-            found = _accepted(model, before, slab, calm, factor, linear)
-            before, factor = found.after, found.factor
-            ledger = booked(ledger, before.content, found.heats)
-            yield _step(model, end, before, ledger, found.iterations, calm)
+    """March over planned slabs."""
+    ledger, factor, slabs = state.ledger, None, state.slabs
+    for slab in planned:
+        heed(cancel, slab.start)
+        before, jumped = put_at_once(model, before, slab.start)
+        ledger = booked(ledger, before.content, _padded(model, jumped))
+        calm = damped and slab.first
+        stage = Stage(start=slab.start, span=slab.span, theta=1.0 if calm else 0.5)
+        found = _accepted(model, before, stage, calm, factor, linear)
+        before, factor = found.after, found.factor
+        ledger, slabs = booked(ledger, before.content, found.heats), slabs + 1
+        state = HeatState(time=slab.end, unknowns=before.unknowns, ledger=ledger, slabs=slabs)
+        yield _step(model, state, before, found.iterations, damped=calm)
 
 
 def _accepted(
@@ -215,17 +263,17 @@ def _knots(model: HeatModel) -> tuple[float, ...]:
     return tuple(sorted({t for a in (load.ramp for load in loads) for t in knots_of_table(a.times, a.factors)}))
 
 
-def _step(model: HeatModel, end: float, after: Thermal, ledger: HeatLedger, iterations: int, damped: bool) -> HeatStep:
+def _step(model: HeatModel, state: HeatState, after: Thermal, iterations: int, *, damped: bool) -> HeatStep:
     """Step of a slab."""
     melting = [part for part in model.parts if part.law.latent is not None]
     liquid = {part.name: after.melted[part.cells] for part in melting}
     return HeatStep(
-        time=end,
+        time=state.time,
         temperature={part.name: after.temperature[part.nodes] for part in model.parts},
         liquid=liquid,
         liquid_volume={part.name: float(part.volume @ liquid[part.name]) for part in melting},
-        ledger=ledger,
+        ledger=state.ledger,
         iterations=iterations,
         damped=damped,
-        state=HeatState(time=end, unknowns=after.unknowns, ledger=ledger),
+        state=state,
     )

@@ -15,9 +15,10 @@ from softway.errors import InputError
 from softway.meshes.cells import CELLS
 from softway.record.read.recorded_bodies import RecordedBody, recorded_bodies
 from softway.record.storage.gate.hdf5_file import BROKEN, reading
-from softway.record.write.fields import CELL_DATA, FILE, POINT_DATA, SIZES
+from softway.record.write.fields import CELL_DATA, FILE, POINT_DATA
 from softway.record.write.grid_layout import VTK, blocks
-from softway.record.write.tool_shapes import recovered
+from softway.record.write.grid_series import SIZES
+from softway.record.write.shapes.tool_shapes import recovered
 
 if TYPE_CHECKING:
     import pyvista

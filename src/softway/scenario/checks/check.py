@@ -34,7 +34,7 @@ from softway.scenario.checks.names import (
     check_ties,
     mesh_of,
 )
-from softway.scenario.checks.notes import (
+from softway.scenario.checks.notes.part_notes import (
     body_notes,
     cell_notes,
     cohesion_notes,
@@ -43,13 +43,13 @@ from softway.scenario.checks.notes import (
     tie_notes,
     wall_notes,
 )
+from softway.scenario.checks.notes.softening_notes import softening_notes
+from softway.scenario.checks.notes.tool_notes import unit_notes
+from softway.scenario.checks.notes.velocity_notes import flutter_notes, velocity_notes
 from softway.scenario.checks.pile import CheckedPile, check_pile, is_pile
 from softway.scenario.checks.probes import probe_readings
 from softway.scenario.checks.scales import BodyScales, ContactScales, body_scales, contact_scales
-from softway.scenario.checks.softening_notes import softening_notes
-from softway.scenario.checks.tool_notes import unit_notes
 from softway.scenario.checks.value_types import require
-from softway.scenario.checks.velocity_notes import flutter_notes, velocity_notes
 from softway.scenario.scenario import Scenario
 
 MOST = 1_000_000_000
