@@ -9,7 +9,7 @@ from softway.arrays import Array, IntArray
 from softway.bodies.conductor import Conductor, sample_temperature
 from softway.bodies.elements.section import Axisymmetric, Section, check_section, default_section
 from softway.bodies.inertia.mass_matrix import Body, Lumped, body_of, nodal_mass
-from softway.bodies.setup.heat_loads import HeatSource, Radiation, Temperature, place_of, surface_points
+from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, Radiation, Temperature, place_of, surface_points
 from softway.errors import InputError, within
 from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, HeatSurface, Simplices
 from softway.heat.phase import simplices_of
@@ -68,6 +68,7 @@ def build_heat(scene: HeatScene) -> HeatModel:
     return HeatModel(
         parts=tuple(parts), cells=tuple(cells), simplices=tuple(simplices), mass=np.concatenate(masses),
         pattern=assembler([c.nodes for c in cells], n, 1), surfaces=surfaces, sources=sources, held=held,
+        ordered=_ordered(scene),
         initial=np.concatenate(initial), linear=linear, n_cells=e,
     )  # fmt: skip
 
@@ -177,6 +178,15 @@ def _loads(scene: HeatScene, parts: Mapping[str, HeatPart], n: int) -> Loads:
                     surfaces.append(HeatSurface(load=load, points=points, areas=areas))
     held = [(load, np.flatnonzero(owner == k)) for k, load in enumerate(scene.loads) if isinstance(load, Temperature)]
     return tuple(surfaces), tuple(sources), tuple(held)
+
+
+def _ordered(scene: HeatScene) -> tuple[tuple[int, HeatLoad], ...]:
+    """Loads with their numbers, in the order of the ledger."""
+
+    def rank(item: tuple[int, HeatLoad]) -> tuple[bool, bool, int]:
+        return isinstance(item[1], Temperature), isinstance(item[1], HeatSource), item[0]
+
+    return tuple(sorted(enumerate(scene.loads), key=rank))
 
 
 def _source(part: HeatPart, section: Section, region: str, n: int) -> Array:

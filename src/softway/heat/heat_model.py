@@ -135,6 +135,8 @@ class HeatModel:
         Sources with their nodal volumes (n,) [m^3].
     held
         Prescribed temperatures with their nodes.
+    ordered
+        Loads with their numbers in the scene, in the order of the ledger: surfaces, sources, prescribed temperatures.
     initial
         (n,) initial temperatures [K].
     linear
@@ -151,6 +153,7 @@ class HeatModel:
     surfaces: tuple[HeatSurface, ...]
     sources: tuple[tuple[HeatSource, Array], ...]
     held: tuple[tuple[Temperature, IntArray], ...]
+    ordered: tuple[tuple[int, HeatLoad], ...]
     initial: Array
     linear: bool
     n_cells: int
@@ -159,6 +162,15 @@ class HeatModel:
     def n_nodes(self) -> int:
         """Number n of nodes."""
         return len(self.mass)
+
+    @property
+    def loads(self) -> tuple[HeatLoad, ...]:
+        """Loads in the order of the scene."""
+        return tuple(load for _, load in sorted(self.ordered, key=lambda item: item[0]))
+
+    def ledger_places(self) -> tuple[int, ...]:
+        """Place of each load of the scene, in its order, among the heats of the ledger."""
+        return tuple(sorted(range(len(self.ordered)), key=lambda place: self.ordered[place][0]))
 
     def free_nodes(self) -> BoolArray:
         """Nodes (n,) without a prescribed temperature."""

@@ -52,8 +52,8 @@ class HeatStep:
 
     Parameters
     ----------
-    time
-        Time of its end [s].
+    time, span
+        Time of its end, and its length [s].
     temperature
         Body -> (n,) temperatures of its nodes [K].
     liquid
@@ -71,6 +71,7 @@ class HeatStep:
     """
 
     time: float
+    span: float
     temperature: Mapping[str, Array]
     liquid: Mapping[str, Array]
     liquid_volume: Mapping[str, float]
@@ -168,12 +169,17 @@ def heat_at_start(model: HeatModel) -> HeatStep:
     """
     before = thermal(model, unknowns_of(model, model.initial))
     state = HeatState(time=0.0, unknowns=before.unknowns, ledger=opened(before.content, _count(model)))
-    return _step(model, state, before, 0, damped=False)
+    return _step(model, state, before, 0.0, 0, damped=False)
 
 
 def _count(model: HeatModel) -> int:
     """Number of loads."""
     return len(model.surfaces) + len(model.sources) + len(model.held)
+
+
+def heat_slabs(model: HeatModel, until: float, step: float) -> int:
+    """Number of slabs of a march from zero to ``until``, with slabs of at most ``step`` [s]."""
+    return len(_plan(model, 0.0, until, step))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -225,7 +231,7 @@ def _slabs(
         before, factor = found.after, found.factor
         ledger, slabs = booked(ledger, before.content, found.heats), slabs + 1
         state = HeatState(time=slab.end, unknowns=before.unknowns, ledger=ledger, slabs=slabs)
-        yield _step(model, state, before, found.iterations, damped=calm)
+        yield _step(model, state, before, slab.span, found.iterations, damped=calm)
 
 
 def _accepted(
@@ -263,12 +269,15 @@ def _knots(model: HeatModel) -> tuple[float, ...]:
     return tuple(sorted({t for a in (load.ramp for load in loads) for t in knots_of_table(a.times, a.factors)}))
 
 
-def _step(model: HeatModel, state: HeatState, after: Thermal, iterations: int, *, damped: bool) -> HeatStep:
-    """Step of a slab."""
+def _step(
+    model: HeatModel, state: HeatState, after: Thermal, span: float, iterations: int, *, damped: bool
+) -> HeatStep:
+    """Step of a slab of the length ``span`` [s]."""
     melting = [part for part in model.parts if part.law.latent is not None]
     liquid = {part.name: after.melted[part.cells] for part in melting}
     return HeatStep(
         time=state.time,
+        span=span,
         temperature={part.name: after.temperature[part.nodes] for part in model.parts},
         liquid=liquid,
         liquid_volume={part.name: float(part.volume @ liquid[part.name]) for part in melting},

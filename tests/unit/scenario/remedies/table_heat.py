@@ -1,10 +1,11 @@
-"""Refusals of conductors, their laws and boundary conditions, which come from Python only."""
+"""Refusals of conductors, their laws and boundary conditions."""
 
 from collections.abc import Callable
 from math import inf
 
 import numpy as np
-from try_it import Call, Table
+from try_it import BAR as SOLIDS
+from try_it import Call, Table, Try
 
 import softway as sw
 from softway.bodies.conductor import sample_temperature
@@ -55,7 +56,31 @@ STATE = heat.HeatState(
     unknowns=np.full(4, 300.0),
     ledger=heat.HeatLedger(heat_content=0.0, heat_in=0.0, heat_out=0.0, error=0.0),
 )
+SCENE = """
+[bodies.b]
+kind = "Conductor"
+mesh = { kind = "Interval", length = 1, cells = 2 }
+law = { conductivity = 1, capacity = 1 }
+density = 1
+temperature = 300
+[time]
+end = 1
+step = 0.5
+"""
+BODY = (
+    "{kind='Conductor', mesh={kind='Interval', length=1, cells=2}, law={conductivity=1, capacity=1}, density=1, "
+    "temperature=300}"
+)
+BOTH = f"bodies={{b={BODY}, w={{kind='Tool', shape={{kind='HalfSpace', point=2, normal=-1}}}}}}"
+FLUX = "loads=[{kind='HeatFlux', on='b.left', value=1}]"
+PROBE = "output.probes=[{name='p', of='b', tag='left', quantity='temperature'}]"
+ALONE = "a scenario of conductors only"
 TABLE: Table = {
+    "a tool beside a conductor": Try(SCENE, BOTH, ALONE, f"bodies={{b={BODY}}}"),
+    "heat on a solid": Try(SOLIDS, FLUX, ALONE, "loads=[]"),
+    "a force on a conductor": Try(SCENE, "loads=[{kind='Gravity', acceleration=-1}]", ALONE, FLUX),
+    "a probe of nobody": Try(SCENE, PROBE.replace("of='b'", "of='c'"), "one of ['b']", PROBE),
+    "a velocity of a conductor": Try(SCENE, PROBE.replace("temperature", "velocity"), "temperature", PROBE),
     "values of a table": call(lambda: table(COLD, (1.0,)), "one value for each", lambda: table((1.0,), (1.0,))),
     "falling temperatures": call(lambda: table(COLD, (1.0, 1.0)), "in kelvin", lambda: table((1.0, 2.0), (1.0, 1.0))),
     "zero of a table": call(lambda: table((1.0,), (0.0,)), "positive values", lambda: table((1.0,), (1.0,))),
