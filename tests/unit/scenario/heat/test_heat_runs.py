@@ -4,6 +4,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
+from scipy.special import erf, erfc
 
 import softway as sw
 from softway.apps.cli.commands import main
@@ -73,6 +75,7 @@ fields_every = 1
 end = 5
 step = 0.05
 """
+CORNER = Path(__file__).parents[4] / "scenarios" / "freezing_corner.toml"
 TABLES = ("history.csv", "events.csv", "conductors.json", FIELDS)
 
 
@@ -169,6 +172,26 @@ def test_the_command_line_runs_it_to_the_end(tmp_path, capsys):
     assert main(["race", str(file)]) == 2 and main(["export", folder, "--to", "x.csv"]) == 2
 
 
+@pytest.mark.slow
+def test_the_shipped_corner_freezes_as_neumann_found_far_from_it():
+    """Ice between the front and a wall, in the row of cells that is farthest from the other wall."""
+    scene = sw.load(CORNER, ("bodies.water.mesh.cells=[24,24]", "time.end=10 min"))
+    run = sw.run(scene)
+    frozen = 1.0 - run.fields[-1]["liquid"].reshape(24, 24)
+    ice = frozen[-1].sum() * 0.04 / 24
+    alpha = 2.22 / (1000.0 * 1762.0)
+
+    def miss(x):
+        solid = np.exp(-(x**2)) / erf(x)
+        y = x * np.sqrt(alpha / (0.556 / 4.226e6))
+        liquid = 0.556 / 2.22 * (y / x) * 0.2 * np.exp(-(y**2)) / erfc(y)
+        return solid - liquid - x * 338e3 * np.sqrt(np.pi) / (1762.0 * 10.0)
+
+    assert ice == pytest.approx(2.0 * brentq(miss, 0.05, 0.5) * np.sqrt(alpha * 600.0), rel=0.03)
+    assert frozen == pytest.approx(frozen.T, abs=0.05)
+    assert frozen.trace() * 0.04 / 24 > 1.2 * ice
+
+
 SOLID = """
 [bodies.block]
 mesh = { kind = "Interval", length = 1, cells = 2 }
@@ -212,4 +235,3 @@ def test_heat_on_solids_is_refused():
 
 def test_a_conductor_without_loads_has_a_note():
     assert "nothing will happen" in str(sw.check(sw.loads(BAR, changes=("loads=[]",))).notes[0])
-    assert Path(FIELDS).suffix == ".vtkhdf"

@@ -77,6 +77,12 @@ PROBE = "output.probes=[{name='p', of='b', tag='left', quantity='temperature'}]"
 ALONE = "a scenario of conductors only"
 TABLE: Table = {
     "a tool beside a conductor": Try(SCENE, BOTH, ALONE, f"bodies={{b={BODY}}}"),
+    "a difference in degrees Celsius": Try(
+        SCENE,
+        "bodies.b.law.latent={heat=1, melting=300, half_range='1 degC'}",
+        'a difference of temperatures such as "0.5 K"',
+        "bodies.b.law.latent.half_range=0.5 K",
+    ),
     "heat on a solid": Try(SOLIDS, FLUX, ALONE, "loads=[]"),
     "a force on a conductor": Try(SCENE, "loads=[{kind='Gravity', acceleration=-1}]", ALONE, FLUX),
     "a probe of nobody": Try(SCENE, PROBE.replace("of='b'", "of='c'"), "one of ['b']", PROBE),
