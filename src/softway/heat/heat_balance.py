@@ -67,18 +67,22 @@ def prescribed(model: HeatModel, unknowns: Array, time: float) -> Array:
     return out
 
 
-def put_at_once(model: HeatModel, before: Thermal, time: float) -> tuple[Thermal, Array]:
-    """State with the prescribed temperatures of a time [s], and the heat (k,) [J] of the jump to each of them."""
-    brought, after = np.zeros(len(model.held)), before
+def put_at_once(model: HeatModel, before: Thermal, time: float) -> tuple[Thermal, Array, float]:
+    """State with the prescribed temperatures of a time [s], the heat (k,) [J] of the jump to each of them, and the
+    entropy that these heats bring [J/K].
+    """
+    brought, carried, after = np.zeros(len(model.held)), 0.0, before
     target = prescribed(model, before.unknowns, time)
     for k, (_, nodes) in enumerate(model.held):
         if (after.unknowns[nodes] != target[nodes]).any():
             unknowns = after.unknowns.copy()
             unknowns[nodes] = target[nodes]
             changed = thermal(model, unknowns)
-            brought[k] = (changed.content - after.content).sum()
+            gained = changed.content - after.content
+            brought[k] = gained.sum()
+            carried += float((gained / changed.temperature).sum())
             after = changed
-    return after, brought
+    return after, brought, carried
 
 
 def balance(model: HeatModel, before: Thermal, stage: Stage, unknowns: Array, *, slopes: bool) -> Balance:
@@ -127,6 +131,18 @@ def heats(model: HeatModel, before: Thermal, stage: Stage, found: Balance) -> Ar
     ]
     sources = [power.sum() * stage.span for power in _powers(model, stage)]
     return np.array([*surfaces, *sources, *(found.values[nodes].sum() for _, nodes in model.held)])
+
+
+def entropy_brought(model: HeatModel, stage: Stage, found: Balance) -> float:
+    """Entropy that loads brought [J/K]: their heats over the temperatures at which they came in."""
+    total = 0.0
+    for surface, factor in zip(model.surfaces, _factors(model, stage), strict=True):
+        heat, _ = surface_heat(surface, found.mean, factor)
+        total += stage.span * float((heat / (surface.points @ found.mean)).sum())
+    for power in _powers(model, stage):
+        total += stage.span * float((power / found.mean).sum())
+    held = ~model.free_nodes()
+    return total + float((found.values[held] / found.mean[held]).sum())
 
 
 def rounding(model: HeatModel, before: Thermal, stage: Stage) -> float:

@@ -8,7 +8,7 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray
 from softway.errors import NoConvergence
-from softway.heat.heat_balance import Balance, Stage, balance, heats, prescribed, rounding
+from softway.heat.heat_balance import Balance, Stage, balance, entropy_brought, heats, prescribed, rounding
 from softway.heat.heat_model import HeatModel
 from softway.heat.operators import Thermal
 from softway.solve.linear.backends.superlu import SuperLU, factor_unsymmetric
@@ -42,6 +42,8 @@ class StageResult:
         Temperatures and contents at the end.
     heats
         Heat that came in by each load on a surface, each source and each prescribed temperature, in this order [J].
+    entropy
+        Entropy that the loads brought [J/K].
     iterations
         Number of iterations.
     factor
@@ -50,6 +52,7 @@ class StageResult:
 
     after: Thermal
     heats: Array
+    entropy: float
     iterations: int
     factor: HeatFactor | None
 
@@ -92,7 +95,8 @@ def solve_stage(
             break
         if iteration and size <= TOLERANCE * found.moved + floor:
             gone = heats(model, before, stage, found)
-            return StageResult(after=found.after, heats=gone, iterations=iteration, factor=frozen)
+            brought = entropy_brought(model, stage, found)
+            return StageResult(after=found.after, heats=gone, entropy=brought, iterations=iteration, factor=frozen)
         if frozen is not None:
             step = frozen.factor.solve(-found.values[free])
         elif not free.any():

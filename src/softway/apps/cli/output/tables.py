@@ -49,6 +49,8 @@ UNITS = {
     "heat_in": "J",
     "heat_out": "J",
     "heat_error_worst": "J",
+    "entropy_produced": "J/K",
+    "entropy_least": "J/K",
 }
 WORDS = {
     "stable_step": "stable step (Momentum)",

@@ -23,6 +23,7 @@ COLUMNS = (
     HeatColumn("time", "s", lambda step: step.time),
     HeatColumn("h", "s", lambda step: step.span),
     HeatColumn("iterations", table.COUNT, lambda step: step.iterations),
+    HeatColumn("entropy_produced", "J/K", lambda step: step.entropy_produced),
     HeatColumn("heat_content", "J", lambda step: step.ledger.heat_content),
     HeatColumn("heat_in", "J", lambda step: step.ledger.heat_in),
     HeatColumn("heat_out", "J", lambda step: step.ledger.heat_out),
