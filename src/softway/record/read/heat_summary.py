@@ -13,8 +13,8 @@ BALANCED = 1e-9
 def summarise_heat(history: Table) -> dict[str, Any]:
     """Summarise the finished or unfinished run of conductors in a few numbers.
 
-    ``heat_error_worst`` is the largest ``|heat_error|`` [J]; ``entropy_least`` is the least entropy that a slab produced
-    [J/K]; ``liquid`` holds the volumes of liquid at the end [m^3].
+    ``heat_error_worst`` is the largest ``|heat_error|`` [J]; ``entropy_least`` is the least entropy that a slab
+    produced [J/K]; ``liquid`` holds the volumes of liquid at the end [m^3].
     """
     if history.rows == 0:
         return {"slabs": 0, "contacts": {}, "findings": []}
