@@ -11,6 +11,7 @@ from softway.bodies.elements.section import Axisymmetric, Section, check_section
 from softway.bodies.inertia.mass_matrix import Body, Lumped, body_of, nodal_mass
 from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, Radiation, Temperature, place_of, surface_points
 from softway.errors import InputError, within
+from softway.heat.heat_contact import HeatExchange, heat_exchange
 from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, HeatSurface, Simplices
 from softway.heat.phase import simplices_of
 from softway.kernels.assembly.assembler import assembler
@@ -64,10 +65,12 @@ def build_heat(scene: HeatScene) -> HeatModel:
         masses.append(nodal_mass(part.mesh, body.density, section, Lumped()).diagonal())
         n, e = part.nodes.stop, part.cells.stop
     surfaces, sources, held = _loads(scene, {part.name: part for part in parts}, n)
+    exchanges = _exchanges(scene, parts, n)
     linear = all(p.law.constant for p in parts) and not any(isinstance(s.load, Radiation) for s in surfaces)
     return HeatModel(
         parts=tuple(parts), cells=tuple(cells), simplices=tuple(simplices), mass=np.concatenate(masses),
         pattern=assembler([c.nodes for c in cells], n, 1), surfaces=surfaces, sources=sources, held=held,
+        exchanges=exchanges,
         ordered=_ordered(scene),
         initial=np.concatenate(initial), linear=linear, n_cells=e,
     )  # fmt: skip
@@ -178,6 +181,16 @@ def _loads(scene: HeatScene, parts: Mapping[str, HeatPart], n: int) -> Loads:
                     surfaces.append(HeatSurface(load=load, points=points, areas=areas))
     held = [(load, np.flatnonzero(owner == k)) for k, load in enumerate(scene.loads) if isinstance(load, Temperature)]
     return tuple(surfaces), tuple(sources), tuple(held)
+
+
+def _exchanges(scene: HeatScene, parts: list[HeatPart], n: int) -> tuple[HeatExchange, ...]:
+    """Exchange of heat of each contact."""
+    bodies = {p.name: (p.mesh, section_of(scene.bodies[p.name], p.mesh), p.nodes.start) for p in parts}
+    found = []
+    for k, contact in enumerate(scene.contacts):
+        with within(f"contacts[{k}]"):
+            found.append(heat_exchange(contact, bodies, n))
+    return tuple(found)
 
 
 def _ordered(scene: HeatScene) -> tuple[tuple[int, HeatLoad], ...]:

@@ -99,6 +99,11 @@ def balance(model: HeatModel, before: Thermal, stage: Stage, unknowns: Array, *,
         values, moved = values - h * (surface.points.T @ heat), moved + h * np.abs(heat).sum()
         if matrix is not None and slope.any():
             matrix = matrix - surface.points.T @ sp.diags_array(slope) @ surface.points
+    for exchange in model.exchanges:
+        heat = exchange.heat(mean)
+        values, moved = values + h * (exchange.jump.T @ heat), moved + h * np.abs(heat).sum()
+        if matrix is not None:
+            matrix = matrix + exchange.matrix()
     for power in _powers(model, stage):
         values, moved = values - h * power, moved + h * np.abs(power).sum()
     total = None if matrix is None else _matrix(after, matrix, by_liquid, theta * h)
@@ -133,6 +138,11 @@ def heats(model: HeatModel, before: Thermal, stage: Stage, found: Balance) -> Ar
     return np.array([*surfaces, *sources, *(found.values[nodes].sum() for _, nodes in model.held)])
 
 
+def passed(model: HeatModel, stage: Stage, found: Balance) -> Array:
+    """Heat (k,) that passed each contact from its first to its second surface [J]."""
+    return np.array([stage.span * exchange.heat(found.mean).sum() for exchange in model.exchanges])
+
+
 def entropy_brought(model: HeatModel, stage: Stage, found: Balance) -> float:
     """Entropy that loads brought [J/K]: their heats over the temperatures at which they came in."""
     total = 0.0
@@ -153,6 +163,8 @@ def rounding(model: HeatModel, before: Thermal, stage: Stage) -> float:
         k, _ = cells.law.along_axes(at, cells.gradients.shape[-1])
         size = np.einsum("eq,eqar->er", cells.volume, cells.gradients**2)
         total += stage.span * float((size * k).sum(axis=1) @ at)
+    for exchange in model.exchanges:
+        total += 2.0 * stage.span * float(exchange.conductances.sum()) * float(np.abs(before.temperature).max())
     return ROUNDING * total
 
 

@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.conductor import Conductor
 from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, SurfaceHeat, Temperature
+from softway.heat.heat_contact import HeatContact, HeatExchange
 from softway.kernels.assembly.assembler import Assembler
 from softway.laws.heat.conduction import Conduction
 from softway.laws.heat.heat_content import ContentCurve
@@ -26,6 +27,8 @@ class HeatScene:
     loads
         Temperatures, heat fluxes, convection, radiation and sources.  Surfaces without any are insulated.  Where two
         temperatures meet in a node, the later one holds.
+    contacts
+        Exchange of heat between surfaces that touch; other bodies do not exchange heat.
 
     Examples
     --------
@@ -35,6 +38,7 @@ class HeatScene:
 
     bodies: Mapping[str, Conductor]
     loads: tuple[HeatLoad, ...] = ()
+    contacts: tuple[HeatContact, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -135,6 +139,8 @@ class HeatModel:
         Sources with their nodal volumes (n,) [m^3].
     held
         Prescribed temperatures with their nodes.
+    exchanges
+        Exchange of heat between bodies, for each contact.
     ordered
         Loads with their numbers in the scene, in the order of the ledger: surfaces, sources, prescribed temperatures.
     initial
@@ -153,6 +159,7 @@ class HeatModel:
     surfaces: tuple[HeatSurface, ...]
     sources: tuple[tuple[HeatSource, Array], ...]
     held: tuple[tuple[Temperature, IntArray], ...]
+    exchanges: tuple[HeatExchange, ...]
     ordered: tuple[tuple[int, HeatLoad], ...]
     initial: Array
     linear: bool

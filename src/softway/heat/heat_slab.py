@@ -8,7 +8,7 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray
 from softway.errors import NoConvergence
-from softway.heat.heat_balance import Balance, Stage, balance, entropy_brought, heats, prescribed, rounding
+from softway.heat.heat_balance import Balance, Stage, balance, entropy_brought, heats, passed, prescribed, rounding
 from softway.heat.heat_model import HeatModel
 from softway.heat.operators import Thermal
 from softway.solve.linear.backends.superlu import SuperLU, factor_unsymmetric
@@ -42,6 +42,8 @@ class StageResult:
         Temperatures and contents at the end.
     heats
         Heat that came in by each load on a surface, each source and each prescribed temperature, in this order [J].
+    passed
+        (k,) heat that passed each contact [J].
     entropy
         Entropy that the loads brought [J/K].
     iterations
@@ -52,6 +54,7 @@ class StageResult:
 
     after: Thermal
     heats: Array
+    passed: Array
     entropy: float
     iterations: int
     factor: HeatFactor | None
@@ -96,7 +99,10 @@ def solve_stage(
         if iteration and size <= TOLERANCE * found.moved + floor:
             gone = heats(model, before, stage, found)
             brought = entropy_brought(model, stage, found)
-            return StageResult(after=found.after, heats=gone, entropy=brought, iterations=iteration, factor=frozen)
+            through = passed(model, stage, found)
+            return StageResult(
+                after=found.after, heats=gone, passed=through, entropy=brought, iterations=iteration, factor=frozen
+            )
         if frozen is not None:
             step = frozen.factor.solve(-found.values[free])
         elif not free.any():

@@ -153,7 +153,7 @@ def march_heat(
     if not 0.0 < step < np.inf:
         raise InputError("step", f"{step:g} s is not positive", "a positive time")
     before = thermal(model, unknowns)
-    ledger = opened(before.content, _count(model)) if state is None else state.ledger
+    ledger = opened(before.content, _count(model), len(model.exchanges)) if state is None else state.ledger
     start = HeatState(time=begin, unknowns=unknowns, ledger=ledger)
     return _slabs(model, start, before, planned_slabs(model, begin, until, step), damped, linear, cancel)
 
@@ -171,7 +171,9 @@ def heat_at_start(model: HeatModel) -> HeatStep:
     [300.0, 300.0]
     """
     before = thermal(model, unknowns_of(model, model.initial))
-    state = HeatState(time=0.0, unknowns=before.unknowns, ledger=opened(before.content, _count(model)))
+    state = HeatState(
+        time=0.0, unknowns=before.unknowns, ledger=opened(before.content, _count(model), len(model.exchanges))
+    )
     return _step(model, state, before, _Told(0.0, 0, False, 0.0))
 
 
@@ -200,7 +202,7 @@ def _slabs(
         stage = Stage(start=slab.start, span=slab.span, theta=1.0 if calm else 0.5)
         found = _accepted(model, before, stage, calm, factor, linear)
         before, factor = found.after, found.factor
-        ledger, slabs = booked(ledger, before.content, found.heats), slabs + 1
+        ledger, slabs = booked(ledger, before.content, found.heats, found.passed), slabs + 1
         state = HeatState(time=slab.end, unknowns=before.unknowns, ledger=ledger, slabs=slabs)
         produced = entropy(model, before) - standing - carried - found.entropy
         yield _step(model, state, before, _Told(slab.span, found.iterations, calm, produced))
@@ -230,6 +232,7 @@ def _accepted(
     return replace(
         last,
         heats=first.heats + last.heats,
+        passed=first.passed + last.passed,
         entropy=first.entropy + last.entropy,
         iterations=first.iterations + last.iterations,
     )

@@ -14,6 +14,7 @@ from softway.bodies.solid import Solid, Tool
 from softway.contact.assembly.tie import Tie
 from softway.contact.contact import Contact
 from softway.errors import InputError, real
+from softway.heat.heat_contact import HeatContact
 from softway.html_tables import table as html_table
 from softway.march.step_control import StepControl
 from softway.mechanisms.members.couplings import Gear
@@ -186,6 +187,8 @@ class Scenario:
         What the coefficients of restitution are ratios of: velocities (``Newton``) or impulses (``Poisson``).
     pile
         Walls around balls, and laws of their contacts.
+    heat_contacts
+        Exchange of heat between conductors that touch, as in :class:`~softway.heat.HeatScene`.
     """
 
     bodies: Mapping[str, Body]
@@ -208,6 +211,7 @@ class Scenario:
     impacts: Impacts = "simultaneous"
     restitution: Restitution = "Newton"
     pile: PileContacts = PileContacts()
+    heat_contacts: tuple[HeatContact, ...] = ()
 
     def _repr_html_(self) -> str:
         """HTML table for notebooks."""

@@ -16,8 +16,8 @@ from softway.scenario.scenario import Scenario
 FRAMES = 100
 """Number of stored frames when the scenario does not prescribe it."""
 FOREIGN = {
-    "contacts": "omit it: conductors do not exchange heat with each other yet",
-    "ties": "one Conductor with one mesh: conductors do not exchange heat with each other yet",
+    "contacts": "[[heat_contacts]] with a conductance: conductors do not move",
+    "ties": "[[heat_contacts]] with a large conductance",
     "start": "bodies.NAME.temperature, the temperature at the start",
     "inertia": "omit it: conductors do not move",
     "solver": "omit it: the march of heat has its own solution method",
@@ -86,6 +86,8 @@ def is_heat(scenario: Scenario) -> bool:
     if conductors and others:
         problem = f"the {type(scenario.bodies[others[0]]).__name__} {others[0]!r} with the Conductor {conductors[0]!r}"
         raise InputError(f"bodies.{others[0]}.kind", problem, ALONE)
+    if scenario.heat_contacts and not conductors:
+        raise InputError("heat_contacts[0]", f"{list(scenario.heat_contacts[0].between)} without a Conductor", ALONE)
     for k, load in enumerate(scenario.loads):
         if isinstance(load, HeatLoad) and not conductors:
             raise InputError(f"loads[{k}]", f"{type(load).__name__} on {load.on!r}, which is no Conductor", ALONE)
@@ -108,7 +110,7 @@ def check_heat(scenario: Scenario) -> CheckedHeat:
             raise InputError(f"loads[{k}]", f"{type(load).__name__} in a scenario of conductors", ALONE)
         loads.append(load)
     bodies = {name: body for name, body in scenario.bodies.items() if isinstance(body, Conductor)}
-    model = build_heat(HeatScene(bodies=bodies, loads=tuple(loads)))
+    model = _built(HeatScene(bodies=bodies, loads=tuple(loads), contacts=scenario.heat_contacts))
     readings = heat_readings(scenario.output.probes, {part.name: part.mesh for part in model.parts})
     span, _ = slabs_of(scenario.time, "conductors")
     every = scenario.output.fields_every
@@ -122,6 +124,15 @@ def check_heat(scenario: Scenario) -> CheckedHeat:
         fields_every=scenario.time.end / FRAMES if isinstance(every, str) else every,
         notes=tuple(_notes(model)),
     )
+
+
+def _built(scene: HeatScene) -> HeatModel:
+    """Model of a scene; an error in a contact has its place in the scenario."""
+    try:
+        return build_heat(scene)
+    except InputError as error:
+        where = f"heat_{error.where}" if error.where.startswith("contacts[") else error.where
+        raise InputError(where, error.problem, error.remedy) from None
 
 
 def _scales(model: HeatModel, part: HeatPart) -> HeatScales:
@@ -140,6 +151,7 @@ def _scales(model: HeatModel, part: HeatPart) -> HeatScales:
 def _notes(model: HeatModel) -> Iterator[Note]:
     """Notes on conductors without any load, whose heat only spreads."""
     loaded = {load.on.partition(".")[0] for load in model.loads}
+    loaded |= {part.name for part in model.parts if model.exchanges}
     for part in model.parts:
         start = model.initial[part.nodes]
         if part.name not in loaded and start.min() == start.max():

@@ -192,6 +192,39 @@ def test_the_shipped_corner_freezes_as_neumann_found_far_from_it():
     assert frozen.trace() * 0.04 / 24 > 1.2 * ice
 
 
+def test_bodies_that_touch_exchange_heat(tmp_path):
+    more = """
+[bodies.rod]
+kind = "Conductor"
+mesh = { kind = "Interval", length = 1, cells = 7, origin = 1 }
+density = 1
+temperature = 400
+law = { conductivity = 3, capacity = 1 }
+[[heat_contacts]]
+between = ["bar.right", "rod.left"]
+conductance = 5
+"""
+    run = sw.run(sw.loads(BAR + more, changes=("loads=[]", "time.end=40")))
+    history = run.history
+    assert history["passed.0"][-1] == pytest.approx(-50.0, rel=1e-6)
+    assert abs(history["heat_error"][-1]) < 1e-9 and history["entropy_produced"].min() > -1e-12
+    with pytest.raises(InputError) as found:
+        sw.check(sw.loads(BAR + more.replace("rod.left", "rod.right")))
+    assert found.value.where == "heat_contacts[0].between"
+    lonely = (
+        SOLID
+        + """
+[time]
+end = 1
+[[heat_contacts]]
+between = ["block.left", "other.right"]
+conductance = 1
+"""
+    )
+    with pytest.raises(InputError, match="conductors only"):
+        sw.check(sw.loads(lonely))
+
+
 SOLID = """
 [bodies.block]
 mesh = { kind = "Interval", length = 1, cells = 2 }
@@ -215,7 +248,7 @@ WRONG = [
     ("", ('output.probes=[{name="a",of="bar",tag="left"}]',), "output.probes[0].quantity", "temperature"),
     ("", ('output.probes=[{name="a",of="rod",tag="left",quantity="temperature"}]',), "output.probes[0].of", "bar"),
     ("", ('time.step="auto"',), "time.step", "a time such as"),
-    ("", ('ties=[{between=["bar.left","bar.right"]}]',), "ties[0]", "one Conductor"),
+    ("", ('ties=[{between=["bar.left","bar.right"]}]',), "ties[0]", "heat_contacts"),
 ]
 
 

@@ -74,6 +74,17 @@ BODY = (
 BOTH = f"bodies={{b={BODY}, w={{kind='Tool', shape={{kind='HalfSpace', point=2, normal=-1}}}}}}"
 FLUX = "loads=[{kind='HeatFlux', on='b.left', value=1}]"
 PROBE = "output.probes=[{name='p', of='b', tag='left', quantity='temperature'}]"
+MEETS = "heat_contacts=[{between=['b.right', 'c.left'], conductance=1}]"
+
+
+def touching(between: tuple[str, str] = ("a.right", "b.left")) -> object:
+    """Model of two squares side by side that exchange heat."""
+    beside = sw.Mesh(points=CORNER.points + [1.0, 0.0], blocks=CORNER.blocks, tags=CORNER.tags)
+    bodies = {"a": body(mesh=SQUARE), "b": body(mesh=beside)}
+    contact = heat.HeatContact(between=between, conductance=1.0)
+    return heat.build_heat(heat.HeatScene(bodies=bodies, contacts=(contact,)))
+
+
 ALONE = "a scenario of conductors only"
 TABLE: Table = {
     "a tool beside a conductor": Try(SCENE, BOTH, ALONE, f"bodies={{b={BODY}}}"),
@@ -85,6 +96,19 @@ TABLE: Table = {
     ),
     "heat on a solid": Try(SOLIDS, FLUX, ALONE, "loads=[]"),
     "a force on a conductor": Try(SCENE, "loads=[{kind='Gravity', acceleration=-1}]", ALONE, FLUX),
+    "a contact of solids": Try(SOLIDS, MEETS, ALONE, "heat_contacts=[]"),
+    "a contact with itself": call(
+        lambda: heat.HeatContact(between=("b.left", "b.right"), conductance=1.0),
+        "two surfaces",
+        lambda: heat.HeatContact(between=("b.left", "c.right"), conductance=1.0),
+    ),
+    "a contact with nobody": call(lambda: touching(("a.left", "c.right")), "'a', 'b'", lambda: touching()),
+    "a contact of surfaces apart": call(
+        lambda: touching(("a.left", "b.right")), "surfaces that touch", lambda: touching()
+    ),
+    "a contact on a corner": call(
+        lambda: touching(("a.right", "b.corner")), "a tag of a side", lambda: touching(("a.right", "b.left"))
+    ),
     "a probe of nobody": Try(SCENE, PROBE.replace("of='b'", "of='c'"), "one of ['b']", PROBE),
     "a velocity of a conductor": Try(SCENE, PROBE.replace("temperature", "velocity"), "temperature", PROBE),
     "values of a table": call(lambda: table(COLD, (1.0,)), "one value for each", lambda: table((1.0,), (1.0,))),

@@ -33,23 +33,29 @@ COLUMNS = (
 """Columns of every history of conductors."""
 NEEDED = tuple((column.name, column.unit) for column in COLUMNS)
 """Names and units of the columns."""
-LIQUID, LOAD = "liquid.", "heat."
-"""Starts of the names of the columns of liquid volumes and of the heats of loads."""
+LIQUID, LOAD, CONTACT = "liquid.", "heat.", "passed."
+"""Starts of the names of the columns of liquid volumes, of the heats of loads, and of the heats through contacts."""
 
 
 def columns(model: HeatModel, readings: Sequence[HeatReading]) -> tuple[HeatColumn, ...]:
-    """Columns of a run: those of every history, the liquid volume of the bodies that melt, the heat that each load has
-    brought, by its number in the scenario from 0, and the probes.
+    """Columns of a run: those of every history, the liquid volumes of the bodies that melt, the heats that the loads
+    have brought, by their numbers in the scenario from 0, those that passed the contacts to their second surfaces, and
+    the probes.
     """
     melting = [part.name for part in model.parts if part.law.latent is not None]
     liquid = [HeatColumn(f"{LIQUID}{name}", "m^3", partial(_liquid, name)) for name in melting]
     loads = [HeatColumn(f"{LOAD}{k}", "J", partial(_heat, place)) for k, place in enumerate(model.ledger_places())]
+    contacts = [HeatColumn(f"{CONTACT}{k}", "J", partial(_passed, k)) for k in range(len(model.exchanges))]
     probes = [HeatColumn(reading.name, reading.unit, reading.value) for reading in readings]
-    return (*COLUMNS, *liquid, *loads, *probes)
+    return (*COLUMNS, *liquid, *loads, *contacts, *probes)
 
 
 def _liquid(name: str, step: HeatStep) -> float:
     return step.liquid_volume[name]
+
+
+def _passed(place: int, step: HeatStep) -> float:
+    return step.ledger.by_contact[place]
 
 
 def _heat(place: int, step: HeatStep) -> float:
