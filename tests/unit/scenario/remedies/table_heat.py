@@ -74,6 +74,7 @@ BODY = (
 BOTH = f"bodies={{b={BODY}, w={{kind='Tool', shape={{kind='HalfSpace', point=2, normal=-1}}}}}}"
 FLUX = "loads=[{kind='HeatFlux', on='b.left', value=1}]"
 PROBE = "output.probes=[{name='p', of='b', tag='left', quantity='temperature'}]"
+TWO = f"bodies={{b={BODY}, c={BODY.replace('cells=2', 'cells=2, origin=1')}}}"
 MEETS = "heat_contacts=[{between=['b.right', 'c.left'], conductance=1}]"
 
 
@@ -97,6 +98,7 @@ TABLE: Table = {
     "heat on a solid": Try(SOLIDS, FLUX, ALONE, "loads=[]"),
     "a force on a conductor": Try(SCENE, "loads=[{kind='Gravity', acceleration=-1}]", ALONE, FLUX),
     "a contact of solids": Try(SOLIDS, MEETS, ALONE, "heat_contacts=[]"),
+    "a contact apart": Try(SCENE, f"{TWO} & {MEETS.replace('left', 'right')}", "surfaces that touch", MEETS),
     "a contact with itself": call(
         lambda: heat.HeatContact(between=("b.left", "b.right"), conductance=1.0),
         "two surfaces",
