@@ -23,7 +23,7 @@ from softway.record.audit.folder import frames_audited
 from softway.record.run import Run
 from softway.record.write.progress import MechanismProgress, Progress
 from softway.scenario.checks.check import Checked, check
-from softway.scenario.checks.softening_notes import softening_notes
+from softway.scenario.checks.notes.softening_notes import softening_notes
 from softway.scenario.files import loads
 from softway.scenario.hints.units_text import Units
 from softway.scenario.run import run

@@ -9,15 +9,25 @@ from softway.arrays import Array, IntArray
 from softway.bodies.conductor import Conductor, sample_temperature
 from softway.bodies.elements.section import Axisymmetric, Section, check_section, default_section
 from softway.bodies.inertia.mass_matrix import Body, Lumped, body_of, nodal_mass
-from softway.bodies.setup.heat_loads import HeatSource, Radiation, Temperature, place_of, surface_points
+from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, Radiation, Temperature, place_of, surface_points
 from softway.errors import InputError, within
+from softway.heat.heat_contact import HeatExchange, heat_exchange
 from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, HeatSurface, Simplices
 from softway.heat.phase import simplices_of
 from softway.kernels.assembly.assembler import assembler
 from softway.kernels.geometry.jacobians import cell_geometry
+from softway.laws.heat.conduction import Conduction
 from softway.laws.heat.heat_content import content_curve
+from softway.laws.heat.temperature_table import value_at
 from softway.meshes.element import element, exact_degree, stiffness_degree
 from softway.meshes.mesh import Mesh
+
+FRONT = 1e-5
+"""Range of temperatures of a front, relative to the latent heat over the capacity of the solid.
+
+A cell that is at melting throughout has no front in it.  Without a range its content would be any, and the balance of
+the heats would have no solution that a temperature describes.
+"""
 
 
 def build_heat(scene: HeatScene) -> HeatModel:
@@ -55,10 +65,13 @@ def build_heat(scene: HeatScene) -> HeatModel:
         masses.append(nodal_mass(part.mesh, body.density, section, Lumped()).diagonal())
         n, e = part.nodes.stop, part.cells.stop
     surfaces, sources, held = _loads(scene, {part.name: part for part in parts}, n)
+    exchanges = _exchanges(scene, parts, n)
     linear = all(p.law.constant for p in parts) and not any(isinstance(s.load, Radiation) for s in surfaces)
     return HeatModel(
         parts=tuple(parts), cells=tuple(cells), simplices=tuple(simplices), mass=np.concatenate(masses),
         pattern=assembler([c.nodes for c in cells], n, 1), surfaces=surfaces, sources=sources, held=held,
+        exchanges=exchanges,
+        ordered=_ordered(scene),
         initial=np.concatenate(initial), linear=linear, n_cells=e,
     )  # fmt: skip
 
@@ -83,7 +96,7 @@ def _part(name: str, body: Conductor, n: int, e: int) -> tuple[HeatPart, Section
     part = HeatPart(
         name=name, mesh=mesh, nodes=slice(n, n + mesh.n_nodes), cells=slice(e, e + mesh.n_cells), law=body.law,
         curve=content_curve(body.law, latent=at_nodes), at_nodes=at_nodes,
-        mixed=melts is not None and "hex20" in mesh.blocks,
+        zero=0.0 if melts is None else melts.melting, mixed=melts is not None and "hex20" in mesh.blocks,
         volume=np.concatenate([mass.sum(axis=1) for _, _, mass in quadrature.blocks]) / body.density,
     )  # fmt: skip
     return part, section, quadrature
@@ -127,11 +140,18 @@ def _simplices(part: HeatPart, section: Section, quadrature: Body) -> list[Simpl
             Simplices(
                 nodes=nodes[:, local].reshape(len(cell), -1) + part.nodes.start,
                 mass=(share * mass.sum(axis=1, keepdims=True)).ravel(), share=share.ravel(), numbers=first + cell,
-                melting=part.law.latent.melting, heat=0.0 if part.at_nodes else part.law.latent.heat,
+                width=front_width(part.law),
+                heat=0.0 if part.at_nodes else part.law.latent.heat,
             )
         )  # fmt: skip
         first += len(nodes)
     return found
+
+
+def front_width(law: Conduction) -> float:
+    """Range of temperatures above melting [K] in which cut cells melt."""
+    assert law.latent is not None
+    return FRONT * law.latent.heat / float(value_at(law.capacity, np.array(law.latent.melting)))
 
 
 Loads = tuple[tuple[HeatSurface, ...], tuple[tuple[HeatSource, Array], ...], tuple[tuple[Temperature, IntArray], ...]]
@@ -161,6 +181,25 @@ def _loads(scene: HeatScene, parts: Mapping[str, HeatPart], n: int) -> Loads:
                     surfaces.append(HeatSurface(load=load, points=points, areas=areas))
     held = [(load, np.flatnonzero(owner == k)) for k, load in enumerate(scene.loads) if isinstance(load, Temperature)]
     return tuple(surfaces), tuple(sources), tuple(held)
+
+
+def _exchanges(scene: HeatScene, parts: list[HeatPart], n: int) -> tuple[HeatExchange, ...]:
+    """Exchange of heat of each contact."""
+    bodies = {p.name: (p.mesh, section_of(scene.bodies[p.name], p.mesh), p.nodes.start) for p in parts}
+    found = []
+    for k, contact in enumerate(scene.contacts):
+        with within(f"contacts[{k}]"):
+            found.append(heat_exchange(contact, bodies, n))
+    return tuple(found)
+
+
+def _ordered(scene: HeatScene) -> tuple[tuple[int, HeatLoad], ...]:
+    """Loads with their numbers, in the order of the ledger."""
+
+    def rank(item: tuple[int, HeatLoad]) -> tuple[bool, bool, int]:
+        return isinstance(item[1], Temperature), isinstance(item[1], HeatSource), item[0]
+
+    return tuple(sorted(enumerate(scene.loads), key=rank))
 
 
 def _source(part: HeatPart, section: Section, region: str, n: int) -> Array:

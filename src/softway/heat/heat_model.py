@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.conductor import Conductor
 from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, SurfaceHeat, Temperature
+from softway.heat.heat_contact import HeatContact, HeatExchange
 from softway.kernels.assembly.assembler import Assembler
 from softway.laws.heat.conduction import Conduction
 from softway.laws.heat.heat_content import ContentCurve
@@ -26,6 +27,8 @@ class HeatScene:
     loads
         Temperatures, heat fluxes, convection, radiation and sources.  Surfaces without any are insulated.  Where two
         temperatures meet in a node, the later one holds.
+    contacts
+        Exchange of heat between surfaces that touch; other bodies do not exchange heat.
 
     Examples
     --------
@@ -35,6 +38,7 @@ class HeatScene:
 
     bodies: Mapping[str, Conductor]
     loads: tuple[HeatLoad, ...] = ()
+    contacts: tuple[HeatContact, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -55,6 +59,8 @@ class HeatPart:
         Specific content of a node, with the latent heat if it is held at the nodes.
     at_nodes
         True if the unknowns of the nodes are contents: latent heat is at the nodes.
+    zero
+        Temperature from which the unknowns of the nodes are counted where they are temperatures [K].
     mixed
         True if a cell conducts like the mixture at its nodes, False if it does by the part that is above melting.
     volume
@@ -68,6 +74,7 @@ class HeatPart:
     law: Conduction
     curve: ContentCurve
     at_nodes: bool
+    zero: float
     mixed: bool
     volume: Array
 
@@ -89,14 +96,15 @@ class HeatCells:
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Simplices:
     """Simplices that the temperature of melting may cut: nodes (s, k), masses (s,) [kg], shares (s,) of their cells,
-    numbers (s,) of these among all cells; their latent heat [J/kg] is zero where it is at the nodes.
+    numbers (s,) of these among all cells; their latent heat [J/kg] is zero where it is at the nodes, and matter melts
+    from the temperature of melting over a ``width`` [K].
     """
 
     nodes: IntArray
     mass: Array
     share: Array
     numbers: IntArray
-    melting: float
+    width: float
     heat: float
 
 
@@ -131,6 +139,10 @@ class HeatModel:
         Sources with their nodal volumes (n,) [m^3].
     held
         Prescribed temperatures with their nodes.
+    exchanges
+        Exchange of heat between bodies, for each contact.
+    ordered
+        Loads with their numbers in the scene, in the order of the ledger: surfaces, sources, prescribed temperatures.
     initial
         (n,) initial temperatures [K].
     linear
@@ -147,6 +159,8 @@ class HeatModel:
     surfaces: tuple[HeatSurface, ...]
     sources: tuple[tuple[HeatSource, Array], ...]
     held: tuple[tuple[Temperature, IntArray], ...]
+    exchanges: tuple[HeatExchange, ...]
+    ordered: tuple[tuple[int, HeatLoad], ...]
     initial: Array
     linear: bool
     n_cells: int
@@ -155,6 +169,15 @@ class HeatModel:
     def n_nodes(self) -> int:
         """Number n of nodes."""
         return len(self.mass)
+
+    @property
+    def loads(self) -> tuple[HeatLoad, ...]:
+        """Loads in the order of the scene."""
+        return tuple(load for _, load in sorted(self.ordered, key=lambda item: item[0]))
+
+    def ledger_places(self) -> tuple[int, ...]:
+        """Place of each load of the scene, in its order, among the heats of the ledger."""
+        return tuple(sorted(range(len(self.ordered)), key=lambda place: self.ordered[place][0]))
 
     def free_nodes(self) -> BoolArray:
         """Nodes (n,) without a prescribed temperature."""

@@ -5,14 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import splu
 
 from softway.arrays import Array, BoolArray
 from softway.errors import NoConvergence
-from softway.heat.heat_balance import Balance, Stage, balance, heats, prescribed, rounding
+from softway.heat.heat_balance import Balance, Stage, balance, entropy_brought, heats, passed, prescribed, rounding
 from softway.heat.heat_model import HeatModel
 from softway.heat.operators import Thermal
-from softway.solve.linear.backends.superlu import SuperLU
+from softway.solve.linear.backends.superlu import SuperLU, factor_unsymmetric
 from softway.solve.linear.interface import Factor, LinearSolver
 
 ITERATIONS = 60
@@ -43,6 +42,10 @@ class StageResult:
         Temperatures and contents at the end.
     heats
         Heat that came in by each load on a surface, each source and each prescribed temperature, in this order [J].
+    passed
+        (k,) heat that passed each contact [J].
+    entropy
+        Entropy that the loads brought [J/K].
     iterations
         Number of iterations.
     factor
@@ -51,6 +54,8 @@ class StageResult:
 
     after: Thermal
     heats: Array
+    passed: Array
+    entropy: float
     iterations: int
     factor: HeatFactor | None
 
@@ -80,7 +85,7 @@ def solve_stage(
     Raises
     ------
     NoConvergence
-        If the heats of the nodes are not balanced after 60 iterations.
+        If the heats of the nodes are not balanced after 60 iterations, or a matrix is singular.
     """
     free = model.free_nodes()
     unknowns = prescribed(model, before.unknowns, stage.end)
@@ -93,22 +98,22 @@ def solve_stage(
             break
         if iteration and size <= TOLERANCE * found.moved + floor:
             gone = heats(model, before, stage, found)
-            return StageResult(after=found.after, heats=gone, iterations=iteration, factor=frozen)
-        if model.linear and frozen is None:
-            frozen = HeatFactor(span=stage.theta * stage.span, factor=linear.factor(_of_free(found, free)))
-        step = _newton(found, free) if frozen is None else frozen.factor.solve(-found.values[free])
+            brought = entropy_brought(model, stage, found)
+            through = passed(model, stage, found)
+            return StageResult(
+                after=found.after, heats=gone, passed=through, entropy=brought, iterations=iteration, factor=frozen
+            )
+        if frozen is not None:
+            step = frozen.factor.solve(-found.values[free])
+        elif not free.any():
+            step = np.zeros(0)
+        else:
+            kind = linear.factor if model.linear else factor_unsymmetric
+            factored = kind(_of_free(found, free))
+            frozen = HeatFactor(span=stage.theta * stage.span, factor=factored) if model.linear else None
+            step = factored.solve(-found.values[free])
         unknowns = _corrected(model, before, stage, unknowns, step, free, found)
     raise NoConvergence(f"the heats of the nodes are not balanced after {ITERATIONS} iterations")
-
-
-def _newton(found: Balance, free: BoolArray) -> Array:
-    """Correction (f,) by Newton's method."""
-    if not free.any():
-        return np.zeros(0)
-    try:
-        return np.asarray(splu(sp.csc_matrix(_of_free(found, free))).solve(-found.values[free]))
-    except RuntimeError as error:
-        raise NoConvergence(f"the matrix of the slab is singular ({error})") from None
 
 
 def _of_free(found: Balance, free: BoolArray) -> sp.csc_array:

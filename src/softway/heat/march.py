@@ -2,19 +2,18 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from math import ceil
 
 import numpy as np
 
 from softway.arrays import Array
-from softway.bodies.setup.knots import knots_of_table
 from softway.errors import Cancel, InputError, NoConvergence, NumericsError, heed
 from softway.heat.build_heat import build_heat
 from softway.heat.heat_balance import Stage, put_at_once
 from softway.heat.heat_model import HeatModel, HeatScene
+from softway.heat.heat_plan import PlannedSlab, planned_slabs
 from softway.heat.heat_slab import HeatFactor, StageResult, solve_stage
 from softway.heat.ledger import HeatLedger, booked, opened
-from softway.heat.operators import Thermal, thermal, unknowns_of
+from softway.heat.operators import Thermal, entropy, thermal, unknowns_of
 from softway.solve.linear.backends.superlu import SuperLU
 from softway.solve.linear.interface import LinearSolver
 from softway.units import Second
@@ -32,14 +31,18 @@ class HeatState:
     time
         [s].
     unknowns
-        (n,) temperatures [K], or specific contents [J/kg] where latent heat is at the nodes.
+        (n,) temperatures [K], above melting where cells melt, or specific contents [J/kg] where latent heat is at
+        the nodes.
     ledger
         Ledger since the start.
+    slabs
+        Number of slabs since the start.
     """
 
     time: float
     unknowns: Array
     ledger: HeatLedger
+    slabs: int = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -48,8 +51,8 @@ class HeatStep:
 
     Parameters
     ----------
-    time
-        Time of its end [s].
+    time, span
+        Time of its end, and its length [s].
     temperature
         Body -> (n,) temperatures of its nodes [K].
     liquid
@@ -62,18 +65,27 @@ class HeatStep:
         Number of iterations of the slab.
     damped
         True for a slab of two halves whose heat flows at the temperature of their ends.
+    entropy_produced
+        Entropy that the slab produced [J/K]: that of the bodies gained, less what the heats of loads brought at the
+        temperatures at which they came in.  It is not negative but for errors of discretisation.
     state
         State for another march that goes on.
     """
 
     time: float
+    span: float
     temperature: Mapping[str, Array]
     liquid: Mapping[str, Array]
     liquid_volume: Mapping[str, float]
     ledger: HeatLedger
     iterations: int
     damped: bool
+    entropy_produced: float
     state: HeatState
+
+    def march_state(self) -> HeatState:
+        """State for another march, as the steps of other marches have it."""
+        return self.state
 
 
 def march_heat(
@@ -101,7 +113,8 @@ def march_heat(
     step
         Length of the slabs [s], shortened to divide the times between knots evenly.
     state
-        State after a step of another march of the same scene.
+        State after a step of another march of the same scene.  If it is the end of one of the slabs of a march from
+        zero to ``until``, the march goes on as that one, with the same bits; else it begins anew there.
     damped
         False for no damped slab.
     linear
@@ -140,9 +153,28 @@ def march_heat(
     if not 0.0 < step < np.inf:
         raise InputError("step", f"{step:g} s is not positive", "a positive time")
     before = thermal(model, unknowns)
-    ledger = opened(before.content, _count(model)) if state is None else state.ledger
+    ledger = opened(before.content, _count(model), len(model.exchanges)) if state is None else state.ledger
     start = HeatState(time=begin, unknowns=unknowns, ledger=ledger)
-    return _slabs(model, start, before, until, step, damped, linear, cancel)
+    return _slabs(model, start, before, planned_slabs(model, begin, until, step), damped, linear, cancel)
+
+
+def heat_at_start(model: HeatModel) -> HeatStep:
+    """State at the start of a march as a step of no slab, before prescribed temperatures act.
+
+    Examples
+    --------
+    >>> import softway as sw
+    >>> law = sw.heat.Conduction(conductivity=50.0, capacity=500.0)
+    >>> mesh = sw.meshes.Interval(length=0.1, cells=1)
+    >>> bar = sw.heat.Conductor(mesh=mesh, law=law, density=7800.0, temperature=300.0)
+    >>> heat_at_start(build_heat(HeatScene(bodies={"bar": bar}))).temperature["bar"].tolist()
+    [300.0, 300.0]
+    """
+    before = thermal(model, unknowns_of(model, model.initial))
+    state = HeatState(
+        time=0.0, unknowns=before.unknowns, ledger=opened(before.content, _count(model), len(model.exchanges))
+    )
+    return _step(model, state, before, _Told(0.0, 0, False, 0.0))
 
 
 def _count(model: HeatModel) -> int:
@@ -154,29 +186,26 @@ def _slabs(
     model: HeatModel,
     state: HeatState,
     before: Thermal,
-    until: float,
-    step: float,
+    planned: list[PlannedSlab],
     damped: bool,
     linear: LinearSolver,
     cancel: Cancel | None,
 ) -> Iterator[HeatStep]:
-    """Slabs between the knots."""
-    ledger, factor = state.ledger, None
-    ends = [state.time, *(t for t in _knots(model) if state.time < t < until), until]
-    for low, high in zip(ends[:-1], ends[1:], strict=True):
-        count = ceil((high - low) / step * (1.0 - 1e-9))
-        for k in range(count):
-            start = low + (high - low) * (k / count)
-            end = high if k + 1 == count else low + (high - low) * ((k + 1) / count)
-            heed(cancel, start)
-            before, jumped = put_at_once(model, before, start)
-            ledger = booked(ledger, before.content, _padded(model, jumped))
-            calm = damped and k == 0
-            slab = Stage(start=start, span=(high - low) / count, theta=1.0 if calm else 0.5)
-            found = _accepted(model, before, slab, calm, factor, linear)
-            before, factor = found.after, found.factor
-            ledger = booked(ledger, before.content, found.heats)
-            yield _step(model, end, before, ledger, found.iterations, calm)
+    """March over planned slabs."""
+    ledger, factor, slabs = state.ledger, None, state.slabs
+    for slab in planned:
+        heed(cancel, slab.start)
+        standing = entropy(model, before)
+        before, jumped, carried = put_at_once(model, before, slab.start)
+        ledger = booked(ledger, before.content, _padded(model, jumped))
+        calm = damped and slab.first
+        stage = Stage(start=slab.start, span=slab.span, theta=1.0 if calm else 0.5)
+        found = _accepted(model, before, stage, calm, factor, linear)
+        before, factor = found.after, found.factor
+        ledger, slabs = booked(ledger, before.content, found.heats, found.passed), slabs + 1
+        state = HeatState(time=slab.end, unknowns=before.unknowns, ledger=ledger, slabs=slabs)
+        produced = entropy(model, before) - standing - carried - found.entropy
+        yield _step(model, state, before, _Told(slab.span, found.iterations, calm, produced))
 
 
 def _accepted(
@@ -200,7 +229,13 @@ def _accepted(
     first = _accepted(model, before, Stage(start=slab.start, span=half, theta=1.0), False, factor, linear, depth + 1)
     rest = Stage(start=slab.start + half, span=half, theta=1.0)
     last = _accepted(model, first.after, rest, False, first.factor, linear, depth + 1)
-    return replace(last, heats=first.heats + last.heats, iterations=first.iterations + last.iterations)
+    return replace(
+        last,
+        heats=first.heats + last.heats,
+        passed=first.passed + last.passed,
+        entropy=first.entropy + last.entropy,
+        iterations=first.iterations + last.iterations,
+    )
 
 
 def _padded(model: HeatModel, jumped: Array) -> Array:
@@ -208,23 +243,29 @@ def _padded(model: HeatModel, jumped: Array) -> Array:
     return np.concatenate([np.zeros(_count(model) - len(jumped)), jumped])
 
 
-def _knots(model: HeatModel) -> tuple[float, ...]:
-    """Instants at which an amplitude bends [s]."""
-    loads = [*(s.load for s in model.surfaces), *(load for load, _ in model.sources), *(load for load, _ in model.held)]
-    return tuple(sorted({t for a in (load.amplitude for load in loads) for t in knots_of_table(a.times, a.factors)}))
+@dataclass(frozen=True, slots=True)
+class _Told:
+    """What a slab tells: length [s], iterations, halves at the temperature of their ends, entropy produced [J/K]."""
+
+    span: float
+    iterations: int
+    damped: bool
+    produced: float
 
 
-def _step(model: HeatModel, end: float, after: Thermal, ledger: HeatLedger, iterations: int, damped: bool) -> HeatStep:
+def _step(model: HeatModel, state: HeatState, after: Thermal, told: _Told) -> HeatStep:
     """Step of a slab."""
     melting = [part for part in model.parts if part.law.latent is not None]
     liquid = {part.name: after.melted[part.cells] for part in melting}
     return HeatStep(
-        time=end,
+        time=state.time,
+        span=told.span,
         temperature={part.name: after.temperature[part.nodes] for part in model.parts},
         liquid=liquid,
         liquid_volume={part.name: float(part.volume @ liquid[part.name]) for part in melting},
-        ledger=ledger,
-        iterations=iterations,
-        damped=damped,
-        state=HeatState(time=end, unknowns=after.unknowns, ledger=ledger),
+        ledger=state.ledger,
+        iterations=told.iterations,
+        damped=told.damped,
+        entropy_produced=told.produced,
+        state=state,
     )

@@ -8,7 +8,7 @@ import scipy.sparse as sp
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.setup.heat_loads import Convection, HeatFlux, Radiation
 from softway.heat.heat_model import HeatCells, HeatModel, HeatSurface
-from softway.heat.phase import liquid_part
+from softway.heat.phase import melted_part
 
 STEFAN_BOLTZMANN = 5.670374419e-8
 """Constant of Stefan and Boltzmann [W/(m^2 K^4)] (CODATA 2018)."""
@@ -24,7 +24,8 @@ class Thermal:
     Parameters
     ----------
     unknowns
-        (n,) temperatures [K], or specific contents [J/kg] where latent heat is at the nodes.
+        (n,) temperatures [K], above melting where cells melt, or specific contents [J/kg] where latent heat is at
+        the nodes.
     temperature, stretch
         (n,) temperatures [K], and their derivatives along the unknowns.
     content
@@ -56,15 +57,15 @@ def unknowns_of(model: HeatModel, temperature: Array) -> Array:
     """Unknowns (n,) of temperatures (n,) [K]: matter at melting is solid."""
     out = temperature.copy()
     for part in model.parts:
-        if part.at_nodes:
-            out[part.nodes] = part.curve.content(temperature[part.nodes])
+        here = part.nodes
+        out[here] = part.curve.content(temperature[here]) if part.at_nodes else temperature[here] - part.zero
     return out
 
 
 def thermal(model: HeatModel, unknowns: Array, slopes: bool = True) -> Thermal:
     """Temperatures and contents of given unknowns (n,); without ``slopes`` the derivatives with entries are empty."""
     n = model.n_nodes
-    temperature, stretch = unknowns.copy(), np.ones(n)
+    temperature, stretch, over = np.empty(n), np.ones(n), unknowns.copy()
     content, capacity = np.empty(n), np.empty(n)
     share, share_slope = np.zeros(n), np.zeros(n)
     for part in model.parts:
@@ -73,10 +74,13 @@ def thermal(model: HeatModel, unknowns: Array, slopes: bool = True) -> Thermal:
             temperature[here], stretch[here] = part.curve.temperature(x)
             content[here], capacity[here] = x, 1.0
             share[here], share_slope[here] = part.curve.liquid_share(x, temperature[here])
+            over[here] = temperature[here] - part.zero
         else:
-            content[here], capacity[here] = part.curve.content(x), part.curve.capacity(x)
+            temperature[here] = x + part.zero
+            content[here] = part.curve.content(temperature[here])
+            capacity[here] = part.curve.capacity(temperature[here])
     melted = _mean_shares(model, share)
-    liquid, latent, cut_slope, latent_slope = _cut(model, temperature, slopes)
+    liquid, latent, cut_slope, latent_slope = _cut(model, over, slopes)
     mixed = np.zeros(model.n_cells, dtype=bool)
     for part in model.parts:
         mixed[part.cells] = part.mixed
@@ -92,13 +96,13 @@ def thermal(model: HeatModel, unknowns: Array, slopes: bool = True) -> Thermal:
     )  # fmt: skip
 
 
-def _cut(model: HeatModel, temperature: Array, slopes: bool) -> tuple[Array, Array, Entries, Entries]:
+def _cut(model: HeatModel, over: Array, slopes: bool) -> tuple[Array, Array, Entries, Entries]:
     """Share (E,) of the cells above melting, the latent heat (n,) of that part [J], and their derivatives."""
     n, E = model.n_nodes, model.n_cells
     liquid, latent = np.zeros(E), np.zeros(n)
     slope, latent_slope = [], []
     for block in model.simplices:
-        part, grown = liquid_part(temperature[block.nodes] - block.melting)
+        part, grown = melted_part(over[block.nodes], block.width)
         liquid += np.bincount(block.numbers, block.share * part.sum(axis=1), E)
         heat = block.heat * block.mass
         latent += np.bincount(block.nodes.ravel(), (heat[:, None] * part).ravel(), n)
@@ -178,6 +182,36 @@ def heat_flow(
     return flow, sp.csr_array((found.data, found.indices, found.indptr), shape=found.shape), tuple(columns)
 
 
+def entropy(model: HeatModel, now: Thermal) -> float:
+    """Entropy of all conductors [J/K], counted from a temperature of each law; latent heat is that at melting."""
+    total = 0.0
+    for part in model.parts:
+        here = part.nodes
+        mass, temperature = model.mass[here], now.temperature[here]
+        total += float(mass @ part.curve.entropy(temperature))
+        if part.law.latent is None:
+            continue
+        if part.at_nodes:
+            share = part.curve.liquid_share(now.unknowns[here], temperature)[0] if not part.curve.half_range else 0.0
+            latent = float((mass * share).sum()) * part.curve.heat
+        else:
+            latent = float((now.content[here] - mass * part.curve.content(temperature)).sum())
+        total += latent / part.law.latent.melting
+    return total
+
+
+def heat_flux(model: HeatModel, now: Thermal) -> Array:
+    """Mean heat fluxes (E, 3) of the cells [W/m^2]; zero along axes that the mesh has not."""
+    out = np.zeros((model.n_cells, 3))
+    for cells in model.cells:
+        at = now.temperature[cells.nodes]
+        k, _, _ = _conductivity(cells, at @ cells.N.T, now.liquid[cells.numbers])
+        flux = -k * np.einsum("eqar,ea->eqr", cells.gradients, at)
+        mean = np.einsum("eq,eqr->er", cells.volume, flux) / cells.volume.sum(axis=1)[:, None]
+        out[cells.numbers, : mean.shape[1]] = mean
+    return out
+
+
 def _conductivity(cells: HeatCells, temperature: Array, liquid: Array) -> tuple[Array, Array, Array]:
     """Conductivities (e, q, r), and their derivatives along the temperature and the liquid share of the cells."""
     r = cells.gradients.shape[-1]
@@ -199,7 +233,7 @@ def surface_heat(surface: HeatSurface, temperature: Array, factor: float) -> tup
     temperature
         (n,) temperatures [K].
     factor
-        Mean amplitude of the load.
+        Mean factor of the load.
     """
     load, areas = surface.load, surface.areas
     match load:

@@ -56,7 +56,7 @@ def test_heat_that_comes_in_is_the_content_of_every_cell(cell: str) -> None:
     mesh = mesh_of(cell)
     body = heat.Conductor(mesh=mesh, law=UNIT, density=3.0, temperature=300.0)
     loads = (
-        heat.HeatFlux(on="b.right", value=5.0, amplitude=Ramp(times=(0.0, 0.3), factors=(0.0, 1.0))),
+        heat.HeatFlux(on="b.right", value=5.0, ramp=Ramp(times=(0.0, 0.3), factors=(0.0, 1.0))),
         heat.Convection(on="b", coefficient=2.0, ambient=310.0),
         heat.HeatSource(of="b", value=7.0),
         heat.Temperature(on="b.left", value=290.0),
@@ -100,7 +100,7 @@ def test_the_heat_of_a_jump_to_a_temperature_is_booked() -> None:
 
 def test_slabs_end_at_knots_and_are_damped_after_them() -> None:
     body = heat.Conductor(mesh=interval(1.0, cells=4), law=UNIT, density=3.0, temperature=300.0)
-    wall = heat.Temperature(on="b.left", value=1.0, amplitude=Ramp(times=(0.15, 0.35), factors=(300.0, 400.0)))
+    wall = heat.Temperature(on="b.left", value=1.0, ramp=Ramp(times=(0.15, 0.35), factors=(300.0, 400.0)))
     found = steps(body, wall, until=1.0, step=0.1)
     assert {0.15, 0.35, 1.0} <= {round(step.time, 12) for step in found}
     damped = [round(step.time, 6) for step in found if step.damped]

@@ -22,7 +22,7 @@ def braked(step: float, damped: bool) -> tuple[heat.HeatStep, ...]:
     law = heat.Conduction(conductivity=50.0, capacity=500.0)
     body = heat.Conductor(mesh=mesh, law=law, density=7800.0, temperature=300.0)
     falls = sw.bodies.Ramp(times=(0.0, 2.0), factors=(1.0, 0.0))
-    flux = heat.HeatFlux(on="disc.surface", value=1e6, amplitude=falls)
+    flux = heat.HeatFlux(on="disc.surface", value=1e6, ramp=falls)
     return tuple(
         heat.march_heat(heat.HeatScene(bodies={"disc": body}, loads=(flux,)), until=2.0, step=step, damped=damped)
     )

@@ -26,28 +26,28 @@ class Temperature:
         ``body.tag``; the whole surface without a tag.
     value
         Temperature [K], positive.
-    amplitude
+    ramp
         Factor of the temperature over time; constant by default.
 
     Examples
     --------
     A wall that is heated from 300 K to 400 K within a second:
 
-    >>> wall = Temperature(on="bar.left", value=1.0, amplitude=Ramp(times=(0.0, 1.0), factors=(300.0, 400.0)))
+    >>> wall = Temperature(on="bar.left", value=1.0, ramp=Ramp(times=(0.0, 1.0), factors=(300.0, 400.0)))
     >>> wall.at(0.5)
     350.0
     """
 
     on: str
     value: Kelvin
-    amplitude: Ramp = Ramp()
+    ramp: Ramp = Ramp()
 
     def __post_init__(self) -> None:
-        _require_kelvin("value", self.value, self.amplitude)
+        _require_kelvin("value", self.value, self.ramp)
 
     def at(self, time: float) -> float:
         """Temperature [K] at a time [s]."""
-        return self.value * self.amplitude.at(time)
+        return self.value * self.ramp.at(time)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,7 +60,7 @@ class HeatFlux:
         ``body.tag``; the whole surface without a tag.
     value
         Heat flux [W/m^2]; negative for heat that leaves.
-    amplitude
+    ramp
         Factor over time; constant by default.
 
     Examples
@@ -71,7 +71,7 @@ class HeatFlux:
 
     on: str
     value: WattPerSquareMetre
-    amplitude: Ramp = Ramp()
+    ramp: Ramp = Ramp()
 
     def __post_init__(self) -> None:
         _require_finite("value", self.value)
@@ -89,7 +89,7 @@ class Convection:
         Coefficient of heat transfer [W/(m^2 K)], positive.
     ambient
         Temperature of the fluid [K], positive.
-    amplitude
+    ramp
         Factor of the temperature of the fluid over time; constant by default.
 
     Examples
@@ -102,11 +102,11 @@ class Convection:
     on: str
     coefficient: WattPerSquareMetreKelvin
     ambient: Kelvin
-    amplitude: Ramp = Ramp()
+    ramp: Ramp = Ramp()
 
     def __post_init__(self) -> None:
         positive(coefficient=self.coefficient)
-        _require_kelvin("ambient", self.ambient, self.amplitude)
+        _require_kelvin("ambient", self.ambient, self.ramp)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -122,7 +122,7 @@ class Radiation:
         Emissivity, above zero and up to one.
     ambient
         Temperature of the surroundings [K], positive.
-    amplitude
+    ramp
         Factor of the temperature of the surroundings over time; constant by default.
 
     Examples
@@ -134,12 +134,12 @@ class Radiation:
     on: str
     emissivity: Pure
     ambient: Kelvin
-    amplitude: Ramp = Ramp()
+    ramp: Ramp = Ramp()
 
     def __post_init__(self) -> None:
         if not 0.0 < self.emissivity <= 1.0:
             raise InputError("emissivity", f"{self.emissivity:g}", "above zero, up to 1 for a black surface")
-        _require_kelvin("ambient", self.ambient, self.amplitude)
+        _require_kelvin("ambient", self.ambient, self.ramp)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -152,7 +152,7 @@ class HeatSource:
         ``body``, or ``body.region``.
     value
         Power per volume [W/m^3]; negative for a sink.
-    amplitude
+    ramp
         Factor over time; constant by default.
 
     Examples
@@ -163,7 +163,7 @@ class HeatSource:
 
     of: str
     value: WattPerCubicMetre
-    amplitude: Ramp = Ramp()
+    ramp: Ramp = Ramp()
 
     def __post_init__(self) -> None:
         _require_finite("value", self.value)
@@ -235,9 +235,9 @@ def _points(mesh: Mesh, section: Section, name: str, facets: IntArray) -> tuple[
     return found, areas.ravel()
 
 
-def _require_kelvin(where: str, value: float, amplitude: Ramp) -> None:
+def _require_kelvin(where: str, value: float, ramp: Ramp) -> None:
     """Refuse temperatures that are not positive at some time."""
-    least = min(value * factor for factor in amplitude.factors)
+    least = min(value * factor for factor in ramp.factors)
     if not 0.0 < least < np.inf:
         problem = f"{least:g} K is not positive"
         raise InputError(where, problem, "a positive temperature in kelvin, 273.15 K above that in Celsius")

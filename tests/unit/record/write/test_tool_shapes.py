@@ -24,8 +24,8 @@ from softway.record.storage.run_folder import RunFolder
 from softway.record.view.bodies.bodies import bodies
 from softway.record.view.pictures import picture
 from softway.record.view.plots.paths import paths
-from softway.record.write.sampled_distance import sampled
-from softway.record.write.tool_shapes import described, recovered
+from softway.record.write.shapes.sampled_distance import sampled
+from softway.record.write.shapes.tool_shapes import described, recovered
 
 PYRAMID = np.array([[-1.0, -1.0, -0.1], [2.0, -1.0, -0.1], [2.0, 2.0, -0.1], [-1.0, 2.0, -0.1], [0.5, 0.5, -1.0]])
 SIDES = np.array([[0, 1, 2], [0, 2, 3], [1, 0, 4], [2, 1, 4], [3, 2, 4], [0, 3, 4]])

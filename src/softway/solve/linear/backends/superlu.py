@@ -52,19 +52,37 @@ class SuperLU:
         NoConvergence
             If the matrix is singular.
         """
-        finite(matrix)
-        matrix, power = enlarged(matrix, self.precision)
-        kind = number_type(self.precision)
-        try:
-            lu = splu(
-                sp.csc_matrix(matrix, dtype=kind),
-                permc_spec="MMD_AT_PLUS_A",
-                diag_pivot_thresh=0.0,
-                options={"SymmetricMode": True},
-            )
-        except RuntimeError as error:
-            raise unfactored(matrix.shape[0], error) from None
-        return reduced(_LU(lu, kind), power)
+        symmetric = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
+        return _factored(matrix, self.precision, symmetric)
+
+
+def factor_unsymmetric(matrix: sp.csc_array) -> Factor:
+    """Factor a sparse matrix (f, f) that need not be symmetric.
+
+    Raises
+    ------
+    NoConvergence
+        If the matrix is singular.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> factor_unsymmetric(sp.csc_array(np.array([[0.0, 2.0], [4.0, 1.0]]))).solve(np.array([2.0, 5.0]))
+    array([1., 1.])
+    """
+    return _factored(matrix, "double", {})
+
+
+def _factored(matrix: sp.csc_array, precision: Precision, how: dict[str, Any]) -> Factor:
+    """Factor of a matrix, with the options of SuperLU."""
+    finite(matrix)
+    matrix, power = enlarged(matrix, precision)
+    kind = number_type(precision)
+    try:
+        lu = splu(sp.csc_matrix(matrix, dtype=kind), **how)
+    except RuntimeError as error:
+        raise unfactored(matrix.shape[0], error) from None
+    return reduced(_LU(lu, kind), power)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

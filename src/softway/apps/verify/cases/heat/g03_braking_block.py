@@ -25,7 +25,7 @@ def braked() -> tuple[sw.heat.HeatStep, ...]:
     law = sw.heat.Conduction(conductivity=GIVEN["k"], capacity=GIVEN["c"])
     body = sw.heat.Conductor(mesh=mesh, law=law, density=GIVEN["rho"], temperature=START)
     falls = sw.bodies.Ramp(times=(0.0, GIVEN["ts"]), factors=(1.0, 0.0))
-    flux = sw.heat.HeatFlux(on="disc.surface", value=GIVEN["q0"], amplitude=falls)
+    flux = sw.heat.HeatFlux(on="disc.surface", value=GIVEN["q0"], ramp=falls)
     scene = sw.heat.HeatScene(bodies={"disc": body}, loads=(flux,))
     return tuple(sw.heat.march_heat(scene, until=GIVEN["ts"], step=STEP))
 

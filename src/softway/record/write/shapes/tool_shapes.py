@@ -14,7 +14,7 @@ from softway.errors import InputError
 from softway.obstacles.half_space import HalfSpace
 from softway.obstacles.primitives import Block, Cavity, Cylinder, Roller, Sphere, Torus
 from softway.obstacles.triangulated import Facets, Surface
-from softway.record.write.sampled_distance import SampledDistance, sampled
+from softway.record.write.shapes.sampled_distance import SampledDistance, sampled
 
 SHAPES = (HalfSpace, Sphere, Roller, Cylinder, Block, Torus, Cavity, Facets, SampledDistance)
 MOTIONS = (Still, Translation, Table, Turning, Sliding, Swinging, Spline, SmoothSteps, Sine, Haversine, RatePolyline)

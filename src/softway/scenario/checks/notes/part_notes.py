@@ -24,7 +24,7 @@ from softway.meshes.files.listed_mesh import LeftOut
 from softway.model.model import Model
 from softway.scenario.checks.locking import locking_notes
 from softway.scenario.checks.names import mesh_of
-from softway.scenario.checks.tool_notes import tool_curvature
+from softway.scenario.checks.notes.tool_notes import tool_curvature
 
 SHARE = 0.1
 """Distance of facets from the smooth surface, relative to the gap or interference, beyond which it is noted."""

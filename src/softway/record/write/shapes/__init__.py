@@ -1,0 +1,1 @@
+"""Shapes of tools and rigid bodies as data of a run folder."""

@@ -1,0 +1,1 @@
+"""Notes on parts of a scenario that are computed, although their results may be wrong."""
