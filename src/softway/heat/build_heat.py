@@ -9,7 +9,7 @@ from softway.arrays import Array, IntArray
 from softway.bodies.conductor import Conductor, sample_temperature
 from softway.bodies.elements.section import Axisymmetric, Section, check_section, default_section
 from softway.bodies.inertia.mass_matrix import Body, Lumped, body_of, nodal_mass
-from softway.bodies.setup.heat_loads import HeatSource, Radiation, Temperature, place_of, surface_points
+from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, Radiation, Temperature, place_of, surface_points
 from softway.errors import InputError, within
 from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, HeatSurface, Simplices
 from softway.heat.phase import simplices_of
@@ -49,11 +49,16 @@ def build_heat(scene: HeatScene) -> HeatModel:
     """
     if not scene.bodies:
         raise InputError("bodies", "no bodies", "at least one Conductor")
+    return heat_model(scene.bodies, dict(enumerate(scene.loads)))
+
+
+def heat_model(bodies: Mapping[str, Conductor], loads: Mapping[int, HeatLoad]) -> HeatModel:
+    """Discretise conductors by name, with loads by their numbers in a scene; errors as of :func:`build_heat`."""
     parts: list[HeatPart] = []
     cells: list[HeatCells] = []
     simplices: list[Simplices] = []
     masses, initial, n, e = [], [], 0, 0
-    for name, body in scene.bodies.items():
+    for name, body in bodies.items():
         with within(f"bodies.{name}"):
             part, section, quadrature = _part(name, body, n, e)
             cells.extend(_cells(part, section))
@@ -63,7 +68,7 @@ def build_heat(scene: HeatScene) -> HeatModel:
         parts.append(part)
         masses.append(nodal_mass(part.mesh, body.density, section, Lumped()).diagonal())
         n, e = part.nodes.stop, part.cells.stop
-    surfaces, sources, held = _loads(scene, {part.name: part for part in parts}, n)
+    surfaces, sources, held = _loads(bodies, loads, {part.name: part for part in parts}, n)
     linear = all(p.law.constant for p in parts) and not any(isinstance(s.load, Radiation) for s in surfaces)
     return HeatModel(
         parts=tuple(parts), cells=tuple(cells), simplices=tuple(simplices), mass=np.concatenate(masses),
@@ -153,18 +158,20 @@ def front_width(law: Conduction) -> float:
 Loads = tuple[tuple[HeatSurface, ...], tuple[tuple[HeatSource, Array], ...], tuple[tuple[Temperature, IntArray], ...]]
 
 
-def _loads(scene: HeatScene, parts: Mapping[str, HeatPart], n: int) -> Loads:
+def _loads(
+    bodies: Mapping[str, Conductor], loads: Mapping[int, HeatLoad], parts: Mapping[str, HeatPart], n: int
+) -> Loads:
     """Surfaces, sources, and nodes with prescribed temperatures, of which each belongs to one load."""
     surfaces: list[HeatSurface] = []
     sources: list[tuple[HeatSource, Array]] = []
     owner = np.full(n, -1)
-    for k, load in enumerate(scene.loads):
+    for k, load in loads.items():
         name, tag = place_of(load)
         with within(f"loads[{k}].{'of' if isinstance(load, HeatSource) else 'on'}"):
             if name not in parts:
                 raise InputError("", f"there is no body {name!r}", ", ".join(repr(known) for known in parts))
             part = parts[name]
-            section = section_of(scene.bodies[name], part.mesh)
+            section = section_of(bodies[name], part.mesh)
             match load:
                 case Temperature():
                     owner[part.nodes.start + part.mesh.nodes(tag)] = k
@@ -175,7 +182,7 @@ def _loads(scene: HeatScene, parts: Mapping[str, HeatPart], n: int) -> Loads:
                     data = (table.data, table.indices + part.nodes.start, table.indptr)
                     points = sp.csr_array(data, shape=(len(areas), n))
                     surfaces.append(HeatSurface(load=load, points=points, areas=areas))
-    held = [(load, np.flatnonzero(owner == k)) for k, load in enumerate(scene.loads) if isinstance(load, Temperature)]
+    held = [(load, np.flatnonzero(owner == k)) for k, load in loads.items() if isinstance(load, Temperature)]
     return tuple(surfaces), tuple(sources), tuple(held)
 
 

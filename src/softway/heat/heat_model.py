@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.conductor import Conductor
 from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, SurfaceHeat, Temperature
+from softway.bodies.setup.knots import knots_of_table
 from softway.kernels.assembly.assembler import Assembler
 from softway.laws.heat.conduction import Conduction
 from softway.laws.heat.heat_content import ContentCurve
@@ -159,6 +160,11 @@ class HeatModel:
     def n_nodes(self) -> int:
         """Number n of nodes."""
         return len(self.mass)
+
+    def knots(self) -> tuple[float, ...]:
+        """Instants at which a ramp of the loads bends [s]."""
+        loads = [*(s.load for s in self.surfaces), *(one for one, _ in self.sources), *(one for one, _ in self.held)]
+        return tuple(sorted({t for load in loads for t in knots_of_table(load.ramp.times, load.ramp.factors)}))
 
     def free_nodes(self) -> BoolArray:
         """Nodes (n,) without a prescribed temperature."""

@@ -1,26 +1,22 @@
 """March of heat conduction: slabs between the knots of loads, damped after sudden changes."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import ceil
 
 import numpy as np
 
 from softway.arrays import Array
-from softway.bodies.setup.knots import knots_of_table
-from softway.errors import Cancel, InputError, NoConvergence, NumericsError, heed
+from softway.errors import Cancel, InputError, heed
 from softway.heat.build_heat import build_heat
 from softway.heat.heat_balance import Stage, put_at_once
 from softway.heat.heat_model import HeatModel, HeatScene
-from softway.heat.heat_slab import HeatFactor, StageResult, solve_stage
+from softway.heat.heat_slab import solve_slab
 from softway.heat.ledger import HeatLedger, booked, opened
 from softway.heat.operators import Thermal, thermal, unknowns_of
 from softway.solve.linear.backends.superlu import SuperLU
 from softway.solve.linear.interface import LinearSolver
 from softway.units import Second
-
-HALVINGS = 8
-"""Greatest number of halvings of a slab that does not converge."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -195,7 +191,7 @@ def _planned(model: HeatModel, begin: float, until: float, step: float) -> list[
 
 def _plan(model: HeatModel, begin: float, until: float, step: float) -> list[_Planned]:
     """Slabs from ``begin`` on: equal ones between the knots."""
-    ends, found = [begin, *(t for t in _knots(model) if begin < t < until), until], []
+    ends, found = [begin, *(t for t in model.knots() if begin < t < until), until], []
     for low, high in zip(ends[:-1], ends[1:], strict=True):
         count = ceil((high - low) / step * (1.0 - 1e-9))
         at = [low + (high - low) * (k / count) for k in range(count)] + [high]
@@ -221,46 +217,16 @@ def _slabs(
         ledger = booked(ledger, before.content, _padded(model, jumped))
         calm = damped and slab.first
         stage = Stage(start=slab.start, span=slab.span, theta=1.0 if calm else 0.5)
-        found = _accepted(model, before, stage, calm, factor, linear)
+        found = solve_slab(model, before, stage, calm, factor, linear)
         before, factor = found.after, found.factor
         ledger, slabs = booked(ledger, before.content, found.heats), slabs + 1
         state = HeatState(time=slab.end, unknowns=before.unknowns, ledger=ledger, slabs=slabs)
         yield _step(model, state, before, found.iterations, damped=calm)
 
 
-def _accepted(
-    model: HeatModel,
-    before: Thermal,
-    slab: Stage,
-    halves: bool,
-    factor: HeatFactor | None,
-    linear: LinearSolver,
-    depth: int = 0,
-) -> StageResult:
-    """Slab in one stage or in two halves; in damped halves if it does not converge."""
-    if not halves:
-        try:
-            return solve_stage(model, before, slab, factor, linear)
-        except NoConvergence as error:
-            if depth == HALVINGS:
-                remedy = 'latent = "node" where matter melts, or shorter slabs'
-                raise NumericsError(str(error), slab.start, remedy) from None
-    half = 0.5 * slab.span
-    first = _accepted(model, before, Stage(start=slab.start, span=half, theta=1.0), False, factor, linear, depth + 1)
-    rest = Stage(start=slab.start + half, span=half, theta=1.0)
-    last = _accepted(model, first.after, rest, False, first.factor, linear, depth + 1)
-    return replace(last, heats=first.heats + last.heats, iterations=first.iterations + last.iterations)
-
-
 def _padded(model: HeatModel, jumped: Array) -> Array:
     """Heats (k,) of all loads from those of the prescribed temperatures, the last ones."""
     return np.concatenate([np.zeros(_count(model) - len(jumped)), jumped])
-
-
-def _knots(model: HeatModel) -> tuple[float, ...]:
-    """Instants at which a ramp bends [s]."""
-    loads = [*(s.load for s in model.surfaces), *(load for load, _ in model.sources), *(load for load, _ in model.held)]
-    return tuple(sorted({t for a in (load.ramp for load in loads) for t in knots_of_table(a.times, a.factors)}))
 
 
 def _step(model: HeatModel, state: HeatState, after: Thermal, iterations: int, *, damped: bool) -> HeatStep:

@@ -6,7 +6,7 @@ force and an energy to the motion.
 """
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from softway.arrays import Array
 
@@ -105,3 +105,21 @@ class FieldEquations(Protocol):
             If there is no solution; the slab is then cut back.
         """
         ...
+
+
+@runtime_checkable
+class TimedField(Protocol):
+    """Equations of a companion field with loads that change in time, or with an operator that is factored once a slab:
+    they are solved in a slab only.
+    """
+
+    def in_slab(self, start: float, end: float) -> FieldEquations:
+        """Equations in a slab from ``start`` to ``end`` [s]."""
+        ...
+
+
+def in_slab(companions: tuple[FieldEquations, ...], start: float, end: float) -> tuple[FieldEquations, ...]:
+    """Companion fields in a slab from ``start`` to ``end`` [s]; the same tuple if none changes."""
+    if not any(isinstance(c, TimedField) for c in companions):
+        return companions
+    return tuple(c.in_slab(start, end) if isinstance(c, TimedField) else c for c in companions)

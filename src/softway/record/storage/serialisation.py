@@ -17,6 +17,7 @@ from softway.bodies.internal_force.material_state import MaterialState
 from softway.contact.contact_rows import ContactRows
 from softway.contact.tangential_rows import TangentialRows
 from softway.errors import InputError
+from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.march.march_state import EnergyAccount, MarchState, Settings, StepHistory
 from softway.march.model_state import ModelState
 from softway.march.step_control import StepControl
@@ -50,6 +51,7 @@ KINDS: Mapping[str, type] = MappingProxyType(
                 FieldState,
                 MaterialState,
                 EnergyAccount,
+                HeatOfSolids,
                 StepHistory,
                 OperatorMemory,
                 OperatorOrigin,
