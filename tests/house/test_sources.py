@@ -34,7 +34,7 @@ HARD_FUNCTION_LINES = 60
 DOORS = {
     "basix": ("softway.meshes.element",),
     "meshio": ("softway.meshes.files.mesh_files",),
-    "h5py": ("softway.record.write.fields", "softway.record.storage.gate.hdf5_file"),
+    "h5py": ("softway.record.write.grid.grid_series", "softway.record.storage.gate.hdf5_file"),
     "matplotlib": ("softway.record.view.*",),
     "pyvista": ("softway.record.read.frames", "softway.apps.viewer.solids"),
     "imageio_ffmpeg": ("softway.record.view.film",),

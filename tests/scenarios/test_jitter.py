@@ -13,7 +13,7 @@ from jitter import jittered
 from softway.contact.impact_rule import Energy
 from softway.scenario.scenario import Scenario
 from softway.tolerances import ENERGY
-from variants import MECHANISMS, SCENARIOS, VARIANTS, each, small, whole
+from variants import OTHERS, SCENARIOS, VARIANTS, each, small, whole
 
 pytestmark = pytest.mark.slow
 
@@ -100,7 +100,7 @@ def assert_contact(
 
 
 def test_every_scenario_has_a_variant_that_touches_as_it_does():
-    assert VARIANTS.keys() | set(MECHANISMS) == {file.stem for file in SCENARIOS.glob("*.toml")}
+    assert VARIANTS.keys() | set(OTHERS) == {file.stem for file in SCENARIOS.glob("*.toml")}
     for name, variant in VARIANTS.items():
         shipped, given = whole(name), small(name)
         assert len(variant.same) > 40 and given.time.end <= shipped.time.end, name

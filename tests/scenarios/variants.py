@@ -11,9 +11,10 @@ from softway.scenario.files import load
 from softway.scenario.scenario import Scenario
 
 SCENARIOS = Path(__file__).parents[2] / "scenarios"
-MECHANISMS = (
+OTHERS = (
     "bearing_clearance",
     "flat_follower",
+    "freezing_corner",
     "hammer_on_stop",
     "newtons_cradle",
     "poured_balls",
@@ -25,7 +26,7 @@ MECHANISMS = (
     "toggle_snap",
     "woodpecker",
 )
-"""Scenarios of rigid bodies and balls, without cells: tests/unit/scenario/mechanisms and piles run them."""
+"""Scenarios of rigid bodies, balls and conductors: tests/unit/scenario/mechanisms, piles and heat run them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -256,7 +257,7 @@ def each() -> list[Any]:
 
 def names() -> list[str]:
     """Names of the shipped scenarios of solids."""
-    return sorted(file.stem for file in SCENARIOS.glob("*.toml") if file.stem not in MECHANISMS)
+    return sorted(file.stem for file in SCENARIOS.glob("*.toml") if file.stem not in OTHERS)
 
 
 def whole(name: str) -> Scenario:

@@ -7,6 +7,7 @@ from softway.bodies.setup.heat_loads import HeatSource as HeatSource
 from softway.bodies.setup.heat_loads import Radiation as Radiation
 from softway.bodies.setup.heat_loads import Temperature as Temperature
 from softway.heat.build_heat import build_heat as build_heat
+from softway.heat.heat_contact import HeatContact as HeatContact
 from softway.heat.heat_model import HeatModel as HeatModel
 from softway.heat.heat_model import HeatScene as HeatScene
 from softway.heat.ledger import HeatLedger as HeatLedger
@@ -21,6 +22,7 @@ __all__ = [
     "Conduction",
     "Conductor",
     "Convection",
+    "HeatContact",
     "HeatFlux",
     "HeatLedger",
     "HeatModel",

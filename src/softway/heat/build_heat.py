@@ -11,6 +11,7 @@ from softway.bodies.elements.section import Axisymmetric, Section, check_section
 from softway.bodies.inertia.mass_matrix import Body, Lumped, body_of, nodal_mass
 from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, Radiation, Temperature, place_of, surface_points
 from softway.errors import InputError, within
+from softway.heat.heat_contact import HeatContact, HeatExchange, heat_exchange
 from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, HeatSurface, Simplices
 from softway.heat.phase import simplices_of
 from softway.kernels.assembly.assembler import assembler
@@ -49,10 +50,12 @@ def build_heat(scene: HeatScene) -> HeatModel:
     """
     if not scene.bodies:
         raise InputError("bodies", "no bodies", "at least one Conductor")
-    return heat_model(scene.bodies, dict(enumerate(scene.loads)))
+    return heat_model(scene.bodies, dict(enumerate(scene.loads)), scene.contacts)
 
 
-def heat_model(bodies: Mapping[str, Conductor], loads: Mapping[int, HeatLoad]) -> HeatModel:
+def heat_model(
+    bodies: Mapping[str, Conductor], loads: Mapping[int, HeatLoad], contacts: tuple[HeatContact, ...] = ()
+) -> HeatModel:
     """Discretise conductors by name, with loads by their numbers in a scene; errors as of :func:`build_heat`."""
     parts: list[HeatPart] = []
     cells: list[HeatCells] = []
@@ -69,10 +72,13 @@ def heat_model(bodies: Mapping[str, Conductor], loads: Mapping[int, HeatLoad]) -
         masses.append(nodal_mass(part.mesh, body.density, section, Lumped()).diagonal())
         n, e = part.nodes.stop, part.cells.stop
     surfaces, sources, held = _loads(bodies, loads, {part.name: part for part in parts}, n)
+    exchanges = _exchanges(bodies, contacts, parts, n)
     linear = all(p.law.constant for p in parts) and not any(isinstance(s.load, Radiation) for s in surfaces)
     return HeatModel(
         parts=tuple(parts), cells=tuple(cells), simplices=tuple(simplices), mass=np.concatenate(masses),
         pattern=assembler([c.nodes for c in cells], n, 1), surfaces=surfaces, sources=sources, held=held,
+        exchanges=exchanges,
+        ordered=_ordered(loads),
         initial=np.concatenate(initial), linear=linear, n_cells=e,
     )  # fmt: skip
 
@@ -184,6 +190,27 @@ def _loads(
                     surfaces.append(HeatSurface(load=load, points=points, areas=areas))
     held = [(load, np.flatnonzero(owner == k)) for k, load in loads.items() if isinstance(load, Temperature)]
     return tuple(surfaces), tuple(sources), tuple(held)
+
+
+def _exchanges(
+    bodies: Mapping[str, Conductor], contacts: tuple[HeatContact, ...], parts: list[HeatPart], n: int
+) -> tuple[HeatExchange, ...]:
+    """Exchange of heat of each contact."""
+    known = {p.name: (p.mesh, section_of(bodies[p.name], p.mesh), p.nodes.start) for p in parts}
+    found = []
+    for k, contact in enumerate(contacts):
+        with within(f"contacts[{k}]"):
+            found.append(heat_exchange(contact, known, n))
+    return tuple(found)
+
+
+def _ordered(loads: Mapping[int, HeatLoad]) -> tuple[tuple[int, HeatLoad], ...]:
+    """Loads with their numbers, in the order of the ledger."""
+
+    def rank(item: tuple[int, HeatLoad]) -> tuple[bool, bool, int]:
+        return isinstance(item[1], Temperature), isinstance(item[1], HeatSource), item[0]
+
+    return tuple(sorted(loads.items(), key=rank))
 
 
 def _source(part: HeatPart, section: Section, region: str, n: int) -> Array:

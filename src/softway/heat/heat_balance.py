@@ -106,18 +106,22 @@ def prescribed(model: HeatModel, unknowns: Array, time: float) -> Array:
     return out
 
 
-def put_at_once(model: HeatModel, before: Thermal, time: float) -> tuple[Thermal, Array]:
-    """State with the prescribed temperatures of a time [s], and the heat (k,) [J] of the jump to each of them."""
-    brought, after = np.zeros(len(model.held)), before
+def put_at_once(model: HeatModel, before: Thermal, time: float) -> tuple[Thermal, Array, float]:
+    """State with the prescribed temperatures of a time [s], the heat (k,) [J] of the jump to each of them, and the
+    entropy that these heats bring [J/K].
+    """
+    brought, carried, after = np.zeros(len(model.held)), 0.0, before
     target = prescribed(model, before.unknowns, time)
     for k, (_, nodes) in enumerate(model.held):
         if (after.unknowns[nodes] != target[nodes]).any():
             unknowns = after.unknowns.copy()
             unknowns[nodes] = target[nodes]
             changed = thermal(model, unknowns)
-            brought[k] = (changed.content - after.content).sum()
+            gained = changed.content - after.content
+            brought[k] = gained.sum()
+            carried += float((gained / changed.temperature).sum())
             after = changed
-    return after, brought
+    return after, brought, carried
 
 
 def balance(model: HeatModel, before: Thermal, stage: Stage, unknowns: Array, *, slopes: bool) -> Balance:
@@ -134,6 +138,11 @@ def balance(model: HeatModel, before: Thermal, stage: Stage, unknowns: Array, *,
         values, moved = values - h * (surface.points.T @ heat), moved + h * np.abs(heat).sum()
         if matrix is not None and slope.any():
             matrix = matrix - surface.points.T @ sp.diags_array(slope) @ surface.points
+    for exchange in model.exchanges:
+        heat = exchange.heat(mean)
+        values, moved = values + h * (exchange.jump.T @ heat), moved + h * np.abs(heat).sum()
+        if matrix is not None:
+            matrix = matrix + exchange.matrix()
     for power in _powers(model, stage):
         values, moved = values - h * power, moved + h * np.abs(power).sum()
     total = None if matrix is None else _matrix(after, matrix, by_liquid, theta * h)
@@ -174,6 +183,23 @@ def heats(model: HeatModel, before: Thermal, stage: Stage, found: Balance) -> Ar
     return np.array([*surfaces, *sources, *(found.values[nodes].sum() for _, nodes in model.held)])
 
 
+def passed(model: HeatModel, stage: Stage, found: Balance) -> Array:
+    """Heat (k,) that passed each contact from its first to its second surface [J]."""
+    return np.array([stage.span * exchange.heat(found.mean).sum() for exchange in model.exchanges])
+
+
+def entropy_brought(model: HeatModel, stage: Stage, found: Balance) -> float:
+    """Entropy that loads brought [J/K]: their heats over the temperatures at which they came in."""
+    total = 0.0
+    for surface, factor in zip(model.surfaces, _factors(model, stage), strict=True):
+        heat, _ = surface_heat(surface, found.mean, factor)
+        total += stage.span * float((heat / (surface.points @ found.mean)).sum())
+    for power in _powers(model, stage):
+        total += stage.span * float((power / found.mean).sum())
+    held = ~model.free_nodes()
+    return total + float((found.values[held] / found.mean[held]).sum())
+
+
 def rounding(model: HeatModel, before: Thermal, stage: Stage) -> float:
     """Rounding of the sum of the heats of the nodes [J]."""
     total = 2.0 * float(np.abs(before.content).sum())
@@ -182,6 +208,8 @@ def rounding(model: HeatModel, before: Thermal, stage: Stage) -> float:
         k, _ = cells.law.along_axes(at, cells.gradients.shape[-1])
         size = np.einsum("eq,eqar->er", cells.volume, cells.gradients**2)
         total += stage.span * float((size * k).sum(axis=1) @ at)
+    for exchange in model.exchanges:
+        total += 2.0 * stage.span * float(exchange.conductances.sum()) * float(np.abs(before.temperature).max())
     return ROUNDING * total
 
 

@@ -9,7 +9,7 @@ import scipy.sparse as sp
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.conductor import Conductor
 from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, SurfaceHeat, Temperature
-from softway.bodies.setup.knots import knots_of_table
+from softway.heat.heat_contact import HeatContact, HeatExchange
 from softway.kernels.assembly.assembler import Assembler
 from softway.laws.heat.conduction import Conduction
 from softway.laws.heat.heat_content import ContentCurve
@@ -27,6 +27,8 @@ class HeatScene:
     loads
         Temperatures, heat fluxes, convection, radiation and sources.  Surfaces without any are insulated.  Where two
         temperatures meet in a node, the later one holds.
+    contacts
+        Exchange of heat between surfaces that touch; other bodies do not exchange heat.
 
     Examples
     --------
@@ -36,6 +38,7 @@ class HeatScene:
 
     bodies: Mapping[str, Conductor]
     loads: tuple[HeatLoad, ...] = ()
+    contacts: tuple[HeatContact, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -136,6 +139,10 @@ class HeatModel:
         Sources with their nodal volumes (n,) [m^3].
     held
         Prescribed temperatures with their nodes.
+    exchanges
+        Exchange of heat between bodies, for each contact.
+    ordered
+        Loads with their numbers in the scene, in the order of the ledger: surfaces, sources, prescribed temperatures.
     initial
         (n,) initial temperatures [K].
     linear
@@ -152,6 +159,8 @@ class HeatModel:
     surfaces: tuple[HeatSurface, ...]
     sources: tuple[tuple[HeatSource, Array], ...]
     held: tuple[tuple[Temperature, IntArray], ...]
+    exchanges: tuple[HeatExchange, ...]
+    ordered: tuple[tuple[int, HeatLoad], ...]
     initial: Array
     linear: bool
     n_cells: int
@@ -161,10 +170,14 @@ class HeatModel:
         """Number n of nodes."""
         return len(self.mass)
 
-    def knots(self) -> tuple[float, ...]:
-        """Instants at which a ramp of the loads bends [s]."""
-        loads = [*(s.load for s in self.surfaces), *(one for one, _ in self.sources), *(one for one, _ in self.held)]
-        return tuple(sorted({t for load in loads for t in knots_of_table(load.ramp.times, load.ramp.factors)}))
+    @property
+    def loads(self) -> tuple[HeatLoad, ...]:
+        """Loads in the order of the scene."""
+        return tuple(load for _, load in sorted(self.ordered, key=lambda item: item[0]))
+
+    def ledger_places(self) -> tuple[int, ...]:
+        """Place of each load of the scene, in its order, among the heats of the ledger."""
+        return tuple(sorted(range(len(self.ordered)), key=lambda place: self.ordered[place][0]))
 
     def free_nodes(self) -> BoolArray:
         """Nodes (n,) without a prescribed temperature."""

@@ -8,7 +8,17 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray
 from softway.errors import NoConvergence, NumericsError
-from softway.heat.heat_balance import Balance, Stage, balance, heats, logarithmic_mean, prescribed, rounding
+from softway.heat.heat_balance import (
+    Balance,
+    Stage,
+    balance,
+    entropy_brought,
+    heats,
+    logarithmic_mean,
+    passed,
+    prescribed,
+    rounding,
+)
 from softway.heat.heat_model import HeatModel
 from softway.heat.operators import Thermal, thermal, unknowns_of
 from softway.solve.linear.backends.superlu import SuperLU, factor_unsymmetric
@@ -46,24 +56,30 @@ class StageResult:
         Temperatures and contents at the end.
     heats
         Heat that came in by each load on a surface, each source and each prescribed temperature, in this order [J].
+    passed
+        (k,) heat that passed each contact [J].
+    entropy
+        Entropy that the loads brought [J/K].
     iterations
         Number of iterations.
     factor
         Factor of a linear model, for the next stage.
     mean
         (n,) mean temperature at which the strain takes entropy [K].
-    produced, passed
+    produced, turned
         (n,) entropy produced by conduction and dissipation, less what other nodes produce, so that the sum counts
         [J/K], and the magnitudes that take part.
     """
 
     after: Thermal
     heats: Array
+    passed: Array
+    entropy: float
     iterations: int
     factor: HeatFactor | None
     mean: Array
     produced: Array
-    passed: Array
+    turned: Array
 
 
 def linear_factor(model: HeatModel, span: float, linear: LinearSolver = SuperLU()) -> HeatFactor | None:
@@ -122,7 +138,9 @@ def solve_slab(
         iterations=first.iterations + last.iterations,
         mean=0.5 * (first.mean + last.mean),
         produced=first.produced + last.produced,
+        turned=first.turned + last.turned,
         passed=first.passed + last.passed,
+        entropy=first.entropy + last.entropy,
     )
 
 
@@ -192,7 +210,9 @@ def _result(
         factor=frozen,
         mean=mean,
         produced=stage.span * (power - found.flow) / mean,
-        passed=moved / mean,
+        turned=moved / mean,
+        passed=passed(model, stage, found),
+        entropy=entropy_brought(model, stage, found),
     )
 
 

@@ -21,6 +21,8 @@ class HeatLedger:
     by_load
         (k,) heat that each load has brought [J]: first loads on surfaces, then sources, then prescribed temperatures,
         each in the order of the scene.
+    by_contact
+        (k,) heat that has passed each contact from its first to its second surface [J].
 
     Examples
     --------
@@ -34,6 +36,7 @@ class HeatLedger:
     heat_out: float
     error: float
     by_load: tuple[float, ...] = ()
+    by_contact: tuple[float, ...] = ()
 
     @property
     def relative_error(self) -> float:
@@ -42,13 +45,15 @@ class HeatLedger:
         return abs(self.error) / moved if moved else 0.0
 
 
-def opened(content: Array, loads: int) -> HeatLedger:
-    """Ledger at the start of a march, of contents (n,) [J] and a number of loads."""
-    return HeatLedger(heat_content=float(content.sum()), heat_in=0.0, heat_out=0.0, error=0.0, by_load=(0.0,) * loads)
+def opened(content: Array, loads: int, contacts: int = 0) -> HeatLedger:
+    """Ledger at the start of a march, of contents (n,) [J] and numbers of loads and contacts."""
+    zero = HeatLedger(heat_content=float(content.sum()), heat_in=0.0, heat_out=0.0, error=0.0)
+    return replace(zero, by_load=(0.0,) * loads, by_contact=(0.0,) * contacts)
 
 
-def booked(ledger: HeatLedger, content: Array, brought: Array) -> HeatLedger:
-    """Ledger after heats (k,) that the loads ``brought`` [J], with the contents (n,) at the end [J].
+def booked(ledger: HeatLedger, content: Array, brought: Array, passed: Array | None = None) -> HeatLedger:
+    """Ledger after heats that the loads ``brought`` (k,) and that ``passed`` the contacts [J], with the contents (n,)
+    at the end [J].
 
     Examples
     --------
@@ -66,4 +71,7 @@ def booked(ledger: HeatLedger, content: Array, brought: Array) -> HeatLedger:
         heat_out=ledger.heat_out + lost,
         error=ledger.error + ((total - ledger.heat_content) - (gained - lost)),
         by_load=tuple(a + float(b) for a, b in zip(ledger.by_load, brought, strict=True)),
+        by_contact=ledger.by_contact
+        if passed is None
+        else tuple(a + float(b) for a, b in zip(ledger.by_contact, passed, strict=True)),
     )

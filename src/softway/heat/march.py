@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from math import ceil
 
 import numpy as np
 
@@ -11,9 +10,10 @@ from softway.errors import Cancel, InputError, heed
 from softway.heat.build_heat import build_heat
 from softway.heat.heat_balance import Stage, put_at_once
 from softway.heat.heat_model import HeatModel, HeatScene
+from softway.heat.heat_plan import PlannedSlab, planned_slabs
 from softway.heat.heat_slab import solve_slab
 from softway.heat.ledger import HeatLedger, booked, opened
-from softway.heat.operators import Thermal, thermal, unknowns_of
+from softway.heat.operators import Thermal, entropy, thermal, unknowns_of
 from softway.solve.linear.backends.superlu import SuperLU
 from softway.solve.linear.interface import LinearSolver
 from softway.units import Second
@@ -48,8 +48,8 @@ class HeatStep:
 
     Parameters
     ----------
-    time
-        Time of its end [s].
+    time, span
+        Time of its end, and its length [s].
     temperature
         Body -> (n,) temperatures of its nodes [K].
     liquid
@@ -62,17 +62,22 @@ class HeatStep:
         Number of iterations of the slab.
     damped
         True for a slab of two halves whose heat flows at the temperature of their ends.
+    entropy_produced
+        Entropy that the slab produced [J/K]: that of the bodies gained, less what the heats of loads brought at the
+        temperatures at which they came in.  It is not negative but for errors of discretisation.
     state
         State for another march that goes on.
     """
 
     time: float
+    span: float
     temperature: Mapping[str, Array]
     liquid: Mapping[str, Array]
     liquid_volume: Mapping[str, float]
     ledger: HeatLedger
     iterations: int
     damped: bool
+    entropy_produced: float
     state: HeatState
 
     def march_state(self) -> HeatState:
@@ -145,9 +150,9 @@ def march_heat(
     if not 0.0 < step < np.inf:
         raise InputError("step", f"{step:g} s is not positive", "a positive time")
     before = thermal(model, unknowns)
-    ledger = opened(before.content, _count(model)) if state is None else state.ledger
+    ledger = opened(before.content, _count(model), len(model.exchanges)) if state is None else state.ledger
     start = HeatState(time=begin, unknowns=unknowns, ledger=ledger)
-    return _slabs(model, start, before, _planned(model, begin, until, step), damped, linear, cancel)
+    return _slabs(model, start, before, planned_slabs(model, begin, until, step), damped, linear, cancel)
 
 
 def heat_at_start(model: HeatModel) -> HeatStep:
@@ -163,8 +168,10 @@ def heat_at_start(model: HeatModel) -> HeatStep:
     [300.0, 300.0]
     """
     before = thermal(model, unknowns_of(model, model.initial))
-    state = HeatState(time=0.0, unknowns=before.unknowns, ledger=opened(before.content, _count(model)))
-    return _step(model, state, before, 0, damped=False)
+    state = HeatState(
+        time=0.0, unknowns=before.unknowns, ledger=opened(before.content, _count(model), len(model.exchanges))
+    )
+    return _step(model, state, before, _Told(0.0, 0, False, 0.0))
 
 
 def _count(model: HeatModel) -> int:
@@ -172,39 +179,11 @@ def _count(model: HeatModel) -> int:
     return len(model.surfaces) + len(model.sources) + len(model.held)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Planned:
-    """Slab of a march: ``first`` is True at the start and after a knot."""
-
-    start: float
-    end: float
-    span: float
-    first: bool
-
-
-def _planned(model: HeatModel, begin: float, until: float, step: float) -> list[_Planned]:
-    """Slabs after ``begin``: those of the march from zero if one of them ends there, else those of one from there."""
-    whole = _plan(model, 0.0, until, step)
-    rest = [slab for slab in whole if slab.start >= begin]
-    return rest if rest and rest[0].start == begin else _plan(model, begin, until, step)
-
-
-def _plan(model: HeatModel, begin: float, until: float, step: float) -> list[_Planned]:
-    """Slabs from ``begin`` on: equal ones between the knots."""
-    ends, found = [begin, *(t for t in model.knots() if begin < t < until), until], []
-    for low, high in zip(ends[:-1], ends[1:], strict=True):
-        count = ceil((high - low) / step * (1.0 - 1e-9))
-        at = [low + (high - low) * (k / count) for k in range(count)] + [high]
-        span = (high - low) / count
-        found += [_Planned(start=at[k], end=at[k + 1], span=span, first=k == 0) for k in range(count)]
-    return found
-
-
 def _slabs(
     model: HeatModel,
     state: HeatState,
     before: Thermal,
-    planned: list[_Planned],
+    planned: list[PlannedSlab],
     damped: bool,
     linear: LinearSolver,
     cancel: Cancel | None,
@@ -213,15 +192,17 @@ def _slabs(
     ledger, factor, slabs = state.ledger, None, state.slabs
     for slab in planned:
         heed(cancel, slab.start)
-        before, jumped = put_at_once(model, before, slab.start)
+        standing = entropy(model, before)
+        before, jumped, carried = put_at_once(model, before, slab.start)
         ledger = booked(ledger, before.content, _padded(model, jumped))
         calm = damped and slab.first
         stage = Stage(start=slab.start, span=slab.span, theta=1.0 if calm else 0.5)
         found = solve_slab(model, before, stage, calm, factor, linear)
         before, factor = found.after, found.factor
-        ledger, slabs = booked(ledger, before.content, found.heats), slabs + 1
+        ledger, slabs = booked(ledger, before.content, found.heats, found.passed), slabs + 1
         state = HeatState(time=slab.end, unknowns=before.unknowns, ledger=ledger, slabs=slabs)
-        yield _step(model, state, before, found.iterations, damped=calm)
+        produced = entropy(model, before) - standing - carried - found.entropy
+        yield _step(model, state, before, _Told(slab.span, found.iterations, calm, produced))
 
 
 def _padded(model: HeatModel, jumped: Array) -> Array:
@@ -229,17 +210,29 @@ def _padded(model: HeatModel, jumped: Array) -> Array:
     return np.concatenate([np.zeros(_count(model) - len(jumped)), jumped])
 
 
-def _step(model: HeatModel, state: HeatState, after: Thermal, iterations: int, *, damped: bool) -> HeatStep:
+@dataclass(frozen=True, slots=True)
+class _Told:
+    """What a slab tells: length [s], iterations, halves at the temperature of their ends, entropy produced [J/K]."""
+
+    span: float
+    iterations: int
+    damped: bool
+    produced: float
+
+
+def _step(model: HeatModel, state: HeatState, after: Thermal, told: _Told) -> HeatStep:
     """Step of a slab."""
     melting = [part for part in model.parts if part.law.latent is not None]
     liquid = {part.name: after.melted[part.cells] for part in melting}
     return HeatStep(
         time=state.time,
+        span=told.span,
         temperature={part.name: after.temperature[part.nodes] for part in model.parts},
         liquid=liquid,
         liquid_volume={part.name: float(part.volume @ liquid[part.name]) for part in melting},
         ledger=state.ledger,
-        iterations=iterations,
-        damped=damped,
+        iterations=told.iterations,
+        damped=told.damped,
+        entropy_produced=told.produced,
         state=state,
     )

@@ -182,6 +182,36 @@ def heat_flow(
     return flow, sp.csr_array((found.data, found.indices, found.indptr), shape=found.shape), tuple(columns)
 
 
+def entropy(model: HeatModel, now: Thermal) -> float:
+    """Entropy of all conductors [J/K], counted from a temperature of each law; latent heat is that at melting."""
+    total = 0.0
+    for part in model.parts:
+        here = part.nodes
+        mass, temperature = model.mass[here], now.temperature[here]
+        total += float(mass @ part.curve.entropy(temperature))
+        if part.law.latent is None:
+            continue
+        if part.at_nodes:
+            share = part.curve.liquid_share(now.unknowns[here], temperature)[0] if not part.curve.half_range else 0.0
+            latent = float((mass * share).sum()) * part.curve.heat
+        else:
+            latent = float((now.content[here] - mass * part.curve.content(temperature)).sum())
+        total += latent / part.law.latent.melting
+    return total
+
+
+def heat_flux(model: HeatModel, now: Thermal) -> Array:
+    """Mean heat fluxes (E, 3) of the cells [W/m^2]; zero along axes that the mesh has not."""
+    out = np.zeros((model.n_cells, 3))
+    for cells in model.cells:
+        at = now.temperature[cells.nodes]
+        k, _, _ = _conductivity(cells, at @ cells.N.T, now.liquid[cells.numbers])
+        flux = -k * np.einsum("eqar,ea->eqr", cells.gradients, at)
+        mean = np.einsum("eq,eqr->er", cells.volume, flux) / cells.volume.sum(axis=1)[:, None]
+        out[cells.numbers, : mean.shape[1]] = mean
+    return out
+
+
 def _conductivity(cells: HeatCells, temperature: Array, liquid: Array) -> tuple[Array, Array, Array]:
     """Conductivities (e, q, r), and their derivatives along the temperature and the liquid share of the cells."""
     r = cells.gradients.shape[-1]

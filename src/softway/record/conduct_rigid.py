@@ -1,4 +1,4 @@
-"""Recording of the march of a mechanism or a pile: the run folder stays readable however the march ends."""
+"""Recording of the march of a mechanism, a pile or conductors: the run folder stays readable however it ends."""
 
 import json
 import logging
@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from threading import Timer
-from typing import Any, Literal
+from typing import Any, Literal, Protocol
 
 from softway.errors import Cancel, Note, heed
+from softway.heat.march import HeatStep
 from softway.mechanisms.march import MechanismStep
 from softway.piles.march import PileStep
 from softway.record.first_step import chained, first_step
@@ -20,27 +21,43 @@ from softway.record.run import Run
 from softway.record.storage import checkpoint, provenance
 from softway.record.storage.checkpoint import NO_CHECKPOINTS, Checkpoint, Checkpoints
 from softway.record.storage.ending import ending, recording
-from softway.record.storage.line_files import LineFiles
 from softway.record.storage.provenance import DONE, Stop
 from softway.record.storage.run_folder import RunFolder
-from softway.record.write.checkpoint_schedule import CheckpointWriter
+from softway.record.write.checkpoint_schedule import CheckpointWriter, Marked
 from softway.record.write.progress import MechanismProgress, MechanismWatch, Pace, Tell
 
 LOG = logging.getLogger(__name__)
 PATIENCE = 2.0
 """Seconds of the first step after which a line tells that it is being compiled."""
 COMPILING = "compiling the march of the {}: about 15 s, once on this machine"
-Step = MechanismStep | PileStep
+Step = MechanismStep | PileStep | HeatStep
+
+
+class StepFiles(Protocol):
+    """Recorder that takes the steps of a march in order, with its open files by name."""
+
+    @property
+    def files(self) -> Mapping[str, Marked]:
+        """Open files by name."""
+        ...
+
+    def take(self, step: Any, slabs: int) -> None:
+        """Write a step after a number of slabs (time steps)."""
+        ...
+
+    def close(self) -> None:
+        """Close the files."""
+        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class RigidRun:
-    """What the records of a mechanism or a pile need to know.
+    """What the records of a mechanism, a pile or conductors need to know.
 
     Parameters
     ----------
     what
-        ``mechanism`` or ``pile``.
+        ``mechanism``, ``pile`` or ``conductors``.
     opened
         Function that opens the records in a folder, truncated to their marks.
     until, slabs, every
@@ -55,8 +72,8 @@ class RigidRun:
         Schedule of the checkpoints; a temporary folder has none.
     """
 
-    what: Literal["mechanism", "pile"]
-    opened: Callable[[Path, Mapping[str, int]], LineFiles]
+    what: Literal["mechanism", "pile", "conductors"]
+    opened: Callable[[Path, Mapping[str, int]], StepFiles]
     until: float
     slabs: int
     every: int
@@ -81,7 +98,7 @@ def record_rigid(
     Parameters
     ----------
     steps
-        Steps of :func:`softway.mechanisms.march` or :func:`softway.piles.march`.
+        Steps of :func:`softway.mechanisms.march`, :func:`softway.piles.march` or :func:`softway.heat.march_heat`.
     opening
         What the records need to know.
     place
@@ -168,7 +185,7 @@ def continue_rigid(
     return _carried_on(chain, opening, run, recorder, keeper, record, at, progress, cancel)
 
 
-def _opened(run: Run, opening: RigidRun, marks: Mapping[str, int]) -> LineFiles:
+def _opened(run: Run, opening: RigidRun, marks: Mapping[str, int]) -> StepFiles:
     """Open the records, truncated to their marks."""
     with recording(run.path):
         return opening.opened(run.path, marks)
@@ -178,7 +195,7 @@ def _carried_on(
     steps: Iterator[Step],
     opening: RigidRun,
     run: Run,
-    recorder: LineFiles,
+    recorder: StepFiles,
     keeper: CheckpointWriter,
     record: Mapping[str, Any],
     at: tuple[int, float],
@@ -213,7 +230,7 @@ def _first(steps: Iterator[Step], what: str, tell: Tell) -> tuple[Step | None, B
         timer.cancel()
 
 
-def _finish(run: Run, recorder: LineFiles, keeper: CheckpointWriter, record: Mapping[str, Any], stop: Stop) -> None:
+def _finish(run: Run, recorder: StepFiles, keeper: CheckpointWriter, record: Mapping[str, Any], stop: Stop) -> None:
     """Write a last checkpoint, or remove all of them after success; close the records; write summary and provenance."""
 
     def storing() -> AbstractContextManager[None]:  # after a failure the first exception is the one that is raised

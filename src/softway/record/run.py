@@ -14,12 +14,15 @@ from softway.record.pile.motion import BallMotion, read_motion
 from softway.record.pile.summary import summarise_pile
 from softway.record.read import summary
 from softway.record.read.frames import Fields
+from softway.record.read.heat_summary import summarise_heat
 from softway.record.read.mechanism_summary import summarise_mechanism
 from softway.record.storage import provenance, table
 from softway.record.storage.gate.own_files import plain_file, readable_file
 from softway.record.storage.provenance import RUNNING, Stop
 from softway.record.storage.table import Table
 from softway.record.write import events, fields, history
+from softway.record.write.heat import columns as heat_columns
+from softway.record.write.heat import outline as heat_outline
 from softway.record.write.history_columns import COLUMNS
 from softway.record.write.mechanism import columns, outline
 
@@ -68,6 +71,8 @@ class Run:
             if self.of_mechanism
             else pile_history.NEEDED
             if self.of_pile
+            else heat_columns.NEEDED
+            if self.of_heat
             else [(c.name, c.unit) for c in COLUMNS]
         )
         return table.read(self.path / history.FILE, needed)
@@ -76,6 +81,11 @@ class Run:
     def of_mechanism(self) -> bool:
         """True if the bodies of the run are rigid bodies of a mechanism."""
         return (self.path / outline.FILE).is_file()
+
+    @property
+    def of_heat(self) -> bool:
+        """True if the bodies of the run are conductors."""
+        return (self.path / heat_outline.FILE).is_file()
 
     @property
     def of_pile(self) -> bool:
@@ -193,6 +203,8 @@ class Run:
         """Numbers of the summary, computed from the tables in their present state."""
         if self.of_pile:
             return summarise_pile(self.history, len(self.pile["radii"]))
+        if self.of_heat:
+            return summarise_heat(self.history)
         if self.of_mechanism:
             return summarise_mechanism(self.history, self.motion, self.events, self.outline)
         return summary.summarise(self.history, self.events)

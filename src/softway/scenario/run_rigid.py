@@ -1,11 +1,13 @@
-"""Execution of a scenario of rigid bodies or balls: march of the mechanism or pile, recorded in a run folder."""
+"""Execution of a scenario of rigid bodies, balls or conductors: their march, recorded in a run folder."""
 
 from collections.abc import Iterator, Mapping
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import Any, cast
 
 from softway.errors import Cancel, InputError
+from softway.heat.march import HeatState, HeatStep, heat_at_start, march_heat
 from softway.mechanisms.arrays import MechanismState
 from softway.mechanisms.march import march as march_mechanism
 from softway.mechanisms.members.mechanism import Mechanism
@@ -18,15 +20,19 @@ from softway.record.run import Run
 from softway.record.storage.checkpoint import last
 from softway.record.storage.line_files import LineFiles
 from softway.record.storage.run_folder import RunFolder
+from softway.record.write.heat import outline as heat_outline
+from softway.record.write.heat.recorder import HeatOpening, open_heat
 from softway.record.write.mechanism import outline
 from softway.record.write.mechanism.probes import BodyReading
 from softway.record.write.mechanism.recorder import open_mechanism
 from softway.record.write.progress import MechanismWatch, Tell
+from softway.scenario.checks.heat import CheckedHeat
 from softway.scenario.checks.mechanism import CheckedMechanism
 from softway.scenario.checks.pile import CheckedPile
 
-CheckedRigid = CheckedMechanism | CheckedPile
-"""Scenario of rigid bodies or of balls that has passed all checks."""
+CheckedRigid = CheckedMechanism | CheckedPile | CheckedHeat
+"""Scenario of rigid bodies, of balls or of conductors that has passed all checks: all but solids."""
+RigidState = MechanismState | PileState | HeatState
 
 
 def run_rigid(
@@ -46,7 +52,7 @@ def run_rigid(
         As for :func:`softway.run`.
     """
     return record_rigid(
-        _steps(checked, None), _opening(checked, texts), place, progress=progress, cancel=cancel, tell=tell
+        _steps(checked, None, cancel), _opening(checked, texts), place, progress=progress, cancel=cancel, tell=tell
     )
 
 
@@ -68,19 +74,27 @@ def resume_rigid(
     """
     opening = _opening(checked, texts)
     found = last(stopped.path, partial(_require_state, checked))
-    steps = _steps(checked, None if found is None else cast(MechanismState | PileState, found.march_state))
+    steps = _steps(checked, None if found is None else cast(RigidState, found.march_state), cancel)
     return continue_rigid(steps, opening, stopped, found, progress=progress, cancel=cancel, tell=tell)
 
 
-def _steps(checked: CheckedRigid, state: MechanismState | PileState | None) -> Iterator[Step]:
+def _steps(checked: CheckedRigid, state: RigidState | None, cancel: Cancel | None = None) -> Iterator[Step]:
     """March of a checked scenario, from a state of it on."""
     time = checked.scenario.time
     step = time.step if isinstance(time.step, float | int) else checked.step
+    if isinstance(checked, CheckedHeat):
+        return _heat_steps(checked, cast(HeatState | None, state), cancel)
     if isinstance(checked, CheckedPile):
         given, sweeps = cast(PileState | None, state), checked.scenario.pile.sweeps
         return march_pile(checked.pile, until=time.end, step=step, every=checked.every, sweeps=sweeps, state=given)
     begin = cast(MechanismState | None, state)
     return march_mechanism(checked.mechanism, until=time.end, step=step, every=checked.every, state=begin)
+
+
+def _heat_steps(checked: CheckedHeat, state: HeatState | None, cancel: Cancel | None) -> Iterator[HeatStep]:
+    """March of conductors, which begins with the state at the start."""
+    rest = march_heat(checked.model, until=checked.scenario.time.end, step=checked.step, state=state, cancel=cancel)
+    return rest if state is not None else chain([heat_at_start(checked.model)], rest)
 
 
 def _require_state(checked: CheckedRigid, state: object) -> None:
@@ -89,7 +103,9 @@ def _require_state(checked: CheckedRigid, state: object) -> None:
         raise InputError("state", f"is a {type(state).__name__}", "the checkpoint of a pile")
     if isinstance(checked, CheckedMechanism) and not isinstance(state, MechanismState):
         raise InputError("state", f"is a {type(state).__name__}", "the checkpoint of a mechanism")
-    _steps(checked, cast(MechanismState | PileState, state))
+    if isinstance(checked, CheckedHeat) and not isinstance(state, HeatState):
+        raise InputError("state", f"is a {type(state).__name__}", "the checkpoint of conductors")
+    _steps(checked, cast(RigidState, state))
 
 
 def _opening(checked: CheckedRigid, texts: Mapping[str, str]) -> RigidRun:
@@ -98,12 +114,17 @@ def _opening(checked: CheckedRigid, texts: Mapping[str, str]) -> RigidRun:
     common: dict[str, Any] = {
         "until": given.time.end,
         "slabs": checked.slabs,
-        "every": checked.every,
+        "every": 1 if isinstance(checked, CheckedHeat) else checked.every,
         "title": given.title,
         "texts": texts,
         "notes": checked.notes,
         "plan": given.output.checkpoints,
     }
+    if isinstance(checked, CheckedHeat):
+        end, every = given.time.end, checked.fields_every
+        opening = HeatOpening(model=checked.model, readings=checked.readings, until=end, fields_every=every)
+        told = (heat_outline.FILE, heat_outline.outline(checked.model))
+        return RigidRun(what="conductors", opened=partial(open_heat, opening), outline=told, **common)
     if isinstance(checked, CheckedPile):
         parts = pile_outline.outline(checked.pile, {name: group.balls for name, group in checked.bodies.items()})
         return RigidRun(what="pile", opened=open_pile, outline=(pile_outline.FILE, parts), **common)

@@ -5,13 +5,16 @@ from dataclasses import dataclass, field
 from math import isfinite
 from typing import Literal
 
+from softway.bodies.conductor import Conductor
 from softway.bodies.inertia.inertia_scaling import Full, Inertia
 from softway.bodies.internal_force.materials import laws_of
+from softway.bodies.setup.heat_loads import HeatLoad
 from softway.bodies.setup.loads import Load
 from softway.bodies.solid import Solid, Tool
 from softway.contact.assembly.tie import Tie
 from softway.contact.contact import Contact
 from softway.errors import InputError, real
+from softway.heat.heat_contact import HeatContact
 from softway.html_tables import table as html_table
 from softway.march.step_control import StepControl
 from softway.mechanisms.members.couplings import Gear
@@ -85,7 +88,7 @@ class Probe:
         Reference point whose nearest node is recorded, instead of a tag; of a rigid body the point itself, by default
         its centre [m].
     quantity
-        Recorded quantity; rotation and spin (angular velocity) belong to rigid bodies.
+        Recorded quantity; rotation and spin (angular velocity) belong to rigid bodies, temperature to conductors.
     component
         Recorded component; ``norm`` is the magnitude of the vector.  A rigid body in the plane turns about ``z``.
 
@@ -99,7 +102,9 @@ class Probe:
     of: str
     tag: str | None = None
     at: tuple[Metre, ...] | None = None
-    quantity: Literal["displacement", "velocity", "position", "reaction", "rotation", "spin"] = "displacement"
+    quantity: Literal["displacement", "velocity", "position", "reaction", "rotation", "spin", "temperature"] = (
+        "displacement"
+    )
     component: Literal["x", "y", "z", "norm"] = "x"
 
 
@@ -138,7 +143,7 @@ class Output:
             raise InputError("fields_every", f"{self.fields_every:g} s is not positive", 'a time, or "auto"')
 
 
-Body = Solid | Tool | Rigid | BallGroup
+Body = Solid | Tool | Rigid | BallGroup | Conductor
 """Body of a scenario."""
 
 
@@ -149,13 +154,15 @@ class Scenario:
     Parameters
     ----------
     bodies
-        Solids and tools by name, rigid bodies of a :class:`~softway.mechanisms.Mechanism`, or groups of balls.
+        Solids and tools by name, rigid bodies of a :class:`~softway.mechanisms.Mechanism`, groups of balls, or
+        conductors.
     time
         End time and time steps.
     title
         Title of the run, in one line.
     contacts, ties, loads
-        Contact pairs, permanent ties and loads on the bodies, as in :class:`~softway.model.scene.Scene`.
+        Contact pairs, permanent ties and loads on the bodies, as in :class:`~softway.model.scene.Scene`; conductors
+        have loads of heat.
     start
         Initial fields as given, or a static equilibrium.
     inertia
@@ -180,6 +187,8 @@ class Scenario:
         What the coefficients of restitution are ratios of: velocities (``Newton``) or impulses (``Poisson``).
     pile
         Walls around balls, and laws of their contacts.
+    heat_contacts
+        Exchange of heat between conductors that touch, as in :class:`~softway.heat.HeatScene`.
     """
 
     bodies: Mapping[str, Body]
@@ -187,7 +196,7 @@ class Scenario:
     title: str = ""
     contacts: tuple[Contact, ...] = ()
     ties: tuple[Tie, ...] = ()
-    loads: tuple[Load, ...] = ()
+    loads: tuple[Load | HeatLoad, ...] = ()
     start: AsGiven | StaticStart = AsGiven()
     inertia: Inertia = Full()
     solver: FixedPoint | Newton | Explicit = FixedPoint()
@@ -202,6 +211,7 @@ class Scenario:
     impacts: Impacts = "simultaneous"
     restitution: Restitution = "Newton"
     pile: PileContacts = PileContacts()
+    heat_contacts: tuple[HeatContact, ...] = ()
 
     def _repr_html_(self) -> str:
         """HTML table for notebooks."""
@@ -230,13 +240,18 @@ class Scenario:
         }
 
     @property
+    def mechanical_loads(self) -> tuple[Load, ...]:
+        """Loads that are forces."""
+        return tuple(load for load in self.loads if isinstance(load, Load))
+
+    @property
     def scene(self) -> Scene:
         """Scene of solids and tools; its meshes are still recipes."""
         return Scene(
             bodies={name: body for name, body in self.bodies.items() if isinstance(body, Solid | Tool)},
             contacts=self.contacts,
             ties=self.ties,
-            loads=self.loads,
+            loads=self.mechanical_loads,
             start=self.start,
             inertia=self.inertia,
         )
@@ -251,6 +266,8 @@ def _described(name: str, body: Body) -> str:
     """Description of a body for notebooks."""
     if isinstance(body, BallGroup):
         return f"{name}: {type(body).__name__}"
+    if isinstance(body, Conductor):
+        return f"{name}: Conductor of {type(body.mesh).__name__}"
     if isinstance(body, Rigid):
         return f"{name}: Rigid, {body.mass:.4g} kg"
     if isinstance(body, Tool):

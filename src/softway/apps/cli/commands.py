@@ -32,6 +32,7 @@ from softway.apps.cli.verify import verify
 from softway.apps.cli.view import view
 from softway.errors import InputError, NumericsError, StorageError
 from softway.scenario.checks.check import Checked
+from softway.scenario.checks.heat import CheckedHeat
 from softway.scenario.checks.pile import CheckedPile
 from softway.scenario.files import dumps
 from softway.scenario.run import run as execute
@@ -265,9 +266,10 @@ def race(
 
 
 def _of_solids(file: Path, checked: Checked | CheckedRigid) -> Checked:
-    """Refuse a scenario of rigid bodies or balls."""
+    """Refuse a scenario of rigid bodies, balls or conductors."""
     if not isinstance(checked, Checked):
-        what = "balls" if isinstance(checked, CheckedPile) else "rigid bodies"
+        words = {CheckedPile: "balls", CheckedHeat: "conductors"}
+        what = words.get(type(checked), "rigid bodies")
         raise InputError(str(file), f"is a scenario of {what}: there are no methods to compare", "softway run")
     return checked
 

@@ -19,9 +19,11 @@ from softway.record.audit.mechanism import MechanismAudit, audited_mechanism
 from softway.record.audit.pile import audited_pile
 from softway.record.export.motion import export as write_motion
 from softway.record.read.findings import gathered, stored
+from softway.record.read.heat_summary import told_of_heat
 from softway.record.run import SCENARIO, Run
 from softway.record.write.fields import FILE as FIELDS
 from softway.scenario.checks.check import check
+from softway.scenario.checks.heat import CheckedHeat
 from softway.scenario.checks.mechanism import CheckedMechanism
 from softway.scenario.checks.pile import CheckedPile
 from softway.scenario.run import stored as stored_scenario
@@ -54,7 +56,7 @@ def export(folder: Path, /, *, to: Path) -> None:
     run = Run(folder)
     if not (run.of_mechanism or run.of_pile):
         remedy = f"open {folder / FIELDS} in ParaView, or read sw.Run('{folder}').fields in Python"
-        raise InputError(str(folder), "is the run of solids: their frames need no export", remedy)
+        raise InputError(str(folder), "has frames, which need no export", remedy)
     written = write_motion(run, to)
     what = f"{len(run.pile['radii'])} balls" if run.of_pile else f"{len(run.outline['bodies'])} bodies"
     Console().print(escape(f"{written}: {what} at {len(run.times)} instants"), soft_wrap=True, highlight=False)
@@ -86,7 +88,7 @@ def audit(
     error of the energy balance is computed again from the energies in history.csv. Warnings name findings, also those
     of the run, that its summary does not tell. Of rigid bodies all joints, the gaps of their stops, energies and
     momenta are computed again from their motion, beside solids at the stored frames; of a pile the gaps of all balls
-    and walls, energies, momentum and angular momentum.
+    and walls, energies, momentum and angular momentum. Of conductors the balance of heat is told.
 
     Parameters
     ----------
@@ -98,6 +100,8 @@ def audit(
         Print the findings only.
     """
     run, console = Run(folder), Console(quiet=quiet)
+    if run.of_heat:
+        return _heat_audited(run, console)
     if run.of_pile:
         return FINDINGS if _pile_audited(run, console) and strict else 0
     if run.of_mechanism:
@@ -137,7 +141,7 @@ def _rigid_audited(run: Run, console: Console) -> int:
     """
     try:
         checked = check(stored_scenario(run.path))
-        if isinstance(checked, CheckedMechanism | CheckedPile):
+        if isinstance(checked, CheckedMechanism | CheckedPile | CheckedHeat):
             raise InputError(str(run.path / SCENARIO), "is a scenario without solids", "the unchanged run folder")
     except InputError as error:
         Console(stderr=True).print(f"joints are left out: {escape(str(error))}", soft_wrap=True, highlight=False)
@@ -169,6 +173,13 @@ def _pile_audited(run: Run, console: Console) -> int:
     parts = ", ".join(f"{name.removeprefix('the ')} to {error:.1e}" for name, error in told.balances.items())
     say(f"history.csv tells what the motion gives: {parts}")
     return _found(told.findings)
+
+
+def _heat_audited(run: Run, console: Console) -> int:
+    """Tell how the balance of heat holds in the history of conductors, which have no geometry to look at."""
+    for sentence in told_of_heat(run.numbers):
+        console.print(sentence, markup=False, soft_wrap=True, highlight=False)
+    return 0
 
 
 def _found(sentences: Sequence[str]) -> int:

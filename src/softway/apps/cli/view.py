@@ -16,7 +16,7 @@ from softway.record.storage.atomic_file import replaced
 from softway.record.view.page import page
 
 PAGE = "view.html"
-"""File of the page of a mechanism or a pile."""
+"""File of the page of a mechanism, a pile or conductors."""
 
 
 def view(
@@ -29,7 +29,8 @@ def view(
 ) -> None:
     """Show a run in the browser: moving mesh, fields, curves, events. Only this machine can open the page.
 
-    Of a mechanism or a pile the page is a file, view.html in the run folder, with its positions, curves and events.
+    Of a mechanism, a pile or conductors the page is a file, view.html in the run folder, with its positions or
+    temperatures, curves and events.
 
     Parameters
     ----------
@@ -45,7 +46,7 @@ def view(
     if not 0 <= port <= 65535:
         raise InputError("--port", f"{port}", "a number from 1 to 65535, or 0 for any free port")
     console, run = Console(), Run(folder)
-    if run.of_mechanism or run.of_pile:
+    if run.of_mechanism or run.of_pile or run.of_heat:
         if live or port:
             problem = "a page of its own is made of this run, without a server"
             raise InputError("--live, --port", problem, "omit them; softway view again for what is new")
@@ -60,7 +61,7 @@ def view(
 
 
 def _page(run: Run, console: Console, browser: bool) -> None:
-    """Write the page of a mechanism or a pile into its folder, and open it."""
+    """Write the page of a mechanism, a pile or conductors into its folder, and open it."""
     file = run.path / PAGE
     with console.status("first picture") as status:
         text = page(run, sentences_of(run, run.summary), lambda done, of: status.update(f"picture {done} of {of}"))

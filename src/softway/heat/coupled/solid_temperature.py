@@ -10,6 +10,7 @@ from softway.errors import NoConvergence, NumericsError
 from softway.heat.coupled.expansion import Expansion
 from softway.heat.heat_balance import Stage, StrainHeat, put_at_once
 from softway.heat.heat_model import HeatModel
+from softway.heat.heat_plan import knots
 from softway.heat.heat_slab import HeatFactor, StageResult, linear_factor, solve_slab
 from softway.heat.operators import Thermal, thermal, unknowns_of
 from softway.model.field import Field, FieldSlab, FieldSolution, FieldState
@@ -92,7 +93,7 @@ class SolidTemperature:
 
     def in_slab(self, start: float, end: float) -> "SolidTemperature":
         """Equations in a slab from ``start`` to ``end`` [s]; the first one and those after a knot are damped."""
-        span, damped = end - start, start == 0.0 or start in self.model.knots()
+        span, damped = end - start, start == 0.0 or start in knots(self.model)
         factor = linear_factor(self.model, 0.5 * span)
         return replace(self, time=TimeOfSlab(start=start, end=end, damped=damped, factor=factor))
 
@@ -141,14 +142,14 @@ class SolidTemperature:
             brought=float(jumped.sum() + found.heats.sum()),
             received=work - float(end.energy.sum() - slab.start.energy.sum()),
             produced=float(found.produced.sum()),
-            passed=float(found.passed.sum() + np.abs(change).sum()),
+            passed=float(found.turned.sum() + np.abs(change).sum()),
         )
 
     def _solved(self, slab: FieldSlab, change: Array) -> tuple[Array, StageResult]:
         """Heats of prescribed temperatures that jump at the start [J], and the result of a slab."""
         assert self.time is not None
         time, h = self.time, slab.span
-        before, jumped = put_at_once(self.model, self._before(slab), time.start)
+        before, jumped, _ = put_at_once(self.model, self._before(slab), time.start)
         strain = StrainHeat(power=np.zeros(len(change)), entropy=change / h)
         stage = Stage(start=time.start, span=h, theta=1.0 if time.damped else 0.5, strain=strain)
         try:

@@ -8,7 +8,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.errors import InputError, positive, real
 from softway.laws.heat.temperature_table import TemperatureTable, Value, slope_at, value_at
-from softway.units import JoulePerKilogram, JoulePerKilogramKelvin, Kelvin, WattPerMetreKelvin
+from softway.units import JoulePerKilogram, JoulePerKilogramKelvin, Kelvin, KelvinDifference, WattPerMetreKelvin
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,7 +39,7 @@ class Latent:
 
     heat: JoulePerKilogram
     melting: Kelvin
-    half_range: Kelvin = 0.0
+    half_range: KelvinDifference = 0.0
     liquid: "Conduction | None" = None
 
     def __post_init__(self) -> None:

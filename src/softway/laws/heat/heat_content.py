@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softway.arrays import Array
+from softway.arrays import Array, IntArray
 from softway.laws.heat.conduction import Conduction
 from softway.laws.heat.temperature_table import value_at
 
@@ -59,6 +59,27 @@ class ContentCurve:
         """Derivative of the content (...) [J/(kg K)]."""
         piece = np.searchsorted(self.knots, temperature, side="left")
         return np.asarray(self.capacities[piece] + self.slopes[piece] * (temperature - self.anchors[piece]))
+
+    def entropy(self, temperature: Array) -> Array:
+        """Integral (...) of the capacity over the temperature, from the lowest knot [J/(kg K)], without a jump.
+
+        Examples
+        --------
+        >>> from softway.laws.heat.conduction import Conduction
+        >>> curve = content_curve(Conduction(conductivity=1.0, capacity=4.0), latent=False)
+        >>> (curve.entropy(np.array([300.0])) / np.log(300.0 / 273.15)).round(12).tolist()
+        [4.0]
+        """
+        whole = self._entropy(np.arange(1, len(self.anchors) - 1), self.anchors[2:])
+        begun = np.concatenate([[0.0, 0.0], np.cumsum(whole)])
+        piece = np.searchsorted(self.knots, temperature, side="left")
+        return np.asarray(begun[piece] + self._entropy(piece, temperature))
+
+    def _entropy(self, piece: IntArray, temperature: Array) -> Array:
+        """Integral (...) from the anchor of a piece to a temperature in it."""
+        start, slope = self.anchors[piece], self.slopes[piece]
+        steady = self.capacities[piece] - slope * start
+        return np.asarray(steady * np.log1p((temperature - start) / start) + slope * (temperature - start))
 
     def temperature(self, content: Array) -> tuple[Array, Array]:
         """Temperature (...) [K] of a content (...) [J/kg], and its derivative [kg K/J], zero while matter melts."""

@@ -15,7 +15,7 @@ from softway.record.audit.geometry.overlap import overlaps
 from softway.record.audit.geometry.solids import Solids, solids
 from softway.record.audit.geometry.tools import behind, sunk
 from softway.record.read.findings import BETWEEN, INVERTED, OVERLAP, finding
-from softway.record.write.grid_layout import Grid, blocks, owners
+from softway.record.write.grid.grid_layout import Grid, blocks, owners
 
 VISIBLE = 1e-3
 """Depth of an overlap, relative to the largest side of the smaller body, from which it is a finding: one pixel in a

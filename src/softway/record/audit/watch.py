@@ -15,7 +15,7 @@ from softway.record.audit.auditor import Auditor, auditor
 from softway.record.audit.energy_watch import ENERGIES, EnergyWatch, given_back, missed
 from softway.record.read.findings import ENERGY, MOMENTUM, SPIN, finding
 from softway.record.storage.table import Table
-from softway.record.write.grid_layout import layout
+from softway.record.write.grid.grid_layout import layout
 from softway.record.write.mechanism.rigid_table import placed_bodies
 from softway.record.write.recorder import RunStart
 

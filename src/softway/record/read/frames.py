@@ -15,9 +15,9 @@ from softway.errors import InputError
 from softway.meshes.cells import CELLS
 from softway.record.read.recorded_bodies import RecordedBody, recorded_bodies
 from softway.record.storage.gate.hdf5_file import BROKEN, reading
-from softway.record.write.fields import CELL_DATA, FILE, POINT_DATA
-from softway.record.write.grid_layout import VTK, blocks
-from softway.record.write.grid_series import SIZES
+from softway.record.write.fields import FILE
+from softway.record.write.grid.grid_layout import VTK, blocks
+from softway.record.write.grid.grid_series import SIZES
 from softway.record.write.shapes.tool_shapes import recovered
 
 if TYPE_CHECKING:
@@ -85,7 +85,8 @@ class Frame:
         (e, 6) mean Cauchy stress of the cells, xx yy zz xy yz xz, and (e,) its von Mises equivalent [Pa].
     more
         Further recorded fields by name: ``contact_pressure`` (n,) and ``tangential_traction`` (n, 3) [Pa],
-        ``plastic_strain`` and other scalar history variables (e,) of a law, ``dissipation`` (e,) [J/m^3].
+        ``plastic_strain`` and other scalar history variables (e,) of a law, ``dissipation`` (e,) [J/m^3]; of conductors
+        ``temperature`` (n,) [K], ``heat_flux`` (e, 3) [W/m^2] and ``liquid`` (e,), while their stress is ``nan``.
     """
 
     time: float
@@ -151,7 +152,7 @@ class Fields:
             data = {**point, **cell}
             if any(len(values) != rows for part, rows in ((point, n), (cell, e)) for values in part.values()):
                 raise ValueError(f"a field of frame {k} is too short")
-            always = {name: data.pop(name) for name in (*POINT_DATA, *CELL_DATA)}
+            always = {name: data.pop(name, nothing) for name, nothing in _absent(n, e).items()}
             return Frame(time=float(root["Steps/Values"][k]), points=root["Points"][at], **always, more=data)
 
     @property
@@ -206,6 +207,13 @@ class Fields:
             (grid.point_data if kind.on == "nodes" else grid.cell_data)[name] = frame[name]
         grid.cell_data["body"] = cells.body
         return grid
+
+
+def _absent(n: int, e: int) -> dict[str, Array]:
+    """Fields of solids as conductors have them: no motion and no force, and stresses that are not known."""
+    still, unknown = np.zeros((n, 3)), np.full(e, np.nan)
+    points = {"displacement": still, "velocity": still, "contact_force": still[:, 0]}
+    return {**points, "stress": np.full((e, 6), np.nan), "von_mises": unknown}
 
 
 def _count(root: Any) -> int:

@@ -44,6 +44,11 @@ class Records(Protocol):
         ...
 
     @property
+    def of_heat(self) -> bool:
+        """True if the bodies of the run are conductors."""
+        ...
+
+    @property
     def times(self) -> Array:
         """Stored instants (t,) of the places of the bodies [s]."""
         ...

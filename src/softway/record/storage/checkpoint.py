@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from softway.errors import InputError
+from softway.heat.march import HeatState
 from softway.march.march_state import MarchState
 from softway.mechanisms.arrays import MechanismState
 from softway.piles.state import PileState
@@ -72,7 +73,7 @@ NO_CHECKPOINTS = Checkpoints(keep=0)
 class Checkpoint:
     """State of a run: the state of the march, the length of each record, and the wall-clock time so far [s]."""
 
-    march_state: MarchState | MechanismState | PileState
+    march_state: MarchState | MechanismState | PileState | HeatState
     marks: Mapping[str, int]
     wall: float
 
@@ -80,7 +81,7 @@ class Checkpoint:
     def time(self) -> float:
         """Time that the march has reached [s]."""
         reached = self.march_state
-        return reached.time if isinstance(reached, MechanismState | PileState) else reached.state.time
+        return reached.time if isinstance(reached, MechanismState | PileState | HeatState) else reached.state.time
 
 
 class Damaged(Exception):
@@ -114,7 +115,7 @@ def listed(folder: Path) -> list[Path]:
 
 
 def last(
-    folder: Path, require: Callable[[MarchState | MechanismState | PileState], object] = lambda state: None
+    folder: Path, require: Callable[[MarchState | MechanismState | PileState | HeatState], object] = lambda state: None
 ) -> Checkpoint | None:
     """Last usable checkpoint of a run folder; a warning names each other one.
 

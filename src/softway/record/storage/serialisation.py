@@ -18,6 +18,8 @@ from softway.contact.contact_rows import ContactRows
 from softway.contact.tangential_rows import TangentialRows
 from softway.errors import InputError
 from softway.heat.coupled.heat_of_solids import HeatOfSolids
+from softway.heat.ledger import HeatLedger
+from softway.heat.march import HeatState
 from softway.march.march_state import EnergyAccount, MarchState, Settings, StepHistory
 from softway.march.model_state import ModelState
 from softway.march.step_control import StepControl
@@ -44,6 +46,8 @@ KINDS: Mapping[str, type] = MappingProxyType(
                 MarchState,
                 MechanismState,
                 PileState,
+                HeatState,
+                HeatLedger,
                 Settings,
                 ModelState,
                 SlabStart,

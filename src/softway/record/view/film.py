@@ -20,6 +20,7 @@ from softway.record.view.mechanism.positions import film_of
 from softway.record.view.options import STANDARD, PictureOptions
 from softway.record.view.pile.balls import film_of_pile
 from softway.record.view.plots.paths import diagrams
+from softway.record.view.plots.profiles import is_of_bars, profile_film
 from softway.record.view.style import BLACK, canvas, library, styled
 
 if TYPE_CHECKING:
@@ -132,12 +133,16 @@ def _drawn(run: Records, look: PictureOptions, numbers: list[int]) -> "tuple[Fig
     """Figure of the bodies, and the function that draws a frame into it."""
     if run.of_pile or run.of_mechanism:
         return rigid_film(run, look)
-    bars = set(run.fields.cells.blocks()) <= {"bar2", "bar3"}
-    return (_bars if bars else _solids)(run, look, numbers)
+    if is_of_bars(run):
+        return profile_film(run, look) if run.of_heat else _bars(run, look, numbers)
+    return _solids(run, look, numbers)
 
 
 def rigid_film(run: Records, look: PictureOptions) -> "tuple[Figure, Draw]":
-    """Figure of a mechanism or a pile, and the function that draws a stored instant into it."""
+    """Figure of a mechanism, a pile or conductors, and the function that draws a stored instant into it."""
+    if run.of_heat:
+        numbers = list(range(len(run.fields)))
+        return profile_film(run, look) if is_of_bars(run) else _solids(run, look, numbers)
     return film_of_pile(run, look) if run.of_pile else film_of(run, look)
 
 

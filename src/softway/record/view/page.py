@@ -1,4 +1,4 @@
-"""Page of the run of a mechanism or a pile: one file of HTML with its motion, history and events, for any browser."""
+"""Page of the run of a mechanism, a pile or conductors: a file of HTML with motion or fields, history and events."""
 
 import io
 from base64 import b64encode
@@ -71,7 +71,7 @@ show(0);
 
 
 def page(run: Records, sentences: Sequence[str], watch: Callable[[int, int], None] | None = None) -> str:
-    """HTML page of the run of a mechanism or a pile, which needs no other file and no server.
+    """HTML page of the run of a mechanism, a pile or conductors, which needs no other file and no server.
 
     Parameters
     ----------

@@ -15,6 +15,7 @@ from softway.record.view.options import STANDARD, PictureOptions
 from softway.record.view.pile.balls import piles
 from softway.record.view.plots.history import history
 from softway.record.view.plots.paths import paths
+from softway.record.view.plots.profiles import is_of_bars, profiles
 from softway.record.view.style import RED, styled
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ def pictures(run: Records, out: Path | None = None, look: PictureOptions = STAND
     look
         Field, instants and size of the pictures.
     """
-    bars = not (run.of_mechanism or run.of_pile) and is_bars(run)
+    bars = not (run.of_mechanism or run.of_pile or run.of_heat) and is_bars(run)
     if bars and (look.times or look.field is not None):
         raise InputError("--field, --at", "the picture of bars shows all times and no field", "omit these options")
     first = out or run.path / "bodies.png"
@@ -43,8 +44,8 @@ def pictures(run: Records, out: Path | None = None, look: PictureOptions = STAND
 
 
 def is_bars(run: Records) -> bool:
-    """Check whether all bodies are bars; bars are shown by their paths."""
-    return set(run.fields.cells.blocks()) <= {"bar2", "bar3"}
+    """Check whether all bodies are bars; bars are shown by their paths, or their temperatures."""
+    return is_of_bars(run)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -106,4 +107,6 @@ def _scene_of(run: Records) -> "Callable[[Records, PictureOptions], Figure]":
         return piles
     if run.of_mechanism:
         return positions
-    return paths if is_bars(run) else bodies
+    if is_bars(run):
+        return profiles if run.of_heat else paths
+    return bodies

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Protocol
 
+from softway.heat.march import HeatState
 from softway.march.march_state import MarchState
 from softway.mechanisms.arrays import MechanismState
 from softway.piles.state import PileState
@@ -46,7 +47,7 @@ class CheckpointWriter:
         self.folder, self.plan, self.recorders, self.before = folder, plan, recorders, before
         self.begun = clock.perf_counter()
         self.due = self.begun + plan.every
-        self._latest: tuple[MarchState | MechanismState | PileState, dict[str, int]] | None = None
+        self._latest: tuple[MarchState | MechanismState | PileState | HeatState, dict[str, int]] | None = None
         self._saved = -1
 
     @property
@@ -54,7 +55,7 @@ class CheckpointWriter:
         """Wall-clock time of the run so far [s]."""
         return self.before + clock.perf_counter() - self.begun
 
-    def took(self, march_state: MarchState | MechanismState | PileState) -> None:
+    def took(self, march_state: MarchState | MechanismState | PileState | HeatState) -> None:
         """Take the state of the march after its last step was recorded, and write a checkpoint if one is due.
 
         Raises

@@ -10,8 +10,8 @@ from softway.arrays import Array
 from softway.bodies.solid import Tool
 from softway.march.results.step import Step
 from softway.model.scene import Scene, State
-from softway.record.write.grid_layout import Layout, components, layout, von_mises
-from softway.record.write.grid_series import GridFrame, GridSeries, continue_series, create_series
+from softway.record.write.grid.grid_layout import Layout, components, layout, von_mises
+from softway.record.write.grid.grid_series import GridFrame, GridSeries, continue_series, create_series
 from softway.record.write.recorder import RunStart
 from softway.record.write.shapes.tool_shapes import stored
 

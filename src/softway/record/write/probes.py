@@ -147,7 +147,7 @@ def solid_reading(path: str, probe: Probe, meshes: Mapping[str, Mesh], others: t
         raise InputError(
             f"{path}.component", f"'{probe.component}' does not exist in {mesh.dim}D", f"one of {list(allowed)}"
         )
-    nodes = _nodes(path, probe, mesh)
+    nodes = probed_nodes(path, probe, mesh)
     return Reading(
         name=probe.name,
         unit=UNITS[probe.quantity],
@@ -159,7 +159,8 @@ def solid_reading(path: str, probe: Probe, meshes: Mapping[str, Mesh], others: t
     )
 
 
-def _nodes(path: str, probe: Probe, mesh: Mesh) -> IntArray:
+def probed_nodes(path: str, probe: Probe, mesh: Mesh) -> IntArray:
+    """Nodes (k,) of the tag of a probe, or the node nearest to its point."""
     if (probe.tag is None) == (probe.at is None):
         raise InputError(path, "a probe needs exactly one place", "either 'tag' or 'at'")
     if probe.tag is not None:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
 
+from softway.heat.march import HeatStep
 from softway.march.results.step import Step
 from softway.march.results.trying import Trying
 from softway.mechanisms.march import MechanismStep
@@ -60,7 +61,7 @@ class Progress:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class MechanismProgress:
-    """Progress of the run of a mechanism or a pile after a recorded step, with the entries of :class:`Progress`.
+    """Progress of the run of a mechanism, a pile or conductors after a recorded step, as :class:`Progress`.
 
     Parameters
     ----------
@@ -70,7 +71,7 @@ class MechanismProgress:
         As in :class:`Progress`.
     """
 
-    step: MechanismStep | PileStep
+    step: MechanismStep | PileStep | HeatStep
     until: float
     slabs: int
     wall: float

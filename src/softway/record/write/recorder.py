@@ -89,12 +89,27 @@ class RunStart:
 
     def frame_due(self, before: float, after: float) -> bool:
         """True if a slab between two times [s] passes an instant at which a frame is stored, or reaches the end."""
-        passed = floor(after / self.fields_every + 1e-9) > floor(before / self.fields_every + 1e-9)
-        return passed or self.ended(after)
+        return frame_due(self.fields_every, self.until, before, after)
 
     def ended(self, time: float) -> bool:
         """True at the end of the march, up to rounding."""
-        return time >= self.until * (1.0 - 1e-12)
+        return _ended(self.until, time)
+
+
+def frame_due(every: float, until: float, before: float, after: float) -> bool:
+    """True if a slab between two times [s] passes a multiple of ``every``, or reaches the end ``until`` of the march.
+
+    Examples
+    --------
+    >>> frame_due(1.0, 9.5, 0.5, 0.9), frame_due(1.0, 9.5, 0.9, 1.0), frame_due(1.0, 9.5, 9.1, 9.5)
+    (False, True, True)
+    """
+    return floor(after / every + 1e-9) > floor(before / every + 1e-9) or _ended(until, after)
+
+
+def _ended(until: float, time: float) -> bool:
+    """True at the end of the march, up to rounding."""
+    return time >= until * (1.0 - 1e-12)
 
 
 class Recorder(Protocol):

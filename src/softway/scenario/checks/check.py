@@ -15,6 +15,7 @@ from softway.meshes.files.listed_mesh import LeftOut
 from softway.model.model import Model
 from softway.model.scene import Scene, StaticStart
 from softway.scenario.built import built_and_left_out
+from softway.scenario.checks.heat import CheckedHeat, check_heat, is_heat
 from softway.scenario.checks.mechanism import (
     CheckedMechanism,
     RigidScales,
@@ -89,11 +90,13 @@ class Checked:
     left_out: Mapping[str, tuple[LeftOut, ...]] = field(default_factory=dict)
 
 
-def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked | CheckedMechanism | CheckedPile:
+def check(
+    scenario: Scenario, *, cancel: Cancel | None = None
+) -> Checked | CheckedMechanism | CheckedPile | CheckedHeat:
     """Build the model, check all names, signs and dimensions, and prepare the march up to its first time step (slab).
 
     Everything that a run refuses before its first slab is refused here, with the same message.  A scenario of rigid
-    bodies is checked as a mechanism, one of balls as a pile.
+    bodies is checked as a mechanism, one of balls as a pile, and one of conductors by building their heat model.
 
     Parameters
     ----------
@@ -113,6 +116,8 @@ def check(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked | Chec
     """
     _require_scenario(scenario)
     check_names(scenario.bodies)
+    if is_heat(scenario):
+        return check_heat(scenario)
     if is_pile(scenario):
         return check_pile(scenario)
     return check_mechanism(scenario) if is_mechanism(scenario) else check_solids(scenario, cancel=cancel)
@@ -133,7 +138,7 @@ def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked
     check_ties({**scenario.bodies, **solids}, scene.ties)
     of_files = (*file_notes(left_out), *unit_notes(scenario.scene.bodies, solids))
     notes = (*of_files, *body_notes(solids, scene.ties))
-    check_loads(scenario.loads, "loads", solids)
+    check_loads(scenario.mechanical_loads, "loads", solids)
     check_contacts(scene.contacts)
     _scales(solids, scenario)
     for k, contact in enumerate(scene.contacts):

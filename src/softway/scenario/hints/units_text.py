@@ -23,6 +23,14 @@ _EXAMPLES = {
     "rad": ("an angle", "30 deg"),
     "rad/s": ("an angular velocity", "60 rpm"),
     "N": ("a force", "2 kN"),
+    "K": ("a temperature", "20 degC"),
+    "kelvin": ("a difference of temperatures", "0.5 K"),
+    "W/(m K)": ("a conductivity", "50 W/(m*K)"),
+    "W/m^2": ("a heat flux", "10 kW/m^2"),
+    "W/(m^2 K)": ("a coefficient of heat transfer", "20 W/(m^2*K)"),
+    "W/m^3": ("a power per volume", "1 MW/m^3"),
+    "J/kg": ("a heat per mass", "338 kJ/kg"),
+    "J/(kg K)": ("a specific heat", "4.2 kJ/(kg*K)"),
     "": ("a pure number", "0.3"),
 }
 
@@ -66,12 +74,14 @@ class Units:
         found = _NUMBER.match(value)
         if found is None:
             raise InputError(where, f"{value!r} is not {expected(unit)}", example(unit))
-        return _finite(float(found[1]) * self._factor(found[2], unit, value, where), value, where, unit)
+        factor, zero = self._scale(found[2], unit, value, where)
+        number = float(found[1]) * factor
+        return _finite(number + zero if zero else number, value, where, unit)
 
-    def _factor(self, given: str, unit: str, value: str, where: str) -> float:
-        """Factor from the given unit to the SI unit."""
+    def _scale(self, given: str, unit: str, value: str, where: str) -> tuple[float, float]:
+        """Factor from the given unit to the SI unit, and value of its zero: that of a temperature in degC is 273.15."""
         if given == unit:
-            return 1.0
+            return 1.0, 0.0
         if not given:
             raise InputError(where, f"{value!r} has no unit; expected {expected(unit)}", example(unit))
         try:
@@ -86,9 +96,20 @@ class Units:
                 where, f"{value!r} has the dimension {source.dimensionality}; expected {expected(unit)}", example(unit)
             )
         zero, one = (self.registry.Quantity(x, source).to(target).magnitude for x in (0.0, 1.0))
-        if zero != 0.0:
-            raise InputError(where, f"{value!r} has a unit with an offset, which is not supported", example(unit))
-        return float(one)
+        if zero != 0.0 and unit != "K":
+            raise InputError(where, f"{value!r} has a unit with an offset: it is no difference", example(unit))
+        return float(one - zero), float(zero)
+
+
+def is_quantity(text: str) -> bool:
+    """True if a text begins with a number, as that of a quantity does.
+
+    Examples
+    --------
+    >>> is_quantity("-5 degC"), is_quantity("my_fields:ramp")
+    (True, False)
+    """
+    return _NUMBER.match(text) is not None
 
 
 def expected(unit: str) -> str:

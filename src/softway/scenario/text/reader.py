@@ -19,11 +19,11 @@ from softway.scenario.hints.type_hints import (
     open_protocols,
     required,
 )
-from softway.scenario.hints.units_text import Units, example
+from softway.scenario.hints.units_text import Units, example, is_quantity
 from softway.scenario.text.user_modules import Modules
 
 SOLIDS = ("contacts", "ties", "loads", "time", "start", "inertia", "solver", "output")
-TOP = (*SOLIDS, "joints", "stops", "springs", "torques", "forces", "gears", "motors", "pile")
+TOP = (*SOLIDS, "joints", "stops", "springs", "torques", "forces", "gears", "motors", "pile", "heat_contacts")
 """Top-level keys of a scenario that users may put inside a body by mistake."""
 
 
@@ -115,7 +115,8 @@ class Reader:
         if isinstance(value, str):
             if any(get_origin(o) is Literal and value in get_args(o) for o in options):
                 return value
-            if any(get_origin(o) is Callable for o in options):
+            number = any(Hint.of(o, unit).type is float for o in options) and is_quantity(value)
+            if any(get_origin(o) is Callable for o in options) and not number:
                 self.modules.found(value, where)
             if value in known:
                 return self._object({}, known[value], where, unit)

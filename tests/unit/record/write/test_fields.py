@@ -13,7 +13,7 @@ import pytest
 from softway.model.field import Field
 from softway.record.read.frames import Fields
 from softway.record.write.fields import open_fields
-from softway.record.write.grid_layout import components, von_mises
+from softway.record.write.grid.grid_layout import components, von_mises
 
 
 def seen_by_vtk(path, k):

@@ -48,7 +48,7 @@ def test_the_same_unit_keeps_every_bit():
         ("", "m", "is not a length"),
         ("30 deg", "", "dimension"),
         ("30 %", "rad", "dimension"),
-        ("20 degC", "K", "offset"),
+        ("20 degC", "kelvin", "offset"),
         ("1e999 m", "m", "finite"),
         (float("nan"), "m", "finite"),
         (True, "m", "not a length"),
@@ -67,6 +67,13 @@ def test_errors_name_the_place_the_value_and_a_remedy(value, unit, problem):
 
 
 def test_every_unit_has_an_example_that_can_be_read():
-    for unit in ("m", "m^2", "s", "Pa", "kg/m^3", "m/s", "m/s^2", "1/s", "rad", "N"):
+    for unit in ("m", "m^2", "s", "Pa", "kg/m^3", "m/s", "m/s^2", "1/s", "rad", "N", "K", "W/(m K)", "J/(kg K)"):
         UNITS.number(example(unit).split('"')[1], unit, "a")
-    assert example("K") == 'a quantity such as "1 K", or a bare number in K'
+    assert example("K/m") == 'a quantity such as "1 K/m", or a bare number in K/m'
+
+
+def test_temperatures_may_be_in_degrees_celsius():
+    assert UNITS.number("20 degC", "K", "a") == pytest.approx(293.15, abs=1e-12)
+    assert UNITS.number("-10 °C", "K", "a") == pytest.approx(263.15, abs=1e-12)
+    assert UNITS.number("32 degF", "K", "a") == pytest.approx(273.15, abs=1e-9)
+    assert UNITS.number("0.5 K", "kelvin", "a") == 0.5

@@ -1,10 +1,11 @@
-"""Refusals of conductors, their laws and boundary conditions, which come from Python only."""
+"""Refusals of conductors, their laws and boundary conditions."""
 
 from collections.abc import Callable
 from math import inf
 
 import numpy as np
-from try_it import Call, Table
+from try_it import BAR as SOLIDS
+from try_it import Call, Table, Try
 
 import softway as sw
 from softway.bodies.conductor import sample_temperature
@@ -55,7 +56,63 @@ STATE = heat.HeatState(
     unknowns=np.full(4, 300.0),
     ledger=heat.HeatLedger(heat_content=0.0, heat_in=0.0, heat_out=0.0, error=0.0),
 )
+SCENE = """
+[bodies.b]
+kind = "Conductor"
+mesh = { kind = "Interval", length = 1, cells = 2 }
+law = { conductivity = 1, capacity = 1 }
+density = 1
+temperature = 300
+[time]
+end = 1
+step = 0.5
+"""
+BODY = (
+    "{kind='Conductor', mesh={kind='Interval', length=1, cells=2}, law={conductivity=1, capacity=1}, density=1, "
+    "temperature=300}"
+)
+BOTH = f"bodies={{b={BODY}, w={{kind='Tool', shape={{kind='HalfSpace', point=2, normal=-1}}}}}}"
+FLUX = "loads=[{kind='HeatFlux', on='b.left', value=1}]"
+PROBE = "output.probes=[{name='p', of='b', tag='left', quantity='temperature'}]"
+TWO = f"bodies={{b={BODY}, c={BODY.replace('cells=2', 'cells=2, origin=1')}}}"
+MEETS = "heat_contacts=[{between=['b.right', 'c.left'], conductance=1}]"
+
+
+def touching(between: tuple[str, str] = ("a.right", "b.left")) -> object:
+    """Model of two squares side by side that exchange heat."""
+    beside = sw.Mesh(points=CORNER.points + [1.0, 0.0], blocks=CORNER.blocks, tags=CORNER.tags)
+    bodies = {"a": body(mesh=SQUARE), "b": body(mesh=beside)}
+    contact = heat.HeatContact(between=between, conductance=1.0)
+    return heat.build_heat(heat.HeatScene(bodies=bodies, contacts=(contact,)))
+
+
+ALONE = "a scenario of conductors only"
 TABLE: Table = {
+    "a tool beside a conductor": Try(SCENE, BOTH, ALONE, f"bodies={{b={BODY}}}"),
+    "a difference in degrees Celsius": Try(
+        SCENE,
+        "bodies.b.law.latent={heat=1, melting=300, half_range='1 degC'}",
+        'a difference of temperatures such as "0.5 K"',
+        "bodies.b.law.latent.half_range=0.5 K",
+    ),
+    "heat on a solid": Try(SOLIDS, FLUX, ALONE, "loads=[]"),
+    "a force on a conductor": Try(SCENE, "loads=[{kind='Gravity', acceleration=-1}]", ALONE, FLUX),
+    "a contact of solids": Try(SOLIDS, MEETS, ALONE, "heat_contacts=[]"),
+    "a contact apart": Try(SCENE, f"{TWO} & {MEETS.replace('left', 'right')}", "surfaces that touch", MEETS),
+    "a contact with itself": call(
+        lambda: heat.HeatContact(between=("b.left", "b.right"), conductance=1.0),
+        "two surfaces",
+        lambda: heat.HeatContact(between=("b.left", "c.right"), conductance=1.0),
+    ),
+    "a contact with nobody": call(lambda: touching(("a.left", "c.right")), "'a', 'b'", lambda: touching()),
+    "a contact of surfaces apart": call(
+        lambda: touching(("a.left", "b.right")), "surfaces that touch", lambda: touching()
+    ),
+    "a contact on a corner": call(
+        lambda: touching(("a.right", "b.corner")), "a tag of a side", lambda: touching(("a.right", "b.left"))
+    ),
+    "a probe of nobody": Try(SCENE, PROBE.replace("of='b'", "of='c'"), "one of ['b']", PROBE),
+    "a velocity of a conductor": Try(SCENE, PROBE.replace("temperature", "velocity"), "temperature", PROBE),
     "values of a table": call(lambda: table(COLD, (1.0,)), "one value for each", lambda: table((1.0,), (1.0,))),
     "falling temperatures": call(lambda: table(COLD, (1.0, 1.0)), "in kelvin", lambda: table((1.0, 2.0), (1.0, 1.0))),
     "zero of a table": call(lambda: table((1.0,), (0.0,)), "positive values", lambda: table((1.0,), (1.0,))),

@@ -64,6 +64,7 @@ PARTS = (
 )
 MODULES = (
     "errors.py",
+    "record/write/heat/probes.py",
     "record/write/mechanism/probes.py",
     "record/write/probes.py",
     "record/storage/checkpoint.py",

@@ -19,6 +19,7 @@ from rich.progress import (
 )
 from rich.progress import Progress as Display
 
+from softway.heat.march import HeatStep
 from softway.mechanisms.march import MechanismStep
 from softway.piles.march import PileStep
 from softway.record.write.progress import MechanismProgress, Progress, Tell
@@ -68,7 +69,7 @@ def waiting(console: Console, what: str) -> Iterator[None]:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Watch:
-    """Progress display of a run, of solids, of a mechanism or of a pile."""
+    """Progress display of a run, of solids, of a mechanism, of a pile or of conductors."""
 
     display: Display
     task: TaskID
@@ -82,6 +83,8 @@ class Watch:
         step = progress.step
         if isinstance(step, MechanismStep):
             error, closed = step.energy_error, len(step.closed)
+        elif isinstance(step, HeatStep):
+            error, closed = step.ledger.error, 0
         elif isinstance(step, PileStep):
             error, closed = step.energy_error, step.closed
         else:

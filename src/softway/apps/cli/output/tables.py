@@ -11,6 +11,7 @@ from rich.table import Table as Grid
 from softway.errors import Note
 from softway.record.pile.summary import told_of_pile
 from softway.record.read.findings import sentences
+from softway.record.read.heat_summary import told_of_heat
 from softway.record.read.mechanism_summary import told
 from softway.record.read.summary import UNITS as NUMBERS
 from softway.record.run import Run
@@ -42,6 +43,14 @@ UNITS = {
     "overlap_worst": "m",
     "slip_error_worst": "m/s",
     "energy_kinetic_end": "J",
+    "temperature_least": "K",
+    "temperature_greatest": "K",
+    "heat_content_end": "J",
+    "heat_in": "J",
+    "heat_out": "J",
+    "heat_error_worst": "J",
+    "entropy_produced": "J/K",
+    "entropy_least": "J/K",
 }
 WORDS = {
     "stable_step": "stable step (Momentum)",
@@ -112,7 +121,9 @@ def summary(run: Run, console: Console) -> None:
 
 
 def sentences_of(run: Run, found: Mapping[str, Any]) -> tuple[str, ...]:
-    """Sentences on the run of a mechanism or a pile with its summary; none of solids."""
+    """Sentences on the run of a mechanism, a pile or conductors with its summary; none of solids."""
+    if run.of_heat:
+        return told_of_heat(found)
     if run.of_pile:
         return told_of_pile(found)
     return told(found) if run.of_mechanism else ()

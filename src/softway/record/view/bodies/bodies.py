@@ -136,7 +136,7 @@ def stage_of(run: Records, colour: Colour, numbers: Sequence[int], most: int = M
         cells=cells,
         skin=skin_of(cells, most),
         colour=colour,
-        range=range_of(np.concatenate(values)),
+        range=range_of(np.concatenate(values), colour.name),
         view=view,
         factor=min(factors),
         box=np.array([seen.min(axis=0), seen.max(axis=0)]),
@@ -148,13 +148,14 @@ def caption(figure: "Figure", run: Records, stage: Stage, shown: Sequence[Shown]
     """Write the title above the picture, and the description below it."""
     enlarged = "to scale" if shown[0].place.factor == 1.0 else f"enlarged {shown[0].place.factor:g} times"
     missing = f" Not drawn: {', '.join(stage.cells.lost)}." if stage.cells.lost else ""
-    title = run.provenance.get("title", "") or "Deformed body"
+    title = run.provenance.get("title", "") or ("Conductors" if run.of_heat else "Deformed body")
     figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold")
+    still = run.of_heat
     dashed = "; dashed: undeformed shape" if any(one.place.shaped.any() for one in shown) else ""
     time = f"t = {instant(shown[0].frame.time)}{when}. " if len(shown) == 1 else ""
     greatest = max((one.values for one in shown), key=lambda values: float(np.abs(values).max()))
     figure.supxlabel(
-        f"{time}Deformation {enlarged}{dashed}.\n{_most(stage.colour, greatest)}{missing}",
+        f"{time}{'' if still else f'Deformation {enlarged}{dashed}.'}\n{_most(stage.colour, greatest)}{missing}",
         x=0.01,
         ha="left",
         fontsize=8.5,
@@ -180,7 +181,7 @@ def _chosen(run: Records, look: PictureOptions, colour: Colour) -> tuple[list[in
     """Numbers of the frames, and a note on their instant for the caption."""
     if look.times:
         return [nearest(run, time) for time in look.times], ""
-    if colour.name in LASTING:
+    if colour.name in LASTING or run.of_heat:
         return [len(run.fields) - 1], ", end of the run"
     frame = _strained(run)
     contact = " in contact" if run.fields[frame].contact_force.any() else ""

@@ -11,8 +11,10 @@ from softway.record.read.frames import Cells, Frame, Kind
 from softway.record.read.records import Records
 from softway.record.read.surface_mesh import at_nodes
 from softway.record.view.style import scaled
-from softway.record.write.grid_layout import PAIRS
+from softway.record.write.grid.grid_layout import PAIRS
 
+FROM_LEAST = ("temperature",)
+"""Fields whose zero means nothing for a picture: their colours begin at the least value."""
 WORDS = {"von_mises": "von Mises stress", "dissipation": "dissipated energy"}
 """Displayed names of fields that differ from their keys."""
 SEQUENTIAL, DIVERGING = "viridis", "RdBu_r"
@@ -72,7 +74,8 @@ class Range:
 def colour_of(run: Records, wanted: str | None) -> Colour:
     """Find the field with a name such as ``velocity`` or ``stress.xy``.
 
-    Without a name it is the plastic strain if there is any at the end of the run, and von Mises stress otherwise.
+    Without a name it is the temperature of conductors, the plastic strain if there is any at the end of the run, and
+    von Mises stress otherwise.
 
     Raises
     ------
@@ -82,7 +85,7 @@ def colour_of(run: Records, wanted: str | None) -> Colour:
     kinds = run.fields.kinds
     if wanted is None:
         plastic = "plastic_strain" in kinds and len(run.fields) and bool(run.fields[-1]["plastic_strain"].any())
-        wanted = "plastic_strain" if plastic else "von_mises"
+        wanted = "temperature" if run.of_heat else "plastic_strain" if plastic else "von_mises"
     name, _, part = wanted.partition(".")
     if name not in kinds:
         raise InputError("--field", f"no field '{wanted}'", f"one of {', '.join(names(kinds.items()))}")
@@ -106,11 +109,14 @@ def parts(kind: Kind) -> tuple[str, ...]:
     return {3: ("x", "y", "z"), len(TENSOR): TENSOR}.get(kind.components, ())
 
 
-def range_of(values: Array) -> Range:
+def range_of(values: Array, name: str = "") -> Range:
     """Range of the colours: from zero to the largest value, without a few values that are far above the others.
 
-    With negative values the range is symmetric about zero.
+    With negative values the range is symmetric about zero.  Temperatures have a range from the least to the greatest.
     """
+    if name in FROM_LEAST:
+        low, high = float(values.min()), float(values.max())
+        return Range(low=low, high=high if high > low else low + 1.0)
     most, usual = float(values.max()), float(np.percentile(values, 99.0))
     if values.min() < -1e-9 * max(most, 0.0) and values.min() < 0.0:
         size = float(np.percentile(np.abs(values), 99.5))

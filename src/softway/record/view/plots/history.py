@@ -13,6 +13,7 @@ from softway.record.read.records import Records
 from softway.record.read.summary import contacts_of, ties_of
 from softway.record.storage.table import COUNT, Table
 from softway.record.view.options import STANDARD, PictureOptions
+from softway.record.view.plots.heat_panels import heat_panels
 from softway.record.view.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, PURPLE, RED, canvas, scaled
 from softway.record.write.history_columns import CERTIFICATE, COLUMNS, EXTRA, of_tie
 from softway.record.write.mechanism.columns import NEEDED
@@ -27,6 +28,7 @@ WORDS = {
     "m/s": "velocity",
     "N": "reaction",
     "rad": "rotation",
+    "K": "temperature",
     "rad/s": "angular velocity",
 }
 """Quantities of probes by unit."""
@@ -44,7 +46,7 @@ def history(run: Records, look: PictureOptions = STANDARD) -> "Figure":
     """Figure of energies, energy balance error, contact forces, smallest gaps and probes over time."""
     table, title = run.history, run.provenance.get("title", "")
     factor, unit = scaled(table["time"], "s")
-    time, panels = factor * table["time"], _of_pile() if run.of_pile else _panels(table)
+    time, panels = factor * table["time"], _panels_of(run, table)
     if run.of_mechanism:
         panels += [partial(_centres, motion=run.motion, letter=letter) for letter in "xyz"[: run.outline["dim"]]]
     rows = -(-len(panels) // 2)
@@ -60,6 +62,14 @@ def history(run: Records, look: PictureOptions = STANDARD) -> "Figure":
     if title:
         figure.suptitle(title, x=0.01, ha="left", fontsize=12, fontweight="bold")
     return figure
+
+
+def _panels_of(run: Records, table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
+    """Drawing functions of the panels of a run."""
+    if run.of_heat:
+        probes = [name for name in table if table.units[name] == "K"]
+        return [*heat_panels(table), *([partial(_probes, names=probes)] if probes else [])]
+    return _of_pile() if run.of_pile else _panels(table)
 
 
 def _panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":

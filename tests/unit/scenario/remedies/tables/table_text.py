@@ -156,7 +156,6 @@ TABLE: Table = {
     "writing functions": Call(
         lambda _: dumps(scenario(bodies={"b": BODY, "w": tool(_)})), "from Python only", lambda _: dumps(scenario())
     ),
-    "offset": Call(lambda _: UNITS.number("20 degC", "K", "T"), "K", lambda _: UNITS.number("293 K", "K", "T")),
     "law of a command": Call(lambda _: law_named("NeoHook"), "NeoHookean", lambda _: law_named("NeoHookean")),
     "writing classes": Call(lambda _: dumps(scenario(solver=Still())), "FixedPoint", lambda _: dumps(scenario())),
     "writing infinities": Call(

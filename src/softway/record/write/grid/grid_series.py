@@ -21,7 +21,7 @@ from softway.errors import InputError
 from softway.record.storage.gate.hdf5_file import BROKEN, require_plain
 from softway.record.storage.journal import JournaledFile, undone
 from softway.record.storage.uninterrupted import uninterrupted
-from softway.record.write.grid_layout import Grid
+from softway.record.write.grid.grid_layout import Grid
 
 PACKED = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
 CHUNK = 65536

@@ -1,0 +1,66 @@
+"""Summary of a run of conductors, computed from its history, and told in sentences."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from softway.record.storage.table import Table
+from softway.record.write.heat.columns import LIQUID
+
+BALANCED = 1e-9
+"""Error of the balance of heat, relative to the heat that moved, that passes for rounding."""
+
+
+def summarise_heat(history: Table) -> dict[str, Any]:
+    """Summarise the finished or unfinished run of conductors in a few numbers.
+
+    ``heat_error_worst`` is the largest ``|heat_error|`` [J]; ``entropy_least`` is the least entropy that a slab
+    produced [J/K]; ``liquid`` holds the volumes of liquid at the end [m^3].
+    """
+    if history.rows == 0:
+        return {"slabs": 0, "contacts": {}, "findings": []}
+    liquid = {name.removeprefix(LIQUID): float(history[name][-1]) for name in history if name.startswith(LIQUID)}
+    return {
+        "slabs": history.rows - 1,
+        "time_end": float(history["time"][-1]),
+        "iterations": int(history["iterations"].sum()),
+        "heat_content_end": float(history["heat_content"][-1]),
+        "heat_in": float(history["heat_in"][-1]),
+        "heat_out": float(history["heat_out"][-1]),
+        "heat_error_worst": float(abs(history["heat_error"]).max()),
+        "heat_error_relative": float(history["heat_error_relative"][-1]),
+        "entropy_produced": float(history["entropy_produced"].sum()),
+        "entropy_least": float(history["entropy_produced"].min()),
+        "liquid": liquid,
+        "contacts": {},
+        "findings": [],
+        "units": {"time": "s", "heat": "J", "liquid": "m^3"},
+    }
+
+
+def told_of_heat(found: Mapping[str, Any]) -> tuple[str, ...]:
+    """Sentences that say what happened.
+
+    Examples
+    --------
+    >>> for sentence in told_of_heat({"slabs": 10, "time_end": 60.0, "heat_in": 5.0, "heat_out": 0.0,
+    ...                               "heat_error_worst": 0.0, "heat_error_relative": 0.0, "entropy_produced": 2.0,
+    ...                               "entropy_least": 0.1, "liquid": {"pond": 0.25}}):
+    ...     print(sentence)
+    Heat was conducted for 60 s in 10 slabs (time steps): 5 J came in, 0 J went out.
+    The balance of heat holds to 0 J, 0 of the heat that moved.
+    Conduction produced 2 J/K of entropy, and no slab less than none.
+    Of pond 0.25 m^3 are liquid at the end.
+    """
+    if not found["slabs"]:
+        return ("No heat has been conducted yet.",)
+    falls = found["entropy_least"] < -BALANCED * abs(found["entropy_produced"])
+    least = f"but a slab {found['entropy_least']:.2g} J/K" if falls else "and no slab less than none"
+    holds = "holds" if found["heat_error_relative"] < BALANCED else "misses, it holds only"
+    return (
+        f"Heat was conducted for {found['time_end']:.6g} s in {found['slabs']} slabs (time steps): "
+        f"{found['heat_in']:.6g} J came in, {found['heat_out']:.6g} J went out.",
+        f"The balance of heat {holds} to {found['heat_error_worst']:.2g} J, "
+        f"{found['heat_error_relative']:.2g} of the heat that moved.",
+        f"Conduction produced {found['entropy_produced']:.4g} J/K of entropy, {least}.",
+        *(f"Of {name} {volume:.6g} m^3 are liquid at the end." for name, volume in found["liquid"].items()),
+    )

@@ -1,0 +1,1 @@
+"""Bodies as one unstructured grid, and series of its frames in a file."""

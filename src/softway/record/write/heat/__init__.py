@@ -1,0 +1,1 @@
+"""Records of conductors: columns of the history, frames of the temperature, probes, and the parts at the start."""
