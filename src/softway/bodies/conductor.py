@@ -13,7 +13,7 @@ from softway.errors import InputError, positive, real
 from softway.laws.heat.conduction import Conduction
 from softway.meshes.generators.recipes import MeshSource
 from softway.meshes.mesh import Mesh
-from softway.units import Kelvin, KilogramPerCubicMetre, PerKelvin
+from softway.units import Kelvin, KilogramPerCubicMetre, PerKelvin, Pure
 
 TemperatureField = Kelvin | Profile | Array | Callable[[Array], Array]
 """Uniform temperature, profile of numbers along an axis, nodal values (n,), or a function of the points (n, d)."""
@@ -80,11 +80,14 @@ class Thermal:
         Coefficient of linear thermal expansion [1/K].
     reference
         Temperature without thermal stress [K]; the initial temperature by default.
+    heating
+        Share of the dissipation of the material that heats, from zero to one; by default .9 of the plastic work of
+        ``J2``, and all of viscous laws.
 
     Raises
     ------
     InputError
-        If the law has latent heat, or the reference is not positive.
+        If the law has latent heat, the reference is not positive, or the share is not between zero and one.
 
     Examples
     --------
@@ -97,6 +100,7 @@ class Thermal:
     temperature: Annotated[TemperatureField, "K"]
     expansion: PerKelvin = 0.0
     reference: Kelvin | None = None
+    heating: Pure | None = None
 
     def __post_init__(self) -> None:
         real(self.expansion, "expansion")
@@ -104,6 +108,8 @@ class Thermal:
             raise InputError("law.latent", "latent heat in a solid that moves", "a Conductor, or a law without latent")
         if self.reference is not None:
             positive(reference=self.reference)
+        if self.heating is not None and not 0.0 <= self.heating <= 1.0:
+            raise InputError("heating", f"{self.heating:g}", "a share from 0 to 1")
 
 
 def sample_temperature(field: TemperatureField, mesh: Mesh) -> Array:

@@ -5,10 +5,12 @@ slab at every evaluation of the equations of motion, so that motion and field me
 force and an energy to the motion.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 from softway.arrays import Array
+from softway.bodies.discretised import DiscreteSolid
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -113,13 +115,15 @@ class TimedField(Protocol):
     they are solved in a slab only.
     """
 
-    def in_slab(self, start: float, end: float) -> FieldEquations:
-        """Equations in a slab from ``start`` to ``end`` [s]."""
+    def in_slab(self, start: float, end: float, parts: Sequence[DiscreteSolid]) -> FieldEquations:
+        """Equations in a slab from ``start`` to ``end`` [s], of solids with the material states at its start."""
         ...
 
 
-def in_slab(companions: tuple[FieldEquations, ...], start: float, end: float) -> tuple[FieldEquations, ...]:
-    """Companion fields in a slab from ``start`` to ``end`` [s]; the same tuple if none changes."""
+def in_slab(
+    companions: tuple[FieldEquations, ...], start: float, end: float, parts: Sequence[DiscreteSolid]
+) -> tuple[FieldEquations, ...]:
+    """Companion fields in a slab from ``start`` to ``end`` [s] of the solids; the same tuple if none changes."""
     if not any(isinstance(c, TimedField) for c in companions):
         return companions
-    return tuple(c.in_slab(start, end) if isinstance(c, TimedField) else c for c in companions)
+    return tuple(c.in_slab(start, end, parts) if isinstance(c, TimedField) else c for c in companions)

@@ -11,6 +11,7 @@ from softway.bodies.setup.loads import Gravity, Traction
 from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 from softway.heat.build_heat import heat_model
+from softway.heat.coupled.dissipation import Dissipation, dissipations
 from softway.heat.coupled.expansion import Expansion, expansions
 from softway.heat.coupled.solid_temperature import SolidTemperature
 from softway.model.build import build as mechanical
@@ -52,13 +53,17 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
     parts = {part.name: part for part in model.parts if part.name in heated}
     thermals = {name: thermal for name, body in heated.items() if (thermal := body.thermal) is not None}
     found: list[Expansion] = []
+    spent: list[Dissipation] = []
     conductors = {}
     for name, part in parts.items():
         with within(f"bodies.{name}"):
             conductors[name] = _conductor(part, thermals[name])
             if thermals[name].expansion:
-                _require_quadrature(part)
                 found.extend(expansions(part, thermals[name].expansion))
+            number = list(model.meshes).index(name)
+            spent.extend(dissipations(number, part, thermals[name].heating))
+            if thermals[name].expansion or any(one.solid == number for one in spent):
+                _require_quadrature(part)
     heat = heat_model(conductors, loads)
     nodes = np.concatenate([np.arange(part.nodes.start, part.nodes.stop) for part in parts.values()])
     given = [thermals[part.name].reference for part in heat.parts]
@@ -67,7 +72,7 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
     own = [heat.initial[p.nodes] if r is None else r for p, r in zip(heat.parts, reference, strict=True)]
     equations = SolidTemperature(
         model=heat, nodes=nodes, count=model.shape[0], parts=len(model.parts), part=model.part_of[nodes],
-        reference=np.concatenate(own), expansions=tuple(found),
+        reference=np.concatenate(own), expansions=tuple(found), dissipations=tuple(spent),
     )  # fmt: skip
     return with_field(model, equations)
 
@@ -83,11 +88,11 @@ def _conductor(part: DiscreteSolid, thermal: Thermal) -> Conductor:
 
 
 def _require_quadrature(part: DiscreteSolid) -> None:
-    """Refuse expansion of cells whose nodal capacities are not the integrals of their shape functions."""
+    """Refuse heat of strain in cells whose nodal capacities are not the integrals of their shape functions."""
     for cell in part.mesh.blocks:
         if cell in UNEVEN:
-            problem = f"expansion of {cell} cells, in which a uniform strain would heat some nodes more than others"
-            raise InputError("thermal.expansion", problem, "linear cells, bar3, quad9 or hex27")
+            problem = f"heat of strain in {cell} cells, whose nodes it would heat unevenly"
+            raise InputError("thermal", problem, "linear cells, bar3, quad9 or hex27; or expansion and heating zero")
 
 
 def _require_heated(loads: Mapping[int, HeatLoad], heated: Mapping[str, Solid]) -> None:

@@ -90,8 +90,8 @@ def expansions(part: DiscreteSolid, coefficient: float) -> Iterator[Expansion]:
     InputError
         If a law has no isotropic resistance to a change of volume.
     """
-    section, whole = part.internal.section, _values(part)
-    for region, nodes, points, internal, law in _pieces(part):
+    section, whole = part.internal.section, point_values(part)
+    for region, nodes, points, internal, law in pieces(part):
         modulus = coefficient * thermal_stiffness(law, section, f"material.{region}" if region else "material")
         yield Expansion(
             nodes=nodes + part.nodes.start,
@@ -131,7 +131,7 @@ def thermal_stiffness(law: Material, section: Section, where: str = "material") 
     return found
 
 
-def _pieces(part: DiscreteSolid) -> Iterator[tuple[str, IntArray, IntArray, BodyForce, Material]]:
+def pieces(part: DiscreteSolid) -> Iterator[tuple[str, IntArray, IntArray, BodyForce, Material]]:
     """Region, nodes (k,), points (q,), internal force and law of each law of a solid."""
     internal, materials = part.internal, part.materials
     if isinstance(internal, RegionForces):
@@ -142,7 +142,7 @@ def _pieces(part: DiscreteSolid) -> Iterator[tuple[str, IntArray, IntArray, Body
         yield "", np.arange(part.mesh.n_nodes), points, internal, materials.laws[0]
 
 
-def _values(part: DiscreteSolid) -> csr_array:
+def point_values(part: DiscreteSolid) -> csr_array:
     """Shape functions (p, n) at the quadrature points of a solid."""
     tables = []
     for cells in sampled_cells(part.mesh, part.internal.section, "point", small=False).kinds:

@@ -15,6 +15,8 @@ class HeatOfSolids:
         Heat that loads brought, less what they took away [J].
     received
         Heat that the motion gave: dissipated in the solids, or work against the thermal stress [J].
+    cold_work
+        Energy that the material dissipated and that did not heat [J].
     entropy
         Entropy produced [J/K].
     error
@@ -31,6 +33,7 @@ class HeatOfSolids:
     content: float
     brought: float = 0.0
     received: float = 0.0
+    cold_work: float = 0.0
     entropy: float = 0.0
     error: float = 0.0
     produced: float = 0.0

@@ -1,12 +1,14 @@
 """Temperature of the solids of a model: a companion field of their displacement (docs/theory/heat/coupling.md)."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from softway.arrays import Array, IntArray
+from softway.bodies.discretised import DiscreteSolid
 from softway.errors import NoConvergence, NumericsError
+from softway.heat.coupled.dissipation import Dissipation
 from softway.heat.coupled.expansion import Expansion
 from softway.heat.heat_balance import Stage, StrainHeat, put_at_once
 from softway.heat.heat_model import HeatModel
@@ -30,6 +32,8 @@ class HeatOfSlab:
         Heat that loads brought, less what they took away [J].
     received
         Heat that the motion gave [J].
+    stored
+        Dissipated energy that did not heat: the cold work [J].
     produced, passed
         Entropy produced [J/K], and the entropies that took part.
     """
@@ -37,16 +41,20 @@ class HeatOfSlab:
     content: float
     brought: float
     received: float
+    stored: float
     produced: float
     passed: float
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class TimeOfSlab:
-    """Slab of a march: ends [s], and the factor of its operator.  It is ``damped`` after a sudden change."""
+    """Slab of a march: ends [s], solids with the material states at its start, and the factor of its operator.  It is
+    ``damped`` after a sudden change.
+    """
 
     start: float
     end: float
+    solids: Sequence[DiscreteSolid]
     damped: bool
     factor: HeatFactor | None
 
@@ -69,6 +77,8 @@ class SolidTemperature:
         (k,) temperatures without thermal stress [K].
     expansions
         Thermal expansions.
+    dissipations
+        Dissipations of path-dependent materials that heat.
     time
         Slab of a march; None outside.
     """
@@ -80,6 +90,7 @@ class SolidTemperature:
     part: IntArray
     reference: Array
     expansions: tuple[Expansion, ...]
+    dissipations: tuple[Dissipation, ...] = ()
     time: TimeOfSlab | None = None
 
     @property
@@ -91,11 +102,11 @@ class SolidTemperature:
         """Initial temperatures (n, 1) [K]."""
         return self._on_all(self.model.initial)
 
-    def in_slab(self, start: float, end: float) -> "SolidTemperature":
+    def in_slab(self, start: float, end: float, parts: Sequence[DiscreteSolid]) -> "SolidTemperature":
         """Equations in a slab from ``start`` to ``end`` [s]; the first one and those after a knot are damped."""
         span, damped = end - start, start == 0.0 or start in knots(self.model)
         factor = linear_factor(self.model, 0.5 * span)
-        return replace(self, time=TimeOfSlab(start=start, end=end, damped=damped, factor=factor))
+        return replace(self, time=TimeOfSlab(start=start, end=end, solids=parts, damped=damped, factor=factor))
 
     def at(self, values: Array, u: Array) -> FieldState:
         """State with the temperatures ``values`` (n, 1) at the displacement ``u`` (n, d)."""
@@ -137,10 +148,12 @@ class SolidTemperature:
         change = self.entropy(slab.u1) - self.entropy(slab.u0)
         jumped, found = self._solved(slab, change)
         work = float(-(found.mean - self.reference) @ change)
+        given, spent = self._dissipated(slab.u1)
         return HeatOfSlab(
             content=self.content(end.values, slab.u1),
             brought=float(jumped.sum() + found.heats.sum()),
-            received=work - float(end.energy.sum() - slab.start.energy.sum()),
+            received=work - float(end.energy.sum() - slab.start.energy.sum()) + float(given.sum()),
+            stored=spent - float(given.sum()),
             produced=float(found.produced.sum()),
             passed=float(found.turned.sum() + np.abs(change).sum()),
         )
@@ -150,12 +163,22 @@ class SolidTemperature:
         assert self.time is not None
         time, h = self.time, slab.span
         before, jumped, _ = put_at_once(self.model, self._before(slab), time.start)
-        strain = StrainHeat(power=np.zeros(len(change)), entropy=change / h)
+        strain = StrainHeat(power=self._dissipated(slab.u1)[0] / h, entropy=change / h)
         stage = Stage(start=time.start, span=h, theta=1.0 if time.damped else 0.5, strain=strain)
         try:
             return jumped, solve_slab(self.model, before, stage, time.damped, time.factor)
         except NumericsError as error:
             raise NoConvergence(error.what) from None
+
+    def _dissipated(self, u1: Array) -> tuple[Array, float]:
+        """Heat (k,) of the dissipation in a slab, and the energy that it takes in all [J]."""
+        assert self.time is not None
+        out, spent = np.zeros(self.count), 0.0
+        for dissipation in self.dissipations:
+            energy = dissipation.energy(self.time.solids, u1)
+            out[dissipation.nodes] += dissipation.share * energy
+            spent += float(energy.sum())
+        return out[self.nodes], spent
 
     def _before(self, slab: FieldSlab) -> Thermal:
         """Temperatures and contents at the start of a slab."""

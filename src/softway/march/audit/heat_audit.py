@@ -40,6 +40,7 @@ def heat_audit(
             content=found.content,
             brought=last.brought + found.brought,
             received=last.received + found.received,
+            cold_work=last.cold_work + found.stored,
             entropy=last.entropy + found.produced,
             error=last.error + ((found.content - last.content) - (found.brought + found.received)),
             produced=found.produced,

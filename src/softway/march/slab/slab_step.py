@@ -75,7 +75,8 @@ def advance(
         If the method does not converge, the slab is too long for the approach, or the energy balance cannot be closed.
     """
     model = stepper.model.during(now.start.states, slab.span).bonded(now.start.fields).pushed(slab.start, slab.end)
-    model = replace(model, companions=in_slab(model.companions, slab.start, slab.end)) if model.companions else model
+    if model.companions:
+        model = replace(model, companions=in_slab(model.companions, slab.start, slab.end, model.parts))
     if model.rigid is None:
         for out, after in stepper.rule.solve(model, now, slab, memory, attempt):
             yield _state(slab, out), _with_breaks(model, now, slab, out), after

@@ -63,7 +63,10 @@ def _number(label: str, name: str) -> Callable[[Ledger], float]:
 
 
 CONTACT = (("force_n", "N"), ("force_t", "N"), ("min_gap", "m"), ("power_residual", "J"))
-OF_HEAT = (("content", "J"), ("brought", "J"), ("received", "J"), ("entropy", "J/K"), ("error", "J"))
+OF_HEAT = (
+    *((name, "J") for name in ("content", "brought", "received", "cold_work", "error")),
+    ("entropy", "J/K"),
+)
 TIE = (("broken", table.RATIO), ("opening", "m"), ("dissipated", "J"))
 COLUMNS = (
     Column("time", "s", lambda step: step.after.time, lambda start: start.initial.time),

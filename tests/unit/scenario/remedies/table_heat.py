@@ -123,6 +123,7 @@ TABLE: Table = {
         "one density for the body",
         lambda: solids(mesh=HALVES, material=dict.fromkeys("ac", STEEL)),
     ),
+    "a share above one": call(lambda: thermal(heating=2.0), "a share from 0 to 1", thermal),
     "a solid that melts": call(lambda: thermal(law=MELTS), "a law without latent", thermal),
     "a force on a conductor": Try(SCENE, "loads=[{kind='Gravity', acceleration=-1}]", ALONE, FLUX),
     "a contact of solids": Try(SOLIDS, MEETS, ALONE, "heat_contacts=[]"),
