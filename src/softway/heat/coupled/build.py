@@ -79,7 +79,7 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
 
 def _conductor(part: DiscreteSolid, thermal: Thermal) -> Conductor:
     """The solid as a conductor of heat."""
-    if len(part.materials.densities) != 1:
+    if len(set(part.materials.densities)) != 1:
         raise InputError("density", "densities by regions of a solid with heat", "one density for the body")
     return Conductor(
         mesh=part.mesh, law=thermal.law, density=part.materials.densities[0], section=part.internal.section,

@@ -14,8 +14,10 @@ VISCOUS = sw.laws.Kelvin(E=10.0, nu=0.3, shear_viscosity=5.0)
 
 
 def squeezed(material: object, dim: int, dilatation: str, **given: object) -> list[sw.Step]:
-    """A block squeezed by a tenth within a second, without inertia."""
+    """A block squeezed by a tenth within a second, without inertia; its regions are its lower and its upper half."""
     mesh = rectangle((1.0, 1.0), (2, 2)) if dim == 2 else box((1.0, 1.0, 1.0), (1, 1, 2))
+    half = mesh.points[:, -1].max() / 2.0
+    mesh = mesh.with_region("low", lambda x: x[:, -1] < half).with_region("high", lambda x: x[:, -1] > half)
     top, low = ("y", "bottom") if dim == 2 else ("z", "bottom")
     supports = (
         Fixed(on=low, components=top),
@@ -47,6 +49,16 @@ def test_a_block_is_heated_by_its_dissipation(
     assert ledger.heat.received == pytest.approx(share * ledger.dissipation, rel=1e-12)
     assert ledger.heat.cold_work == pytest.approx((1.0 - share) * ledger.dissipation, abs=1e-14)
     assert ledger.heat.entropy == pytest.approx(RHO * C * float(np.log(1.0 + rise[0, 0] / 300.0)), rel=1e-9)
+
+
+def test_each_region_heats_by_its_own_law() -> None:
+    laws = {"low": PLASTIC, "high": sw.LinearElastic(E=100.0, nu=0.3)}
+    *_, last = squeezed(laws, 3, "point", expansion=1e-6)
+    rise = last.after.fields["temperature"]["b"][:, 0] - 300.0
+    assert rise[:4].min() > 0.01 and abs(rise[-4:]).max() < 0.1 * rise[:4].min()
+    heat = last.ledger.heat
+    assert heat.received + heat.cold_work == pytest.approx(last.ledger.dissipation, rel=1e-12)
+    assert abs(heat.error) < 1e-12 * heat.received
 
 
 def test_without_heating_the_temperature_stays() -> None:
