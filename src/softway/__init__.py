@@ -25,6 +25,7 @@ from softway.bodies.solid import Carried, Driven, Fixed, Solid, Tool
 from softway.contact.assembly.tie import Tie
 from softway.contact.contact import Contact
 from softway.errors import Cancelled, InputError, NumericsError, SoftwayError, StorageError
+from softway.heat.coupled.build import build
 from softway.laws.bulk import J2, Hypoelastic, LinearElastic, NeoHookean
 from softway.laws.cohesive_law import BilinearCohesive
 from softway.laws.friction import Coulomb
@@ -33,7 +34,6 @@ from softway.march.march_state import MarchState
 from softway.march.results.step import Certificate, Event, Ledger, Step
 from softway.march.step_control import StepControl
 from softway.meshes.mesh import Mesh
-from softway.model.build import build
 from softway.model.scene import Scene, State
 from softway.record.run import Run
 from softway.record.write.progress import Progress

@@ -1,4 +1,4 @@
-"""Description of a body that conducts heat and does not move."""
+"""Description of heat: of a body that conducts it and does not move, and of a solid that does move."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -9,11 +9,11 @@ import numpy as np
 from softway.arrays import Array
 from softway.bodies.elements.section import Section
 from softway.bodies.setup.initial_fields import Profile
-from softway.errors import InputError, positive
+from softway.errors import InputError, positive, real
 from softway.laws.heat.conduction import Conduction
 from softway.meshes.generators.recipes import MeshSource
 from softway.meshes.mesh import Mesh
-from softway.units import Kelvin, KilogramPerCubicMetre
+from softway.units import Kelvin, KilogramPerCubicMetre, PerKelvin, Pure
 
 TemperatureField = Kelvin | Profile | Array | Callable[[Array], Array]
 """Uniform temperature, profile of numbers along an axis, nodal values (n,), or a function of the points (n, d)."""
@@ -64,6 +64,52 @@ class Conductor:
         positive(density=self.density)
         if self.latent not in ("cell", "node"):
             raise InputError("latent", f"{self.latent!r}", "'cell' or 'node'")
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Thermal:
+    """Heat of a solid, whose temperature and motion are solved together.
+
+    Parameters
+    ----------
+    law
+        Law of conduction, without latent heat.  The capacity is that at constant strain.
+    temperature
+        Initial temperature [K]: a number, a profile of numbers, nodal values (n,), or a function of the points (n, d).
+    expansion
+        Coefficient of linear thermal expansion [1/K].
+    reference
+        Temperature without thermal stress [K]; the initial temperature by default.
+    heating
+        Share of the dissipation of the material that heats, from zero to one; by default .9 of the plastic work of
+        ``J2``, and all of viscous laws.
+
+    Raises
+    ------
+    InputError
+        If the law has latent heat, the reference is not positive, or the share is not between zero and one.
+
+    Examples
+    --------
+    >>> steel = Conduction(conductivity=50.0, capacity=500.0)
+    >>> Thermal(law=steel, temperature=293.15, expansion=12e-6).reference is None
+    True
+    """
+
+    law: Conduction
+    temperature: Annotated[TemperatureField, "K"]
+    expansion: PerKelvin = 0.0
+    reference: Kelvin | None = None
+    heating: Pure | None = None
+
+    def __post_init__(self) -> None:
+        real(self.expansion, "expansion")
+        if self.law.latent is not None:
+            raise InputError("law.latent", "latent heat in a solid that moves", "a Conductor, or a law without latent")
+        if self.reference is not None:
+            positive(reference=self.reference)
+        if self.heating is not None and not 0.0 <= self.heating <= 1.0:
+            raise InputError("heating", f"{self.heating:g}", "a share from 0 to 1")
 
 
 def sample_temperature(field: TemperatureField, mesh: Mesh) -> Array:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated
 
 from softway.bodies.bulk_viscosity import BulkViscosity
+from softway.bodies.conductor import Thermal as Thermal
 from softway.bodies.elements.quadrature import Dilating
 from softway.bodies.elements.section import Axisymmetric, Section
 from softway.bodies.inertia.mass_matrix import Consistent, MassRule
@@ -58,6 +59,8 @@ class Solid:
         ``mean`` over the element, or ``corner`` around the corner nodes (the Taylor-Hood element if quadratic).
     shock
         Bulk viscosity; none by default.
+    thermal
+        Heat conduction and thermal expansion; without, the solid has no temperature.
     place
         Mirror, rotation and translation of the mesh into the scene.
     group
@@ -75,6 +78,7 @@ class Solid:
     force: SlabForce = Weighted()
     dilatation: Dilating = "point"
     shock: BulkViscosity | None = None
+    thermal: Thermal | None = None
     place: Placement = Placement()
     group: tuple[Placement, ...] = ()
 

@@ -11,7 +11,7 @@ from softway.bodies.elements.section import Axisymmetric, Section, check_section
 from softway.bodies.inertia.mass_matrix import Body, Lumped, body_of, nodal_mass
 from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, Radiation, Temperature, place_of, surface_points
 from softway.errors import InputError, within
-from softway.heat.heat_contact import HeatExchange, heat_exchange
+from softway.heat.heat_contact import HeatContact, HeatExchange, heat_exchange
 from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, HeatSurface, Simplices
 from softway.heat.phase import simplices_of
 from softway.kernels.assembly.assembler import assembler
@@ -50,11 +50,18 @@ def build_heat(scene: HeatScene) -> HeatModel:
     """
     if not scene.bodies:
         raise InputError("bodies", "no bodies", "at least one Conductor")
+    return heat_model(scene.bodies, dict(enumerate(scene.loads)), scene.contacts)
+
+
+def heat_model(
+    bodies: Mapping[str, Conductor], loads: Mapping[int, HeatLoad], contacts: tuple[HeatContact, ...] = ()
+) -> HeatModel:
+    """Discretise conductors by name, with loads by their numbers in a scene; errors as of :func:`build_heat`."""
     parts: list[HeatPart] = []
     cells: list[HeatCells] = []
     simplices: list[Simplices] = []
     masses, initial, n, e = [], [], 0, 0
-    for name, body in scene.bodies.items():
+    for name, body in bodies.items():
         with within(f"bodies.{name}"):
             part, section, quadrature = _part(name, body, n, e)
             cells.extend(_cells(part, section))
@@ -64,14 +71,14 @@ def build_heat(scene: HeatScene) -> HeatModel:
         parts.append(part)
         masses.append(nodal_mass(part.mesh, body.density, section, Lumped()).diagonal())
         n, e = part.nodes.stop, part.cells.stop
-    surfaces, sources, held = _loads(scene, {part.name: part for part in parts}, n)
-    exchanges = _exchanges(scene, parts, n)
+    surfaces, sources, held = _loads(bodies, loads, {part.name: part for part in parts}, n)
+    exchanges = _exchanges(bodies, contacts, parts, n)
     linear = all(p.law.constant for p in parts) and not any(isinstance(s.load, Radiation) for s in surfaces)
     return HeatModel(
         parts=tuple(parts), cells=tuple(cells), simplices=tuple(simplices), mass=np.concatenate(masses),
         pattern=assembler([c.nodes for c in cells], n, 1), surfaces=surfaces, sources=sources, held=held,
         exchanges=exchanges,
-        ordered=_ordered(scene),
+        ordered=_ordered(loads),
         initial=np.concatenate(initial), linear=linear, n_cells=e,
     )  # fmt: skip
 
@@ -157,18 +164,20 @@ def front_width(law: Conduction) -> float:
 Loads = tuple[tuple[HeatSurface, ...], tuple[tuple[HeatSource, Array], ...], tuple[tuple[Temperature, IntArray], ...]]
 
 
-def _loads(scene: HeatScene, parts: Mapping[str, HeatPart], n: int) -> Loads:
+def _loads(
+    bodies: Mapping[str, Conductor], loads: Mapping[int, HeatLoad], parts: Mapping[str, HeatPart], n: int
+) -> Loads:
     """Surfaces, sources, and nodes with prescribed temperatures, of which each belongs to one load."""
     surfaces: list[HeatSurface] = []
     sources: list[tuple[HeatSource, Array]] = []
     owner = np.full(n, -1)
-    for k, load in enumerate(scene.loads):
+    for k, load in loads.items():
         name, tag = place_of(load)
         with within(f"loads[{k}].{'of' if isinstance(load, HeatSource) else 'on'}"):
             if name not in parts:
                 raise InputError("", f"there is no body {name!r}", ", ".join(repr(known) for known in parts))
             part = parts[name]
-            section = section_of(scene.bodies[name], part.mesh)
+            section = section_of(bodies[name], part.mesh)
             match load:
                 case Temperature():
                     owner[part.nodes.start + part.mesh.nodes(tag)] = k
@@ -179,27 +188,29 @@ def _loads(scene: HeatScene, parts: Mapping[str, HeatPart], n: int) -> Loads:
                     data = (table.data, table.indices + part.nodes.start, table.indptr)
                     points = sp.csr_array(data, shape=(len(areas), n))
                     surfaces.append(HeatSurface(load=load, points=points, areas=areas))
-    held = [(load, np.flatnonzero(owner == k)) for k, load in enumerate(scene.loads) if isinstance(load, Temperature)]
+    held = [(load, np.flatnonzero(owner == k)) for k, load in loads.items() if isinstance(load, Temperature)]
     return tuple(surfaces), tuple(sources), tuple(held)
 
 
-def _exchanges(scene: HeatScene, parts: list[HeatPart], n: int) -> tuple[HeatExchange, ...]:
+def _exchanges(
+    bodies: Mapping[str, Conductor], contacts: tuple[HeatContact, ...], parts: list[HeatPart], n: int
+) -> tuple[HeatExchange, ...]:
     """Exchange of heat of each contact."""
-    bodies = {p.name: (p.mesh, section_of(scene.bodies[p.name], p.mesh), p.nodes.start) for p in parts}
+    known = {p.name: (p.mesh, section_of(bodies[p.name], p.mesh), p.nodes.start) for p in parts}
     found = []
-    for k, contact in enumerate(scene.contacts):
+    for k, contact in enumerate(contacts):
         with within(f"contacts[{k}]"):
-            found.append(heat_exchange(contact, bodies, n))
+            found.append(heat_exchange(contact, known, n))
     return tuple(found)
 
 
-def _ordered(scene: HeatScene) -> tuple[tuple[int, HeatLoad], ...]:
+def _ordered(loads: Mapping[int, HeatLoad]) -> tuple[tuple[int, HeatLoad], ...]:
     """Loads with their numbers, in the order of the ledger."""
 
     def rank(item: tuple[int, HeatLoad]) -> tuple[bool, bool, int]:
         return isinstance(item[1], Temperature), isinstance(item[1], HeatSource), item[0]
 
-    return tuple(sorted(enumerate(scene.loads), key=rank))
+    return tuple(sorted(loads.items(), key=rank))
 
 
 def _source(part: HeatPart, section: Section, region: str, n: int) -> Array:

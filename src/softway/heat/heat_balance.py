@@ -13,10 +13,26 @@ ROUNDING = 2.0 * float(np.finfo(float).eps)
 """Rounding of the sum of the heats of the nodes, relative to the terms that they are summed from."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class StrainHeat:
+    """Heat that the motion of a body gives to its nodes.
+
+    Parameters
+    ----------
+    power
+        (n,) heat of dissipation per time [W].
+    entropy
+        (n,) entropy that the strain takes per time [W/K]; the heat that it takes is the temperature times that.
+    """
+
+    power: Array
+    entropy: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Stage:
     """Part of a slab: it begins at ``start`` and takes ``span`` [s]; the heat flows at the mean of the temperatures of
-    its start and its end, with the weight ``theta`` of the end.
+    its start and its end, with the weight ``theta`` of the end.  A body that deforms has the heat of its ``strain``.
 
     Examples
     --------
@@ -27,6 +43,7 @@ class Stage:
     start: float
     span: float
     theta: float
+    strain: StrainHeat | None = None
 
     @property
     def end(self) -> float:
@@ -50,6 +67,8 @@ class Balance:
         (n, n) derivative of the values along the unknowns; None if left out.
     mean
         (n,) temperatures at which the heat flows [K].
+    flow
+        (n,) heat that flows out of the nodes by conduction [W].
     """
 
     after: Thermal
@@ -57,6 +76,26 @@ class Balance:
     moved: float
     matrix: sp.csr_array | None
     mean: Array
+    flow: Array
+
+
+def logarithmic_mean(one: Array, other: Array) -> Array:
+    """Logarithmic mean of positive numbers, ``(b - a)/(ln b - ln a)``, not a number where one is not positive.
+
+    A change of temperature divided by it is the change of the logarithm: the entropy of a constant capacity.
+
+    Examples
+    --------
+    >>> logarithmic_mean(np.array([300.0, 1.0]), np.array([300.0, np.e])).round(12).tolist()
+    [300.0, 1.718281828459]
+    """
+    middle = 0.5 * (one + other)
+    with np.errstate(all="ignore"):
+        x = 0.5 * (other - one) / middle
+        square = x * x
+        series = 1.0 + square * (1 / 3 + square * (1 / 5 + square * (1 / 7 + square / 9)))
+        ratio = np.where(np.abs(x) < 1e-2, series, np.arctanh(x) / np.where(x == 0.0, 1.0, x))
+        return np.asarray(np.where((one > 0.0) & (other > 0.0), middle / ratio, np.nan))
 
 
 def prescribed(model: HeatModel, unknowns: Array, time: float) -> Array:
@@ -107,7 +146,13 @@ def balance(model: HeatModel, before: Thermal, stage: Stage, unknowns: Array, *,
     for power in _powers(model, stage):
         values, moved = values - h * power, moved + h * np.abs(power).sum()
     total = None if matrix is None else _matrix(after, matrix, by_liquid, theta * h)
-    return Balance(after=after, values=values, moved=float(moved), matrix=total, mean=mean)
+    if stage.strain is not None:
+        taken = h * stage.strain.entropy * logarithmic_mean(before.temperature, after.temperature)
+        given = h * stage.strain.power
+        values, moved = values + taken - given, moved + np.abs(taken).sum() + np.abs(given).sum()
+        if total is not None and not model.linear:
+            total = sp.csr_array(total + sp.diags_array(0.5 * h * stage.strain.entropy * after.stretch))
+    return Balance(after=after, values=values, moved=float(moved), matrix=total, mean=mean, flow=flow)
 
 
 def _matrix(after: Thermal, conduction: sp.csr_array, by_liquid: Entries, span: float) -> sp.csr_array:

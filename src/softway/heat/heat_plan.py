@@ -31,7 +31,7 @@ def planned_slabs(model: HeatModel, begin: float, until: float, step: float) -> 
 
 def _plan(model: HeatModel, begin: float, until: float, step: float) -> list[PlannedSlab]:
     """Slabs from ``begin`` on: equal ones between the knots."""
-    ends, found = [begin, *(t for t in _knots(model) if begin < t < until), until], []
+    ends, found = [begin, *(t for t in knots(model) if begin < t < until), until], []
     for low, high in zip(ends[:-1], ends[1:], strict=True):
         count = ceil((high - low) / step * (1.0 - 1e-9))
         at = [low + (high - low) * (k / count) for k in range(count)] + [high]
@@ -40,7 +40,7 @@ def _plan(model: HeatModel, begin: float, until: float, step: float) -> list[Pla
     return found
 
 
-def _knots(model: HeatModel) -> tuple[float, ...]:
+def knots(model: HeatModel) -> tuple[float, ...]:
     """Instants at which a ramp bends [s]."""
     loads = [*(s.load for s in model.surfaces), *(load for load, _ in model.sources), *(load for load, _ in model.held)]
     return tuple(sorted({t for a in (load.ramp for load in loads) for t in knots_of_table(a.times, a.factors)}))

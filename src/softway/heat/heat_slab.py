@@ -1,23 +1,37 @@
 """One slab of heat conduction: content differences against the heat that flows in (docs/theory/heat/conduction.md)."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray
-from softway.errors import NoConvergence
-from softway.heat.heat_balance import Balance, Stage, balance, entropy_brought, heats, passed, prescribed, rounding
+from softway.errors import NoConvergence, NumericsError
+from softway.heat.heat_balance import (
+    Balance,
+    Stage,
+    balance,
+    entropy_brought,
+    heats,
+    logarithmic_mean,
+    passed,
+    prescribed,
+    rounding,
+)
 from softway.heat.heat_model import HeatModel
-from softway.heat.operators import Thermal
+from softway.heat.operators import Thermal, thermal, unknowns_of
 from softway.solve.linear.backends.superlu import SuperLU, factor_unsymmetric
 from softway.solve.linear.interface import Factor, LinearSolver
 
+HALVINGS = 8
+"""Greatest number of halvings of a slab that does not converge."""
 ITERATIONS = 60
 """Greatest number of iterations in a stage."""
 TOLERANCE = 1e-12
 """Greatest sum of the unbalanced heats of the nodes, relative to the heats that take part."""
+MOVING = 1e-14
+"""The same in a body that deforms, whose motion meets the temperature in another iteration."""
 SHORTENINGS = 30
 """Greatest number of shorter corrections that are tried."""
 ENOUGH = 0.8
@@ -34,7 +48,7 @@ class HeatFactor:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class StageResult:
-    """End of a stage.
+    """End of a stage, or of a slab of several.
 
     Parameters
     ----------
@@ -50,6 +64,11 @@ class StageResult:
         Number of iterations.
     factor
         Factor of a linear model, for the next stage.
+    mean
+        (n,) mean temperature at which the strain takes entropy [K].
+    produced, turned
+        (n,) entropy produced by conduction and dissipation, less what other nodes produce, so that the sum counts
+        [J/K], and the magnitudes that take part.
     """
 
     after: Thermal
@@ -58,6 +77,71 @@ class StageResult:
     entropy: float
     iterations: int
     factor: HeatFactor | None
+    mean: Array
+    produced: Array
+    turned: Array
+
+
+def linear_factor(model: HeatModel, span: float, linear: LinearSolver = SuperLU()) -> HeatFactor | None:
+    """Factor of C + s K for the weighted length s = ``span`` [s]; None if the model is not linear or has no free node.
+
+    Examples
+    --------
+    >>> import softway as sw
+    >>> from softway.heat.build_heat import build_heat
+    >>> law = sw.heat.Conduction(conductivity=1.0, capacity=1.0)
+    >>> bar = sw.heat.Conductor(mesh=sw.meshes.Interval(length=1.0, cells=1), law=law, density=2.0, temperature=300.0)
+    >>> found = linear_factor(build_heat(sw.heat.HeatScene(bodies={"bar": bar})), 1.0)
+    >>> found.factor.solve(np.array([1.0, 1.0])).round(12).tolist()
+    [1.0, 1.0]
+    """
+    free = model.free_nodes()
+    if not model.linear or not free.any():
+        return None
+    unknowns = unknowns_of(model, model.initial)
+    stage = Stage(start=0.0, span=span, theta=1.0)
+    found = balance(model, thermal(model, unknowns), stage, unknowns, slopes=True)
+    return HeatFactor(span=span, factor=linear.factor(_of_free(found, free)))
+
+
+def solve_slab(
+    model: HeatModel,
+    before: Thermal,
+    slab: Stage,
+    halves: bool = False,
+    factor: HeatFactor | None = None,
+    linear: LinearSolver = SuperLU(),
+    depth: int = 0,
+) -> StageResult:
+    """Solve a slab in one stage or in two ``halves``; in damped halves if it does not converge.
+
+    Raises
+    ------
+    NumericsError
+        If it does not converge after eight halvings.
+    """
+    if not halves:
+        try:
+            return solve_stage(model, before, slab, factor, linear)
+        except NoConvergence as error:
+            if depth == HALVINGS:
+                remedy = 'latent = "node" where matter melts, or shorter slabs'
+                raise NumericsError(str(error), slab.start, remedy) from None
+    half = 0.5 * slab.span
+    one = replace(slab, span=half, theta=1.0)
+    first = solve_slab(model, before, one, False, factor, linear, depth + 1)
+    rest = replace(one, start=slab.start + half)
+    last = solve_slab(model, first.after, rest, False, first.factor, linear, depth + 1)
+    return replace(
+        last,
+        heats=first.heats + last.heats,
+        iterations=first.iterations + last.iterations,
+        mean=0.5 * (first.mean + last.mean),
+        produced=first.produced + last.produced,
+        turned=first.turned + last.turned,
+        passed=first.passed + last.passed,
+        entropy=first.entropy + last.entropy,
+    )
 
 
 def solve_stage(
@@ -91,18 +175,14 @@ def solve_stage(
     unknowns = prescribed(model, before.unknowns, stage.end)
     frozen = factor if factor is not None and factor.span == stage.theta * stage.span else None
     floor = rounding(model, before, stage)
+    tolerance = TOLERANCE if stage.strain is None else MOVING
     for iteration in range(ITERATIONS):
         found = balance(model, before, stage, unknowns, slopes=frozen is None)
         size = float(np.abs(found.values[free]).sum())
         if not np.isfinite(size):
             break
-        if iteration and size <= TOLERANCE * found.moved + floor:
-            gone = heats(model, before, stage, found)
-            brought = entropy_brought(model, stage, found)
-            through = passed(model, stage, found)
-            return StageResult(
-                after=found.after, heats=gone, passed=through, entropy=brought, iterations=iteration, factor=frozen
-            )
+        if iteration and size <= tolerance * found.moved + floor:
+            return _result(model, before, stage, found, iteration, frozen)
         if frozen is not None:
             step = frozen.factor.solve(-found.values[free])
         elif not free.any():
@@ -114,6 +194,26 @@ def solve_stage(
             step = factored.solve(-found.values[free])
         unknowns = _corrected(model, before, stage, unknowns, step, free, found)
     raise NoConvergence(f"the heats of the nodes are not balanced after {ITERATIONS} iterations")
+
+
+def _result(
+    model: HeatModel, before: Thermal, stage: Stage, found: Balance, iterations: int, frozen: HeatFactor | None
+) -> StageResult:
+    """Result of a stage whose heats are balanced."""
+    mean = logarithmic_mean(before.temperature, found.after.temperature)
+    power = 0.0 if stage.strain is None else stage.strain.power
+    moved = stage.span * (np.abs(found.flow) + np.abs(power)) + np.abs(found.after.content - before.content)
+    return StageResult(
+        after=found.after,
+        heats=heats(model, before, stage, found),
+        iterations=iterations,
+        factor=frozen,
+        mean=mean,
+        produced=stage.span * (power - found.flow) / mean,
+        turned=moved / mean,
+        passed=passed(model, stage, found),
+        entropy=entropy_brought(model, stage, found),
+    )
 
 
 def _of_free(found: Balance, free: BoolArray) -> sp.csc_array:

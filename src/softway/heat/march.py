@@ -1,25 +1,22 @@
 """March of heat conduction: slabs between the knots of loads, damped after sudden changes."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from softway.arrays import Array
-from softway.errors import Cancel, InputError, NoConvergence, NumericsError, heed
+from softway.errors import Cancel, InputError, heed
 from softway.heat.build_heat import build_heat
 from softway.heat.heat_balance import Stage, put_at_once
 from softway.heat.heat_model import HeatModel, HeatScene
 from softway.heat.heat_plan import PlannedSlab, planned_slabs
-from softway.heat.heat_slab import HeatFactor, StageResult, solve_stage
+from softway.heat.heat_slab import solve_slab
 from softway.heat.ledger import HeatLedger, booked, opened
 from softway.heat.operators import Thermal, entropy, thermal, unknowns_of
 from softway.solve.linear.backends.superlu import SuperLU
 from softway.solve.linear.interface import LinearSolver
 from softway.units import Second
-
-HALVINGS = 8
-"""Greatest number of halvings of a slab that does not converge."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -200,42 +197,12 @@ def _slabs(
         ledger = booked(ledger, before.content, _padded(model, jumped))
         calm = damped and slab.first
         stage = Stage(start=slab.start, span=slab.span, theta=1.0 if calm else 0.5)
-        found = _accepted(model, before, stage, calm, factor, linear)
+        found = solve_slab(model, before, stage, calm, factor, linear)
         before, factor = found.after, found.factor
         ledger, slabs = booked(ledger, before.content, found.heats, found.passed), slabs + 1
         state = HeatState(time=slab.end, unknowns=before.unknowns, ledger=ledger, slabs=slabs)
         produced = entropy(model, before) - standing - carried - found.entropy
         yield _step(model, state, before, _Told(slab.span, found.iterations, calm, produced))
-
-
-def _accepted(
-    model: HeatModel,
-    before: Thermal,
-    slab: Stage,
-    halves: bool,
-    factor: HeatFactor | None,
-    linear: LinearSolver,
-    depth: int = 0,
-) -> StageResult:
-    """Slab in one stage or in two halves; in damped halves if it does not converge."""
-    if not halves:
-        try:
-            return solve_stage(model, before, slab, factor, linear)
-        except NoConvergence as error:
-            if depth == HALVINGS:
-                remedy = 'latent = "node" where matter melts, or shorter slabs'
-                raise NumericsError(str(error), slab.start, remedy) from None
-    half = 0.5 * slab.span
-    first = _accepted(model, before, Stage(start=slab.start, span=half, theta=1.0), False, factor, linear, depth + 1)
-    rest = Stage(start=slab.start + half, span=half, theta=1.0)
-    last = _accepted(model, first.after, rest, False, first.factor, linear, depth + 1)
-    return replace(
-        last,
-        heats=first.heats + last.heats,
-        passed=first.passed + last.passed,
-        entropy=first.entropy + last.entropy,
-        iterations=first.iterations + last.iterations,
-    )
 
 
 def _padded(model: HeatModel, jumped: Array) -> Array:

@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 
 from softway.errors import Cancel
+from softway.heat.coupled.build import build
 from softway.march.attempts import DAMPED, AcceptedSlab, accept_slab, recent_rejections, require_progress
 from softway.march.audit.ledger import update_account
 from softway.march.march_state import MarchState, Settings, StepHistory
@@ -18,7 +19,6 @@ from softway.march.slab.slab_step import Stepper
 from softway.march.start.knots import slab_length
 from softway.march.start.preparation import prepare
 from softway.march.step_control import StepControl, crushing, may_grow
-from softway.model.build import build
 from softway.model.model import Model
 from softway.model.scene import Scene, State
 from softway.model.time_weight import EndPeaks, TimeWeight

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from softway.errors import InputError
+from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.march.model_state import ModelState
 from softway.march.step_control import StepControl
 from softway.model.model import Model
@@ -27,8 +28,8 @@ class Settings:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EnergyAccount:
-    """Energy account: energy at the start, and since then external work, dissipation, error of the energy balance and
-    energy dissipated by each tie that breaks [J].
+    """Energy account: energy at the start, and since then external work, dissipation, error of the energy balance,
+    energy dissipated by each tie that breaks [J], and the heat of the solids.
     """
 
     energy_start: float
@@ -36,6 +37,7 @@ class EnergyAccount:
     dissipation: float = 0.0
     energy_error: float = 0.0
     ties: tuple[float, ...] = ()
+    heat: HeatOfSolids | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

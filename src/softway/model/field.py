@@ -5,10 +5,12 @@ slab at every evaluation of the equations of motion, so that motion and field me
 force and an energy to the motion.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from softway.arrays import Array
+from softway.bodies.discretised import DiscreteSolid
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -105,3 +107,23 @@ class FieldEquations(Protocol):
             If there is no solution; the slab is then cut back.
         """
         ...
+
+
+@runtime_checkable
+class TimedField(Protocol):
+    """Equations of a companion field with loads that change in time, or with an operator that is factored once a slab:
+    they are solved in a slab only.
+    """
+
+    def in_slab(self, start: float, end: float, parts: Sequence[DiscreteSolid]) -> FieldEquations:
+        """Equations in a slab from ``start`` to ``end`` [s], of solids with the material states at its start."""
+        ...
+
+
+def in_slab(
+    companions: tuple[FieldEquations, ...], start: float, end: float, parts: Sequence[DiscreteSolid]
+) -> tuple[FieldEquations, ...]:
+    """Companion fields in a slab from ``start`` to ``end`` [s] of the solids; the same tuple if none changes."""
+    if not any(isinstance(c, TimedField) for c in companions):
+        return companions
+    return tuple(c.in_slab(start, end, parts) if isinstance(c, TimedField) else c for c in companions)

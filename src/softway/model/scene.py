@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from softway.arrays import Array, BoolArray
 from softway.bodies.inertia.inertia_scaling import Full, Inertia
 from softway.bodies.internal_force.material_state import MaterialState
+from softway.bodies.setup.heat_loads import HeatLoad
 from softway.bodies.setup.loads import Load
 from softway.bodies.solid import Solid, Tool
 from softway.contact.assembly.tie import Tie
@@ -56,7 +57,7 @@ class Scene:
     ties
         Permanent ties between surfaces of solids.
     loads
-        Dead loads: gravity, tractions.
+        Dead loads: gravity, tractions; and heat loads on solids with a temperature.
     start
         Initial fields as given, or static equilibrium.
     inertia
@@ -68,7 +69,7 @@ class Scene:
     bodies: Mapping[str, Solid | Tool]
     contacts: tuple[Contact, ...] = ()
     ties: tuple[Tie, ...] = ()
-    loads: tuple[Load, ...] = ()
+    loads: tuple[Load | HeatLoad, ...] = ()
     start: AsGiven | StaticStart = AsGiven()
     inertia: Inertia = Full()
     mechanism: Mechanism | None = None

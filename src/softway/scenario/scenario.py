@@ -251,7 +251,7 @@ class Scenario:
             bodies={name: body for name, body in self.bodies.items() if isinstance(body, Solid | Tool)},
             contacts=self.contacts,
             ties=self.ties,
-            loads=self.mechanical_loads,
+            loads=self.loads,
             start=self.start,
             inertia=self.inertia,
         )

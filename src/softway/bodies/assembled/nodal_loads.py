@@ -8,6 +8,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.setup.amplitude import Ramp
+from softway.bodies.setup.heat_loads import HeatLoad
 from softway.bodies.setup.loads import Gravity, Load, Traction, traction_force
 from softway.errors import InputError, within
 
@@ -39,11 +40,11 @@ class DeadLoads:
         return out
 
 
-def dead_load(parts: Sequence[DiscreteSolid], weight: Array, loads: Sequence[Load], where: str) -> DeadLoads:
+def dead_load(parts: Sequence[DiscreteSolid], weight: Array, loads: Sequence[Load | HeatLoad], where: str) -> DeadLoads:
     """Build the dead loads on solids with the nodal masses ``weight`` (n,) [kg].
 
-    Gravity acts on the mass matrix: nodes without mass have no weight.  ``where`` is the place of the loads in the
-    scene, for error messages.
+    Loads of heat are none of them.  Gravity acts on the mass matrix: nodes without mass have no weight.  ``where`` is
+    the place of the loads in the scene, for error messages.
     """
     shape = (len(weight), parts[0].mesh.dim)
     fields = []
@@ -56,6 +57,8 @@ def dead_load(parts: Sequence[DiscreteSolid], weight: Array, loads: Sequence[Loa
                 case Traction():
                     part = _solid(parts, item.body, "on")
                     out[part.nodes] += traction_force(part.mesh, part.internal.section, item.tag, item.value)
+                case _:
+                    continue
         fields.append((item.ramp, out))
     return DeadLoads(fields=tuple(fields), shape=shape)
 

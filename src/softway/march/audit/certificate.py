@@ -5,12 +5,14 @@ import numpy as np
 from softway.arrays import Array
 from softway.bodies.elements.section import Axisymmetric
 from softway.march.audit.balances import rounding_forces
+from softway.march.audit.heat_audit import fallen
 from softway.march.audit.ledger import resultant
 from softway.march.march_state import EnergyAccount
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.results.step import Certificate, Ledger
 from softway.model.model import Model
+from softway.solve.equations.slab_values import SlabStart
 from softway.tolerances import DEPTH, ENERGY, FORCES, GAINED, MOMENTUM, TENSION, UNSTABLE
 
 AT_REST = 1e10
@@ -58,7 +60,8 @@ def violation(
         return f"a node ends {-found.min_gap:.3g} m inside its opponent"
     if found.min_force < -TENSION * float(np.abs(after.pressure).max(initial=0.0)):
         return f"a contact row is in tension: {-found.min_force:.3g} N"
-    return _energetic(model, before, out, after, ledger, found) or _pushing(model, before, out, after, ledger, found)
+    broken = _energetic(model, before, out, after, ledger, found) or _pushing(model, before, out, after, ledger, found)
+    return broken or fallen(ledger.heat)
 
 
 def _energetic(
@@ -145,9 +148,14 @@ def _given(out: SlabResult) -> tuple[Array, Array, Array]:
     return out.system.model.slab_load(out.solution.end.scalar), out.push, out.support
 
 
+def _parts(start: SlabStart) -> tuple[Array, ...]:
+    """Internal forces (n, d) of the solids and of each companion field, which may cancel [N]."""
+    return (start.force_of_solids, *(field.force for field in start.fields))
+
+
 def _participating(model: Model, before: ModelState, out: SlabResult, after: ModelState) -> float:
     """Scale of the momentum balance [kg m/s]."""
     total, span = model.space.total, after.time - before.time
     own = sum(total(np.abs(model.mass @ state.start.velocity)) for state in (before, after))
-    inner = INTERNAL * span * sum(total(np.abs(state.start.force)) for state in (before, after))
+    inner = INTERNAL * span * sum(total(np.abs(force)) for state in (before, after) for force in _parts(state.start))
     return own + span * total(np.abs(sum(_given(out)))) + inner

@@ -8,6 +8,7 @@ from softway.arrays import Array, BoolArray
 from softway.bodies.assembled import material_states
 from softway.bodies.assembled.vector_space import VectorSpace
 from softway.bodies.elements.section import Axisymmetric
+from softway.march.audit.heat_audit import heat_audit, initial_heat
 from softway.march.audit.rigid_balances import rigid_balances
 from softway.march.audit.tie_ledger import tie_ledgers
 from softway.march.march_state import EnergyAccount
@@ -43,6 +44,7 @@ def initial_ledger(model: Model, now: ModelState) -> Ledger:
         spin=spin(model, now.start.displacement, momenta) + rigid.spin,
         contacts=contacts,
         ties=tie_ledgers(model, (), now, now),
+        heat=initial_heat(model, now),
     )
 
 
@@ -79,7 +81,7 @@ def spin(model: Model, u: Array, momenta: Array) -> Array:
 
 def open_account(ledger: Ledger) -> EnergyAccount:
     """Energy account of a march that starts with a ledger."""
-    return EnergyAccount(energy_start=ledger.energy_kinetic + ledger.energy_strain)
+    return EnergyAccount(energy_start=ledger.energy_kinetic + ledger.energy_strain, heat=ledger.heat)
 
 
 def update_account(account: EnergyAccount, ledger: Ledger) -> EnergyAccount:
@@ -90,6 +92,7 @@ def update_account(account: EnergyAccount, ledger: Ledger) -> EnergyAccount:
         dissipation=ledger.dissipation,
         energy_error=ledger.energy_error,
         ties=tuple(tie.dissipated for tie in ledger.ties.values()),
+        heat=ledger.heat,
     )
 
 
@@ -117,6 +120,7 @@ def audit(model: Model, last: EnergyAccount, before: ModelState, out: SlabResult
         spin=spin(model, after.start.displacement, momenta) + rigid.spin,
         contacts=_contacts(model, before, out, after),
         ties=tie_ledgers(model, last.ties, before, after),
+        heat=heat_audit(last.heat, before, out, after),
     )
 
 

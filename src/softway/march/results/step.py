@@ -7,6 +7,7 @@ from math import nan
 import numpy as np
 
 from softway.arrays import Array
+from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.html_tables import table
 from softway.march.march_state import MarchState
 from softway.model.scene import State
@@ -117,6 +118,8 @@ class Ledger:
         Contact label -> its audit over the slab.
     ties
         Label of a tie that breaks -> its audit.
+    heat
+        Heat of the solids with a temperature; None without.
     """
 
     energy_kinetic: float
@@ -128,6 +131,7 @@ class Ledger:
     spin: Array
     contacts: Mapping[str, ContactLedger]
     ties: Mapping[str, TieLedger] = field(default_factory=dict)
+    heat: HeatOfSolids | None = None
 
     def _repr_html_(self) -> str:
         """A table for notebooks."""

@@ -17,6 +17,7 @@ from softway.march.rules.declared import slab_rule
 from softway.march.rules.slab_rule import Attempt, Method, SlabRule
 from softway.march.slab.with_rigid import coupled_slabs
 from softway.mechanisms.members.stops import StopEvent
+from softway.model.field import in_slab
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import TimeWeight
@@ -77,6 +78,8 @@ def advance(
         If the method does not converge, the slab is too long for the approach, or the energy balance cannot be closed.
     """
     model = stepper.model.during(now.start.states, slab.span).bonded(now.start.fields).pushed(slab.start, slab.end)
+    if model.companions:
+        model = replace(model, companions=in_slab(model.companions, slab.start, slab.end, model.parts))
     if model.rigid is None:
         for out, after in stepper.rule.solve(model, now, slab, memory, attempt):
             yield _state(slab, out), _with_breaks(model, now, slab, out), after

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from softway.march.results.step import Event
+from softway.march.results.step import Event, Ledger
 from softway.record.read.findings import DISSIPATION, ENERGY, finding
 
 GIVEN_BACK = 1e-12
@@ -12,6 +12,8 @@ MISSED = 1e-2
 """Error of the energy balance since the start, relative to the energies that took part, above which it is a finding."""
 ENERGIES = ("energy_kinetic", "energy_strain", "work_external", "dissipation", "energy_error")
 """Energies that an audit follows, by their names in the ledger and in the history."""
+RECEIVED = "heat.received"
+"""Column of the heat that the motion gave, in histories of solids with a temperature."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +23,11 @@ class Miss:
     time: float
     error: float
     scale: float
+
+
+def received(ledger: Ledger) -> float:
+    """Heat that the motion gave to solids with a temperature [J]; zero without."""
+    return 0.0 if ledger.heat is None else ledger.heat.received
 
 
 class EnergyWatch:
@@ -42,25 +49,40 @@ class EnergyWatch:
     (Miss(time=0.1, error=2.0, scale=102.0), None)
     """
 
-    __slots__ = ("_dissipation", "_energy", "_work", "_worst", "rounding")
+    __slots__ = ("_dissipation", "_energy", "_received", "_work", "_worst", "rounding")
 
     def __init__(self, energy: float, rounding: float = 0.0) -> None:
         self._energy, self.rounding = energy, rounding
-        self._work = self._dissipation = 0.0
+        self._work = self._dissipation = self._received = 0.0
         self._worst: Miss | None = None
 
     @property
     def level(self) -> float:
-        """Greatest energy of the bodies so far, and what was dissipated [J]."""
-        return self._energy + abs(self._dissipation)
+        """Greatest energy of the bodies so far, and what was dissipated or given to their heat [J]."""
+        return self._energy + abs(self._dissipation) + self._received
 
     @property
     def scale(self) -> float:
-        """Greatest energy of the bodies so far, and the work of loads, supports and tools [J]."""
-        return self._energy + abs(self._work)
+        """Greatest energy of the bodies so far, the work of loads, supports and tools, and what heat received [J]."""
+        return self._energy + abs(self._work) + self._received
 
-    def took(self, time: float, kinetic: float, strain: float, work: float, dissipation: float, error: float) -> float:
-        """Energy dissipated in a slab [J], from the energies of the ledger at its end."""
+    def took(
+        self,
+        time: float,
+        kinetic: float,
+        strain: float,
+        work: float,
+        dissipation: float,
+        error: float,
+        *,
+        received: float = 0.0,
+    ) -> float:
+        """Energy dissipated in a slab [J], from the energies of the ledger at its end.
+
+        What the heat of solids has ``received`` is none of it: it may come back.
+        """
+        strain, dissipation = strain + received, dissipation - received
+        self._received = max(self._received, abs(received))
         gained = dissipation - self._dissipation
         self._energy, self._work, self._dissipation = max(self._energy, kinetic + strain), work, dissipation
         if not abs(error) <= MISSED * self.scale + self.rounding:

@@ -12,7 +12,7 @@ from softway.bodies.solid import Tool
 from softway.march.results.step import Event, Step
 from softway.model.scene import State
 from softway.record.audit.auditor import Auditor, auditor
-from softway.record.audit.energy_watch import ENERGIES, EnergyWatch, given_back, missed
+from softway.record.audit.energy_watch import ENERGIES, RECEIVED, EnergyWatch, given_back, missed, received
 from softway.record.read.findings import ENERGY, MOMENTUM, SPIN, finding
 from softway.record.storage.table import Table
 from softway.record.write.grid.grid_layout import layout
@@ -65,10 +65,12 @@ class Watcher:
 
     def past(self, history: Table) -> None:
         """Take up the history of the part of the run that was computed before it is resumed."""
-        lines = zip(*(history[name].tolist() for name in ("time", *ENERGIES)), strict=True)
+        columns = ("time", *ENERGIES, *(name for name in history if name == RECEIVED))
+        lines = zip(*(history[name].tolist() for name in columns), strict=True)
         before = float(history["time"][0])
         for time, *energies in itertools.islice(lines, 1, None):
-            self._energy.took(time, *energies)
+            given = energies[len(ENERGIES) :]
+            self._energy.took(time, *energies[: len(ENERGIES)], received=sum(given))
             if self._counted(before, time):
                 self._energy.looked()
             before = time
@@ -76,7 +78,8 @@ class Watcher:
     def watched(self, steps: Iterator[Step]) -> Iterator[Step]:
         """Steps with the findings among their events, and the gaps that were seen in their certificates."""
         for step in steps:
-            gained = self._energy.took(step.after.time, *(getattr(step.ledger, name) for name in ENERGIES))
+            energies = (getattr(step.ledger, name) for name in ENERGIES)
+            gained = self._energy.took(step.after.time, *energies, received=received(step.ledger))
             found = list(given_back(self._energy, gained, step.after.time, step.slab.span))
             seen = step.certificate
             if self._counted(step.before.time, step.after.time):

@@ -17,6 +17,7 @@ from softway.bodies.internal_force.material_state import MaterialState
 from softway.contact.contact_rows import ContactRows
 from softway.contact.tangential_rows import TangentialRows
 from softway.errors import InputError
+from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.heat.ledger import HeatLedger
 from softway.heat.march import HeatState
 from softway.march.march_state import EnergyAccount, MarchState, Settings, StepHistory
@@ -54,6 +55,7 @@ KINDS: Mapping[str, type] = MappingProxyType(
                 FieldState,
                 MaterialState,
                 EnergyAccount,
+                HeatOfSolids,
                 StepHistory,
                 OperatorMemory,
                 OperatorOrigin,

@@ -63,6 +63,10 @@ def _number(label: str, name: str) -> Callable[[Ledger], float]:
 
 
 CONTACT = (("force_n", "N"), ("force_t", "N"), ("min_gap", "m"), ("power_residual", "J"))
+OF_HEAT = (
+    *((name, "J") for name in ("content", "brought", "received", "cold_work", "error")),
+    ("entropy", "J/K"),
+)
 TIE = (("broken", table.RATIO), ("opening", "m"), ("dissipated", "J"))
 COLUMNS = (
     Column("time", "s", lambda step: step.after.time, lambda start: start.initial.time),
@@ -103,8 +107,16 @@ EXTRA: tuple[Column, ...] = (
 """Columns after those of the certificate; files of earlier versions lack them."""
 
 
-def columns(contacts: tuple[str, ...], ties: tuple[str, ...] = ()) -> tuple[Column, ...]:
-    """Columns of a run with some contacts and ties that break, in order, without its probes."""
+def _of_heat(name: str) -> Callable[[Ledger], float]:
+    return lambda ledger: float(getattr(ledger.heat, name))
+
+
+HEAT = tuple(of_ledger(f"heat.{name}", unit, _of_heat(name)) for name, unit in OF_HEAT)
+"""Columns of runs in which solids have a temperature."""
+
+
+def columns(contacts: tuple[str, ...], ties: tuple[str, ...] = (), heat: bool = False) -> tuple[Column, ...]:
+    """Columns of a run with some contacts, ties that break, and ``heat`` of solids, in order, without its probes."""
     each = (column for label in contacts for column in of_contact(label))
     glued = (column for label in ties for column in of_tie(label))
-    return (*COLUMNS, *each, *CERTIFICATE, *EXTRA, *glued)
+    return (*COLUMNS, *each, *CERTIFICATE, *EXTRA, *glued, *(HEAT if heat else ()))

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from softway.bodies.conductor import Conductor
 from softway.bodies.setup.heat_loads import HeatLoad
+from softway.bodies.solid import Solid
 from softway.errors import InputError, Note
 from softway.heat.build_heat import build_heat
 from softway.heat.heat_model import HeatModel, HeatPart, HeatScene
@@ -23,8 +24,10 @@ FOREIGN = {
     "solver": "omit it: the march of heat has its own solution method",
 }
 """Keys that conductors do not have, and remedies."""
-ALONE = "a scenario of conductors only: heat is not coupled with motion, contact or forces"
+ALONE = "a scenario of conductors only; solids that move have heat by their key thermal"
 """Remedy where conductors are together with others."""
+HEATED = "a scenario of conductors, or a solid with the key thermal"
+"""Remedy for loads of heat on bodies without a temperature."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,7 +82,7 @@ def is_heat(scenario: Scenario) -> bool:
     Raises
     ------
     InputError
-        If conductors are together with other bodies, or loads of heat are given without conductors.
+        If conductors are together with other bodies, or loads of heat are given without a body with heat.
     """
     conductors = [name for name, body in scenario.bodies.items() if isinstance(body, Conductor)]
     others = [name for name in scenario.bodies if name not in conductors]
@@ -88,9 +91,10 @@ def is_heat(scenario: Scenario) -> bool:
         raise InputError(f"bodies.{others[0]}.kind", problem, ALONE)
     if scenario.heat_contacts and not conductors:
         raise InputError("heat_contacts[0]", f"{list(scenario.heat_contacts[0].between)} without a Conductor", ALONE)
+    heated = conductors or any(isinstance(b, Solid) and b.thermal is not None for b in scenario.bodies.values())
     for k, load in enumerate(scenario.loads):
-        if isinstance(load, HeatLoad) and not conductors:
-            raise InputError(f"loads[{k}]", f"{type(load).__name__} on {load.on!r}, which is no Conductor", ALONE)
+        if isinstance(load, HeatLoad) and not heated:
+            raise InputError(f"loads[{k}]", f"{type(load).__name__} on {load.on!r}, which is no Conductor", HEATED)
     return bool(conductors)
 
 

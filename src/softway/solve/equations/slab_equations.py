@@ -15,7 +15,7 @@ import numpy as np
 from softway.arrays import Array, BoolArray
 from softway.contact.contact_rows import ContactRows
 from softway.contact.slab_motion.trajectory import Trajectory
-from softway.model.field import FieldSlab, FieldSolution
+from softway.model.field import FieldSlab, FieldSolution, FieldState
 from softway.model.model import Model
 from softway.model.time_weight import TimeWeight, moments
 from softway.solve.constraints.compliance import FrozenOperator, RowBasis, row_basis
@@ -87,9 +87,9 @@ class SlabEquations:
         if shock is not None:
             mean, lost = mean + shock, model.space.totals(shock * (u1 - start.displacement))
         coupled = self._coupled(u1)
-        for found in coupled:
+        for field_start, found in zip(start.fields, coupled, strict=True):
             energy, force = energy + found.end.energy, force + found.end.force
-            mean, lost = mean + found.mean_force, lost + found.lost
+            mean, lost = mean + self._carried(field_start, found), lost + found.lost
         rows = self.contact.at(u1)
         ends = replace(self._ends(u1, force, energy + lost, mean, rows, impulse), viscous=viscous)
         completed = self.closure.close(model, ends)
@@ -118,6 +118,15 @@ class SlabEquations:
         start, span, first = self.start, self.path.span, first_weight(self.weight)
         slabs = (FieldSlab(span=span, start=f, u0=start.displacement, u1=u1, first=first) for f in start.fields)
         return [c.solve(slab) for c, slab in zip(self.model.companions, slabs, strict=True)]
+
+    def _carried(self, start: FieldState, found: FieldSolution) -> Array:
+        """Mean force (n, d) of a field [N].
+
+        Massless nodes are in equilibrium at the ends: what differs from these acts on the nodes that they follow.
+        """
+        first = first_weight(self.weight)
+        ends = first * start.force + (1.0 - first) * found.end.force
+        return ends + passed_on(self.model, found.mean_force - ends) if self.model.inert else ends
 
     def _ends(
         self, u1: Array, force: Array, energy: Array, mean: Array, rows: ContactRows, impulse: Array

@@ -232,7 +232,7 @@ material = { kind = "LinearElastic", E = 1, nu = 0 }
 density = 1
 """
 WRONG = [
-    (SOLID, (), "bodies.block.kind", "not coupled"),
+    (SOLID, (), "bodies.block.kind", "conductors only"),
     ("", ("bodies.bar.law.capacity=0",), "bodies.bar.law.capacity", "positive"),
     ("", ("bodies.bar.temperature=-10",), "bodies.bar.temperature", "kelvin"),
     ("", ('loads=[{kind="Temperature",on="bar.right",value=-5}]',), "loads[0].value", "kelvin"),
@@ -261,7 +261,7 @@ def test_what_is_refused(more, changes, where, remedy):
 
 def test_heat_on_solids_is_refused():
     text = SOLID + '[[loads]]\nkind = "HeatFlux"\non = "block.left"\nvalue = 1\n[time]\nend = 1\n'
-    with pytest.raises(InputError, match="conductors only") as found:
+    with pytest.raises(InputError, match="the key thermal") as found:
         sw.check(sw.loads(text))
     assert found.value.where == "loads[0]"
 

@@ -86,6 +86,23 @@ def touching(between: tuple[str, str] = ("a.right", "b.left")) -> object:
     return heat.build_heat(heat.HeatScene(bodies=bodies, contacts=(contact,)))
 
 
+STEEL = sw.LinearElastic(E=1.0, nu=0.25)
+FIBRES = sw.laws.LinearOrthotropic(E=(2.0, 1.0, 1.0), nu=(0.2, 0.2, 0.2), G=(0.5, 0.5, 0.5))
+HALVES = SQUARE.with_region("a", lambda x: x[:, 0] < 0.5).with_region("c", lambda x: x[:, 0] > 0.5)
+
+
+def thermal(**given: object) -> sw.bodies.Thermal:
+    """Heat of a solid that expands."""
+    return sw.bodies.Thermal(**{"law": LAW, "temperature": 300.0, "expansion": 1e-5, **given})  # type: ignore[arg-type]
+
+
+def solids(**given: object) -> object:
+    """Model of a square with heat, and a flux on it."""
+    parts = {"mesh": SQUARE, "material": STEEL, "density": 1.0, "thermal": thermal(), **given}
+    load = heat.HeatFlux(on="b.left", value=1.0)
+    return sw.build(sw.Scene(bodies={"b": sw.Solid(**parts)}, loads=(load,)))  # type: ignore[arg-type]
+
+
 ALONE = "a scenario of conductors only"
 TABLE: Table = {
     "a tool beside a conductor": Try(SCENE, BOTH, ALONE, f"bodies={{b={BODY}}}"),
@@ -95,7 +112,19 @@ TABLE: Table = {
         'a difference of temperatures such as "0.5 K"',
         "bodies.b.law.latent.half_range=0.5 K",
     ),
-    "heat on a solid": Try(SOLIDS, FLUX, ALONE, "loads=[]"),
+    "heat on a solid": Try(SOLIDS, FLUX, "a solid with the key thermal", "loads=[]"),
+    "heat on a solid without": call(lambda: solids(thermal=None), "the heat of the solid, thermal", solids),
+    "expansion of fibres": call(lambda: solids(material=FIBRES), "an isotropic law", solids),
+    "expansion of quadratic cells": call(
+        lambda: solids(mesh=rectangle((1.0, 1.0), (1, 1), cell="tri6")), "linear cells", solids
+    ),
+    "densities of a solid with heat": call(
+        lambda: solids(mesh=HALVES, material=dict.fromkeys("ac", STEEL), density={"a": 1.0, "c": 2.0}),
+        "one density for the body",
+        lambda: solids(mesh=HALVES, material=dict.fromkeys("ac", STEEL)),
+    ),
+    "a share above one": call(lambda: thermal(heating=2.0), "a share from 0 to 1", thermal),
+    "a solid that melts": call(lambda: thermal(law=MELTS), "a law without latent", thermal),
     "a force on a conductor": Try(SCENE, "loads=[{kind='Gravity', acceleration=-1}]", ALONE, FLUX),
     "a contact of solids": Try(SOLIDS, MEETS, ALONE, "heat_contacts=[]"),
     "a contact apart": Try(SCENE, f"{TWO} & {MEETS.replace('left', 'right')}", "surfaces that touch", MEETS),

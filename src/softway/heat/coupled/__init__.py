@@ -1,0 +1,1 @@
+"""Temperature of solids that move, as a companion field of their displacement."""

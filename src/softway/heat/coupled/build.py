@@ -1,0 +1,105 @@
+"""Model of a scene with the temperatures of its solids."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from softway.bodies.conductor import Conductor, Thermal
+from softway.bodies.discretised import DiscreteSolid
+from softway.bodies.setup.heat_loads import HeatLoad, place_of
+from softway.bodies.setup.loads import Gravity, Traction
+from softway.bodies.solid import Solid
+from softway.errors import InputError, within
+from softway.heat.build_heat import heat_model
+from softway.heat.coupled.dissipation import Dissipation, dissipations
+from softway.heat.coupled.expansion import Expansion, expansions
+from softway.heat.coupled.solid_temperature import SolidTemperature
+from softway.model.build import build as mechanical
+from softway.model.build import with_field
+from softway.model.model import Model
+from softway.model.scene import Scene
+
+UNEVEN = frozenset({"tri6", "quad8", "tet10", "hex20"})
+"""Cells whose nodal capacities are not the integrals of their shape functions."""
+
+
+def build(scene: Scene) -> Model:
+    """Build the model of a scene: meshes, tables, mass, contacts, and the temperature of solids with heat.
+
+    Raises
+    ------
+    InputError
+        With the place in the scene: if a tag matches nothing, a body does not exist, dimensions are mixed, or a solid
+        with heat has no temperature, no conduction or no expansion.
+
+    Examples
+    --------
+    >>> import softway as sw
+    >>> heat = sw.bodies.Thermal(law=sw.heat.Conduction(conductivity=50.0, capacity=500.0), temperature=300.0)
+    >>> bar = sw.Solid(mesh=sw.meshes.Interval(length=1.0, cells=1), material=sw.LinearElastic(E=2e11), density=7800.0,
+    ...                thermal=heat)
+    >>> [field.name for field in build(sw.Scene(bodies={"bar": bar})).fields]
+    ['displacement', 'temperature']
+    """
+    model = mechanical(scene)
+    heated = {name: body for name, body in scene.bodies.items() if isinstance(body, Solid) and body.thermal is not None}
+    loads = {k: load for k, load in enumerate(scene.loads) if not isinstance(load, Gravity | Traction)}
+    _require_heated(loads, heated)
+    return with_temperature(model, heated, loads) if heated else model
+
+
+def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[int, HeatLoad]) -> Model:
+    """Model whose solids ``heated`` have a temperature, with the heat ``loads`` by their numbers in the scene."""
+    parts = {part.name: part for part in model.parts if part.name in heated}
+    thermals = {name: thermal for name, body in heated.items() if (thermal := body.thermal) is not None}
+    found: list[Expansion] = []
+    spent: list[Dissipation] = []
+    conductors = {}
+    for name, part in parts.items():
+        with within(f"bodies.{name}"):
+            conductors[name] = _conductor(part, thermals[name])
+            if thermals[name].expansion:
+                found.extend(expansions(part, thermals[name].expansion))
+            number = list(model.meshes).index(name)
+            spent.extend(dissipations(number, part, thermals[name].heating))
+            if thermals[name].expansion or any(one.solid == number for one in spent):
+                _require_quadrature(part)
+    heat = heat_model(conductors, loads)
+    nodes = np.concatenate([np.arange(part.nodes.start, part.nodes.stop) for part in parts.values()])
+    given = [thermals[part.name].reference for part in heat.parts]
+    sizes = [part.mesh.n_nodes for part in heat.parts]
+    reference = [np.full(size, one) if one else None for size, one in zip(sizes, given, strict=True)]
+    own = [heat.initial[p.nodes] if r is None else r for p, r in zip(heat.parts, reference, strict=True)]
+    equations = SolidTemperature(
+        model=heat, nodes=nodes, count=model.shape[0], parts=len(model.parts), part=model.part_of[nodes],
+        reference=np.concatenate(own), expansions=tuple(found), dissipations=tuple(spent),
+    )  # fmt: skip
+    return with_field(model, equations)
+
+
+def _conductor(part: DiscreteSolid, thermal: Thermal) -> Conductor:
+    """The solid as a conductor of heat."""
+    if len(set(part.materials.densities)) != 1:
+        raise InputError("density", "densities by regions of a solid with heat", "one density for the body")
+    return Conductor(
+        mesh=part.mesh, law=thermal.law, density=part.materials.densities[0], section=part.internal.section,
+        temperature=thermal.temperature,
+    )  # fmt: skip
+
+
+def _require_quadrature(part: DiscreteSolid) -> None:
+    """Refuse heat of strain in cells whose nodal capacities are not the integrals of their shape functions."""
+    for cell in part.mesh.blocks:
+        if cell in UNEVEN:
+            problem = f"heat of strain in {cell} cells, whose nodes it would heat unevenly"
+            raise InputError("thermal", problem, "linear cells, bar3, quad9 or hex27; or expansion and heating zero")
+
+
+def _require_heated(loads: Mapping[int, HeatLoad], heated: Mapping[str, Solid]) -> None:
+    """Refuse heat loads on bodies without a temperature."""
+    for k, load in loads.items():
+        name = place_of(load)[0]
+        if name not in heated:
+            where = f"loads[{k}].{'of' if hasattr(load, 'of') else 'on'}"
+            known = f", or one of {', '.join(heated)}" if heated else ""
+            raise InputError(where, f"{name!r} has no temperature", f"the heat of the solid, thermal{known}")

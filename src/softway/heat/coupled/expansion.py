@@ -1,0 +1,161 @@
+"""Thermal expansion of a solid: entropy of its strain at the nodes, and the forces of its temperature.
+
+    psi = -sum_i (theta_i - theta_r) H_i(u),   H_i = int N_i beta ln J dV
+
+with ``beta = 3 kappa alpha`` in a volume, ``E alpha / (1 - nu)`` in plane stress and ``E alpha`` in a bar, and J the
+ratio of volumes, areas or lengths; for a law of the linear theory the trace of the strain takes the place of ln J.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array, vstack
+
+from softway.arrays import Array, IntArray
+from softway.bodies.discretised import DiscreteSolid
+from softway.bodies.elements.quadrature import sampled_cells
+from softway.bodies.elements.section import Section, free_axes
+from softway.bodies.elements.strain_operator import StrainOperator
+from softway.bodies.internal_force.body_force import BodyForce
+from softway.bodies.internal_force.regions import RegionForces
+from softway.errors import InputError
+from softway.kernels.assembly.assembler import gather_table
+from softway.kernels.linalg import tensors
+from softway.laws.elasticity.free_faces import condensed
+from softway.laws.law import Material, RateLaw, initial_moduli
+from softway.laws.strain_measures import Small
+
+SKEW = 1e-9
+"""Difference of the thermal stresses along two axes, relative to the greatest, that is rounding."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Expansion:
+    """Thermal expansion of the elements of one law.
+
+    Parameters
+    ----------
+    nodes
+        (k,) their nodes among those of all solids.
+    values
+        (p, k) shape functions at the quadrature points.
+    sampling
+        Strain operator of the law.
+    directions
+        (p, m, D) or (1, m, D) reference directions of the points.
+    small
+        True for a law of the linear theory.
+    modulus
+        Thermal stress per temperature beta [Pa/K].
+    """
+
+    nodes: IntArray
+    values: csr_array
+    sampling: StrainOperator
+    directions: Array
+    small: bool
+    modulus: float
+
+    def entropy(self, u: Array) -> Array:
+        """Entropies H (k,) of the strain at the displacement ``u`` (n, d) of all solids [J/K]."""
+        change = self._change(u[self.nodes])[0]
+        return np.asarray(self.values.T @ (self.modulus * self.sampling.volume * change))
+
+    def force(self, over: Array, u: Array) -> Array:
+        """Forces (k, d) [N] with the temperatures ``over`` (k,) the reference [K], at ``u`` (n, d)."""
+        own = u[self.nodes]
+        _, flux = self._change(own)
+        stress = -self.modulus * (self.values @ over)
+        return np.asarray(self.sampling.nodal(stress[:, None, None] * flux, own))
+
+    def _change(self, u: Array) -> tuple[Array, Array]:
+        """Change of volume (p,), ln J or the trace of the strain, and its derivative (p, m, D) by the derivatives."""
+        H, g = self.sampling.derivatives(u), self.directions
+        if self.small:
+            return tensors.double_dot(np.broadcast_to(g, H.shape), H), np.broadcast_to(g, H.shape)
+        f = g + H
+        with np.errstate(invalid="ignore", divide="ignore"):
+            if f.shape[-2] == 1:
+                square = tensors.double_dot(f, f)
+                return 0.5 * np.log(square), f / square[:, None, None]
+            return np.log(tensors.determinant(f)), _inverse_transposed(f)
+
+
+def expansions(part: DiscreteSolid, coefficient: float) -> Iterator[Expansion]:
+    """Thermal expansions of the laws of a solid with a ``coefficient`` of linear expansion [1/K].
+
+    Raises
+    ------
+    InputError
+        If a law has no isotropic resistance to a change of volume.
+    """
+    section, whole = part.internal.section, point_values(part)
+    for region, nodes, points, internal, law in pieces(part):
+        modulus = coefficient * thermal_stiffness(law, section, f"material.{region}" if region else "material")
+        yield Expansion(
+            nodes=nodes + part.nodes.start,
+            values=csr_array(whole[points][:, nodes]),
+            sampling=internal.sampling,
+            directions=internal.directions,
+            small=not isinstance(law, RateLaw) and isinstance(law.measure, Small),
+            modulus=modulus,
+        )
+
+
+def thermal_stiffness(law: Material, section: Section, where: str = "material") -> float:
+    """Stress for a strain of one along each axis of the section [Pa]: 3 kappa, E/(1 - nu) in plane stress, E in a bar.
+
+    Raises
+    ------
+    InputError
+        If the law is not isotropic, or does not resist a change of volume.
+
+    Examples
+    --------
+    >>> from softway.bodies.elements.section import Bar, PlaneStress, Volume
+    >>> from softway.laws.bulk import LinearElastic
+    >>> steel = LinearElastic(E=3.0, nu=0.25)
+    >>> [round(thermal_stiffness(steel, section), 9) for section in (Volume(), PlaneStress(), Bar())]
+    [6.0, 4.0, 3.0]
+    """
+    free = free_axes(section)
+    stress = np.einsum("ijkk->ij", condensed(initial_moduli(law), 3 - len(free), free))
+    found, size = float(stress[0, 0]), float(np.abs(stress).max())
+    if not 0.0 < found < np.inf:
+        problem = f"expansion of {type(law).__name__}, which does not resist a change of volume"
+        raise InputError(where, problem, "thermal.expansion = 0, or a law with an elastic part")
+    if np.abs(stress - found * np.eye(len(stress))).max() > SKEW * size:
+        problem = f"expansion of {type(law).__name__}, which is not isotropic"
+        raise InputError(where, problem, "thermal.expansion = 0, or an isotropic law")
+    return found
+
+
+def pieces(part: DiscreteSolid) -> Iterator[tuple[str, IntArray, IntArray, BodyForce, Material]]:
+    """Region, nodes (k,), points (q,), internal force and law of each law of a solid."""
+    internal, materials = part.internal, part.materials
+    if isinstance(internal, RegionForces):
+        for term in internal.terms:
+            yield term.region, term.nodes, term.points, term.internal, materials.laws[term.number]
+    else:
+        points = np.arange(len(internal.sampling.volume))
+        yield "", np.arange(part.mesh.n_nodes), points, internal, materials.laws[0]
+
+
+def point_values(part: DiscreteSolid) -> csr_array:
+    """Shape functions (p, n) at the quadrature points of a solid."""
+    tables = []
+    for cells in sampled_cells(part.mesh, part.internal.section, "point", small=False).kinds:
+        N = np.broadcast_to(cells.element.N[None, :, :, None], (len(cells.nodes), *cells.element.N.shape, 1))
+        tables.append(gather_table(cells.nodes, N, part.mesh.n_nodes))
+    return csr_array(vstack(tables, format="csr"))
+
+
+def _inverse_transposed(f: Array) -> Array:
+    """Transposed inverse of (p, m, m) with m = 2, 3; not a number where there is none."""
+    det = tensors.determinant(f)[:, None, None]
+    if f.shape[-1] == 2:
+        cofactor = np.stack([f[:, 1, ::-1] * [1.0, -1.0], f[:, 0, ::-1] * [-1.0, 1.0]], axis=1)
+    else:
+        cofactor = np.stack([np.cross(f[:, k - 2], f[:, k - 1]) for k in range(3)], axis=1)
+    return np.asarray(cofactor / det)

@@ -1,0 +1,40 @@
+"""Audit of the heat of solids."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HeatOfSolids:
+    """Heat of the solids with a temperature at the end of a slab, and heats since the start of the march.
+
+    Parameters
+    ----------
+    content
+        Heat content [J]: with the kinetic and the strain energy of the ledger it is the whole energy of the solids.
+    brought
+        Heat that loads brought, less what they took away [J].
+    received
+        Heat that the motion gave: dissipated in the solids, or work against the thermal stress [J].
+    cold_work
+        Energy that the material dissipated and that did not heat [J].
+    entropy
+        Entropy produced [J/K].
+    error
+        Content less that at the start, ``brought`` and ``received`` [J].
+    produced, passed
+        Entropy produced in this slab, and the sum of the magnitudes of the entropies that took part in it [J/K].
+
+    Examples
+    --------
+    >>> HeatOfSolids(content=3.0).brought
+    0.0
+    """
+
+    content: float
+    brought: float = 0.0
+    received: float = 0.0
+    cold_work: float = 0.0
+    entropy: float = 0.0
+    error: float = 0.0
+    produced: float = 0.0
+    passed: float = 0.0
