@@ -121,7 +121,7 @@ def smooth(count: int) -> tuple[np.ndarray, np.ndarray]:
 
 @pytest.mark.slow
 def test_motion_and_temperature_are_of_second_order_in_time() -> None:
-    reference, coarse, fine = smooth(320), smooth(20), smooth(40)
+    reference, coarse, fine = smooth(320), smooth(40), smooth(80)
     for exact, one, two in zip(reference, coarse, fine, strict=True):
         assert np.log2(np.abs(one - exact).max() / np.abs(two - exact).max()) == pytest.approx(2.0, abs=0.25)
 
