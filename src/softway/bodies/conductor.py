@@ -19,7 +19,7 @@ TemperatureField = Kelvin | Profile | Array | Callable[[Array], Array]
 """Uniform temperature, profile of numbers along an axis, nodal values (n,), or a function of the points (n, d)."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Conductor:
     """Body with a temperature and no motion.
 
@@ -66,7 +66,7 @@ class Conductor:
             raise InputError("latent", f"{self.latent!r}", "'cell' or 'node'")
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Thermal:
     """Heat of a solid, whose temperature and motion are solved together.
 

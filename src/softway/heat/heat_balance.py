@@ -7,7 +7,7 @@ import scipy.sparse as sp
 
 from softway.arrays import Array
 from softway.heat.heat_model import HeatModel
-from softway.heat.operators import Entries, Thermal, heat_flow, surface_heat, thermal, unknowns_of
+from softway.heat.operators import Entries, HeatValues, heat_flow, heat_values, surface_heat, unknowns_of
 
 ROUNDING = 2.0 * float(np.finfo(float).eps)
 """Rounding of the sum of the heats of the nodes, relative to the terms that they are summed from."""
@@ -71,7 +71,7 @@ class Balance:
         (n,) heat that flows out of the nodes by conduction [W].
     """
 
-    after: Thermal
+    after: HeatValues
     values: Array
     moved: float
     matrix: sp.csr_array | None
@@ -106,7 +106,7 @@ def prescribed(model: HeatModel, unknowns: Array, time: float) -> Array:
     return out
 
 
-def put_at_once(model: HeatModel, before: Thermal, time: float) -> tuple[Thermal, Array, float]:
+def put_at_once(model: HeatModel, before: HeatValues, time: float) -> tuple[HeatValues, Array, float]:
     """State with the prescribed temperatures of a time [s], the heat (k,) [J] of the jump to each of them, and the
     entropy that these heats bring [J/K].
     """
@@ -116,7 +116,7 @@ def put_at_once(model: HeatModel, before: Thermal, time: float) -> tuple[Thermal
         if (after.unknowns[nodes] != target[nodes]).any():
             unknowns = after.unknowns.copy()
             unknowns[nodes] = target[nodes]
-            changed = thermal(model, unknowns)
+            changed = heat_values(model, unknowns)
             gained = changed.content - after.content
             brought[k] = gained.sum()
             carried += float((gained / changed.temperature).sum())
@@ -124,10 +124,10 @@ def put_at_once(model: HeatModel, before: Thermal, time: float) -> tuple[Thermal
     return after, brought, carried
 
 
-def balance(model: HeatModel, before: Thermal, stage: Stage, unknowns: Array, *, slopes: bool) -> Balance:
+def balance(model: HeatModel, before: HeatValues, stage: Stage, unknowns: Array, *, slopes: bool) -> Balance:
     """Balance of the heats at unknowns (n,) of the end of a stage, with its derivatives if ``slopes`` are wanted."""
     h, theta = stage.span, stage.theta
-    after = thermal(model, unknowns, slopes)
+    after = heat_values(model, unknowns, slopes)
     mean = (1.0 - theta) * before.temperature + theta * after.temperature
     liquid = (1.0 - theta) * before.liquid + theta * after.liquid
     flow, matrix, by_liquid = heat_flow(model, mean, liquid, slopes)
@@ -155,7 +155,7 @@ def balance(model: HeatModel, before: Thermal, stage: Stage, unknowns: Array, *,
     return Balance(after=after, values=values, moved=float(moved), matrix=total, mean=mean, flow=flow)
 
 
-def _matrix(after: Thermal, conduction: sp.csr_array, by_liquid: Entries, span: float) -> sp.csr_array:
+def _matrix(after: HeatValues, conduction: sp.csr_array, by_liquid: Entries, span: float) -> sp.csr_array:
     """Derivative (n, n) of the balance: capacity and latent heat, and ``span`` [s] times that of the heat flow."""
     n, E = len(after.unknowns), len(after.liquid)
     diagonal = np.arange(n)
@@ -173,7 +173,7 @@ def _assembled(entries: Entries, shape: tuple[int, int]) -> sp.csr_array:
     return sp.csr_array((values, (rows, columns)), shape=shape)
 
 
-def heats(model: HeatModel, before: Thermal, stage: Stage, found: Balance) -> Array:
+def heats(model: HeatModel, before: HeatValues, stage: Stage, found: Balance) -> Array:
     """Heat that came in by each load on a surface, each source and each prescribed temperature, in this order [J]."""
     surfaces = [
         surface_heat(surface, found.mean, factor)[0].sum() * stage.span
@@ -200,7 +200,7 @@ def entropy_brought(model: HeatModel, stage: Stage, found: Balance) -> float:
     return total + float((found.values[held] / found.mean[held]).sum())
 
 
-def rounding(model: HeatModel, before: Thermal, stage: Stage) -> float:
+def rounding(model: HeatModel, before: HeatValues, stage: Stage) -> float:
     """Rounding of the sum of the heats of the nodes [J]."""
     total = 2.0 * float(np.abs(before.content).sum())
     for cells in model.cells:

@@ -20,7 +20,7 @@ from softway.heat.heat_balance import (
     rounding,
 )
 from softway.heat.heat_model import HeatModel
-from softway.heat.operators import Thermal, thermal, unknowns_of
+from softway.heat.operators import HeatValues, heat_values, unknowns_of
 from softway.solve.linear.backends.superlu import SuperLU, factor_unsymmetric
 from softway.solve.linear.interface import Factor, LinearSolver
 
@@ -71,7 +71,7 @@ class StageResult:
         [J/K], and the magnitudes that take part.
     """
 
-    after: Thermal
+    after: HeatValues
     heats: Array
     passed: Array
     entropy: float
@@ -100,13 +100,13 @@ def linear_factor(model: HeatModel, span: float, linear: LinearSolver = SuperLU(
         return None
     unknowns = unknowns_of(model, model.initial)
     stage = Stage(start=0.0, span=span, theta=1.0)
-    found = balance(model, thermal(model, unknowns), stage, unknowns, slopes=True)
+    found = balance(model, heat_values(model, unknowns), stage, unknowns, slopes=True)
     return HeatFactor(span=span, factor=linear.factor(_of_free(found, free)))
 
 
 def solve_slab(
     model: HeatModel,
-    before: Thermal,
+    before: HeatValues,
     slab: Stage,
     halves: bool = False,
     factor: HeatFactor | None = None,
@@ -146,7 +146,7 @@ def solve_slab(
 
 def solve_stage(
     model: HeatModel,
-    before: Thermal,
+    before: HeatValues,
     stage: Stage,
     factor: HeatFactor | None = None,
     linear: LinearSolver = SuperLU(),
@@ -197,7 +197,7 @@ def solve_stage(
 
 
 def _result(
-    model: HeatModel, before: Thermal, stage: Stage, found: Balance, iterations: int, frozen: HeatFactor | None
+    model: HeatModel, before: HeatValues, stage: Stage, found: Balance, iterations: int, frozen: HeatFactor | None
 ) -> StageResult:
     """Result of a stage whose heats are balanced."""
     mean = logarithmic_mean(before.temperature, found.after.temperature)
@@ -223,7 +223,7 @@ def _of_free(found: Balance, free: BoolArray) -> sp.csc_array:
 
 
 def _corrected(
-    model: HeatModel, before: Thermal, stage: Stage, unknowns: Array, step: Array, free: BoolArray, found: Balance
+    model: HeatModel, before: HeatValues, stage: Stage, unknowns: Array, step: Array, free: BoolArray, found: Balance
 ) -> Array:
     """Unknowns with a correction, shortened where fronts cut cells until the unbalanced heat along it is less."""
 

@@ -13,7 +13,7 @@ from softway.heat.heat_model import HeatModel, HeatScene
 from softway.heat.heat_plan import PlannedSlab, planned_slabs
 from softway.heat.heat_slab import solve_slab
 from softway.heat.ledger import HeatLedger, booked, opened
-from softway.heat.operators import Thermal, entropy, thermal, unknowns_of
+from softway.heat.operators import HeatValues, entropy, heat_values, unknowns_of
 from softway.solve.linear.backends.superlu import SuperLU
 from softway.solve.linear.interface import LinearSolver
 from softway.units import Second
@@ -149,7 +149,7 @@ def march_heat(
         raise InputError("until", f"{until:g} s after a start at {begin:g} s", "a later time")
     if not 0.0 < step < np.inf:
         raise InputError("step", f"{step:g} s is not positive", "a positive time")
-    before = thermal(model, unknowns)
+    before = heat_values(model, unknowns)
     ledger = opened(before.content, _count(model), len(model.exchanges)) if state is None else state.ledger
     start = HeatState(time=begin, unknowns=unknowns, ledger=ledger)
     return _slabs(model, start, before, planned_slabs(model, begin, until, step), damped, linear, cancel)
@@ -167,7 +167,7 @@ def heat_at_start(model: HeatModel) -> HeatStep:
     >>> heat_at_start(build_heat(HeatScene(bodies={"bar": bar}))).temperature["bar"].tolist()
     [300.0, 300.0]
     """
-    before = thermal(model, unknowns_of(model, model.initial))
+    before = heat_values(model, unknowns_of(model, model.initial))
     state = HeatState(
         time=0.0, unknowns=before.unknowns, ledger=opened(before.content, _count(model), len(model.exchanges))
     )
@@ -182,7 +182,7 @@ def _count(model: HeatModel) -> int:
 def _slabs(
     model: HeatModel,
     state: HeatState,
-    before: Thermal,
+    before: HeatValues,
     planned: list[PlannedSlab],
     damped: bool,
     linear: LinearSolver,
@@ -220,7 +220,7 @@ class _Told:
     produced: float
 
 
-def _step(model: HeatModel, state: HeatState, after: Thermal, told: _Told) -> HeatStep:
+def _step(model: HeatModel, state: HeatState, after: HeatValues, told: _Told) -> HeatStep:
     """Step of a slab."""
     melting = [part for part in model.parts if part.law.latent is not None]
     liquid = {part.name: after.melted[part.cells] for part in melting}

@@ -18,7 +18,7 @@ Entries = tuple[tuple[IntArray, IntArray, Array], ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Thermal:
+class HeatValues:
     """Temperatures and contents of n nodes and E cells at one instant.
 
     Parameters
@@ -62,7 +62,7 @@ def unknowns_of(model: HeatModel, temperature: Array) -> Array:
     return out
 
 
-def thermal(model: HeatModel, unknowns: Array, slopes: bool = True) -> Thermal:
+def heat_values(model: HeatModel, unknowns: Array, slopes: bool = True) -> HeatValues:
     """Temperatures and contents of given unknowns (n,); without ``slopes`` the derivatives with entries are empty."""
     n = model.n_nodes
     temperature, stretch, over = np.empty(n), np.ones(n), unknowns.copy()
@@ -90,7 +90,7 @@ def thermal(model: HeatModel, unknowns: Array, slopes: bool = True) -> Thermal:
     slope = tuple((rows, columns, values * stretch[columns]) for rows, columns, values in cut_slope)
     if slopes and mixed.any():
         slope = (*slope, *_mean_slopes(model, mixed, share_slope))
-    return Thermal(
+    return HeatValues(
         unknowns=unknowns, temperature=temperature, stretch=stretch, content=model.mass * content + latent,
         capacity=model.mass * capacity, latent_slope=latent_slope, liquid=liquid, liquid_slope=slope, melted=melted,
     )  # fmt: skip
@@ -182,7 +182,7 @@ def heat_flow(
     return flow, sp.csr_array((found.data, found.indices, found.indptr), shape=found.shape), tuple(columns)
 
 
-def entropy(model: HeatModel, now: Thermal) -> float:
+def entropy(model: HeatModel, now: HeatValues) -> float:
     """Entropy of all conductors [J/K], counted from a temperature of each law; latent heat is that at melting."""
     total = 0.0
     for part in model.parts:
@@ -200,7 +200,7 @@ def entropy(model: HeatModel, now: Thermal) -> float:
     return total
 
 
-def heat_flux(model: HeatModel, now: Thermal) -> Array:
+def heat_flux(model: HeatModel, now: HeatValues) -> Array:
     """Mean heat fluxes (E, 3) of the cells [W/m^2]; zero along axes that the mesh has not."""
     out = np.zeros((model.n_cells, 3))
     for cells in model.cells:

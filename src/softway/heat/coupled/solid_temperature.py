@@ -14,7 +14,7 @@ from softway.heat.heat_balance import Stage, StrainHeat, put_at_once
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_plan import knots
 from softway.heat.heat_slab import HeatFactor, StageResult, linear_factor, solve_slab
-from softway.heat.operators import Thermal, thermal, unknowns_of
+from softway.heat.operators import HeatValues, heat_values, unknowns_of
 from softway.model.field import Field, FieldSlab, FieldSolution, FieldState
 
 TEMPERATURE = Field(name="temperature", unit="K", components=1)
@@ -140,7 +140,7 @@ class SolidTemperature:
     def content(self, values: Array, u: Array) -> float:
         """Heat content [J] of temperatures ``values`` (n, 1): internal energy less the energy of the field."""
         temperature = values[self.nodes, 0]
-        of_capacity = thermal(self.model, unknowns_of(self.model, temperature), slopes=False).content
+        of_capacity = heat_values(self.model, unknowns_of(self.model, temperature), slopes=False).content
         return float(of_capacity.sum() + temperature @ self.entropy(u))
 
     def heat_of(self, slab: FieldSlab, end: FieldState) -> HeatOfSlab:
@@ -180,9 +180,9 @@ class SolidTemperature:
             spent += float(energy.sum())
         return out[self.nodes], spent
 
-    def _before(self, slab: FieldSlab) -> Thermal:
+    def _before(self, slab: FieldSlab) -> HeatValues:
         """Temperatures and contents at the start of a slab."""
-        return thermal(self.model, unknowns_of(self.model, slab.start.values[self.nodes, 0]))
+        return heat_values(self.model, unknowns_of(self.model, slab.start.values[self.nodes, 0]))
 
     def _force(self, over: Array, u: Array) -> Array:
         """Forces (n, d) [N] of temperatures ``over`` (k,) the reference [K] at ``u`` (n, d)."""

@@ -7,7 +7,7 @@ from importlib import resources
 from typing import Any
 
 from softway.errors import InputError
-from softway.laws.materials.material import Isotropic, Material, Orthotropic, Rubber, Strength, Thermal
+from softway.laws.materials.material import Isotropic, Material, Orthotropic, Rubber, Strength, ThermalConstants
 
 _FILES = ("metals", "others")
 
@@ -64,5 +64,5 @@ def _material(name: str, data: Mapping[str, Any]) -> Material:
     if "strength" in rest:
         parts["strength"] = Strength(**rest.pop("strength"))
     if "thermal" in rest:
-        parts["thermal"] = Thermal(**rest.pop("thermal"))
+        parts["thermal"] = ThermalConstants(**rest.pop("thermal"))
     return Material(name=name, aliases=tuple(rest.pop("aliases", ())), **parts, **rest)

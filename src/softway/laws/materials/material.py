@@ -56,7 +56,7 @@ class Strength:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Thermal:
+class ThermalConstants:
     """Conductivity [W/(m K)], heat capacity [J/(kg K)] and linear expansion [1/K] near 20 degrees Celsius."""
 
     conductivity: Annotated[float, "W/(m K)"] | None = None
@@ -79,7 +79,7 @@ class Material:
     strength
         Flow stress, if the material yields and its yield stress is known.
     thermal
-        Thermal constants, if known.
+        ThermalConstants constants, if known.
     source
         Source of the constants.
     note
@@ -98,7 +98,7 @@ class Material:
     source: str
     aliases: tuple[str, ...] = ()
     strength: Strength | None = None
-    thermal: Thermal | None = None
+    thermal: ThermalConstants | None = None
     note: str = ""
 
     def elastic(self) -> NeoHookean | MooneyRivlin | LinearOrthotropic:

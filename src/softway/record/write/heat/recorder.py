@@ -9,7 +9,7 @@ import numpy as np
 
 from softway.heat.heat_model import HeatModel
 from softway.heat.march import HeatStep, heat_at_start
-from softway.heat.operators import heat_flux, thermal
+from softway.heat.operators import heat_flux, heat_values
 from softway.record.storage.line_files import LineFiles, open_files
 from softway.record.storage.table import Cells
 from softway.record.write import events, fields, history
@@ -102,7 +102,7 @@ def _frame(model: HeatModel, step: HeatStep) -> GridFrame:
     points = np.zeros((model.n_nodes, 3))
     for part in model.parts:
         points[part.nodes, : part.mesh.dim] = part.mesh.points
-    now = thermal(model, step.state.unknowns, slopes=False)
+    now = heat_values(model, step.state.unknowns, slopes=False)
     cells = {"heat_flux": heat_flux(model, now)}
     if step.liquid:
         cells["liquid"] = now.melted
