@@ -1,6 +1,5 @@
 """Scene, slab (time step) and virtual time functions, and the model of a scene as arrays."""
 
-from softway.model.build import build as build
 from softway.model.build import with_dofs as with_dofs
 from softway.model.build import with_field as with_field
 from softway.model.scene import AsGiven as AsGiven
@@ -19,7 +18,6 @@ __all__ = [
     "Scene",
     "State",
     "StaticStart",
-    "build",
     "with_dofs",
     "with_field",
 ]

@@ -105,7 +105,7 @@ def plates(gap: float, method: object) -> tuple[Model, float]:
         for name, level, speed in zip(names, levels, speeds, strict=True)
     }  # fmt: skip
     contact = sw.Contact(between=("upper", "lower"), method=method)
-    return sw.model.build(sw.Scene(bodies=bodies, contacts=(contact,))), t
+    return sw.build(sw.Scene(bodies=bodies, contacts=(contact,))), t
 
 
 @pytest.mark.parametrize("method", [None, sw.contact.NodeToSurface(nodes="both")], ids=["mortar", "nodes"])
