@@ -151,7 +151,8 @@ def march_heat(
         raise InputError("step", f"{step:g} s is not positive", "a positive time")
     before = heat_values(model, unknowns)
     ledger = opened(before.content, _count(model), len(model.exchanges)) if state is None else state.ledger
-    start = HeatState(time=begin, unknowns=unknowns, ledger=ledger)
+    slabs = 0 if state is None else state.slabs
+    start = HeatState(time=begin, unknowns=unknowns, ledger=ledger, slabs=slabs)
     return _slabs(model, start, before, planned_slabs(model, begin, until, step), damped, linear, cancel)
 
 

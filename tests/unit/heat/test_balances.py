@@ -129,6 +129,7 @@ def test_a_march_has_the_same_bits_again_and_goes_on_from_a_state() -> None:
     rest = list(heat.march_heat(scene, until=1.0, step=0.125, state=once[3].state, damped=False))
     assert rest[-1].temperature["b"] == pytest.approx(once[-1].temperature["b"], abs=1e-10)
     assert rest[-1].ledger.heat_in == pytest.approx(once[-1].ledger.heat_in, rel=1e-12)
+    assert [s.state.slabs for s in (once[3], *rest)] == [4, 5, 6, 7, 8]
 
 
 def test_two_bodies_do_not_know_each_other() -> None:
