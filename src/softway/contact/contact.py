@@ -6,6 +6,7 @@ from typing import Literal
 from softway.contact.impact_rule import Energy, ImpactRule
 from softway.laws.friction import Frictionless
 from softway.laws.friction_law import FrictionLaw
+from softway.laws.heat.contact_heat import ContactHeat
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,6 +64,9 @@ class Contact:
         Contact with a tool is always between nodes and the tool.
     friction
         Friction law; by default there is no friction.
+    heat
+        Heat across the contact, between solids with a temperature and with tools; by default none passes, and friction
+        heats no body.
     start
         ``apart``: an overlap of the bodies at the start is an error; ``fit``: overlapping bodies are first pressed
         apart into static equilibrium (press fit).
@@ -80,6 +84,7 @@ class Contact:
     timing: ImpactRule = Energy()
     method: DualMortar | NodeToSurface | None = None
     friction: FrictionLaw = Frictionless()
+    heat: ContactHeat | None = None
     start: Literal["apart", "fit"] = "apart"
 
     @property

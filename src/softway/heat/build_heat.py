@@ -1,6 +1,7 @@
 """Discretisation of conductors: capacities, cells, simplices of latent heat, boundary conditions."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -13,6 +14,7 @@ from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, Radiation, Tem
 from softway.errors import InputError, within
 from softway.heat.heat_contact import HeatContact, HeatExchange, heat_exchange
 from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, HeatSurface, Simplices
+from softway.heat.operators import heat_flow
 from softway.heat.phase import simplices_of
 from softway.kernels.assembly.assembler import assembler
 from softway.kernels.geometry.jacobians import cell_geometry
@@ -74,13 +76,16 @@ def heat_model(
     surfaces, sources, held = _loads(bodies, loads, {part.name: part for part in parts}, n)
     exchanges = _exchanges(bodies, contacts, parts, n)
     linear = all(p.law.constant for p in parts) and not any(isinstance(s.load, Radiation) for s in surfaces)
-    return HeatModel(
+    model = HeatModel(
         parts=tuple(parts), cells=tuple(cells), simplices=tuple(simplices), mass=np.concatenate(masses),
         pattern=assembler([c.nodes for c in cells], n, 1), surfaces=surfaces, sources=sources, held=held,
         exchanges=exchanges,
         ordered=_ordered(loads),
         initial=np.concatenate(initial), linear=linear, n_cells=e,
     )  # fmt: skip
+    if not all(p.law.constant for p in parts):
+        return model
+    return replace(model, conduction=heat_flow(model, model.initial, np.zeros(e), slopes=True)[1])
 
 
 def section_of(body: Conductor, mesh: Mesh) -> Section:

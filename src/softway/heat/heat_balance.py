@@ -68,7 +68,7 @@ class Balance:
     mean
         (n,) temperatures at which the heat flows [K].
     flow
-        (n,) heat that flows out of the nodes by conduction [W].
+        (n,) heat that flows out of the nodes by conduction and through contacts [W].
     """
 
     after: HeatValues
@@ -132,17 +132,18 @@ def balance(model: HeatModel, before: HeatValues, stage: Stage, unknowns: Array,
     liquid = (1.0 - theta) * before.liquid + theta * after.liquid
     flow, matrix, by_liquid = heat_flow(model, mean, liquid, slopes)
     gained = after.content - before.content
-    values, moved = gained + h * flow, np.abs(gained).sum() + h * np.abs(flow).sum()
+    moved = np.abs(gained).sum() + h * np.abs(flow).sum()
+    for exchange in model.exchanges:
+        heat = exchange.heat(mean)
+        flow, moved = flow + exchange.jump.T @ heat, moved + h * np.abs(heat).sum()
+        if matrix is not None:
+            matrix = matrix + exchange.matrix()
+    values = gained + h * flow
     for surface, factor in zip(model.surfaces, _factors(model, stage), strict=True):
         heat, slope = surface_heat(surface, mean, factor)
         values, moved = values - h * (surface.points.T @ heat), moved + h * np.abs(heat).sum()
         if matrix is not None and slope.any():
             matrix = matrix - surface.points.T @ sp.diags_array(slope) @ surface.points
-    for exchange in model.exchanges:
-        heat = exchange.heat(mean)
-        values, moved = values + h * (exchange.jump.T @ heat), moved + h * np.abs(heat).sum()
-        if matrix is not None:
-            matrix = matrix + exchange.matrix()
     for power in _powers(model, stage):
         values, moved = values - h * power, moved + h * np.abs(power).sum()
     total = None if matrix is None else _matrix(after, matrix, by_liquid, theta * h)
@@ -200,10 +201,21 @@ def entropy_brought(model: HeatModel, stage: Stage, found: Balance) -> float:
     return total + float((found.values[held] / found.mean[held]).sum())
 
 
+def entropy_of_reservoirs(model: HeatModel, stage: Stage, found: Balance) -> float:
+    """Entropy that the opponents of contacts gained which have no nodes, but a temperature [J/K]."""
+    total = 0.0
+    for exchange in model.exchanges:
+        heat, ambient = exchange.heat(found.mean), np.broadcast_to(exchange.ambient, exchange.conductances.shape)
+        total += stage.span * float((heat[ambient > 0.0] / ambient[ambient > 0.0]).sum())
+    return total
+
+
 def rounding(model: HeatModel, before: HeatValues, stage: Stage) -> float:
     """Rounding of the sum of the heats of the nodes [J]."""
     total = 2.0 * float(np.abs(before.content).sum())
-    for cells in model.cells:
+    if model.conduction is not None:
+        total += 2.0 * stage.span * float(model.conduction.diagonal() @ np.abs(before.temperature))
+    for cells in model.cells if model.conduction is None else ():
         at = np.abs(before.temperature[cells.nodes]).max(axis=1)
         k, _ = cells.law.along_axes(at, cells.gradients.shape[-1])
         size = np.einsum("eq,eqar->er", cells.volume, cells.gradients**2)

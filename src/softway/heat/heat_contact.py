@@ -64,14 +64,17 @@ class HeatExchange:
         (p, n) temperature of the first surface less that of the second one, from the temperatures of the nodes.
     conductances
         (p,) conductances of the points [W/K].
+    ambient
+        (p,) temperature of the second surface where it has no nodes, zero elsewhere [K].
     """
 
     jump: sp.csr_array
     conductances: Array
+    ambient: Array | float = 0.0
 
     def heat(self, temperature: Array) -> Array:
         """Heat (p,) from the first to the second surface at temperatures (n,) of the nodes [W]."""
-        return np.asarray(self.conductances * (self.jump @ temperature))
+        return np.asarray(self.conductances * (self.jump @ temperature - self.ambient))
 
     def matrix(self) -> sp.csr_array:
         """Derivative (n, n) of the heat that flows out of the nodes [W/K]."""

@@ -149,6 +149,8 @@ class HeatModel:
         True if the content is linear in the temperature, and the heat flow too.
     n_cells
         Number E of cells.
+    conduction
+        (n, n) derivative of the heat that flows out of the nodes by conduction if all laws are constant [W/K].
     """
 
     parts: tuple[HeatPart, ...]
@@ -164,6 +166,7 @@ class HeatModel:
     initial: Array
     linear: bool
     n_cells: int
+    conduction: sp.csr_array | None = None
 
     @property
     def n_nodes(self) -> int:

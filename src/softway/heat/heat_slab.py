@@ -13,6 +13,7 @@ from softway.heat.heat_balance import (
     Stage,
     balance,
     entropy_brought,
+    entropy_of_reservoirs,
     heats,
     logarithmic_mean,
     passed,
@@ -23,6 +24,7 @@ from softway.heat.heat_model import HeatModel
 from softway.heat.operators import HeatValues, heat_values, unknowns_of
 from softway.solve.linear.backends.superlu import SuperLU, factor_unsymmetric
 from softway.solve.linear.interface import Factor, LinearSolver
+from softway.solve.linear.weak_coupling import factor_unless_weak
 
 HALVINGS = 8
 """Greatest number of halvings of a slab that does not converge."""
@@ -69,6 +71,10 @@ class StageResult:
     produced, turned
         (n,) entropy produced by conduction and dissipation, less what other nodes produce, so that the sum counts
         [J/K], and the magnitudes that take part.
+    reservoirs
+        Entropy that opponents without nodes gained [J/K].
+    rounding
+        Rounding of the sum of the heats [J].
     """
 
     after: HeatValues
@@ -80,6 +86,8 @@ class StageResult:
     mean: Array
     produced: Array
     turned: Array
+    reservoirs: float
+    rounding: float
 
 
 def linear_factor(model: HeatModel, span: float, linear: LinearSolver = SuperLU()) -> HeatFactor | None:
@@ -101,7 +109,7 @@ def linear_factor(model: HeatModel, span: float, linear: LinearSolver = SuperLU(
     unknowns = unknowns_of(model, model.initial)
     stage = Stage(start=0.0, span=span, theta=1.0)
     found = balance(model, heat_values(model, unknowns), stage, unknowns, slopes=True)
-    return HeatFactor(span=span, factor=linear.factor(_of_free(found, free)))
+    return HeatFactor(span=span, factor=factor_unless_weak(_of_free(found, free), linear))
 
 
 def solve_slab(
@@ -141,6 +149,8 @@ def solve_slab(
         turned=first.turned + last.turned,
         passed=first.passed + last.passed,
         entropy=first.entropy + last.entropy,
+        reservoirs=first.reservoirs + last.reservoirs,
+        rounding=first.rounding + last.rounding,
     )
 
 
@@ -182,14 +192,14 @@ def solve_stage(
         if not np.isfinite(size):
             break
         if iteration and size <= tolerance * found.moved + floor:
-            return _result(model, before, stage, found, iteration, frozen)
+            return _result(model, before, stage, found, iteration, frozen, floor)
         if frozen is not None:
             step = frozen.factor.solve(-found.values[free])
         elif not free.any():
             step = np.zeros(0)
         else:
-            kind = linear.factor if model.linear else factor_unsymmetric
-            factored = kind(_of_free(found, free))
+            own = _of_free(found, free)
+            factored = factor_unless_weak(own, linear) if model.linear else factor_unsymmetric(own)
             frozen = HeatFactor(span=stage.theta * stage.span, factor=factored) if model.linear else None
             step = factored.solve(-found.values[free])
         unknowns = _corrected(model, before, stage, unknowns, step, free, found)
@@ -197,7 +207,13 @@ def solve_stage(
 
 
 def _result(
-    model: HeatModel, before: HeatValues, stage: Stage, found: Balance, iterations: int, frozen: HeatFactor | None
+    model: HeatModel,
+    before: HeatValues,
+    stage: Stage,
+    found: Balance,
+    iterations: int,
+    frozen: HeatFactor | None,
+    floor: float,
 ) -> StageResult:
     """Result of a stage whose heats are balanced."""
     mean = logarithmic_mean(before.temperature, found.after.temperature)
@@ -213,13 +229,15 @@ def _result(
         turned=moved / mean,
         passed=passed(model, stage, found),
         entropy=entropy_brought(model, stage, found),
+        reservoirs=entropy_of_reservoirs(model, stage, found),
+        rounding=floor,
     )
 
 
 def _of_free(found: Balance, free: BoolArray) -> sp.csc_array:
     """Rows and columns (f, f) of the free nodes."""
     assert found.matrix is not None
-    return sp.csc_array(found.matrix[free][:, free])
+    return sp.csc_array(found.matrix if free.all() else found.matrix[free][:, free])
 
 
 def _corrected(

@@ -9,9 +9,7 @@ from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.setup.heat_loads import Convection, HeatFlux, Radiation
 from softway.heat.heat_model import HeatCells, HeatModel, HeatSurface
 from softway.heat.phase import melted_part
-
-STEFAN_BOLTZMANN = 5.670374419e-8
-"""Constant of Stefan and Boltzmann [W/(m^2 K^4)] (CODATA 2018)."""
+from softway.laws.heat.contact_heat import STEFAN_BOLTZMANN
 
 Entries = tuple[tuple[IntArray, IntArray, Array], ...]
 """Entries of a sparse matrix in groups of rows, columns and values; entries of one place add up."""
@@ -157,6 +155,8 @@ def heat_flow(
         (n, n) derivative along the temperatures [W/K], and entries of that (n, E) along the liquid shares [W]; None
         and empty if left out.
     """
+    if model.conduction is not None:
+        return model.conduction @ temperature, model.conduction if slopes else None, ()
     flow = np.zeros(model.n_nodes)
     blocks: list[Array] = []
     columns = []

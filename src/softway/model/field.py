@@ -5,12 +5,13 @@ slab at every evaluation of the equations of motion, so that motion and field me
 force and an energy to the motion.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 from softway.arrays import Array
 from softway.bodies.discretised import DiscreteSolid
+from softway.contact.contact_rows import ContactRows
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,15 +49,34 @@ class FieldState:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FieldContact:
+    """Contact in a slab as a companion field sees it.
+
+    Parameters
+    ----------
+    first, last
+        Contact rows at both ends.
+    before, after
+        (m,) normal forces at both ends [N].
+    """
+
+    first: ContactRows
+    last: ContactRows
+    before: Array
+    after: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class FieldSlab:
-    """One slab as a companion field sees it: length [s], state at the start, displacements (n, d) at both ends [m], and
-    the weight of the force at the start in the mean forces.
+    """One slab as a companion field sees it: length [s], state at the start, displacements (n, d) at both ends [m],
+    contact, and the weight of the force at the start in the mean forces.
     """
 
     span: float
     start: FieldState
     u0: Array
     u1: Array
+    contact: FieldContact
     first: float = 0.5
 
 
@@ -72,11 +92,14 @@ class FieldSolution:
         (n, d) mean over the slab of the internal force that the field adds [N].
     lost
         (parts,) energy that motion and stored energy give to the field [J].
+    account
+        What the field tells about the slab.
     """
 
     end: FieldState
     mean_force: Array
     lost: Array
+    account: object = None
 
 
 class FieldEquations(Protocol):
@@ -110,20 +133,38 @@ class FieldEquations(Protocol):
 
 
 @runtime_checkable
+class RubbedField(Protocol):
+    """Equations of a companion field that friction heats."""
+
+    def solver(self, slab: FieldSlab) -> Callable[[Array], FieldSolution]:
+        """Solver of the field for a slab, from the energies (m,) that friction dissipates at the contact rows [J]."""
+        ...
+
+
+@runtime_checkable
 class TimedField(Protocol):
     """Equations of a companion field with loads that change in time, or with an operator that is factored once a slab:
     they are solved in a slab only.
     """
 
-    def in_slab(self, start: float, end: float, parts: Sequence[DiscreteSolid]) -> FieldEquations:
-        """Equations in a slab from ``start`` to ``end`` [s], of solids with the material states at its start."""
+    def in_slab(self, ends: tuple[float, float], parts: Sequence[DiscreteSolid], u0: Array, values: Array) -> FieldEquations:
+        """Equations in a slab between two times [s], of solids with the material states, the displacement ``u0`` (n, d)
+        [m] and the ``values`` (n, components) of the field at its start.
+        """
         ...
 
 
 def in_slab(
-    companions: tuple[FieldEquations, ...], start: float, end: float, parts: Sequence[DiscreteSolid]
+    companions: tuple[FieldEquations, ...],
+    ends: tuple[float, float],
+    parts: Sequence[DiscreteSolid],
+    u0: Array,
+    fields: Sequence[FieldState],
 ) -> tuple[FieldEquations, ...]:
-    """Companion fields in a slab from ``start`` to ``end`` [s] of the solids; the same tuple if none changes."""
+    """Companion fields in a slab between two times [s] with their states at its start; the same tuple if none changes."""
     if not any(isinstance(c, TimedField) for c in companions):
         return companions
-    return tuple(c.in_slab(start, end, parts) if isinstance(c, TimedField) else c for c in companions)
+    return tuple(
+        c.in_slab(ends, parts, u0, state.values) if isinstance(c, TimedField) else c
+        for c, state in zip(companions, fields, strict=True)
+    )

@@ -11,6 +11,7 @@ from softway.bodies.setup.loads import Gravity, Traction
 from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 from softway.heat.build_heat import heat_model
+from softway.heat.coupled.contact_exchange import contact_exchange
 from softway.heat.coupled.dissipation import Dissipation, dissipations
 from softway.heat.coupled.expansion import Expansion, expansions
 from softway.heat.coupled.solid_temperature import SolidTemperature
@@ -70,7 +71,9 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
     sizes = [part.mesh.n_nodes for part in heat.parts]
     reference = [np.full(size, one) if one else None for size, one in zip(sizes, given, strict=True)]
     own = [heat.initial[p.nodes] if r is None else r for p, r in zip(heat.parts, reference, strict=True)]
+    effusivity = {name: thermals[name].law.effusivity(body.density) for name, body in conductors.items()}
     equations = SolidTemperature(
+        contacts=contact_exchange(model, nodes, effusivity),
         model=heat, nodes=nodes, count=model.shape[0], parts=len(model.parts), part=model.part_of[nodes],
         reference=np.concatenate(own), expansions=tuple(found), dissipations=tuple(spent),
     )  # fmt: skip

@@ -57,19 +57,7 @@ class Expansion:
     small: bool
     modulus: float
 
-    def entropy(self, u: Array) -> Array:
-        """Entropies H (k,) of the strain at the displacement ``u`` (n, d) of all solids [J/K]."""
-        change = self._change(u[self.nodes])[0]
-        return np.asarray(self.values.T @ (self.modulus * self.sampling.volume * change))
-
-    def force(self, over: Array, u: Array) -> Array:
-        """Forces (k, d) [N] with the temperatures ``over`` (k,) the reference [K], at ``u`` (n, d)."""
-        own = u[self.nodes]
-        _, flux = self._change(own)
-        stress = -self.modulus * (self.values @ over)
-        return np.asarray(self.sampling.nodal(stress[:, None, None] * flux, own))
-
-    def _change(self, u: Array) -> tuple[Array, Array]:
+    def change(self, u: Array) -> tuple[Array, Array]:
         """Change of volume (p,), ln J or the trace of the strain, and its derivative (p, m, D) by the derivatives."""
         H, g = self.sampling.derivatives(u), self.directions
         if self.small:
@@ -80,6 +68,40 @@ class Expansion:
                 square = tensors.double_dot(f, f)
                 return 0.5 * np.log(square), f / square[:, None, None]
             return np.log(tensors.determinant(f)), _inverse_transposed(f)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Strained:
+    """Solids at a displacement: of each expansion that (k, d) of its nodes, the change of volume (p,) and its derivative
+    (p, m, D); in all n nodes.
+    """
+
+    expansions: tuple[Expansion, ...]
+    own: tuple[Array, ...]
+    changes: tuple[tuple[Array, Array], ...]
+    n: int
+
+    def entropy(self) -> Array:
+        """Entropy (n,) of the strain at the nodes [J/K]."""
+        out = np.zeros(self.n)
+        for it, (change, _) in zip(self.expansions, self.changes, strict=True):
+            out[it.nodes] += it.values.T @ (it.modulus * it.sampling.volume * change)
+        return out
+
+    def force(self, over: Array, dim: int) -> Array:
+        """Forces (n, d) [N] with the temperatures ``over`` (n,) the reference [K]."""
+        out = np.zeros((self.n, dim))
+        for it, own, (_, flux) in zip(self.expansions, self.own, self.changes, strict=True):
+            stress = -it.modulus * (it.values @ over[it.nodes])
+            out[it.nodes] += it.sampling.nodal(stress[:, None, None] * flux, own)
+        return out
+
+
+def strained(expansions: tuple[Expansion, ...], u: Array) -> Strained:
+    """Solids with some ``expansions`` at the displacement ``u`` (n, d) [m]."""
+    own = tuple(u[it.nodes] for it in expansions)
+    changes = tuple(it.change(mine) for it, mine in zip(expansions, own, strict=True))
+    return Strained(expansions, own, changes, len(u))
 
 
 def expansions(part: DiscreteSolid, coefficient: float) -> Iterator[Expansion]:
@@ -153,9 +175,12 @@ def point_values(part: DiscreteSolid) -> csr_array:
 
 def _inverse_transposed(f: Array) -> Array:
     """Transposed inverse of (p, m, m) with m = 2, 3; not a number where there is none."""
-    det = tensors.determinant(f)[:, None, None]
+    cofactor = np.empty_like(f)
     if f.shape[-1] == 2:
-        cofactor = np.stack([f[:, 1, ::-1] * [1.0, -1.0], f[:, 0, ::-1] * [-1.0, 1.0]], axis=1)
+        cofactor[:, 0, 0], cofactor[:, 0, 1] = f[:, 1, 1], -f[:, 1, 0]
+        cofactor[:, 1, 0], cofactor[:, 1, 1] = -f[:, 0, 1], f[:, 0, 0]
     else:
-        cofactor = np.stack([np.cross(f[:, k - 2], f[:, k - 1]) for k in range(3)], axis=1)
-    return np.asarray(cofactor / det)
+        for k in range(3):
+            cofactor[:, k] = np.cross(f[:, k - 2], f[:, k - 1])
+    cofactor /= tensors.determinant(f)[:, None, None]
+    return cofactor

@@ -14,15 +14,21 @@ class HeatOfSolids:
     brought
         Heat that loads brought, less what they took away [J].
     received
-        Heat that the motion gave: dissipated in the solids, or work against the thermal stress [J].
+        Heat that the motion gave: dissipated in the solids or by friction, or work against the thermal stress [J].
+    friction
+        Heat of friction in the solids; what tools take is not in it [J].
+    through
+        Heat that passed each contact with heat, in the order of the scene: from the surface whose nodes have contact
+        rows to the other one, with the heat of friction that a tool takes [J].
     cold_work
         Energy that the material dissipated and that did not heat [J].
     entropy
         Entropy produced [J/K].
     error
         Content less that at the start, ``brought`` and ``received`` [J].
-    produced, passed
-        Entropy produced in this slab, and the sum of the magnitudes of the entropies that took part in it [J/K].
+    produced, passed, rounding
+        Entropy produced in this slab, the sum of the magnitudes of the entropies that took part in it, and the rounding
+        of the first [J/K].
 
     Examples
     --------
@@ -33,8 +39,11 @@ class HeatOfSolids:
     content: float
     brought: float = 0.0
     received: float = 0.0
+    friction: float = 0.0
+    through: tuple[float, ...] = ()
     cold_work: float = 0.0
     entropy: float = 0.0
     error: float = 0.0
     produced: float = 0.0
     passed: float = 0.0
+    rounding: float = 0.0

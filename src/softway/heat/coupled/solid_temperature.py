@@ -7,56 +7,18 @@ import numpy as np
 
 from softway.arrays import Array, IntArray
 from softway.bodies.discretised import DiscreteSolid
-from softway.errors import NoConvergence, NumericsError
+from softway.heat.coupled.contact_exchange import ContactExchange
 from softway.heat.coupled.dissipation import Dissipation
-from softway.heat.coupled.expansion import Expansion
-from softway.heat.heat_balance import Stage, StrainHeat, put_at_once
+from softway.heat.coupled.expansion import Expansion, strained
+from softway.heat.coupled.slab_temperature import SlabTemperature, TimeOfSlab
+from softway.heat.heat_balance import put_at_once
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_plan import knots
-from softway.heat.heat_slab import HeatFactor, StageResult, linear_factor, solve_slab
-from softway.heat.operators import HeatValues, heat_values, unknowns_of
+from softway.heat.heat_slab import linear_factor
+from softway.heat.operators import heat_values, unknowns_of
 from softway.model.field import Field, FieldSlab, FieldSolution, FieldState
 
 TEMPERATURE = Field(name="temperature", unit="K", components=1)
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class HeatOfSlab:
-    """Heat of the solids in a slab.
-
-    Parameters
-    ----------
-    content
-        Heat content at the end [J], see :meth:`SolidTemperature.content`.
-    brought
-        Heat that loads brought, less what they took away [J].
-    received
-        Heat that the motion gave [J].
-    stored
-        Dissipated energy that did not heat: the cold work [J].
-    produced, passed
-        Entropy produced [J/K], and the entropies that took part.
-    """
-
-    content: float
-    brought: float
-    received: float
-    stored: float
-    produced: float
-    passed: float
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class TimeOfSlab:
-    """Slab of a march: ends [s], solids with the material states at its start, and the factor of its operator.  It is
-    ``damped`` after a sudden change.
-    """
-
-    start: float
-    end: float
-    solids: Sequence[DiscreteSolid]
-    damped: bool
-    factor: HeatFactor | None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -77,6 +39,8 @@ class SolidTemperature:
         (k,) temperatures without thermal stress [K].
     expansions
         Thermal expansions.
+    contacts
+        Heat across contacts.
     dissipations
         Dissipations of path-dependent materials that heat.
     time
@@ -90,6 +54,7 @@ class SolidTemperature:
     part: IntArray
     reference: Array
     expansions: tuple[Expansion, ...]
+    contacts: ContactExchange
     dissipations: tuple[Dissipation, ...] = ()
     time: TimeOfSlab | None = None
 
@@ -100,102 +65,64 @@ class SolidTemperature:
 
     def initial(self) -> Array:
         """Initial temperatures (n, 1) [K]."""
-        return self._on_all(self.model.initial)
+        return self.on_all(self.model.initial)
 
-    def in_slab(self, start: float, end: float, parts: Sequence[DiscreteSolid]) -> "SolidTemperature":
-        """Equations in a slab from ``start`` to ``end`` [s]; the first one and those after a knot are damped."""
-        span, damped = end - start, start == 0.0 or start in knots(self.model)
-        factor = linear_factor(self.model, 0.5 * span)
-        return replace(self, time=TimeOfSlab(start=start, end=end, solids=parts, damped=damped, factor=factor))
+    def in_slab(
+        self, ends: tuple[float, float], parts: Sequence[DiscreteSolid], u0: Array, values: Array
+    ) -> "SolidTemperature":
+        """Equations in a slab between two times [s]; the first one and those after a knot are damped."""
+        start, end = ends
+        before = heat_values(self.model, unknowns_of(self.model, values[self.nodes, 0]))
+        before, jumped, _ = put_at_once(self.model, before, start)
+        time = TimeOfSlab(
+            start=start, solids=parts, contacts=self.contacts.at(u0), damped=start == 0.0 or start in knots(self.model),
+            before=before, jumped=jumped, strained=strained(self.expansions, u0),
+            factor=linear_factor(self.model, 0.5 * (end - start)),
+        )  # fmt: skip
+        return replace(self, time=time)
 
     def at(self, values: Array, u: Array) -> FieldState:
         """State with the temperatures ``values`` (n, 1) at the displacement ``u`` (n, d)."""
-        over = values[self.nodes, 0] - self.reference
-        energy = self._of_parts(-over * self.entropy(u))
-        return FieldState(values=values, energy=energy, force=self._force(over, u))
+        over, shape = values[self.nodes, 0] - self.reference, strained(self.expansions, u)
+        energy = self.of_parts(-over * shape.entropy()[self.nodes])
+        return FieldState(values=values, energy=energy, force=shape.force(self.on_all(over)[:, 0], u.shape[1]))
+
+    def solver(self, slab: FieldSlab) -> SlabTemperature:
+        """Solver of the temperature at the end of a slab, from the energies (m,) that friction dissipates [J]."""
+        assert self.time is not None
+        end = strained(self.expansions, slab.u1)
+        change = (end.entropy() - self.time.strained.entropy())[self.nodes]
+        out, spent = np.zeros(self.count), 0.0
+        for dissipation in self.dissipations:
+            energy = dissipation.energy(self.time.solids, slab.u1)
+            out[dissipation.nodes] += dissipation.share * energy
+            spent += float(energy.sum())
+        return SlabTemperature(
+            solids=self, time=self.time, slab=slab, sides=self.time.contacts.sides(slab.contact), end=end,
+            change=change, given=out[self.nodes], spent=spent,
+        )  # fmt: skip
 
     def solve(self, slab: FieldSlab) -> FieldSolution:
-        """Temperature at the end of a slab, with the energy that it takes from the motion.
+        """Temperature at the end of a slab without friction, with the energy that it takes from the motion.
 
         Raises
         ------
         NoConvergence
             If the heats of the nodes cannot be balanced.
         """
-        change = self.entropy(slab.u1) - self.entropy(slab.u0)
-        found = self._solved(slab, change)[1]
-        end = self.at(self._on_all(found.after.temperature), slab.u1)
-        over = found.mean - self.reference
-        mean = slab.first * self._force(over, slab.u0) + (1.0 - slab.first) * self._force(over, slab.u1)
-        work = self._of_parts(-over * change)
-        return FieldSolution(end=end, mean_force=mean, lost=work - (end.energy - slab.start.energy))
-
-    def entropy(self, u: Array) -> Array:
-        """Entropy (k,) of the strain at the displacement ``u`` (n, d) [J/K]."""
-        out = np.zeros(self.count)
-        for expansion in self.expansions:
-            out[expansion.nodes] += expansion.entropy(u)
-        return out[self.nodes]
+        return self.solver(slab)(np.zeros(len(slab.contact.after)))
 
     def content(self, values: Array, u: Array) -> float:
         """Heat content [J] of temperatures ``values`` (n, 1): internal energy less the energy of the field."""
         temperature = values[self.nodes, 0]
         of_capacity = heat_values(self.model, unknowns_of(self.model, temperature), slopes=False).content
-        return float(of_capacity.sum() + temperature @ self.entropy(u))
+        return float(of_capacity.sum() + temperature @ strained(self.expansions, u).entropy()[self.nodes])
 
-    def heat_of(self, slab: FieldSlab, end: FieldState) -> HeatOfSlab:
-        """Heat of a slab that has been solved, with the state at its end."""
-        change = self.entropy(slab.u1) - self.entropy(slab.u0)
-        jumped, found = self._solved(slab, change)
-        work = float(-(found.mean - self.reference) @ change)
-        given, spent = self._dissipated(slab.u1)
-        return HeatOfSlab(
-            content=self.content(end.values, slab.u1),
-            brought=float(jumped.sum() + found.heats.sum()),
-            received=work - float(end.energy.sum() - slab.start.energy.sum()) + float(given.sum()),
-            stored=spent - float(given.sum()),
-            produced=float(found.produced.sum()),
-            passed=float(found.turned.sum() + np.abs(change).sum()),
-        )
-
-    def _solved(self, slab: FieldSlab, change: Array) -> tuple[Array, StageResult]:
-        """Heats of prescribed temperatures that jump at the start [J], and the result of a slab."""
-        assert self.time is not None
-        time, h = self.time, slab.span
-        before, jumped, _ = put_at_once(self.model, self._before(slab), time.start)
-        strain = StrainHeat(power=self._dissipated(slab.u1)[0] / h, entropy=change / h)
-        stage = Stage(start=time.start, span=h, theta=1.0 if time.damped else 0.5, strain=strain)
-        try:
-            return jumped, solve_slab(self.model, before, stage, time.damped, time.factor)
-        except NumericsError as error:
-            raise NoConvergence(error.what) from None
-
-    def _dissipated(self, u1: Array) -> tuple[Array, float]:
-        """Heat (k,) of the dissipation in a slab, and the energy that it takes in all [J]."""
-        assert self.time is not None
-        out, spent = np.zeros(self.count), 0.0
-        for dissipation in self.dissipations:
-            energy = dissipation.energy(self.time.solids, u1)
-            out[dissipation.nodes] += dissipation.share * energy
-            spent += float(energy.sum())
-        return out[self.nodes], spent
-
-    def _before(self, slab: FieldSlab) -> HeatValues:
-        """Temperatures and contents at the start of a slab."""
-        return heat_values(self.model, unknowns_of(self.model, slab.start.values[self.nodes, 0]))
-
-    def _force(self, over: Array, u: Array) -> Array:
-        """Forces (n, d) [N] of temperatures ``over`` (k,) the reference [K] at ``u`` (n, d)."""
-        out, whole = np.zeros_like(u), self._on_all(over)[:, 0]
-        for expansion in self.expansions:
-            out[expansion.nodes] += expansion.force(whole[expansion.nodes], u)
-        return out
-
-    def _of_parts(self, values: Array) -> Array:
+    def of_parts(self, values: Array) -> Array:
         """Sums (parts,) over the nodes of each solid of values (k,)."""
         return np.asarray(np.bincount(self.part, weights=values, minlength=self.parts), float)
 
-    def _on_all(self, values: Array) -> Array:
+    def on_all(self, values: Array) -> Array:
         """Values (n, 1) on all nodes from those (k,) with heat."""
         out = np.zeros((self.count, 1))
         out[self.nodes, 0] = values

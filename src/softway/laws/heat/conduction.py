@@ -105,6 +105,20 @@ class Conduction:
             isinstance(value, TemperatureTable) for value in (self.conductivity, self.capacity)
         )
 
+    def effusivity(self, density: float, temperature: float = 293.15) -> float:
+        """Root of conductivity, density [kg/m^3] and capacity at a temperature [K], in W s^(1/2)/(m^2 K).
+
+        It is the mean of the axes for an orthotropic conductivity.
+
+        Examples
+        --------
+        >>> Conduction(conductivity=50.0, capacity=500.0).effusivity(8000.0)
+        14142.135623730952
+        """
+        at = np.array([temperature])
+        k, _ = self.along_axes(at, 1 if np.ndim(self.conductivity) == 0 else len(self.conductivity))
+        return float(np.sqrt(k.mean() * density * value_at(self.capacity, at)[0]))
+
     def along_axes(self, temperature: Array, axes: int) -> tuple[Array, Array]:
         """Conductivities (..., axes) [W/(m K)] at temperatures (...) [K], and their derivatives [W/(m K^2)].
 

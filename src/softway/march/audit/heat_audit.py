@@ -1,12 +1,13 @@
 """Audit of the heat of solids: content, heat from loads and from the motion, entropy."""
 
+import numpy as np
+
 from softway.heat.coupled.heat_of_solids import HeatOfSolids
+from softway.heat.coupled.slab_temperature import HeatOfSlab
 from softway.heat.coupled.solid_temperature import temperatures_of
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
-from softway.model.field import FieldSlab
 from softway.model.model import Model
-from softway.solve.equations.mean_force import first_weight
 
 FALL = 1e-9
 """Fall of the entropy in a slab, relative to the entropies that take part, that is an error of the iteration."""
@@ -16,41 +17,36 @@ def initial_heat(model: Model, now: ModelState) -> HeatOfSolids | None:
     """Heat at the start; None without temperature."""
     for k, temperature in temperatures_of(model.companions):
         content = temperature.content(now.start.fields[k].values, now.start.displacement)
-        return HeatOfSolids(content=content)
+        return HeatOfSolids(content=content, through=(0.0,) * len(temperature.contacts.contacts))
     return None
 
 
-def heat_audit(
-    last: HeatOfSolids | None, before: ModelState, out: SlabResult, after: ModelState
-) -> HeatOfSolids | None:
+def heat_audit(last: HeatOfSolids | None, out: SlabResult) -> HeatOfSolids | None:
     """Heat after a slab, from that before it; None without temperature."""
-    system = out.system
     if last is None:
         return None
-    for k, temperature in temperatures_of(system.model.companions):
-        slab = FieldSlab(
-            span=system.path.span,
-            start=before.start.fields[k],
-            u0=before.start.displacement,
-            u1=after.start.displacement,
-            first=first_weight(system.weight),
-        )
-        found = temperature.heat_of(slab, after.start.fields[k])
+    for solution in out.solution.end.fields:
+        found = solution.account
+        if not isinstance(found, HeatOfSlab):
+            continue
         return HeatOfSolids(
             content=found.content,
             brought=last.brought + found.brought,
             received=last.received + found.received,
             cold_work=last.cold_work + found.stored,
+            friction=last.friction + found.rubbed,
+            through=tuple((np.array(last.through) + found.through).tolist()),
             entropy=last.entropy + found.produced,
             error=last.error + ((found.content - last.content) - (found.brought + found.received)),
             produced=found.produced,
             passed=found.passed,
+            rounding=found.rounding,
         )
     return None
 
 
 def fallen(heat: HeatOfSolids | None) -> str | None:
     """Message on a slab whose entropy falls; None if it does not."""
-    if heat is None or heat.produced >= -FALL * heat.passed:
+    if heat is None or heat.produced >= -(FALL * heat.passed + heat.rounding):
         return None
     return f"the entropy falls by {-heat.produced:.3g} J/K of {heat.passed:.3g} J/K: the slab is too long for its heat"

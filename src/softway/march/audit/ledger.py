@@ -120,7 +120,7 @@ def audit(model: Model, last: EnergyAccount, before: ModelState, out: SlabResult
         spin=spin(model, after.start.displacement, momenta) + rigid.spin,
         contacts=_contacts(model, before, out, after),
         ties=tie_ledgers(model, last.ties, before, after),
-        heat=heat_audit(last.heat, before, out, after),
+        heat=heat_audit(last.heat, out),
     )
 
 

@@ -13,6 +13,7 @@ from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks, moments
 from softway.solve.constraints.return_map import NO_SLIP, SlipConditions, turned
 from softway.solve.equations.energy_balance import body_groups
+from softway.solve.equations.friction_work import row_heats
 from softway.solve.methods.iteration import Solution
 
 RESTED = 1e-3
@@ -148,16 +149,14 @@ def friction_result(
     traction = last.shear.vectors(flat)
     share = a[model.part_of[last.node]][:, None]
     old, new = (0.5 - share) * now.traction, (0.5 + share) * traction
-    works = old * first.shear.slip(moved), new * last.shear.slip(moved)
     groups = body_groups(model, (first, now.pressure > 0.0), (last, solution.last.impulse[:m] > 0.0))
-    by_group = np.bincount(groups[model.part_of[last.node]], (works[0] + works[1]).sum(axis=1))
-    created = float(np.maximum(by_group, 0.0).sum())
+    heats = row_heats(((first, old), (last, new)), moved, groups[model.part_of[last.node]])
     return FrictionResult(
         traction=traction,
         sliding=solution.last.active[m:],
         mean=old + new,
         push=first.shear.spread(old) + last.shear.spread(new),
         work=float(np.sum(old * first.shear.moved) + np.sum(new * last.shear.moved)),
-        dissipation=max(created - float(np.sum(works[0]) + np.sum(works[1])), 0.0),
+        dissipation=float(heats.sum()),
         slip=last.shear.slip(moved) / slab.span,
     )

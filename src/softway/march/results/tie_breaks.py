@@ -14,7 +14,7 @@ def tie_breaks(model: Model, now: ModelState, slab: Slab, out: SlabResult) -> li
     """Breaks of the nodes of all ties in a solved slab."""
     found: list[Event] = []
     for bond in model.bonds:
-        end = out.solution.end.fields[model.companions.index(bond)].values
+        end = out.solution.end.fields[model.companions.index(bond)].end.values
         for k, tie in enumerate(bond.ties):
             node = tie.jump.node
             new = np.flatnonzero((end[node, k] >= 1.0) & (bond.damage[node, k] < 1.0))

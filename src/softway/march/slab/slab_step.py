@@ -79,7 +79,10 @@ def advance(
     """
     model = stepper.model.during(now.start.states, slab.span).bonded(now.start.fields).pushed(slab.start, slab.end)
     if model.companions:
-        model = replace(model, companions=in_slab(model.companions, slab.start, slab.end, model.parts))
+        start = now.start
+        ends = slab.start, slab.end
+        fields = in_slab(model.companions, ends, model.parts, start.displacement, start.fields)
+        model = replace(model, companions=fields)
     if model.rigid is None:
         for out, after in stepper.rule.solve(model, now, slab, memory, attempt):
             yield _state(slab, out), _with_breaks(model, now, slab, out), after
@@ -138,7 +141,7 @@ def _committed(out: SlabResult) -> SlabStart:
     """Initial values of the next slab."""
     model, end = out.system.model, out.solution.end
     states = material_states.committed(model.parts, end.displacement)
-    of_fields: Array | float = sum(f.energy for f in end.fields)
+    of_fields: Array | float = sum(f.end.energy for f in end.fields)
     return SlabStart(
         displacement=end.displacement,
         velocity=out.velocity,
@@ -146,5 +149,5 @@ def _committed(out: SlabResult) -> SlabStart:
         energy=material_states.stored_energy(model.parts, states, end.energy - of_fields) + of_fields,
         states=states,
         viscous=material_states.stored_viscous_force(model.parts, states),
-        fields=end.fields,
+        fields=tuple(f.end for f in end.fields),
     )

@@ -44,6 +44,28 @@ class FrictionWork:
         return -((0.5 - scalar) * self.first + (0.5 + scalar) * self.last)
 
 
+def row_heats(ends: tuple[tuple[ContactRows, Array], tuple[ContactRows, Array]], moved: Array, group: IntArray) -> Array:
+    """Energy (m,) that friction dissipates at each row [J], nowhere negative.
+
+    Its sum over a group is what the forces take in all, and zero for a group to which they would give energy; rows share
+    it like the energy that they take.
+
+    Parameters
+    ----------
+    ends
+        Contact rows and tangential forces (m, d) [N] at the start and at the end, by their weights in the slab.
+    moved
+        (n, d) motion of the nodes over the slab [m].
+    group
+        (m,) number of the group of each row.
+    """
+    taken = -sum(np.einsum("md,md->m", force, rows.shear.slip(moved)) for rows, force in ends)
+    rubbing = np.maximum(taken, 0.0)
+    whole, positive = (np.bincount(group, weights=w) for w in (taken, rubbing))
+    share = np.maximum(whole, 0.0) / np.where(positive > 0.0, positive, 1.0)
+    return np.asarray(rubbing * share[group])
+
+
 def friction_work(
     ends: tuple[tuple[ContactRows, Array], tuple[ContactRows, Array]], moved: Array, group: IntArray, groups: int
 ) -> FrictionWork:

@@ -8,6 +8,7 @@ They are composed of three parts: the mean force ``f_mean``, averaged by the vir
 the contact rows G with their conditions (``slab_contact.py``).  ``J`` are the unbalanced jumps of the Paper rule.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -15,7 +16,7 @@ import numpy as np
 from softway.arrays import Array, BoolArray
 from softway.contact.contact_rows import ContactRows
 from softway.contact.slab_motion.trajectory import Trajectory
-from softway.model.field import FieldSlab, FieldSolution, FieldState
+from softway.model.field import FieldContact, FieldSlab, FieldSolution, FieldState, RubbedField
 from softway.model.model import Model
 from softway.model.time_weight import TimeWeight, moments
 from softway.solve.constraints.compliance import FrozenOperator, RowBasis, row_basis
@@ -24,12 +25,20 @@ from softway.solve.constraints.row_basis import RowCoefficients
 from softway.solve.effort import Effort
 from softway.solve.equations.closure import Closure, Unclosed
 from softway.solve.equations.end_forces import EndForces
+from softway.solve.equations.energy_balance import EnergyClosure, body_groups
 from softway.solve.equations.follower import Follower
+from softway.solve.equations.friction_work import row_heats
 from softway.solve.equations.mean_force import MeanForce, end_of_slab, first_weight, passed_on
 from softway.solve.equations.slab_contact import SlabContact
 from softway.solve.equations.slab_matrix import SlabMatrix
 from softway.solve.equations.slab_values import Evaluation, SlabStart
 from softway.tolerances import KEEP_EDGES_AFTER, KEEP_FACETS_AFTER
+
+
+FIELD_PASSES = 8
+"""Greatest number of solutions of the companion fields at an iterate with friction."""
+SETTLED = 1e-14
+"""Change of the scalar below which the heat of friction does not change."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -86,13 +95,11 @@ class SlabEquations:
         shock = model.shock_force(0.5 * (start.displacement + u1), u1 - start.displacement, h)
         if shock is not None:
             mean, lost = mean + shock, model.space.totals(shock * (u1 - start.displacement))
-        coupled = self._coupled(u1)
-        for field_start, found in zip(start.fields, coupled, strict=True):
-            energy, force = energy + found.end.energy, force + found.end.force
-            mean, lost = mean + self._carried(field_start, found), lost + found.lost
         rows = self.contact.at(u1)
         ends = replace(self._ends(u1, force, energy + lost, mean, rows, impulse), viscous=viscous)
-        completed = self.closure.close(model, ends)
+        coupled, completed = self._completed(ends)
+        for found in coupled:
+            energy, force, lost = energy + found.end.energy, force + found.end.force, lost + found.lost
         residual = (
             model.mass @ (q - start.velocity - self.unbalanced) + h * (completed.mean - model.load) - self.impulses
         )
@@ -110,14 +117,59 @@ class SlabEquations:
             bounded=completed.bounded,
             rows=rows,
             lost=lost + completed.lost,
-            fields=tuple(found.end for found in coupled),
+            fields=coupled,
         )
 
-    def _coupled(self, u1: Array) -> list[FieldSolution]:
-        """Companion fields, solved for the displacement ``u1`` (n, d) at the end."""
+    def _completed(self, bare: EndForces) -> tuple[tuple[FieldSolution, ...], EnergyClosure]:
+        """Companion fields and closure of a slab, from the values at its ends without these fields.
+
+        The heat of friction depends on the scalar that closes the balance, and that hardly on the heat.
+        """
+        if not self.model.companions:
+            return (), self.closure.close(self.model, bare)
+        scalar: Array = np.zeros(len(self.model.parts))
+        solvers, rubbed = self._field_solvers(bare), self._rubbed(bare, scalar)
+        for _ in range(FIELD_PASSES):
+            coupled = tuple(solve(rubbed) for solve in solvers)
+            completed = self.closure.close(self.model, self._joined(bare, coupled))
+            if not rubbed.any() or np.abs(completed.scalar - scalar).max() <= SETTLED:
+                break
+            scalar = completed.scalar
+            rubbed = self._rubbed(bare, scalar)
+        return coupled, completed
+
+    def _field_solvers(self, ends: EndForces) -> list[Callable[[Array], FieldSolution]]:
+        """Solvers of the companion fields for the displacement at the end, from the energies (m,) of friction [J]."""
         start, span, first = self.start, self.path.span, first_weight(self.weight)
-        slabs = (FieldSlab(span=span, start=f, u0=start.displacement, u1=u1, first=first) for f in start.fields)
-        return [c.solve(slab) for c, slab in zip(self.model.companions, slabs, strict=True)]
+        contact = FieldContact(first=ends.rows0, last=ends.rows1, before=ends.force0, after=ends.force1)
+        found: list[Callable[[Array], FieldSolution]] = []
+        for c, state in zip(self.model.companions, start.fields, strict=True):
+            slab = FieldSlab(span=span, start=state, u0=ends.u0, u1=ends.u1, contact=contact, first=first)
+            if isinstance(c, RubbedField):
+                found.append(c.solver(slab))
+            else:
+                solution = c.solve(slab)
+                found.append(lambda _, solution=solution: solution)
+        return found
+
+    def _rubbed(self, ends: EndForces, scalar: Array) -> Array:
+        """Energy (m,) that friction forces with the ``scalar`` (parts,) dissipate at the rows [J]."""
+        model, (first, last) = self.model, (ends.rows0, ends.rows1)
+        if not last.shear.count or not (ends.shear0.any() or ends.shear1.any()):
+            return np.zeros(len(last.node))
+        part = model.part_of[last.node]
+        group = body_groups(model, (first, ends.force0 > 0.0), (last, ends.force1 > 0.0))[part]
+        a = scalar[part][:, None]
+        weighted = ((first, (0.5 - a) * ends.shear0), (last, (0.5 + a) * ends.shear1))
+        return row_heats(weighted, ends.u1 - ends.u0, group)
+
+    def _joined(self, bare: EndForces, coupled: tuple[FieldSolution, ...]) -> EndForces:
+        """Values at the ends with companion fields."""
+        energy, force, mean = bare.V1, bare.f1, bare.mean
+        for start, found in zip(self.start.fields, coupled, strict=True):
+            energy, force = energy + found.end.energy + found.lost, force + found.end.force
+            mean = mean + self._carried(start, found)
+        return replace(bare, V1=energy, f1=force, mean=mean)
 
     def _carried(self, start: FieldState, found: FieldSolution) -> Array:
         """Mean force (n, d) of a field [N].

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from softway.arrays import Array
 from softway.bodies.assembled.material_states import MaterialStates
 from softway.contact.contact_rows import ContactRows
-from softway.model.field import FieldState
+from softway.model.field import FieldSolution, FieldState
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -33,7 +33,7 @@ class Evaluation:
     """Equations evaluated at q: residual, end values and mean force (n, d); for each solid (parts,) the scalar a and
     the relative missing work that it closes; ``clipped`` and ``bounded`` as in
     :class:`~softway.solve.equations.energy_balance.EnergyClosure`; the contact rows at the end; the energy dissipated
-    by bulk viscosity or given to companion fields (parts,), and these fields at the end.
+    by bulk viscosity or given to companion fields (parts,), and the solutions of these fields.
     """
 
     residual: Array
@@ -47,4 +47,4 @@ class Evaluation:
     rows: ContactRows
     bounded: bool = False
     lost: Array | float = 0.0
-    fields: tuple[FieldState, ...] = ()
+    fields: tuple[FieldSolution, ...] = ()

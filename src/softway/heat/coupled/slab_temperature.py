@@ -1,0 +1,184 @@
+"""Temperature of solids in one slab (time step), with all that does not depend on the heat of friction."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from softway.arrays import Array, IntArray
+from softway.bodies.discretised import DiscreteSolid
+from softway.errors import NoConvergence, NumericsError
+from softway.heat.coupled.contact_exchange import ContactExchange
+from softway.heat.coupled.contact_sides import ContactSides
+from softway.heat.coupled.expansion import Strained
+from softway.heat.heat_balance import Stage, StrainHeat
+from softway.heat.heat_contact import HeatExchange
+from softway.heat.heat_model import HeatModel
+from softway.heat.heat_slab import HeatFactor, StageResult, solve_slab
+from softway.heat.operators import HeatValues
+from softway.model.field import FieldSlab, FieldSolution, FieldState
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class HeatOfSlab:
+    """Heat of the solids in a slab.
+
+    Parameters
+    ----------
+    content
+        Heat content at the end [J], see :meth:`SolidTemperature.content`.
+    brought
+        Heat that loads and tools brought, less what they took away [J].
+    received
+        Heat that the motion gave to the solids [J].
+    stored
+        Dissipated energy that did not heat: the cold work [J].
+    produced, passed, rounding
+        Entropy produced, the entropies that took part, and the rounding of the first [J/K].
+    rubbed
+        Heat of friction in the solids [J].
+    through
+        (c,) heat that passed each contact from its slave nodes to the other side [J].
+    """
+
+    content: float
+    brought: float
+    received: float
+    stored: float
+    produced: float
+    passed: float
+    rounding: float
+    rubbed: float
+    through: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class TimeOfSlab:
+    """Slab of a march at its ``start`` [s]: solids with their material states, contacts with their areas, temperatures
+    ``before``, heats of prescribed temperatures that jumped [J], and the strain; and the factor of its operator without
+    contact.  It is ``damped`` after a sudden change.
+    """
+
+    start: float
+    solids: Sequence[DiscreteSolid]
+    contacts: ContactExchange
+    damped: bool
+    before: HeatValues
+    jumped: Array
+    strained: Strained
+    factor: HeatFactor | None
+
+
+class HeatedSolids(Protocol):
+    """Solids with a temperature, see :class:`~softway.heat.coupled.solid_temperature.SolidTemperature`."""
+
+    @property
+    def model(self) -> HeatModel:
+        """Conduction."""
+        ...
+
+    @property
+    def nodes(self) -> IntArray:
+        """Nodes (k,) with a temperature."""
+        ...
+
+    @property
+    def reference(self) -> Array:
+        """Temperatures (k,) without thermal stress [K]."""
+        ...
+
+    def of_parts(self, values: Array) -> Array:
+        """Sums (parts,) over the nodes of each solid of values (k,)."""
+        ...
+
+    def on_all(self, values: Array) -> Array:
+        """Values (n, 1) on all nodes from those (k,) with heat."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SlabTemperature:
+    """Temperature of the solids in a slab, from the energies (m,) that friction dissipates at the contact rows [J].
+
+    Parameters
+    ----------
+    solids
+        Solids with heat.
+    time, slab
+        The slab at its start, and as the motion has it.
+    sides
+        Sides of the rows of each contact with heat.
+    end
+        Strain at the end.
+    change
+        (k,) change of the entropy of the strain [J/K].
+    given, spent
+        Heat (k,) of the dissipation of the material, and its energy in all [J].
+    """
+
+    solids: HeatedSolids
+    time: TimeOfSlab
+    slab: FieldSlab
+    sides: tuple[ContactSides, ...]
+    end: Strained
+    change: Array
+    given: Array
+    spent: float
+
+    def __call__(self, rubbed: Array) -> FieldSolution:
+        """Temperature at the end, with the energy that it takes from the motion.
+
+        Raises
+        ------
+        NoConvergence
+            If the heats of the nodes cannot be balanced.
+        """
+        solids, slab, dim = self.solids, self.slab, self.slab.u1.shape[1]
+        heat, taken = self.time.contacts.spread(rubbed, self.sides)
+        result, through = self._solved(heat)
+        entropy, temperature = self.end.entropy()[solids.nodes], result.after.temperature
+        over, last = (solids.on_all(t - solids.reference)[:, 0] for t in (result.mean, temperature))
+        energy = solids.of_parts(-(temperature - solids.reference) * entropy)
+        lost = solids.of_parts(-(result.mean - solids.reference) * self.change) - (energy - slab.start.energy)
+        mean = slab.first * self.time.strained.force(over, dim) + (1.0 - slab.first) * self.end.force(over, dim)
+        rub = float(heat.sum())
+        account = HeatOfSlab(
+            content=float(result.after.content.sum() + temperature @ entropy),
+            brought=float(self.time.jumped.sum() + result.heats.sum() - through[self.time.contacts.with_tools].sum()),
+            received=float(lost.sum() + self.given.sum()) + rub,
+            stored=self.spent - float(self.given.sum()),
+            produced=float(result.produced.sum()) + result.reservoirs,
+            passed=float(result.turned.sum() + np.abs(self.change).sum()),
+            rounding=result.rounding / float(temperature.min()),
+            rubbed=rub,
+            through=through + taken,
+        )
+        end = FieldState(values=solids.on_all(temperature), energy=energy, force=self.end.force(last, dim))
+        return FieldSolution(end=end, mean_force=mean, lost=lost, account=account)
+
+    def _solved(self, rubbed: Array) -> tuple[StageResult, Array]:
+        """Result of a slab with the heat (k,) of friction, and the heat (c,) that passed the contacts [J].
+
+        Gaps radiate at the mean temperature of a first solution.
+        """
+        time, span = self.time, self.slab.span
+        strain = StrainHeat(power=(self.given + rubbed) / span, entropy=self.change / span)
+        stage = Stage(start=time.start, span=span, theta=1.0 if time.damped else 0.5, strain=strain)
+        at = time.before.temperature
+        for _ in range(1 + time.contacts.radiates):
+            found = self._exchanges(at)
+            model = replace(self.solids.model, exchanges=tuple(found.values())) if found else self.solids.model
+            try:
+                result = solve_slab(model, time.before, stage, time.damped, None if found else time.factor)
+            except NumericsError as error:
+                raise NoConvergence(error.what) from None
+            at = 0.5 * (time.before.temperature + result.after.temperature)
+        through = np.zeros(len(self.sides))
+        through[list(found)] = result.passed
+        return result, through
+
+    def _exchanges(self, temperature: Array) -> dict[int, HeatExchange]:
+        """Exchange across contacts, with radiation at the ``temperature`` (k,) [K]."""
+        everywhere, ends = self.solids.on_all(temperature)[:, 0], (self.slab.u0, self.slab.u1)
+        return self.time.contacts.exchanges(self.slab.contact, ends, self.sides, everywhere)
