@@ -16,12 +16,14 @@ from softway.heat.march import HeatStep as HeatStep
 from softway.heat.march import march_heat as march_heat
 from softway.laws.heat.conduction import Conduction as Conduction
 from softway.laws.heat.conduction import Latent as Latent
+from softway.laws.heat.contact_heat import ContactHeat as ContactHeat
 from softway.laws.heat.temperature_table import TemperatureTable as TemperatureTable
 
 __all__ = [
     "Conduction",
     "Conductor",
     "Convection",
+    "ContactHeat",
     "HeatContact",
     "HeatFlux",
     "HeatLedger",

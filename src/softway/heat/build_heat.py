@@ -14,7 +14,7 @@ from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, Radiation, Tem
 from softway.errors import InputError, within
 from softway.heat.heat_contact import HeatContact, HeatExchange, heat_exchange
 from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, HeatSurface, Simplices
-from softway.heat.operators import heat_flow
+from softway.heat.operators import heat_flow, heat_values, unknowns_of
 from softway.heat.phase import simplices_of
 from softway.kernels.assembly.assembler import assembler
 from softway.kernels.geometry.jacobians import cell_geometry
@@ -85,7 +85,9 @@ def heat_model(
     )  # fmt: skip
     if not all(p.law.constant for p in parts):
         return model
-    return replace(model, conduction=heat_flow(model, model.initial, np.zeros(e), slopes=True)[1])
+    capacity = heat_values(model, unknowns_of(model, model.initial)).capacity
+    conduction = heat_flow(model, model.initial, np.zeros(e), slopes=True)[1]
+    return replace(model, conduction=conduction, capacity=capacity)
 
 
 def section_of(body: Conductor, mesh: Mesh) -> Section:

@@ -149,8 +149,9 @@ class HeatModel:
         True if the content is linear in the temperature, and the heat flow too.
     n_cells
         Number E of cells.
-    conduction
-        (n, n) derivative of the heat that flows out of the nodes by conduction if all laws are constant [W/K].
+    conduction, capacity
+        If all laws are constant: (n, n) derivative of the heat that flows out of the nodes by conduction [W/K], and
+        (n,) their capacities [J/K].
     """
 
     parts: tuple[HeatPart, ...]
@@ -167,6 +168,7 @@ class HeatModel:
     linear: bool
     n_cells: int
     conduction: sp.csr_array | None = None
+    capacity: Array | None = None
 
     @property
     def n_nodes(self) -> int:

@@ -1,6 +1,6 @@
 """One slab of heat conduction: content differences against the heat that flows in (docs/theory/heat/conduction.md)."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,11 +20,12 @@ from softway.heat.heat_balance import (
     prescribed,
     rounding,
 )
+from softway.heat.heat_contact import HeatExchange
 from softway.heat.heat_model import HeatModel
 from softway.heat.operators import HeatValues, heat_values, unknowns_of
 from softway.solve.linear.backends.superlu import SuperLU, factor_unsymmetric
 from softway.solve.linear.interface import Factor, LinearSolver
-from softway.solve.linear.weak_coupling import factor_unless_weak
+from softway.solve.linear.weak_coupling import Links, WeaklyCoupled, factor_unless_weak
 
 HALVINGS = 8
 """Greatest number of halvings of a slab that does not converge."""
@@ -46,6 +47,18 @@ class HeatFactor:
 
     span: float
     factor: Factor
+
+    def linked(self, exchanges: Sequence[HeatExchange], free: BoolArray) -> "HeatFactor | None":
+        """Factor of the model with ``exchanges``, for its ``free`` nodes (n,); None if it has to be factored anew."""
+        if not exchanges:
+            return self
+        if not isinstance(self.factor, WeaklyCoupled):
+            return None
+        jump = sp.csr_array(sp.vstack([e.jump for e in exchanges], format="csr"))
+        jump = jump if free.all() else sp.csr_array(jump[:, free])
+        weights = self.span * np.concatenate([e.conductances for e in exchanges])
+        factor = self.factor.linked(Links(jump=jump, back=sp.csr_array(jump.T), weights=weights))
+        return None if factor is None else HeatFactor(span=self.span, factor=factor)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -120,6 +133,7 @@ def solve_slab(
     factor: HeatFactor | None = None,
     linear: LinearSolver = SuperLU(),
     depth: int = 0,
+    guess: Array | None = None,
 ) -> StageResult:
     """Solve a slab in one stage or in two ``halves``; in damped halves if it does not converge.
 
@@ -130,7 +144,7 @@ def solve_slab(
     """
     if not halves:
         try:
-            return solve_stage(model, before, slab, factor, linear)
+            return solve_stage(model, before, slab, factor, linear, guess)
         except NoConvergence as error:
             if depth == HALVINGS:
                 remedy = 'latent = "node" where matter melts, or shorter slabs'
@@ -160,6 +174,7 @@ def solve_stage(
     stage: Stage,
     factor: HeatFactor | None = None,
     linear: LinearSolver = SuperLU(),
+    guess: Array | None = None,
 ) -> StageResult:
     """Solve a stage: one factor for all stages of equal length of a linear model, else Newton's method.
 
@@ -175,6 +190,8 @@ def solve_stage(
         Factor from an earlier stage of the same model.
     linear
         Direct solver of linear models.
+    guess
+        (n,) unknowns expected at the end; by default those at the start.
 
     Raises
     ------
@@ -182,7 +199,7 @@ def solve_stage(
         If the heats of the nodes are not balanced after 60 iterations, or a matrix is singular.
     """
     free = model.free_nodes()
-    unknowns = prescribed(model, before.unknowns, stage.end)
+    unknowns = prescribed(model, before.unknowns if guess is None else guess, stage.end)
     frozen = factor if factor is not None and factor.span == stage.theta * stage.span else None
     floor = rounding(model, before, stage)
     tolerance = TOLERANCE if stage.strain is None else MOVING

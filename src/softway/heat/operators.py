@@ -10,6 +10,7 @@ from softway.bodies.setup.heat_loads import Convection, HeatFlux, Radiation
 from softway.heat.heat_model import HeatCells, HeatModel, HeatSurface
 from softway.heat.phase import melted_part
 from softway.laws.heat.contact_heat import STEFAN_BOLTZMANN
+from softway.laws.heat.heat_content import ZERO
 
 Entries = tuple[tuple[IntArray, IntArray, Array], ...]
 """Entries of a sparse matrix in groups of rows, columns and values; entries of one place add up."""
@@ -63,6 +64,12 @@ def unknowns_of(model: HeatModel, temperature: Array) -> Array:
 def heat_values(model: HeatModel, unknowns: Array, slopes: bool = True) -> HeatValues:
     """Temperatures and contents of given unknowns (n,); without ``slopes`` the derivatives with entries are empty."""
     n = model.n_nodes
+    if model.capacity is not None:
+        none: Array = np.zeros(model.n_cells)
+        return HeatValues(
+            unknowns=unknowns, temperature=unknowns, stretch=np.ones(n), content=model.capacity * (unknowns - ZERO),
+            capacity=model.capacity, latent_slope=(), liquid=none, liquid_slope=(), melted=none,
+        )  # fmt: skip
     temperature, stretch, over = np.empty(n), np.ones(n), unknowns.copy()
     content, capacity = np.empty(n), np.empty(n)
     share, share_slope = np.zeros(n), np.zeros(n)
@@ -156,7 +163,9 @@ def heat_flow(
         and empty if left out.
     """
     if model.conduction is not None:
-        return model.conduction @ temperature, model.conduction if slopes else None, ()
+        # from the temperature of a node of each body: a uniform one conducts nothing, not even its rounding
+        first = np.repeat([temperature[p.nodes.start] for p in model.parts], [p.mesh.n_nodes for p in model.parts])
+        return model.conduction @ (temperature - first), model.conduction if slopes else None, ()
     flow = np.zeros(model.n_nodes)
     blocks: list[Array] = []
     columns = []

@@ -70,7 +70,7 @@ def each_with_each(
         apart=tuple(_members(two, ~np.eye(2, dtype=bool), side, len(nodes.body)) for two in own),
     )
     found = (_in_plane if side.dim < 3 else _in_space)(pairs, nodes.thickness)
-    lengths, margin = tuple(s.edge for s in surfaces), margin_of(surfaces, meet)
+    lengths, margin = tuple(s.edge for s in surfaces), margin_of(contact, surfaces, meet)
     return ContactMethods(methods=found, nodes=side.nodes, edges=lengths, margin=margin)
 
 

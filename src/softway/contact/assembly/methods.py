@@ -100,7 +100,7 @@ def of_two(contact: Contact, one: BodySurface, other: BodySurface, thickness: Ar
     if fine.edges is not None and coarse.edges is not None and len(fine.edges.ends) and len(coarse.edges.ends):
         found.append(EdgeToEdge(first=fine.edges, second=coarse.edges))
     nodes = np.concatenate([one.side.nodes, other.side.nodes])
-    edges, margin = (fine.edge, coarse.edge), margin_of((fine, coarse), ~np.eye(2, dtype=bool), raised)
+    edges, margin = (fine.edge, coarse.edge), margin_of(contact, (fine, coarse), ~np.eye(2, dtype=bool), raised)
     return ContactMethods(methods=tuple(found), nodes=nodes, edges=edges, overlap=overlap, margin=margin)
 
 
@@ -111,11 +111,12 @@ def _require_no_common_node(contact: Contact, one: BodySurface, other: BodySurfa
         raise InputError("method", problem, "NodeToSurface, or surfaces that are apart from each other")
 
 
-def margin_of(surfaces: Sequence[BodySurface], meet: BoolArray, raised: float = 0.0) -> SearchMargin:
+def margin_of(contact: Contact, surfaces: Sequence[BodySurface], meet: BoolArray, raised: float = 0.0) -> SearchMargin:
     """Margin of the search of surfaces that may ``meet`` (k, k), which touch when their facets are ``raised`` [m] apart
-    at most.
+    at most.  Where heat passes the gap it is a whole edge.
     """
-    distance = FRACTION * max(s.edge for s in surfaces) + raised
+    fraction = 1.0 if contact.heat is not None and contact.heat.crosses_gaps else FRACTION
+    distance = fraction * max(s.edge for s in surfaces) + raised
     return SearchMargin(distance=distance, sides=tuple(s.side for s in surfaces), meet=meet, raised=raised)
 
 

@@ -7,14 +7,19 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
-from softway.contact.friction_rows import DeclaredSurface, row_areas, surfaces_of
-from softway.contact.mortar.mortar import Mortar
+from softway.contact.contact import NodeToSurface
+from softway.contact.friction_rows import DeclaredSurface, surfaces_of
 from softway.errors import InputError
 from softway.heat.coupled.contact_sides import ContactSides, contact_sides
+from softway.heat.coupled.facing_areas import FacingAreas, facing_areas
 from softway.heat.heat_contact import HeatExchange
 from softway.laws.heat.contact_heat import ContactHeat
 from softway.model.field import FieldContact
 from softway.model.model import Model
+
+
+STILL = 1e-9
+"""Distance of surfaces that touch without a force, relative to the shortest edge: rows that others relieve."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -33,12 +38,14 @@ class RowsOfContact:
         Declared surfaces of its solids.
     share
         Share of the area of its node that a row stands for: one half where the nodes of both surfaces have rows.
-    first
-        Number of the solid that is named first.
+    order
+        (parts,) place of each solid in the names of the contact.
     tool
         True if the opponent is a tool.
-    area
-        (r,) areas of the rows at the start of the slab [m^2].
+    still
+        Distance of surfaces that touch without a force [m].
+    facing
+        Areas at the start of a slab; None outside.
     """
 
     number: int
@@ -47,13 +54,14 @@ class RowsOfContact:
     node: IntArray
     surfaces: tuple[DeclaredSurface, ...]
     share: float
-    first: int
+    order: IntArray
     tool: bool
-    area: Array
+    still: float
+    facing: FacingAreas | None = None
 
     def at(self, u: Array) -> "RowsOfContact":
         """Rows with their areas at the displacement ``u`` (n, d) [m]."""
-        return replace(self, area=self.share * np.maximum(row_areas(self.surfaces, u)[self.node], 0.0))
+        return replace(self, facing=facing_areas(self.surfaces, u, self.node))
 
     def conductances(
         self, contact: FieldContact, gaps: tuple[Array, Array], of: ContactSides, temperature: Array, tool: Array
@@ -74,13 +82,18 @@ class RowsOfContact:
         tool
             (r,) temperature of the tool; not a number for rows between solids [K].
         """
+        assert self.facing is not None
         rows, heat = self.rows, self.heat
+        area = self.share * self.facing.towards(contact.last.normal[rows])
         group = np.unique(self.node, return_inverse=True)[1]
-        closed = 0.5 * ((contact.before[rows] > 0.0).astype(float) + (contact.after[rows] > 0.0))
+        closed = 0.5 * sum(
+            ((force[rows] > 0.0) | (gap[rows] <= self.still)).astype(float)
+            for force, gap in zip((contact.before, contact.after), gaps, strict=True)
+        )
         whole = np.bincount(group, weights=closed)[group]
         share = closed / np.where(whole > 0.0, whole, 1.0)
         touching = np.minimum(whole, 1.0)
-        own = self.area * share
+        own = area * share
         force = 0.5 * (contact.before[rows] + contact.after[rows])
         spots = own * heat.closed(force / np.where(own > 0.0, own, 1.0)) * (touching if heat.hardness is None else 1.0)
         with np.errstate(invalid="ignore"):
@@ -89,7 +102,7 @@ class RowsOfContact:
         if heat.emissivity:
             other = np.where(np.isnan(tool), of.theirs @ temperature, tool)
             through = through + (1.0 - touching) * heat.radiated(of.mine @ temperature, other)
-        return np.asarray(spots + self.area * np.where(_nearest(group, gap), through, 0.0))
+        return np.asarray(spots + area * np.where(_nearest(group, gap), through, 0.0))
 
 
 def _nearest(group: IntArray, gap: Array) -> BoolArray:
@@ -164,9 +177,12 @@ class ContactExchange:
             conductance = rows.conductances(contact, gaps, of, temperature, tool)
             here = np.flatnonzero((conductance > 0.0) & ((of.opponent >= 0) | ~np.isnan(tool)))
             if here.size:
-                jump = sp.csr_array(of.jump[here][:, self.nodes])
+                sign = np.where(self._begins(rows, of), 1.0, -1.0)[here]
+                jump = sp.diags_array(sign) @ (of.mine[here] - of.theirs[here])
                 ambient = np.where(np.isnan(tool), 0.0, tool)[here]
-                found[k] = HeatExchange(jump=jump, conductances=conductance[here], ambient=ambient)
+                found[k] = HeatExchange(
+                    jump=sp.csr_array(jump[:, self.nodes]), conductances=conductance[here], ambient=ambient
+                )
         return found
 
     def spread(self, rubbed: Array, sides: tuple[ContactSides, ...]) -> tuple[Array, Array]:
@@ -183,13 +199,18 @@ class ContactExchange:
                 taken[k] = rest[of.opponent < 0].sum()
         return out[self.nodes], taken
 
+    def _begins(self, rows: RowsOfContact, of: ContactSides) -> BoolArray:
+        """Rows (r,) whose slave nodes are those of the solid that is named first."""
+        mine, theirs = (rows.order[self.part_of[node]] for node in (rows.node, of.opponent))
+        return np.asarray((of.opponent < 0) | (mine <= theirs))
+
     def _shares(self, rows: RowsOfContact, of: ContactSides) -> Array:
         """Shares (r,) of the heat of friction that go to the sides of the slave nodes."""
         tool, given = of.opponent < 0, rows.heat.share
         if given is None:
             mine, theirs = self.effusivity[rows.node], self.effusivity[of.opponent]
             return np.where(tool, 1.0, mine / (mine + theirs))
-        return np.where(tool | (self.part_of[rows.node] == rows.first), given, 1.0 - given)
+        return np.where(self._begins(rows, of), given, 1.0 - given)
 
 
 def contact_exchange(model: Model, nodes: IntArray, effusivity: Mapping[str, float]) -> ContactExchange:
@@ -207,7 +228,7 @@ def contact_exchange(model: Model, nodes: IntArray, effusivity: Mapping[str, flo
     """
     names, found = [part.name for part in model.parts], []
     by_node = np.array([effusivity.get(name, 1.0) for name in names])[model.part_of]
-    slave = model.contacts.node
+    slave, edge = model.contacts.node, float(model.edge.min())
     for k, contact in enumerate(model.scene.contacts):
         if contact.heat is None:
             continue
@@ -215,27 +236,30 @@ def contact_exchange(model: Model, nodes: IntArray, effusivity: Mapping[str, flo
         if cold:
             problem = f"heat across a contact with {cold[0]!r}, which has no temperature"
             raise InputError(f"contacts[{k}].heat", problem, f"bodies.{cold[0]}.thermal, or a contact without heat")
+        if contact.many and contact.heat.share is not None:
+            problem = f"a share of the heat of friction in {contact.label!r}, which has no first body"
+            raise InputError(f"contacts[{k}].heat.share", problem, "no share, or contacts of two bodies")
         rows = _rows(model, k)
-        solids = model.contact_solids[k]
-        both = len(np.unique(model.part_of[slave[rows]])) > 1 or (len(solids) == 1 and not model.against_tool[k])
-        first = next(names.index(name) for name in contact.bodies if name in names)
+        both = contact.many or (isinstance(contact.method, NodeToSurface) and contact.method.nodes == "both")
+        order = np.array([contact.bodies.index(name) if name in contact.bodies else 0 for name in names])
         found.append(
             RowsOfContact(
-                number=k, heat=contact.heat, rows=rows, node=slave[rows], share=0.5 if both else 1.0, first=first,
-                surfaces=surfaces_of(contact, model.parts), tool=bool(model.against_tool[k]), area=np.zeros(len(rows)),
+                number=k, heat=contact.heat, rows=rows, node=slave[rows], share=0.5 if both and not model.against_tool[k] else 1.0, order=order,
+                surfaces=surfaces_of(contact, model.parts), tool=bool(model.against_tool[k]), still=STILL * edge,
             )
         )  # fmt: skip
     return ContactExchange(contacts=tuple(found), part_of=model.part_of, nodes=nodes, effusivity=by_node)
 
 
 def _rows(model: Model, number: int) -> IntArray:
-    """Rows (r,) of a contact that stand for a part of its surface: with mortar not those of corners beside it."""
-    contacts, start, found = model.contacts, 0, []
-    of = [(m, k) for m, k in zip(contacts.methods, contacts.numbers, strict=True) if len(m.node)]
-    mortar = any(isinstance(m, Mortar) for m, k in of if k == number)
-    for method, k in of:
-        end = start + len(method.node)
-        if k == number and (isinstance(method, Mortar) or not mortar):
-            found.append(np.arange(start, end))
-        start = end
-    return np.concatenate([np.zeros(0, int), *found])
+    """Rows (r,) of a contact that stand for a part of its surface: between two solids those of the finer one, without
+    those of corners and edges beside them.
+    """
+    contact, ends = model.scene.contacts[number], np.cumsum([len(m.node) for m in model.contacts.methods])
+    every = contact.many or (isinstance(contact.method, NodeToSurface) and contact.method.nodes == "both")
+    found = [
+        np.arange(end - len(method.node), end)
+        for method, k, end in zip(model.contacts.methods, model.contacts.numbers, ends.tolist(), strict=True)
+        if k == number and len(method.node)
+    ]
+    return np.concatenate([np.zeros(0, int), *(found if every else found[:1])])

@@ -28,10 +28,6 @@ class ContactSides:
     theirs: sp.csr_array
     opponent: IntArray
 
-    @property
-    def jump(self) -> sp.csr_array:
-        """(r, n) temperature of the first side less that of the second one."""
-        return sp.csr_array(self.mine - self.theirs)
 
 
 def contact_sides(first: ContactRows, last: ContactRows, rows: IntArray, part_of: IntArray) -> ContactSides:

@@ -18,8 +18,8 @@ class HeatOfSolids:
     friction
         Heat of friction in the solids; what tools take is not in it [J].
     through
-        Heat that passed each contact with heat, in the order of the scene: from the surface whose nodes have contact
-        rows to the other one, with the heat of friction that a tool takes [J].
+        Heat that passed each contact with heat, in the order of the scene: from the solid named first to the other one,
+        with the heat of friction that a tool takes [J].
     cold_work
         Energy that the material dissipated and that did not heat [J].
     entropy

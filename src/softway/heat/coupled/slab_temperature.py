@@ -39,7 +39,7 @@ class HeatOfSlab:
     rubbed
         Heat of friction in the solids [J].
     through
-        (c,) heat that passed each contact from its slave nodes to the other side [J].
+        (c,) heat that passed each contact from the solid named first [J].
     """
 
     content: float
@@ -165,12 +165,13 @@ class SlabTemperature:
         time, span = self.time, self.slab.span
         strain = StrainHeat(power=(self.given + rubbed) / span, entropy=self.change / span)
         stage = Stage(start=time.start, span=span, theta=1.0 if time.damped else 0.5, strain=strain)
-        at = time.before.temperature
+        at, free, guess = time.before.temperature, self.solids.model.free_nodes(), None
         for _ in range(1 + time.contacts.radiates):
             found = self._exchanges(at)
             model = replace(self.solids.model, exchanges=tuple(found.values())) if found else self.solids.model
+            factor = None if time.factor is None else time.factor.linked(model.exchanges, free)
             try:
-                result = solve_slab(model, time.before, stage, time.damped, None if found else time.factor)
+                result = solve_slab(model, time.before, stage, time.damped, factor, guess=guess)
             except NumericsError as error:
                 raise NoConvergence(error.what) from None
             at = 0.5 * (time.before.temperature + result.after.temperature)

@@ -16,6 +16,7 @@ STEFAN_BOLTZMANN = 5.670374419e-8
 class ContactHeat:
     """Heat across a contact of solids with each other or with a tool.
 
+    Surfaces exchange heat where they touch or, with a gas or radiation, are nearer to each other than a facet is long.
     The heat flux from one surface to the other is the difference of their temperatures times the conductance: of the
     spots that touch, ``conductance (pressure/hardness)^exponent``; of the gas between the surfaces,
     ``gas/(gap + roughness)``; of radiation between open grey surfaces, ``emissivity sigma (T1^2 + T2^2)(T1 + T2)``.
@@ -87,12 +88,15 @@ class ContactHeat:
             problem = "a gas between surfaces without roughness, whose conductance is infinite where they touch"
             raise InputError("roughness", problem, "the depth of the roughness, such as 1e-6 m")
 
+    @property
+    def crosses_gaps(self) -> bool:
+        """True if heat passes between surfaces that do not touch."""
+        return self.gas > 0.0 or self.emissivity > 0.0
+
     def closed(self, pressure: Array) -> Array:
-        """Conductance [W/(m^2 K)] of the spots that touch at mean pressures [Pa]; of the whole where these are
-        positive, without a hardness.
-        """
+        """Conductance [W/(m^2 K)] of a closed contact at mean pressures [Pa], without the gas."""
         if self.hardness is None:
-            return np.where(pressure > 0.0, self.conductance, 0.0)
+            return np.full_like(pressure, self.conductance)
         return np.asarray(self.conductance * (np.maximum(pressure, 0.0) / self.hardness) ** self.exponent)
 
     def through_gas(self, gap: Array) -> Array:

@@ -83,8 +83,11 @@ class SlabEquations:
     positive_definite: bool = False
     follower: Follower | None = None
 
-    def evaluate(self, q: Array, impulse: Array) -> Evaluation:
-        """Evaluate the residual and its ingredients at q (n, d) with the contact impulses (m,) [N s]."""
+    def evaluate(self, q: Array, impulse: Array, scalar: Array | None = None) -> Evaluation:
+        """Evaluate the residual and its ingredients at q (n, d) with the contact impulses (m,) [N s].
+
+        In an iteration friction may heat as with the ``scalar`` (parts,) of the iterate before.
+        """
         model, start, h = self.model, self.start, self.path.span
         u1 = self.path.end(q)
         end = end_of_slab(model, u1)
@@ -97,7 +100,7 @@ class SlabEquations:
             mean, lost = mean + shock, model.space.totals(shock * (u1 - start.displacement))
         rows = self.contact.at(u1)
         ends = replace(self._ends(u1, force, energy + lost, mean, rows, impulse), viscous=viscous)
-        coupled, completed = self._completed(ends)
+        coupled, completed = self._completed(ends, scalar)
         for found in coupled:
             energy, force, lost = energy + found.end.energy, force + found.end.force, lost + found.lost
         residual = (
@@ -120,19 +123,23 @@ class SlabEquations:
             fields=coupled,
         )
 
-    def _completed(self, bare: EndForces) -> tuple[tuple[FieldSolution, ...], EnergyClosure]:
+    def _completed(
+        self, bare: EndForces, expected: Array | None
+    ) -> tuple[tuple[FieldSolution, ...], EnergyClosure]:
         """Companion fields and closure of a slab, from the values at its ends without these fields.
 
-        The heat of friction depends on the scalar that closes the balance, and that hardly on the heat.
+        The heat of friction depends on the scalar (parts,) that closes the balance, and that hardly on the heat: it is
+        as ``expected``, or found by iteration.
         """
         if not self.model.companions:
             return (), self.closure.close(self.model, bare)
-        scalar: Array = np.zeros(len(self.model.parts))
+        scalar: Array = np.zeros(len(self.model.parts)) if expected is None else expected
         solvers, rubbed = self._field_solvers(bare), self._rubbed(bare, scalar)
         for _ in range(FIELD_PASSES):
             coupled = tuple(solve(rubbed) for solve in solvers)
             completed = self.closure.close(self.model, self._joined(bare, coupled))
-            if not rubbed.any() or np.abs(completed.scalar - scalar).max() <= SETTLED:
+            settled = expected is not None or np.abs(completed.scalar - scalar).max() <= SETTLED
+            if settled or not rubbed.any():
                 break
             scalar = completed.scalar
             rubbed = self._rubbed(bare, scalar)

@@ -1,0 +1,152 @@
+"""Heat across the contacts of solids: exchange of two lumps, gaps, tools, and the heat of friction, exactly."""
+
+import numpy as np
+import pytest
+
+import softway as sw
+from softway.bodies import Driven, Fixed, Off, Thermal, Uniform
+from softway.contact import DualMortar, NodeToSurface
+from softway.heat import ContactHeat
+from softway.laws.heat.contact_heat import STEFAN_BOLTZMANN
+from softway.meshes.generators.shapes import box, rectangle
+
+RHO, C, SIDE = 1000.0, 500.0, 0.1
+LUMP = sw.heat.Conduction(conductivity=1e5, capacity=C)
+"""Conducts so well that a block has one temperature."""
+CAPACITY = RHO * C * SIDE**2
+ELASTIC = sw.LinearElastic(E=1e9, nu=0.0)
+
+
+def block(low: float, temperature: float, cells: int = 2, dim: int = 2, **given: object) -> sw.Solid:
+    """A square or cube, its lower side at the height ``low``."""
+    origin = (0.0,) * (dim - 1) + (low,)
+    if dim == 1:
+        mesh = sw.meshes.Interval(length=SIDE, cells=cells, origin=low).build()
+    else:
+        mesh = (rectangle if dim == 2 else box)((SIDE,) * dim, (cells,) * dim, origin=origin)
+    thermal = Thermal(law=LUMP, temperature=temperature)
+    return sw.Solid(mesh=mesh, material=ELASTIC, density=RHO, thermal=thermal, **given)
+
+
+def height(dim: int) -> str:
+    return "xyz"[dim - 1]
+
+
+def pressed(heat: ContactHeat, dim: int = 2, gap: float = 0.0, speed: float = -1e-7, **given: object) -> list[sw.Step]:
+    """Two blocks, the upper one 100 K hotter, without inertia; the upper side moves with ``speed``."""
+    ends = ("left", "right") if dim == 1 else ("bottom", "top")
+    low = block(0.0, 300.0, 2, dim, supports=(Fixed(on=ends[0]),))
+    drive = Driven(on=ends[1], components=height(dim), velocity=speed)
+    aside = () if dim == 1 else (Fixed(on="left", components="x"),)
+    aside += (Fixed(on="front", components="y"),) if dim == 3 else ()
+    top = block(SIDE + gap, 400.0, 3 if dim == 2 else 2, dim, supports=(drive, *aside))
+    contact = sw.Contact(between=(f"low.{ends[1]}", f"top.{ends[0]}"), heat=heat, **given)
+    scene = sw.Scene(bodies={"low": low, "top": top}, contacts=(contact,), inertia=Off())
+    return list(sw.march(scene, until=10.0, step=0.5))
+
+
+def difference(step: sw.Step) -> float:
+    found = [step.after.fields["temperature"][name].mean() for name in ("top", "low")]
+    return float(found[0] - found[1])
+
+
+def decay(conductance: float, time: float = 10.0) -> float:
+    """Difference of the temperatures of two lumps that were 100 K apart."""
+    return 100.0 * float(np.exp(-2.0 * conductance * time / (RHO * C * SIDE)))
+
+
+@pytest.mark.parametrize(
+    ("dim", "method"),
+    [(1, None), (2, None), (2, NodeToSurface()), (2, NodeToSurface(nodes="both")), (3, DualMortar())],
+    ids=["bars", "mortar", "nodes", "both", "space"],
+)
+def test_two_lumps_exchange_heat_by_the_conductance(dim: int, method: object) -> None:
+    steps = pressed(ContactHeat(conductance=200.0), dim, method=method)
+    assert difference(steps[-1]) == pytest.approx(decay(200.0), rel=2e-4)
+    heat = [s.ledger.heat for s in steps]
+    assert max(abs(h.error) for h in heat) < 1e-12 * heat[0].content
+    assert min(h.produced for h in heat) >= 0.0 and heat[-1].received == 0.0
+    volume = {1: SIDE, 2: SIDE**2, 3: SIDE**3}[dim]
+    passed = 0.5 * (100.0 - difference(steps[-1])) * RHO * C * volume
+    assert -heat[-1].through[0] == pytest.approx(passed, rel=5e-4)
+
+
+def test_each_with_each_exchanges_as_much() -> None:
+    steps = pressed(ContactHeat(conductance=200.0), method=NodeToSurface())
+    scene = sw.Scene(
+        bodies={"low": block(0.0, 300.0, supports=(Fixed(on="bottom"),)), "top": block(
+            SIDE, 400.0, 3, supports=(Driven(on="top", components="y", velocity=-1e-7), Fixed(on="left", components="x"))
+        )},
+        contacts=(sw.Contact(between="all", heat=ContactHeat(conductance=200.0)),), inertia=Off(),
+    )  # fmt: skip
+    *_, last = sw.march(scene, until=10.0, step=0.5)
+    assert difference(last) == pytest.approx(difference(steps[-1]), rel=1e-3)
+
+
+def test_the_conductance_follows_the_pressure() -> None:
+    heat = ContactHeat(conductance=2e5, hardness=1e8)
+    steps = pressed(heat, speed=-1e-6)
+    mean = np.array([s.ledger.contacts["low.top-top.bottom"].force_n / SIDE for s in steps])
+    assert mean[-1] == pytest.approx(1e9 * 9.75e-6 / (2.0 * SIDE), rel=1e-9)
+    conductance = float((2e5 * (mean / 1e8) ** 0.95).sum() * 0.5)
+    assert difference(steps[-1]) == pytest.approx(100.0 * np.exp(-2.0 * conductance / (RHO * C * SIDE)), rel=2e-4)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_gas_and_radiation_cross_a_gap(dim: int) -> None:
+    gap, method = 1e-3, DualMortar()
+    gas = pressed(ContactHeat(gas=0.5, roughness=1e-4), dim, gap, 0.0, method=method)
+    assert difference(gas[-1]) == pytest.approx(decay(0.5 / 1.1e-3, 10.0), rel=2e-4)
+    radiant = pressed(ContactHeat(emissivity=0.8), dim, gap, 0.0, method=method)
+    # dT/dt is that of the difference of the fourth powers, nearly steady in ten seconds
+    rate = 2.0 * 0.8 * STEFAN_BOLTZMANN * (400.0**4 - 300.0**4) / (RHO * C * SIDE)
+    assert 100.0 - difference(radiant[-1]) == pytest.approx(10.0 * rate, rel=2e-3)
+    assert min(s.ledger.heat.produced for s in radiant) > 0.0
+
+
+def test_a_tool_takes_heat_at_its_temperature() -> None:
+    body = block(0.0, 400.0, supports=(Driven(on="top", components="y", velocity=-1e-7), Fixed(on="left", components="x")))
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
+    heat = ContactHeat(conductance=200.0, tool_temperature=300.0)
+    scene = sw.Scene(
+        bodies={"b": body, "floor": floor}, contacts=(sw.Contact(between=("b.bottom", "floor"), heat=heat),),
+        inertia=Off(),
+    )  # fmt: skip
+    steps = list(sw.march(scene, until=10.0, step=0.5))
+    over = steps[-1].after.fields["temperature"]["b"].mean() - 300.0
+    assert over == pytest.approx(100.0 * np.exp(-200.0 * 10.0 / (RHO * C * SIDE)), rel=2e-4)
+    last = steps[-1].ledger.heat
+    assert last.brought == pytest.approx(-(100.0 - over) * CAPACITY, rel=5e-4)
+    assert last.through == pytest.approx((-last.brought,)) and abs(last.error) < 1e-12 * last.content
+    assert min(s.ledger.heat.produced for s in steps) > 0.0
+
+
+def rubbing(heat: ContactHeat, conductivities: tuple[float, float] = (1e5, 1e5)) -> sw.Step:
+    """A block that slides by a millimetre over another one, pressed by 1 MPa; the last step."""
+    laws = [sw.heat.Conduction(conductivity=k, capacity=C) for k in conductivities]
+    mesh = rectangle((3.0 * SIDE, SIDE), (6, 2), origin=(-SIDE, 0.0)), rectangle((SIDE, SIDE), (2, 2), origin=(0.0, SIDE))
+    supports = (Fixed(on="bottom"),), (
+        Driven(on="top", components="x", velocity=1e-3), Driven(on="top", components="y", velocity=-1e-4)
+    )  # fmt: skip
+    bodies = {
+        name: sw.Solid(mesh=m, material=ELASTIC, density=RHO, supports=s, thermal=Thermal(law=k, temperature=300.0))
+        for name, m, s, k in zip(("low", "top"), mesh, supports, laws, strict=True)
+    }
+    contact = sw.Contact(between=("low.top", "top.bottom"), friction=sw.Coulomb(mu=0.2), heat=heat)
+    *_, last = sw.march(sw.Scene(bodies=bodies, contacts=(contact,), inertia=Off()), until=1.0, step=0.1)
+    return last
+
+
+def gained(step: sw.Step, name: str, volume: float) -> float:
+    return float((step.after.fields["temperature"][name] - 300.0).mean()) * RHO * C * volume
+
+
+@pytest.mark.parametrize(
+    ("share", "conductivities", "expected"), [(None, (1e5, 1e5), 0.5), (None, (4e5, 1e5), 2.0 / 3.0), (0.2, (1e5, 1e5), 0.2)]
+)
+def test_friction_heats_both_bodies(share: float | None, conductivities: tuple[float, float], expected: float) -> None:
+    last = rubbing(ContactHeat(share=share), conductivities)
+    heat = last.ledger.heat
+    assert heat.friction == pytest.approx(last.ledger.dissipation, rel=1e-12) and heat.friction > 5.0
+    assert gained(last, "low", 3.0 * SIDE**2) == pytest.approx(expected * heat.friction, rel=5e-2)
+    assert heat.received == pytest.approx(heat.friction, rel=1e-12) and abs(heat.error) < 1e-12 * heat.content
