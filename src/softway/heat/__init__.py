@@ -22,8 +22,8 @@ from softway.laws.heat.temperature_table import TemperatureTable as TemperatureT
 __all__ = [
     "Conduction",
     "Conductor",
-    "Convection",
     "ContactHeat",
+    "Convection",
     "HeatContact",
     "HeatFlux",
     "HeatLedger",

@@ -147,7 +147,9 @@ class TimedField(Protocol):
     they are solved in a slab only.
     """
 
-    def in_slab(self, ends: tuple[float, float], parts: Sequence[DiscreteSolid], u0: Array, values: Array) -> FieldEquations:
+    def in_slab(
+        self, ends: tuple[float, float], parts: Sequence[DiscreteSolid], u0: Array, values: Array
+    ) -> FieldEquations:
         """Equations in a slab between two times [s], of solids with the material states, the displacement ``u0`` (n, d)
         [m] and the ``values`` (n, components) of the field at its start.
         """
@@ -161,7 +163,7 @@ def in_slab(
     u0: Array,
     fields: Sequence[FieldState],
 ) -> tuple[FieldEquations, ...]:
-    """Companion fields in a slab between two times [s] with their states at its start; the same tuple if none changes."""
+    """Companion fields in a slab between two times [s], from their states at its start; the same if none changes."""
     if not any(isinstance(c, TimedField) for c in companions):
         return companions
     return tuple(

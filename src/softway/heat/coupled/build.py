@@ -46,6 +46,10 @@ def build(scene: Scene) -> Model:
     heated = {name: body for name, body in scene.bodies.items() if isinstance(body, Solid) and body.thermal is not None}
     loads = {k: load for k, load in enumerate(scene.loads) if not isinstance(load, Gravity | Traction)}
     _require_heated(loads, heated)
+    for k, contact in enumerate(scene.contacts):
+        if contact.heat is not None and not heated:
+            problem = f"heat across {contact.label!r}, of bodies without a temperature"
+            raise InputError(f"contacts[{k}].heat", problem, "the heat of a solid, thermal, or a contact without heat")
     return with_temperature(model, heated, loads) if heated else model
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
-from softway.contact.contact import NodeToSurface
+from softway.contact.contact import Contact, NodeToSurface
 from softway.contact.friction_rows import DeclaredSurface, surfaces_of
 from softway.errors import InputError
 from softway.heat.coupled.contact_sides import ContactSides, contact_sides
@@ -16,7 +16,6 @@ from softway.heat.heat_contact import HeatExchange
 from softway.laws.heat.contact_heat import ContactHeat
 from softway.model.field import FieldContact
 from softway.model.model import Model
-
 
 STILL = 1e-9
 """Distance of surfaces that touch without a force, relative to the shortest edge: rows that others relieve."""
@@ -86,22 +85,23 @@ class RowsOfContact:
         rows, heat = self.rows, self.heat
         area = self.share * self.facing.towards(contact.last.normal[rows])
         group = np.unique(self.node, return_inverse=True)[1]
-        closed = 0.5 * sum(
-            ((force[rows] > 0.0) | (gap[rows] <= self.still)).astype(float)
+        touches = [
+            (force[rows] > 0.0) | (gap[rows] <= self.still)
             for force, gap in zip((contact.before, contact.after), gaps, strict=True)
-        )
+        ]
+        closed = np.mean(touches, axis=0)
         whole = np.bincount(group, weights=closed)[group]
         share = closed / np.where(whole > 0.0, whole, 1.0)
         touching = np.minimum(whole, 1.0)
         own = area * share
         force = 0.5 * (contact.before[rows] + contact.after[rows])
         spots = own * heat.closed(force / np.where(own > 0.0, own, 1.0)) * (touching if heat.hardness is None else 1.0)
-        with np.errstate(invalid="ignore"):
-            gap = 0.5 * sum(np.maximum(g[rows], 0.0) for g in gaps)
-        through: Array = heat.through_gas(gap)
+        gap = np.mean([np.maximum(g[rows], 0.0) for g in gaps], axis=0)
+        through = heat.through_gas(gap)
         if heat.emissivity:
+            mine = np.asarray(of.mine @ temperature)
             other = np.where(np.isnan(tool), of.theirs @ temperature, tool)
-            through = through + (1.0 - touching) * heat.radiated(of.mine @ temperature, other)
+            through = through + (1.0 - touching) * heat.radiated(mine, other)
         return np.asarray(spots + area * np.where(_nearest(group, gap), through, 0.0))
 
 
@@ -239,16 +239,21 @@ def contact_exchange(model: Model, nodes: IntArray, effusivity: Mapping[str, flo
         if contact.many and contact.heat.share is not None:
             problem = f"a share of the heat of friction in {contact.label!r}, which has no first body"
             raise InputError(f"contacts[{k}].heat.share", problem, "no share, or contacts of two bodies")
-        rows = _rows(model, k)
-        both = contact.many or (isinstance(contact.method, NodeToSurface) and contact.method.nodes == "both")
+        rows, tool = _rows(model, k), bool(model.against_tool[k])
         order = np.array([contact.bodies.index(name) if name in contact.bodies else 0 for name in names])
         found.append(
             RowsOfContact(
-                number=k, heat=contact.heat, rows=rows, node=slave[rows], share=0.5 if both and not model.against_tool[k] else 1.0, order=order,
-                surfaces=surfaces_of(contact, model.parts), tool=bool(model.against_tool[k]), still=STILL * edge,
+                number=k, heat=contact.heat, rows=rows, node=slave[rows], order=order,
+                share=0.5 if _of_both(contact) and not tool else 1.0,
+                surfaces=surfaces_of(contact, model.parts), tool=tool, still=STILL * edge,
             )
         )  # fmt: skip
     return ContactExchange(contacts=tuple(found), part_of=model.part_of, nodes=nodes, effusivity=by_node)
+
+
+def _of_both(contact: Contact) -> bool:
+    """True if the nodes of either surface have rows."""
+    return contact.many or (isinstance(contact.method, NodeToSurface) and contact.method.nodes == "both")
 
 
 def _rows(model: Model, number: int) -> IntArray:
@@ -256,10 +261,9 @@ def _rows(model: Model, number: int) -> IntArray:
     those of corners and edges beside them.
     """
     contact, ends = model.scene.contacts[number], np.cumsum([len(m.node) for m in model.contacts.methods])
-    every = contact.many or (isinstance(contact.method, NodeToSurface) and contact.method.nodes == "both")
     found = [
         np.arange(end - len(method.node), end)
         for method, k, end in zip(model.contacts.methods, model.contacts.numbers, ends.tolist(), strict=True)
         if k == number and len(method.node)
     ]
-    return np.concatenate([np.zeros(0, int), *(found if every else found[:1])])
+    return np.concatenate([np.zeros(0, int), *(found if _of_both(contact) else found[:1])])

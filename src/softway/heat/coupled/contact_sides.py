@@ -29,7 +29,6 @@ class ContactSides:
     opponent: IntArray
 
 
-
 def contact_sides(first: ContactRows, last: ContactRows, rows: IntArray, part_of: IntArray) -> ContactSides:
     """Sides of some ``rows`` (r,) in a slab: at its end, or at its start for rows that have no opponent at the end.
 

@@ -72,8 +72,8 @@ class Expansion:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Strained:
-    """Solids at a displacement: of each expansion that (k, d) of its nodes, the change of volume (p,) and its derivative
-    (p, m, D); in all n nodes.
+    """Solids with n nodes at a displacement: of each expansion that (k, d) of its nodes, the change of volume (p,) and
+    its derivative (p, m, D).
     """
 
     expansions: tuple[Expansion, ...]

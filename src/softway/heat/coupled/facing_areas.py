@@ -49,7 +49,9 @@ def facing_areas(surfaces: Sequence[DeclaredSurface], u: Array, node: IntArray) 
     of, n = np.concatenate(nodes), len(u)
     parts = sp.csr_array((np.ones(len(of)), (of, np.arange(len(of)))), shape=(n, len(of)))[node]
     row = np.repeat(np.arange(len(node)), np.diff(parts.indptr))
-    return FacingAreas(row=row, area=np.concatenate(areas)[parts.indices], normal=np.concatenate(normals)[parts.indices])
+    return FacingAreas(
+        row=row, area=np.concatenate(areas)[parts.indices], normal=np.concatenate(normals)[parts.indices]
+    )
 
 
 def _evened(measure: Array) -> Array:

@@ -116,7 +116,7 @@ class Conduction:
         14142.135623730952
         """
         at = np.array([temperature])
-        k, _ = self.along_axes(at, 1 if np.ndim(self.conductivity) == 0 else len(self.conductivity))
+        k, _ = self.along_axes(at, len(self.conductivity) if isinstance(self.conductivity, tuple) else 1)
         return float(np.sqrt(k.mean() * density * value_at(self.capacity, at)[0]))
 
     def along_axes(self, temperature: Array, axes: int) -> tuple[Array, Array]:

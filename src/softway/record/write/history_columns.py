@@ -64,7 +64,7 @@ def _number(label: str, name: str) -> Callable[[Ledger], float]:
 
 CONTACT = (("force_n", "N"), ("force_t", "N"), ("min_gap", "m"), ("power_residual", "J"))
 OF_HEAT = (
-    *((name, "J") for name in ("content", "brought", "received", "cold_work", "error")),
+    *((name, "J") for name in ("content", "brought", "received", "friction", "cold_work", "error")),
     ("entropy", "J/K"),
 )
 TIE = (("broken", table.RATIO), ("opening", "m"), ("dissipated", "J"))
@@ -107,6 +107,10 @@ EXTRA: tuple[Column, ...] = (
 """Columns after those of the certificate; files of earlier versions lack them."""
 
 
+def _through(number: int) -> Callable[[Ledger], float]:
+    return lambda ledger: float("nan") if ledger.heat is None else ledger.heat.through[number]
+
+
 def _of_heat(name: str) -> Callable[[Ledger], float]:
     return lambda ledger: float(getattr(ledger.heat, name))
 
@@ -115,8 +119,13 @@ HEAT = tuple(of_ledger(f"heat.{name}", unit, _of_heat(name)) for name, unit in O
 """Columns of runs in which solids have a temperature."""
 
 
-def columns(contacts: tuple[str, ...], ties: tuple[str, ...] = (), heat: bool = False) -> tuple[Column, ...]:
-    """Columns of a run with some contacts, ties that break, and ``heat`` of solids, in order, without its probes."""
+def columns(
+    contacts: tuple[str, ...], ties: tuple[str, ...] = (), heat: bool = False, passing: tuple[str, ...] = ()
+) -> tuple[Column, ...]:
+    """Columns of a run with some contacts, ties that break, and ``heat`` of solids with the contacts that it is
+    ``passing``, in order, without its probes.
+    """
     each = (column for label in contacts for column in of_contact(label))
     glued = (column for label in ties for column in of_tie(label))
-    return (*COLUMNS, *each, *CERTIFICATE, *EXTRA, *glued, *(HEAT if heat else ()))
+    through = (of_ledger(f"heat.through.{label}", "J", _through(k)) for k, label in enumerate(passing))
+    return (*COLUMNS, *each, *CERTIFICATE, *EXTRA, *glued, *((*HEAT, *through) if heat else ()))

@@ -44,11 +44,13 @@ class FrictionWork:
         return -((0.5 - scalar) * self.first + (0.5 + scalar) * self.last)
 
 
-def row_heats(ends: tuple[tuple[ContactRows, Array], tuple[ContactRows, Array]], moved: Array, group: IntArray) -> Array:
+def row_heats(
+    ends: tuple[tuple[ContactRows, Array], tuple[ContactRows, Array]], moved: Array, group: IntArray
+) -> Array:
     """Energy (m,) that friction dissipates at each row [J], nowhere negative.
 
-    Its sum over a group is what the forces take in all, and zero for a group to which they would give energy; rows share
-    it like the energy that they take.
+    Its sum over a group is what the forces take in all, and zero where they would give energy; rows share it in
+    proportion to the energy that they take.
 
     Parameters
     ----------

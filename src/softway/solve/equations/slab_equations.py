@@ -35,6 +35,17 @@ from softway.solve.equations.slab_values import Evaluation, SlabStart
 from softway.tolerances import KEEP_EDGES_AFTER, KEEP_FACETS_AFTER
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Cold:
+    """Solution of a companion field that friction does not heat."""
+
+    solution: FieldSolution
+
+    def __call__(self, rubbed: Array) -> FieldSolution:
+        """The solution, whatever friction dissipates."""
+        return self.solution
+
+
 FIELD_PASSES = 8
 """Greatest number of solutions of the companion fields at an iterate with friction."""
 SETTLED = 1e-14
@@ -123,9 +134,7 @@ class SlabEquations:
             fields=coupled,
         )
 
-    def _completed(
-        self, bare: EndForces, expected: Array | None
-    ) -> tuple[tuple[FieldSolution, ...], EnergyClosure]:
+    def _completed(self, bare: EndForces, expected: Array | None) -> tuple[tuple[FieldSolution, ...], EnergyClosure]:
         """Companion fields and closure of a slab, from the values at its ends without these fields.
 
         The heat of friction depends on the scalar (parts,) that closes the balance, and that hardly on the heat: it is
@@ -152,11 +161,7 @@ class SlabEquations:
         found: list[Callable[[Array], FieldSolution]] = []
         for c, state in zip(self.model.companions, start.fields, strict=True):
             slab = FieldSlab(span=span, start=state, u0=ends.u0, u1=ends.u1, contact=contact, first=first)
-            if isinstance(c, RubbedField):
-                found.append(c.solver(slab))
-            else:
-                solution = c.solve(slab)
-                found.append(lambda _, solution=solution: solution)
+            found.append(c.solver(slab) if isinstance(c, RubbedField) else Cold(c.solve(slab)))
         return found
 
     def _rubbed(self, ends: EndForces, scalar: Array) -> Array:

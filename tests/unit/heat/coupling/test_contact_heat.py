@@ -73,9 +73,10 @@ def test_two_lumps_exchange_heat_by_the_conductance(dim: int, method: object) ->
 
 def test_each_with_each_exchanges_as_much() -> None:
     steps = pressed(ContactHeat(conductance=200.0), method=NodeToSurface())
+    drive = Driven(on="top", components="y", velocity=-1e-7)
     scene = sw.Scene(
         bodies={"low": block(0.0, 300.0, supports=(Fixed(on="bottom"),)), "top": block(
-            SIDE, 400.0, 3, supports=(Driven(on="top", components="y", velocity=-1e-7), Fixed(on="left", components="x"))
+            SIDE, 400.0, 3, supports=(drive, Fixed(on="left", components="x"))
         )},
         contacts=(sw.Contact(between="all", heat=ContactHeat(conductance=200.0)),), inertia=Off(),
     )  # fmt: skip
@@ -105,7 +106,9 @@ def test_gas_and_radiation_cross_a_gap(dim: int) -> None:
 
 
 def test_a_tool_takes_heat_at_its_temperature() -> None:
-    body = block(0.0, 400.0, supports=(Driven(on="top", components="y", velocity=-1e-7), Fixed(on="left", components="x")))
+    body = block(
+        0.0, 400.0, supports=(Driven(on="top", components="y", velocity=-1e-7), Fixed(on="left", components="x"))
+    )
     floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
     heat = ContactHeat(conductance=200.0, tool_temperature=300.0)
     scene = sw.Scene(
@@ -124,7 +127,10 @@ def test_a_tool_takes_heat_at_its_temperature() -> None:
 def rubbing(heat: ContactHeat, conductivities: tuple[float, float] = (1e5, 1e5)) -> sw.Step:
     """A block that slides by a millimetre over another one, pressed by 1 MPa; the last step."""
     laws = [sw.heat.Conduction(conductivity=k, capacity=C) for k in conductivities]
-    mesh = rectangle((3.0 * SIDE, SIDE), (6, 2), origin=(-SIDE, 0.0)), rectangle((SIDE, SIDE), (2, 2), origin=(0.0, SIDE))
+    mesh = (
+        rectangle((3.0 * SIDE, SIDE), (6, 2), origin=(-SIDE, 0.0)),
+        rectangle((SIDE, SIDE), (2, 2), origin=(0.0, SIDE)),
+    )
     supports = (Fixed(on="bottom"),), (
         Driven(on="top", components="x", velocity=1e-3), Driven(on="top", components="y", velocity=-1e-4)
     )  # fmt: skip
@@ -142,7 +148,8 @@ def gained(step: sw.Step, name: str, volume: float) -> float:
 
 
 @pytest.mark.parametrize(
-    ("share", "conductivities", "expected"), [(None, (1e5, 1e5), 0.5), (None, (4e5, 1e5), 2.0 / 3.0), (0.2, (1e5, 1e5), 0.2)]
+    ("share", "conductivities", "expected"),
+    [(None, (1e5, 1e5), 0.5), (None, (4e5, 1e5), 2.0 / 3.0), (0.2, (1e5, 1e5), 0.2)],
 )
 def test_friction_heats_both_bodies(share: float | None, conductivities: tuple[float, float], expected: float) -> None:
     last = rubbing(ContactHeat(share=share), conductivities)
@@ -150,3 +157,46 @@ def test_friction_heats_both_bodies(share: float | None, conductivities: tuple[f
     assert heat.friction == pytest.approx(last.ledger.dissipation, rel=1e-12) and heat.friction > 5.0
     assert gained(last, "low", 3.0 * SIDE**2) == pytest.approx(expected * heat.friction, rel=5e-2)
     assert heat.received == pytest.approx(heat.friction, rel=1e-12) and abs(heat.error) < 1e-12 * heat.content
+
+
+def thrown(**given: object) -> list[sw.Step]:
+    """A hot block is thrown obliquely at a cold one, with friction, heat and expansion."""
+    law = sw.heat.Conduction(conductivity=50.0, capacity=500.0)
+
+    def of(
+        size: tuple[float, float], cells: tuple[int, int], origin: tuple[float, float], v: tuple[float, float], T: float
+    ) -> sw.Solid:
+        return sw.Solid(
+            mesh=rectangle(size, cells, origin=origin), material=sw.NeoHookean(E=2e9, nu=0.3), density=7800.0,
+            velocity=Uniform(value=v), thermal=Thermal(law=law, temperature=T, expansion=12e-6),
+        )  # fmt: skip
+
+    bodies = {
+        "low": of((0.06, 0.02), (6, 2), (-0.01, 0.0), (0.0, 0.0), 300.0),
+        "up": of((0.04, 0.02), (4, 2), (0.0, 0.02002), (4.0, -1.0), 400.0),
+    }
+    contact = sw.Contact(
+        between=("low.top", "up.bottom"), friction=sw.Coulomb(mu=0.3), heat=ContactHeat(conductance=1e4)
+    )
+    return list(sw.march(sw.Scene(bodies=bodies, contacts=(contact,)), until=1.2e-4, step=5e-6, **given))
+
+
+@pytest.mark.slow
+def test_an_impact_with_heat_of_friction_keeps_energy_and_momentum() -> None:
+    steps = thrown()
+    ledgers = [s.ledger for s in steps]
+    assert any(e.kind == "release" for s in steps for e in s.events)
+    whole = [k.energy_kinetic + k.energy_strain + k.heat.content for k in ledgers]
+    kinetic, last = ledgers[0].energy_kinetic, ledgers[-1]
+    assert np.ptp(whole) < 1e-10 * kinetic and last.heat.friction > 0.1 * kinetic
+    assert max(abs(k.energy_error) for k in ledgers) < 1e-12 * kinetic
+    np.testing.assert_allclose(last.momentum, ledgers[0].momentum, atol=1e-10 * abs(ledgers[0].momentum[0]))
+    assert min(k.heat.produced + k.heat.rounding for k in ledgers) >= 0.0 and last.heat.entropy > 0.0
+    # the heat of friction is what friction dissipates, and the thermal stress takes the difference
+    assert abs(last.heat.received - last.dissipation) < 1e-12 * last.dissipation
+    again = thrown(state=steps[11].march_state)
+    for name in ("low", "up"):
+        np.testing.assert_array_equal(again[-1].after.displacement[name], steps[-1].after.displacement[name])
+        mine, same = (s[-1].after.fields["temperature"][name] for s in (steps, again))
+        np.testing.assert_array_equal(mine, same)
+    assert again[-1].ledger.heat == last.heat

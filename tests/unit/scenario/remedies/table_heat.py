@@ -103,6 +103,20 @@ def solids(**given: object) -> object:
     return sw.build(sw.Scene(bodies={"b": sw.Solid(**parts)}, loads=(load,)))  # type: ignore[arg-type]
 
 
+CONDUCTS = heat.ContactHeat(conductance=1.0)
+
+
+def resting(given: object = CONDUCTS, thermals: tuple[bool, bool] = (True, True), **contact: object) -> object:
+    """Model of two squares side by side, with or without a temperature, and a contact with heat."""
+    beside = sw.Mesh(points=CORNER.points + [1.0, 0.0], blocks=CORNER.blocks, tags=CORNER.tags)
+    bodies = {
+        name: sw.Solid(mesh=mesh, material=STEEL, density=1.0, thermal=thermal() if hot else None)
+        for name, mesh, hot in zip("ab", (CORNER, beside), thermals, strict=True)
+    }
+    meets = sw.Contact(**{"between": ("a.right", "b.left"), "heat": given, **contact})  # type: ignore[arg-type]
+    return sw.build(sw.Scene(bodies=bodies, contacts=(meets,)))
+
+
 ALONE = "a scenario of conductors only"
 TABLE: Table = {
     "a tool beside a conductor": Try(SCENE, BOTH, ALONE, f"bodies={{b={BODY}}}"),
@@ -114,6 +128,28 @@ TABLE: Table = {
     ),
     "heat on a solid": Try(SOLIDS, FLUX, "a solid with the key thermal", "loads=[]"),
     "heat on a solid without": call(lambda: solids(thermal=None), "the heat of the solid, thermal", solids),
+    "heat across a contact with a cold body": call(
+        lambda: resting(thermals=(True, False)), "bodies.b.thermal", resting
+    ),
+    "heat across a contact of cold bodies": call(
+        lambda: resting(thermals=(False, False)), "a contact without heat", lambda: resting(None, (False, False))
+    ),
+    "a share without a first body": call(
+        lambda: resting(heat.ContactHeat(share=0.3), between="all"),
+        "no share, or contacts of two bodies",
+        lambda: resting(heat.ContactHeat(share=0.3)),
+    ),
+    "a negative conductance": call(
+        lambda: heat.ContactHeat(conductance=-1.0), "zero or a positive number", lambda: heat.ContactHeat()
+    ),
+    "more than the whole heat": call(
+        lambda: heat.ContactHeat(share=2.0), "a number from 0 to 1", lambda: heat.ContactHeat(share=0.2)
+    ),
+    "a gas between smooth surfaces": call(
+        lambda: heat.ContactHeat(gas=0.03),
+        "the depth of the roughness",
+        lambda: heat.ContactHeat(gas=0.03, roughness=1e-6),
+    ),
     "expansion of fibres": call(lambda: solids(material=FIBRES), "an isotropic law", solids),
     "expansion of quadratic cells": call(
         lambda: solids(mesh=rectangle((1.0, 1.0), (1, 1), cell="tri6")), "linear cells", solids
