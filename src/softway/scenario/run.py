@@ -11,6 +11,7 @@ from softway.arrays import Array
 from softway.bodies.discretised import DiscreteSolid
 from softway.contact.surfaces.nodal_tractions import TractionMap, traction_map
 from softway.errors import Cancel, InputError
+from softway.heat.coupled.solid_temperature import temperatures_of
 from softway.march.audit.balances import balances, contact_forces
 from softway.march.audit.ledger import initial_ledger as audit
 from softway.march.march import march
@@ -223,8 +224,12 @@ def _texts(scenario: Scenario) -> dict[str, str]:
 
 
 def _stress(model: Model, name: str, state: State) -> Array:
-    """Mean Cauchy stress (cells, 3, 3) of a solid [Pa]."""
-    return model.stress(name, state.displacement[name], state.memory.get(name))
+    """Mean Cauchy stress (cells, 3, 3) of a solid, with that of its temperature [Pa]."""
+    stress = model.stress(name, state.displacement[name], state.memory.get(name))
+    for _, of_heat in temperatures_of(model.companions):
+        u, temperature = (model.join(field) for field in (state.displacement, state.fields[of_heat.field.name]))
+        stress = stress + of_heat.stress(name, len(stress), temperature, u)
+    return stress
 
 
 def _remembered(part: DiscreteSolid, state: State) -> Mapping[str, Array]:

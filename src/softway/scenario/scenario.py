@@ -88,7 +88,8 @@ class Probe:
         Reference point whose nearest node is recorded, instead of a tag; of a rigid body the point itself, by default
         its centre [m].
     quantity
-        Recorded quantity; rotation and spin (angular velocity) belong to rigid bodies, temperature to conductors.
+        Recorded quantity; rotation and spin (angular velocity) belong to rigid bodies, temperature to conductors
+        and to solids with heat.
     component
         Recorded component; ``norm`` is the magnitude of the vector.  A rigid body in the plane turns about ``z``.
 

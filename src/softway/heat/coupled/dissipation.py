@@ -66,7 +66,7 @@ class Dissipation:
 def dissipations(number: int, part: DiscreteSolid, share: float | None) -> Iterator[Dissipation]:
     """Dissipations of the path-dependent laws of the solid of this ``number``, with a share that heats."""
     whole = point_values(part)
-    for region, nodes, points, internal, law in pieces(part):
+    for region, _, nodes, points, internal, law in pieces(part):
         own = default_share(law) if share is None else share
         if internal.path_dependent and own > 0.0:
             yield Dissipation(

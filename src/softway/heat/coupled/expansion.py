@@ -36,6 +36,10 @@ class Expansion:
 
     Parameters
     ----------
+    solid
+        Name of the solid.
+    cells
+        (e,) their numbers in the solid.
     nodes
         (k,) their nodes among those of all solids.
     values
@@ -50,12 +54,33 @@ class Expansion:
         Thermal stress per temperature beta [Pa/K].
     """
 
+    solid: str
+    cells: IntArray
     nodes: IntArray
     values: csr_array
     sampling: StrainOperator
     directions: Array
     small: bool
     modulus: float
+
+    def stress(self, over: Array, u: Array) -> Array:
+        """Mean Cauchy stress (e, 3, 3) [Pa] of temperatures ``over`` (n,) the reference [K], at ``u`` (n, d).
+
+        It is that in the axes of the section; a bar has it along its axis.
+        """
+        H = self.sampling.derivatives(u[self.nodes])
+        m, size = (np.broadcast_to(self.directions, H.shape) + H).shape[-2:]
+        ratio: Array = np.ones(len(H)) if self.small else np.exp(self.change(u[self.nodes])[0])
+        pressure = self.modulus * (self.values @ over[self.nodes]) / ratio
+        mean = -self.sampling.cell_means(pressure, self.sampling.volume * ratio)
+        axes = np.zeros((len(H), 3, 3))
+        if m == size:
+            axes[:] = np.diag([1.0] * m + [0.0] * (3 - m))
+        else:
+            along = np.broadcast_to(self.directions, H.shape)[:, 0] + (0.0 if self.small else H[:, 0])
+            along = along / np.linalg.norm(along, axis=1)[:, None]
+            axes[:, :size, :size] = along[:, :, None] * along[:, None, :]
+        return np.asarray(mean[:, None, None] * self.sampling.cell_means(axes, self.sampling.volume))
 
     def change(self, u: Array) -> tuple[Array, Array]:
         """Change of volume (p,), ln J or the trace of the strain, and its derivative (p, m, D) by the derivatives."""
@@ -113,9 +138,11 @@ def expansions(part: DiscreteSolid, coefficient: float) -> Iterator[Expansion]:
         If a law has no isotropic resistance to a change of volume.
     """
     section, whole = part.internal.section, point_values(part)
-    for region, nodes, points, internal, law in pieces(part):
+    for region, cells, nodes, points, internal, law in pieces(part):
         modulus = coefficient * thermal_stiffness(law, section, f"material.{region}" if region else "material")
         yield Expansion(
+            solid=part.name,
+            cells=cells,
             nodes=nodes + part.nodes.start,
             values=csr_array(whole[points][:, nodes]),
             sampling=internal.sampling,
@@ -153,15 +180,15 @@ def thermal_stiffness(law: Material, section: Section, where: str = "material") 
     return found
 
 
-def pieces(part: DiscreteSolid) -> Iterator[tuple[str, IntArray, IntArray, BodyForce, Material]]:
-    """Region, nodes (k,), points (q,), internal force and law of each law of a solid."""
+def pieces(part: DiscreteSolid) -> Iterator[tuple[str, IntArray, IntArray, IntArray, BodyForce, Material]]:
+    """Region, cells (e,), nodes (k,), points (q,), internal force and law of each law of a solid."""
     internal, materials = part.internal, part.materials
     if isinstance(internal, RegionForces):
         for term in internal.terms:
-            yield term.region, term.nodes, term.points, term.internal, materials.laws[term.number]
+            yield term.region, term.cells, term.nodes, term.points, term.internal, materials.laws[term.number]
     else:
         points = np.arange(len(internal.sampling.volume))
-        yield "", np.arange(part.mesh.n_nodes), points, internal, materials.laws[0]
+        yield "", np.arange(part.mesh.n_cells), np.arange(part.mesh.n_nodes), points, internal, materials.laws[0]
 
 
 def point_values(part: DiscreteSolid) -> csr_array:

@@ -118,6 +118,16 @@ class SolidTemperature:
         of_capacity = heat_values(self.model, unknowns_of(self.model, temperature), slopes=False).content
         return float(of_capacity.sum() + temperature @ strained(self.expansions, u).entropy()[self.nodes])
 
+    def stress(self, solid: str, cells: int, values: Array, u: Array) -> Array:
+        """Mean thermal stress (cells, 3, 3) [Pa] of a solid, with the ``values`` (n, 1) of all solids [K] at the
+        displacement ``u`` (n, d) [m].
+        """
+        out, over = np.zeros((cells, 3, 3)), self.on_all(values[self.nodes, 0] - self.reference)[:, 0]
+        for expansion in self.expansions:
+            if expansion.solid == solid:
+                out[expansion.cells] = expansion.stress(over, u)
+        return out
+
     def of_parts(self, values: Array) -> Array:
         """Sums (parts,) over the nodes of each solid of values (k,)."""
         return np.asarray(np.bincount(self.part, weights=values, minlength=self.parts), float)

@@ -11,7 +11,7 @@ from softway.errors import InputError
 from softway.meshes.mesh import Mesh
 from softway.model.scene import State
 
-UNITS = {"displacement": "m", "position": "m", "velocity": "m/s", "reaction": "N"}
+UNITS = {"displacement": "m", "position": "m", "velocity": "m/s", "reaction": "N", "temperature": "K"}
 COMPONENTS = ("x", "y", "z", "norm")
 
 
@@ -90,6 +90,8 @@ class Reading:
     def value(self, state: State, reactions: Mapping[str, Array]) -> float:
         """Value at ``state``; a reaction that has not been computed is ``nan``."""
         match self.quantity:
+            case "temperature":
+                return float(state.fields["temperature"][self.body][self.nodes].mean())
             case "reaction":
                 if self.body not in reactions:
                     return float("nan")

@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping
 
+from softway.bodies.solid import Solid
+from softway.errors import InputError
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.meshes.mesh import Mesh
 from softway.record.write.mechanism.probes import body_reading
@@ -21,6 +23,14 @@ def probe_readings(
         With the path ``output.probes[k]``.
     """
     probes = scenario.output.probes
+    for k, probe in enumerate(probes):
+        body = scenario.bodies.get(probe.of)
+        if probe.quantity == "temperature" and isinstance(body, Solid) and body.thermal is None:
+            problem, remedy = (
+                f"the solid {probe.of!r} has no temperature",
+                f"bodies.{probe.of}.thermal, or displacement",
+            )
+            raise InputError(f"output.probes[{k}].quantity", problem, remedy)
     if mechanism is None:
         return readings(probes, meshes)
     require_names(probes)

@@ -8,6 +8,7 @@ from softway.bodies import Axisymmetric, Fixed, PlaneStrain, PlaneStress, Therma
 from softway.heat.coupled.build import build
 from softway.heat.heat_balance import logarithmic_mean
 from softway.meshes.generators.shapes import box, interval, rectangle
+from softway.scenario.scenario import Scenario, Time
 
 E, NU, ALPHA, THETA, RHO, C = 3.0, 0.25, 1e-4, 300.0, 2.0, 0.5
 LAW = sw.heat.Conduction(conductivity=0.1, capacity=C)
@@ -50,6 +51,25 @@ def test_a_free_body_expands_without_stress(kind: str) -> None:
     assert np.ptp(rise) < 1e-10 and 49.9 < rise[0, 0] < 50.0
     np.testing.assert_allclose(last.after.displacement["b"], factor * ALPHA * rise * body.mesh.points, atol=1e-11)
     assert np.abs(last.reactions["b"]).max() < 1e-11
+
+
+@pytest.mark.parametrize("kind", ["plate", "ring", "tetrahedra", "logarithmic", "bar", "clamped"])
+def test_the_recorded_stress_contains_that_of_the_temperature(kind: str) -> None:
+    """None in a free body, and that of the strain which supports suppress."""
+    if kind in ("bar", "clamped"):
+        supports = (Fixed(on="left"), Fixed(on="right"))[: 1 + (kind == "clamped")]
+        mesh, material = interval(1.0, cells=2), LINEAR
+        body = sw.Solid(mesh=mesh, material=material, density=RHO, supports=supports, thermal=HEAT)
+    else:
+        dim, section, material, cell, _ = FREE.get(kind, (3, None, LOGARITHMIC, "hex8", 1.0))
+        body = block(dim, section, material, cell)
+    load = sw.heat.HeatSource(of="b", value=RHO * C * 50.0)
+    time = Time(end=1.0, step=0.5)
+    run = sw.run(Scenario(bodies={"b": body}, loads=(load,), inertia=sw.bodies.Off(), time=time))
+    stress, rise = run.fields[-1].stress, run.fields[-1]["temperature"].mean() - THETA
+    expected = -E * ALPHA * rise if kind == "clamped" else 0.0
+    np.testing.assert_allclose(stress[:, 0], expected, atol=1e-10)
+    np.testing.assert_allclose(stress[:, 1:], 0.0, atol=1e-10)
 
 
 def test_a_free_body_has_the_heat_capacity_at_constant_pressure() -> None:

@@ -73,6 +73,7 @@ BODY = (
 )
 BOTH = f"bodies={{b={BODY}, w={{kind='Tool', shape={{kind='HalfSpace', point=2, normal=-1}}}}}}"
 FLUX = "loads=[{kind='HeatFlux', on='b.left', value=1}]"
+SOLID_PROBE = "output.probes=[{name='p', of='b', tag='left', quantity='temperature'}]"
 PROBE = "output.probes=[{name='p', of='b', tag='left', quantity='temperature'}]"
 TWO = f"bodies={{b={BODY}, c={BODY.replace('cells=2', 'cells=2, origin=1')}}}"
 MEETS = "heat_contacts=[{between=['b.right', 'c.left'], conductance=1}]"
@@ -103,15 +104,16 @@ def solids(**given: object) -> object:
     return sw.build(sw.Scene(bodies={"b": sw.Solid(**parts)}, loads=(load,)))  # type: ignore[arg-type]
 
 
+FINE = rectangle((1.0, 1.0), (4, 4))
 CONDUCTS = heat.ContactHeat(conductance=1.0)
 
 
 def resting(given: object = CONDUCTS, thermals: tuple[bool, bool] = (True, True), **contact: object) -> object:
     """Model of two squares side by side, with or without a temperature, and a contact with heat."""
-    beside = sw.Mesh(points=CORNER.points + [1.0, 0.0], blocks=CORNER.blocks, tags=CORNER.tags)
+    beside = sw.Mesh(points=FINE.points + [1.0, 0.0], blocks=FINE.blocks, tags=FINE.tags)
     bodies = {
         name: sw.Solid(mesh=mesh, material=STEEL, density=1.0, thermal=thermal() if hot else None)
-        for name, mesh, hot in zip("ab", (CORNER, beside), thermals, strict=True)
+        for name, mesh, hot in zip("ab", (FINE, beside), thermals, strict=True)
     }
     meets = sw.Contact(**{"between": ("a.right", "b.left"), "heat": given, **contact})  # type: ignore[arg-type]
     return sw.build(sw.Scene(bodies=bodies, contacts=(meets,)))
@@ -128,6 +130,7 @@ TABLE: Table = {
     ),
     "heat on a solid": Try(SOLIDS, FLUX, "a solid with the key thermal", "loads=[]"),
     "heat on a solid without": call(lambda: solids(thermal=None), "the heat of the solid, thermal", solids),
+    "temperature of a solid without": Try(SOLIDS, SOLID_PROBE, "displacement", "output.probes=[]"),
     "heat across a contact with a cold body": call(
         lambda: resting(thermals=(True, False)), "bodies.b.thermal", resting
     ),
