@@ -1,10 +1,11 @@
 """Declaration of a tie: two surfaces that are glued, for good or until they break."""
 
 from dataclasses import dataclass
-from math import isfinite
+from math import inf, isfinite
 
 from softway.errors import InputError, real
 from softway.laws.cohesive_law import BilinearCohesive
+from softway.units import WattPerSquareMetreKelvin
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,11 +27,15 @@ class Tie:
         moved onto the other surface.
     breaks
         Cohesive law of the glue; none for a permanent tie.
+    conductance
+        Conductance of the glue between solids with heat [W/(m^2 K)]; by default heat passes a permanent tie nearly
+        freely: the glue has a thousandth of the resistance of a cell.  No heat passes ties that break.
 
     Raises
     ------
     InputError
-        If there are not two surfaces with a tag, or the tolerance is negative.
+        If there are not two surfaces with a tag, the tolerance or the conductance is negative, or a tie that breaks has
+        a conductance.
 
     Examples
     --------
@@ -45,8 +50,15 @@ class Tie:
     between: tuple[str, str]
     tolerance: float = 0.05
     breaks: BilinearCohesive | None = None
+    conductance: WattPerSquareMetreKelvin | None = None
 
     def __post_init__(self) -> None:
+        if self.conductance is not None:
+            real(self.conductance, "conductance")
+            if not 0.0 <= self.conductance < inf:
+                raise InputError("conductance", f"{self.conductance:g}", "zero or a positive number")
+            if self.breaks is not None:
+                raise InputError("conductance", "heat through a tie that breaks", "a permanent tie, or no conductance")
         real(self.tolerance, "tolerance")
         if not (isfinite(self.tolerance) and self.tolerance >= 0.0):
             raise InputError("tolerance", f"{self.tolerance:g} is no fraction of an edge", "a fraction such as 0.05")

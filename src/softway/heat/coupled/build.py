@@ -1,6 +1,7 @@
 """Model of a scene with the temperatures of its solids."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from softway.heat.coupled.contact_exchange import contact_exchange
 from softway.heat.coupled.dissipation import Dissipation, dissipations
 from softway.heat.coupled.expansion import Expansion, expansions
 from softway.heat.coupled.solid_temperature import SolidTemperature
+from softway.heat.coupled.through_ties import through_ties
 from softway.model.build import build as mechanical
 from softway.model.build import with_field
 from softway.model.model import Model
@@ -71,6 +73,7 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
                 _require_quadrature(part)
     heat = heat_model(conductors, loads)
     nodes = np.concatenate([np.arange(part.nodes.start, part.nodes.stop) for part in parts.values()])
+    heat = replace(heat, exchanges=tuple(through_ties(model, thermals, nodes)))
     given = [thermals[part.name].reference for part in heat.parts]
     sizes = [part.mesh.n_nodes for part in heat.parts]
     reference = [np.full(size, one) if one else None for size, one in zip(sizes, given, strict=True)]

@@ -42,7 +42,7 @@ def facing_areas(surfaces: Sequence[DeclaredSurface], u: Array, node: IntArray) 
         for kind, facets in it.facets.items():
             measure = facet_measures(x[facets], it.section, kind)
             if kind == "quad8":
-                measure = _evened(measure)
+                measure = evened(measure)
             nodes.append(facets.ravel() + it.nodes.start)
             areas.append(measure.ravel())
             normals.append(np.repeat(_normals(x[facets]), facets.shape[1], axis=0))
@@ -54,7 +54,7 @@ def facing_areas(surfaces: Sequence[DeclaredSurface], u: Array, node: IntArray) 
     )
 
 
-def _evened(measure: Array) -> Array:
+def evened(measure: Array) -> Array:
     """Areas (f, 8) of eight-node facets, whose corners have a negative part: a quarter of both mid-nodes beside it."""
     out, given = measure.copy(), 0.25 * measure[:, 4:]
     out[:, 4:] -= 2.0 * given

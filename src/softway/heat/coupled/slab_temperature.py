@@ -167,16 +167,17 @@ class SlabTemperature:
         stage = Stage(start=time.start, span=span, theta=1.0 if time.damped else 0.5, strain=strain)
         at, free, guess = time.before.temperature, self.solids.model.free_nodes(), None
         for _ in range(1 + time.contacts.radiates):
-            found = self._exchanges(at)
-            model = replace(self.solids.model, exchanges=tuple(found.values())) if found else self.solids.model
-            factor = None if time.factor is None else time.factor.linked(model.exchanges, free)
+            found, ties = self._exchanges(at), self.solids.model.exchanges
+            across = tuple(found.values())
+            model = replace(self.solids.model, exchanges=(*ties, *across))
+            factor = None if time.factor is None else time.factor.linked(across, free)
             try:
                 result = solve_slab(model, time.before, stage, time.damped, factor, guess=guess)
             except NumericsError as error:
                 raise NoConvergence(error.what) from None
             at = 0.5 * (time.before.temperature + result.after.temperature)
         through = np.zeros(len(self.sides))
-        through[list(found)] = result.passed
+        through[list(found)] = result.passed[len(ties) :]
         return result, through
 
     def _exchanges(self, temperature: Array) -> dict[int, HeatExchange]:

@@ -105,6 +105,18 @@ class Conduction:
             isinstance(value, TemperatureTable) for value in (self.conductivity, self.capacity)
         )
 
+    @property
+    def greatest_conductivity(self) -> float:
+        """Greatest conductivity along an axis at any temperature [W/(m K)].
+
+        Examples
+        --------
+        >>> Conduction(conductivity=(2.0, 1.0), capacity=1.0).greatest_conductivity
+        2.0
+        """
+        values = self.conductivity if isinstance(self.conductivity, tuple) else (self.conductivity,)
+        return max(max(v.values) if isinstance(v, TemperatureTable) else float(v) for v in values)
+
     def effusivity(self, density: float, temperature: float = 293.15) -> float:
         """Root of conductivity, density [kg/m^3] and capacity at a temperature [K], in W s^(1/2)/(m^2 K).
 

@@ -124,6 +124,34 @@ def test_a_tool_takes_heat_at_its_temperature() -> None:
     assert min(s.ledger.heat.produced for s in steps) > 0.0
 
 
+@pytest.mark.parametrize("conductance", [None, 200.0])
+def test_heat_passes_a_tie(conductance: float | None) -> None:
+    """A wall of two layers between two temperatures: freely, or with the fall across the glue."""
+    law = sw.heat.Conduction(conductivity=10.0, capacity=C)
+    low, top = (
+        sw.Solid(
+            mesh=rectangle((SIDE, SIDE), (k, 4), origin=(0.0, y)), material=ELASTIC, density=RHO,
+            thermal=Thermal(law=law, temperature=350.0, expansion=1e-5, reference=350.0),
+            supports=(Fixed(on="bottom"),) if y == 0.0 else (),
+        )
+        for k, y in ((2, 0.0), (3, SIDE))
+    )  # fmt: skip
+    scene = sw.Scene(
+        bodies={"low": low, "top": top},
+        ties=(sw.Tie(between=("low.top", "top.bottom"), conductance=conductance),),
+        loads=(sw.heat.Temperature(on="low.bottom", value=300.0), sw.heat.Temperature(on="top.top", value=400.0)),
+        inertia=Off(),
+    )
+    *_, last = sw.march(scene, until=6e3, step=150.0)
+    glue = 200.0 if conductance else 1e3 * 10.0 / (SIDE / 4.0)
+    flux = 100.0 / (2.0 * SIDE / 10.0 + 1.0 / glue)
+    temperature = last.after.fields["temperature"]
+    for name, below in (("low", 300.0), ("top", 300.0 + flux * (SIDE / 10.0 + 1.0 / glue))):
+        y = scene.bodies[name].mesh.points[:, 1] - (0.0 if name == "low" else SIDE)
+        np.testing.assert_allclose(temperature[name][:, 0], below + flux * y / 10.0, rtol=5e-8)
+    assert abs(last.ledger.heat.error) < 1e-12 * last.ledger.heat.content
+
+
 def rubbing(heat: ContactHeat, conductivities: tuple[float, float] = (1e5, 1e5)) -> sw.Step:
     """A block that slides by a millimetre over another one, pressed by 1 MPa; the last step."""
     laws = [sw.heat.Conduction(conductivity=k, capacity=C) for k in conductivities]

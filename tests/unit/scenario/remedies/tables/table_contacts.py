@@ -25,6 +25,15 @@ mesh = {{ kind = "Rectangle", size = [1, 1], cells = [2, 2], origin = [0, -0.99]
 {SOLID}
 """
 OF_TIES: Table = {
+    "tie that cools": Try(
+        TWO, "ties=[{between=['b.bottom', 'c.top'], conductance=-1}]", "zero or a positive number", GLUED
+    ),
+    "heat through a tie that breaks": Try(
+        TWO,
+        "ties=[{between=['b.bottom', 'c.top'], conductance=1, breaks={strength=1, energy=1, stiffness=10}}]",
+        "a permanent tie",
+        GLUED,
+    ),
     "tie of a tool": Try(PLANE, "ties=[{between=['b.bottom', 'w.top']}]", "known: b", "ties=[]"),
     "tie of no tag": Try(TWO, "ties=[{between=['b.bottom', 'c.tip']}]", "top", "contacts=[] & ties=[]"),
     "tie of a body": Try(TWO, "ties=[{between=['b', 'c.top']}]", "two surfaces of solids", GLUED),
