@@ -104,6 +104,11 @@ VARIANTS: Mapping[str, Variant] = {
         changes=("bodies.block.mesh.cells=[3, 3, 3]", "time.end=2.8 ms", "time.step=80 us"),
         same="the block hits the ball off-centre, turns, and its last node leaves the ball at 2.6 ms",
     ),
+    "brake_pad": Variant(
+        changes=("bodies.pad.mesh.cells=[2, 20]", "time.end=0.5 s"),
+        same="the pad is pressed, the disc begins to run, and friction heats the surface; longer cells",
+        held={"pad": {"left": (0,), "right": (0,), "top": (1,)}},  # sides, driven back
+    ),
     "bouncing_bar": Variant(
         changes=("bodies.bar.mesh.cells=10", "time.end=1.8 s"),
         same="the bar falls from rest and bounces once: touch at 1 s, release after 2 L / c = 2/3 s",
@@ -231,6 +236,11 @@ VARIANTS: Mapping[str, Variant] = {
         changes=("bodies.strip.mesh.cells=[2, 24]", "time.end=40 ms", "time.step=0.5 ms"),
         same="half as many cells along the strip; it buckles and its loads are the same",
         held={"strip": {"bottom": (0, 1), "top": (0, 1)}},  # lie on the floor, and on the line that is driven
+    ),
+    "shrink_fit": Variant(
+        changes=("bodies.shaft.mesh.cells=[5, 1]", "bodies.ring.mesh.cells=[4, 1]", "time.end=60 s", "time.step=4 s"),
+        same="the ring cools through the air, touches the shaft and is pressed on it; longer cells and slabs",
+        held={"shaft": {"left": (0,), "bottom": (1,)}, "ring": {"bottom": (1,)}},  # axis and planes of symmetry
     ),
     "snap_fit": Variant(
         changes=("time.end=3 ms", "time.step=20 us"),
