@@ -6,10 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.arrays import Array, IntArray
+from softway.bodies.assembled.material_states import MaterialStates
 from softway.bodies.discretised import DiscreteSolid
 from softway.errors import NoConvergence, NumericsError
 from softway.heat.coupled.dissipation import Dissipation
 from softway.heat.coupled.expansion import Expansion
+from softway.heat.coupled.point_temperature import PointTemperature, after_jumps, warmed
 from softway.heat.heat_balance import Stage, StrainHeat, put_at_once
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_plan import knots
@@ -79,6 +81,8 @@ class SolidTemperature:
         Thermal expansions.
     dissipations
         Dissipations of path-dependent materials that heat.
+    softened
+        Temperatures at the points of laws that depend on them.
     time
         Slab of a march; None outside.
     """
@@ -91,6 +95,7 @@ class SolidTemperature:
     reference: Array
     expansions: tuple[Expansion, ...]
     dissipations: tuple[Dissipation, ...] = ()
+    softened: tuple[PointTemperature, ...] = ()
     time: TimeOfSlab | None = None
 
     @property
@@ -142,6 +147,13 @@ class SolidTemperature:
         temperature = values[self.nodes, 0]
         of_capacity = heat_values(self.model, unknowns_of(self.model, temperature), slopes=False).content
         return float(of_capacity.sum() + temperature @ self.entropy(u))
+
+    def warmed(self, states: MaterialStates, values: Array) -> MaterialStates:
+        """Material states at the end of a slab whose laws know the temperatures ``values`` (n, 1) there."""
+        assert self.time is not None
+        following = self._on_all(after_jumps(self.model, values[self.nodes, 0], self.time.end))
+        span = np.inf if self.time.start in knots(self.model) else self.time.end - self.time.start
+        return warmed(states, self.softened, values[:, 0], following[:, 0], span)
 
     def heat_of(self, slab: FieldSlab, end: FieldState) -> HeatOfSlab:
         """Heat of a slab that has been solved, with the state at its end."""

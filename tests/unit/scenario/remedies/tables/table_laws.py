@@ -55,6 +55,22 @@ TABLE: Table = {
     "Johnson-Cook reference": law(
         f"{J2}, yield_stress=1, flow={{kind='JohnsonCook', C=0.01, reference=0}}", "a positive rate", "flow.reference=1"
     ),
+    "melting": law(
+        f"{J2}, yield_stress=1, softening={{kind='JohnsonCookSoftening', reference=300, melting=300}}",
+        "1356 K",
+        "softening.melting=1356",
+    ),
+    "activation": law(
+        f"{HOFF}, K=1, m=0.2, softening={{kind='Arrhenius', activation=-1, reference=1200}}",
+        "6000 K",
+        "softening.activation=6000",
+    ),
+    "softening without heat": Try(
+        PLANE,
+        f"{LAW}={{{J2}, yield_stress=1, softening={{kind='Arrhenius', activation=1, reference=300}}}}",
+        "thermal = { temperature",
+        "bodies.b.thermal={temperature=300, law={conductivity=1, capacity=1}}",
+    ),
     "Norton": law(
         f"{J2}, yield_stress=1, flow={{kind='NortonFlow', K=0, m=0.2}}", "a positive consistency", "flow.K=1"
     ),
