@@ -14,7 +14,7 @@ from softway.record.storage.serialisation import packed, unpacked
 
 RHO, C, START, STRAIN = 2.0, 0.5, 300.0, 0.5
 COOK = sw.laws.JohnsonCookSoftening(reference=250.0, melting=700.0, exponent=1.5)
-METAL = sw.J2(E=1e4, nu=0.3, yield_stress=200.0, softening=COOK)
+METAL = sw.J2(E=1e7, nu=0.3, yield_stress=200.0, softening=COOK)
 HOT = sw.laws.NortonHoff(K=60.0, m=0.2, softening=sw.laws.Arrhenius(activation=900.0, reference=300.0))
 LAWS = {"plastic": METAL, "viscous": HOT}
 
@@ -72,7 +72,8 @@ def test_an_adiabatic_point_softens_as_its_equation_says_with_order_two(name: st
         assert abs(heat.error) < 1e-12 * heat.received
     errors = np.abs(np.array(found) - wanted) / (wanted - START)
     assert errors[-1] < 2e-4, errors
-    assert (errors[:-1] / errors[1:] > 3.2).all(), errors
+    ratios = errors[:-1] / errors[1:]
+    assert (ratios > 3.8).all() and (ratios < 4.3).all(), errors
 
 
 def thrown(law: RateLaw, speed: float = 0.08) -> sw.Scene:

@@ -62,7 +62,7 @@ def test_a_solid_with_heat_softens() -> None:
 
 def test_the_heat_of_a_solid_from_its_material() -> None:
     solid = bar(BARE, "bodies.bar.material=copper", "bodies.bar.thermal={temperature=300}")
-    assert solid.thermal.law == find("copper").conduction() and solid.thermal.expansion == 16.5e-6
+    assert solid.thermal.law == find("copper").conduction() and solid.thermal.expansion == 1.65e-05  # as given
     solid = bar(BARE, "bodies.bar.material=copper", "bodies.bar.thermal={temperature=300, expansion=0}")
     assert solid.thermal.law.capacity == 383.0 and solid.thermal.expansion == 0.0
     with pytest.raises(InputError, match="no conductivity") as found:
