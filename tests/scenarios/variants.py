@@ -255,6 +255,11 @@ VARIANTS: Mapping[str, Variant] = {
         ),
         same="the same way of the stamp, pressed and lifted, in less time and into fewer cells",
     ),
+    "taylor_bar_hot": Variant(
+        changes=("bodies.rod.mesh.cells=[2, 14]", "time.step=0.8 us", "time.end=5.6 us"),
+        same="same rod, speed and softening; the foot is hot after a tenth of the time",
+        held={"rod": {"bottom": (1,), "left": (0,)}},  # contact that starts flush, axis
+    ),
 }
 """Variant of every scenario, by the name of its file."""
 

@@ -13,6 +13,7 @@ ELSEWHERE = {
     *(f"E{k:02}" for k in range(1, 7)),
     *(f"F{k:02}" for k in (1, 2, 3, 4, 5, 6, 8, 11, 12)),
     "G01",
+    "G02",
     "G03",
 }
 """Computed by a dedicated test, which says more about the same marches."""

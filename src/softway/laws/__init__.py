@@ -30,9 +30,13 @@ from softway.laws.plasticity.rate_dependence import JohnsonCook as JohnsonCook
 from softway.laws.plasticity.rate_dependence import NortonFlow as NortonFlow
 from softway.laws.plasticity.rate_dependence import Perzyna as Perzyna
 from softway.laws.plasticity.rate_dependence import RateIndependent as RateIndependent
+from softway.laws.plasticity.softening import Arrhenius as Arrhenius
+from softway.laws.plasticity.softening import JohnsonCookSoftening as JohnsonCookSoftening
+from softway.laws.plasticity.softening import SofteningTable as SofteningTable
 
 __all__ = [
     "J2",
+    "Arrhenius",
     "Coulomb",
     "Frictionless",
     "GreenNaghdi",
@@ -40,6 +44,7 @@ __all__ = [
     "Hypoelastic",
     "Jaumann",
     "JohnsonCook",
+    "JohnsonCookSoftening",
     "Kelvin",
     "LimitedViscoplastic",
     "LinearElastic",
@@ -56,6 +61,7 @@ __all__ = [
     "Perzyna",
     "PowerHardening",
     "RateIndependent",
+    "SofteningTable",
     "StVenantKirchhoff",
     "StaticKinetic",
     "Stribeck",

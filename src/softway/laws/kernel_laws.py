@@ -110,7 +110,7 @@ def _rate_law(material: RateLaw) -> tuple[Callable[[], Stage], float, float, tup
     match material:
         case Hypoelastic() if type(material) is Hypoelastic:
             return hypoelastic, material.E, material.nu, ()
-        case J2() if type(material) is J2 and type(material.flow) is RateIndependent:
+        case J2(softening=None) if type(material) is J2 and type(material.flow) is RateIndependent:
             hard, start = material.hardening, (material.yield_stress, material.kinematic)
             if type(hard) is LinearHardening:
                 return j2_linear, material.E, material.nu, (*start, hard.modulus)

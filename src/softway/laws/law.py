@@ -69,12 +69,16 @@ class Increment:
         (..., 3, 3) strain increment: rate of deformation times length of the slab.
     span
         Length of the slab [s].
+    temperature
+        (...,) temperature in the middle of the slab [K], for laws that depend on it, see :func:`softens`; None for
+        other laws.
     """
 
     stress: Array
     memory: Mapping[str, Array]
     strain: Array
     span: float
+    temperature: Array | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -150,6 +154,18 @@ class Damped(Protocol):
 
 
 Material = StoredEnergy | RateLaw
+
+
+def softens(material: Material) -> bool:
+    """True for a law that needs the temperature of the solid: one with an attribute ``softening`` that is not None.
+
+    Examples
+    --------
+    >>> from softway.laws.bulk import J2
+    >>> softens(J2(E=1.0, nu=0.0, yield_stress=0.1))
+    False
+    """
+    return isinstance(material, RateLaw) and getattr(material, "softening", None) is not None
 
 
 def initial_moduli(material: Material) -> Array:

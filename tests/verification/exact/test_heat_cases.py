@@ -1,4 +1,4 @@
-"""G01, G03: the references follow from the closed forms, and softway is within the tolerances."""
+"""G01 to G03: the references follow from the closed forms, and softway is within the tolerances."""
 
 from math import pi, sqrt
 
@@ -10,6 +10,7 @@ from scipy.special import erf, erfc
 import results
 from softway.apps.verify.case import sheet
 from softway.apps.verify.cases.heat import g01_freezing_water as water
+from softway.apps.verify.cases.heat import g02_adiabatic_compression as press
 from softway.apps.verify.cases.heat import g03_braking_block as brake
 
 
@@ -30,6 +31,15 @@ def test_the_root_keeps_the_balance_of_heat_at_the_front() -> None:
     assert found == pytest.approx([value("G01", "T(1 cm, 1 h)"), value("G01", "T(5 cm, 1 h)")], rel=1e-12)
 
 
+def test_the_work_of_compression_heats() -> None:
+    given, heats = press.GIVEN, press.GIVEN["rho"] * press.GIVEN["c"]
+    metal, fluid = given["plastic"], given["viscous"]
+    stress = sqrt(3.0) ** (fluid["m"] + 1.0) * fluid["K"] * fluid["rate"] ** fluid["m"]
+    plastic = metal["share"] * metal["yield_stress"] * given["strain"] / heats
+    assert plastic == pytest.approx(value("G02", "rise, plastic"), rel=1e-12)
+    assert fluid["share"] * stress * given["strain"] / heats == pytest.approx(value("G02", "rise, viscous"), rel=1e-12)
+
+
 def test_the_surface_under_the_brake_is_the_integral_of_duhamel() -> None:
     given = brake.GIVEN
     effusivity = sqrt(given["k"] * given["rho"] * given["c"])
@@ -40,6 +50,6 @@ def test_the_surface_under_the_brake_is_the_integral_of_duhamel() -> None:
     assert brake.rise(np.array(2.0)) == pytest.approx(value("G03", "rise of the surface at 2 s"), rel=1e-12)
 
 
-@pytest.mark.parametrize("case", [pytest.param("G01", marks=pytest.mark.slow), "G03"])
+@pytest.mark.parametrize("case", [pytest.param("G01", marks=pytest.mark.slow), "G02", "G03"])
 def test_the_case(case: str) -> None:
     assert results.missed(case) == set()

@@ -70,6 +70,7 @@ CASES: Mapping[str, tuple[float, str]] = {
     "F11": (0.1, "mechanisms.f11_free_top"),
     "F12": (0.4, "mechanisms.f12_bricard"),
     "G01": (5.5, "heat.g01_freezing_water"),
+    "G02": (0.6, "heat.g02_adiabatic_compression"),
     "G03": (0.5, "heat.g03_braking_block"),
     "classic": (1.0, "classic"),
     "peers": (3.0, "peers"),

@@ -31,6 +31,8 @@ class MaterialState:
         own; empty for a body with one.
     elastic
         Stored energy of all other regions [J].
+    temperature, warming
+        (p,) temperature of the points [K] and its rate in the slab before [K/s]; None for laws that do not need them.
     """
 
     displacement: Array
@@ -42,12 +44,15 @@ class MaterialState:
     viscous: Array | None = None
     regions: Mapping[str, "MaterialState"] = field(default_factory=dict)
     elastic: float = 0.0
+    temperature: Array | None = None
+    warming: Array | None = None
 
     def __post_init__(self) -> None:
         for array in (self.displacement, self.stress, *self.law.values(), self.lateral, self.stored, self.dissipated):
             array.flags.writeable = False
-        if self.viscous is not None:
-            self.viscous.flags.writeable = False
+        for some in (self.viscous, self.temperature, self.warming):
+            if some is not None:
+                some.flags.writeable = False
 
     def part(self, nodes: IntArray, points: IntArray) -> "MaterialState":
         """State of some nodes (k,) and points (q,)."""
@@ -59,7 +64,18 @@ class MaterialState:
             stored=self.stored[points],
             dissipated=self.dissipated[points],
             viscous=None if self.viscous is None else self.viscous[points],
+            temperature=None if self.temperature is None else self.temperature[points],
+            warming=None if self.warming is None else self.warming[points],
         )
+
+    def middle_temperature(self, span: float) -> Array | None:
+        """Temperature (p,) in the middle of a slab of length ``span`` [s], extrapolated; None for laws without.
+
+        Half of the temperature is its least value: it stays positive where a slab is too long for the cooling.
+        """
+        if self.temperature is None or self.warming is None:
+            return self.temperature
+        return np.maximum(self.temperature + 0.5 * span * self.warming, 0.5 * self.temperature)
 
 
 def initial_history(law: Mapping[str, Array], nodes: tuple[int, int], points: int, free: int) -> MaterialState:

@@ -15,8 +15,10 @@ from softway.heat.build_heat import heat_model
 from softway.heat.coupled.contact_exchange import contact_exchange
 from softway.heat.coupled.dissipation import Dissipation, dissipations
 from softway.heat.coupled.expansion import Expansion, expansions
+from softway.heat.coupled.point_temperature import after_jumps, point_temperatures, starting
 from softway.heat.coupled.solid_temperature import SolidTemperature
 from softway.heat.coupled.through_ties import through_ties
+from softway.laws.law import softens
 from softway.model.build import build as mechanical
 from softway.model.build import with_field
 from softway.model.model import Model
@@ -32,8 +34,8 @@ def build(scene: Scene) -> Model:
     Raises
     ------
     InputError
-        With the place in the scene: if a tag matches nothing, a body does not exist, dimensions are mixed, or a solid
-        with heat has no temperature, no conduction or no expansion.
+        With the place in the scene: if a tag matches nothing, a body does not exist, dimensions are mixed, a solid
+        with heat has no temperature, no conduction or no expansion, or a law needs the temperature of a solid without.
 
     Examples
     --------
@@ -52,6 +54,7 @@ def build(scene: Scene) -> Model:
         if contact.heat is not None and not heated:
             problem = f"heat across {contact.label!r}, of bodies without a temperature"
             raise InputError(f"contacts[{k}].heat", problem, "the heat of a solid, thermal, or a contact without heat")
+    _require_temperature(scene)
     return with_temperature(model, heated, loads) if heated else model
 
 
@@ -79,11 +82,18 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
     reference = [np.full(size, one) if one else None for size, one in zip(sizes, given, strict=True)]
     own = [heat.initial[p.nodes] if r is None else r for p, r in zip(heat.parts, reference, strict=True)]
     effusivity = {name: thermals[name].law.effusivity(body.density) for name, body in conductors.items()}
+    numbered = [(list(model.meshes).index(name), part) for name, part in parts.items()]
+    softened = tuple(point for k, part in numbered for point in point_temperatures(k, part))
     equations = SolidTemperature(
         contacts=contact_exchange(model, nodes, effusivity),
         model=heat, nodes=nodes, count=model.shape[0], parts=len(model.parts), part=model.part_of[nodes],
         reference=np.concatenate(own), expansions=tuple(found), dissipations=tuple(spent),
+        softened=softened,
     )  # fmt: skip
+    if softened:
+        start = np.zeros(model.shape[0])
+        start[nodes] = after_jumps(heat, heat.initial, 0.0)
+        model = replace(model, parts=starting(model.parts, softened, start))
     return with_field(model, equations)
 
 
@@ -103,6 +113,17 @@ def _require_quadrature(part: DiscreteSolid) -> None:
         if cell in UNEVEN:
             problem = f"heat of strain in {cell} cells, whose nodes it would heat unevenly"
             raise InputError("thermal", problem, "linear cells, bar3, quad9 or hex27; or expansion and heating zero")
+
+
+def _require_temperature(scene: Scene) -> None:
+    """Refuse laws that depend on the temperature in solids without one."""
+    for name, body in scene.bodies.items():
+        if isinstance(body, Solid) and body.thermal is None:
+            laws = body.material.values() if isinstance(body.material, Mapping) else (body.material,)
+            for law in filter(softens, laws):
+                problem = f"missing: {type(law).__name__} softens with the temperature of the solid"
+                remedy = "the heat of the solid, thermal = { temperature = ..., law = ... }, or no softening of the law"
+                raise InputError(f"bodies.{name}.thermal", problem, remedy)
 
 
 def _require_heated(loads: Mapping[int, HeatLoad], heated: Mapping[str, Solid]) -> None:

@@ -55,12 +55,13 @@ class HeatOfSlab:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class TimeOfSlab:
-    """Slab of a march at its ``start`` [s]: solids with their material states, contacts with their areas, temperatures
-    ``before``, heats of prescribed temperatures that jumped [J], and the strain; and the factor of its operator without
-    contact.  It is ``damped`` after a sudden change.
+    """Slab of a march between two times [s]: solids with the material states at its start, contacts with the areas
+    there, temperatures ``before``, heats of prescribed temperatures that jumped [J], the strain there, and the factor of
+    its operator without contact.  It is ``damped`` after a sudden change.
     """
 
     start: float
+    end: float
     solids: Sequence[DiscreteSolid]
     contacts: ContactExchange
     damped: bool

@@ -6,10 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.arrays import Array, IntArray
+from softway.bodies.assembled.material_states import MaterialStates
 from softway.bodies.discretised import DiscreteSolid
 from softway.heat.coupled.contact_exchange import ContactExchange
 from softway.heat.coupled.dissipation import Dissipation
 from softway.heat.coupled.expansion import Expansion, strained
+from softway.heat.coupled.point_temperature import PointTemperature, after_jumps, warmed
 from softway.heat.coupled.slab_temperature import SlabTemperature, TimeOfSlab
 from softway.heat.heat_balance import put_at_once
 from softway.heat.heat_model import HeatModel
@@ -43,6 +45,8 @@ class SolidTemperature:
         Heat across contacts.
     dissipations
         Dissipations of path-dependent materials that heat.
+    softened
+        Temperatures at the points of laws that depend on them.
     time
         Slab of a march; None outside.
     """
@@ -56,6 +60,7 @@ class SolidTemperature:
     expansions: tuple[Expansion, ...]
     contacts: ContactExchange
     dissipations: tuple[Dissipation, ...] = ()
+    softened: tuple[PointTemperature, ...] = ()
     time: TimeOfSlab | None = None
 
     @property
@@ -71,11 +76,11 @@ class SolidTemperature:
         self, ends: tuple[float, float], parts: Sequence[DiscreteSolid], u0: Array, values: Array
     ) -> "SolidTemperature":
         """Equations in a slab between two times [s]; the first one and those after a knot are damped."""
-        start, end = ends
+        (start, end), abrupt = ends, ends[0] == 0.0 or ends[0] in knots(self.model)
         before = heat_values(self.model, unknowns_of(self.model, values[self.nodes, 0]))
         before, jumped, _ = put_at_once(self.model, before, start)
         time = TimeOfSlab(
-            start=start, solids=parts, contacts=self.contacts.at(u0), damped=start == 0.0 or start in knots(self.model),
+            start=start, end=end, solids=parts, contacts=self.contacts.at(u0), damped=abrupt,
             before=before, jumped=jumped, strained=strained(self.expansions, u0),
             factor=linear_factor(self.model, 0.5 * (end - start)),
         )  # fmt: skip
@@ -117,6 +122,13 @@ class SolidTemperature:
         temperature = values[self.nodes, 0]
         of_capacity = heat_values(self.model, unknowns_of(self.model, temperature), slopes=False).content
         return float(of_capacity.sum() + temperature @ strained(self.expansions, u).entropy()[self.nodes])
+
+    def warmed(self, states: MaterialStates, values: Array) -> MaterialStates:
+        """Material states at the end of a slab whose laws know the temperatures ``values`` (n, 1) there."""
+        assert self.time is not None
+        following = self.on_all(after_jumps(self.model, values[self.nodes, 0], self.time.end))
+        span = np.inf if self.time.start in knots(self.model) else self.time.end - self.time.start
+        return warmed(states, self.softened, values[:, 0], following[:, 0], span)
 
     def stress(self, solid: str, cells: int, values: Array, u: Array) -> Array:
         """Mean thermal stress (cells, 3, 3) [Pa] of a solid, with the ``values`` (n, 1) of all solids [K] at the

@@ -15,6 +15,7 @@ from softway.laws.plasticity.deviator import deviator, equivalent_stress, projec
 from softway.laws.plasticity.hardening import Hardening, LinearHardening
 from softway.laws.plasticity.rate_dependence import Flow, RateIndependent
 from softway.laws.plasticity.return_mapping import returned
+from softway.laws.plasticity.softening import Softening, factor, greatest_factor
 from softway.units import Pascal, Pure
 
 
@@ -42,6 +43,8 @@ class J2:
         Rate dependence of the flow stress.
     rate
         Objective rate of the stress.
+    softening
+        Factor of the flow stress by the temperature of the solid, which needs ``thermal``; none by default.
 
     References
     ----------
@@ -63,6 +66,7 @@ class J2:
     kinematic: Pascal = 0.0
     flow: Flow = RateIndependent()
     rate: Rate = Jaumann()
+    softening: Softening | None = None
 
     def __post_init__(self) -> None:
         checked(self.E, self.nu)
@@ -73,8 +77,10 @@ class J2:
         if not self.kinematic >= 0.0:
             raise InputError("kinematic", f"{self.kinematic:g} Pa is negative", "zero or more")
         least = -3.0 * lame(self.E, self.nu)[1]
-        if self.hardening.least_slope() + self.kinematic <= least:
-            problem = f"slope {self.hardening.least_slope():g} Pa softens faster than -3 mu = {least:g} Pa"
+        fall = self.hardening.least_slope()
+        fall = fall * greatest_factor(self.softening) if fall < 0.0 else fall
+        if fall + self.kinematic <= least:
+            problem = f"slope {fall:g} Pa softens faster than -3 mu = {least:g} Pa"
             raise InputError("hardening", f"{problem}: the stress would snap back", "a slope above -3 mu")
 
     def virgin(self, points: int) -> Mapping[str, Array]:
@@ -90,7 +96,7 @@ class J2:
         trial = self._trial(increment)
         relative = trial if back is None else trial - back
         norm = equivalent_stress(relative)
-        gain = self._gain(norm, p, increment.span)
+        gain = self._gain(norm, increment)[0]
         n = 1.5 * relative / np.where(norm > 0.0, norm, 1.0)[..., None, None]
         plastic = gain[..., None, None] * n
         pressure = tensors.trace(increment.stress) / 3.0 + (bulk_part + 2.0 / 3.0 * shear) * tensors.trace(e)
@@ -109,19 +115,19 @@ class J2:
         shear = lame(self.E, self.nu)[1]
         return deviator(increment.stress) + 2.0 * shear * deviator(increment.strain)
 
-    def _gain(self, norm: Array, p: Array, span: float) -> Array:
-        """Increment (...,) of the equivalent plastic strain for the trial stress ``norm`` (...,) [Pa]."""
-        slope = 3.0 * lame(self.E, self.nu)[1] + self.kinematic
-        return returned(norm, slope, p, span, self.yield_stress, self.hardening, self.flow)[0]
+    def _gain(self, norm: Array, increment: Increment) -> tuple[Array, Array]:
+        """Increment (...,) of the equivalent plastic strain for the trial stress ``norm`` (...,) [Pa]; its slope."""
+        slope, p = 3.0 * lame(self.E, self.nu)[1] + self.kinematic, increment.memory["plastic_strain"]
+        soft = factor(self.softening, increment.temperature)
+        return returned(norm, slope, p, increment.span, self.yield_stress, self.hardening, self.flow, soft)
 
     def moduli(self, increment: Increment) -> Array:
         """Consistent moduli (..., 3, 3, 3, 3) [Pa]."""
         bulk_part, shear = lame(self.E, self.nu)
-        p, back = increment.memory["plastic_strain"], increment.memory.get("back_stress")
+        back = increment.memory.get("back_stress")
         relative = self._trial(increment) if back is None else self._trial(increment) - back
         norm = equivalent_stress(relative)
-        slope = 3.0 * shear + self.kinematic
-        gain, rise = returned(norm, slope, p, increment.span, self.yield_stress, self.hardening, self.flow)
+        gain, rise = self._gain(norm, increment)
         flowing = gain > 0.0
         safe = np.where(norm > 0.0, norm, 1.0)
         n = relative / safe[..., None, None]  # n : n = 2/3

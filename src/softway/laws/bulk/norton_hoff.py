@@ -11,6 +11,7 @@ from softway.kernels.linalg import tensors
 from softway.laws.law import Increment, Response
 from softway.laws.objective_rates import Jaumann, Rate
 from softway.laws.plasticity.deviator import deviator, projector, volumetric
+from softway.laws.plasticity.softening import Softening, factor
 from softway.units import Pascal, PerSecond, Pure
 
 BULK = 1e5
@@ -38,6 +39,8 @@ class NortonHoff:
         Strain rate [1/s] below which the viscosity no longer grows; nearly rigid regions creep.
     rate
         Objective rate of the stress; only the pressure depends on it.
+    softening
+        Factor of the consistency by the temperature of the solid, which needs ``thermal``; none by default.
 
     References
     ----------
@@ -58,6 +61,7 @@ class NortonHoff:
     bulk: Pascal | None = None
     still: PerSecond = 1e-9
     rate: Rate = Jaumann()
+    softening: Softening | None = None
 
     def __post_init__(self) -> None:
         if not self.K > 0.0:
@@ -88,8 +92,10 @@ class NortonHoff:
         )
 
     def viscosity(self, increment: Increment) -> Array:
-        """Viscosity ``K (sqrt(3) d)^(m-1)``, (...,) [Pa s]."""
-        return np.asarray(self.K * (np.sqrt(3.0) * self._speed(increment)) ** (self.m - 1.0))
+        """Viscosity ``K (sqrt(3) d)^(m-1)``, (...,) [Pa s], times the factor of the softening."""
+        found = np.asarray(self.K * (np.sqrt(3.0) * self._speed(increment)) ** (self.m - 1.0))
+        soft = factor(self.softening, increment.temperature)
+        return found if soft is None else soft * found
 
     def _speed(self, increment: Increment) -> Array:
         e = deviator(increment.strain)

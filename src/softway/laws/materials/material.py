@@ -5,13 +5,17 @@ from typing import Annotated, Literal
 
 from softway.errors import InputError
 from softway.laws.bulk import J2, LinearElastic, LinearOrthotropic, MooneyRivlin, NeoHookean
+from softway.laws.heat.conduction import Conduction, Latent
 from softway.laws.law import Material as Law
 from softway.laws.plasticity.hardening import LinearHardening, PowerHardening
 from softway.laws.plasticity.rate_dependence import JohnsonCook, RateIndependent
+from softway.laws.plasticity.softening import JohnsonCookSoftening
 from softway.laws.strain_measures import Green
-from softway.units import Kelvin, KilogramPerCubicMetre, Pascal, Pure
+from softway.units import JoulePerKilogram, Kelvin, KilogramPerCubicMetre, Pascal, Pure
 
 LawName = Literal["elastic", "linear", "plastic"]
+ROOM = 298.0
+"""Temperature at which the flow stress of the library is given [K]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,11 +61,15 @@ class Strength:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ThermalConstants:
-    """Conductivity [W/(m K)], heat capacity [J/(kg K)] and linear expansion [1/K] near 20 degrees Celsius."""
+    """Conductivity [W/(m K)], heat capacity [J/(kg K)] and linear expansion [1/K] near 20 degrees Celsius; temperature
+    of melting, of alloys that at which it begins, and latent heat of melting.
+    """
 
     conductivity: Annotated[float, "W/(m K)"] | None = None
     capacity: Annotated[float, "J/(kg K)"] | None = None
     expansion: Annotated[float, "1/K"] | None = None
+    melting: Kelvin | None = None
+    latent: JoulePerKilogram | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -122,8 +130,10 @@ class Material:
             case Orthotropic(E=E3, nu=nu3, G=G):
                 return LinearOrthotropic(E=E3, nu=nu3, G=G)
 
-    def plastic(self) -> J2:
-        """J2 plasticity at room temperature with the hardening and the rate dependence of Johnson and Cook.
+    def plastic(self, softening: bool = False) -> J2:
+        """J2 plasticity with the hardening and the rate dependence of Johnson and Cook, at room temperature.
+
+        With ``softening`` the flow stress falls with the temperature of the solid, if its melting and m are known.
 
         Raises
         ------
@@ -139,14 +149,48 @@ class Material:
             yield_stress=given.A,
             hardening=PowerHardening(modulus=given.B, exponent=given.n) if given.B else LinearHardening(),
             flow=JohnsonCook(C=given.C) if given.C else RateIndependent(),
+            softening=self._softening() if softening else None,
         )
 
-    def law(self, name: LawName = "elastic") -> Law:
-        """Law of the material with a given name."""
+    def _softening(self) -> JohnsonCookSoftening | None:
+        """Third factor of Johnson and Cook; None if its constants are not known."""
+        given = self.strength
+        if given is None or given.m is None or given.melting is None:
+            return None
+        return JohnsonCookSoftening(reference=ROOM, melting=given.melting, exponent=given.m)
+
+    def conduction(self, latent: bool = False) -> Conduction:
+        """Law of heat conduction; with the ``latent`` heat of melting for bodies that do not move.
+
+        The coefficient of linear expansion is ``thermal.expansion``.
+
+        Raises
+        ------
+        InputError
+            If one of the constants is not known.
+
+        Examples
+        --------
+        >>> from softway.laws.materials import find
+        >>> find("copper OFHC").conduction().capacity
+        383.0
+        """
+        known = self.thermal or ThermalConstants()
+        needed = ("conductivity", "capacity", *(("melting", "latent") if latent else ()))
+        values = [getattr(known, name) for name in needed]
+        for name, value in zip(needed, values, strict=True):
+            if value is None:
+                problem = f"{self.name!r} has no {name} in the library"
+                raise InputError("law", problem, "the law = { conductivity = ..., capacity = ... }")
+        melts = Latent(melting=values[2], heat=values[3]) if latent else None
+        return Conduction(conductivity=values[0], capacity=values[1], latent=melts)
+
+    def law(self, name: LawName = "elastic", softening: bool = False) -> Law:
+        """Law of the material with a given name; the plastic one with ``softening``, see :meth:`plastic`."""
         match name:
             case "elastic":
                 return self.elastic()
             case "linear":
                 return self.linear()
             case "plastic":
-                return self.plastic()
+                return self.plastic(softening)

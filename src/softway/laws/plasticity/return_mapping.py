@@ -13,12 +13,20 @@ TOLERANCE = 1e-14
 
 
 def returned(
-    norm: Array, slope: float, p: Array, span: float, initial: float, hardening: Hardening, flow: Flow
+    norm: Array,
+    slope: float,
+    p: Array,
+    span: float,
+    initial: float,
+    hardening: Hardening,
+    flow: Flow,
+    factor: Array | None = None,
 ) -> tuple[Array, Array]:
     """Gain x (...,) of the plastic strain, and its derivative (...,) with respect to the trial stress [1/Pa].
 
     Solves ``norm - slope x = s(p + x, x/span)`` for ``x >= 0`` by Newton's method inside a bracket.  The left side is
-    the trial stress ``norm`` [Pa] minus the relaxation by plastic flow; the right side is the flow stress.
+    the trial stress ``norm`` [Pa] minus the relaxation by plastic flow; the right side is the flow stress, times the
+    ``factor`` (...,) of a thermal softening.
 
     Examples
     --------
@@ -34,6 +42,8 @@ def returned(
         """Excess of the trial stress over the flow stress, and the negative of its slope."""
         still, up = hardening.stress(initial, p + x), hardening.slope(initial, p + x)
         stress, of_still, of_rate = flow.stress(still, x / span)
+        if factor is not None:
+            stress, of_still, of_rate = factor * stress, factor * of_still, factor * of_rate
         return norm - slope * x - stress, slope + of_still * up + of_rate / span
 
     none = np.zeros_like(norm)

@@ -8,6 +8,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.bodies.assembled import material_states
 from softway.errors import Cancel, InputError, Unbalanced
+from softway.heat.coupled.solid_temperature import temperatures_of
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult, ordered_events
 from softway.march.results.step import Event
@@ -141,6 +142,8 @@ def _committed(out: SlabResult) -> SlabStart:
     """Initial values of the next slab."""
     model, end = out.system.model, out.solution.end
     states = material_states.committed(model.parts, end.displacement)
+    for k, temperature in temperatures_of(model.companions):
+        states = temperature.warmed(states, end.fields[k].end.values)
     of_fields: Array | float = sum(f.end.energy for f in end.fields)
     return SlabStart(
         displacement=end.displacement,

@@ -5,10 +5,12 @@ from collections.abc import Mapping
 from typing import Any, get_args
 
 from softway.errors import InputError
+from softway.laws.heat.conduction import Conduction
 from softway.laws.law import Material as Law
 from softway.laws.materials import find
 from softway.laws.materials.library import everything
 from softway.laws.materials.material import LawName
+from softway.laws.materials.material import Material as Constants
 from softway.scenario.hints.type_hints import kinds, members, nearest
 from softway.scenario.text.writer import write
 
@@ -19,6 +21,8 @@ def with_materials(data: Mapping[str, Any]) -> dict[str, Any]:
     ``material = "steel S235"`` selects the elastic law for arbitrary rotations.
     ``material = { library = "steel S235", law = "plastic" }`` selects another law: elastic, linear or plastic.  Further
     keys of such a table replace parameters of the law.  A table of tables or names gives a material to each region.
+    Solids with a ``thermal`` table soften where the constants are known; a thermal table without a law gets that of the
+    material, with its expansion if none is given.
 
     Examples
     --------
@@ -50,7 +54,8 @@ def _by_regions(given: Any) -> bool:
 
 def _furnish_regions(body: dict[str, Any], given: dict[str, Any], where: str) -> None:
     """Replace the material of each region, and add the densities that are not given."""
-    found = {name: {"material": one} for name, one in given.items()}
+    heat: dict[str, Any] = {"thermal": {"law": {}}} if "thermal" in body else {}
+    found = {name: {"material": one, **heat} for name, one in given.items()}
     for name, one in found.items():
         _furnish(one, f"{where}.{name}")
         if isinstance(one["material"], str):
@@ -84,9 +89,22 @@ def _furnish(body: dict[str, Any], where: str) -> None:
     if choice not in known:
         raise InputError(f"{where}.law", f"{choice!r} is unknown", nearest(str(choice), known))
     try:
-        law = material.law(choice)
+        law = material.law(choice, softening="thermal" in body)
     except InputError as error:
         raise error.within(where) from None
+    thermal = body.get("thermal")
+    if isinstance(thermal, dict) and "law" not in thermal:
+        _conducting(thermal, material, where.removesuffix(".material") + ".thermal")
     more = {key: value for key, value in given.items() if key not in ("library", "law")}
     body["material"] = {**write(law, Law, where), **more}
     body.setdefault("density", f"{material.density!r} kg/m^3")
+
+
+def _conducting(thermal: dict[str, Any], material: Constants, where: str) -> None:
+    """Add the law of conduction of a material, and its expansion if none is given."""
+    try:
+        thermal["law"] = write(material.conduction(), Conduction, where)
+    except InputError as error:
+        raise error.within(where) from None
+    if material.thermal is not None and material.thermal.expansion is not None:
+        thermal.setdefault("expansion", f"{material.thermal.expansion!r} 1/K")

@@ -85,6 +85,37 @@ def test_steel_has_the_thermal_constants_of_its_formulas() -> None:
     assert thermal.capacity == pytest.approx(425.0 + 0.773 * 20.0 - 1.69e-3 * 400.0 + 2.22e-6 * 8000.0, abs=0.5)
 
 
+def test_the_third_factor_of_johnson_and_cook() -> None:
+    """Half of the flow stress is lost at T* = .5^(1/m); materials without the constants keep theirs."""
+    for material in PLASTIC:
+        given, law = material.strength, material.plastic(softening=True)
+        assert given is not None and material.plastic().softening is None
+        assert (law.softening is None) == (given.m is None or given.melting is None)
+        if law.softening is not None:
+            half = 298.0 + (given.melting - 298.0) * 0.5 ** (1.0 / given.m)
+            assert law.softening.at(np.array([200.0, 298.0, half, given.melting])) == pytest.approx(
+                [1.0, 1.0, 0.5, 0.0]
+            )
+    assert sum(m.plastic(softening=True).softening is not None for m in PLASTIC) >= 5
+
+
+def test_melting_heats_are_those_of_a_mole() -> None:
+    """Enthalpies of fusion in kJ/mol and molar masses in g/mol, CRC Handbook of chemistry and physics."""
+    moles = {"iron": (13.81, 55.845), "copper": (13.26, 63.546), "lead": (4.77, 207.2), "tungsten": (52.31, 183.84)}
+    for name, (heat, mass) in moles.items():
+        thermal = find(name).thermal
+        assert thermal is not None and thermal.latent == pytest.approx(1e6 * heat / mass, rel=2e-3)
+    law = find("iron").conduction(latent=True)
+    assert law.latent is not None and (law.latent.melting, law.latent.heat) == (1811.0, 247.3e3)
+    assert find("iron").conduction().latent is None and find("iron").conduction().conductivity == 73.0
+
+
+@pytest.mark.parametrize(("name", "missing"), [("Ti64", "conductivity"), ("lead", "capacity"), ("S235", "melting")])
+def test_what_is_not_known_of_heat_is_named(name: str, missing: str) -> None:
+    with pytest.raises(InputError, match=f"no {missing}"):
+        find(name).conduction(latent=True)
+
+
 def test_ice_is_the_mean_of_its_crystal() -> None:
     """Hill's mean of c11, c12, c13, c33, c44 = 13.929, 7.082, 5.765, 15.010, 3.014 GPa (Gammon and others 1983)."""
     c11, c12, c13, c33, c44 = 13.929, 7.082, 5.765, 15.010, 3.014

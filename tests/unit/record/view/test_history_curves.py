@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from softway.record.storage.table import Table
+from softway.record.view.plots.heat_panels import heat_of_solids
 from softway.record.view.plots.history import energies, forces, gaps
 from softway.record.view.style import canvas
 
@@ -35,3 +36,10 @@ def test_gaps_of_rounding_are_no_distance(axis):
 def test_a_zero_force_lies_on_the_axis(axis):
     forces(axis, TIME, table(**{"contact.a.force_n": np.zeros(5)}), ("a",))
     assert axis.get_ylim() == (0.0, 1.0)
+
+
+def test_the_heats_of_solids_begin_at_zero(axis):
+    heats = {"heat.received": 2e3 + 3e3 * TIME, "heat.brought": -1e3 * TIME, "heat.cold_work": np.zeros(5)}
+    heat_of_solids(axis, TIME, table(**heats))
+    assert axis.get_ylabel() == "heat [kJ]"
+    assert [line.get_ydata()[-1] for line in axis.lines] == pytest.approx([3.0, -1.0, 0.0])

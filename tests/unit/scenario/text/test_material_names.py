@@ -6,6 +6,7 @@ from softway.apps.cli import main
 from softway.errors import InputError
 from softway.laws.bulk import J2, LinearElastic
 from softway.laws.materials import find
+from softway.laws.plasticity.softening import Arrhenius
 from softway.scenario.files import dumps, loads
 from softway.scenario.hints.units_text import Units
 from softway.scenario.text.templates import templates
@@ -48,6 +49,25 @@ def test_the_text_of_a_run_holds_the_numbers() -> None:
     text = dumps(scenario)
     assert "538.0 kg/m^3" in text and "LinearOrthotropic" in text
     assert loads(text, units=UNITS) == scenario
+
+
+def test_a_solid_with_heat_softens() -> None:
+    heat = "bodies.bar.thermal={temperature='20 degC', law={conductivity=1, capacity=1}}"
+    copper = "bodies.bar.material={library='copper', law='plastic'}"
+    assert bar(BARE, copper, heat).material == find("copper").plastic(softening=True)
+    assert bar(BARE, copper.replace("copper", "S235"), heat).material == find("S235").plastic()
+    other = copper.replace("}", ", softening={kind='Arrhenius', activation=1, reference=300}}")
+    assert bar(BARE, other, heat).material.softening == Arrhenius(activation=1.0, reference=300.0)
+
+
+def test_the_heat_of_a_solid_from_its_material() -> None:
+    solid = bar(BARE, "bodies.bar.material=copper", "bodies.bar.thermal={temperature=300}")
+    assert solid.thermal.law == find("copper").conduction() and solid.thermal.expansion == 1.65e-05  # as given
+    solid = bar(BARE, "bodies.bar.material=copper", "bodies.bar.thermal={temperature=300, expansion=0}")
+    assert solid.thermal.law.capacity == 383.0 and solid.thermal.expansion == 0.0
+    with pytest.raises(InputError, match="no conductivity") as found:
+        bar(BARE, "bodies.bar.material=Ti64", "bodies.bar.thermal={temperature=300}")
+    assert found.value.where == "bodies.bar.thermal.law"
 
 
 @pytest.mark.parametrize(

@@ -106,6 +106,7 @@ class RatePoints:
             memory=_pushed_forward(state.law, deformation.first, rate),
             strain=deformation.strain,
             span=span,
+            temperature=state.middle_temperature(span),
         )
         response = self.law.respond(increment)
         if inverted.any():
@@ -166,6 +167,8 @@ class RatePoints:
             stored=state.stored + found.ratio * response.stored,
             dissipated=state.dissipated + found.ratio * response.dissipated,
             viscous=self.viscous_stress(found),
+            temperature=state.temperature,
+            warming=state.warming,
         )
 
     def moduli(self, found: PointResponse, H: Array, secant: bool = False) -> Array:

@@ -15,11 +15,27 @@ if TYPE_CHECKING:
 
 HEATS = (("heat_in", RED, "came in"), ("heat_out", BLUE, "went out"))
 """Columns with colours and labels."""
+OF_SOLIDS = (
+    ("heat.received", RED, "from the motion"),
+    ("heat.brought", BLUE, "by loads"),
+    ("heat.cold_work", BLACK, "dissipated without heating"),
+)
+"""The same of solids with heat."""
 
 
 def heat_panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
     """Drawing functions of the panels."""
     return [_heats, _balance, *([_liquids] if _melting(table) else [])]
+
+
+def heat_of_solids(axis: "Axes", time: Array, table: Table) -> None:
+    """Draw the heats of solids that move, from zero at the start."""
+    curves = [(label, table[name] - table[name][0], color) for name, color, label in OF_SOLIDS]
+    factor, unit = scaled(np.concatenate([values for _, values, _ in curves]), "J")
+    for label, values, color in curves:
+        axis.plot(time, factor * values, color=color, label=label)
+    axis.set(title="Heat of the solids", ylabel=f"heat [{unit}]")
+    axis.legend(loc="best")
 
 
 def _heats(axis: "Axes", time: Array, table: Table) -> None:

@@ -12,6 +12,7 @@ def law(wrong: str, remedy: str, follow: str, text: str = PLANE) -> Try:
 
 J2 = "kind='J2', E=1, nu=0.3"
 HOFF = "kind='NortonHoff'"
+WARM = "bodies.b.thermal={temperature=300, law={conductivity=1, capacity=1}}"
 ORTHO = "kind='LinearOrthotropic', E=[1, 1, 1], nu=[0.3, 0.3, 0.3], G=[1, 1, 1]"
 TABLE: Table = {
     "E": law("kind='LinearElastic', E=0", "a positive Young's modulus", "E=1"),
@@ -55,6 +56,24 @@ TABLE: Table = {
     "Johnson-Cook reference": law(
         f"{J2}, yield_stress=1, flow={{kind='JohnsonCook', C=0.01, reference=0}}", "a positive rate", "flow.reference=1"
     ),
+    "melting": Try(
+        PLANE,
+        f"{LAW}={{{J2}, yield_stress=1, softening={{kind='JohnsonCookSoftening', reference=3, melting=3}}}} & {WARM}",
+        "1356 K",
+        f"{LAW}.softening.melting=1356",
+    ),
+    "activation": Try(
+        PLANE,
+        f"{LAW}={{{HOFF}, K=1, m=0.2, softening={{kind='Arrhenius', activation=-1, reference=1200}}}} & {WARM}",
+        "6000 K",
+        f"{LAW}.softening.activation=6000",
+    ),
+    "softening without heat": Try(
+        PLANE,
+        f"{LAW}={{{J2}, yield_stress=1, softening={{kind='Arrhenius', activation=1, reference=300}}}}",
+        "thermal = { temperature",
+        WARM,
+    ),
     "Norton": law(
         f"{J2}, yield_stress=1, flow={{kind='NortonFlow', K=0, m=0.2}}", "a positive consistency", "flow.K=1"
     ),
@@ -83,5 +102,11 @@ TABLE: Table = {
     "unknown": Try(PLANE, f"{LAW}=steal", "steel", f"{LAW}=steel S235"),
     "law of a name": Try(PLANE, f"{LAW}={{library='steel S235', law='plstic'}}", "plastic", f"{LAW}.law=plastic"),
     "name of a number": Try(PLANE, f"{LAW}={{library=3}}", "steel S235", f"{LAW}.library=steel S235"),
+    "no conductivity": Try(
+        PLANE,
+        f"{LAW}=Ti64 & bodies.b.thermal={{temperature=300}}",
+        "conductivity = ..., capacity = ...",
+        "bodies.b.thermal.law={conductivity=7, capacity=560}",
+    ),
     "no yield stress": Try(PLANE, f"{LAW}={{library='rubber', law='plastic'}}", "elastic", f"{LAW}.law=elastic"),
 }
