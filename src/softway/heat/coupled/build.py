@@ -85,7 +85,7 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
     numbered = [(list(model.meshes).index(name), part) for name, part in parts.items()]
     softened = tuple(point for k, part in numbered for point in point_temperatures(k, part))
     equations = SolidTemperature(
-        contacts=contact_exchange(model, nodes, effusivity),
+        contacts=contact_exchange(model, nodes, effusivity), inert=model.inert,
         model=heat, nodes=nodes, count=model.shape[0], parts=len(model.parts), part=model.part_of[nodes],
         reference=np.concatenate(own), expansions=tuple(found), dissipations=tuple(spent),
         softened=softened,

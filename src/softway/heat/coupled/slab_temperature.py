@@ -55,9 +55,10 @@ class HeatOfSlab:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class TimeOfSlab:
-    """Slab of a march between two times [s]: solids with the material states at its start, contacts with the areas
-    there, temperatures ``before``, heats of prescribed temperatures that jumped [J], the strain there, and the factor of
-    its operator without contact.  It is ``damped`` after a sudden change.
+    """Slab of a march between two times [s], ``damped`` after a sudden change, in two ``halves``.
+
+    At its start: solids with their material states, contacts with their areas, temperatures ``before``, heats of
+    prescribed temperatures that jumped [J], and the strain.  The factor is that of its operator without contact.
     """
 
     start: float
@@ -65,6 +66,7 @@ class TimeOfSlab:
     solids: Sequence[DiscreteSolid]
     contacts: ContactExchange
     damped: bool
+    halves: bool
     before: HeatValues
     jumped: Array
     strained: Strained
@@ -173,7 +175,7 @@ class SlabTemperature:
             model = replace(self.solids.model, exchanges=(*ties, *across))
             factor = None if time.factor is None else time.factor.linked(across, free)
             try:
-                result = solve_slab(model, time.before, stage, time.damped, factor, guess=guess)
+                result = solve_slab(model, time.before, stage, time.halves, factor, guess=guess)
             except NumericsError as error:
                 raise NoConvergence(error.what) from None
             at = 0.5 * (time.before.temperature + result.after.temperature)

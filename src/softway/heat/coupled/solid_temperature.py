@@ -45,6 +45,8 @@ class SolidTemperature:
         Heat across contacts.
     dissipations
         Dissipations of path-dependent materials that heat.
+    inert
+        True if the solids have inertia.
     softened
         Temperatures at the points of laws that depend on them.
     time
@@ -59,6 +61,7 @@ class SolidTemperature:
     reference: Array
     expansions: tuple[Expansion, ...]
     contacts: ContactExchange
+    inert: bool
     dissipations: tuple[Dissipation, ...] = ()
     softened: tuple[PointTemperature, ...] = ()
     time: TimeOfSlab | None = None
@@ -81,8 +84,8 @@ class SolidTemperature:
         before, jumped, _ = put_at_once(self.model, before, start)
         time = TimeOfSlab(
             start=start, end=end, solids=parts, contacts=self.contacts.at(u0), damped=abrupt,
-            before=before, jumped=jumped, strained=strained(self.expansions, u0),
-            factor=linear_factor(self.model, 0.5 * (end - start)),
+            halves=abrupt and self.inert, before=before, jumped=jumped, strained=strained(self.expansions, u0),
+            factor=linear_factor(self.model, (1.0 if abrupt and not self.inert else 0.5) * (end - start)),
         )  # fmt: skip
         return replace(self, time=time)
 

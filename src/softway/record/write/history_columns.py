@@ -67,6 +67,8 @@ OF_HEAT = (
     *((name, "J") for name in ("content", "brought", "received", "friction", "cold_work", "error")),
     ("entropy", "J/K"),
 )
+THROUGH = "heat.through."
+"""Beginning of the names of the columns of heat that passed contacts."""
 TIE = (("broken", table.RATIO), ("opening", "m"), ("dissipated", "J"))
 COLUMNS = (
     Column("time", "s", lambda step: step.after.time, lambda start: start.initial.time),
@@ -127,5 +129,5 @@ def columns(
     """
     each = (column for label in contacts for column in of_contact(label))
     glued = (column for label in ties for column in of_tie(label))
-    through = (of_ledger(f"heat.through.{label}", "J", _through(k)) for k, label in enumerate(passing))
+    through = (of_ledger(f"{THROUGH}{label}", "J", _through(k)) for k, label in enumerate(passing))
     return (*COLUMNS, *each, *CERTIFICATE, *EXTRA, *glued, *((*HEAT, *through) if heat else ()))

@@ -142,7 +142,7 @@ def test_heat_passes_a_tie(conductance: float | None) -> None:
         loads=(sw.heat.Temperature(on="low.bottom", value=300.0), sw.heat.Temperature(on="top.top", value=400.0)),
         inertia=Off(),
     )
-    *_, last = sw.march(scene, until=6e3, step=150.0)
+    *_, last = sw.march(scene, until=1.2e4, step=150.0)
     glue = 200.0 if conductance else 1e3 * 10.0 / (SIDE / 4.0)
     flux = 100.0 / (2.0 * SIDE / 10.0 + 1.0 / glue)
     temperature = last.after.fields["temperature"]

@@ -7,7 +7,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.record.storage.table import Table
-from softway.record.view.style import BLACK, BLUE, CYCLE, PURPLE, RED, scaled
+from softway.record.view.style import BLACK, BLUE, CYCLE, GREEN, PURPLE, RED, scaled
 from softway.record.write.heat.columns import LIQUID
 
 if TYPE_CHECKING:
@@ -17,7 +17,8 @@ HEATS = (("heat_in", RED, "came in"), ("heat_out", BLUE, "went out"))
 """Columns with colours and labels."""
 OF_SOLIDS = (
     ("heat.received", RED, "from the motion"),
-    ("heat.brought", BLUE, "by loads"),
+    ("heat.friction", GREEN, "of friction"),
+    ("heat.brought", BLUE, "by loads and tools"),
     ("heat.cold_work", BLACK, "dissipated without heating"),
 )
 """The same of solids with heat."""

@@ -15,7 +15,7 @@ from softway.record.storage.table import COUNT, Table
 from softway.record.view.options import STANDARD, PictureOptions
 from softway.record.view.plots.heat_panels import heat_of_solids, heat_panels
 from softway.record.view.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, PURPLE, RED, canvas, scaled
-from softway.record.write.history_columns import CERTIFICATE, COLUMNS, EXTRA, HEAT, of_tie
+from softway.record.write.history_columns import CERTIFICATE, COLUMNS, EXTRA, HEAT, THROUGH, of_tie
 from softway.record.write.mechanism.columns import NEEDED
 
 if TYPE_CHECKING:
@@ -79,6 +79,7 @@ def _panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
     if contacts:
         panels += [partial(forces, contacts=contacts), partial(gaps, contacts=contacts)]
     known = {column.name for column in (*COLUMNS, *CERTIFICATE, *EXTRA, *HEAT)} | {name for name, _ in NEEDED}
+    known |= {name for name in table if name.startswith(THROUGH)}
     if HEAT[0].name in table:
         panels.append(heat_of_solids)
     ties = ties_of(table)
