@@ -15,6 +15,7 @@ ELSEWHERE = {
     "G01",
     "G02",
     "G03",
+    "G04",
 }
 """Computed by a dedicated test, which says more about the same marches."""
 DEAR = 10.0

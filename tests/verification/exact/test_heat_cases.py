@@ -1,4 +1,4 @@
-"""G01 to G03: the references follow from the closed forms, and softway is within the tolerances."""
+"""G01 to G04: the references follow from the closed forms, and softway is within the tolerances."""
 
 from math import pi, sqrt
 
@@ -12,6 +12,7 @@ from softway.apps.verify.case import sheet
 from softway.apps.verify.cases.heat import g01_freezing_water as water
 from softway.apps.verify.cases.heat import g02_adiabatic_compression as press
 from softway.apps.verify.cases.heat import g03_braking_block as brake
+from softway.apps.verify.cases.heat import g04_closing_gap as gap
 
 
 def value(case: str, name: str) -> float:
@@ -50,6 +51,13 @@ def test_the_surface_under_the_brake_is_the_integral_of_duhamel() -> None:
     assert brake.rise(np.array(2.0)) == pytest.approx(value("G03", "rise of the surface at 2 s"), rel=1e-12)
 
 
-@pytest.mark.parametrize("case", [pytest.param("G01", marks=pytest.mark.slow), "G02", "G03"])
+def test_the_bar_has_closed_the_gap_when_its_mean_temperature_says_so() -> None:
+    given, time = gap.GIVEN, np.array(value("G04", "contact, slabs of 5 s"))
+    assert given["expansion"] * given["length"] * gap.mean_rise(time) == pytest.approx(given["gap"], rel=1e-12)
+    stress = given["gap"] / given["length"] - given["expansion"] * given["rise"]
+    assert value("G04", "stress over E at the end") == pytest.approx(stress, rel=1e-12)
+
+
+@pytest.mark.parametrize("case", [pytest.param("G01", marks=pytest.mark.slow), "G02", "G03", "G04"])
 def test_the_case(case: str) -> None:
     assert results.missed(case) == set()

@@ -72,6 +72,7 @@ CASES: Mapping[str, tuple[float, str]] = {
     "G01": (5.5, "heat.g01_freezing_water"),
     "G02": (0.6, "heat.g02_adiabatic_compression"),
     "G03": (0.5, "heat.g03_braking_block"),
+    "G04": (1.8, "heat.g04_closing_gap"),
     "classic": (1.0, "classic"),
     "peers": (3.0, "peers"),
 }
