@@ -128,6 +128,8 @@ class SolidTemperature:
 
     def warmed(self, states: MaterialStates, values: Array) -> MaterialStates:
         """Material states at the end of a slab whose laws know the temperatures ``values`` (n, 1) there."""
+        if not self.softened:
+            return states
         assert self.time is not None
         following = self.on_all(after_jumps(self.model, values[self.nodes, 0], self.time.end))
         span = np.inf if self.time.start in knots(self.model) else self.time.end - self.time.start
