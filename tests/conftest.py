@@ -2,8 +2,10 @@
 one registry of units, few values of tests that have many, and which tests of several processes stay together.
 """
 
+import gc
 import signal
 from collections import defaultdict
+from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
@@ -28,6 +30,18 @@ Units.standard = staticmethod(cache(OWN_UNITS))  # a quarter of a second for eac
 def own_units(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every reader makes a registry of units of its own, as outside of the tests."""
     monkeypatch.setattr(Units, "standard", OWN_UNITS)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Iterator[None]:
+    """What is collected lives to the end: nobody looks for garbage in it, now or later."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.enable()
+        gc.collect()
+        gc.freeze()
 
 
 @pytest.hookimpl(tryfirst=True)
