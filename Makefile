@@ -4,6 +4,8 @@ JOBS ?= 2
 DEMO := .venv-demo
 TEST := .venv-test
 DOCS := .venv-docs
+# Without bytecode every process would compile all sources again, and pytest all tests.
+unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: help demo test test-slow test-pages test-processors test-view coverage check bench bench-page bench-check bench-smoke kills manual fuzz drops endurance docs clean
 

@@ -1,14 +1,19 @@
 """What all tests share: pictures without a screen, reproducible generated cases, processes that can be interrupted,
-few values of tests that have many, and which tests of several processes stay together.
+one registry of units, few values of tests that have many, and which tests of several processes stay together.
 """
 
+import gc
 import signal
 from collections import defaultdict
+from collections.abc import Iterator
+from functools import cache
 from typing import Any
 
 import matplotlib as mpl
 import pytest
 from hypothesis import settings
+
+from softway.scenario.hints.units_text import Units
 
 mpl.use("Agg")
 settings.register_profile("softway", derandomize=True, deadline=None, max_examples=25, database=None)
@@ -16,6 +21,27 @@ settings.load_profile("softway")
 
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # begun in the background: processes of tests would inherit it
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+OWN_UNITS = Units.standard
+Units.standard = staticmethod(cache(OWN_UNITS))  # a quarter of a second for each reader of a scenario
+
+
+@pytest.fixture
+def own_units(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every reader makes a registry of units of its own, as outside of the tests."""
+    monkeypatch.setattr(Units, "standard", OWN_UNITS)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Iterator[None]:
+    """What is collected lives to the end: nobody looks for garbage in it, now or later."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.enable()
+        gc.collect()
+        gc.freeze()
 
 
 @pytest.hookimpl(tryfirst=True)

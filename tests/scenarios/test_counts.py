@@ -7,8 +7,10 @@ from variants import LONG
 
 WITHIN = 0.05
 """Greatest difference, relative to the stored number."""
+SLOW = LONG | {"crash_tube"}
+"""Small variants that take three seconds and more."""
 CASES = [
-    pytest.param(kind, name, marks=pytest.mark.minutes if kind == "whole" else pytest.mark.slow if name in LONG else [])
+    pytest.param(kind, name, marks=pytest.mark.minutes if kind == "whole" else pytest.mark.slow if name in SLOW else [])
     for kind, (_, names) in KINDS.items()
     for name in names
 ]

@@ -85,6 +85,7 @@ def test_the_release_converges_at_second_order(name: str) -> None:
     assert errors[-1] <= 2.1 * STEPS[-1] ** 2
 
 
+@pytest.mark.slow
 @every
 def test_the_motion_converges_at_second_order(name: str) -> None:
     motion, instants = solved(name), np.linspace(0.0, UNTIL, 26)

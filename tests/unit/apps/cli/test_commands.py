@@ -58,6 +58,7 @@ def folders(path: Path) -> list[str]:
     return sorted(p.name for p in path.iterdir() if p.is_dir())
 
 
+@pytest.mark.slow
 def test_run_show_plot(file, capsys):
     assert cli.main(["run", "bar.toml", "--out", "made"]) == 0
     printed = capsys.readouterr().out

@@ -66,6 +66,7 @@ def test_a_case_that_fails_does_not_reach_another(mixed: tuple[Result, ...]) -> 
     assert [r.complaint for r in mixed] == ["ValueError: no such thing", "its process ended with code 7", ""]
 
 
+@pytest.mark.slow
 def test_the_table_of_cases_that_were_not_computed(mixed: tuple[Result, ...]) -> None:
     lines = json.loads(in_json(mixed))
     assert [set(line) for line in lines] == [
@@ -80,6 +81,7 @@ def test_the_table_of_cases_that_were_not_computed(mixed: tuple[Result, ...]) ->
     assert {row.ours for row in rows(mixed[:2])} == {"-"}
 
 
+@pytest.mark.slow
 def test_the_page_needs_no_other_file(mixed: tuple[Result, ...], tmp_path: Path) -> None:
     text = page(mixed)
     assert text.count("<h2 ") == 3

@@ -15,7 +15,7 @@ from softway.record.view.pictures import pictures
 from softway.scenario.checks.check import check
 from softway.scenario.files import loads
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("own_units")]
 
 ROOT = Path(__file__).parents[4]
 SKID = (ROOT / "tests" / "robustness" / "inputs" / "marched" / "skid.toml").read_text(encoding="utf-8")
