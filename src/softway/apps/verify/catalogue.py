@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from softway.apps.verify.case import Case
 from softway.errors import InputError
 
-QUICK = 11.0
+QUICK = 9.5
 """Greatest computing time of a case in the quick suite [s]."""
 
 
