@@ -112,10 +112,17 @@ def parts(kind: Kind) -> tuple[str, ...]:
 def range_of(values: Array, name: str = "") -> Range:
     """Range of the colours: from zero to the largest value, without a few values that are far above the others.
 
-    With negative values the range is symmetric about zero.  Temperatures have a range from the least to the greatest.
+    With negative values the range is symmetric about zero.  Temperatures have a range from the least to the greatest;
+    solids without heat, whose temperature is recorded as zero, do not count.
+
+    Examples
+    --------
+    >>> range_of(np.array([0.0, 300.0, 350.0]), "temperature")
+    Range(low=300.0, high=350.0, peaked=False)
     """
     if name in FROM_LEAST:
-        low, high = float(values.min()), float(values.max())
+        given = values[values > 0.0] if (values > 0.0).any() else values
+        low, high = float(given.min()), float(given.max())
         return Range(low=low, high=high if high > low else low + 1.0)
     most, usual = float(values.max()), float(np.percentile(values, 99.0))
     if values.min() < -1e-9 * max(most, 0.0) and values.min() < 0.0:
