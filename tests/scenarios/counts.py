@@ -1,10 +1,11 @@
 """Slabs, iterations and rejections of the scenarios: what they cost, but for the time of an iteration.
 
-    python tests/scenarios/counts.py
+    python tests/scenarios/counts.py [NAME ...]
 
-counts all of them again and writes ``counts.json``.
+counts all of them again, or those with these names, and writes ``counts.json``.
 """
 
+import argparse
 import json
 from collections.abc import Mapping
 from pathlib import Path
@@ -67,7 +68,16 @@ def stored() -> Mapping[str, Mapping[str, Mapping[str, int]]]:
 
 def main() -> None:
     """Count again and store the numbers."""
-    found = {kind: {name: counted(get(name)) for name in names} for kind, (get, names) in KINDS.items()}
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", metavar="NAME", help="scenarios that are counted; all by default")
+    wanted, before = parser.parse_args().names, stored()
+    known = {name for _, names in KINDS.values() for name in names}
+    if not set(wanted) <= known:
+        parser.error(f"no scenario {min(set(wanted) - known)!r}; known: {', '.join(sorted(known))}")
+    found = {
+        kind: {n: counted(get(n)) if n in wanted or not wanted else before[kind][n] for n in names}
+        for kind, (get, names) in KINDS.items()
+    }
     FILE.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
 
 

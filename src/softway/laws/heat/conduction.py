@@ -124,8 +124,8 @@ class Conduction:
 
         Examples
         --------
-        >>> Conduction(conductivity=50.0, capacity=500.0).effusivity(8000.0)
-        14142.135623730952
+        >>> round(Conduction(conductivity=50.0, capacity=500.0).effusivity(8000.0), 6)
+        14142.135624
         """
         at = np.array([temperature])
         k, _ = self.along_axes(at, len(self.conductivity) if isinstance(self.conductivity, tuple) else 1)
