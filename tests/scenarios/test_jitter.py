@@ -74,14 +74,19 @@ def test_moved_nodes_change_little(name, given, size, seed, still, tmp_path):
 
 
 def assert_energy(given: Scenario, moved: sw.Run, still: sw.Run) -> None:
-    """The energy balance closes; with ``Impulse`` and ``Paper`` it may lose energy, at most twice as much as before."""
+    """The energy balance closes; with ``Impulse`` and ``Paper`` it may lose energy, at most twice as much as before, and
+    without inertia solids with heat may miss as much where they touch.
+    """
     history = moved.history
     taking_part = history["energy_kinetic"] + history["energy_strain"] + np.abs(history["work_external"])
     tolerance = BALANCE * float(taking_part.max())
     lost = 0.0
     if not all(isinstance(contact.timing, Energy) for contact in given.contacts):
         lost = 2.0 * float(np.abs(still.history["energy_error"]).max())
-    assert history["energy_error"].max() <= tolerance
+    missed = 0.0
+    if isinstance(given.inertia, sw.bodies.Off) and any(getattr(b, "thermal", None) for b in given.bodies.values()):
+        lost = missed = 2.0 * float(np.abs(still.history["energy_error"]).max())
+    assert history["energy_error"].max() <= tolerance + missed
     assert history["energy_error"].min() >= -tolerance - lost
 
 

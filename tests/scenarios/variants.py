@@ -107,7 +107,9 @@ VARIANTS: Mapping[str, Variant] = {
     "brake_pad": Variant(
         changes=("bodies.pad.mesh.cells=[2, 20]", "time.end=0.5 s"),
         same="the pad is pressed, the disc begins to run, and friction heats the surface; longer cells",
-        held={"pad": {"left": (0,), "right": (0,), "top": (1,)}},  # sides, driven back
+        held={
+            "pad": {"left": (0,), "right": (0,), "top": (1,), "bottom": (1,)}
+        },  # sides, driven back, face on the disc
     ),
     "bouncing_bar": Variant(
         changes=("bodies.bar.mesh.cells=10", "time.end=1.8 s"),

@@ -1,5 +1,6 @@
 """Balance of the heats of the nodes over a part of a slab, and the heat that each load brings."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,30 @@ ROUNDING = 2.0 * float(np.finfo(float).eps)
 """Rounding of the sum of the heats of the nodes, relative to the terms that they are summed from."""
 
 
+def logarithmic_mean(one: Array, other: Array) -> Array:
+    """Logarithmic mean of positive numbers, ``(b - a)/(ln b - ln a)``, not a number where one is not positive.
+
+    A change of temperature divided by it is the change of the logarithm: the entropy of a constant capacity.
+
+    Examples
+    --------
+    >>> logarithmic_mean(np.array([300.0, 1.0]), np.array([300.0, np.e])).round(12).tolist()
+    [300.0, 1.718281828459]
+    """
+    middle = 0.5 * (one + other)
+    with np.errstate(all="ignore"):
+        x = 0.5 * (other - one) / middle
+        square = x * x
+        series = 1.0 + square * (1 / 3 + square * (1 / 5 + square * (1 / 7 + square / 9)))
+        ratio = np.where(np.abs(x) < 1e-2, series, np.arctanh(x) / np.where(x == 0.0, 1.0, x))
+        return np.asarray(np.where((one > 0.0) & (other > 0.0), middle / ratio, np.nan))
+
+
+def arithmetic_mean(one: Array, other: Array) -> Array:
+    """Arithmetic mean of numbers."""
+    return 0.5 * (one + other)
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class StrainHeat:
     """Heat that the motion of a body gives to its nodes.
@@ -22,11 +47,14 @@ class StrainHeat:
     power
         (n,) heat of dissipation per time [W].
     entropy
-        (n,) entropy that the strain takes per time [W/K]; the heat that it takes is the temperature times that.
+        (n,) entropy that the strain takes per time [W/K]; the heat that it takes is the mean temperature times that.
+    mean
+        Mean of the temperatures at both ends.
     """
 
     power: Array
     entropy: Array
+    mean: Callable[[Array, Array], Array] = logarithmic_mean
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -79,25 +107,6 @@ class Balance:
     flow: Array
 
 
-def logarithmic_mean(one: Array, other: Array) -> Array:
-    """Logarithmic mean of positive numbers, ``(b - a)/(ln b - ln a)``, not a number where one is not positive.
-
-    A change of temperature divided by it is the change of the logarithm: the entropy of a constant capacity.
-
-    Examples
-    --------
-    >>> logarithmic_mean(np.array([300.0, 1.0]), np.array([300.0, np.e])).round(12).tolist()
-    [300.0, 1.718281828459]
-    """
-    middle = 0.5 * (one + other)
-    with np.errstate(all="ignore"):
-        x = 0.5 * (other - one) / middle
-        square = x * x
-        series = 1.0 + square * (1 / 3 + square * (1 / 5 + square * (1 / 7 + square / 9)))
-        ratio = np.where(np.abs(x) < 1e-2, series, np.arctanh(x) / np.where(x == 0.0, 1.0, x))
-        return np.asarray(np.where((one > 0.0) & (other > 0.0), middle / ratio, np.nan))
-
-
 def prescribed(model: HeatModel, unknowns: Array, time: float) -> Array:
     """Unknowns (n,) with those of the prescribed temperatures of a time [s]."""
     out = unknowns.copy()
@@ -148,7 +157,7 @@ def balance(model: HeatModel, before: HeatValues, stage: Stage, unknowns: Array,
         values, moved = values - h * power, moved + h * np.abs(power).sum()
     total = None if matrix is None else _matrix(after, matrix, by_liquid, theta * h)
     if stage.strain is not None:
-        taken = h * stage.strain.entropy * logarithmic_mean(before.temperature, after.temperature)
+        taken = h * stage.strain.entropy * stage.strain.mean(before.temperature, after.temperature)
         given = h * stage.strain.power
         values, moved = values + taken - given, moved + np.abs(taken).sum() + np.abs(given).sum()
         if total is not None and not model.linear:

@@ -233,7 +233,8 @@ def _result(
     floor: float,
 ) -> StageResult:
     """Result of a stage whose heats are balanced."""
-    mean = logarithmic_mean(before.temperature, found.after.temperature)
+    mean_of = logarithmic_mean if stage.strain is None else stage.strain.mean
+    mean = mean_of(before.temperature, found.after.temperature)
     power = 0.0 if stage.strain is None else stage.strain.power
     moved = stage.span * (np.abs(found.flow) + np.abs(power)) + np.abs(found.after.content - before.content)
     return StageResult(

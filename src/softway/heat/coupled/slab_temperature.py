@@ -12,7 +12,7 @@ from softway.errors import NoConvergence, NumericsError
 from softway.heat.coupled.contact_exchange import ContactExchange
 from softway.heat.coupled.contact_sides import ContactSides
 from softway.heat.coupled.expansion import Strained
-from softway.heat.heat_balance import Stage, StrainHeat
+from softway.heat.heat_balance import Stage, StrainHeat, arithmetic_mean, logarithmic_mean
 from softway.heat.heat_contact import HeatExchange
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_slab import HeatFactor, StageResult, solve_slab
@@ -84,6 +84,11 @@ class HeatedSolids(Protocol):
     @property
     def nodes(self) -> IntArray:
         """Nodes (k,) with a temperature."""
+        ...
+
+    @property
+    def inert(self) -> bool:
+        """True if the solids have inertia."""
         ...
 
     @property
@@ -166,7 +171,8 @@ class SlabTemperature:
         Gaps radiate at the mean temperature of a first solution.
         """
         time, span = self.time, self.slab.span
-        strain = StrainHeat(power=(self.given + rubbed) / span, entropy=self.change / span)
+        mean = logarithmic_mean if self.solids.inert else arithmetic_mean
+        strain = StrainHeat(power=(self.given + rubbed) / span, entropy=self.change / span, mean=mean)
         stage = Stage(start=time.start, span=span, theta=1.0 if time.damped else 0.5, strain=strain)
         at, free, guess = time.before.temperature, self.solids.model.free_nodes(), None
         for _ in range(1 + time.contacts.radiates):
