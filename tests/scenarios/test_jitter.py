@@ -74,8 +74,9 @@ def test_moved_nodes_change_little(name, given, size, seed, still, tmp_path):
 
 
 def assert_energy(given: Scenario, moved: sw.Run, still: sw.Run) -> None:
-    """The energy balance closes; with ``Impulse`` and ``Paper`` it may lose energy, at most twice as much as before, and
-    without inertia solids with heat may miss as much where they touch.
+    """The energy balance closes; with ``Impulse`` and ``Paper`` it may lose energy, at most twice as much as before.
+
+    Without inertia solids with heat may miss as much where they touch.
     """
     history = moved.history
     taking_part = history["energy_kinetic"] + history["energy_strain"] + np.abs(history["work_external"])
