@@ -9,7 +9,8 @@ import scipy.sparse as sp
 from softway.arrays import Array, BoolArray, IntArray
 from softway.contact.contact import Contact, NodeToSurface
 from softway.contact.friction_rows import DeclaredSurface, surfaces_of
-from softway.errors import InputError
+from softway.contact.impact_rule import Energy
+from softway.errors import InputError, within
 from softway.heat.coupled.contact_sides import ContactSides, contact_sides
 from softway.heat.coupled.facing_areas import FacingAreas, facing_areas
 from softway.heat.heat_contact import HeatExchange
@@ -232,13 +233,12 @@ def contact_exchange(model: Model, nodes: IntArray, effusivity: Mapping[str, flo
     for k, contact in enumerate(model.scene.contacts):
         if contact.heat is None:
             continue
-        cold = [name for name in contact.bodies if name in names and name not in effusivity]
-        if cold:
-            problem = f"heat across a contact with {cold[0]!r}, which has no temperature"
-            raise InputError(f"contacts[{k}].heat", problem, f"bodies.{cold[0]}.thermal, or a contact without heat")
-        if contact.many and contact.heat.share is not None:
-            problem = f"a share of the heat of friction in {contact.label!r}, which has no first body"
-            raise InputError(f"contacts[{k}].heat.share", problem, "no share, or contacts of two bodies")
+        with within(f"contacts[{k}]"):
+            _check(contact, contact.heat, bool(model.against_tool[k]))
+            cold = [name for name in contact.bodies if name in names and name not in effusivity]
+            if cold:
+                problem = f"heat across a contact with {cold[0]!r}, which has no temperature"
+                raise InputError("heat", problem, f"bodies.{cold[0]}.thermal, or a contact without heat")
         rows, tool = _rows(model, k), bool(model.against_tool[k])
         order = np.array([contact.bodies.index(name) if name in contact.bodies else 0 for name in names])
         found.append(
@@ -249,6 +249,18 @@ def contact_exchange(model: Model, nodes: IntArray, effusivity: Mapping[str, flo
             )
         )  # fmt: skip
     return ContactExchange(contacts=tuple(found), part_of=model.part_of, nodes=nodes, effusivity=by_node)
+
+
+def _check(contact: Contact, heat: ContactHeat, tool: bool) -> None:
+    """Refuse heat of a contact that has no meaning for it."""
+    if not isinstance(contact.timing, Energy):
+        problem = f"heat with {type(contact.timing).__name__}, whose impacts do not heat"
+        raise InputError("timing", problem, "the timing Energy, or a contact without heat")
+    if contact.many and heat.share is not None:
+        problem = f"a share of the heat of friction in {contact.label!r}, which has no first body"
+        raise InputError("heat.share", problem, "no share, or contacts of two bodies")
+    if heat.tool_temperature is not None and not tool and not contact.many:
+        raise InputError("heat.tool_temperature", f"{contact.label!r} has no tool", "omit it, or a contact with a tool")
 
 
 def _of_both(contact: Contact) -> bool:

@@ -137,6 +137,10 @@ TABLE: Table = {
     "heat across a contact of cold bodies": call(
         lambda: resting(thermals=(False, False)), "a contact without heat", lambda: resting(None, (False, False))
     ),
+    "heat of an impulse": call(lambda: resting(timing=sw.contact.Impulse()), "the timing Energy", resting),
+    "temperature of no tool": call(
+        lambda: resting(heat.ContactHeat(tool_temperature=300.0)), "a contact with a tool", resting
+    ),
     "a share without a first body": call(
         lambda: resting(heat.ContactHeat(share=0.3), between="all"),
         "no share, or contacts of two bodies",
