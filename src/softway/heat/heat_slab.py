@@ -125,6 +125,11 @@ def linear_factor(model: HeatModel, span: float, linear: LinearSolver = SuperLU(
     return HeatFactor(span=span, factor=factor_unless_weak(_of_free(found, free), linear))
 
 
+def is_weak(factor: HeatFactor | None) -> bool:
+    """True if hardly any heat flows from node to node in the stages of a factor: they have no modes that ring."""
+    return factor is not None and isinstance(factor.factor, WeaklyCoupled)
+
+
 def solve_slab(
     model: HeatModel,
     before: HeatValues,

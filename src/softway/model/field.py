@@ -41,11 +41,14 @@ class FieldState:
         (parts,) energy that the field adds to the stored energy of each solid [J].
     force
         (n, d) internal force that the field adds [N].
+    abrupt
+        True if the field has just met a sudden change.
     """
 
     values: Array
     energy: Array
     force: Array
+    abrupt: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -148,10 +151,10 @@ class TimedField(Protocol):
     """
 
     def in_slab(
-        self, ends: tuple[float, float], parts: Sequence[DiscreteSolid], u0: Array, values: Array
+        self, ends: tuple[float, float], parts: Sequence[DiscreteSolid], u0: Array, start: FieldState
     ) -> FieldEquations:
         """Equations in a slab between two times [s], of solids with the material states, the displacement ``u0`` (n, d)
-        [m] and the ``values`` (n, components) of the field at its start.
+        [m] and the state of the field at its ``start``.
         """
         ...
 
@@ -167,6 +170,6 @@ def in_slab(
     if not any(isinstance(c, TimedField) for c in companions):
         return companions
     return tuple(
-        c.in_slab(ends, parts, u0, state.values) if isinstance(c, TimedField) else c
+        c.in_slab(ends, parts, u0, state) if isinstance(c, TimedField) else c
         for c, state in zip(companions, fields, strict=True)
     )

@@ -146,6 +146,11 @@ class ContactExchange:
         """True if a gap radiates."""
         return any(c.heat.emissivity > 0.0 for c in self.contacts)
 
+    def change(self, contact: FieldContact) -> bool:
+        """True if a row closes or opens in a slab."""
+        first, last = contact.before > 0.0, contact.after > 0.0
+        return any(bool((first[c.rows] != last[c.rows]).any()) for c in self.contacts)
+
     def at(self, u: Array) -> "ContactExchange":
         """Exchange with the areas at the displacement ``u`` (n, d) [m]."""
         return replace(self, contacts=tuple(c.at(u) for c in self.contacts))

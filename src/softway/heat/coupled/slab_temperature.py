@@ -162,7 +162,10 @@ class SlabTemperature:
             rubbed=rub,
             through=through + taken,
         )
-        end = FieldState(values=solids.on_all(temperature), energy=energy, force=self.end.force(last, dim))
+        end = FieldState(
+            values=solids.on_all(temperature), energy=energy, force=self.end.force(last, dim),
+            abrupt=self.time.contacts.change(slab.contact),
+        )  # fmt: skip
         return FieldSolution(end=end, mean_force=mean, lost=lost, account=account)
 
     def _solved(self, rubbed: Array) -> tuple[StageResult, Array]:

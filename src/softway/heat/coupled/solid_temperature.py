@@ -16,7 +16,7 @@ from softway.heat.coupled.slab_temperature import SlabTemperature, TimeOfSlab
 from softway.heat.heat_balance import put_at_once
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_plan import knots
-from softway.heat.heat_slab import linear_factor
+from softway.heat.heat_slab import is_weak, linear_factor
 from softway.heat.operators import heat_values, unknowns_of
 from softway.model.field import Field, FieldSlab, FieldSolution, FieldState
 
@@ -76,16 +76,20 @@ class SolidTemperature:
         return self.on_all(self.model.initial)
 
     def in_slab(
-        self, ends: tuple[float, float], parts: Sequence[DiscreteSolid], u0: Array, values: Array
+        self, ends: tuple[float, float], parts: Sequence[DiscreteSolid], u0: Array, start: FieldState
     ) -> "SolidTemperature":
-        """Equations in a slab between two times [s]; the first one and those after a knot are damped."""
-        (start, end), abrupt = ends, ends[0] == 0.0 or ends[0] in knots(self.model)
-        before = heat_values(self.model, unknowns_of(self.model, values[self.nodes, 0]))
-        before, jumped, _ = put_at_once(self.model, before, start)
+        """Equations in a slab between two times [s]; the first one and those after a sudden change are damped."""
+        span = ends[1] - ends[0]
+        factor = linear_factor(self.model, 0.5 * span)
+        damped = ends[0] == 0.0 or ends[0] in knots(self.model) or (start.abrupt and not is_weak(factor))
+        if damped and not self.inert:
+            factor = linear_factor(self.model, span)
+        before = heat_values(self.model, unknowns_of(self.model, start.values[self.nodes, 0]))
+        before, jumped, _ = put_at_once(self.model, before, ends[0])
         time = TimeOfSlab(
-            start=start, end=end, solids=parts, contacts=self.contacts.at(u0), damped=abrupt,
-            halves=abrupt and self.inert, before=before, jumped=jumped, strained=strained(self.expansions, u0),
-            factor=linear_factor(self.model, (1.0 if abrupt and not self.inert else 0.5) * (end - start)),
+            start=ends[0], end=ends[1], solids=parts, contacts=self.contacts.at(u0), damped=damped,
+            halves=damped and self.inert, before=before, jumped=jumped, strained=strained(self.expansions, u0),
+            factor=factor,
         )  # fmt: skip
         return replace(self, time=time)
 
