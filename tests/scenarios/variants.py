@@ -178,6 +178,11 @@ VARIANTS: Mapping[str, Variant] = {
         same="the same strip on a coarser plate; the first millimetres of the crack",
         held={"strip": {"bottom": (0, 1)}, "plate": {"top": (0, 1)}},  # surfaces that lie on each other
     ),
+    "hot_ring": Variant(
+        changes=("bodies.ring.mesh.cells=[6, 4]", "time.end=0.1 s"),
+        same="same dies, heat and slabs; a quarter of the way down, with longer cells",
+        held={"ring": {"bottom": (1,), "top": (1,)}},  # plane of symmetry, contact that starts flush
+    ),
     "oblique_blocks": Variant(
         changes=(
             'contacts[0].between=["thrown.bottom", "still.top"]',
