@@ -3,14 +3,11 @@
 import pytest
 
 from counts import KINDS, counted, stored
-from variants import LONG
 
 WITHIN = 0.05
 """Greatest difference, relative to the stored number."""
-SLOW = LONG | {"crash_tube"}
-"""Small variants that take three seconds and more."""
 CASES = [
-    pytest.param(kind, name, marks=pytest.mark.minutes if kind == "whole" else pytest.mark.slow if name in SLOW else [])
+    pytest.param(kind, name, marks=pytest.mark.minutes if kind == "whole" else pytest.mark.slow)
     for kind, (_, names) in KINDS.items()
     for name in names
 ]

@@ -70,8 +70,7 @@ class Increment:
     span
         Length of the slab [s].
     temperature
-        (...,) temperature in the middle of the slab [K], for laws that depend on it, see :func:`softens`; None for
-        other laws.
+        (...,) temperature in the middle of the slab [K], for laws with a softening; None for other laws.
     """
 
     stress: Array
