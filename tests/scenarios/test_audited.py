@@ -69,7 +69,7 @@ def test_balances_hold_in_every_slab(name, tmp_path, monkeypatch):
     assert audited.sum() == run.summary["slabs"]
     wrong = {INVERTED, DISSIPATION, ENERGY, MOMENTUM, SPIN} - COARSE.get(name, set())
     assert not [one for one in run.summary["findings"] if one["kind"] in wrong]
-    energy = run.history["energy_kinetic"] + run.history["energy_strain"] + np.abs(run.history["work_external"])
+    energy = run.history["energy_kinetic"] + np.abs(run.history["energy_strain"]) + np.abs(run.history["work_external"])
     assert run.history["certificate.complementarity"].max() <= 1e-8 * energy.max()
 
 

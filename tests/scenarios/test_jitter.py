@@ -79,7 +79,7 @@ def assert_energy(given: Scenario, moved: sw.Run, still: sw.Run) -> None:
     Without inertia solids with heat may miss as much where they touch.
     """
     history = moved.history
-    taking_part = history["energy_kinetic"] + history["energy_strain"] + np.abs(history["work_external"])
+    taking_part = history["energy_kinetic"] + np.abs(history["energy_strain"]) + np.abs(history["work_external"])
     tolerance = BALANCE * float(taking_part.max())
     lost = 0.0
     if not all(isinstance(contact.timing, Energy) for contact in given.contacts):
