@@ -42,4 +42,7 @@ def test_the_heats_of_solids_begin_at_zero(axis):
     heats = {"heat.received": 2e3 + 3e3 * TIME, "heat.brought": -1e3 * TIME, "heat.cold_work": np.zeros(5)}
     heat_of_solids(axis, TIME, table(**heats))
     assert axis.get_ylabel() == "heat [kJ]"
-    assert [line.get_ydata()[-1] for line in axis.lines] == pytest.approx([3.0, -1.0, 0.0])
+    assert [line.get_ydata()[-1] for line in axis.lines] == pytest.approx([3.0, -1.0, 0.0])  # of an earlier version
+    axis.clear()
+    heat_of_solids(axis, TIME, table(**heats, **{"heat.friction": 1e3 * TIME}))
+    assert [line.get_ydata()[-1] for line in axis.lines] == pytest.approx([3.0, 1.0, -1.0, 0.0])

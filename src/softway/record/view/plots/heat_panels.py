@@ -31,7 +31,7 @@ def heat_panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
 
 def heat_of_solids(axis: "Axes", time: Array, table: Table) -> None:
     """Draw the heats of solids that move, from zero at the start."""
-    curves = [(label, table[name] - table[name][0], color) for name, color, label in OF_SOLIDS]
+    curves = [(label, table[name] - table[name][0], color) for name, color, label in OF_SOLIDS if name in table]
     factor, unit = scaled(np.concatenate([values for _, values, _ in curves]), "J")
     for label, values, color in curves:
         axis.plot(time, factor * values, color=color, label=label)
