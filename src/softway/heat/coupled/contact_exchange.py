@@ -28,10 +28,8 @@ class RowsOfContact:
 
     Parameters
     ----------
-    number
-        Number of the contact.
     heat
-        Its law.
+        Law of its heat.
     rows, node
         (r,) numbers of its rows, and their slave nodes.
     surfaces
@@ -48,7 +46,6 @@ class RowsOfContact:
         Areas at the start of a slab; None outside.
     """
 
-    number: int
     heat: ContactHeat
     rows: IntArray
     node: IntArray
@@ -248,7 +245,7 @@ def contact_exchange(model: Model, nodes: IntArray, effusivity: Mapping[str, flo
         order = np.array([contact.bodies.index(name) if name in contact.bodies else 0 for name in names])
         found.append(
             RowsOfContact(
-                number=k, heat=contact.heat, rows=rows, node=slave[rows], order=order,
+                heat=contact.heat, rows=rows, node=slave[rows], order=order,
                 share=0.5 if _of_both(contact) and not tool else 1.0,
                 surfaces=surfaces_of(contact, model.parts), tool=tool, still=STILL * edge,
             )

@@ -46,6 +46,11 @@ class Cold:
         return self.solution
 
 
+def _rubs(ends: EndForces) -> bool:
+    """True if there is friction at one of the ends of a slab."""
+    return bool(ends.rows1.shear.count) and bool(ends.shear0.any() or ends.shear1.any())
+
+
 FIELD_PASSES = 8
 """Greatest number of solutions of the companion fields at an iterate with friction."""
 SETTLED = 1e-14
@@ -148,7 +153,7 @@ class SlabEquations:
             coupled = tuple(solve(rubbed) for solve in solvers)
             completed = self.closure.close(self.model, self._joined(bare, coupled))
             settled = expected is not None or np.abs(completed.scalar - scalar).max() <= SETTLED
-            if settled or not rubbed.any():
+            if settled or not _rubs(bare):
                 break
             scalar = completed.scalar
             rubbed = self._rubbed(bare, scalar)
@@ -167,7 +172,7 @@ class SlabEquations:
     def _rubbed(self, ends: EndForces, scalar: Array) -> Array:
         """Energy (m,) that friction forces with the ``scalar`` (parts,) dissipate at the rows [J]."""
         model, (first, last) = self.model, (ends.rows0, ends.rows1)
-        if not last.shear.count or not (ends.shear0.any() or ends.shear1.any()):
+        if not _rubs(ends):
             return np.zeros(len(last.node))
         part = model.part_of[last.node]
         group = body_groups(model, (first, ends.force0 > 0.0), (last, ends.force1 > 0.0))[part]
