@@ -80,9 +80,10 @@ class SolidTemperature:
     ) -> "SolidTemperature":
         """Equations in a slab between two times [s]; the first one and those after a sudden change are damped."""
         span = ends[1] - ends[0]
-        factor = linear_factor(self.model, 0.5 * span)
-        damped = ends[0] == 0.0 or ends[0] in knots(self.model) or (start.abrupt and not is_weak(factor))
-        if damped and not self.inert:
+        sudden = ends[0] == 0.0 or ends[0] in knots(self.model)
+        factor = linear_factor(self.model, span if sudden and not self.inert else 0.5 * span)
+        damped = sudden or (start.abrupt and not is_weak(factor))
+        if damped and not sudden and not self.inert:
             factor = linear_factor(self.model, span)
         before = heat_values(self.model, unknowns_of(self.model, start.values[self.nodes, 0]))
         before, jumped, _ = put_at_once(self.model, before, ends[0])
