@@ -165,8 +165,6 @@ def test_what_cannot_carry_a_field_refuses() -> None:
         with_field(model, BarTemperature(points=model.points))
     with pytest.raises(sw.InputError, match="initial values"):
         with_field(build(scene), BarTemperature(points=model.points[:3]))
-    with pytest.raises(sw.InputError, match="StaticStart"):
-        warm(replace(scene, start=sw.model.StaticStart()))
     state = next(iter(sw.march(scene, until=0.1, step=0.1))).after
     with pytest.raises(sw.InputError, match="a state with the fields"):
         sw.march(model, until=1.0, step=0.1, state=state)

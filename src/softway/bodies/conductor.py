@@ -73,11 +73,15 @@ class Thermal:
     Parameters
     ----------
     law
-        Law of conduction, without latent heat.  The capacity is that at constant strain.
+        Law of conduction.  The capacity is that at constant strain.  Latent heat is in the cells that the temperature
+        of melting cuts, or at the nodes over a mushy range.
     temperature
         Initial temperature [K]: a number, a profile of numbers, nodal values (n,), or a function of the points (n, d).
     expansion
         Coefficient of linear thermal expansion [1/K].
+    melting_strain
+        Strain along each axis of the liquid at melting relative to the solid: a third of the relative change of volume,
+        negative for water.
     reference
         Temperature without thermal stress [K]; the initial temperature by default.
     heating
@@ -87,7 +91,8 @@ class Thermal:
     Raises
     ------
     InputError
-        If the law has latent heat, the reference is not positive, or the share is not between zero and one.
+        If the reference is not positive, the share is not between zero and one, or nothing melts that expands on
+        melting.
 
     Examples
     --------
@@ -99,13 +104,15 @@ class Thermal:
     law: Conduction
     temperature: Annotated[TemperatureField, "K"]
     expansion: PerKelvin = 0.0
+    melting_strain: Pure = 0.0
     reference: Kelvin | None = None
     heating: Pure | None = None
 
     def __post_init__(self) -> None:
         real(self.expansion, "expansion")
-        if self.law.latent is not None:
-            raise InputError("law.latent", "latent heat in a solid that moves", "a Conductor, or a law without latent")
+        real(self.melting_strain, "melting_strain")
+        if self.melting_strain and self.law.latent is None:
+            raise InputError("melting_strain", "of matter that does not melt", "law.latent, or no melting_strain")
         if self.reference is not None:
             positive(reference=self.reference)
         if self.heating is not None and not 0.0 <= self.heating <= 1.0:

@@ -81,7 +81,7 @@ def heat_model(
         pattern=assembler([c.nodes for c in cells], n, 1), surfaces=surfaces, sources=sources, held=held,
         exchanges=exchanges,
         ordered=_ordered(loads),
-        initial=np.concatenate(initial), linear=linear, n_cells=e,
+        initial=np.concatenate(initial), linear=linear, latent=_latent(simplices, n), n_cells=e,
     )  # fmt: skip
     if not all(p.law.constant for p in parts):
         return model
@@ -160,6 +160,15 @@ def _simplices(part: HeatPart, section: Section, quadrature: Body) -> list[Simpl
         )  # fmt: skip
         first += len(nodes)
     return found
+
+
+def _latent(simplices: list[Simplices], n: int) -> Array:
+    """Latent heats (n,) of the nodes when all cells are liquid [J]."""
+    out = np.zeros(n)
+    for block in simplices:
+        k = block.nodes.shape[1]
+        np.add.at(out, block.nodes, np.repeat(block.heat * block.mass / k, k).reshape(-1, k))
+    return out
 
 
 def front_width(law: Conduction) -> float:

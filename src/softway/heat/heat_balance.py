@@ -48,12 +48,15 @@ class StrainHeat:
         (n,) heat of dissipation per time [W].
     entropy
         (n,) entropy that the strain takes per time [W/K]; the heat that it takes is the mean temperature times that.
+    freezing
+        (n,) heat that the strain gives where the node melts, per liquid share [J].
     mean
         Mean of the temperatures at both ends.
     """
 
     power: Array
     entropy: Array
+    freezing: Array
     mean: Callable[[Array, Array], Array] = logarithmic_mean
 
 
@@ -158,10 +161,10 @@ def balance(model: HeatModel, before: HeatValues, stage: Stage, unknowns: Array,
     total = None if matrix is None else _matrix(after, matrix, by_liquid, theta * h)
     if stage.strain is not None:
         taken = h * stage.strain.entropy * stage.strain.mean(before.temperature, after.temperature)
-        given = h * stage.strain.power
+        given = h * stage.strain.power + stage.strain.freezing * (after.share - before.share)
         values, moved = values + taken - given, moved + np.abs(taken).sum() + np.abs(given).sum()
         if total is not None and not model.linear:
-            total = sp.csr_array(total + sp.diags_array(0.5 * h * stage.strain.entropy * after.stretch))
+            total = sp.csr_array(total + _of_strain(model, stage.strain, h, after))
     return Balance(after=after, values=values, moved=float(moved), matrix=total, mean=mean, flow=flow)
 
 
@@ -175,6 +178,15 @@ def _matrix(after: HeatValues, conduction: sp.csr_array, by_liquid: Entries, spa
     if by_liquid and after.liquid_slope:
         flow = flow + span * (_assembled(by_liquid, (n, E)) @ _assembled(after.liquid_slope, (E, n)))
     return sp.csr_array(capacity + flow)
+
+
+def _of_strain(model: HeatModel, strain: StrainHeat, span: float, after: HeatValues) -> sp.csr_array:
+    """Derivative (n, n) of the heat that the strain takes."""
+    n = model.n_nodes
+    diagonal = 0.5 * span * strain.entropy * after.stretch - strain.freezing * after.share_slope
+    heat = -strain.freezing / np.where(model.latent > 0.0, model.latent, np.inf)
+    cut = tuple((rows, columns, heat[rows] * values) for rows, columns, values in after.latent_slope)
+    return _assembled(((np.arange(n), np.arange(n), diagonal), *cut), (n, n))
 
 
 def _assembled(entries: Entries, shape: tuple[int, int]) -> sp.csr_array:
@@ -223,7 +235,7 @@ def rounding(model: HeatModel, before: HeatValues, stage: Stage) -> float:
     """Rounding of the sum of the heats of the nodes [J]."""
     total = 2.0 * float(np.abs(before.content).sum())
     if stage.strain is not None:  # the temperatures themselves are rounded, whatever the content is counted from
-        total += 2.0 * float(np.abs(before.capacity) @ before.temperature)
+        total += 2.0 * float((before.capacity / before.stretch) @ before.temperature)
     if model.conduction is not None:
         total += 2.0 * stage.span * float(model.conduction.diagonal() @ np.abs(before.temperature))
     for cells in model.cells if model.conduction is None else ():

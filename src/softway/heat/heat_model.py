@@ -147,6 +147,8 @@ class HeatModel:
         (n,) initial temperatures [K].
     linear
         True if the content is linear in the temperature, and the heat flow too.
+    latent
+        (n,) latent heats of the nodes in cut cells when all around them is liquid [J].
     n_cells
         Number E of cells.
     conduction, capacity
@@ -166,6 +168,7 @@ class HeatModel:
     ordered: tuple[tuple[int, HeatLoad], ...]
     initial: Array
     linear: bool
+    latent: Array
     n_cells: int
     conduction: sp.csr_array | None = None
     capacity: Array | None = None

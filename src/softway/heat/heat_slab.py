@@ -156,9 +156,10 @@ def solve_slab(
                 raise NumericsError(str(error), slab.start, remedy) from None
     half = 0.5 * slab.span
     one = replace(slab, span=half, theta=1.0)
-    first = solve_slab(model, before, one, False, factor, linear, depth + 1)
+    middle = None if guess is None else 0.5 * (before.unknowns + guess)
+    first = solve_slab(model, before, one, False, factor, linear, depth + 1, middle)
     rest = replace(one, start=slab.start + half)
-    last = solve_slab(model, first.after, rest, False, first.factor, linear, depth + 1)
+    last = solve_slab(model, first.after, rest, False, first.factor, linear, depth + 1, guess)
     return replace(
         last,
         heats=first.heats + last.heats,

@@ -13,7 +13,7 @@ from softway.heat.heat_model import HeatModel, HeatScene
 from softway.heat.heat_plan import PlannedSlab, planned_slabs
 from softway.heat.heat_slab import solve_slab
 from softway.heat.ledger import HeatLedger, booked, opened
-from softway.heat.operators import HeatValues, entropy, heat_values, unknowns_of
+from softway.heat.operators import HeatValues, entropy, heat_values, liquid_volumes, unknowns_of
 from softway.solve.linear.backends.superlu import SuperLU
 from softway.solve.linear.interface import LinearSolver
 from softway.units import Second
@@ -223,14 +223,12 @@ class _Told:
 
 def _step(model: HeatModel, state: HeatState, after: HeatValues, told: _Told) -> HeatStep:
     """Step of a slab."""
-    melting = [part for part in model.parts if part.law.latent is not None]
-    liquid = {part.name: after.melted[part.cells] for part in melting}
     return HeatStep(
         time=state.time,
         span=told.span,
         temperature={part.name: after.temperature[part.nodes] for part in model.parts},
-        liquid=liquid,
-        liquid_volume={part.name: float(part.volume @ liquid[part.name]) for part in melting},
+        liquid={part.name: after.melted[part.cells] for part in model.parts if part.law.latent is not None},
+        liquid_volume=liquid_volumes(model, after),
         ledger=state.ledger,
         iterations=told.iterations,
         damped=told.damped,

@@ -39,6 +39,9 @@ class HeatValues:
         Entries of its derivative (E, n) along the unknowns.
     melted
         (E,) share of the cells that has taken latent heat.
+    share, share_slope
+        (n,) share of the latent heat of the nodes that they have taken, and its derivative along the unknowns of the
+        same nodes where latent heat is at the nodes.
     """
 
     unknowns: Array
@@ -50,6 +53,8 @@ class HeatValues:
     liquid: Array
     liquid_slope: Entries
     melted: Array
+    share: Array
+    share_slope: Array
 
 
 def unknowns_of(model: HeatModel, temperature: Array) -> Array:
@@ -69,6 +74,7 @@ def heat_values(model: HeatModel, unknowns: Array, slopes: bool = True) -> HeatV
         return HeatValues(
             unknowns=unknowns, temperature=unknowns, stretch=np.ones(n), content=model.capacity * (unknowns - ZERO),
             capacity=model.capacity, latent_slope=(), liquid=none, liquid_slope=(), melted=none,
+            share=np.zeros(n), share_slope=np.zeros(n),
         )  # fmt: skip
     temperature, stretch, over = np.empty(n), np.ones(n), unknowns.copy()
     content, capacity = np.empty(n), np.empty(n)
@@ -98,6 +104,7 @@ def heat_values(model: HeatModel, unknowns: Array, slopes: bool = True) -> HeatV
     return HeatValues(
         unknowns=unknowns, temperature=temperature, stretch=stretch, content=model.mass * content + latent,
         capacity=model.mass * capacity, latent_slope=latent_slope, liquid=liquid, liquid_slope=slope, melted=melted,
+        share=share + latent / np.where(model.latent > 0.0, model.latent, np.inf), share_slope=share_slope,
     )  # fmt: skip
 
 
@@ -207,6 +214,12 @@ def entropy(model: HeatModel, now: HeatValues) -> float:
             latent = float((now.content[here] - mass * part.curve.content(temperature)).sum())
         total += latent / part.law.latent.melting
     return total
+
+
+def liquid_volumes(model: HeatModel, now: HeatValues) -> dict[str, float]:
+    """Volume of the liquid of each body that melts [m^3]."""
+    melting = (part for part in model.parts if part.law.latent is not None)
+    return {part.name: float(part.volume @ now.melted[part.cells]) for part in melting}
 
 
 def heat_flux(model: HeatModel, now: HeatValues) -> Array:

@@ -7,6 +7,8 @@ import numpy as np
 from softway.arrays import Array, BoolArray, IntArray
 from softway.meshes.cells import CELLS, FLAT
 
+_GAUSS = tuple(np.polynomial.legendre.leggauss(k // 2 + 2) for k in range(5))
+"""Places and weights on [-1, 1] for simplices of k corners."""
 _TET10 = (
     *((0, 4, 6, 7), (1, 5, 4, 8), (2, 6, 5, 9), (3, 7, 9, 8)),
     *((6, 8, 4, 5), (6, 8, 5, 9), (6, 8, 9, 7), (6, 8, 7, 4)),
@@ -59,7 +61,7 @@ def melted_part(over: Array, width: float) -> tuple[Array, Array]:
     slopes = np.zeros((s, k, k))
     cut = np.flatnonzero((over.max(axis=1) > 0.0) & (over.min(axis=1) < width))
     ends = np.sort(np.column_stack([np.zeros(len(cut)), np.clip(over[cut] / width, 0.0, 1.0), np.ones(len(cut))]))
-    place, weight = np.polynomial.legendre.leggauss(k // 2 + 2)
+    place, weight = _GAUSS[k]
     length = np.diff(ends)[:, :, None]
     levels = ends[:, :-1, None] + 0.5 * length * (1.0 + place)
     weights = 0.5 * length * weight

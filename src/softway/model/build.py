@@ -29,7 +29,7 @@ from softway.model.layout import Layout, laid_out, solids_of
 from softway.model.model import Model, assembled_tangent
 from softway.model.rigid.rigid_bodies import RigidBodies, rigid_bodies
 from softway.model.rigid.rigid_refusals import require_fitting
-from softway.model.scene import Scene, StaticStart
+from softway.model.scene import Scene
 from softway.model.ties import joined, linked_parts
 from softway.tolerances import MOTION
 
@@ -210,14 +210,11 @@ def with_field(model: Model, equations: FieldEquations) -> Model:
     Raises
     ------
     InputError
-        If there is a field of this name, the initial values do not fit, or the march starts in static equilibrium,
-        which knows no companion fields.
+        If there is a field of this name, or the initial values do not fit.
     """
     new, shape = equations.field, equations.initial().shape
     if new.name in {f.name for f in model.fields} or new.name in ("velocity", "contact_force"):
         raise InputError(f"fields.{new.name}", "a second field of this name", "another name")
     if shape != (model.shape[0], new.components):
         raise InputError(f"fields.{new.name}", f"initial values {shape}", f"{(model.shape[0], new.components)}")
-    if isinstance(model.scene.start, StaticStart):
-        raise InputError("start", f"StaticStart with the field {new.name}", 'start = "AsGiven"')
     return replace(model, companions=(*model.companions, equations))

@@ -6,8 +6,10 @@ force and an energy to the motion.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
+
+import numpy as np
 
 from softway.arrays import Array
 from softway.bodies.discretised import DiscreteSolid
@@ -29,6 +31,10 @@ class Field:
     components: int
 
 
+def _none() -> Array:
+    return np.zeros(0)
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class FieldState:
     """Companion field at one instant.
@@ -43,12 +49,15 @@ class FieldState:
         (n, d) internal force that the field adds [N].
     abrupt
         True if the field has just met a sudden change.
+    unknowns
+        Unknowns of the field that have more digits than its values; empty where they are its values.
     """
 
     values: Array
     energy: Array
     force: Array
     abrupt: bool = False
+    unknowns: Array = field(default_factory=_none)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -72,7 +81,8 @@ class FieldContact:
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class FieldSlab:
     """One slab as a companion field sees it: length [s], state at the start, displacements (n, d) at both ends [m],
-    contact, and the weight of the force at the start in the mean forces.
+    contact, the weight of the force at the start in the mean forces, and the state at the end that the iterate before
+    had, None at first.
     """
 
     span: float
@@ -81,6 +91,7 @@ class FieldSlab:
     u1: Array
     contact: FieldContact
     first: float = 0.5
+    expected: FieldState | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -183,7 +183,7 @@ def _opening(checked: Checked) -> RunStart:
         scene=model.scene,
         meshes=model.meshes,
         stresses={name: partial(_stress, model, name) for name in model.meshes},
-        remembered={part.name: partial(_remembered, part) for part in model.parts},
+        remembered={part.name: partial(_remembered, model, part) for part in model.parts},
         spread=partial(_spread, model, traction_map(model.scene.contacts, model.parts))
         if model.scene.contacts
         else None,
@@ -232,9 +232,14 @@ def _stress(model: Model, name: str, state: State) -> Array:
     return stress
 
 
-def _remembered(part: DiscreteSolid, state: State) -> Mapping[str, Array]:
-    """History variables of the cells of a solid, arrays (cells,) by name."""
-    return part.internal.stored_scalars(state.memory.get(part.name))
+def _remembered(model: Model, part: DiscreteSolid, state: State) -> Mapping[str, Array]:
+    """History variables of the cells of a solid, arrays (cells,) by name, and the liquid share where it melts."""
+    found = dict(part.internal.stored_scalars(state.memory.get(part.name)))
+    for _, of_heat in temperatures_of(model.companions):
+        liquid = of_heat.liquid(part.name, model.join(state.fields[of_heat.field.name]))
+        if liquid is not None:
+            found["liquid"] = liquid
+    return found
 
 
 def _spread(model: Model, surfaces: TractionMap, state: State, force: Array) -> Array:

@@ -198,7 +198,7 @@ def _newton_iteration(
 ) -> StaticState:
     """Newton's method with the contact rows as inequalities; ``lift`` (k, k) is added to the stiffness."""
     last: tuple[Array, BoolArray] | None = None
-    once = model.linear and model.contacts.fixed and lift is None
+    once = model.linear and model.contacts.fixed and lift is None and not model.companions
     seen = Stagnation()
     rounding = rounded(model.space.greatest(model.points))
     for count in range(limit):
@@ -259,7 +259,7 @@ def _step(
     if last is None:
         last = _open(m, slipping)
     force, active = last
-    free = -frozen.solve(dofs.forces(model.force(u) - load) - frozen.prolong(coefficients.spread(force)))
+    free = -frozen.solve(dofs.forces(model.force_at_start(u) - load) - frozen.prolong(coefficients.spread(force)))
     conditions = RowConditions(
         target=target,
         equal=np.zeros(m, bool),

@@ -15,9 +15,12 @@ from softway.heat.build_heat import heat_model
 from softway.heat.coupled.contact_exchange import contact_exchange
 from softway.heat.coupled.dissipation import Dissipation, dissipations
 from softway.heat.coupled.expansion import Expansion, expansions
+from softway.heat.coupled.free_strain import FreeStrain
 from softway.heat.coupled.point_temperature import after_jumps, point_temperatures, starting
 from softway.heat.coupled.solid_temperature import SolidTemperature
 from softway.heat.coupled.through_ties import through_ties
+from softway.heat.heat_model import HeatModel
+from softway.heat.operators import heat_values, unknowns_of
 from softway.laws.law import softens
 from softway.model.build import build as mechanical
 from softway.model.build import with_field
@@ -68,26 +71,23 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
     for name, part in parts.items():
         with within(f"bodies.{name}"):
             conductors[name] = _conductor(part, thermals[name])
-            if thermals[name].expansion:
-                found.extend(expansions(part, thermals[name].expansion))
+            expands = bool(thermals[name].expansion or thermals[name].melting_strain)
+            if expands:
+                found.extend(expansions(part))
             number = list(model.meshes).index(name)
             spent.extend(dissipations(number, part, thermals[name].heating))
-            if thermals[name].expansion or any(one.solid == number for one in spent):
+            if expands or any(one.solid == number for one in spent):
                 _require_quadrature(part)
     heat = heat_model(conductors, loads)
     nodes = np.concatenate([np.arange(part.nodes.start, part.nodes.stop) for part in parts.values()])
     heat = replace(heat, exchanges=tuple(through_ties(model, thermals, nodes)))
-    given = [thermals[part.name].reference for part in heat.parts]
-    sizes = [part.mesh.n_nodes for part in heat.parts]
-    reference = [np.full(size, one) if one else None for size, one in zip(sizes, given, strict=True)]
-    own = [heat.initial[p.nodes] if r is None else r for p, r in zip(heat.parts, reference, strict=True)]
     effusivity = {name: thermals[name].law.effusivity(body.density) for name, body in conductors.items()}
     numbered = [(list(model.meshes).index(name), part) for name, part in parts.items()]
     softened = tuple(point for k, part in numbered for point in point_temperatures(k, part))
     equations = SolidTemperature(
         contacts=contact_exchange(model, nodes, effusivity), inert=model.inert,
         model=heat, nodes=nodes, count=model.shape[0], parts=len(model.parts), part=model.part_of[nodes],
-        reference=np.concatenate(own), expansions=tuple(found), dissipations=tuple(spent),
+        free=_free_strain(heat, thermals), expansions=tuple(found), dissipations=tuple(spent),
         softened=softened,
     )  # fmt: skip
     if softened:
@@ -97,8 +97,24 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
     return with_field(model, equations)
 
 
+def _free_strain(heat: HeatModel, thermals: Mapping[str, Thermal]) -> FreeStrain:
+    """Free strain of the nodes of solids with heat."""
+    reference, coefficient, melting = heat.initial.copy(), np.zeros(heat.n_nodes), np.zeros(heat.n_nodes)
+    for part in heat.parts:
+        thermal = thermals[part.name]
+        coefficient[part.nodes], melting[part.nodes] = thermal.expansion, thermal.melting_strain
+        if thermal.reference is not None:
+            reference[part.nodes] = thermal.reference
+    liquid = heat_values(heat, unknowns_of(heat, reference), slopes=False).share
+    return FreeStrain(reference=reference, liquid=liquid, coefficient=coefficient, melting=melting)
+
+
 def _conductor(part: DiscreteSolid, thermal: Thermal) -> Conductor:
     """The solid as a conductor of heat."""
+    melts = thermal.law.latent
+    if melts is not None and not melts.half_range and "hex20" in part.mesh.blocks:
+        problem = "a sharp front in hex20 cells, which have no simplices between their nodes"
+        raise InputError("thermal.law.latent", problem, "hex27, or a half_range")
     if len(set(part.materials.densities)) != 1:
         raise InputError("density", "densities by regions of a solid with heat", "one density for the body")
     return Conductor(

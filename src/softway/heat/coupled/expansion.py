@@ -1,9 +1,10 @@
-"""Thermal expansion of a solid: entropy of its strain at the nodes, and the forces of its temperature.
+"""Free expansion of a solid, of its temperature and its liquid share: the forces of the strain that it would have.
 
-    psi = -sum_i (theta_i - theta_r) H_i(u),   H_i = int N_i beta ln J dV
+    psi = -sum_i e_i H_i(u),   H_i = int N_i k ln J dV
 
-with ``beta = 3 kappa alpha`` in a volume, ``E alpha / (1 - nu)`` in plane stress and ``E alpha`` in a bar, and J the
-ratio of volumes, areas or lengths; for a law of the linear theory the trace of the strain takes the place of ln J.
+with the free strain ``e`` of the nodes, ``k = 3 kappa`` in a volume, ``E / (1 - nu)`` in plane stress and ``E`` in a
+bar, and J the ratio of volumes, areas or lengths; for a law of the linear theory the trace of the strain takes the
+place of ln J.
 """
 
 from collections.abc import Iterator
@@ -32,7 +33,7 @@ SKEW = 1e-9
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Expansion:
-    """Thermal expansion of the elements of one law.
+    """Free expansion of the elements of one law.
 
     Parameters
     ----------
@@ -51,7 +52,7 @@ class Expansion:
     small
         True for a law of the linear theory.
     modulus
-        Thermal stress per temperature beta [Pa/K].
+        Stress that a free strain of one along each axis takes where it is held, k [Pa].
     """
 
     solid: str
@@ -63,15 +64,15 @@ class Expansion:
     small: bool
     modulus: float
 
-    def stress(self, over: Array, u: Array) -> Array:
-        """Mean Cauchy stress (e, 3, 3) [Pa] of temperatures ``over`` (n,) the reference [K], at ``u`` (n, d).
+    def stress(self, free: Array, u: Array) -> Array:
+        """Mean Cauchy stress (e, 3, 3) [Pa] of free strains (n,) of the nodes, at ``u`` (n, d).
 
         It is that in the axes of the section; a bar has it along its axis.
         """
         H = self.sampling.derivatives(u[self.nodes])
         m, size = (np.broadcast_to(self.directions, H.shape) + H).shape[-2:]
         ratio: Array = np.ones(len(H)) if self.small else np.exp(self.change(u[self.nodes])[0])
-        pressure = self.modulus * (self.values @ over[self.nodes]) / ratio
+        pressure = self.modulus * (self.values @ free[self.nodes]) / ratio
         mean = -self.sampling.cell_means(pressure, self.sampling.volume * ratio)
         axes = np.zeros((len(H), 3, 3))
         if m == size:
@@ -106,18 +107,18 @@ class Strained:
     changes: tuple[tuple[Array, Array], ...]
     n: int
 
-    def entropy(self) -> Array:
-        """Entropy (n,) of the strain at the nodes [J/K]."""
+    def held(self) -> Array:
+        """Energies (n,) that free strains of one of the nodes would take from the strain, H [J]."""
         out = np.zeros(self.n)
         for it, (change, _) in zip(self.expansions, self.changes, strict=True):
             out[it.nodes] += it.values.T @ (it.modulus * it.sampling.volume * change)
         return out
 
-    def force(self, over: Array, dim: int) -> Array:
-        """Forces (n, d) [N] with the temperatures ``over`` (n,) the reference [K]."""
+    def force(self, free: Array, dim: int) -> Array:
+        """Forces (n, d) [N] of free strains (n,) of the nodes."""
         out = np.zeros((self.n, dim))
         for it, own, (_, flux) in zip(self.expansions, self.own, self.changes, strict=True):
-            stress = -it.modulus * (it.values @ over[it.nodes])
+            stress = -it.modulus * (it.values @ free[it.nodes])
             out[it.nodes] += it.sampling.nodal(stress[:, None, None] * flux, own)
         return out
 
@@ -129,8 +130,8 @@ def strained(expansions: tuple[Expansion, ...], u: Array) -> Strained:
     return Strained(expansions, own, changes, len(u))
 
 
-def expansions(part: DiscreteSolid, coefficient: float) -> Iterator[Expansion]:
-    """Thermal expansions of the laws of a solid with a ``coefficient`` of linear expansion [1/K].
+def expansions(part: DiscreteSolid) -> Iterator[Expansion]:
+    """Free expansions of the laws of a solid.
 
     Raises
     ------
@@ -139,7 +140,7 @@ def expansions(part: DiscreteSolid, coefficient: float) -> Iterator[Expansion]:
     """
     section, whole = part.internal.section, point_values(part)
     for region, cells, nodes, points, internal, law in pieces(part):
-        modulus = coefficient * thermal_stiffness(law, section, f"material.{region}" if region else "material")
+        modulus = thermal_stiffness(law, section, f"material.{region}" if region else "material")
         yield Expansion(
             solid=part.name,
             cells=cells,

@@ -1,6 +1,7 @@
 """Audit of the heat of solids."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,6 +25,8 @@ class HeatOfSolids:
         Energy that the material dissipated and that did not heat [J].
     entropy
         Entropy produced [J/K].
+    liquid
+        Volume of the liquid of each solid that melts, measured in the reference configuration [m^3].
     error
         Content less that at the start, ``brought`` and ``received`` [J].
     produced, passed, rounding
@@ -43,6 +46,7 @@ class HeatOfSolids:
     through: tuple[float, ...] = ()
     cold_work: float = 0.0
     entropy: float = 0.0
+    liquid: Mapping[str, float] = field(default_factory=dict)
     error: float = 0.0
     produced: float = 0.0
     passed: float = 0.0

@@ -1,6 +1,6 @@
 """Temperature of solids in one slab (time step), with all that does not depend on the heat of friction."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -12,11 +12,12 @@ from softway.errors import NoConvergence, NumericsError
 from softway.heat.coupled.contact_exchange import ContactExchange
 from softway.heat.coupled.contact_sides import ContactSides
 from softway.heat.coupled.expansion import Strained
+from softway.heat.coupled.free_strain import FreeStrain
 from softway.heat.heat_balance import Stage, StrainHeat, arithmetic_mean, logarithmic_mean
 from softway.heat.heat_contact import HeatExchange
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_slab import HeatFactor, StageResult, solve_slab
-from softway.heat.operators import HeatValues
+from softway.heat.operators import HeatValues, liquid_volumes
 from softway.model.field import FieldSlab, FieldSolution, FieldState
 
 
@@ -40,6 +41,8 @@ class HeatOfSlab:
         Heat of friction in the solids [J].
     through
         (c,) heat that passed each contact from the solid named first [J].
+    liquid
+        Liquid volume at the end of each solid that melts [m^3].
     """
 
     content: float
@@ -51,6 +54,7 @@ class HeatOfSlab:
     rounding: float
     rubbed: float
     through: Array
+    liquid: Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -92,8 +96,8 @@ class HeatedSolids(Protocol):
         ...
 
     @property
-    def reference(self) -> Array:
-        """Temperatures (k,) without thermal stress [K]."""
+    def free(self) -> FreeStrain:
+        """Free strain of the nodes."""
         ...
 
     def of_parts(self, values: Array) -> Array:
@@ -119,8 +123,8 @@ class SlabTemperature:
         Sides of the rows of each contact with heat.
     end
         Strain at the end.
-    change
-        (k,) change of the entropy of the strain [J/K].
+    held
+        (k,) energies that free strains of one would take from the strain, at both ends [J].
     given, spent
         Heat (k,) of the dissipation of the material, and its energy in all [J].
     """
@@ -130,7 +134,7 @@ class SlabTemperature:
     slab: FieldSlab
     sides: tuple[ContactSides, ...]
     end: Strained
-    change: Array
+    held: tuple[Array, Array]
     given: Array
     spent: float
 
@@ -145,26 +149,31 @@ class SlabTemperature:
         solids, slab, dim = self.solids, self.slab, self.slab.u1.shape[1]
         heat, taken = self.time.contacts.spread(rubbed, self.sides)
         result, through = self._solved(heat)
-        entropy, temperature = self.end.entropy()[solids.nodes], result.after.temperature
-        over, last = (solids.on_all(t - solids.reference)[:, 0] for t in (result.mean, temperature))
-        energy = solids.of_parts(-(temperature - solids.reference) * entropy)
-        lost = solids.of_parts(-(result.mean - solids.reference) * self.change) - (energy - slab.start.energy)
-        mean = slab.first * self.time.strained.force(over, dim) + (1.0 - slab.first) * self.end.force(over, dim)
+        (before, held), after, free = self.held, result.after, solids.free
+        meanwhile = free.of(result.mean, 0.5 * (self.time.before.share + after.share))
+        last = free.of(after.temperature, after.share)
+        energy = solids.of_parts(-last * held)
+        lost = solids.of_parts(-meanwhile * (held - before)) - (energy - slab.start.energy)
+        both = solids.on_all(meanwhile)[:, 0]
+        mean = slab.first * self.time.strained.force(both, dim) + (1.0 - slab.first) * self.end.force(both, dim)
         rub = float(heat.sum())
         account = HeatOfSlab(
-            content=float(result.after.content.sum() + temperature @ entropy),
+            content=float(after.content.sum() + (free.coefficient * after.temperature) @ held),
             brought=float(self.time.jumped.sum() + result.heats.sum() - through[self.time.contacts.with_tools].sum()),
             received=float(lost.sum() + self.given.sum()) + rub,
             stored=self.spent - float(self.given.sum()),
             produced=float(result.produced.sum()) + result.reservoirs,
-            passed=float(result.turned.sum() + np.abs(self.change).sum()),
-            rounding=result.rounding / float(temperature.min()),
+            passed=float(result.turned.sum() + np.abs(free.coefficient * (held - before)).sum()),
+            rounding=result.rounding / float(after.temperature.min()),
             rubbed=rub,
             through=through + taken,
+            liquid=liquid_volumes(solids.model, after),
         )
         end = FieldState(
-            values=solids.on_all(temperature), energy=energy, force=self.end.force(last, dim),
+            values=solids.on_all(after.temperature), energy=energy,
+            force=self.end.force(solids.on_all(last)[:, 0], dim),
             abrupt=self.time.contacts.change(slab.contact),
+            unknowns=np.zeros(0) if solids.model.linear else after.unknowns,
         )  # fmt: skip
         return FieldSolution(end=end, mean_force=mean, lost=lost, account=account)
 
@@ -173,16 +182,21 @@ class SlabTemperature:
 
         Gaps radiate at the mean temperature of a first solution.
         """
-        time, span = self.time, self.slab.span
+        time, span, (before, held), free = self.time, self.slab.span, self.held, self.solids.free
         mean = logarithmic_mean if self.solids.inert else arithmetic_mean
-        strain = StrainHeat(power=(self.given + rubbed) / span, entropy=self.change / span, mean=mean)
+        strain = StrainHeat(
+            power=(self.given + rubbed) / span, entropy=free.coefficient * (held - before) / span,
+            freezing=free.melting * 0.5 * (before + held), mean=mean,
+        )  # fmt: skip
         stage = Stage(start=time.start, span=span, theta=1.0 if time.damped else 0.5, strain=strain)
-        at, free, guess = time.before.temperature, self.solids.model.free_nodes(), None
+        at, loose, guess = time.before.temperature, self.solids.model.free_nodes(), None
+        if self.slab.expected is not None and len(self.slab.expected.unknowns):
+            guess = self.slab.expected.unknowns
         for _ in range(1 + time.contacts.radiates):
             found, ties = self._exchanges(at), self.solids.model.exchanges
             across = tuple(found.values())
             model = replace(self.solids.model, exchanges=(*ties, *across))
-            factor = None if time.factor is None else time.factor.linked(across, free)
+            factor = None if time.factor is None else time.factor.linked(across, loose)
             try:
                 result = solve_slab(model, time.before, stage, time.halves, factor, guess=guess)
             except NumericsError as error:

@@ -11,13 +11,14 @@ from softway.bodies.discretised import DiscreteSolid
 from softway.heat.coupled.contact_exchange import ContactExchange
 from softway.heat.coupled.dissipation import Dissipation
 from softway.heat.coupled.expansion import Expansion, strained
+from softway.heat.coupled.free_strain import FreeStrain
 from softway.heat.coupled.point_temperature import PointTemperature, after_jumps, warmed
 from softway.heat.coupled.slab_temperature import SlabTemperature, TimeOfSlab
 from softway.heat.heat_balance import put_at_once
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_plan import knots
 from softway.heat.heat_slab import is_weak, linear_factor
-from softway.heat.operators import heat_values, unknowns_of
+from softway.heat.operators import HeatValues, heat_values, unknowns_of
 from softway.model.field import Field, FieldSlab, FieldSolution, FieldState
 
 TEMPERATURE = Field(name="temperature", unit="K", components=1)
@@ -37,10 +38,10 @@ class SolidTemperature:
         Numbers of the nodes n and of the solids.
     part
         (k,) number of the solid of each node.
-    reference
-        (k,) temperatures without thermal stress [K].
+    free
+        Free strain of the nodes.
     expansions
-        Thermal expansions.
+        Expansions of the laws.
     contacts
         Heat across contacts.
     dissipations
@@ -58,7 +59,7 @@ class SolidTemperature:
     count: int
     parts: int
     part: IntArray
-    reference: Array
+    free: FreeStrain
     expansions: tuple[Expansion, ...]
     contacts: ContactExchange
     inert: bool
@@ -85,7 +86,8 @@ class SolidTemperature:
         damped = sudden or (start.abrupt and not is_weak(factor))
         if damped and not sudden and not self.inert:
             factor = linear_factor(self.model, span)
-        before = heat_values(self.model, unknowns_of(self.model, start.values[self.nodes, 0]))
+        known = start.unknowns if len(start.unknowns) else unknowns_of(self.model, start.values[self.nodes, 0])
+        before = heat_values(self.model, known)
         before, jumped, _ = put_at_once(self.model, before, ends[0])
         time = TimeOfSlab(
             start=ends[0], end=ends[1], solids=parts, contacts=self.contacts.at(u0), damped=damped,
@@ -96,15 +98,18 @@ class SolidTemperature:
 
     def at(self, values: Array, u: Array) -> FieldState:
         """State with the temperatures ``values`` (n, 1) at the displacement ``u`` (n, d)."""
-        over, shape = values[self.nodes, 0] - self.reference, strained(self.expansions, u)
-        energy = self.of_parts(-over * shape.entropy()[self.nodes])
-        return FieldState(values=values, energy=energy, force=shape.force(self.on_all(over)[:, 0], u.shape[1]))
+        free, shape = self._free(values), strained(self.expansions, u)
+        energy = self.of_parts(-free * shape.held()[self.nodes])
+        temperature = values[self.nodes, 0]
+        return FieldState(
+            values=values, energy=energy, force=shape.force(self.on_all(free)[:, 0], u.shape[1]),
+            unknowns=np.zeros(0) if self.model.linear else unknowns_of(self.model, temperature),
+        )  # fmt: skip
 
     def solver(self, slab: FieldSlab) -> SlabTemperature:
         """Solver of the temperature at the end of a slab, from the energies (m,) that friction dissipates [J]."""
         assert self.time is not None
         end = strained(self.expansions, slab.u1)
-        change = (end.entropy() - self.time.strained.entropy())[self.nodes]
         out, spent = np.zeros(self.count), 0.0
         for dissipation in self.dissipations:
             energy = dissipation.energy(self.time.solids, slab.u1)
@@ -112,7 +117,7 @@ class SolidTemperature:
             spent += float(energy.sum())
         return SlabTemperature(
             solids=self, time=self.time, slab=slab, sides=self.time.contacts.sides(slab.contact), end=end,
-            change=change, given=out[self.nodes], spent=spent,
+            held=(self.time.strained.held()[self.nodes], end.held()[self.nodes]), given=out[self.nodes], spent=spent,
         )  # fmt: skip
 
     def solve(self, slab: FieldSlab) -> FieldSolution:
@@ -127,9 +132,19 @@ class SolidTemperature:
 
     def content(self, values: Array, u: Array) -> float:
         """Heat content [J] of temperatures ``values`` (n, 1): internal energy less the energy of the field."""
-        temperature = values[self.nodes, 0]
-        of_capacity = heat_values(self.model, unknowns_of(self.model, temperature), slopes=False).content
-        return float(of_capacity.sum() + temperature @ strained(self.expansions, u).entropy()[self.nodes])
+        of_strain = self.free.coefficient * strained(self.expansions, u).held()[self.nodes]
+        return float(self.contents(values).content.sum() + values[self.nodes, 0] @ of_strain)
+
+    def contents(self, values: Array) -> HeatValues:
+        """Temperatures and contents of the nodes with heat at the temperatures ``values`` (n, 1) [K]."""
+        return heat_values(self.model, unknowns_of(self.model, values[self.nodes, 0]), slopes=False)
+
+    def liquid(self, solid: str, values: Array) -> Array | None:
+        """Liquid shares (e,) of the cells of a solid at temperatures (n, 1) [K]; None if it does not melt."""
+        for part in self.model.parts:
+            if part.name == solid and part.law.latent is not None:
+                return self.contents(values).melted[part.cells]
+        return None
 
     def warmed(self, states: MaterialStates, values: Array) -> MaterialStates:
         """Material states at the end of a slab whose laws know the temperatures ``values`` (n, 1) there."""
@@ -144,11 +159,16 @@ class SolidTemperature:
         """Mean thermal stress (cells, 3, 3) [Pa] of a solid, with the ``values`` (n, 1) of all solids [K] at the
         displacement ``u`` (n, d) [m].
         """
-        out, over = np.zeros((cells, 3, 3)), self.on_all(values[self.nodes, 0] - self.reference)[:, 0]
+        out, free = np.zeros((cells, 3, 3)), self.on_all(self._free(values))[:, 0]
         for expansion in self.expansions:
             if expansion.solid == solid:
-                out[expansion.cells] = expansion.stress(over, u)
+                out[expansion.cells] = expansion.stress(free, u)
         return out
+
+    def _free(self, values: Array) -> Array:
+        """Free strains (k,) at the temperatures ``values`` (n, 1) [K]."""
+        share = self.contents(values).share if self.free.melting.any() else 0.0
+        return self.free.of(values[self.nodes, 0], share)
 
     def of_parts(self, values: Array) -> Array:
         """Sums (parts,) over the nodes of each solid of values (k,)."""

@@ -5,6 +5,7 @@ import numpy as np
 from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.heat.coupled.slab_temperature import HeatOfSlab
 from softway.heat.coupled.solid_temperature import temperatures_of
+from softway.heat.operators import liquid_volumes
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.model.model import Model
@@ -16,8 +17,12 @@ FALL = 1e-9
 def initial_heat(model: Model, now: ModelState) -> HeatOfSolids | None:
     """Heat at the start; None without temperature."""
     for k, temperature in temperatures_of(model.companions):
-        content = temperature.content(now.start.fields[k].values, now.start.displacement)
-        return HeatOfSolids(content=content, through=(0.0,) * len(temperature.contacts.contacts))
+        values = now.start.fields[k].values
+        return HeatOfSolids(
+            content=temperature.content(values, now.start.displacement),
+            through=(0.0,) * len(temperature.contacts.contacts),
+            liquid=liquid_volumes(temperature.model, temperature.contents(values)),
+        )
     return None
 
 
@@ -36,6 +41,7 @@ def heat_audit(last: HeatOfSolids | None, out: SlabResult) -> HeatOfSolids | Non
             cold_work=last.cold_work + found.stored,
             friction=last.friction + found.rubbed,
             through=tuple((np.array(last.through) + found.through).tolist()),
+            liquid=found.liquid,
             entropy=last.entropy + found.produced,
             error=last.error + ((found.content - last.content) - (found.brought + found.received)),
             produced=found.produced,

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from softway.record.storage.table import Table
-from softway.record.write.heat.columns import LIQUID
+from softway.record.write.history_columns import LIQUID
 
 BALANCED = 1e-9
 """Error of the balance of heat, relative to the heat that moved, that passes for rounding."""

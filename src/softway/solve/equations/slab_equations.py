@@ -99,10 +99,11 @@ class SlabEquations:
     positive_definite: bool = False
     follower: Follower | None = None
 
-    def evaluate(self, q: Array, impulse: Array, scalar: Array | None = None) -> Evaluation:
+    def evaluate(self, q: Array, impulse: Array, last: Evaluation | None = None) -> Evaluation:
         """Evaluate the residual and its ingredients at q (n, d) with the contact impulses (m,) [N s].
 
-        In an iteration friction may heat as with the ``scalar`` (parts,) of the iterate before.
+        In an iteration friction heats as with the scalar of the iterate before, the ``last`` one, and companion fields
+        begin with its values.
         """
         model, start, h = self.model, self.start, self.path.span
         u1 = self.path.end(q)
@@ -116,7 +117,7 @@ class SlabEquations:
             mean, lost = mean + shock, model.space.totals(shock * (u1 - start.displacement))
         rows = self.contact.at(u1)
         ends = replace(self._ends(u1, force, energy + lost, mean, rows, impulse), viscous=viscous)
-        coupled, completed = self._completed(ends, scalar)
+        coupled, completed = self._completed(ends, last)
         for found in coupled:
             energy, force, lost = energy + found.end.energy, force + found.end.force, lost + found.lost
         residual = (
@@ -139,33 +140,36 @@ class SlabEquations:
             fields=coupled,
         )
 
-    def _completed(self, bare: EndForces, expected: Array | None) -> tuple[tuple[FieldSolution, ...], EnergyClosure]:
+    def _completed(self, bare: EndForces, last: Evaluation | None) -> tuple[tuple[FieldSolution, ...], EnergyClosure]:
         """Companion fields and closure of a slab, from the values at its ends without these fields.
 
         The heat of friction depends on the scalar (parts,) that closes the balance, and that hardly on the heat: it is
-        as ``expected``, or found by iteration.
+        that of the ``last`` iterate, or found by iteration.
         """
         if not self.model.companions:
             return (), self.closure.close(self.model, bare)
-        scalar: Array = np.zeros(len(self.model.parts)) if expected is None else expected
-        solvers, rubbed = self._field_solvers(bare), self._rubbed(bare, scalar)
+        scalar: Array = np.zeros(len(self.model.parts)) if last is None else last.scalar
+        solvers, rubbed = self._field_solvers(bare, last), self._rubbed(bare, scalar)
         for _ in range(FIELD_PASSES):
             coupled = tuple(solve(rubbed) for solve in solvers)
             completed = self.closure.close(self.model, self._joined(bare, coupled))
-            settled = expected is not None or np.abs(completed.scalar - scalar).max() <= SETTLED
+            settled = last is not None or np.abs(completed.scalar - scalar).max() <= SETTLED
             if settled or not _rubs(bare):
                 break
             scalar = completed.scalar
             rubbed = self._rubbed(bare, scalar)
         return coupled, completed
 
-    def _field_solvers(self, ends: EndForces) -> list[Callable[[Array], FieldSolution]]:
+    def _field_solvers(self, ends: EndForces, last: Evaluation | None) -> list[Callable[[Array], FieldSolution]]:
         """Solvers of the companion fields for the displacement at the end, from the energies (m,) of friction [J]."""
         start, span, first = self.start, self.path.span, first_weight(self.weight)
         contact = FieldContact(first=ends.rows0, last=ends.rows1, before=ends.force0, after=ends.force1)
         found: list[Callable[[Array], FieldSolution]] = []
-        for c, state in zip(self.model.companions, start.fields, strict=True):
-            slab = FieldSlab(span=span, start=state, u0=ends.u0, u1=ends.u1, contact=contact, first=first)
+        expected = (None,) * len(start.fields) if last is None else tuple(f.end for f in last.fields)
+        for c, state, then in zip(self.model.companions, start.fields, expected, strict=True):
+            slab = FieldSlab(
+                span=span, start=state, u0=ends.u0, u1=ends.u1, contact=contact, first=first, expected=then
+            )
             found.append(c.solver(slab) if isinstance(c, RubbedField) else Cold(c.solve(slab)))
         return found
 

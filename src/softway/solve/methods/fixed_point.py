@@ -168,7 +168,7 @@ class FixedPoint:
             last, active = change, step.active
             mixed, impulse = mixing.mixed((before, impulse), (system.unknowns(new), step.impulse))
             system, q = system.at(before + part * (mixed - before) if part < 1.0 else mixed)
-            end = system.evaluate(q, impulse, end.scalar)
+            end = system.evaluate(q, impulse, end)
 
 
 def _next_part(part: float, swings: bool, system: SlabEquations) -> float:

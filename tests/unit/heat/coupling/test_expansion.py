@@ -1,5 +1,7 @@
 """Thermal expansion against exact solutions: free and clamped bodies, the adiabatic modulus, order in time."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -105,6 +107,27 @@ def test_a_clamped_bar_has_the_exact_stress() -> None:
             assert step.reactions["b"][-1, 0] == pytest.approx(-E * ALPHA * (mean - THETA), rel=1e-11)
     assert steps[-1].ledger.energy_strain == pytest.approx(0.0, abs=1e-14)
     assert steps[-1].ledger.heat.brought == pytest.approx(RHO * C * 50.0, rel=1e-13)
+
+
+@pytest.mark.parametrize("material", [LINEAR, LOGARITHMIC])
+def test_a_static_start_has_the_thermal_expansion(material: object) -> None:
+    body = replace(block(2, PlaneStress(), material, "quad4"), thermal=replace(HEAT, reference=THETA - 50.0))
+    first, *_, last = sw.march(sw.Scene(bodies={"b": body}, start=sw.model.StaticStart()), until=2.0, step=0.25)
+    grown = ALPHA * 50.0 if material is LINEAR else np.expm1(ALPHA * 50.0)
+    np.testing.assert_allclose(first.before.displacement["b"], grown * body.mesh.points, atol=1e-14)
+    assert np.abs(last.after.velocity["b"]).max() < 1e-13
+
+
+def test_massless_nodes_start_in_equilibrium_with_the_thermal_stress() -> None:
+    """The bar is hotter than without stress: its node of contact, without inertia, begins where that is balanced."""
+    hot = Thermal(law=LAW, temperature=THETA + 50.0, expansion=ALPHA, reference=THETA)
+    body = sw.Solid(mesh=interval(1.0, cells=5), material=LOGARITHMIC, density=RHO, thermal=hot)
+    wall = sw.Tool(shape=sw.obstacles.HalfSpace(point=1.1, normal=-1.0))
+    scene = sw.Scene(bodies={"b": body, "wall": wall}, contacts=(sw.Contact(between=("b.right", "wall")),))
+    steps = list(sw.march(scene, until=2.0, step=0.1))
+    assert len(steps) == 20 and not any(step.report.rejections for step in steps)
+    whole = [s.ledger.energy_kinetic + s.ledger.energy_strain + s.ledger.heat.content for s in steps]
+    assert np.ptp(whole) < 1e-12 * max(s.ledger.energy_kinetic for s in steps) + 1e-14 * max(whole)
 
 
 def mode(cells: int) -> float:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from softway.record.storage.table import Table
-from softway.record.view.plots.heat_panels import heat_of_solids
+from softway.record.view.plots.heat_panels import heat_panels_of_solids
 from softway.record.view.plots.history import energies, forces, gaps
 from softway.record.view.style import canvas
 
@@ -40,9 +40,10 @@ def test_a_zero_force_lies_on_the_axis(axis):
 
 def test_the_heats_of_solids_begin_at_zero(axis):
     heats = {"heat.received": 2e3 + 3e3 * TIME, "heat.brought": -1e3 * TIME, "heat.cold_work": np.zeros(5)}
-    heat_of_solids(axis, TIME, table(**heats))
+    draw = heat_panels_of_solids(table(**heats))[0]
+    draw(axis, TIME, table(**heats))
     assert axis.get_ylabel() == "heat [kJ]"
     assert [line.get_ydata()[-1] for line in axis.lines] == pytest.approx([3.0, -1.0, 0.0])  # of an earlier version
     axis.clear()
-    heat_of_solids(axis, TIME, table(**heats, **{"heat.friction": 1e3 * TIME}))
+    draw(axis, TIME, table(**heats, **{"heat.friction": 1e3 * TIME}))
     assert [line.get_ydata()[-1] for line in axis.lines] == pytest.approx([3.0, 1.0, -1.0, 0.0])

@@ -104,6 +104,12 @@ def solids(**given: object) -> object:
     return sw.build(sw.Scene(bodies={"b": sw.Solid(**parts)}, loads=(load,)))  # type: ignore[arg-type]
 
 
+def freezing(mesh: sw.Mesh) -> object:
+    """Model of a solid that melts, on a mesh."""
+    part = sw.Solid(mesh=mesh, material=STEEL, density=1.0, thermal=thermal(law=MELTS, expansion=0.0))
+    return sw.build(sw.Scene(bodies={"b": part}))
+
+
 FINE = rectangle((1.0, 1.0), (4, 4))
 CONDUCTS = heat.ContactHeat(conductance=1.0)
 
@@ -167,7 +173,14 @@ TABLE: Table = {
         lambda: solids(mesh=HALVES, material=dict.fromkeys("ac", STEEL)),
     ),
     "a share above one": call(lambda: thermal(heating=2.0), "a share from 0 to 1", thermal),
-    "a solid that melts": call(lambda: thermal(law=MELTS), "a law without latent", thermal),
+    "a melting strain of what does not melt": call(
+        lambda: thermal(melting_strain=0.02), "law.latent", lambda: thermal(law=MELTS, melting_strain=0.02)
+    ),
+    "a sharp front in hex20": call(
+        lambda: freezing(box((1.0,) * 3, (1, 1, 1), cell="hex20")),
+        "hex27",
+        lambda: freezing(box((1.0,) * 3, (1, 1, 1), cell="hex27")),
+    ),
     "a force on a conductor": Try(SCENE, "loads=[{kind='Gravity', acceleration=-1}]", ALONE, FLUX),
     "a contact of solids": Try(SOLIDS, MEETS, ALONE, "heat_contacts=[]"),
     "a contact apart": Try(SCENE, f"{TWO} & {MEETS.replace('left', 'right')}", "surfaces that touch", MEETS),

@@ -8,7 +8,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.record.storage.table import Table
 from softway.record.view.style import BLACK, BLUE, CYCLE, GREEN, PURPLE, RED, scaled
-from softway.record.write.heat.columns import LIQUID
+from softway.record.write.history_columns import LIQUID
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,7 +29,12 @@ def heat_panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
     return [_heats, _balance, *([_liquids] if _melting(table) else [])]
 
 
-def heat_of_solids(axis: "Axes", time: Array, table: Table) -> None:
+def heat_panels_of_solids(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
+    """Drawing functions of the panels of solids that move."""
+    return [_heat_of_solids, *([_liquids] if _melting(table) else [])]
+
+
+def _heat_of_solids(axis: "Axes", time: Array, table: Table) -> None:
     """Draw the heats of solids that move, from zero at the start."""
     curves = [(label, table[name] - table[name][0], color) for name, color, label in OF_SOLIDS if name in table]
     factor, unit = scaled(np.concatenate([values for _, values, _ in curves]), "J")

@@ -13,9 +13,9 @@ from softway.record.read.records import Records
 from softway.record.read.summary import contacts_of, ties_of
 from softway.record.storage.table import COUNT, Table
 from softway.record.view.options import STANDARD, PictureOptions
-from softway.record.view.plots.heat_panels import heat_of_solids, heat_panels
+from softway.record.view.plots.heat_panels import heat_panels, heat_panels_of_solids
 from softway.record.view.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, PURPLE, RED, canvas, scaled
-from softway.record.write.history_columns import CERTIFICATE, COLUMNS, EXTRA, HEAT, THROUGH, of_tie
+from softway.record.write.history_columns import CERTIFICATE, COLUMNS, EXTRA, HEAT, LIQUID, THROUGH, of_tie
 from softway.record.write.mechanism.columns import NEEDED
 
 if TYPE_CHECKING:
@@ -79,9 +79,9 @@ def _panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
     if contacts:
         panels += [partial(forces, contacts=contacts), partial(gaps, contacts=contacts)]
     known = {column.name for column in (*COLUMNS, *CERTIFICATE, *EXTRA, *HEAT)} | {name for name, _ in NEEDED}
-    known |= {name for name in table if name.startswith(THROUGH)}
+    known |= {name for name in table if name.startswith((THROUGH, LIQUID))}
     if HEAT[0].name in table:
-        panels.append(heat_of_solids)
+        panels += heat_panels_of_solids(table)
     ties = ties_of(table)
     if ties:
         panels.append(partial(_broken, ties=ties))

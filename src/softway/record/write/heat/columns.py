@@ -8,6 +8,7 @@ from softway.heat.heat_model import HeatModel
 from softway.heat.march import HeatStep
 from softway.record.storage import table
 from softway.record.write.heat.probes import HeatReading
+from softway.record.write.history_columns import LIQUID
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -33,8 +34,8 @@ COLUMNS = (
 """Columns of every history of conductors."""
 NEEDED = tuple((column.name, column.unit) for column in COLUMNS)
 """Names and units of the columns."""
-LIQUID, LOAD, CONTACT = "liquid.", "heat.", "passed."
-"""Starts of the names of the columns of liquid volumes, of the heats of loads, and of the heats through contacts."""
+LOAD, CONTACT = "heat.", "passed."
+"""Starts of the names of the columns of the heats of loads, and of the heats through contacts."""
 
 
 def columns(model: HeatModel, readings: Sequence[HeatReading]) -> tuple[HeatColumn, ...]:
