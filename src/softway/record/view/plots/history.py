@@ -132,7 +132,7 @@ def energies(axis: "Axes", time: Array, table: Table) -> None:
 def balance(axis: "Axes", time: Array, table: Table) -> None:
     """Draw the error of the energy balance relative to the largest energy."""
     if "energy_strain" in table:
-        scale = float((table["energy_kinetic"] + table["energy_strain"]).max()) or 1.0
+        scale = float(np.abs(table["energy_kinetic"] + table["energy_strain"]).max()) or 1.0
     else:
         scale = (energy_scale if "work_external" in table else energy_scale_of_pile)(table) or 1.0
     relative = np.maximum(np.abs(table["energy_error"]) / scale, 1e-17)
