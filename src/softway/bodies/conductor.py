@@ -11,6 +11,7 @@ from softway.bodies.elements.section import Section
 from softway.bodies.setup.initial_fields import Profile
 from softway.errors import InputError, positive, real
 from softway.laws.heat.conduction import Conduction
+from softway.laws.heat.stiffness_table import StiffnessTable
 from softway.meshes.generators.recipes import MeshSource
 from softway.meshes.mesh import Mesh
 from softway.units import Kelvin, KilogramPerCubicMetre, PerKelvin, Pure
@@ -80,6 +81,8 @@ class Thermal:
         Coefficient of linear thermal expansion [1/K].
     reference
         Temperature without thermal stress [K]; the initial temperature by default.
+    stiffness
+        Factor of the elastic moduli by the temperature; of laws with a stored energy, with their thermal stress.
     heating
         Share of the dissipation of the material that heats, from zero to one; by default .9 of the plastic work of
         ``J2``, and all of viscous laws.
@@ -100,6 +103,7 @@ class Thermal:
     temperature: Annotated[TemperatureField, "K"]
     expansion: PerKelvin = 0.0
     reference: Kelvin | None = None
+    stiffness: StiffnessTable | None = None
     heating: Pure | None = None
 
     def __post_init__(self) -> None:

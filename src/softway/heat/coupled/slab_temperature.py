@@ -11,8 +11,9 @@ from softway.bodies.discretised import DiscreteSolid
 from softway.errors import NoConvergence, NumericsError
 from softway.heat.coupled.contact_exchange import ContactExchange
 from softway.heat.coupled.contact_sides import ContactSides
-from softway.heat.coupled.expansion import Strained
-from softway.heat.heat_balance import Stage, StrainHeat, arithmetic_mean, logarithmic_mean
+from softway.heat.coupled.strain.deformed import Deformed, beside_law
+from softway.heat.coupled.strain.moduli import ElasticHeat, Moduli
+from softway.heat.heat_balance import Stage
 from softway.heat.heat_contact import HeatExchange
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_slab import HeatFactor, StageResult, solve_slab
@@ -69,7 +70,7 @@ class TimeOfSlab:
     halves: bool
     before: HeatValues
     jumped: Array
-    strained: Strained
+    strained: Deformed
     factor: HeatFactor | None
 
 
@@ -92,8 +93,8 @@ class HeatedSolids(Protocol):
         ...
 
     @property
-    def reference(self) -> Array:
-        """Temperatures (k,) without thermal stress [K]."""
+    def moduli(self) -> Moduli:
+        """Potentials of the strain of the k nodes."""
         ...
 
     def of_parts(self, values: Array) -> Array:
@@ -102,6 +103,10 @@ class HeatedSolids(Protocol):
 
     def on_all(self, values: Array) -> Array:
         """Values (n, 1) on all nodes from those (k,) with heat."""
+        ...
+
+    def on_every(self, potentials: Array) -> Array:
+        """Potentials (2, n) on all nodes from those (2, k) with heat."""
         ...
 
 
@@ -119,8 +124,8 @@ class SlabTemperature:
         Sides of the rows of each contact with heat.
     end
         Strain at the end.
-    change
-        (k,) change of the entropy of the strain [J/K].
+    start, change
+        (2, k) entropies of the strain [J/K] and elastic energies [J] at the start, and their changes.
     given, spent
         Heat (k,) of the dissipation of the material, and its energy in all [J].
     """
@@ -129,7 +134,8 @@ class SlabTemperature:
     time: TimeOfSlab
     slab: FieldSlab
     sides: tuple[ContactSides, ...]
-    end: Strained
+    end: Deformed
+    start: Array
     change: Array
     given: Array
     spent: float
@@ -145,25 +151,28 @@ class SlabTemperature:
         solids, slab, dim = self.solids, self.slab, self.slab.u1.shape[1]
         heat, taken = self.time.contacts.spread(rubbed, self.sides)
         result, through = self._solved(heat)
-        entropy, temperature = self.end.entropy()[solids.nodes], result.after.temperature
-        over, last = (solids.on_all(t - solids.reference)[:, 0] for t in (result.mean, temperature))
-        energy = solids.of_parts(-(temperature - solids.reference) * entropy)
-        lost = solids.of_parts(-(result.mean - solids.reference) * self.change) - (energy - slab.start.energy)
+        temperature, moduli, amounts = result.after.temperature, solids.moduli, self.start + self.change
+        over = solids.on_every(moduli.between(self.time.before.temperature, temperature, result.mean))
+        last = moduli.potentials(temperature)
+        energy = solids.of_parts((beside_law(last) * amounts).sum(axis=0))
+        lost = solids.of_parts(result.work - self.change[1]) - (energy - slab.start.energy)
         mean = slab.first * self.time.strained.force(over, dim) + (1.0 - slab.first) * self.end.force(over, dim)
+        entropies = -moduli.slopes(temperature) * amounts
+        before = -moduli.slopes(self.time.before.temperature) * self.start
         rub = float(heat.sum())
         account = HeatOfSlab(
-            content=float(result.after.content.sum() + temperature @ entropy),
+            content=float(result.after.content.sum() + (temperature * entropies).sum()),
             brought=float(self.time.jumped.sum() + result.heats.sum() - through[self.time.contacts.with_tools].sum()),
             received=float(lost.sum() + self.given.sum()) + rub,
             stored=self.spent - float(self.given.sum()),
             produced=float(result.produced.sum()) + result.reservoirs,
-            passed=float(result.turned.sum() + np.abs(self.change).sum()),
+            passed=float(result.turned.sum() + np.abs(entropies - before).sum()),
             rounding=result.rounding / float(temperature.min()),
             rubbed=rub,
             through=through + taken,
         )
         end = FieldState(
-            values=solids.on_all(temperature), energy=energy, force=self.end.force(last, dim),
+            values=solids.on_all(temperature), energy=energy, force=self.end.force(solids.on_every(last), dim),
             abrupt=self.time.contacts.change(slab.contact),
         )  # fmt: skip
         return FieldSolution(end=end, mean_force=mean, lost=lost, account=account)
@@ -174,8 +183,10 @@ class SlabTemperature:
         Gaps radiate at the mean temperature of a first solution.
         """
         time, span = self.time, self.slab.span
-        mean = logarithmic_mean if self.solids.inert else arithmetic_mean
-        strain = StrainHeat(power=(self.given + rubbed) / span, entropy=self.change / span, mean=mean)
+        strain = ElasticHeat(
+            moduli=self.solids.moduli, amounts=self.start, rates=self.change / span,
+            power=(self.given + rubbed) / span, inert=self.solids.inert,
+        )  # fmt: skip
         stage = Stage(start=time.start, span=span, theta=1.0 if time.damped else 0.5, strain=strain)
         at, free, guess = time.before.temperature, self.solids.model.free_nodes(), None
         for _ in range(1 + time.contacts.radiates):

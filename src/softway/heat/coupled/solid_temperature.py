@@ -10,9 +10,12 @@ from softway.bodies.assembled.material_states import MaterialStates
 from softway.bodies.discretised import DiscreteSolid
 from softway.heat.coupled.contact_exchange import ContactExchange
 from softway.heat.coupled.dissipation import Dissipation
-from softway.heat.coupled.expansion import Expansion, strained
 from softway.heat.coupled.point_temperature import PointTemperature, after_jumps, warmed
 from softway.heat.coupled.slab_temperature import SlabTemperature, TimeOfSlab
+from softway.heat.coupled.strain.deformed import Deformed, beside_law, deformed
+from softway.heat.coupled.strain.expansion import Expansion
+from softway.heat.coupled.strain.moduli import Moduli
+from softway.heat.coupled.strain.stored import Elastic
 from softway.heat.heat_balance import put_at_once
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_plan import knots
@@ -37,10 +40,12 @@ class SolidTemperature:
         Numbers of the nodes n and of the solids.
     part
         (k,) number of the solid of each node.
-    reference
-        (k,) temperatures without thermal stress [K].
+    moduli
+        Potentials of the strain of the k nodes.
     expansions
         Thermal expansions.
+    elastic
+        Elements whose moduli depend on the temperature.
     contacts
         Heat across contacts.
     dissipations
@@ -58,10 +63,11 @@ class SolidTemperature:
     count: int
     parts: int
     part: IntArray
-    reference: Array
+    moduli: Moduli
     expansions: tuple[Expansion, ...]
     contacts: ContactExchange
     inert: bool
+    elastic: tuple[Elastic, ...] = ()
     dissipations: tuple[Dissipation, ...] = ()
     softened: tuple[PointTemperature, ...] = ()
     time: TimeOfSlab | None = None
@@ -89,22 +95,30 @@ class SolidTemperature:
         before, jumped, _ = put_at_once(self.model, before, ends[0])
         time = TimeOfSlab(
             start=ends[0], end=ends[1], solids=parts, contacts=self.contacts.at(u0), damped=damped,
-            halves=damped and self.inert, before=before, jumped=jumped, strained=strained(self.expansions, u0),
+            halves=damped and self.inert, before=before, jumped=jumped, strained=self._deformed(u0),
             factor=factor,
         )  # fmt: skip
         return replace(self, time=time)
 
     def at(self, values: Array, u: Array) -> FieldState:
         """State with the temperatures ``values`` (n, 1) at the displacement ``u`` (n, d)."""
-        over, shape = values[self.nodes, 0] - self.reference, strained(self.expansions, u)
-        energy = self.of_parts(-over * shape.entropy()[self.nodes])
-        return FieldState(values=values, energy=energy, force=shape.force(self.on_all(over)[:, 0], u.shape[1]))
+        shape, found = self._deformed(u), self.moduli.potentials(values[self.nodes, 0])
+        energy = self.of_parts((beside_law(found) * shape.amounts()[:, self.nodes]).sum(axis=0))
+        return FieldState(values=values, energy=energy, force=shape.force(self.on_every(found), u.shape[1]))
+
+    def stiffness_factor(self, state: FieldState) -> Array | None:
+        """Factor (n,) of the stiffness of the nodes; None if the moduli do not depend on the temperature."""
+        if not self.elastic:
+            return None
+        out = np.ones(self.count)
+        out[self.nodes] = self.moduli.factor(state.values[self.nodes, 0])
+        return out
 
     def solver(self, slab: FieldSlab) -> SlabTemperature:
         """Solver of the temperature at the end of a slab, from the energies (m,) that friction dissipates [J]."""
         assert self.time is not None
-        end = strained(self.expansions, slab.u1)
-        change = (end.entropy() - self.time.strained.entropy())[self.nodes]
+        end, start = self._deformed(slab.u1), self.time.strained.amounts()[:, self.nodes]
+        change = end.amounts()[:, self.nodes] - start
         out, spent = np.zeros(self.count), 0.0
         for dissipation in self.dissipations:
             energy = dissipation.energy(self.time.solids, slab.u1)
@@ -112,7 +126,7 @@ class SolidTemperature:
             spent += float(energy.sum())
         return SlabTemperature(
             solids=self, time=self.time, slab=slab, sides=self.time.contacts.sides(slab.contact), end=end,
-            change=change, given=out[self.nodes], spent=spent,
+            start=start, change=change, given=out[self.nodes], spent=spent,
         )  # fmt: skip
 
     def solve(self, slab: FieldSlab) -> FieldSolution:
@@ -129,7 +143,8 @@ class SolidTemperature:
         """Heat content [J] of temperatures ``values`` (n, 1): internal energy less the energy of the field."""
         temperature = values[self.nodes, 0]
         of_capacity = heat_values(self.model, unknowns_of(self.model, temperature), slopes=False).content
-        return float(of_capacity.sum() + temperature @ strained(self.expansions, u).entropy()[self.nodes])
+        entropies = -self.moduli.slopes(temperature) * self._deformed(u).amounts()[:, self.nodes]
+        return float(of_capacity.sum() + (temperature * entropies).sum())
 
     def warmed(self, states: MaterialStates, values: Array) -> MaterialStates:
         """Material states at the end of a slab whose laws know the temperatures ``values`` (n, 1) there."""
@@ -141,14 +156,21 @@ class SolidTemperature:
         return warmed(states, self.softened, values[:, 0], following[:, 0], span)
 
     def stress(self, solid: str, cells: int, values: Array, u: Array) -> Array:
-        """Mean thermal stress (cells, 3, 3) [Pa] of a solid, with the ``values`` (n, 1) of all solids [K] at the
-        displacement ``u`` (n, d) [m].
+        """Mean stress (cells, 3, 3) of a solid [Pa] that the temperature adds to that of the law, with the ``values``
+        (n, 1) of all solids [K] at the displacement ``u`` (n, d) [m].
         """
-        out, over = np.zeros((cells, 3, 3)), self.on_all(values[self.nodes, 0] - self.reference)[:, 0]
+        out, found = np.zeros((cells, 3, 3)), self.on_every(self.moduli.potentials(values[self.nodes, 0]))
         for expansion in self.expansions:
             if expansion.solid == solid:
-                out[expansion.cells] = expansion.stress(over, u)
+                out[expansion.cells] = expansion.stress(-found[0], u)
+        for elastic in self.elastic:
+            if elastic.solid == solid:
+                out[elastic.cells] += elastic.stress(beside_law(found)[1], u)
         return out
+
+    def _deformed(self, u: Array) -> Deformed:
+        """Solids at the displacement ``u`` (n, d) [m]."""
+        return deformed(self.expansions, self.elastic, u)
 
     def of_parts(self, values: Array) -> Array:
         """Sums (parts,) over the nodes of each solid of values (k,)."""
@@ -158,6 +180,12 @@ class SolidTemperature:
         """Values (n, 1) on all nodes from those (k,) with heat."""
         out = np.zeros((self.count, 1))
         out[self.nodes, 0] = values
+        return out
+
+    def on_every(self, potentials: Array) -> Array:
+        """Potentials (2, n) on all nodes from those (2, k) with heat; on others those of the law."""
+        out = np.stack([np.zeros(self.count), np.ones(self.count)])
+        out[:, self.nodes] = potentials
         return out
 
 
