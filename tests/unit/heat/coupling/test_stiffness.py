@@ -114,6 +114,29 @@ def test_small_vibrations_have_the_adiabatic_modulus() -> None:
     np.testing.assert_allclose(swing, 1e-6 / omega * np.sin(omega * time), atol=5e-3 * 1e-6 / omega)
 
 
+def hot(stiffness: sw.heat.StiffnessTable | None, factor: float) -> list[sw.Step]:
+    """A plate of two laws at 900 K that swings from one edge, with so great a capacity that it stays there."""
+    mesh = sw.meshes.Rectangle(size=(1.0, 0.5), cells=(4, 2)).build()
+    mesh = mesh.with_region("near", lambda x: x[:, 0] < 0.5).with_region("far", lambda x: x[:, 0] > 0.5)
+    laws = {"near": sw.NeoHookean(E=factor * E, nu=0.3), "far": sw.laws.Hencky(E=2.0 * factor * E, nu=0.3)}
+    heat = Thermal(law=sw.heat.Conduction(conductivity=1.0, capacity=1e6), temperature=900.0, stiffness=stiffness)
+    body = sw.Solid(
+        mesh=mesh, material=laws, density=RHO, thermal=heat, dilatation="mean", supports=(Fixed(on="left"),),
+        velocity=lambda x: np.stack([0.05 * x[:, 0], 0.03 * x[:, 0] ** 2], axis=1),
+    )  # fmt: skip
+    return list(sw.march(sw.Scene(bodies={"b": body}), until=1.0, step=0.1))
+
+
+def test_a_hot_body_moves_and_converges_as_one_of_its_softer_laws() -> None:
+    """The operator has the factor: a body with a quarter of its stiffness takes no more iterations."""
+    factor = float(STEEL.curve().at(np.array(900.0)))
+    assert factor < 0.3
+    mine, same = hot(STEEL, 1.0), hot(None, factor)
+    for a, b in zip(mine, same, strict=True):
+        np.testing.assert_allclose(a.after.displacement["b"], b.after.displacement["b"], atol=1e-8)
+    assert sum(s.report.iterations for s in mine) <= sum(s.report.iterations for s in same) + 2
+
+
 def heated(supports: tuple[Fixed, ...], law: object, inertia: object = sw.bodies.Off()) -> sw.Run:
     """A bar of steel that is heated by 600 K within one second."""
     alpha = 1e-5
