@@ -11,6 +11,7 @@ from softway.bodies.elements.section import Section
 from softway.bodies.setup.initial_fields import Profile
 from softway.errors import InputError, positive, real
 from softway.laws.heat.conduction import Conduction
+from softway.laws.heat.stiffness_table import StiffnessTable
 from softway.meshes.generators.recipes import MeshSource
 from softway.meshes.mesh import Mesh
 from softway.units import Kelvin, KilogramPerCubicMetre, PerKelvin, Pure
@@ -84,6 +85,8 @@ class Thermal:
         negative for water.
     reference
         Temperature without thermal stress [K]; the initial temperature by default.
+    stiffness
+        Factor of the elastic moduli by the temperature; of laws with a stored energy, with their thermal stress.
     heating
         Share of the dissipation of the material that heats, from zero to one; by default .9 of the plastic work of
         ``J2``, and all of viscous laws.
@@ -106,6 +109,7 @@ class Thermal:
     expansion: PerKelvin = 0.0
     melting_strain: Pure = 0.0
     reference: Kelvin | None = None
+    stiffness: StiffnessTable | None = None
     heating: Pure | None = None
 
     def __post_init__(self) -> None:

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.sparse import csc_array
 
 from softway.arrays import Array, BoolArray
 from softway.bodies.bulk_viscosity import BulkViscosityForce, bulk_viscosity_force
@@ -14,6 +15,7 @@ from softway.bodies.internal_force.assembled import internal_force
 from softway.bodies.internal_force.body_force import BodyForce
 from softway.bodies.internal_force.material_state import MaterialState
 from softway.bodies.internal_force.materials import Materials, materials_of
+from softway.bodies.internal_force.node_factors import scaled_matrix
 from softway.bodies.internal_force.slab_average import SlabForce
 from softway.bodies.rigid_motion import CarriedNodes, RigidMotion
 from softway.bodies.setup.directions import (
@@ -62,6 +64,8 @@ class DiscreteSolid:
         Average of the volume change in the elements.
     shock
         Bulk viscosity; None without.
+    factor
+        (n,) factor of the stiffness at the nodes, which a companion field gives the forces; None without.
     """
 
     name: str
@@ -73,6 +77,7 @@ class DiscreteSolid:
     average: SlabForce
     dilatation: Dilating = "point"
     shock: BulkViscosityForce | None = None
+    factor: Array | None = None
 
     def shock_force(self, middle: Array, change: Array, span: float) -> Array:
         """Force (n, d) of the bulk viscosity [N], zero without; arguments as for :meth:`BulkViscosityForce.force`."""
@@ -90,9 +95,13 @@ class DiscreteSolid:
         viscous_factor
             Factor of the viscous tangent that is added.
         """
-        values = np.asarray((self.internal.secant(u) if secant else self.internal.tangent(u)).data)
+        values = np.asarray((scaled_matrix(self.internal.secant(u), self.factor) if secant else self.tangent(u)).data)
         viscous = self.internal.viscous_tangent(u) if viscous_factor > 0.0 else None
         return values if viscous is None else np.asarray(values + viscous_factor * viscous.data)
+
+    def tangent(self, u: Array) -> csc_array:
+        """Tangent stiffness (n d, n d) [N/m]."""
+        return scaled_matrix(self.internal.tangent(u), self.factor)
 
     def floor(self) -> float:
         """Stored energy below which the solid is taken as undeformed [J]."""

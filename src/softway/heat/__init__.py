@@ -17,6 +17,7 @@ from softway.heat.march import march_heat as march_heat
 from softway.laws.heat.conduction import Conduction as Conduction
 from softway.laws.heat.conduction import Latent as Latent
 from softway.laws.heat.contact_heat import ContactHeat as ContactHeat
+from softway.laws.heat.stiffness_table import StiffnessTable as StiffnessTable
 from softway.laws.heat.temperature_table import TemperatureTable as TemperatureTable
 
 __all__ = [
@@ -34,6 +35,7 @@ __all__ = [
     "HeatStep",
     "Latent",
     "Radiation",
+    "StiffnessTable",
     "Temperature",
     "TemperatureTable",
     "build_heat",

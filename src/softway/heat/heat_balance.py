@@ -1,7 +1,7 @@
 """Balance of the heats of the nodes over a part of a slab, and the heat that each load brings."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import scipy.sparse as sp
@@ -39,25 +39,50 @@ def arithmetic_mean(one: Array, other: Array) -> Array:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class StrainHeat:
-    """Heat that the motion of a body gives to its nodes.
+class HeatOfStrain:
+    """Heat that the strain of a body takes from its nodes in a part of a slab.
 
     Parameters
     ----------
-    power
-        (n,) heat of dissipation per time [W].
-    entropy
-        (n,) entropy that the strain takes per time [W/K]; the heat that it takes is the mean temperature times that.
-    freezing
-        (n,) heat that the strain gives where the node melts, per liquid share [J].
     mean
-        Mean of the temperatures at both ends.
+        (n,) temperatures at which it is taken [K].
+    taken, slope
+        (n,) heat [J], and its derivative along the temperature of the end [J/K].
+    freezing
+        (n,) derivative of the heat along the liquid share of the end [J].
+    work
+        (n,) work of the stresses that depend on the temperature [J].
     """
 
-    power: Array
-    entropy: Array
+    mean: Array
+    taken: Array
+    slope: Array
     freezing: Array
-    mean: Callable[[Array, Array], Array] = logarithmic_mean
+    work: Array
+
+
+def at_rest(before: HeatValues, after: HeatValues) -> HeatOfStrain:
+    """Heat of strain of a body that does not move: none."""
+    none = np.zeros_like(before.temperature)
+    mean = logarithmic_mean(before.temperature, after.temperature)
+    return HeatOfStrain(mean=mean, taken=none, slope=none, freezing=none, work=none)
+
+
+class StrainHeat(Protocol):
+    """Heat that the motion of a body exchanges with its nodes, at constant rates."""
+
+    @property
+    def power(self) -> Array:
+        """Heat (n,) of dissipation per time [W]."""
+        ...
+
+    def over(self, span: float, before: HeatValues, after: HeatValues) -> HeatOfStrain:
+        """Heat that the strain takes in a time ``span`` [s]."""
+        ...
+
+    def later(self, span: float) -> "StrainHeat":
+        """The rest, after a time ``span`` [s]."""
+        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -100,6 +125,8 @@ class Balance:
         (n,) temperatures at which the heat flows [K].
     flow
         (n,) heat that flows out of the nodes by conduction and through contacts [W].
+    strain
+        Heat that the strain takes; None in a body that does not move.
     """
 
     after: HeatValues
@@ -108,6 +135,7 @@ class Balance:
     matrix: sp.csr_array | None
     mean: Array
     flow: Array
+    strain: HeatOfStrain | None = None
 
 
 def prescribed(model: HeatModel, unknowns: Array, time: float) -> Array:
@@ -159,13 +187,15 @@ def balance(model: HeatModel, before: HeatValues, stage: Stage, unknowns: Array,
     for power in _powers(model, stage):
         values, moved = values - h * power, moved + h * np.abs(power).sum()
     total = None if matrix is None else _matrix(after, matrix, by_liquid, theta * h)
-    if stage.strain is not None:
-        taken = h * stage.strain.entropy * stage.strain.mean(before.temperature, after.temperature)
-        given = h * stage.strain.power + stage.strain.freezing * (after.share - before.share)
-        values, moved = values + taken - given, moved + np.abs(taken).sum() + np.abs(given).sum()
+    strain = None if stage.strain is None else stage.strain.over(h, before, after)
+    if stage.strain is not None and strain is not None:
+        given = h * stage.strain.power
+        values, moved = values + strain.taken - given, moved + np.abs(strain.taken).sum() + np.abs(given).sum()
         if total is not None and not model.linear:
-            total = sp.csr_array(total + _of_strain(model, stage.strain, h, after))
-    return Balance(after=after, values=values, moved=float(moved), matrix=total, mean=mean, flow=flow)
+            total = sp.csr_array(total + _of_strain(model, strain, after))
+    return Balance(
+        after=after, values=values, moved=float(moved), matrix=total, mean=mean, flow=flow, strain=strain
+    )  # fmt: skip
 
 
 def _matrix(after: HeatValues, conduction: sp.csr_array, by_liquid: Entries, span: float) -> sp.csr_array:
@@ -180,11 +210,11 @@ def _matrix(after: HeatValues, conduction: sp.csr_array, by_liquid: Entries, spa
     return sp.csr_array(capacity + flow)
 
 
-def _of_strain(model: HeatModel, strain: StrainHeat, span: float, after: HeatValues) -> sp.csr_array:
+def _of_strain(model: HeatModel, strain: HeatOfStrain, after: HeatValues) -> sp.csr_array:
     """Derivative (n, n) of the heat that the strain takes."""
     n = model.n_nodes
-    diagonal = 0.5 * span * strain.entropy * after.stretch - strain.freezing * after.share_slope
-    heat = -strain.freezing / np.where(model.latent > 0.0, model.latent, np.inf)
+    diagonal = strain.slope * after.stretch + strain.freezing * after.share_slope
+    heat = strain.freezing / np.where(model.latent > 0.0, model.latent, np.inf)
     cut = tuple((rows, columns, heat[rows] * values) for rows, columns, values in after.latent_slope)
     return _assembled(((np.arange(n), np.arange(n), diagonal), *cut), (n, n))
 

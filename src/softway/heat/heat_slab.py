@@ -11,11 +11,11 @@ from softway.errors import NoConvergence, NumericsError
 from softway.heat.heat_balance import (
     Balance,
     Stage,
+    at_rest,
     balance,
     entropy_brought,
     entropy_of_reservoirs,
     heats,
-    logarithmic_mean,
     passed,
     prescribed,
     rounding,
@@ -79,8 +79,9 @@ class StageResult:
         Number of iterations.
     factor
         Factor of a linear model, for the next stage.
-    mean
-        (n,) mean temperature at which the strain takes entropy [K].
+    mean, work
+        (n,) mean temperature at which the strain takes heat [K], and its work [J], see
+        :class:`~softway.heat.heat_balance.HeatOfStrain`.
     produced, turned
         (n,) entropy produced by conduction and dissipation, less what other nodes produce, so that the sum counts
         [J/K], and the magnitudes that take part.
@@ -97,6 +98,7 @@ class StageResult:
     iterations: int
     factor: HeatFactor | None
     mean: Array
+    work: Array
     produced: Array
     turned: Array
     reservoirs: float
@@ -158,13 +160,15 @@ def solve_slab(
     one = replace(slab, span=half, theta=1.0)
     middle = None if guess is None else 0.5 * (before.unknowns + guess)
     first = solve_slab(model, before, one, False, factor, linear, depth + 1, middle)
-    rest = replace(one, start=slab.start + half)
+    strain = None if slab.strain is None else slab.strain.later(half)
+    rest = replace(one, start=slab.start + half, strain=strain)
     last = solve_slab(model, first.after, rest, False, first.factor, linear, depth + 1, guess)
     return replace(
         last,
         heats=first.heats + last.heats,
         iterations=first.iterations + last.iterations,
         mean=0.5 * (first.mean + last.mean),
+        work=first.work + last.work,
         produced=first.produced + last.produced,
         turned=first.turned + last.turned,
         passed=first.passed + last.passed,
@@ -239,8 +243,7 @@ def _result(
     floor: float,
 ) -> StageResult:
     """Result of a stage whose heats are balanced."""
-    mean_of = logarithmic_mean if stage.strain is None else stage.strain.mean
-    mean = mean_of(before.temperature, found.after.temperature)
+    strain = at_rest(before, found.after) if found.strain is None else found.strain
     power = 0.0 if stage.strain is None else stage.strain.power
     moved = stage.span * (np.abs(found.flow) + np.abs(power)) + np.abs(found.after.content - before.content)
     return StageResult(
@@ -248,9 +251,10 @@ def _result(
         heats=heats(model, before, stage, found),
         iterations=iterations,
         factor=frozen,
-        mean=mean,
-        produced=stage.span * (power - found.flow) / mean,
-        turned=moved / mean,
+        mean=strain.mean,
+        work=strain.work,
+        produced=stage.span * (power - found.flow) / strain.mean,
+        turned=moved / strain.mean,
         passed=passed(model, stage, found),
         entropy=entropy_brought(model, stage, found),
         reservoirs=entropy_of_reservoirs(model, stage, found),

@@ -16,7 +16,7 @@ from softway.contact.assembly.tied_surfaces import TiedSurfaces
 from softway.contact.mortar.jump import Jump, end_jump, jump
 from softway.errors import InputError
 from softway.laws.cohesive_law import BilinearCohesive
-from softway.model.field import Field, FieldSlab, FieldSolution, FieldState
+from softway.model.field import Field, FieldEquations, FieldSlab, FieldSolution, FieldState
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -172,6 +172,12 @@ def cohesive_ties(
     if not found:
         return ()
     return (CohesiveTies(ties=found, points=points, parts=len(parts), damage=np.zeros((len(points), len(found)))),)
+
+
+def damaged(companions: tuple[FieldEquations, ...], fields: Sequence[FieldState]) -> tuple[FieldEquations, ...]:
+    """Companion fields in a slab that starts from their states: ties have their damage."""
+    pairs = zip(companions, fields, strict=True)
+    return tuple(c.during(state) if isinstance(c, CohesiveTies) else c for c, state in pairs)
 
 
 def intact(bonds: tuple[CohesiveTies, ...], u: Array) -> tuple[CohesiveTies, ...]:

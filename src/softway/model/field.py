@@ -156,6 +156,24 @@ class RubbedField(Protocol):
 
 
 @runtime_checkable
+class StiffField(Protocol):
+    """Equations of a companion field whose force scales the stiffness of solids, which the operator has to know."""
+
+    def stiffness_factor(self, state: FieldState) -> Array | None:
+        """Factor (n,) of the stiffness of the nodes in a state; None without."""
+        ...
+
+
+def stiffness_factor(companions: tuple[FieldEquations, ...], fields: Sequence[FieldState]) -> Array | None:
+    """Factor (n,) of the stiffness of the nodes in the operator, from states of the fields; None without."""
+    for c, state in zip(companions, fields, strict=True):
+        found = c.stiffness_factor(state) if isinstance(c, StiffField) else None
+        if found is not None:
+            return found
+    return None
+
+
+@runtime_checkable
 class TimedField(Protocol):
     """Equations of a companion field with loads that change in time, or with an operator that is factored once a slab:
     they are solved in a slab only.

@@ -7,12 +7,13 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
-from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent, during
+from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent, during, end_force, scaled
 from softway.bodies.assembled.nodal_loads import DeadLoads
 from softway.bodies.assembled.vector_space import VectorSpace
 from softway.bodies.discretised import DiscreteSolid, Moved
 from softway.bodies.dof_map import DofMap, MatrixSum
 from softway.bodies.internal_force.material_state import MaterialState
+from softway.bodies.internal_force.node_factors import scaled_blocks, scaled_product
 from softway.bodies.rigid_motion import CarriedNodes, RigidMotion, RigidShape
 from softway.bodies.solid import Tool
 from softway.contact.contact_rows import ContactRows
@@ -20,8 +21,8 @@ from softway.contact.contact_set import ContactSet
 from softway.contact.friction_rows import FrictionRows
 from softway.contact.impact_rule import ImpactRule
 from softway.meshes.mesh import Mesh
-from softway.model.cohesive_ties import CohesiveTies
-from softway.model.field import Field, FieldEquations, FieldState
+from softway.model.cohesive_ties import CohesiveTies, damaged
+from softway.model.field import Field, FieldEquations, FieldState, stiffness_factor
 from softway.model.rigid.rigid_bodies import RigidBodies
 from softway.model.scene import Scene
 
@@ -181,7 +182,7 @@ class Model:
     @property
     def linear(self) -> bool:
         """True if the forces of all solids are linear in the displacement, and no tie breaks."""
-        return all(p.internal.linear for p in self.parts) and not self.bonds
+        return all(p.internal.linear and p.factor is None for p in self.parts) and not self.bonds
 
     @property
     def bonds(self) -> tuple[CohesiveTies, ...]:
@@ -189,11 +190,11 @@ class Model:
         return tuple(c for c in self.companions if isinstance(c, CohesiveTies))
 
     def bonded(self, fields: tuple[FieldState, ...]) -> "Model":
-        """Model in a slab that starts with companion ``fields``: ties have their damage; the model itself without."""
-        if not (self.bonds and fields):
+        """Model in a slab that starts with companion ``fields``: ties have their damage, solids their stiffness."""
+        if not (self.companions and fields):
             return self
-        pairs = zip(self.companions, fields, strict=True)
-        return replace(self, companions=tuple(c.during(f) if isinstance(c, CohesiveTies) else c for c, f in pairs))
+        parts = scaled(self.parts, stiffness_factor(self.companions, fields))
+        return replace(self, parts=parts, companions=damaged(self.companions, fields))
 
     def stress(self, name: str, u: Array, memory: MaterialState | None = None) -> Array:
         """Mean Cauchy stress (cells, 3, 3) of the solid ``name`` at its displacement ``u`` or from its memory [Pa]."""
@@ -245,8 +246,7 @@ class Model:
 
     def energy_and_force(self, u: Array) -> tuple[Array, Array]:
         """Stored energy of each solid (parts,) [J] and internal force (n, d) [N]."""
-        energy, force = zip(*(p.internal.energy_and_force(u[p.nodes]) for p in self.parts), strict=True)
-        return np.array(energy), np.concatenate(force)
+        return end_force(self.parts, u)[:2]
 
     def force(self, u: Array) -> Array:
         """Internal force (n, d) [N]."""
@@ -274,12 +274,12 @@ class Model:
 
     def tangent_product(self, u: Array, w: Array) -> Array:
         """Product (n, d) of the tangent stiffness with a field (n, d) [N]."""
-        out = np.concatenate([p.internal.tangent_product(u[p.nodes], w[p.nodes]) for p in self.parts])
+        out = np.concatenate([scaled_product(p.internal, p.factor, u[p.nodes], w[p.nodes]) for p in self.parts])
         return sum((bond.tangent_product(u, w) for bond in self.bonds), out)
 
     def tangent_blocks(self, u: Array) -> Array:
         """Diagonal blocks (n, d, d) of the tangent stiffness [N/m]."""
-        out = np.concatenate([p.internal.tangent_diagonal_blocks(u[p.nodes]) for p in self.parts])
+        out = np.concatenate([scaled_blocks(p.internal, p.factor, u[p.nodes]) for p in self.parts])
         return sum((bond.tangent_blocks(u) for bond in self.bonds), out)
 
     def shock_force(self, middle: Array, change: Array, span: float) -> Array | None:
@@ -301,5 +301,5 @@ class Model:
 
 def assembled_tangent(parts: Sequence[DiscreteSolid], u: Array) -> sp.csc_array:
     """Tangent stiffness (n d, n d) of all solids [N/m]."""
-    blocks = [p.internal.tangent(u[p.nodes]) for p in parts]
+    blocks = [part.tangent(u[part.nodes]) for part in parts]
     return blocks[0] if len(blocks) == 1 else sp.csc_array(sp.block_diag(blocks, format="csc"))

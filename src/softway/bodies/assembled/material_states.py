@@ -1,6 +1,7 @@
 """Material states of all solids, from slab to slab."""
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -25,6 +26,11 @@ def initial_states(parts: Sequence[DiscreteSolid]) -> MaterialStates:
 def during(parts: Sequence[DiscreteSolid], states: MaterialStates, span: float) -> tuple[DiscreteSolid, ...]:
     """Solids in a slab of length ``span`` [s] that starts from the material states."""
     return tuple(p.during(s, span) for p, s in zip(parts, _given(parts, states), strict=True))
+
+
+def scaled(parts: tuple[DiscreteSolid, ...], factor: Array | None) -> tuple[DiscreteSolid, ...]:
+    """Solids with factors (n,) of the stiffness at the nodes; the solids themselves without any."""
+    return parts if factor is None else tuple(replace(part, factor=factor[part.nodes]) for part in parts)
 
 
 def committed(parts: Sequence[DiscreteSolid], u: Array) -> MaterialStates:

@@ -1,10 +1,12 @@
 """Model of a scene with the temperatures of its solids."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
 
+from softway.arrays import IntArray
+from softway.bodies.assembled.material_states import scaled
 from softway.bodies.conductor import Conductor, Thermal
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.setup.heat_loads import HeatLoad, place_of
@@ -14,13 +16,16 @@ from softway.errors import InputError, within
 from softway.heat.build_heat import heat_model
 from softway.heat.coupled.contact_exchange import contact_exchange
 from softway.heat.coupled.dissipation import Dissipation, dissipations
-from softway.heat.coupled.expansion import Expansion, expansions
-from softway.heat.coupled.free_strain import FreeStrain
 from softway.heat.coupled.point_temperature import after_jumps, point_temperatures, starting
 from softway.heat.coupled.solid_temperature import SolidTemperature
+from softway.heat.coupled.strain.expansion import Expansion, expansions
+from softway.heat.coupled.strain.free_strain import FreeStrain
+from softway.heat.coupled.strain.moduli import Moduli
+from softway.heat.coupled.strain.stored import Elastic, elastic_terms
 from softway.heat.coupled.through_ties import through_ties
 from softway.heat.heat_model import HeatModel
 from softway.heat.operators import heat_values, unknowns_of
+from softway.laws.heat.stiffness_table import StiffnessCurve
 from softway.laws.law import softens
 from softway.model.build import build as mechanical
 from softway.model.build import with_field
@@ -67,6 +72,7 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
     thermals = {name: thermal for name, body in heated.items() if (thermal := body.thermal) is not None}
     found: list[Expansion] = []
     spent: list[Dissipation] = []
+    elastic: list[Elastic] = []
     conductors = {}
     for name, part in parts.items():
         with within(f"bodies.{name}"):
@@ -76,7 +82,10 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
                 found.extend(expansions(part))
             number = list(model.meshes).index(name)
             spent.extend(dissipations(number, part, thermals[name].heating))
-            if expands or any(one.solid == number for one in spent):
+            if thermals[name].stiffness is not None:
+                elastic.extend(elastic_terms(part))
+            strained = expands or thermals[name].stiffness is not None
+            if strained or any(one.solid == number for one in spent):
                 _require_quadrature(part)
     heat = heat_model(conductors, loads)
     nodes = np.concatenate([np.arange(part.nodes.start, part.nodes.stop) for part in parts.values()])
@@ -87,14 +96,28 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
     equations = SolidTemperature(
         contacts=contact_exchange(model, nodes, effusivity), inert=model.inert,
         model=heat, nodes=nodes, count=model.shape[0], parts=len(model.parts), part=model.part_of[nodes],
-        free=_free_strain(heat, thermals), expansions=tuple(found), dissipations=tuple(spent),
-        softened=softened,
+        moduli=Moduli(free=_free_strain(heat, thermals), curves=tuple(_curves(heat, thermals))),
+        expansions=tuple(found), dissipations=tuple(spent), elastic=tuple(elastic), softened=softened,
     )  # fmt: skip
     if softened:
         start = np.zeros(model.shape[0])
         start[nodes] = after_jumps(heat, heat.initial, 0.0)
         model = replace(model, parts=starting(model.parts, softened, start))
-    return with_field(model, equations)
+    return with_field(_scaled(model, equations), equations)
+
+
+def _scaled(model: Model, equations: SolidTemperature) -> Model:
+    """Model with the stiffness of its solids at the initial temperatures."""
+    factor = equations.stiffness_factor(equations.at(equations.initial(), model.displacement))
+    return replace(model, parts=scaled(model.parts, factor))
+
+
+def _curves(heat: HeatModel, thermals: Mapping[str, Thermal]) -> Iterator[tuple[IntArray, StiffnessCurve]]:
+    """Nodes with moduli that depend on the temperature, among those with heat, and their factor."""
+    for part in heat.parts:
+        table = thermals[part.name].stiffness
+        if table is not None:
+            yield np.arange(heat.n_nodes)[part.nodes], table.curve()
 
 
 def _free_strain(heat: HeatModel, thermals: Mapping[str, Thermal]) -> FreeStrain:

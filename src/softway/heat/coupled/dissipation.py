@@ -9,7 +9,7 @@ from scipy.sparse import csr_array
 from softway.arrays import Array, IntArray
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.internal_force.material_state import MaterialState
-from softway.heat.coupled.expansion import pieces, point_values
+from softway.heat.coupled.strain.expansion import pieces, point_values
 from softway.laws.bulk.j2 import J2
 from softway.laws.law import Material
 

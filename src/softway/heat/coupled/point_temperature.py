@@ -14,7 +14,7 @@ from softway.arrays import Array, IntArray
 from softway.bodies.assembled.material_states import MaterialStates, during, initial_states
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.internal_force.material_state import MaterialState
-from softway.heat.coupled.expansion import pieces, point_values
+from softway.heat.coupled.strain.expansion import pieces, point_values
 from softway.heat.heat_balance import put_at_once
 from softway.heat.heat_model import HeatModel
 from softway.heat.operators import heat_values, unknowns_of

@@ -11,9 +11,9 @@ from softway.bodies.discretised import DiscreteSolid
 from softway.errors import NoConvergence, NumericsError
 from softway.heat.coupled.contact_exchange import ContactExchange
 from softway.heat.coupled.contact_sides import ContactSides
-from softway.heat.coupled.expansion import Strained
-from softway.heat.coupled.free_strain import FreeStrain
-from softway.heat.heat_balance import Stage, StrainHeat, arithmetic_mean, logarithmic_mean
+from softway.heat.coupled.strain.deformed import Deformed, beside_law
+from softway.heat.coupled.strain.moduli import ElasticHeat, Moduli
+from softway.heat.heat_balance import Stage
 from softway.heat.heat_contact import HeatExchange
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_slab import HeatFactor, StageResult, solve_slab
@@ -73,7 +73,7 @@ class TimeOfSlab:
     halves: bool
     before: HeatValues
     jumped: Array
-    strained: Strained
+    strained: Deformed
     factor: HeatFactor | None
 
 
@@ -96,8 +96,8 @@ class HeatedSolids(Protocol):
         ...
 
     @property
-    def free(self) -> FreeStrain:
-        """Free strain of the nodes."""
+    def moduli(self) -> Moduli:
+        """Potentials of the strain of the k nodes."""
         ...
 
     def of_parts(self, values: Array) -> Array:
@@ -106,6 +106,10 @@ class HeatedSolids(Protocol):
 
     def on_all(self, values: Array) -> Array:
         """Values (n, 1) on all nodes from those (k,) with heat."""
+        ...
+
+    def on_every(self, potentials: Array) -> Array:
+        """Potentials (2, n) on all nodes from those (2, k) with heat."""
         ...
 
 
@@ -123,8 +127,8 @@ class SlabTemperature:
         Sides of the rows of each contact with heat.
     end
         Strain at the end.
-    held
-        (k,) energies that free strains of one would take from the strain, at both ends [J].
+    start, change
+        (2, k) energies of a free strain of one and elastic energies at the start, and their changes [J].
     given, spent
         Heat (k,) of the dissipation of the material, and its energy in all [J].
     """
@@ -133,8 +137,9 @@ class SlabTemperature:
     time: TimeOfSlab
     slab: FieldSlab
     sides: tuple[ContactSides, ...]
-    end: Strained
-    held: tuple[Array, Array]
+    end: Deformed
+    start: Array
+    change: Array
     given: Array
     spent: float
 
@@ -146,24 +151,25 @@ class SlabTemperature:
         NoConvergence
             If the heats of the nodes cannot be balanced.
         """
-        solids, slab, dim = self.solids, self.slab, self.slab.u1.shape[1]
+        solids, slab, dim, before = self.solids, self.slab, self.slab.u1.shape[1], self.time.before
         heat, taken = self.time.contacts.spread(rubbed, self.sides)
         result, through = self._solved(heat)
-        (before, held), after, free = self.held, result.after, solids.free
-        meanwhile = free.of(result.mean, 0.5 * (self.time.before.share + after.share))
-        last = free.of(after.temperature, after.share)
-        energy = solids.of_parts(-last * held)
-        lost = solids.of_parts(-meanwhile * (held - before)) - (energy - slab.start.energy)
-        both = solids.on_all(meanwhile)[:, 0]
-        mean = slab.first * self.time.strained.force(both, dim) + (1.0 - slab.first) * self.end.force(both, dim)
+        after, moduli, amounts = result.after, solids.moduli, self.start + self.change
+        over = solids.on_every(moduli.between(before, after, result.mean))
+        last = moduli.potentials(after.temperature, after.share)
+        energy = solids.of_parts((beside_law(last) * amounts).sum(axis=0))
+        lost = solids.of_parts(result.work - self.change[1]) - (energy - slab.start.energy)
+        mean = slab.first * self.time.strained.force(over, dim) + (1.0 - slab.first) * self.end.force(over, dim)
+        entropies = -moduli.slopes(after.temperature, after.share) * amounts
+        initial = -moduli.slopes(before.temperature, before.share) * self.start
         rub = float(heat.sum())
         account = HeatOfSlab(
-            content=float(after.content.sum() + (free.coefficient * after.temperature) @ held),
+            content=float(after.content.sum() + (after.temperature * entropies).sum()),
             brought=float(self.time.jumped.sum() + result.heats.sum() - through[self.time.contacts.with_tools].sum()),
             received=float(lost.sum() + self.given.sum()) + rub,
             stored=self.spent - float(self.given.sum()),
             produced=float(result.produced.sum()) + result.reservoirs,
-            passed=float(result.turned.sum() + np.abs(free.coefficient * (held - before)).sum()),
+            passed=float(result.turned.sum() + np.abs(entropies - initial).sum()),
             rounding=result.rounding / float(after.temperature.min()),
             rubbed=rub,
             through=through + taken,
@@ -171,8 +177,7 @@ class SlabTemperature:
         )
         end = FieldState(
             values=solids.on_all(after.temperature), energy=energy,
-            force=self.end.force(solids.on_all(last)[:, 0], dim),
-            abrupt=self.time.contacts.change(slab.contact),
+            force=self.end.force(solids.on_every(last), dim), abrupt=self.time.contacts.change(slab.contact),
             unknowns=np.zeros(0) if solids.model.linear else after.unknowns,
         )  # fmt: skip
         return FieldSolution(end=end, mean_force=mean, lost=lost, account=account)
@@ -182,21 +187,20 @@ class SlabTemperature:
 
         Gaps radiate at the mean temperature of a first solution.
         """
-        time, span, (before, held), free = self.time, self.slab.span, self.held, self.solids.free
-        mean = logarithmic_mean if self.solids.inert else arithmetic_mean
-        strain = StrainHeat(
-            power=(self.given + rubbed) / span, entropy=free.coefficient * (held - before) / span,
-            freezing=free.melting * 0.5 * (before + held), mean=mean,
+        time, span = self.time, self.slab.span
+        strain = ElasticHeat(
+            moduli=self.solids.moduli, amounts=self.start, rates=self.change / span,
+            power=(self.given + rubbed) / span, inert=self.solids.inert,
         )  # fmt: skip
         stage = Stage(start=time.start, span=span, theta=1.0 if time.damped else 0.5, strain=strain)
-        at, loose, guess = time.before.temperature, self.solids.model.free_nodes(), None
+        at, free, guess = time.before.temperature, self.solids.model.free_nodes(), None
         if self.slab.expected is not None and len(self.slab.expected.unknowns):
             guess = self.slab.expected.unknowns
         for _ in range(1 + time.contacts.radiates):
             found, ties = self._exchanges(at), self.solids.model.exchanges
             across = tuple(found.values())
             model = replace(self.solids.model, exchanges=(*ties, *across))
-            factor = None if time.factor is None else time.factor.linked(across, loose)
+            factor = None if time.factor is None else time.factor.linked(across, free)
             try:
                 result = solve_slab(model, time.before, stage, time.halves, factor, guess=guess)
             except NumericsError as error:

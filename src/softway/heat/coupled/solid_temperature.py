@@ -10,10 +10,12 @@ from softway.bodies.assembled.material_states import MaterialStates
 from softway.bodies.discretised import DiscreteSolid
 from softway.heat.coupled.contact_exchange import ContactExchange
 from softway.heat.coupled.dissipation import Dissipation
-from softway.heat.coupled.expansion import Expansion, strained
-from softway.heat.coupled.free_strain import FreeStrain
 from softway.heat.coupled.point_temperature import PointTemperature, after_jumps, warmed
 from softway.heat.coupled.slab_temperature import SlabTemperature, TimeOfSlab
+from softway.heat.coupled.strain.deformed import Deformed, beside_law, deformed
+from softway.heat.coupled.strain.expansion import Expansion
+from softway.heat.coupled.strain.moduli import Moduli
+from softway.heat.coupled.strain.stored import Elastic
 from softway.heat.heat_balance import put_at_once
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_plan import knots
@@ -38,10 +40,12 @@ class SolidTemperature:
         Numbers of the nodes n and of the solids.
     part
         (k,) number of the solid of each node.
-    free
-        Free strain of the nodes.
+    moduli
+        Potentials of the strain of the k nodes.
     expansions
-        Expansions of the laws.
+        Thermal expansions.
+    elastic
+        Elements whose moduli depend on the temperature.
     contacts
         Heat across contacts.
     dissipations
@@ -59,10 +63,11 @@ class SolidTemperature:
     count: int
     parts: int
     part: IntArray
-    free: FreeStrain
+    moduli: Moduli
     expansions: tuple[Expansion, ...]
     contacts: ContactExchange
     inert: bool
+    elastic: tuple[Elastic, ...] = ()
     dissipations: tuple[Dissipation, ...] = ()
     softened: tuple[PointTemperature, ...] = ()
     time: TimeOfSlab | None = None
@@ -91,25 +96,34 @@ class SolidTemperature:
         before, jumped, _ = put_at_once(self.model, before, ends[0])
         time = TimeOfSlab(
             start=ends[0], end=ends[1], solids=parts, contacts=self.contacts.at(u0), damped=damped,
-            halves=damped and self.inert, before=before, jumped=jumped, strained=strained(self.expansions, u0),
+            halves=damped and self.inert, before=before, jumped=jumped, strained=self._deformed(u0),
             factor=factor,
         )  # fmt: skip
         return replace(self, time=time)
 
     def at(self, values: Array, u: Array) -> FieldState:
         """State with the temperatures ``values`` (n, 1) at the displacement ``u`` (n, d)."""
-        free, shape = self._free(values), strained(self.expansions, u)
-        energy = self.of_parts(-free * shape.held()[self.nodes])
-        temperature = values[self.nodes, 0]
+        shape, now = self._deformed(u), self.contents(values)
+        found = self.moduli.potentials(now.temperature, now.share)
+        energy = self.of_parts((beside_law(found) * shape.amounts()[:, self.nodes]).sum(axis=0))
         return FieldState(
-            values=values, energy=energy, force=shape.force(self.on_all(free)[:, 0], u.shape[1]),
-            unknowns=np.zeros(0) if self.model.linear else unknowns_of(self.model, temperature),
+            values=values, energy=energy, force=shape.force(self.on_every(found), u.shape[1]),
+            unknowns=np.zeros(0) if self.model.linear else now.unknowns,
         )  # fmt: skip
+
+    def stiffness_factor(self, state: FieldState) -> Array | None:
+        """Factor (n,) of the stiffness of the nodes; None if the moduli do not depend on the temperature."""
+        if not self.elastic:
+            return None
+        out = np.ones(self.count)
+        out[self.nodes] = self.moduli.factor(state.values[self.nodes, 0])
+        return out
 
     def solver(self, slab: FieldSlab) -> SlabTemperature:
         """Solver of the temperature at the end of a slab, from the energies (m,) that friction dissipates [J]."""
         assert self.time is not None
-        end = strained(self.expansions, slab.u1)
+        end, start = self._deformed(slab.u1), self.time.strained.amounts()[:, self.nodes]
+        change = end.amounts()[:, self.nodes] - start
         out, spent = np.zeros(self.count), 0.0
         for dissipation in self.dissipations:
             energy = dissipation.energy(self.time.solids, slab.u1)
@@ -117,7 +131,7 @@ class SolidTemperature:
             spent += float(energy.sum())
         return SlabTemperature(
             solids=self, time=self.time, slab=slab, sides=self.time.contacts.sides(slab.contact), end=end,
-            held=(self.time.strained.held()[self.nodes], end.held()[self.nodes]), given=out[self.nodes], spent=spent,
+            start=start, change=change, given=out[self.nodes], spent=spent,
         )  # fmt: skip
 
     def solve(self, slab: FieldSlab) -> FieldSolution:
@@ -132,8 +146,9 @@ class SolidTemperature:
 
     def content(self, values: Array, u: Array) -> float:
         """Heat content [J] of temperatures ``values`` (n, 1): internal energy less the energy of the field."""
-        of_strain = self.free.coefficient * strained(self.expansions, u).held()[self.nodes]
-        return float(self.contents(values).content.sum() + values[self.nodes, 0] @ of_strain)
+        now = self.contents(values)
+        entropies = -self.moduli.slopes(now.temperature, now.share) * self._deformed(u).amounts()[:, self.nodes]
+        return float(now.content.sum() + (now.temperature * entropies).sum())
 
     def contents(self, values: Array) -> HeatValues:
         """Temperatures and contents of the nodes with heat at the temperatures ``values`` (n, 1) [K]."""
@@ -156,19 +171,22 @@ class SolidTemperature:
         return warmed(states, self.softened, values[:, 0], following[:, 0], span)
 
     def stress(self, solid: str, cells: int, values: Array, u: Array) -> Array:
-        """Mean thermal stress (cells, 3, 3) [Pa] of a solid, with the ``values`` (n, 1) of all solids [K] at the
-        displacement ``u`` (n, d) [m].
+        """Mean stress (cells, 3, 3) of a solid [Pa] that the temperature adds to that of the law, with the ``values``
+        (n, 1) of all solids [K] at the displacement ``u`` (n, d) [m].
         """
-        out, free = np.zeros((cells, 3, 3)), self.on_all(self._free(values))[:, 0]
+        now = self.contents(values)
+        out, found = np.zeros((cells, 3, 3)), self.on_every(self.moduli.potentials(now.temperature, now.share))
         for expansion in self.expansions:
             if expansion.solid == solid:
-                out[expansion.cells] = expansion.stress(free, u)
+                out[expansion.cells] = expansion.stress(-found[0], u)
+        for elastic in self.elastic:
+            if elastic.solid == solid:
+                out[elastic.cells] += elastic.stress(beside_law(found)[1], u)
         return out
 
-    def _free(self, values: Array) -> Array:
-        """Free strains (k,) at the temperatures ``values`` (n, 1) [K]."""
-        share = self.contents(values).share if self.free.melting.any() else 0.0
-        return self.free.of(values[self.nodes, 0], share)
+    def _deformed(self, u: Array) -> Deformed:
+        """Solids at the displacement ``u`` (n, d) [m]."""
+        return deformed(self.expansions, self.elastic, u)
 
     def of_parts(self, values: Array) -> Array:
         """Sums (parts,) over the nodes of each solid of values (k,)."""
@@ -178,6 +196,12 @@ class SolidTemperature:
         """Values (n, 1) on all nodes from those (k,) with heat."""
         out = np.zeros((self.count, 1))
         out[self.nodes, 0] = values
+        return out
+
+    def on_every(self, potentials: Array) -> Array:
+        """Potentials (2, n) on all nodes from those (2, k) with heat; on others those of the law."""
+        out = np.stack([np.zeros(self.count), np.ones(self.count)])
+        out[:, self.nodes] = potentials
         return out
 
 

@@ -2,6 +2,7 @@
 
 from softway.laws.heat.conduction import Conduction as Conduction
 from softway.laws.heat.conduction import Latent as Latent
+from softway.laws.heat.stiffness_table import StiffnessTable as StiffnessTable
 from softway.laws.heat.temperature_table import TemperatureTable as TemperatureTable
 
-__all__ = ["Conduction", "Latent", "TemperatureTable"]
+__all__ = ["Conduction", "Latent", "StiffnessTable", "TemperatureTable"]

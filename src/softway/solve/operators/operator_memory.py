@@ -68,7 +68,7 @@ class OperatorOrigin:
             stiffness_factor=matrix.stiffness_factor,
             viscous_factor=matrix.viscous_factor,
             positive_definite=matrix.positive_definite,
-            fields=system.start.fields if system.model.bonds else (),
+            fields=system.start.fields if _dependent(system.model) else (),
         )
 
     def stiffness(self, model: Model) -> SlabMatrix:
@@ -79,6 +79,11 @@ class OperatorOrigin:
             viscous_factor=self.viscous_factor,
             positive_definite=self.positive_definite,
         )
+
+
+def _dependent(model: Model) -> bool:
+    """True if the operator depends on companion fields: on the damage of ties, or on temperatures."""
+    return bool(model.bonds) or any(part.factor is not None for part in model.parts)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -110,6 +110,8 @@ def freezing(mesh: sw.Mesh) -> object:
     return sw.build(sw.Scene(bodies={"b": part}))
 
 
+PLASTIC = sw.J2(E=1.0, nu=0.3, yield_stress=0.1)
+SOFTER = heat.StiffnessTable(temperatures=(300.0, 900.0), values=(1.0, 0.5))
 FINE = rectangle((1.0, 1.0), (4, 4))
 CONDUCTS = heat.ContactHeat(conductance=1.0)
 
@@ -171,6 +173,11 @@ TABLE: Table = {
         lambda: solids(mesh=HALVES, material=dict.fromkeys("ac", STEEL), density={"a": 1.0, "c": 2.0}),
         "one density for the body",
         lambda: solids(mesh=HALVES, material=dict.fromkeys("ac", STEEL)),
+    ),
+    "moduli of a law with a history": call(
+        lambda: solids(material=PLASTIC, thermal=thermal(stiffness=SOFTER)),
+        "a law with a stored energy",
+        lambda: solids(thermal=thermal(stiffness=SOFTER)),
     ),
     "a share above one": call(lambda: thermal(heating=2.0), "a share from 0 to 1", thermal),
     "a melting strain of what does not melt": call(

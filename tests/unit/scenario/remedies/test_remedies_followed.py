@@ -82,7 +82,7 @@ REASONS = {
     "contact/assembly/methods.py: with_tool": "a closed surface that a tie covers: no rim is left",
     "contact/surfaces/boundary.py: __post_init__": INNER,
     "scenario/checks/check.py: _model": "ties of a mesh file: tests/unit/meshes/files/abaqus/test_ties.py",
-    "heat/coupled/expansion.py: thermal_stiffness": "a law of one's own without resistance to a change of volume",
+    "heat/coupled/strain/expansion.py: thermal_stiffness": "a law of one's own that does not resist a change of volume",
     "march/march_state.py: fitting": "a state of another scene, from Python",
     "march/model_state.py: join_states": "a state of another scene, from Python",
     "march/rules/slab_rule.py: require_nodal": "unknowns from Python: tests/contracts/test_own_dofs.py",

@@ -1,0 +1,42 @@
+"""Solids with a temperature at a displacement: what their strain stores, and its forces."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.heat.coupled.strain.expansion import Expansion, Strained, strained
+from softway.heat.coupled.strain.stored import Elastic, StoredEnergies, stored_energies
+
+
+def beside_law(potentials: Array) -> Array:
+    """What potentials (2, ...) add to those of the law itself, whose energy and force the motion has.
+
+    Examples
+    --------
+    >>> beside_law(np.array([[-10.0], [0.75]])).tolist()
+    [[-10.0], [-0.25]]
+    """
+    return np.stack([potentials[0], potentials[1] - 1.0])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Deformed:
+    """Solids with n nodes at a displacement."""
+
+    strained: Strained
+    stored: StoredEnergies
+
+    def amounts(self) -> Array:
+        """Energy that a free strain of one would take and elastic energy, (2, n) at the nodes [J]."""
+        return np.stack([self.strained.held(), self.stored.nodal()])
+
+    def force(self, potentials: Array, dim: int) -> Array:
+        """Forces (n, d) [N] that potentials (2, n) add to those of the law."""
+        out = self.strained.force(-potentials[0], dim)
+        return out + self.stored.force(beside_law(potentials)[1], dim) if self.stored.terms else out
+
+
+def deformed(expansions: tuple[Expansion, ...], elastic: tuple[Elastic, ...], u: Array) -> Deformed:
+    """Solids at the displacement ``u`` (n, d) [m]."""
+    return Deformed(strained(expansions, u), stored_energies(elastic, u))
