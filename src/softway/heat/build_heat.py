@@ -9,7 +9,8 @@ import scipy.sparse as sp
 from softway.arrays import Array, IntArray
 from softway.bodies.conductor import Conductor, sample_temperature
 from softway.bodies.elements.section import Axisymmetric, Section, check_section, default_section
-from softway.bodies.inertia.mass_matrix import Body, Lumped, body_of, nodal_mass
+from softway.bodies.inertia.mass_matrix import Body, body_of
+from softway.bodies.inertia.nodal_heat import heat_masses, heated_volumes
 from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, Radiation, Temperature, place_of, surface_points
 from softway.errors import InputError, within
 from softway.heat.heat_contact import HeatContact, HeatExchange, heat_exchange
@@ -71,7 +72,7 @@ def heat_model(
             with within("temperature"):
                 initial.append(sample_temperature(body.temperature, part.mesh))
         parts.append(part)
-        masses.append(nodal_mass(part.mesh, body.density, section, Lumped()).diagonal())
+        masses.append(heat_masses(part.mesh, section, body.density))
         n, e = part.nodes.stop, part.cells.stop
     surfaces, sources, held = _loads(bodies, loads, {part.name: part for part in parts}, n)
     exchanges = _exchanges(bodies, contacts, parts, n)
@@ -221,12 +222,8 @@ def _ordered(loads: Mapping[int, HeatLoad]) -> tuple[tuple[int, HeatLoad], ...]:
 
 
 def _source(part: HeatPart, section: Section, region: str, n: int) -> Array:
-    """Integrals (n,) of the shape functions over the cells of a region [m^3]."""
-    inside = np.zeros(part.mesh.n_cells)
+    """Volumes (n,) of the nodes in a region [m^3]."""
+    inside, out = np.zeros(part.mesh.n_cells), np.zeros(n)
     inside[part.mesh.cells(region)] = 1.0
-    out, first = np.zeros(n), 0
-    for table, nodes, volume in body_of(part.mesh, section, 1.0).blocks:
-        kept = volume * inside[first : first + len(nodes), None]
-        np.add.at(out, nodes + part.nodes.start, kept @ table.N)
-        first += len(nodes)
+    out[part.nodes] = heated_volumes(part.mesh, section, inside)
     return out

@@ -24,9 +24,6 @@ from softway.model.build import with_field
 from softway.model.model import Model
 from softway.model.scene import Scene
 
-UNEVEN = frozenset({"tri6", "quad8", "tet10", "hex20"})
-"""Cells whose nodal capacities are not the integrals of their shape functions."""
-
 
 def build(scene: Scene) -> Model:
     """Build the model of a scene: meshes, tables, mass, contacts, and the temperature of solids with heat.
@@ -72,8 +69,6 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
                 found.extend(expansions(part, thermals[name].expansion))
             number = list(model.meshes).index(name)
             spent.extend(dissipations(number, part, thermals[name].heating))
-            if thermals[name].expansion or any(one.solid == number for one in spent):
-                _require_quadrature(part)
     heat = heat_model(conductors, loads)
     nodes = np.concatenate([np.arange(part.nodes.start, part.nodes.stop) for part in parts.values()])
     heat = replace(heat, exchanges=tuple(through_ties(model, thermals, nodes)))
@@ -105,14 +100,6 @@ def _conductor(part: DiscreteSolid, thermal: Thermal) -> Conductor:
         mesh=part.mesh, law=thermal.law, density=part.materials.densities[0], section=part.internal.section,
         temperature=thermal.temperature,
     )  # fmt: skip
-
-
-def _require_quadrature(part: DiscreteSolid) -> None:
-    """Refuse heat of strain in cells whose nodal capacities are not the integrals of their shape functions."""
-    for cell in part.mesh.blocks:
-        if cell in UNEVEN:
-            problem = f"heat of strain in {cell} cells, whose nodes it would heat unevenly"
-            raise InputError("thermal", problem, "linear cells, bar3, quad9 or hex27; or expansion and heating zero")
 
 
 def _require_temperature(scene: Scene) -> None:

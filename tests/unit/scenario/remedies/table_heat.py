@@ -158,9 +158,6 @@ TABLE: Table = {
         lambda: heat.ContactHeat(gas=0.03, roughness=1e-6),
     ),
     "expansion of fibres": call(lambda: solids(material=FIBRES), "an isotropic law", solids),
-    "expansion of quadratic cells": call(
-        lambda: solids(mesh=rectangle((1.0, 1.0), (1, 1), cell="tri6")), "linear cells", solids
-    ),
     "densities of a solid with heat": call(
         lambda: solids(mesh=HALVES, material=dict.fromkeys("ac", STEEL), density={"a": 1.0, "c": 2.0}),
         "one density for the body",
