@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from softway.arrays import Array, IntArray
+from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.elements.heat_functions import QUADRATIC, heat_functions
 from softway.bodies.elements.quadrature import sampled_cells
 from softway.bodies.elements.section import Section
@@ -12,7 +12,7 @@ from softway.bodies.inertia.mass_matrix import Body, Lumped, assembled, body_of
 from softway.meshes.mesh import Mesh
 
 
-def heat_masses(mesh: Mesh, section: Section, density: float | Array) -> Array:
+def heat_masses(mesh: Mesh, section: Section, density: float | Array, inside: BoolArray | None = None) -> Array:
     """Masses (n,) of the nodes [kg] that hold the heat: the lumped mass, or the integrals of the functions of heat.
 
     Parameters
@@ -21,6 +21,8 @@ def heat_masses(mesh: Mesh, section: Section, density: float | Array) -> Array:
         Mesh of the body, and section of its elements.
     density
         Mass per reference volume [kg/m^3], positive; one number, or one for each element (e,).
+    inside
+        (e,) elements that count; all by default.
 
     Examples
     --------
@@ -29,10 +31,15 @@ def heat_masses(mesh: Mesh, section: Section, density: float | Array) -> Array:
     >>> heat_masses(rectangle((1.0, 1.0), (1, 1), cell="quad8"), PlaneStrain(), 76.0).round(9).tolist()
     [3.0, 16.0, 3.0, 16.0, 16.0, 3.0, 16.0, 3.0]
     """
-    body = body_of(mesh, section, density)
-    others = Body(mesh, tuple(block for block in body.blocks if block[0].cell not in QUADRATIC))
-    out = np.array(assembled(others, Lumped(), np.ones(mesh.n_nodes)).diagonal())
-    for nodes, volume in _spread(mesh, section, np.broadcast_to(np.asarray(density, float), mesh.n_cells)):
+    chosen, first = [], 0
+    for table, nodes, mass in body_of(mesh, section, density).blocks:
+        mine = slice(None) if inside is None else inside[first : first + len(nodes)]
+        if table.cell not in QUADRATIC:
+            chosen.append((table, nodes[mine], mass[mine]))
+        first += len(nodes)
+    out = np.array(assembled(Body(mesh, tuple(chosen)), Lumped(), np.ones(mesh.n_nodes)).diagonal())
+    weight = np.broadcast_to(np.asarray(density, float), mesh.n_cells)
+    for nodes, volume in _spread(mesh, section, weight if inside is None else weight * inside):
         np.add.at(out, nodes, volume)
     return out
 

@@ -18,6 +18,7 @@ from softway.heat.coupled.expansion import Expansion, expansions
 from softway.heat.coupled.point_temperature import after_jumps, point_temperatures, starting
 from softway.heat.coupled.solid_temperature import SolidTemperature
 from softway.heat.coupled.through_ties import through_ties
+from softway.heat.regional_laws import regional_laws
 from softway.laws.law import softens
 from softway.model.build import build as mechanical
 from softway.model.build import with_field
@@ -76,7 +77,8 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
     sizes = [part.mesh.n_nodes for part in heat.parts]
     reference = [np.full(size, one) if one else None for size, one in zip(sizes, given, strict=True)]
     own = [heat.initial[p.nodes] if r is None else r for p, r in zip(heat.parts, reference, strict=True)]
-    effusivity = {name: thermals[name].law.effusivity(body.density) for name, body in conductors.items()}
+    pairs = ((part, regional_laws(conductors[part.name], part.mesh)) for part in heat.parts)
+    effusivity = {part.name: laws.effusivity(part.mesh, part.volume) for part, laws in pairs}
     numbered = [(list(model.meshes).index(name), part) for name, part in parts.items()]
     softened = tuple(point for k, part in numbered for point in point_temperatures(k, part))
     equations = SolidTemperature(
@@ -94,10 +96,11 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
 
 def _conductor(part: DiscreteSolid, thermal: Thermal) -> Conductor:
     """The solid as a conductor of heat."""
-    if len(set(part.materials.densities)) != 1:
-        raise InputError("density", "densities by regions of a solid with heat", "one density for the body")
+    materials = part.materials
+    uniform = len(set(materials.densities)) == 1
+    density = materials.densities[0] if uniform else dict(zip(materials.regions, materials.densities, strict=True))
     return Conductor(
-        mesh=part.mesh, law=thermal.law, density=part.materials.densities[0], section=part.internal.section,
+        mesh=part.mesh, law=thermal.law, density=density, section=part.internal.section,
         temperature=thermal.temperature,
     )  # fmt: skip
 
