@@ -20,8 +20,7 @@ from softway.heat.coupled.solid_temperature import SolidTemperature
 from softway.heat.coupled.through_ties import through_ties
 from softway.heat.regional_laws import regional_laws
 from softway.laws.law import softens
-from softway.model.build import build as mechanical
-from softway.model.build import with_field
+from softway.model.build import mechanical, with_field
 from softway.model.model import Model
 from softway.model.scene import Scene
 

@@ -10,6 +10,7 @@ from try_it import Call, Table, Try
 import softway as sw
 from softway.bodies.conductor import sample_temperature
 from softway.meshes.generators.shapes import box, interval, rectangle
+from softway.model.build import build as motion_alone
 
 heat = sw.heat
 LAW = heat.Conduction(conductivity=1.0, capacity=1.0)
@@ -117,6 +118,12 @@ def resting(given: object = CONDUCTS, thermals: tuple[bool, bool] = (True, True)
     }
     meets = sw.Contact(**{"between": ("a.right", "b.left"), "heat": given, **contact})  # type: ignore[arg-type]
     return sw.build(sw.Scene(bodies=bodies, contacts=(meets,)))
+
+
+def moving(heated: sw.bodies.Thermal | None) -> object:
+    """Model of the motion of a square alone."""
+    solid = sw.Solid(mesh=SQUARE, material=STEEL, density=1.0, thermal=heated)
+    return motion_alone(sw.Scene(bodies={"b": solid}))
 
 
 def halves(*laws: sw.heat.Conduction, cell: str = "quad4", **given: object) -> object:
@@ -257,6 +264,7 @@ TABLE: Table = {
         "'node', or hex27",
         lambda: built(law=MELTS, mesh=box((1.0,) * 3, (1, 1, 1), cell="hex20"), latent="node"),
     ),
+    "heat in a model of the motion": call(lambda: moving(thermal()), "a scene without heat", lambda: moving(None)),
     "no law of conduction": call(lambda: halves(), "a law for each region", lambda: halves(LAW, LAW)),
     "half a law of conduction": call(lambda: halves(LAW), "a law for c", lambda: halves(LAW, LAW)),
     "no density of a region": call(
