@@ -1,6 +1,6 @@
 """Description of heat: of a body that conducts it and does not move, and of a solid that does move."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
@@ -29,9 +29,9 @@ class Conductor:
     mesh
         Mesh, or recipe of a mesh.
     law
-        Law of conduction.
+        Law of conduction; or laws by regions of the mesh.
     density
-        Mass per volume [kg/m^3], positive.
+        Mass per volume [kg/m^3], positive; or one for each of some regions that contain all cells.
     section
         Section of the elements; by default bar of unit area, a slice of unit thickness, or volume.
     temperature
@@ -43,7 +43,7 @@ class Conductor:
     Raises
     ------
     InputError
-        If the density is not positive, or there is no such place of latent heat.
+        If a density is not positive, there is no law, or no such place of latent heat.
 
     Examples
     --------
@@ -55,14 +55,17 @@ class Conductor:
     """
 
     mesh: MeshSource | Mesh
-    law: Conduction
-    density: KilogramPerCubicMetre
+    law: Conduction | Mapping[str, Conduction]
+    density: KilogramPerCubicMetre | Mapping[str, KilogramPerCubicMetre]
     section: Section | None = None
     temperature: Annotated[TemperatureField, "K"]
     latent: Literal["cell", "node"] = "cell"
 
     def __post_init__(self) -> None:
-        positive(density=self.density)
+        _require_law(self.law)
+        densities = self.density if isinstance(self.density, Mapping) else {"": self.density}
+        for region, density in densities.items():
+            positive(**{f"density.{region}" if region else "density": density})
         if self.latent not in ("cell", "node"):
             raise InputError("latent", f"{self.latent!r}", "'cell' or 'node'")
 
@@ -74,8 +77,9 @@ class Thermal:
     Parameters
     ----------
     law
-        Law of conduction.  The capacity is that at constant strain.  Latent heat is in the cells that the temperature
-        of melting cuts, or at the nodes over a mushy range.
+        Law of conduction, or laws by regions of the mesh, which need not be those of the material.  The capacity is
+        that at constant strain.  Latent heat is in the cells that the temperature of melting cuts, or at the nodes over
+        a mushy range.
     temperature
         Initial temperature [K]: a number, a profile of numbers, nodal values (n,), or a function of the points (n, d).
     expansion
@@ -104,7 +108,7 @@ class Thermal:
     True
     """
 
-    law: Conduction
+    law: Conduction | Mapping[str, Conduction]
     temperature: Annotated[TemperatureField, "K"]
     expansion: PerKelvin = 0.0
     melting_strain: Pure = 0.0
@@ -115,12 +119,31 @@ class Thermal:
     def __post_init__(self) -> None:
         real(self.expansion, "expansion")
         real(self.melting_strain, "melting_strain")
-        if self.melting_strain and self.law.latent is None:
+        _require_law(self.law)
+        melts = any(law.latent is not None for law in conduction_laws(self.law).values())
+        if self.melting_strain and not melts:
             raise InputError("melting_strain", "of matter that does not melt", "law.latent, or no melting_strain")
         if self.reference is not None:
             positive(reference=self.reference)
         if self.heating is not None and not 0.0 <= self.heating <= 1.0:
             raise InputError("heating", f"{self.heating:g}", "a share from 0 to 1")
+
+
+def conduction_laws(law: Conduction | Mapping[str, Conduction]) -> Mapping[str, Conduction]:
+    """Laws by regions; one law has an empty name.
+
+    Examples
+    --------
+    >>> list(conduction_laws(Conduction(conductivity=1.0, capacity=1.0)))
+    ['']
+    """
+    return law if isinstance(law, Mapping) else {"": law}
+
+
+def _require_law(law: Conduction | Mapping[str, Conduction]) -> None:
+    """Refuse a table of no law."""
+    if not conduction_laws(law):
+        raise InputError("law", "no law", "one law, or a law for each region of the mesh")
 
 
 def sample_temperature(field: TemperatureField, mesh: Mesh) -> Array:

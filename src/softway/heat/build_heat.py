@@ -9,17 +9,18 @@ import scipy.sparse as sp
 from softway.arrays import Array, IntArray
 from softway.bodies.conductor import Conductor, sample_temperature
 from softway.bodies.elements.section import Axisymmetric, Section, check_section, default_section
-from softway.bodies.inertia.mass_matrix import Body, Lumped, body_of, nodal_mass
+from softway.bodies.inertia.mass_matrix import body_of
+from softway.bodies.inertia.nodal_heat import heated_volumes
 from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, Radiation, Temperature, place_of, surface_points
 from softway.errors import InputError, within
 from softway.heat.heat_contact import HeatContact, HeatExchange, heat_exchange
 from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, HeatSurface, Simplices
 from softway.heat.operators import heat_flow, heat_values, unknowns_of
 from softway.heat.phase import simplices_of
+from softway.heat.regional_laws import RegionalLaws, regional_laws
 from softway.kernels.assembly.assembler import assembler
 from softway.kernels.geometry.jacobians import cell_geometry
 from softway.laws.heat.conduction import Conduction
-from softway.laws.heat.heat_content import content_curve
 from softway.laws.heat.temperature_table import value_at
 from softway.meshes.element import element, exact_degree, stiffness_degree
 from softway.meshes.mesh import Mesh
@@ -65,17 +66,18 @@ def heat_model(
     masses, initial, n, e = [], [], 0, 0
     for name, body in bodies.items():
         with within(f"bodies.{name}"):
-            part, section, quadrature = _part(name, body, n, e)
-            cells.extend(_cells(part, section))
-            simplices.extend(_simplices(part, section, quadrature))
+            part, section, laws, mass = _part(name, body, n, e)
+            cells.extend(_cells(part, section, laws))
+            simplices.extend(_simplices(part, section, laws))
             with within("temperature"):
                 initial.append(sample_temperature(body.temperature, part.mesh))
         parts.append(part)
-        masses.append(nodal_mass(part.mesh, body.density, section, Lumped()).diagonal())
+        masses.append(mass)
         n, e = part.nodes.stop, part.cells.stop
     surfaces, sources, held = _loads(bodies, loads, {part.name: part for part in parts}, n)
     exchanges = _exchanges(bodies, contacts, parts, n)
-    linear = all(p.law.constant for p in parts) and not any(isinstance(s.load, Radiation) for s in surfaces)
+    constant = all(c.law.constant for c in cells)
+    linear = constant and not any(isinstance(s.load, Radiation) for s in surfaces)
     model = HeatModel(
         parts=tuple(parts), cells=tuple(cells), simplices=tuple(simplices), mass=np.concatenate(masses),
         pattern=assembler([c.nodes for c in cells], n, 1), surfaces=surfaces, sources=sources, held=held,
@@ -83,7 +85,7 @@ def heat_model(
         ordered=_ordered(loads),
         initial=np.concatenate(initial), linear=linear, latent=_latent(simplices, n), n_cells=e,
     )  # fmt: skip
-    if not all(p.law.constant for p in parts):
+    if not constant:
         return model
     capacity = heat_values(model, unknowns_of(model, model.initial)).capacity
     conduction = heat_flow(model, model.initial, np.zeros(e), slopes=True)[1]
@@ -97,67 +99,62 @@ def section_of(body: Conductor, mesh: Mesh) -> Section:
     return section
 
 
-def _part(name: str, body: Conductor, n: int, e: int) -> tuple[HeatPart, Section, Body]:
-    """Body with its first node ``n`` and its first cell ``e``."""
+def _part(name: str, body: Conductor, n: int, e: int) -> tuple[HeatPart, Section, RegionalLaws, Array]:
+    """Body with its first node ``n`` and its first cell ``e``, and the masses of its nodes [kg]."""
     with within("mesh"):
         mesh = body.mesh if isinstance(body.mesh, Mesh) else body.mesh.build()
-    section = section_of(body, mesh)
-    melts = body.law.latent
+    section, laws = section_of(body, mesh), regional_laws(body, mesh)
+    melts = laws.first.latent
     at_nodes = melts is not None and (body.latent == "node" or melts.half_range > 0.0)
     if melts is not None and not at_nodes and "hex20" in mesh.blocks:
         raise InputError("latent", "'cell' in hex20, which have no simplices between their nodes", "'node', or hex27")
-    quadrature = body_of(mesh, section, body.density)
+    quadrature, masses = body_of(mesh, section, laws.density), laws.masses(mesh, section)
     part = HeatPart(
-        name=name, mesh=mesh, nodes=slice(n, n + mesh.n_nodes), cells=slice(e, e + mesh.n_cells), law=body.law,
-        curve=content_curve(body.law, latent=at_nodes), at_nodes=at_nodes,
+        name=name, mesh=mesh, nodes=slice(n, n + mesh.n_nodes), cells=slice(e, e + mesh.n_cells), law=laws.first,
+        curve=laws.curve(masses, at_nodes), at_nodes=at_nodes,
         zero=0.0 if melts is None else melts.melting, mixed=melts is not None and "hex20" in mesh.blocks,
-        volume=np.concatenate([mass.sum(axis=1) for _, _, mass in quadrature.blocks]) / body.density,
+        volume=np.concatenate([mass.sum(axis=1) for _, _, mass in quadrature.blocks]) / laws.density,
     )  # fmt: skip
-    return part, section, quadrature
+    return part, section, laws, np.asarray(sum(masses[1:], masses[0]))
 
 
-def _cells(part: HeatPart, section: Section) -> list[HeatCells]:
-    """Cells of a body by type."""
-    found, first = [], part.cells.start
-    round_axis = 2 if isinstance(section, Axisymmetric) else 0
-    for name, nodes in part.mesh.blocks.items():
-        degree = stiffness_degree(name) if part.law.constant else exact_degree(name)
-        table, x = element(name, degree + round_axis), part.mesh.points[nodes]
-        gradients, measures, _ = cell_geometry(x, table.dN, table.weights)
-        volume = measures * section.measure(np.einsum("qa,ead->eqd", table.N, x))
-        numbers = first + np.arange(len(nodes))
-        nodes = nodes + part.nodes.start
-        with within("law"):
-            for law in (part.law, part.law.liquid):
-                law.along_axes(np.ones(1), gradients.shape[-1])
-        found.append(
-            HeatCells(law=part.law, nodes=nodes, N=table.N, gradients=gradients, volume=volume, numbers=numbers)
-        )
-        first += len(nodes)
+def _cells(part: HeatPart, section: Section, laws: RegionalLaws) -> list[HeatCells]:
+    """Cells of a body by type and law."""
+    found, first = [], 0
+    for name, block in part.mesh.blocks.items():
+        for law, own in laws.cells(first, len(block)):
+            found.append(_of_law(part, section, law, name, own, first))
+        first += len(block)
     return found
 
 
-def _simplices(part: HeatPart, section: Section, quadrature: Body) -> list[Simplices]:
+def _of_law(
+    part: HeatPart, section: Section, law: Conduction, name: str, own: IntArray | slice, first: int
+) -> HeatCells:
+    """Cells ``own`` of a type, whose first one is the cell ``first`` of the body, with their law."""
+    degree = stiffness_degree(name) if law.constant else exact_degree(name)
+    block = part.mesh.blocks[name]
+    nodes, numbers = block[own], part.cells.start + first + np.arange(len(block))[own]
+    table, x = element(name, degree + (2 if isinstance(section, Axisymmetric) else 0)), part.mesh.points[nodes]
+    gradients, measures, _ = cell_geometry(x, table.dN, table.weights)
+    volume = measures * section.measure(np.einsum("qa,ead->eqd", table.N, x))
+    with within("law"):
+        for phase in (law, law.liquid):
+            phase.along_axes(np.ones(1), gradients.shape[-1])
+    nodes = nodes + part.nodes.start
+    return HeatCells(law=law, nodes=nodes, N=table.N, gradients=gradients, volume=volume, numbers=numbers)
+
+
+def _simplices(part: HeatPart, section: Section, laws: RegionalLaws) -> list[Simplices]:
     """Simplices of a body that melts by their number of corners; their masses add up to those of the cells."""
     if part.law.latent is None or part.mixed:
         return []
-    found, first = [], part.cells.start
-    for table, nodes, mass in quadrature.blocks:
-        local = np.array(simplices_of(table.cell))
-        corners = part.mesh.points[nodes][:, local]
-        edges = corners[:, :, 1:] - corners[:, :, :1]
-        size = np.sqrt(np.linalg.det(edges @ np.swapaxes(edges, -1, -2)))
-        size = size * section.measure(corners.mean(axis=2))
-        share = size / size.sum(axis=1, keepdims=True)
-        cell = np.repeat(np.arange(len(nodes)), len(local))
-        found.append(
-            Simplices(
-                nodes=nodes[:, local].reshape(len(cell), -1) + part.nodes.start,
-                mass=(share * mass.sum(axis=1, keepdims=True)).ravel(), share=share.ravel(), numbers=first + cell,
-                width=front_width(part.law),
-                heat=0.0 if part.at_nodes else part.law.latent.heat,
-            )
-        )  # fmt: skip
+    found, first = [], 0
+    for table, nodes, mass in body_of(part.mesh, section, laws.density).blocks:
+        for law, own in laws.cells(first, len(nodes)):
+            if law.latent is not None:
+                numbers = part.cells.start + first + np.arange(len(nodes))[own]
+                found.append(_cut_cells(part, section, law, (table.cell, nodes[own], mass[own].sum(axis=1)), numbers))
         first += len(nodes)
     return found
 
@@ -169,6 +166,25 @@ def _latent(simplices: list[Simplices], n: int) -> Array:
         k = block.nodes.shape[1]
         np.add.at(out, block.nodes, np.repeat(block.heat * block.mass / k, k).reshape(-1, k))
     return out
+
+
+def _cut_cells(
+    part: HeatPart, section: Section, law: Conduction, cells: tuple[str, IntArray, Array], numbers: IntArray
+) -> Simplices:
+    """Simplices of cells of one type and law, with their nodes (e, a), masses (e,) [kg] and numbers (e,)."""
+    assert law.latent is not None
+    kind, nodes, mass = cells
+    local = np.array(simplices_of(kind))
+    corners = part.mesh.points[nodes][:, local]
+    edges = corners[:, :, 1:] - corners[:, :, :1]
+    size = np.sqrt(np.linalg.det(edges @ np.swapaxes(edges, -1, -2)))
+    size = size * section.measure(corners.mean(axis=2))
+    share = size / size.sum(axis=1, keepdims=True)
+    nodes = nodes[:, local].reshape(len(nodes) * len(local), -1) + part.nodes.start
+    return Simplices(
+        nodes=nodes, mass=(share * mass[:, None]).ravel(), share=share.ravel(), numbers=np.repeat(numbers, len(local)),
+        width=front_width(law), heat=0.0 if part.at_nodes else law.latent.heat,
+    )  # fmt: skip
 
 
 def front_width(law: Conduction) -> float:
@@ -230,12 +246,8 @@ def _ordered(loads: Mapping[int, HeatLoad]) -> tuple[tuple[int, HeatLoad], ...]:
 
 
 def _source(part: HeatPart, section: Section, region: str, n: int) -> Array:
-    """Integrals (n,) of the shape functions over the cells of a region [m^3]."""
-    inside = np.zeros(part.mesh.n_cells)
+    """Volumes (n,) of the nodes in a region [m^3]."""
+    inside, out = np.zeros(part.mesh.n_cells), np.zeros(n)
     inside[part.mesh.cells(region)] = 1.0
-    out, first = np.zeros(n), 0
-    for table, nodes, volume in body_of(part.mesh, section, 1.0).blocks:
-        kept = volume * inside[first : first + len(nodes), None]
-        np.add.at(out, nodes + part.nodes.start, kept @ table.N)
-        first += len(nodes)
+    out[part.nodes] = heated_volumes(part.mesh, section, inside)
     return out

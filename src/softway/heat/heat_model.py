@@ -13,6 +13,7 @@ from softway.heat.heat_contact import HeatContact, HeatExchange
 from softway.kernels.assembly.assembler import Assembler
 from softway.laws.heat.conduction import Conduction
 from softway.laws.heat.heat_content import ContentCurve
+from softway.laws.heat.mixed_content import MixedContent
 from softway.meshes.mesh import Mesh
 
 
@@ -54,7 +55,7 @@ class HeatPart:
     nodes, cells
         Its nodes and cells among those of all bodies.
     law
-        Law of conduction.
+        Law of conduction, of several by regions the first one that melts if any does.
     curve
         Specific content of a node, with the latent heat if it is held at the nodes.
     at_nodes
@@ -72,7 +73,7 @@ class HeatPart:
     nodes: slice
     cells: slice
     law: Conduction
-    curve: ContentCurve
+    curve: ContentCurve | MixedContent
     at_nodes: bool
     zero: float
     mixed: bool

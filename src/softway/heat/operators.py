@@ -10,7 +10,7 @@ from softway.bodies.setup.heat_loads import Convection, HeatFlux, Radiation
 from softway.heat.heat_model import HeatCells, HeatModel, HeatSurface
 from softway.heat.phase import melted_part
 from softway.laws.heat.contact_heat import STEFAN_BOLTZMANN
-from softway.laws.heat.heat_content import ZERO
+from softway.laws.heat.heat_content import ZERO, ContentCurve
 
 Entries = tuple[tuple[IntArray, IntArray, Array], ...]
 """Entries of a sparse matrix in groups of rows, columns and values; entries of one place add up."""
@@ -81,7 +81,7 @@ def heat_values(model: HeatModel, unknowns: Array, slopes: bool = True) -> HeatV
     share, share_slope = np.zeros(n), np.zeros(n)
     for part in model.parts:
         here, x = part.nodes, unknowns[part.nodes]
-        if part.at_nodes:
+        if part.at_nodes and isinstance(part.curve, ContentCurve):
             temperature[here], stretch[here] = part.curve.temperature(x)
             content[here], capacity[here] = x, 1.0
             share[here], share_slope[here] = part.curve.liquid_share(x, temperature[here])
@@ -207,7 +207,7 @@ def entropy(model: HeatModel, now: HeatValues) -> float:
         total += float(mass @ part.curve.entropy(temperature))
         if part.law.latent is None:
             continue
-        if part.at_nodes:
+        if part.at_nodes and isinstance(part.curve, ContentCurve):
             share = part.curve.liquid_share(now.unknowns[here], temperature)[0] if not part.curve.half_range else 0.0
             latent = float((mass * share).sum()) * part.curve.heat
         else:

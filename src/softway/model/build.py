@@ -18,6 +18,7 @@ from softway.bodies.dof_map import DofMap, MatrixSum
 from softway.bodies.inertia.matrix_sum import bonded_sum
 from softway.bodies.rigid_motion import CarriedNodes, RigidMotion, RigidShape
 from softway.bodies.setup.directions import DirectedMotion
+from softway.bodies.setup.loads import Gravity, Traction
 from softway.bodies.solid import Solid, Tool
 from softway.contact.assembly.declared import at_declared, resolved
 from softway.contact.impact_rule import Energy, ImpactRule
@@ -35,13 +36,37 @@ from softway.tolerances import MOTION
 
 
 def build(scene: Scene) -> Model:
-    """Build the model of a scene: meshes, tables, mass and contacts.
+    """Build the model of a scene without heat: meshes, tables, mass and contacts.
 
     Raises
     ------
     InputError
-        With the place in the scene: if a tag matches nothing, a body does not exist, or dimensions are mixed.
+        With the place in the scene: if a tag matches nothing, a body does not exist, or dimensions are mixed; if a
+        solid, a load or a contact has heat, with which ``softway.build`` builds a scene.
+
+    Examples
+    --------
+    >>> from softway.laws.bulk import LinearElastic
+    >>> from softway.meshes.generators.recipes import Interval
+    >>> bar = Solid(mesh=Interval(length=1.0, cells=1), material=LinearElastic(E=1.0), density=1.0)
+    >>> build(Scene(bodies={"bar": bar})).shape
+    (2, 1)
     """
+    heated = (f"bodies.{name}.thermal" for name, body in scene.bodies.items() if _has_heat(body))
+    loads = (f"loads[{k}]" for k, load in enumerate(scene.loads) if not isinstance(load, Gravity | Traction))
+    contacts = (f"contacts[{k}].heat" for k, contact in enumerate(scene.contacts) if contact.heat is not None)
+    for where in (*heated, *loads, *contacts):
+        raise InputError(where, "heat in a model of the motion alone", "softway.build, or a scene without heat")
+    return mechanical(scene)
+
+
+def _has_heat(body: object) -> bool:
+    """True if a body is a solid with a temperature."""
+    return isinstance(body, Solid) and body.thermal is not None
+
+
+def mechanical(scene: Scene) -> Model:
+    """Model of the motion of a scene, whose heat it leaves out; errors as of :func:`build`."""
     found = resolved(scene.contacts, *_members(scene))
     numbers = tuple(number for number, _ in found)
     with at_declared(numbers):

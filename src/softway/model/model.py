@@ -252,11 +252,6 @@ class Model:
         """Internal force (n, d) [N]."""
         return np.concatenate([p.internal.force(u[p.nodes]) for p in self.parts])
 
-    def force_at_start(self, u: Array) -> Array:
-        """Internal force (n, d) with that of the initial values of companion fields but ties that break [N]."""
-        fields = (c for c in self.companions if not isinstance(c, CohesiveTies))
-        return sum((c.at(c.initial(), u).force for c in fields), self.force(u))
-
     def tangent(self, u: Array) -> sp.csc_array:
         """Tangent stiffness (n d, n d) [N/m]."""
         return assembled_tangent(self.parts, u)

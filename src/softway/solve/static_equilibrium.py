@@ -10,6 +10,7 @@ from softway.bodies.dof_map import DofMap
 from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import SlabContacts
 from softway.errors import Cancel, NoConvergence, NumericsError, heed
+from softway.model.cohesive_ties import CohesiveTies
 from softway.model.model import Model
 from softway.solve.constraints.compliance import frozen_operator, row_basis
 from softway.solve.constraints.friction_contact import solve_friction
@@ -259,7 +260,7 @@ def _step(
     if last is None:
         last = _open(m, slipping)
     force, active = last
-    free = -frozen.solve(dofs.forces(model.force_at_start(u) - load) - frozen.prolong(coefficients.spread(force)))
+    free = -frozen.solve(dofs.forces(_force(model, u) - load) - frozen.prolong(coefficients.spread(force)))
     conditions = RowConditions(
         target=target,
         equal=np.zeros(m, bool),
@@ -269,6 +270,12 @@ def _step(
     )
     solve = solve_normal_contact if slipping.frictionless else solve_friction
     return solve(free, frozen, coefficients, conditions, active, force, effort)
+
+
+def _force(model: Model, u: Array) -> Array:
+    """Internal force (n, d) with that of the initial values of companion fields but ties that break [N]."""
+    fields = (c for c in model.companions if not isinstance(c, CohesiveTies))
+    return sum((c.at(c.initial(), u).force for c in fields), model.force(u))
 
 
 def _open(m: int, slipping: SlipConditions) -> tuple[Array, BoolArray]:

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import softway as sw
 from softway.bodies.assembled.nodal_loads import dead_load
 from softway.bodies.elements.section import Bar, PlaneStrain
 from softway.bodies.inertia.mass_matrix import nodal_mass
@@ -186,3 +187,23 @@ def test_one_rule_in_a_scene() -> None:
 def test_two_contacts_need_two_names() -> None:
     contacts = (Contact(between=("b.bottom", "floor")), Contact(between=("b.bottom", "floor")))
     refused(pair(contacts=contacts), "contacts[1].name")
+
+
+def test_a_model_of_the_motion_alone_refuses_heat() -> None:
+    """It would leave it out without a word; ``softway.build`` takes it."""
+    law = sw.heat.Conduction(conductivity=1.0, capacity=1.0)
+    thermal = sw.bodies.Thermal(law=law, temperature=300.0, expansion=1e-3)
+    parts = {"mesh": interval(1.0, cells=2), "material": sw.LinearElastic(E=1.0), "density": 1.0}
+    cold, hot = sw.Solid(**parts), sw.Solid(**parts, thermal=thermal)
+    meets = sw.Contact(between=("a.right", "b.left"), heat=sw.heat.ContactHeat(conductance=1.0))
+    apart = sw.Solid(**{**parts, "mesh": interval(1.0, cells=2, origin=1.1)})
+    refused = {
+        "bodies.a.thermal": sw.Scene(bodies={"a": hot}),
+        "loads[0]": sw.Scene(bodies={"a": cold}, loads=(sw.heat.HeatSource(of="a", value=1.0),)),
+        "contacts[0].heat": sw.Scene(bodies={"a": cold, "b": apart}, contacts=(meets,)),
+    }
+    for where, scene in refused.items():
+        with pytest.raises(InputError) as error:
+            build(scene)
+        assert error.value.where == where
+    assert [field.name for field in sw.build(refused["bodies.a.thermal"]).fields] == ["displacement", "temperature"]

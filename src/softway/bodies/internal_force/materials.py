@@ -112,29 +112,35 @@ def materials_of(mesh: Mesh, material: Laws, density: float | Mapping[str, float
         regions=names,
         laws=tuple(material.values()),
         densities=tuple(density[n] for n in names) if isinstance(density, Mapping) else (density,) * len(names),
-        owner=_owner(mesh, names),
+        owner=owners(mesh, names),
     )
 
 
-def _owner(mesh: Mesh, names: tuple[str, ...]) -> IntArray:
-    """Number (e,) of the region of each element among the ``names``."""
+def owners(mesh: Mesh, names: tuple[str, ...], place: str = "material", what: str = "law") -> IntArray:
+    """Number (e,) of the region of each element among the ``names``, which have a ``what`` at a ``place`` of the body.
+
+    Raises
+    ------
+    InputError
+        With the region: if it does not exist, shares elements with another one, or elements are in none.
+    """
     owner = np.full(mesh.n_cells, -1)
     for k, name in enumerate(names):
-        with within(f"material.{name}"):
+        with within(f"{place}.{name}"):
             cells = mesh.cells(name)
         taken = cells[owner[cells] >= 0]
         if len(taken):
-            other, place = names[int(owner[taken[0]])], described(mesh.centres()[taken[0]])
-            problem = f"{len(taken)} cells have the law of {other!r} too, the first at {place}"
-            raise InputError(f"material.{name}", problem, f"regions without common cells, or no law for {other!r}")
+            other, where = names[int(owner[taken[0]])], described(mesh.centres()[taken[0]])
+            problem = f"{len(taken)} cells have the {what} of {other!r} too, the first at {where}"
+            raise InputError(f"{place}.{name}", problem, f"regions without common cells, or no {what} for {other!r}")
         owner[cells] = k
     left = np.flatnonzero(owner < 0)
     if len(left):
         of = [name for name, cells in mesh.regions.items() if np.isin(left, cells).all()]
         inside = [name for name, cells in mesh.regions.items() if np.isin(left, cells).any()]
-        place = described(mesh.centres()[left[0]])
-        problem = f"{len(left)} of {mesh.n_cells} cells have no law, the first at {place}"
+        where = described(mesh.centres()[left[0]])
+        problem = f"{len(left)} of {mesh.n_cells} cells have no {what}, the first at {where}"
         told = f"; they lie in {', '.join(inside[:6])}" if inside else ", in no region"
         remedy = "a region for these cells: a mesh of kind Divided with rest, or Mesh.with_region"
-        raise InputError("material", problem + told, f"a law for {of[0]}" if of else remedy)
+        raise InputError(place, problem + told, f"a {what} for {of[0]}" if of else remedy)
     return owner

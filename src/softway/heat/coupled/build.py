@@ -7,7 +7,7 @@ import numpy as np
 
 from softway.arrays import IntArray
 from softway.bodies.assembled.material_states import scaled
-from softway.bodies.conductor import Conductor, Thermal
+from softway.bodies.conductor import Conductor, Thermal, conduction_laws
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.setup.heat_loads import HeatLoad, place_of
 from softway.bodies.setup.loads import Gravity, Traction
@@ -25,15 +25,12 @@ from softway.heat.coupled.strain.stored import Elastic, elastic_terms
 from softway.heat.coupled.through_ties import through_ties
 from softway.heat.heat_model import HeatModel
 from softway.heat.operators import heat_values, unknowns_of
+from softway.heat.regional_laws import regional_laws
 from softway.laws.heat.stiffness_table import StiffnessCurve
 from softway.laws.law import softens
-from softway.model.build import build as mechanical
-from softway.model.build import with_field
+from softway.model.build import mechanical, with_field
 from softway.model.model import Model
 from softway.model.scene import Scene
-
-UNEVEN = frozenset({"tri6", "quad8", "tet10", "hex20"})
-"""Cells whose nodal capacities are not the integrals of their shape functions."""
 
 
 def build(scene: Scene) -> Model:
@@ -84,13 +81,11 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
             spent.extend(dissipations(number, part, thermals[name].heating))
             if thermals[name].stiffness is not None:
                 elastic.extend(elastic_terms(part))
-            strained = expands or thermals[name].stiffness is not None
-            if strained or any(one.solid == number for one in spent):
-                _require_quadrature(part)
     heat = heat_model(conductors, loads)
     nodes = np.concatenate([np.arange(part.nodes.start, part.nodes.stop) for part in parts.values()])
     heat = replace(heat, exchanges=tuple(through_ties(model, thermals, nodes)))
-    effusivity = {name: thermals[name].law.effusivity(body.density) for name, body in conductors.items()}
+    pairs = ((part, regional_laws(conductors[part.name], part.mesh)) for part in heat.parts)
+    effusivity = {part.name: laws.effusivity(part.mesh, part.volume) for part, laws in pairs}
     numbered = [(list(model.meshes).index(name), part) for name, part in parts.items()]
     softened = tuple(point for k, part in numbered for point in point_temperatures(k, part))
     equations = SolidTemperature(
@@ -134,24 +129,18 @@ def _free_strain(heat: HeatModel, thermals: Mapping[str, Thermal]) -> FreeStrain
 
 def _conductor(part: DiscreteSolid, thermal: Thermal) -> Conductor:
     """The solid as a conductor of heat."""
-    melts = thermal.law.latent
-    if melts is not None and not melts.half_range and "hex20" in part.mesh.blocks:
+    laws = conduction_laws(thermal.law).values()
+    sharp = any(law.latent is not None and not law.latent.half_range for law in laws)
+    if sharp and "hex20" in part.mesh.blocks:
         problem = "a sharp front in hex20 cells, which have no simplices between their nodes"
         raise InputError("thermal.law.latent", problem, "hex27, or a half_range")
-    if len(set(part.materials.densities)) != 1:
-        raise InputError("density", "densities by regions of a solid with heat", "one density for the body")
+    materials = part.materials
+    uniform = len(set(materials.densities)) == 1
+    density = materials.densities[0] if uniform else dict(zip(materials.regions, materials.densities, strict=True))
     return Conductor(
-        mesh=part.mesh, law=thermal.law, density=part.materials.densities[0], section=part.internal.section,
+        mesh=part.mesh, law=thermal.law, density=density, section=part.internal.section,
         temperature=thermal.temperature,
     )  # fmt: skip
-
-
-def _require_quadrature(part: DiscreteSolid) -> None:
-    """Refuse heat of strain in cells whose nodal capacities are not the integrals of their shape functions."""
-    for cell in part.mesh.blocks:
-        if cell in UNEVEN:
-            problem = f"heat of strain in {cell} cells, whose nodes it would heat unevenly"
-            raise InputError("thermal", problem, "linear cells, bar3, quad9 or hex27; or expansion and heating zero")
 
 
 def _require_temperature(scene: Scene) -> None:

@@ -216,13 +216,14 @@ class ContactExchange:
         return np.where(self._begins(rows, of), given, 1.0 - given)
 
 
-def contact_exchange(model: Model, nodes: IntArray, effusivity: Mapping[str, float]) -> ContactExchange:
+def contact_exchange(model: Model, nodes: IntArray, effusivity: Mapping[str, float | Array]) -> ContactExchange:
     """Heat across the contacts of a model whose ``nodes`` (k,) have a temperature.
 
     Parameters
     ----------
     effusivity
-        Root of conductivity, density and capacity of each solid with heat, by its name [W s^(1/2)/(m^2 K)].
+        Root of conductivity, density and capacity of each solid with heat, by its name, one number or one for each of
+        its nodes [W s^(1/2)/(m^2 K)].
 
     Raises
     ------
@@ -230,7 +231,9 @@ def contact_exchange(model: Model, nodes: IntArray, effusivity: Mapping[str, flo
         If heat passes a contact with a solid that has no temperature.
     """
     names, found = [part.name for part in model.parts], []
-    by_node = np.array([effusivity.get(name, 1.0) for name in names])[model.part_of]
+    by_node = np.ones(len(model.part_of))
+    for part in model.parts:
+        by_node[part.nodes] = effusivity.get(part.name, 1.0)
     slave, edge = model.contacts.node, float(model.edge.min())
     for k, contact in enumerate(model.scene.contacts):
         if contact.heat is None:

@@ -28,7 +28,7 @@ class Dissipation:
     nodes
         (k,) their nodes among those of all solids.
     values
-        (p, k) shape functions at the quadrature points.
+        (p, k) functions of heat at the quadrature points.
     volume
         (p,) reference volumes of the points [m^3].
     share

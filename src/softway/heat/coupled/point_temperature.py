@@ -32,7 +32,7 @@ class PointTemperature:
     nodes
         (k,) their nodes among those of all solids.
     values
-        (p, k) shape functions at the quadrature points.
+        (p, k) functions of heat at the quadrature points.
     """
 
     solid: int

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
-from softway.bodies.conductor import Thermal
+from softway.bodies.conductor import Thermal, conduction_laws
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.dof_map import CombinedDofs
 from softway.bodies.setup.loads import facet_measures
@@ -63,5 +63,6 @@ def _conductance(tie: Tie, parts: Mapping[str, DiscreteSolid], thermals: Mapping
     """Conductance of a tie [W/(m^2 K)]."""
     if tie.conductance is not None:
         return tie.conductance
-    best = max(thermals[name].law.greatest_conductivity for name in tie.bodies)
+    laws = [law for name in tie.bodies for law in conduction_laws(thermals[name].law).values()]
+    best = max(law.greatest_conductivity for law in laws)
     return FREELY * best / min(parts[name].mesh.edge() for name in tie.bodies)

@@ -108,7 +108,8 @@ class Reader:
         """Select the alternative from the kind or the form of the value, and read it."""
         known = kinds(options)
         tables = [o for o in options if is_mapping(o)]
-        if tables and known and isinstance(value, Mapping) and _by_names(value):
+        named = isinstance(value, Mapping) and _by_names(value) and not any(_takes(c, value) for c in known.values())
+        if tables and known and named:
             return self._mapping(value, tables[0], where, unit)
         if isinstance(value, Mapping) and known:
             return self._kind(value, options, known, where, unit)

@@ -10,6 +10,7 @@ from try_it import Call, Table, Try
 import softway as sw
 from softway.bodies.conductor import sample_temperature
 from softway.meshes.generators.shapes import box, interval, rectangle
+from softway.model.build import build as motion_alone
 
 heat = sw.heat
 LAW = heat.Conduction(conductivity=1.0, capacity=1.0)
@@ -127,6 +128,25 @@ def resting(given: object = CONDUCTS, thermals: tuple[bool, bool] = (True, True)
     return sw.build(sw.Scene(bodies=bodies, contacts=(meets,)))
 
 
+def moving(heated: sw.bodies.Thermal | None) -> object:
+    """Model of the motion of a square alone."""
+    solid = sw.Solid(mesh=SQUARE, material=STEEL, density=1.0, thermal=heated)
+    return motion_alone(sw.Scene(bodies={"b": solid}))
+
+
+def halves(*laws: sw.heat.Conduction, cell: str = "quad4", **given: object) -> object:
+    """Model of a conductor with two laws."""
+    whole = rectangle((1.0, 1.0), (2, 2)) if cell == "quad4" else box((1.0,) * 3, (2, 1, 1), cell=cell)
+    mesh = whole.with_region("a", lambda x: x[:, 0] < 0.5).with_region("c", lambda x: x[:, 0] > 0.5)
+    return built(mesh=mesh, law=dict(zip("ac", laws, strict=False)), **given)
+
+
+def melting(at: float = 300.0, half_range: float = 0.0) -> sw.heat.Conduction:
+    """Law that melts."""
+    latent = heat.Latent(heat=1.0, melting=at, half_range=half_range)
+    return heat.Conduction(conductivity=1.0, capacity=1.0, latent=latent)
+
+
 ALONE = "a scenario of conductors only"
 TABLE: Table = {
     "a tool beside a conductor": Try(SCENE, BOTH, ALONE, f"bodies={{b={BODY}}}"),
@@ -166,14 +186,6 @@ TABLE: Table = {
         lambda: heat.ContactHeat(gas=0.03, roughness=1e-6),
     ),
     "expansion of fibres": call(lambda: solids(material=FIBRES), "an isotropic law", solids),
-    "expansion of quadratic cells": call(
-        lambda: solids(mesh=rectangle((1.0, 1.0), (1, 1), cell="tri6")), "linear cells", solids
-    ),
-    "densities of a solid with heat": call(
-        lambda: solids(mesh=HALVES, material=dict.fromkeys("ac", STEEL), density={"a": 1.0, "c": 2.0}),
-        "one density for the body",
-        lambda: solids(mesh=HALVES, material=dict.fromkeys("ac", STEEL)),
-    ),
     "moduli of a law with a history": call(
         lambda: solids(material=PLASTIC, thermal=thermal(stiffness=SOFTER)),
         "a law with a stored energy",
@@ -271,6 +283,29 @@ TABLE: Table = {
         lambda: built(law=MELTS, mesh=box((1.0,) * 3, (1, 1, 1), cell="hex20")),
         "'node', or hex27",
         lambda: built(law=MELTS, mesh=box((1.0,) * 3, (1, 1, 1), cell="hex20"), latent="node"),
+    ),
+    "heat in a model of the motion": call(lambda: moving(thermal()), "a scene without heat", lambda: moving(None)),
+    "no law of conduction": call(lambda: halves(), "a law for each region", lambda: halves(LAW, LAW)),
+    "half a law of conduction": call(lambda: halves(LAW), "a law for c", lambda: halves(LAW, LAW)),
+    "no density of a region": call(
+        lambda: halves(LAW, LAW, density={"a": 1.0, "c": 0.0}),
+        "a positive number",
+        lambda: halves(LAW, LAW, density={"a": 1.0, "c": 1.0}),
+    ),
+    "half a density": call(
+        lambda: halves(LAW, LAW, density={"a": 1.0}),
+        "a density for c",
+        lambda: halves(LAW, LAW, density={"a": 1.0, "c": 1.0}),
+    ),
+    "mush beside others": call(lambda: halves(LAW, melting(half_range=1.0)), "zero", lambda: halves(LAW, melting())),
+    "melting at two temperatures": call(
+        lambda: halves(melting(), melting(310.0)), "one temperature", lambda: halves(melting(), melting())
+    ),
+    "latent heat of shared nodes": call(
+        lambda: halves(LAW, MELTS, latent="node"), "'cell'", lambda: halves(LAW, MELTS, latent="cell")
+    ),
+    "latent heat of shared hex20": call(
+        lambda: halves(LAW, MELTS, cell="hex20"), "hex27", lambda: halves(LAW, MELTS, cell="hex27")
     ),
     "a state of another scene": call(lambda: marched(state=STATE), "a state of the same scene", marched),
     "until the start": call(lambda: marched(until=0.0), "a later time", marched),

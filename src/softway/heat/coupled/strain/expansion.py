@@ -1,6 +1,6 @@
 """Free expansion of a solid, of its temperature and its liquid share: the forces of the strain that it would have.
 
-    psi = -sum_i e_i H_i(u),   H_i = int N_i k ln J dV
+    psi = -sum_i e_i H_i(u),   H_i = int psi_i k ln J dV
 
 with the free strain ``e`` of the nodes, ``k = 3 kappa`` in a volume, ``E / (1 - nu)`` in plane stress and ``E`` in a
 bar, and J the ratio of volumes, areas or lengths; for a law of the linear theory the trace of the strain takes the
@@ -15,6 +15,7 @@ from scipy.sparse import csr_array, vstack
 
 from softway.arrays import Array, IntArray
 from softway.bodies.discretised import DiscreteSolid
+from softway.bodies.elements.heat_functions import heat_functions
 from softway.bodies.elements.quadrature import sampled_cells
 from softway.bodies.elements.section import Section, free_axes
 from softway.bodies.elements.strain_operator import StrainOperator
@@ -44,7 +45,7 @@ class Expansion:
     nodes
         (k,) their nodes among those of all solids.
     values
-        (p, k) shape functions at the quadrature points.
+        (p, k) functions of heat at the quadrature points.
     sampling
         Strain operator of the law.
     directions
@@ -193,11 +194,9 @@ def pieces(part: DiscreteSolid) -> Iterator[tuple[str, IntArray, IntArray, IntAr
 
 
 def point_values(part: DiscreteSolid) -> csr_array:
-    """Shape functions (p, n) at the quadrature points of a solid."""
-    tables = []
-    for cells in sampled_cells(part.mesh, part.internal.section, "point", small=False).kinds:
-        N = np.broadcast_to(cells.element.N[None, :, :, None], (len(cells.nodes), *cells.element.N.shape, 1))
-        tables.append(gather_table(cells.nodes, N, part.mesh.n_nodes))
+    """Functions (p, n) of heat of the nodes at the quadrature points of a solid."""
+    kinds = sampled_cells(part.mesh, part.internal.section, "point", small=False).kinds
+    tables = [gather_table(cells.nodes, heat_functions(cells)[..., None], part.mesh.n_nodes) for cells in kinds]
     return csr_array(vstack(tables, format="csr"))
 
 
