@@ -252,6 +252,19 @@ VARIANTS: Mapping[str, Variant] = {
             "ring": {"left": (0,), "bottom": (1,)},
         },
     ),
+    "casting": Variant(
+        changes=("bodies.casting.mesh.cells=[4, 3]", "bodies.mould.mesh.cells=[2, 3]", "time.end=12 s", "time.step=2 s"),
+        same="the casting cools, freezes at the wall and leaves it; larger cells, longer slabs, a seventh of the time",
+        held={  # axis and plane of symmetry, surfaces that start flush
+            "casting": {"left": (0,), "right": (0,), "bottom": (1,)},
+            "mould": {"left": (0,), "bottom": (1,)},
+        },
+    ),
+    "freezing_drop": Variant(
+        changes=("bodies.drop.mesh.cells=3", "time.end=1.5 ms"),
+        same="the drop spreads and begins to freeze; larger cells, a quarter of the time",
+        held={"drop": {"axis": (0,), "boundary": (0, 1)}},  # the drop starts in touch with the plate
+    ),
     "snap_fit": Variant(
         changes=("time.end=3 ms", "time.step=20 us"),
         same="the nose meets the catch and rides up on it, with friction; longer slabs, nearly half of the way in",

@@ -14,7 +14,7 @@ from softway.bodies.elements.section import PlaneStrain, Volume
 from softway.bodies.inertia.mass_matrix import Lumped, nodal_mass
 from softway.bodies.inertia.nodal_heat import heat_masses
 from softway.heat.coupled.build import build
-from softway.heat.coupled.expansion import strained
+from softway.heat.coupled.strain.expansion import strained
 from softway.meshes.cells import CELLS
 from softway.meshes.generators.shapes import box, rectangle
 
@@ -110,7 +110,7 @@ def test_a_uniform_strain_of_curved_cells_takes_the_same_entropy_per_mass_at_all
     solid = body(cell, material=LAWS[law])
     temperature = build(sw.Scene(bodies={"b": solid})).companions[0]
     slope = np.array([[-0.1, 0.05, 0.02], [0.03, 0.2, 0.01], [0.04, -0.02, -0.05]])[: solid.mesh.dim, : solid.mesh.dim]
-    entropy = strained(temperature.expansions, solid.mesh.points @ slope.T).entropy() / temperature.model.mass
+    entropy = strained(temperature.expansions, solid.mesh.points @ slope.T).held() / temperature.model.mass
     assert abs(entropy[0]) > 1e-4 and np.ptp(entropy) < 1e-12 * abs(entropy[0])
 
 
