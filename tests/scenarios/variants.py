@@ -253,7 +253,12 @@ VARIANTS: Mapping[str, Variant] = {
         },
     ),
     "casting": Variant(
-        changes=("bodies.casting.mesh.cells=[4, 3]", "bodies.mould.mesh.cells=[2, 3]", "time.end=12 s", "time.step=2 s"),
+        changes=(
+            "bodies.casting.mesh.cells=[4, 3]",
+            "bodies.mould.mesh.cells=[2, 3]",
+            "time.end=12 s",
+            "time.step=2 s",
+        ),
         same="the casting cools, freezes at the wall and leaves it; larger cells, longer slabs, a seventh of the time",
         held={  # axis and plane of symmetry, surfaces that start flush
             "casting": {"left": (0,), "right": (0,), "bottom": (1,)},
