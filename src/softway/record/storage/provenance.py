@@ -24,6 +24,8 @@ ENTRIES: Mapping[str, type] = MappingProxyType({"title": str, "versions": dict, 
 """Entries of every file, and their types."""
 PACKAGES = ("softway", "numpy", "scipy", "h5py", "fenics-basix", "meshio", "pint")
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+PATIENCE = 60.0
+"""Time after which git is given up [s]; a busy machine needs seconds for its first answer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,5 +189,5 @@ def _commit() -> str | None:
 
 
 def _git(*command: str, folder: Path) -> str:
-    done = subprocess.run(["git", *command], cwd=folder, capture_output=True, text=True, timeout=5, check=True)
+    done = subprocess.run(["git", *command], cwd=folder, capture_output=True, text=True, timeout=PATIENCE, check=True)
     return done.stdout.strip()
