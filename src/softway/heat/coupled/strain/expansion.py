@@ -85,16 +85,22 @@ class Expansion:
         return np.asarray(mean[:, None, None] * self.sampling.cell_means(axes, self.sampling.volume))
 
     def change(self, u: Array) -> tuple[Array, Array]:
-        """Change of volume (p,), ln J or the trace of the strain, and its derivative (p, m, D) by the derivatives."""
+        """Change of volume (p,), ln J or the trace of the strain, and its derivative (p, m, D) by the derivatives.
+
+        ln J is half the logarithm of det C = 1 + tr + minors of C - 1: a body at rest has all digits of a small one.
+        """
         H, g = self.sampling.derivatives(u), self.directions
         if self.small:
             return tensors.double_dot(np.broadcast_to(g, H.shape), H), np.broadcast_to(g, H.shape)
-        f = g + H
+        f, more = g + H, 2.0 * tensors.symmetric(H @ np.swapaxes(g, -1, -2)) + H @ np.swapaxes(H, -1, -2)
+        trace = np.einsum("pii->p", more)
+        change = trace + 0.5 * (trace * trace - tensors.double_dot(more, more))
         with np.errstate(invalid="ignore", divide="ignore"):
             if f.shape[-2] == 1:
-                square = tensors.double_dot(f, f)
-                return 0.5 * np.log(square), f / square[:, None, None]
-            return np.log(tensors.determinant(f)), _inverse_transposed(f)
+                return 0.5 * np.log1p(change), f / tensors.double_dot(f, f)[:, None, None]
+            change = change + (tensors.determinant(more) if f.shape[-2] == 3 else 0.0)
+            inverted = tensors.determinant(f) <= 0.0
+            return 0.5 * np.log1p(np.where(inverted, np.nan, change)), _inverse_transposed(f)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
