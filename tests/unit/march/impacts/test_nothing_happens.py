@@ -63,7 +63,7 @@ def test_the_natural_test_of_a_law(method: sw.Explicit, inertia: sw.bodies.Full,
     work = 0.5 * pull**2 / (2.0 * 1.25)
     assert last.ledger.energy_strain == pytest.approx(work, rel=1e-12)
     assert last.ledger.work_external == pytest.approx(work, rel=1e-9)
-    assert list(sw.march(scene, until=1.0, method=method))
+    assert list(sw.march(scene, until=0.1, method=method))  # a thousand slabs of its own length
 
 
 @laws

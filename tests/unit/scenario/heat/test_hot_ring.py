@@ -71,7 +71,7 @@ def test_a_die_at_rest_chills_the_ring_as_a_half_space_with_surface_conductance(
     assert history["heat.through.die"][-1] == pytest.approx(heat * area, rel=0.01)
 
 
-@pytest.mark.slow
+@pytest.mark.minutes
 def test_chilled_ends_bulge_the_ring_and_need_more_force() -> None:
     chilled, even = ran(), ran(ISOTHERMAL)
     force, soft = (run.history["contact.die.force_n"][-1] for run in (chilled, even))
