@@ -90,7 +90,8 @@ class Thermal:
     reference
         Temperature without thermal stress [K]; the initial temperature by default.
     stiffness
-        Factor of the elastic moduli by the temperature; of laws with a stored energy, with their thermal stress.
+        Factor of the elastic moduli by the temperature, with their thermal stress: of laws with a stored energy, and of
+        ``J2``, ``Maxwell`` and ``Hypoelastic``.
     heating
         Share of the dissipation of the material that heats, from zero to one; by default .9 of the plastic work of
         ``J2``, and all of viscous laws.

@@ -71,6 +71,8 @@ class Increment:
         Length of the slab [s].
     temperature
         (...,) temperature in the middle of the slab [K], for laws with a softening; None for other laws.
+    stiffness
+        (...,) factor of the moduli at the end of the slab, see :class:`Scalable`; None for one.
     """
 
     stress: Array
@@ -78,6 +80,7 @@ class Increment:
     strain: Array
     span: float
     temperature: Array | None = None
+    stiffness: Array | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -149,6 +152,21 @@ class Damped(Protocol):
 
     def viscous_moduli(self, increment: Increment) -> Array:
         """Derivative of the viscous part by the strain increment, (..., 3, 3, 3, 3) [Pa]."""
+        ...
+
+
+@runtime_checkable
+class Scalable(Protocol):
+    """:class:`RateLaw` whose moduli may have a factor m that depends on the temperature, ``Increment.stiffness``.
+
+    Stress, history variables and stored energy remain those of m = 1: the solid multiplies them by m.  A stress that
+    the law limits, such as a flow stress, is therefore divided by m; the stress has no ``Response.viscous``.
+    """
+
+    def dissipation_factor(self, before: Array, after: Array) -> Array:
+        """Factor (...) of the dissipated energy of :meth:`RateLaw.respond`, from those (...) of the moduli at the start
+        of the slab and at its end, ``Increment.stiffness``; not negative.
+        """
         ...
 
 

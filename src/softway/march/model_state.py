@@ -10,6 +10,7 @@ from softway.arrays import Array, BoolArray
 from softway.bodies.assembled import material_states
 from softway.contact.contact_rows import ContactRows
 from softway.errors import InputError
+from softway.model.field import in_states
 from softway.model.model import Model
 from softway.model.rigid.rigid_state import RigidState
 from softway.model.scene import State
@@ -74,7 +75,8 @@ def join_states(model: Model, state: State, span: float = 1.0) -> ModelState:
     u = model.join(state.displacement)
     states = _remembered(model, state, u, span)
     energy, force, viscous = material_states.stored_force(model.parts, states, u)
-    fields = tuple(c.at(model.join(state.fields[c.field.name]), u) for c in model.companions)
+    companions = in_states(model.companions, states)
+    fields = tuple(c.at(model.join(state.fields[c.field.name]), u) for c in companions)
     labels, count = model.contacts.labels, len(model.contacts.contact)
     rough = not model.friction.frictionless
     return ModelState(

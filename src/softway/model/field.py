@@ -12,6 +12,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.assembled.material_states import MaterialStates
 from softway.bodies.discretised import DiscreteSolid
 from softway.contact.contact_rows import ContactRows
 
@@ -171,6 +172,20 @@ def stiffness_factor(companions: tuple[FieldEquations, ...], fields: Sequence[Fi
         if found is not None:
             return found
     return None
+
+
+@runtime_checkable
+class MaterialField(Protocol):
+    """Equations of a companion field whose force and energy depend on the history of the materials."""
+
+    def in_states(self, states: MaterialStates) -> FieldEquations:
+        """Equations outside of a slab, of solids in these material states."""
+        ...
+
+
+def in_states(companions: tuple[FieldEquations, ...], states: MaterialStates) -> tuple[FieldEquations, ...]:
+    """Companion fields outside of a slab, of solids in material states."""
+    return tuple(c.in_states(states) if isinstance(c, MaterialField) else c for c in companions)
 
 
 @runtime_checkable

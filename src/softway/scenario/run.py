@@ -226,9 +226,10 @@ def _texts(scenario: Scenario) -> dict[str, str]:
 def _stress(model: Model, name: str, state: State) -> Array:
     """Mean Cauchy stress (cells, 3, 3) of a solid, with that of its temperature [Pa]."""
     stress = model.stress(name, state.displacement[name], state.memory.get(name))
+    states = tuple(state.memory.get(part.name) for part in model.parts)
     for _, of_heat in temperatures_of(model.companions):
         u, temperature = (model.join(field) for field in (state.displacement, state.fields[of_heat.field.name]))
-        stress = stress + of_heat.stress(name, len(stress), temperature, u)
+        stress = stress + of_heat.in_states(states).stress(name, len(stress), temperature, u)
     return stress
 
 

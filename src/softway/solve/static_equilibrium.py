@@ -6,11 +6,13 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray
+from softway.bodies.assembled.material_states import committed
 from softway.bodies.dof_map import DofMap
 from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import SlabContacts
 from softway.errors import Cancel, NoConvergence, NumericsError, heed
 from softway.model.cohesive_ties import CohesiveTies
+from softway.model.field import in_states
 from softway.model.model import Model
 from softway.solve.constraints.compliance import frozen_operator, row_basis
 from softway.solve.constraints.friction_contact import solve_friction
@@ -274,8 +276,11 @@ def _step(
 
 def _force(model: Model, u: Array) -> Array:
     """Internal force (n, d) with that of the initial values of companion fields but ties that break [N]."""
-    fields = (c for c in model.companions if not isinstance(c, CohesiveTies))
-    return sum((c.at(c.initial(), u).force for c in fields), model.force(u))
+    fields = tuple(c for c in model.companions if not isinstance(c, CohesiveTies))
+    if not fields:
+        return model.force(u)
+    there = in_states(fields, committed(model.parts, u))
+    return sum((c.at(c.initial(), u).force for c in there), model.force(u))
 
 
 def _open(m: int, slipping: SlipConditions) -> tuple[Array, BoolArray]:

@@ -33,6 +33,8 @@ class MaterialState:
         Stored energy of all other regions [J].
     temperature, warming
         (p,) temperature of the points [K] and its rate in the slab before [K/s]; None for laws that do not need them.
+    stiffness, stiffening
+        (p,) factor of the moduli at the points and its rate in the slab before [1/s]; None where it is one.
     """
 
     displacement: Array
@@ -46,11 +48,13 @@ class MaterialState:
     elastic: float = 0.0
     temperature: Array | None = None
     warming: Array | None = None
+    stiffness: Array | None = None
+    stiffening: Array | None = None
 
     def __post_init__(self) -> None:
         for array in (self.displacement, self.stress, *self.law.values(), self.lateral, self.stored, self.dissipated):
             array.flags.writeable = False
-        for some in (self.viscous, self.temperature, self.warming):
+        for some in (self.viscous, self.temperature, self.warming, self.stiffness, self.stiffening):
             if some is not None:
                 some.flags.writeable = False
 
@@ -66,6 +70,8 @@ class MaterialState:
             viscous=None if self.viscous is None else self.viscous[points],
             temperature=None if self.temperature is None else self.temperature[points],
             warming=None if self.warming is None else self.warming[points],
+            stiffness=None if self.stiffness is None else self.stiffness[points],
+            stiffening=None if self.stiffening is None else self.stiffening[points],
         )
 
     def middle_temperature(self, span: float) -> Array | None:
@@ -76,6 +82,14 @@ class MaterialState:
         if self.temperature is None or self.warming is None:
             return self.temperature
         return np.maximum(self.temperature + 0.5 * span * self.warming, 0.5 * self.temperature)
+
+    def coming_stiffness(self, span: float) -> Array | None:
+        """Factor (p,) of the moduli at the end of a slab of length ``span`` [s], extrapolated, at least half of that at
+        its start; None where it is one.
+        """
+        if self.stiffness is None or self.stiffening is None:
+            return self.stiffness
+        return np.maximum(self.stiffness + span * self.stiffening, 0.5 * self.stiffness)
 
 
 def initial_history(law: Mapping[str, Array], nodes: tuple[int, int], points: int, free: int) -> MaterialState:

@@ -16,12 +16,12 @@ from softway.errors import InputError, within
 from softway.heat.build_heat import heat_model
 from softway.heat.coupled.contact_exchange import contact_exchange
 from softway.heat.coupled.dissipation import Dissipation, dissipations
-from softway.heat.coupled.point_temperature import after_jumps, point_temperatures, starting
+from softway.heat.coupled.point_temperature import PointTemperature, after_jumps, point_temperatures, starting
 from softway.heat.coupled.solid_temperature import SolidTemperature
 from softway.heat.coupled.strain.expansion import Expansion, expansions
 from softway.heat.coupled.strain.free_strain import FreeStrain
 from softway.heat.coupled.strain.moduli import Moduli
-from softway.heat.coupled.strain.stored import Elastic, elastic_terms
+from softway.heat.coupled.strain.stored import ElasticTerm, elastic_terms
 from softway.heat.coupled.through_ties import through_ties
 from softway.heat.heat_model import HeatModel
 from softway.heat.operators import heat_values, unknowns_of
@@ -69,7 +69,8 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
     thermals = {name: thermal for name, body in heated.items() if (thermal := body.thermal) is not None}
     found: list[Expansion] = []
     spent: list[Dissipation] = []
-    elastic: list[Elastic] = []
+    elastic: list[ElasticTerm] = []
+    softened: list[PointTemperature] = []
     conductors = {}
     for name, part in parts.items():
         with within(f"bodies.{name}"):
@@ -79,31 +80,30 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
                 found.extend(expansions(part))
             number = list(model.meshes).index(name)
             spent.extend(dissipations(number, part, thermals[name].heating))
-            if thermals[name].stiffness is not None:
-                elastic.extend(elastic_terms(part))
+            table = thermals[name].stiffness
+            if table is not None:
+                elastic.extend(elastic_terms(number, part, min(table.values)))
+            softened.extend(point_temperatures(number, part, table is not None))
     heat = heat_model(conductors, loads)
     nodes = np.concatenate([np.arange(part.nodes.start, part.nodes.stop) for part in parts.values()])
     heat = replace(heat, exchanges=tuple(through_ties(model, thermals, nodes)))
     pairs = ((part, regional_laws(conductors[part.name], part.mesh)) for part in heat.parts)
     effusivity = {part.name: laws.effusivity(part.mesh, part.volume) for part, laws in pairs}
-    numbered = [(list(model.meshes).index(name), part) for name, part in parts.items()]
-    softened = tuple(point for k, part in numbered for point in point_temperatures(k, part))
     equations = SolidTemperature(
         contacts=contact_exchange(model, nodes, effusivity), inert=model.inert,
         model=heat, nodes=nodes, count=model.shape[0], parts=len(model.parts), part=model.part_of[nodes],
         moduli=Moduli(free=_free_strain(heat, thermals), curves=tuple(_curves(heat, thermals))),
-        expansions=tuple(found), dissipations=tuple(spent), elastic=tuple(elastic), softened=softened,
+        expansions=tuple(found), dissipations=tuple(spent), elastic=tuple(elastic), points=tuple(softened),
     )  # fmt: skip
     if softened:
-        start = np.zeros(model.shape[0])
-        start[nodes] = after_jumps(heat, heat.initial, 0.0)
+        start = equations.of_points(after_jumps(heat, heat.initial, 0.0))
         model = replace(model, parts=starting(model.parts, softened, start))
     return with_field(_scaled(model, equations), equations)
 
 
 def _scaled(model: Model, equations: SolidTemperature) -> Model:
     """Model with the stiffness of its solids at the initial temperatures."""
-    factor = equations.stiffness_factor(equations.at(equations.initial(), model.displacement))
+    factor = equations.factor(equations.initial())[:, 0] if equations.elastic else None
     return replace(model, parts=scaled(model.parts, factor))
 
 

@@ -1,12 +1,13 @@
 """Heat of the dissipation of a path-dependent material at the nodes."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_array
 
 from softway.arrays import Array, IntArray
+from softway.bodies.assembled.material_states import MaterialStates
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.internal_force.material_state import MaterialState
 from softway.heat.coupled.strain.expansion import pieces, point_values
@@ -42,19 +43,9 @@ class Dissipation:
     volume: Array
     share: float
 
-    def energy(self, parts: Sequence[DiscreteSolid], u: Array) -> Array:
-        """Energy (k,) dissipated in a slab that ends at the displacement ``u`` (n, d), at the nodes [J].
-
-        Parameters
-        ----------
-        parts
-            The solids in the slab.
-        u
-            (n, d) displacement of all solids at its end [m].
-        """
-        part = parts[self.solid]
-        before, after = part.internal.state, part.internal.committed(u[part.nodes])
-        spent = self._points(after) - self._points(before)
+    def energy(self, before: MaterialStates, after: MaterialStates) -> Array:
+        """Energy (k,) dissipated in a slab between two material states of all solids, at the nodes [J]."""
+        spent = self._points(after[self.solid]) - self._points(before[self.solid])
         return np.asarray(self.values.T @ (self.volume * spent))
 
     def _points(self, state: MaterialState | None) -> Array:

@@ -202,7 +202,8 @@ class SlabTemperature:
             model = replace(self.solids.model, exchanges=(*ties, *across))
             factor = None if time.factor is None else time.factor.linked(across, free)
             try:
-                result = solve_slab(model, time.before, stage, time.halves, factor, guess=guess)
+                with np.errstate(invalid="ignore", over="ignore"):  # moduli at temperatures that are only tried
+                    result = solve_slab(model, time.before, stage, time.halves, factor, guess=guess)
             except NumericsError as error:
                 raise NoConvergence(error.what) from None
             at = 0.5 * (time.before.temperature + result.after.temperature)

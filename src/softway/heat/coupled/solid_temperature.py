@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.arrays import Array, IntArray
-from softway.bodies.assembled.material_states import MaterialStates
+from softway.bodies.assembled.material_states import MaterialStates, committed, initial_states
 from softway.bodies.discretised import DiscreteSolid
 from softway.heat.coupled.contact_exchange import ContactExchange
 from softway.heat.coupled.dissipation import Dissipation
@@ -15,7 +15,7 @@ from softway.heat.coupled.slab_temperature import SlabTemperature, TimeOfSlab
 from softway.heat.coupled.strain.deformed import Deformed, beside_law, deformed
 from softway.heat.coupled.strain.expansion import Expansion
 from softway.heat.coupled.strain.moduli import Moduli
-from softway.heat.coupled.strain.stored import Elastic
+from softway.heat.coupled.strain.stored import ElasticTerm
 from softway.heat.heat_balance import put_at_once
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_plan import knots
@@ -52,8 +52,10 @@ class SolidTemperature:
         Dissipations of path-dependent materials that heat.
     inert
         True if the solids have inertia.
-    softened
+    points
         Temperatures at the points of laws that depend on them.
+    states
+        Material states of the solids outside of a slab, see :meth:`in_states`.
     time
         Slab of a march; None outside.
     """
@@ -67,9 +69,10 @@ class SolidTemperature:
     expansions: tuple[Expansion, ...]
     contacts: ContactExchange
     inert: bool
-    elastic: tuple[Elastic, ...] = ()
+    elastic: tuple[ElasticTerm, ...] = ()
     dissipations: tuple[Dissipation, ...] = ()
-    softened: tuple[PointTemperature, ...] = ()
+    points: tuple[PointTemperature, ...] = ()
+    states: MaterialStates = ()
     time: TimeOfSlab | None = None
 
     @property
@@ -80,6 +83,10 @@ class SolidTemperature:
     def initial(self) -> Array:
         """Initial temperatures (n, 1) [K]."""
         return self.on_all(self.model.initial)
+
+    def in_states(self, states: MaterialStates) -> "SolidTemperature":
+        """Equations outside of a slab, of solids in these material states."""
+        return replace(self, states=states)
 
     def in_slab(
         self, ends: tuple[float, float], parts: Sequence[DiscreteSolid], u0: Array, start: FieldState
@@ -94,16 +101,16 @@ class SolidTemperature:
         known = start.unknowns if len(start.unknowns) else unknowns_of(self.model, start.values[self.nodes, 0])
         before = heat_values(self.model, known)
         before, jumped, _ = put_at_once(self.model, before, ends[0])
+        strained = self._deformed(u0, initial_states(parts))
         time = TimeOfSlab(
             start=ends[0], end=ends[1], solids=parts, contacts=self.contacts.at(u0), damped=damped,
-            halves=damped and self.inert, before=before, jumped=jumped, strained=self._deformed(u0),
-            factor=factor,
+            halves=damped and self.inert, before=before, jumped=jumped, strained=strained, factor=factor,
         )  # fmt: skip
         return replace(self, time=time)
 
     def at(self, values: Array, u: Array) -> FieldState:
         """State with the temperatures ``values`` (n, 1) at the displacement ``u`` (n, d)."""
-        shape, now = self._deformed(u), self.contents(values)
+        shape, now = self._deformed(u, self.states), self.contents(values)
         found = self.moduli.potentials(now.temperature, now.share)
         energy = self.of_parts((beside_law(found) * shape.amounts()[:, self.nodes]).sum(axis=0))
         return FieldState(
@@ -113,20 +120,29 @@ class SolidTemperature:
 
     def stiffness_factor(self, state: FieldState) -> Array | None:
         """Factor (n,) of the stiffness of the nodes; None if the moduli do not depend on the temperature."""
-        if not self.elastic:
-            return None
-        out = np.ones(self.count)
-        out[self.nodes] = self.moduli.factor(state.values[self.nodes, 0])
+        return self.factor(state.values)[:, 0] if self.elastic else None
+
+    def factor(self, values: Array) -> Array:
+        """Factors (n, 1) of the moduli at temperatures ``values`` (n, 1) [K]; one on nodes without."""
+        out = np.ones((self.count, 1))
+        out[self.nodes, 0] = self.moduli.factor(values[self.nodes, 0])
         return out
+
+    def of_points(self, temperatures: Array) -> Array:
+        """Temperatures [K] and factors of the moduli (2, n) on all nodes, from temperatures (k,) of those with heat."""
+        values = self.on_all(temperatures)
+        return np.stack([values[:, 0], self.factor(values)[:, 0]])
 
     def solver(self, slab: FieldSlab) -> SlabTemperature:
         """Solver of the temperature at the end of a slab, from the energies (m,) that friction dissipates [J]."""
         assert self.time is not None
-        end, start = self._deformed(slab.u1), self.time.strained.amounts()[:, self.nodes]
+        before = initial_states(self.time.solids)
+        after = committed(self.time.solids, slab.u1) if self.dissipations or self.elastic else ()
+        end, start = self._deformed(slab.u1, after), self.time.strained.amounts()[:, self.nodes]
         change = end.amounts()[:, self.nodes] - start
         out, spent = np.zeros(self.count), 0.0
         for dissipation in self.dissipations:
-            energy = dissipation.energy(self.time.solids, slab.u1)
+            energy = dissipation.energy(before, after)
             out[dissipation.nodes] += dissipation.share * energy
             spent += float(energy.sum())
         return SlabTemperature(
@@ -146,8 +162,8 @@ class SolidTemperature:
 
     def content(self, values: Array, u: Array) -> float:
         """Heat content [J] of temperatures ``values`` (n, 1): internal energy less the energy of the field."""
-        now = self.contents(values)
-        entropies = -self.moduli.slopes(now.temperature, now.share) * self._deformed(u).amounts()[:, self.nodes]
+        now, amounts = self.contents(values), self._deformed(u, self.states).amounts()[:, self.nodes]
+        entropies = -self.moduli.slopes(now.temperature, now.share) * amounts
         return float(now.content.sum() + (now.temperature * entropies).sum())
 
     def contents(self, values: Array) -> HeatValues:
@@ -163,12 +179,13 @@ class SolidTemperature:
 
     def warmed(self, states: MaterialStates, values: Array) -> MaterialStates:
         """Material states at the end of a slab whose laws know the temperatures ``values`` (n, 1) there."""
-        if not self.softened:
+        if not self.points:
             return states
         assert self.time is not None
-        following = self.on_all(after_jumps(self.model, values[self.nodes, 0], self.time.end))
+        ends = values[self.nodes, 0]
+        following = self.of_points(after_jumps(self.model, ends, self.time.end))
         span = np.inf if self.time.start in knots(self.model) else self.time.end - self.time.start
-        return warmed(states, self.softened, values[:, 0], following[:, 0], span)
+        return warmed(states, self.points, self.of_points(ends), following, span)
 
     def stress(self, solid: str, cells: int, values: Array, u: Array) -> Array:
         """Mean stress (cells, 3, 3) of a solid [Pa] that the temperature adds to that of the law, with the ``values``
@@ -181,12 +198,12 @@ class SolidTemperature:
                 out[expansion.cells] = expansion.stress(-found[0], u)
         for elastic in self.elastic:
             if elastic.solid == solid:
-                out[elastic.cells] += elastic.stress(beside_law(found)[1], u)
+                out[elastic.cells] += elastic.stress(beside_law(found)[1], u, self.states)
         return out
 
-    def _deformed(self, u: Array) -> Deformed:
-        """Solids at the displacement ``u`` (n, d) [m]."""
-        return deformed(self.expansions, self.elastic, u)
+    def _deformed(self, u: Array, states: MaterialStates) -> Deformed:
+        """Solids in material states at the displacement ``u`` (n, d) [m]."""
+        return deformed(self.expansions, self.elastic, u, states)
 
     def of_parts(self, values: Array) -> Array:
         """Sums (parts,) over the nodes of each solid of values (k,)."""

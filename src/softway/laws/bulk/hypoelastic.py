@@ -66,6 +66,10 @@ class Hypoelastic:
         """Isotropic moduli, (..., 3, 3, 3, 3) [Pa]."""
         return np.broadcast_to(self.elastic_moduli(), (*increment.strain.shape, 3, 3))
 
+    def dissipation_factor(self, before: Array, after: Array) -> Array:
+        """The factor at the end: nothing is dissipated."""
+        return after
+
     def elastic_moduli(self) -> Array:
         """Isotropic moduli, (3, 3, 3, 3) [Pa]."""
         return tensors.isotropic(*lame(self.E, self.nu))

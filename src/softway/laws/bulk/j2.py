@@ -30,7 +30,7 @@ class J2:
     Parameters
     ----------
     E
-        Young's modulus [Pa], positive.
+        Young's modulus [Pa], positive; at the factor one where moduli depend on the temperature, as ``kinematic``.
     nu
         Poisson's ratio, between -1 and 1/2.
     yield_stress
@@ -119,6 +119,8 @@ class J2:
         """Increment (...,) of the equivalent plastic strain for the trial stress ``norm`` (...,) [Pa]; its slope."""
         slope, p = 3.0 * lame(self.E, self.nu)[1] + self.kinematic, increment.memory["plastic_strain"]
         soft = factor(self.softening, increment.temperature)
+        if increment.stiffness is not None:
+            soft = (1.0 if soft is None else soft) / increment.stiffness
         return returned(norm, slope, p, increment.span, self.yield_stress, self.hardening, self.flow, soft)
 
     def moduli(self, increment: Increment) -> Array:
@@ -136,6 +138,10 @@ class J2:
         along = np.where(flowing, 9.0 * shear**2 * (rise - ratio), 0.0)  # rise = d gain / d norm
         out = soft[..., None, None, None, None] * projector() + (bulk_part + 2.0 / 3.0 * shear) * volumetric()
         return out - along[..., None, None, None, None] * n[..., :, :, None, None] * n[..., None, None, :, :]
+
+    def dissipation_factor(self, before: Array, after: Array) -> Array:
+        """The factor at the end, that of the flow stress."""
+        return after
 
     def elastic_moduli(self) -> Array:
         """Isotropic moduli, (3, 3, 3, 3) [Pa]."""

@@ -183,6 +183,10 @@ class Maxwell:
             C = C - 2.0 * shear * share * np.expm1(-x) / x * projector()
         return np.broadcast_to(C, (*increment.strain.shape, 3, 3))
 
+    def dissipation_factor(self, before: Array, after: Array) -> Array:
+        """The mean factor, with relaxation times that do not depend on the temperature."""
+        return 0.5 * (before + after)
+
     def elastic_moduli(self) -> Array:
         """Instantaneous moduli, (3, 3, 3, 3) [Pa]."""
         return tensors.isotropic(*lame(self.E, self.nu))

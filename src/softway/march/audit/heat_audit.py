@@ -19,7 +19,7 @@ def initial_heat(model: Model, now: ModelState) -> HeatOfSolids | None:
     for k, temperature in temperatures_of(model.companions):
         values = now.start.fields[k].values
         return HeatOfSolids(
-            content=temperature.content(values, now.start.displacement),
+            content=temperature.in_states(now.start.states).content(values, now.start.displacement),
             through=(0.0,) * len(temperature.contacts.contacts),
             liquid=liquid_volumes(temperature.model, temperature.contents(values)),
         )

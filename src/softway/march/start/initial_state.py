@@ -15,6 +15,7 @@ from softway.errors import Cancel, InputError
 from softway.march.model_state import ModelState
 from softway.march.results.trying import TryWatch, watched
 from softway.march.start.initial_overlap import deepest, shrunk
+from softway.model.field import in_states
 from softway.model.model import Model
 from softway.model.scene import StaticStart
 from softway.solve.effort import Effort
@@ -58,7 +59,7 @@ def initial_state(
     u, pressure = rest.displacement, rest.pressure
     energy, force = model.energy_and_force(u)
     states = material_states.committed(model.parts, u)
-    fields = tuple(c.at(c.initial(), u) for c in model.companions)
+    fields = tuple(c.at(c.initial(), u) for c in in_states(model.companions, states))
     return ModelState(
         time=0.0,
         start=SlabStart(

@@ -112,6 +112,8 @@ def freezing(mesh: sw.Mesh) -> object:
 
 
 PLASTIC = sw.J2(E=1.0, nu=0.3, yield_stress=0.1)
+FALLS = sw.J2(E=1.0, nu=0.3, yield_stress=0.1, hardening=sw.laws.LinearHardening(modulus=-0.6))
+DAMPED = sw.laws.Kelvin(E=1.0, nu=0.3, shear_viscosity=1.0)
 SOFTER = heat.StiffnessTable(temperatures=(300.0, 900.0), values=(1.0, 0.5))
 FINE = rectangle((1.0, 1.0), (4, 4))
 CONDUCTS = heat.ContactHeat(conductance=1.0)
@@ -186,10 +188,15 @@ TABLE: Table = {
         lambda: heat.ContactHeat(gas=0.03, roughness=1e-6),
     ),
     "expansion of fibres": call(lambda: solids(material=FIBRES), "an isotropic law", solids),
-    "moduli of a law with a history": call(
+    "moduli of a law that knows no factor": call(
+        lambda: solids(material=DAMPED, thermal=thermal(stiffness=SOFTER)),
+        "J2, Maxwell, Hypoelastic",
         lambda: solids(material=PLASTIC, thermal=thermal(stiffness=SOFTER)),
-        "a law with a stored energy",
-        lambda: solids(thermal=thermal(stiffness=SOFTER)),
+    ),
+    "a yield stress that falls faster than soft moduli allow": call(
+        lambda: solids(material=FALLS, thermal=thermal(stiffness=SOFTER)),
+        "a slope above -3 mu",
+        lambda: solids(material=PLASTIC, thermal=thermal(stiffness=SOFTER)),
     ),
     "a share above one": call(lambda: thermal(heating=2.0), "a share from 0 to 1", thermal),
     "a melting strain of what does not melt": call(

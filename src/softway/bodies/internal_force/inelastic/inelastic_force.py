@@ -79,8 +79,13 @@ class InelasticForce:
         return self.points.directions
 
     def during(self, state: MaterialState | None, span: float) -> "InelasticForce":
-        """Force in a slab of length ``span`` [s] that starts from a state; the force itself without one."""
-        return self if state is None else replace(self, state=state, span=span)
+        """Force in a slab of length ``span`` [s] that starts from a state; the force itself without one.
+
+        Kernels do not know a factor of the moduli.
+        """
+        if state is None:
+            return self
+        return replace(self, state=state, span=span, work=self.work if state.stiffness is None else self.plain)
 
     def transferred(self, piece: BodyForce, nodes: IntArray, points: IntArray) -> BodyForce:
         """Force ``piece`` of some nodes (k,) and points (q,) of the body, in the slab of this force."""

@@ -9,7 +9,7 @@ from softway.arrays import Array
 from softway.bodies.internal_force.inelastic.slab_kinematics import SlabDeformation, push_forward, slab_deformation
 from softway.bodies.internal_force.material_state import MaterialState
 from softway.kernels.linalg import tensors
-from softway.laws.law import Damped, Increment, RateLaw, Response, Viscous
+from softway.laws.law import Damped, Increment, RateLaw, Response, Scalable, Viscous
 from softway.laws.objective_rates import Rate, Truesdell
 
 TOLERANCE = 1e-12
@@ -107,8 +107,9 @@ class RatePoints:
             strain=deformation.strain,
             span=span,
             temperature=state.middle_temperature(span),
+            stiffness=state.coming_stiffness(span),
         )
-        response = self.law.respond(increment)
+        response = self._scaled(self.law.respond(increment), state.stiffness, increment.stiffness)
         if inverted.any():
             stress = np.where(inverted[:, None, None], np.nan, response.stress)
             response = replace(response, stress=stress, stored=np.where(inverted, np.nan, response.stored))
@@ -116,6 +117,12 @@ class RatePoints:
         return PointResponse(
             response=response, deformation=deformation, F=F1, ratio=ratio, increment=increment, lateral=lateral
         )
+
+    def _scaled(self, response: Response, before: Array | None, after: Array | None) -> Response:
+        """Response that dissipates with factors (p,) of the moduli at both ends."""
+        if before is None or after is None or not isinstance(self.law, Scalable):
+            return response
+        return replace(response, dissipated=self.law.dissipation_factor(before, after) * response.dissipated)
 
     def _lateral_correction(self, found: PointResponse) -> Array:
         """Changes (p, k) of the logarithmic lateral strains that remove the stress on the free faces."""
@@ -169,6 +176,8 @@ class RatePoints:
             viscous=self.viscous_stress(found),
             temperature=state.temperature,
             warming=state.warming,
+            stiffness=state.stiffness,
+            stiffening=state.stiffening,
         )
 
     def moduli(self, found: PointResponse, H: Array, secant: bool = False) -> Array:

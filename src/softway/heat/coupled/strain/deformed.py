@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.assembled.material_states import MaterialStates
 from softway.heat.coupled.strain.expansion import Expansion, Strained, strained
-from softway.heat.coupled.strain.stored import Elastic, StoredEnergies, stored_energies
+from softway.heat.coupled.strain.stored import ElasticTerm, StoredEnergies, stored_energies
 
 
 def beside_law(potentials: Array) -> Array:
@@ -37,6 +38,8 @@ class Deformed:
         return out + self.stored.force(beside_law(potentials)[1], dim) if self.stored.terms else out
 
 
-def deformed(expansions: tuple[Expansion, ...], elastic: tuple[Elastic, ...], u: Array) -> Deformed:
-    """Solids at the displacement ``u`` (n, d) [m]."""
-    return Deformed(strained(expansions, u), stored_energies(elastic, u))
+def deformed(
+    expansions: tuple[Expansion, ...], elastic: tuple[ElasticTerm, ...], u: Array, states: MaterialStates
+) -> Deformed:
+    """Solids in material states at the displacement ``u`` (n, d) [m]."""
+    return Deformed(strained(expansions, u), stored_energies(elastic, u, states))

@@ -1,16 +1,22 @@
 """Elastic energy at the nodes of solids whose moduli depend on the temperature, and the forces of a part of it."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import csr_array
 
 from softway.arrays import Array, IntArray
+from softway.bodies.assembled.material_states import MaterialStates
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.internal_force.elastic.elastic_force import ElasticForce
-from softway.errors import InputError
+from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
+from softway.bodies.internal_force.material_state import MaterialState
+from softway.errors import InputError, within
 from softway.heat.coupled.strain.expansion import pieces, point_values
+from softway.kernels.linalg import tensors
+from softway.laws.bulk import J2
+from softway.laws.law import Material, Scalable
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -37,12 +43,62 @@ class Elastic:
     values: csr_array
     internal: ElasticForce
 
-    def stress(self, weight: Array, u: Array) -> Array:
+    def energy_and_flux(self, u: Array, states: MaterialStates) -> tuple[Array, Array]:
+        """Energy (p,) [J/m^3] and flux (p, m, D) [Pa] at the displacement ``u`` (n, d) of all solids."""
+        plain = self.internal.plain
+        return plain.points.energy_and_flux(plain.derivatives(u[self.nodes]))
+
+    def stress(self, weight: Array, u: Array, states: MaterialStates) -> Array:
         """Mean Cauchy stress (e, 3, 3) [Pa] of the law times weights (n,) of the nodes, at ``u`` (n, d)."""
         plain = self.internal.plain
         sigma, ratio = plain.points.cauchy(plain.derivatives(u[self.nodes]))
         weighted = (self.values @ weight[self.nodes])[:, None, None] * sigma
         return plain.sampling.cell_means(weighted, ratio * plain.sampling.volume)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Historic:
+    """Elements of one law with a history; parameters as of :class:`Elastic`.
+
+    Parameters
+    ----------
+    number, region
+        Number of the solid, and name of its region; empty for a solid of one law.
+    """
+
+    solid: str
+    number: int
+    region: str
+    cells: IntArray
+    nodes: IntArray
+    values: csr_array
+    internal: InelasticForce
+
+    def energy_and_flux(self, u: Array, states: MaterialStates) -> tuple[Array, Array]:
+        """Energy (p,) [J/m^3] stored since the start of the march, and flux (p, m, D) [Pa], in the states."""
+        state = self._own(states)
+        H, F = self._gradients(state)
+        return state.stored, self.internal.points.flux(state.stress, F, H)
+
+    def stress(self, weight: Array, u: Array, states: MaterialStates) -> Array:
+        """Mean Cauchy stress (e, 3, 3) [Pa] of the law times weights (n,) of the nodes, in the states."""
+        state, sampling = self._own(states), self.internal.sampling
+        weighted = (self.values @ weight[self.nodes])[:, None, None] * state.stress
+        return sampling.cell_means(weighted, tensors.determinant(self._gradients(state)[1]) * sampling.volume)
+
+    def _gradients(self, state: MaterialState) -> tuple[Array, Array]:
+        """Displacement derivatives (p, m, D) and deformation gradients (p, 3, 3) of a state."""
+        H = self.internal.sampling.derivatives(state.displacement)
+        return H, self.internal.points.gradient(H, state.lateral)
+
+    def _own(self, states: MaterialStates) -> MaterialState:
+        """Its state among those of all solids."""
+        state = states[self.number]
+        assert state is not None
+        return state.regions[self.region] if self.region else state
+
+
+ElasticTerm = Elastic | Historic
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,7 +107,7 @@ class StoredEnergies:
     flux (p, m, D) [Pa].
     """
 
-    terms: tuple[Elastic, ...]
+    terms: tuple[ElasticTerm, ...]
     own: tuple[Array, ...]
     found: tuple[tuple[Array, Array], ...]
     n: int
@@ -72,28 +128,44 @@ class StoredEnergies:
         return out
 
 
-def stored_energies(terms: tuple[Elastic, ...], u: Array) -> StoredEnergies:
-    """Energies of some ``terms`` at the displacement ``u`` (n, d) [m]."""
+def stored_energies(terms: tuple[ElasticTerm, ...], u: Array, states: MaterialStates) -> StoredEnergies:
+    """Energies of some ``terms`` in material states at the displacement ``u`` (n, d) [m]."""
     own = tuple(u[it.nodes] for it in terms)
-    plain = (it.internal.plain for it in terms)
-    found = tuple(p.points.energy_and_flux(p.derivatives(mine)) for p, mine in zip(plain, own, strict=True))
-    return StoredEnergies(terms, own, found, len(u))
+    return StoredEnergies(terms, own, tuple(it.energy_and_flux(u, states) for it in terms), len(u))
 
 
-def elastic_terms(part: DiscreteSolid) -> Iterator[Elastic]:
-    """Elements of the laws of a solid whose moduli depend on the temperature.
+def elastic_terms(number: int, part: DiscreteSolid, least: float) -> Iterator[ElasticTerm]:
+    """Elements of the laws of the solid of this ``number``, whose moduli have a factor of the temperature.
+
+    Parameters
+    ----------
+    number, part
+        The solid.
+    least
+        Least factor in its table.
 
     Raises
     ------
     InputError
-        If a law has no stored energy.
+        If a law with a history knows no factor of its moduli, or its stress falls faster than the least ones allow.
     """
     whole = point_values(part)
     for region, cells, nodes, points, internal, law in pieces(part):
-        if not isinstance(internal, ElasticForce):
-            problem = f"moduli of {type(law).__name__}{f' in {region}' if region else ''}, which has a history"
-            raise InputError("thermal.stiffness", problem, "none, or a law with a stored energy such as Hencky")
-        yield Elastic(
-            solid=part.name, cells=cells, nodes=nodes + part.nodes.start, values=csr_array(whole[points][:, nodes]),
-            internal=internal,
-        )  # fmt: skip
+        place = {"solid": part.name, "cells": cells, "nodes": nodes + part.nodes.start}
+        values = csr_array(whole[points][:, nodes])
+        if isinstance(internal, ElasticForce):
+            yield Elastic(**place, values=values, internal=internal)
+        else:
+            _require_scalable(law, region, least)
+            assert isinstance(internal, InelasticForce)
+            yield Historic(**place, number=number, region=region, values=values, internal=internal)
+
+
+def _require_scalable(law: Material, region: str, least: float) -> None:
+    """Refuse laws with a history whose moduli cannot have a factor down to the ``least``."""
+    if not isinstance(law, Scalable):
+        problem = f"{type(law).__name__}{f' in {region}' if region else ''} knows no factor of its moduli"
+        raise InputError("thermal.stiffness", problem, "none, or J2, Maxwell, Hypoelastic, or one with a stored energy")
+    if isinstance(law, J2):
+        with within(f"material.{region}" if region else "material"):
+            replace(law, E=least * law.E, kinematic=least * law.kinematic)
