@@ -37,8 +37,9 @@ class Conductor:
     temperature
         Initial temperature [K]: a number, a profile of numbers, nodal values (n,), or a function of the points (n, d).
     latent
-        Place of the latent heat: ``cell``, the liquid part of the cells that the temperature of melting cuts, or
-        ``node``, the nodes.  That of a mushy range is always at the nodes.
+        Place of the latent heat: ``cell``, the liquid part of the cells that the temperature of melting cuts,
+        ``node``, the nodes, or ``front``, in bars, a front between two nodes.  That of a mushy range is always at the
+        nodes.
 
     Raises
     ------
@@ -59,15 +60,15 @@ class Conductor:
     density: KilogramPerCubicMetre | Mapping[str, KilogramPerCubicMetre]
     section: Section | None = None
     temperature: Annotated[TemperatureField, "K"]
-    latent: Literal["cell", "node"] = "cell"
+    latent: Literal["cell", "node", "front"] = "cell"
 
     def __post_init__(self) -> None:
         _require_law(self.law)
         densities = self.density if isinstance(self.density, Mapping) else {"": self.density}
         for region, density in densities.items():
             positive(**{f"density.{region}" if region else "density": density})
-        if self.latent not in ("cell", "node"):
-            raise InputError("latent", f"{self.latent!r}", "'cell' or 'node'")
+        if self.latent not in ("cell", "node", "front"):
+            raise InputError("latent", f"{self.latent!r}", "'cell', 'node' or, in bars, 'front'")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

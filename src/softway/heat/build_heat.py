@@ -8,15 +8,16 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
 from softway.bodies.conductor import Conductor, sample_temperature
+from softway.bodies.elements.cut_cells import simplices_of
 from softway.bodies.elements.section import Axisymmetric, Section, check_section, default_section
 from softway.bodies.inertia.mass_matrix import body_of
 from softway.bodies.inertia.nodal_heat import heated_volumes
 from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, Radiation, Temperature, place_of, surface_points
 from softway.errors import InputError, within
+from softway.heat.fronts.build_fronts import with_fronts
 from softway.heat.heat_contact import HeatContact, HeatExchange, heat_exchange
 from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, HeatSurface, Simplices
 from softway.heat.operators import heat_flow, heat_values, unknowns_of
-from softway.heat.phase import simplices_of
 from softway.heat.regional_laws import RegionalLaws, regional_laws
 from softway.kernels.assembly.assembler import assembler
 from softway.kernels.geometry.jacobians import cell_geometry
@@ -68,7 +69,7 @@ def heat_model(
         with within(f"bodies.{name}"):
             part, section, laws, mass = _part(name, body, n, e)
             cells.extend(_cells(part, section, laws))
-            simplices.extend(_simplices(part, section, laws))
+            simplices.extend(() if body.latent == "front" else _simplices(part, section, laws))
             with within("temperature"):
                 initial.append(sample_temperature(body.temperature, part.mesh))
         parts.append(part)
@@ -86,7 +87,7 @@ def heat_model(
         initial=np.concatenate(initial), linear=linear, latent=_latent(simplices, n), n_cells=e,
     )  # fmt: skip
     if not constant:
-        return model
+        return with_fronts(model, bodies)
     capacity = heat_values(model, unknowns_of(model, model.initial)).capacity
     conduction = heat_flow(model, model.initial, np.zeros(e), slopes=True)[1]
     return replace(model, conduction=conduction, capacity=capacity)

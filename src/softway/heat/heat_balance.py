@@ -264,7 +264,7 @@ def entropy_of_reservoirs(model: HeatModel, stage: Stage, found: Balance) -> flo
 def rounding(model: HeatModel, before: HeatValues, stage: Stage) -> float:
     """Rounding of the sum of the heats of the nodes [J]."""
     total = 2.0 * float(np.abs(before.content).sum())
-    if stage.strain is not None:  # the temperatures themselves are rounded, whatever the content is counted from
+    if stage.strain is not None or model.fronts is not None:  # temperatures are rounded, whatever is counted from
         total += 2.0 * float((before.capacity / before.stretch) @ before.temperature)
     if model.conduction is not None:
         total += 2.0 * stage.span * float(model.conduction.diagonal() @ np.abs(before.temperature))

@@ -110,6 +110,52 @@ class Simplices:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Phases:
+    """Nodes of a body, and the specific contents of its solid and its liquid at any temperature."""
+
+    nodes: slice
+    solid: ContentCurve
+    liquid: ContentCurve
+
+    def content(self, liquid: BoolArray) -> MixedContent:
+        """Specific content of nodes (n,) in their phases."""
+        here = liquid[self.nodes]
+        return MixedContent(curves=(self.solid, self.liquid), shares=np.stack([~here, here]).astype(float))
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FrontCells:
+    """Cells of bars in which there may be a front.
+
+    Parameters
+    ----------
+    nodes, numbers
+        (c, 2) their nodes, and (c,) their numbers among all cells.
+    latent
+        (c,) latent heat of the liquid cell [J].
+    solid, liquid
+        (c,) conductances of the whole cell in each phase [W/K].
+    melting, capacity
+        (n,) temperatures of melting [K], not a number at other nodes, and capacities there [J/K].
+    phases
+        Specific contents of the phases by bodies.
+    """
+
+    nodes: IntArray
+    numbers: IntArray
+    latent: Array
+    solid: Array
+    liquid: Array
+    melting: Array
+    capacity: Array
+    phases: tuple[Phases, ...]
+
+    def around(self, node: int) -> IntArray:
+        """Cells (k,) of a node."""
+        return np.flatnonzero((self.nodes == node).any(axis=1))
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class HeatSurface:
     """Heat exchange at points of a surface: interpolation (p, n) and areas (p,) [m^2]."""
 
@@ -152,6 +198,8 @@ class HeatModel:
         (n,) latent heats of the nodes in cut cells when all around them is liquid [J].
     n_cells
         Number E of cells.
+    fronts
+        Cells of bars that have fronts between their nodes; None without.
     conduction, capacity
         If all laws are constant: (n, n) derivative of the heat that flows out of the nodes by conduction [W/K], and
         (n,) their capacities [J/K].
@@ -171,6 +219,7 @@ class HeatModel:
     linear: bool
     latent: Array
     n_cells: int
+    fronts: FrontCells | None = None
     conduction: sp.csr_array | None = None
     capacity: Array | None = None
 

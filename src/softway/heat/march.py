@@ -8,6 +8,8 @@ import numpy as np
 from softway.arrays import Array
 from softway.errors import Cancel, InputError, heed
 from softway.heat.build_heat import build_heat
+from softway.heat.fronts.front_slab import solve_front_slab
+from softway.heat.fronts.places import Fronts, first_fronts, turned, with_latent
 from softway.heat.heat_balance import Stage, put_at_once
 from softway.heat.heat_model import HeatModel, HeatScene
 from softway.heat.heat_plan import PlannedSlab, planned_slabs
@@ -34,12 +36,15 @@ class HeatState:
         Ledger since the start.
     slabs
         Number of slabs since the start.
+    fronts
+        Fronts between the nodes of bars; None without.
     """
 
     time: float
     unknowns: Array
     ledger: HeatLedger
     slabs: int = 0
+    fronts: Fronts | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -149,11 +154,8 @@ def march_heat(
         raise InputError("until", f"{until:g} s after a start at {begin:g} s", "a later time")
     if not 0.0 < step < np.inf:
         raise InputError("step", f"{step:g} s is not positive", "a positive time")
-    before = heat_values(model, unknowns)
-    ledger = opened(before.content, _count(model), len(model.exchanges)) if state is None else state.ledger
-    slabs = 0 if state is None else state.slabs
-    start = HeatState(time=begin, unknowns=unknowns, ledger=ledger, slabs=slabs)
-    return _slabs(model, start, before, planned_slabs(model, begin, until, step), damped, linear, cancel)
+    start = _opening(model) if state is None else state
+    return _slabs(model, start, planned_slabs(model, begin, until, step), damped, linear, cancel)
 
 
 def heat_at_start(model: HeatModel) -> HeatStep:
@@ -168,11 +170,18 @@ def heat_at_start(model: HeatModel) -> HeatStep:
     >>> heat_at_start(build_heat(HeatScene(bodies={"bar": bar}))).temperature["bar"].tolist()
     [300.0, 300.0]
     """
-    before = heat_values(model, unknowns_of(model, model.initial))
-    state = HeatState(
-        time=0.0, unknowns=before.unknowns, ledger=opened(before.content, _count(model), len(model.exchanges))
-    )
+    state = _opening(model)
+    before = with_latent(model, state.fronts, heat_values(model, state.unknowns))
     return _step(model, state, before, _Told(0.0, 0, False, 0.0))
+
+
+def _opening(model: HeatModel) -> HeatState:
+    """State at the start."""
+    unknowns = unknowns_of(model, model.initial)
+    fronts = None if model.fronts is None else first_fronts(model.fronts, model.initial)
+    whole = with_latent(model, fronts, heat_values(model, unknowns))
+    ledger = opened(whole.content, _count(model), len(model.exchanges))
+    return HeatState(time=0.0, unknowns=unknowns, ledger=ledger, fronts=fronts)
 
 
 def _count(model: HeatModel) -> int:
@@ -183,27 +192,40 @@ def _count(model: HeatModel) -> int:
 def _slabs(
     model: HeatModel,
     state: HeatState,
-    before: HeatValues,
     planned: list[PlannedSlab],
     damped: bool,
     linear: LinearSolver,
     cancel: Cancel | None,
 ) -> Iterator[HeatStep]:
     """March over planned slabs."""
-    ledger, factor, slabs = state.ledger, None, state.slabs
+    ledger, factor, slabs, fronts = state.ledger, None, state.slabs, state.fronts
+    bare = heat_values(model, state.unknowns)
     for slab in planned:
         heed(cancel, slab.start)
-        standing = entropy(model, before)
-        before, jumped, carried = put_at_once(model, before, slab.start)
-        ledger = booked(ledger, before.content, _padded(model, jumped))
+        standing = entropy(model, with_latent(model, fronts, bare))
+        bare, jumped, carried = put_at_once(model, bare, slab.start)
+        fronts = _turned(model, fronts, bare)
+        ledger = booked(ledger, with_latent(model, fronts, bare).content, _padded(model, jumped))
         calm = damped and slab.first
         stage = Stage(start=slab.start, span=slab.span, theta=1.0 if calm else 0.5)
-        found = solve_slab(model, before, stage, calm, factor, linear)
-        before, factor = found.after, found.factor
-        ledger, slabs = booked(ledger, before.content, found.heats, found.passed), slabs + 1
-        state = HeatState(time=slab.end, unknowns=before.unknowns, ledger=ledger, slabs=slabs)
-        produced = entropy(model, before) - standing - carried - found.entropy
-        yield _step(model, state, before, _Told(slab.span, found.iterations, calm, produced))
+        if model.fronts is None or fronts is None:
+            found = solve_slab(model, bare, stage, calm, factor, linear)
+        else:
+            found, fronts = solve_front_slab(model, model.fronts, (bare, fronts), stage, calm)
+        bare, factor = found.after, found.factor
+        bare = bare if fronts is None else heat_values(model, bare.unknowns)
+        after = with_latent(model, fronts, bare)
+        ledger, slabs = booked(ledger, after.content, found.heats, found.passed), slabs + 1
+        state = HeatState(time=slab.end, unknowns=bare.unknowns, ledger=ledger, slabs=slabs, fronts=fronts)
+        produced = entropy(model, after) - standing - carried - found.entropy
+        yield _step(model, state, after, _Told(slab.span, found.iterations, calm, produced))
+
+
+def _turned(model: HeatModel, fronts: Fronts | None, bare: HeatValues) -> Fronts | None:
+    """Fronts after prescribed temperatures have jumped to those of the other phase; None without."""
+    if model.fronts is None or fronts is None:
+        return None
+    return turned(model.fronts, fronts, bare.temperature, np.flatnonzero(~model.free_nodes()).tolist())
 
 
 def _padded(model: HeatModel, jumped: Array) -> Array:

@@ -6,9 +6,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.elements.cut_cells import melted_part
 from softway.bodies.setup.heat_loads import Convection, HeatFlux, Radiation
 from softway.heat.heat_model import HeatCells, HeatModel, HeatSurface
-from softway.heat.phase import melted_part
 from softway.laws.heat.contact_heat import STEFAN_BOLTZMANN
 from softway.laws.heat.heat_content import ZERO, ContentCurve
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from softway.heat.phase import liquid_part, melted_part, simplices_of
+from softway.bodies.elements.cut_cells import liquid_part, melted_part, simplices_of
 from softway.meshes.cells import CELLS
 
 

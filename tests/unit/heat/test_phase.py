@@ -2,34 +2,13 @@
 
 import numpy as np
 import pytest
-from scipy.special import erf, erfc
 
 import softway as sw
+from neumann import DENSITY, MELTING, front, ice, neumann
 from softway.meshes.generators.shapes import box, interval, rectangle
 
 pytestmark = pytest.mark.slow
 heat = sw.heat
-WATER = heat.Conduction(conductivity=0.556, capacity=4226.0)
-MELTING, HEAT, DENSITY = 273.15, 338e3, 1000.0
-ROOT = 0.15145327101974576
-"""Front over 2 sqrt(diffusivity of ice times time) in Neumann's solution, from the catalogue of cases."""
-
-
-def ice(half_range: float = 0.0) -> heat.Conduction:
-    latent = heat.Latent(heat=HEAT, melting=MELTING, half_range=half_range, liquid=WATER)
-    return heat.Conduction(conductivity=2.22, capacity=1762.0, latent=latent)
-
-
-def front(time: float) -> float:
-    return 2.0 * ROOT * np.sqrt(2.22 / (DENSITY * 1762.0) * time)
-
-
-def neumann(x: np.ndarray, time: float) -> np.ndarray:
-    """Temperatures [K] of water at 5 degrees Celsius whose surface is put to -10."""
-    solid, liquid = 2.22 / (DENSITY * 1762.0), 0.556 / (DENSITY * 4226.0)
-    frozen = -10.0 + 10.0 * erf(x / (2.0 * np.sqrt(solid * time))) / erf(ROOT)
-    water = 5.0 - 5.0 * erfc(x / (2.0 * np.sqrt(liquid * time))) / erfc(ROOT * np.sqrt(solid / liquid))
-    return MELTING + np.where(x < front(time), frozen, water)
 
 
 def freezing(law: heat.Conduction, cells: int, latent: str, step: float) -> list[heat.HeatStep]:

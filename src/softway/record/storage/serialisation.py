@@ -18,6 +18,7 @@ from softway.contact.contact_rows import ContactRows
 from softway.contact.tangential_rows import TangentialRows
 from softway.errors import InputError
 from softway.heat.coupled.heat_of_solids import HeatOfSolids
+from softway.heat.fronts.places import Fronts
 from softway.heat.ledger import HeatLedger
 from softway.heat.march import HeatState
 from softway.march.march_state import EnergyAccount, MarchState, Settings, StepHistory
@@ -48,6 +49,7 @@ KINDS: Mapping[str, type] = MappingProxyType(
                 PileState,
                 HeatState,
                 HeatLedger,
+                Fronts,
                 Settings,
                 ModelState,
                 SlabStart,

@@ -1,6 +1,7 @@
 """Refusals of conductors, their laws and boundary conditions."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -16,6 +17,8 @@ heat = sw.heat
 LAW = heat.Conduction(conductivity=1.0, capacity=1.0)
 MELTS = heat.Conduction(conductivity=1.0, capacity=1.0, latent=heat.Latent(heat=1.0, melting=300.0))
 BAR = interval(1.0, cells=2)
+TWO = BAR.with_region("a", lambda x: x[:, 0] < 0.5).with_region("c", lambda x: x[:, 0] > 0.5)
+TABLE = heat.TemperatureTable(temperatures=(200.0, 300.0), values=(1.0, 2.0))
 SQUARE = rectangle((1.0, 1.0), (2, 2))
 CORNER = SQUARE.with_tag("corner", lambda x: (x < 0.1).all(axis=1))
 COLD = (2.0, 1.0)
@@ -252,7 +255,7 @@ TABLE: Table = {
         "one number in bars",
         lambda: built(law=heat.Conduction(conductivity=(1.0, 2.0), capacity=1.0), mesh=SQUARE),
     ),
-    "elsewhere": call(lambda: body(latent="edge"), "'cell' or 'node'", lambda: body(latent="node")),
+    "elsewhere": call(lambda: body(latent="edge"), "'cell', 'node' or, in bars, 'front'", lambda: body(latent="node")),
     "temperatures of two nodes": call(
         lambda: sample_temperature(np.full(2, 300.0), BAR),
         "shape (3,)",
@@ -307,6 +310,26 @@ TABLE: Table = {
     "mush beside others": call(lambda: halves(LAW, melting(half_range=1.0)), "zero", lambda: halves(LAW, melting())),
     "melting at two temperatures": call(
         lambda: halves(melting(), melting(310.0)), "one temperature", lambda: halves(melting(), melting())
+    ),
+    "front in quadratic bars": call(
+        lambda: built(law=MELTS, mesh=interval(1.0, cells=2, cell="bar3"), latent="front"),
+        "'cell'",
+        lambda: built(law=MELTS, mesh=interval(1.0, cells=2), latent="front"),
+    ),
+    "front in several materials": call(
+        lambda: built(law={"a": LAW, "c": MELTS}, mesh=TWO, latent="front"),
+        "'cell'",
+        lambda: built(law={"a": LAW, "c": MELTS}, mesh=TWO, latent="cell"),
+    ),
+    "front in a mushy range": call(
+        lambda: built(law=melting(300.0, 1.0), mesh=interval(1.0, cells=2), latent="front"),
+        "'node'",
+        lambda: built(law=melting(300.0, 1.0), mesh=interval(1.0, cells=2), latent="node"),
+    ),
+    "front beside a table": call(
+        lambda: built(law=replace(MELTS, conductivity=TABLE), mesh=interval(1.0, cells=2), latent="front"),
+        "'cell'",
+        lambda: built(law=replace(MELTS, conductivity=TABLE), mesh=interval(1.0, cells=2), latent="cell"),
     ),
     "latent heat of shared nodes": call(
         lambda: halves(LAW, MELTS, latent="node"), "'cell'", lambda: halves(LAW, MELTS, latent="cell")

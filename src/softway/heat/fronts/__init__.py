@@ -1,0 +1,1 @@
+"""Fronts of melting between the nodes of bars."""
