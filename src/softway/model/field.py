@@ -5,7 +5,7 @@ slab at every evaluation of the equations of motion, so that motion and field me
 force and an energy to the motion.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
@@ -161,6 +161,19 @@ class StiffField(Protocol):
 
     def stiffness_factor(self, state: FieldState) -> Array | None:
         """Factor (n,) of the stiffness of the nodes in a state; None without."""
+        ...
+
+
+@runtime_checkable
+class FieldOfBodies(Protocol):
+    """Equations of a companion field that has values of rigid bodies, too."""
+
+    def of_bodies(self, state: FieldState) -> dict[str, Array]:
+        """Values (1, components) of rigid bodies in a state, by name."""
+        ...
+
+    def with_bodies(self, state: FieldState, found: Mapping[str, Array]) -> FieldState:
+        """State with the values ``found`` (1, components) of rigid bodies by name."""
         ...
 
 
