@@ -193,10 +193,15 @@ class TimedField(Protocol):
     """
 
     def in_slab(
-        self, ends: tuple[float, float], parts: Sequence[DiscreteSolid], u0: Array, start: FieldState
+        self,
+        ends: tuple[float, float],
+        parts: Sequence[DiscreteSolid],
+        u0: Array,
+        start: FieldState,
+        beside: Mapping[str, Array],
     ) -> FieldEquations:
         """Equations in a slab between two times [s], of solids with the material states, the displacement ``u0`` (n, d)
-        [m] and the state of the field at its ``start``.
+        [m], the state of the field at its ``start``, and the values there of all fields by name.
         """
         ...
 
@@ -211,7 +216,8 @@ def in_slab(
     """Companion fields in a slab between two times [s], from their states at its start; the same if none changes."""
     if not any(isinstance(c, TimedField) for c in companions):
         return companions
+    beside = {c.field.name: state.values for c, state in zip(companions, fields, strict=True)}
     return tuple(
-        c.in_slab(ends, parts, u0, state) if isinstance(c, TimedField) else c
+        c.in_slab(ends, parts, u0, state, beside) if isinstance(c, TimedField) else c
         for c, state in zip(companions, fields, strict=True)
     )

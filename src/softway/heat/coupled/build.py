@@ -22,7 +22,7 @@ from softway.heat.coupled.strain.expansion import Expansion, expansions
 from softway.heat.coupled.strain.free_strain import FreeStrain
 from softway.heat.coupled.strain.moduli import Moduli
 from softway.heat.coupled.strain.stored import Elastic, elastic_terms
-from softway.heat.coupled.through_ties import through_ties
+from softway.heat.coupled.through_ties import breaking_glue, require_heated, through_ties
 from softway.heat.heat_model import HeatModel, Lump
 from softway.heat.operators import heat_values, unknowns_of
 from softway.heat.regional_laws import regional_laws
@@ -67,6 +67,7 @@ def build(scene: Scene) -> Model:
             problem = f"heat across {contact.label!r}, of bodies without a temperature"
             raise InputError(f"contacts[{k}].heat", problem, "the heat of a solid, thermal, or a contact without heat")
     _require_temperature(scene)
+    require_heated(model, heated)
     return with_temperature(model, heated, loads, lumps) if heated else model
 
 
@@ -94,7 +95,7 @@ def with_temperature(
                 elastic.extend(elastic_terms(part))
     heat = heat_model(conductors, loads, lumps=lumps)
     nodes = np.concatenate([np.arange(part.nodes.start, part.nodes.stop) for part in parts.values()])
-    heat = replace(heat, exchanges=tuple(through_ties(model, thermals, nodes)))
+    heat = replace(heat, exchanges=tuple(through_ties(model, thermals, nodes, len(lumps))))
     pairs = ((part, regional_laws(conductors[part.name], part.mesh)) for part in heat.parts)
     effusivity = {part.name: laws.effusivity(part.mesh, part.volume) for part, laws in pairs}
     numbered = [(list(model.meshes).index(name), part) for name, part in parts.items()]
@@ -104,6 +105,7 @@ def with_temperature(
         model=heat, nodes=nodes, count=model.shape[0], parts=len(model.parts), part=model.part_of[nodes],
         moduli=Moduli(free=_free_strain(heat, thermals), curves=tuple(_curves(heat, thermals))),
         expansions=tuple(found), dissipations=tuple(spent), elastic=tuple(elastic), softened=softened,
+        glue=tuple(breaking_glue(model, nodes, len(lumps))),
     )  # fmt: skip
     if softened:
         start = np.zeros(model.shape[0])

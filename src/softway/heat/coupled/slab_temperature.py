@@ -65,7 +65,8 @@ class TimeOfSlab:
     """Slab of a march between two times [s], ``damped`` after a sudden change, in two ``halves``.
 
     At its start: solids with their material states, contacts with their areas, temperatures ``before``, heats of
-    prescribed temperatures that jumped [J], and the strain.  The factor is that of its operator without contact.
+    prescribed temperatures that jumped [J], the strain, and the damage of ties that break.  The factor is that of its
+    operator without contact and such ties.
     """
 
     start: float
@@ -78,6 +79,7 @@ class TimeOfSlab:
     jumped: Array
     strained: Deformed
     factor: HeatFactor | None
+    damage: Array | None = None
 
 
 class HeatedSolids(Protocol):
@@ -138,7 +140,9 @@ class SlabTemperature:
         (2, k + r) energies of a free strain of one and elastic energies at the start, and their changes [J]: of the
         nodes with heat, and none of rigid bodies.
     given, spent
-        Heat (k + r,) of the dissipation of the material, and its energy in all [J].
+        Heat (k + r,) of the dissipation of the material and of ties that break, and its energy in all [J].
+    glue
+        Exchange across ties that break.
     """
 
     solids: HeatedSolids
@@ -150,6 +154,7 @@ class SlabTemperature:
     change: Array
     given: Array
     spent: float
+    glue: tuple[HeatExchange, ...] = ()
 
     def __call__(self, rubbed: Array) -> FieldSolution:
         """Temperature at the end, with the energy that it takes from the motion.
@@ -206,10 +211,10 @@ class SlabTemperature:
         if self.slab.expected is not None and len(self.slab.expected.unknowns):
             guess = self.slab.expected.unknowns
         for _ in range(1 + time.contacts.radiates):
-            found, ties = self._exchanges(at), self.solids.model.exchanges
+            found, ties = self._exchanges(at), (*self.solids.model.exchanges, *self.glue)
             across = tuple(found.values())
             model = replace(self.solids.model, exchanges=(*ties, *across))
-            factor = None if time.factor is None else time.factor.linked(across, free)
+            factor = None if time.factor is None else time.factor.linked((*self.glue, *across), free)
             try:
                 result = solve_slab(model, time.before, stage, time.halves, factor, guess=guess)
             except NumericsError as error:

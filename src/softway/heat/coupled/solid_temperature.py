@@ -17,6 +17,7 @@ from softway.heat.coupled.strain.deformed import Deformed, beside_law, deformed
 from softway.heat.coupled.strain.expansion import Expansion
 from softway.heat.coupled.strain.moduli import Moduli
 from softway.heat.coupled.strain.stored import Elastic
+from softway.heat.coupled.through_ties import BreakingGlue
 from softway.heat.heat_balance import put_at_once
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_plan import knots
@@ -55,6 +56,8 @@ class SolidTemperature:
         True if the solids have inertia.
     softened
         Temperatures at the points of laws that depend on them.
+    glue
+        Ties that break, with the heat that they conduct and dissipate.
     time
         Slab of a march; None outside.
     """
@@ -71,6 +74,7 @@ class SolidTemperature:
     elastic: tuple[Elastic, ...] = ()
     dissipations: tuple[Dissipation, ...] = ()
     softened: tuple[PointTemperature, ...] = ()
+    glue: tuple[BreakingGlue, ...] = ()
     time: TimeOfSlab | None = None
 
     @property
@@ -83,7 +87,12 @@ class SolidTemperature:
         return self.on_all(self.model.initial)
 
     def in_slab(
-        self, ends: tuple[float, float], parts: Sequence[DiscreteSolid], u0: Array, start: FieldState
+        self,
+        ends: tuple[float, float],
+        parts: Sequence[DiscreteSolid],
+        u0: Array,
+        start: FieldState,
+        beside: Mapping[str, Array],
     ) -> "SolidTemperature":
         """Equations in a slab between two times [s]; the first one and those after a sudden change are damped."""
         span = ends[1] - ends[0]
@@ -98,7 +107,7 @@ class SolidTemperature:
         time = TimeOfSlab(
             start=ends[0], end=ends[1], solids=parts, contacts=self.contacts.at(u0), damped=damped,
             halves=damped and self.inert, before=before, jumped=jumped, strained=self._deformed(u0),
-            factor=factor,
+            factor=factor, damage=beside.get("damage"),
         )  # fmt: skip
         return replace(self, time=time)
 
@@ -147,9 +156,13 @@ class SolidTemperature:
             energy = dissipation.energy(self.time.solids, slab.u1)
             out[dissipation.nodes] += dissipation.share * energy
             spent += float(energy.sum())
+        glue = tuple(one.in_slab(self.time.damage, slab.u1) for one in self.glue if self.time.damage is not None)
+        for one in glue:
+            out, spent = out + one.heat, spent + float(one.heat.sum())
         return SlabTemperature(
             solids=self, time=self.time, slab=slab, sides=self.time.contacts.sides(slab.contact), end=end,
             start=start, change=change, given=self.of_nodes(out), spent=spent,
+            glue=tuple(one.exchange for one in glue if len(one.exchange.conductances)),
         )  # fmt: skip
 
     def solve(self, slab: FieldSlab) -> FieldSolution:
