@@ -1,6 +1,7 @@
 """Deformable solids and rigid tools: their description, discretisation and internal forces."""
 
 from softway.bodies.bulk_viscosity import BulkViscosity as BulkViscosity
+from softway.bodies.conductor import RigidThermal as RigidThermal
 from softway.bodies.conductor import Thermal as Thermal
 from softway.bodies.elements.section import Axisymmetric as Axisymmetric
 from softway.bodies.elements.section import Bar as Bar
@@ -73,6 +74,7 @@ __all__ = [
     "Profile",
     "Ramp",
     "RatePolyline",
+    "RigidThermal",
     "Rotation",
     "Scaled",
     "Sine",

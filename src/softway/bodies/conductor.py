@@ -1,4 +1,4 @@
-"""Description of heat: of a body that conducts it and does not move, and of a solid that does move."""
+"""Description of heat: of a body that conducts it and does not move, of a solid that does move, and of a rigid body."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -14,7 +14,16 @@ from softway.laws.heat.conduction import Conduction
 from softway.laws.heat.stiffness_table import StiffnessTable
 from softway.meshes.generators.recipes import MeshSource
 from softway.meshes.mesh import Mesh
-from softway.units import Kelvin, KilogramPerCubicMetre, PerKelvin, Pure
+from softway.units import (
+    JoulePerKelvin,
+    JoulePerKilogramKelvin,
+    Kelvin,
+    KilogramPerCubicMetre,
+    PerKelvin,
+    Pure,
+    SquareMetre,
+    WattPerMetreKelvin,
+)
 
 TemperatureField = Kelvin | Profile | Array | Callable[[Array], Array]
 """Uniform temperature, profile of numbers along an axis, nodal values (n,), or a function of the points (n, d)."""
@@ -129,6 +138,64 @@ class Thermal:
             positive(reference=self.reference)
         if self.heating is not None and not 0.0 <= self.heating <= 1.0:
             raise InputError("heating", f"{self.heating:g}", "a share from 0 to 1")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RigidThermal:
+    """Heat of a rigid body beside solids with heat: it has one temperature, and exchanges heat through its contacts.
+
+    Parameters
+    ----------
+    temperature
+        Initial temperature [K].
+    specific_heat
+        Heat capacity per mass [J/(kg K)]; that of the body is its mass times this.
+    capacity
+        Heat capacity of the whole body [J/K], in place of ``specific_heat``.
+    conductivity
+        Conductivity [W/(m K)], for the effusivity, by which the heat of friction is shared; the body needs a density
+        then.  By default contacts with friction name their ``heat.share``.
+    area
+        Area of the surface on which loads of heat act [m^2]; none by default.
+
+    Raises
+    ------
+    InputError
+        If a number is not positive, or there is not one of the two capacities.
+
+    Examples
+    --------
+    >>> RigidThermal(temperature=293.15, specific_heat=500.0).capacity_of(2.0)
+    1000.0
+    """
+
+    temperature: Kelvin
+    specific_heat: JoulePerKilogramKelvin | None = None
+    capacity: JoulePerKelvin | None = None
+    conductivity: WattPerMetreKelvin | None = None
+    area: SquareMetre | None = None
+
+    def __post_init__(self) -> None:
+        if (self.specific_heat is None) == (self.capacity is None):
+            given = "no heat capacity" if self.capacity is None else "two heat capacities"
+            raise InputError("specific_heat", given, "either specific_heat, per mass, or capacity, of the body")
+        positive(temperature=self.temperature)
+        for name in ("specific_heat", "capacity", "conductivity", "area"):
+            if getattr(self, name) is not None:
+                positive(**{name: getattr(self, name)})
+
+    def capacity_of(self, mass: float) -> float:
+        """Heat capacity [J/K] of a body of this ``mass`` [kg]."""
+        if self.capacity is not None:
+            return self.capacity
+        assert self.specific_heat is not None
+        return mass * self.specific_heat
+
+    def effusivity(self, mass: float, density: float | None) -> float | None:
+        """Root of conductivity, density and capacity [W s^(1/2)/(m^2 K)]; None without conductivity or density."""
+        if self.conductivity is None or density is None:
+            return None
+        return float(np.sqrt(self.conductivity * density * self.capacity_of(mass) / mass))
 
 
 def conduction_laws(law: Conduction | Mapping[str, Conduction]) -> Mapping[str, Conduction]:

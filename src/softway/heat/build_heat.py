@@ -16,7 +16,7 @@ from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, Radiation, Tem
 from softway.errors import InputError, within
 from softway.heat.fronts.build_fronts import with_fronts
 from softway.heat.heat_contact import HeatContact, HeatExchange, heat_exchange
-from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, HeatSurface, Simplices
+from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, HeatSurface, Lump, Simplices
 from softway.heat.operators import heat_flow, heat_values, unknowns_of
 from softway.heat.regional_laws import RegionalLaws, regional_laws
 from softway.kernels.assembly.assembler import assembler
@@ -58,9 +58,12 @@ def build_heat(scene: HeatScene) -> HeatModel:
 
 
 def heat_model(
-    bodies: Mapping[str, Conductor], loads: Mapping[int, HeatLoad], contacts: tuple[HeatContact, ...] = ()
+    bodies: Mapping[str, Conductor],
+    loads: Mapping[int, HeatLoad],
+    contacts: tuple[HeatContact, ...] = (),
+    lumps: tuple[Lump, ...] = (),
 ) -> HeatModel:
-    """Discretise conductors by name, with loads by their numbers in a scene; errors as of :func:`build_heat`."""
+    """Discretise conductors and rigid bodies, with loads by their numbers in a scene; errors as :func:`build_heat`."""
     parts: list[HeatPart] = []
     cells: list[HeatCells] = []
     simplices: list[Simplices] = []
@@ -75,15 +78,17 @@ def heat_model(
         parts.append(part)
         masses.append(mass)
         n, e = part.nodes.stop, part.cells.stop
-    surfaces, sources, held = _loads(bodies, loads, {part.name: part for part in parts}, n)
+    masses.append(np.array([lump.capacity for lump in lumps]))
+    initial.append(np.array([lump.initial for lump in lumps]))
+    n += len(lumps)
+    surfaces, sources, held = _loads(bodies, loads, {part.name: part for part in parts}, lumps, n)
     exchanges = _exchanges(bodies, contacts, parts, n)
     constant = all(c.law.constant for c in cells)
     linear = constant and not any(isinstance(s.load, Radiation) for s in surfaces)
     model = HeatModel(
         parts=tuple(parts), cells=tuple(cells), simplices=tuple(simplices), mass=np.concatenate(masses),
         pattern=assembler([c.nodes for c in cells], n, 1), surfaces=surfaces, sources=sources, held=held,
-        exchanges=exchanges,
-        ordered=_ordered(loads),
+        exchanges=exchanges, ordered=_ordered(loads), lumps=lumps,
         initial=np.concatenate(initial), linear=linear, latent=_latent(simplices, n), n_cells=e,
     )  # fmt: skip
     if not constant:
@@ -198,31 +203,71 @@ Loads = tuple[tuple[HeatSurface, ...], tuple[tuple[HeatSource, Array], ...], tup
 
 
 def _loads(
-    bodies: Mapping[str, Conductor], loads: Mapping[int, HeatLoad], parts: Mapping[str, HeatPart], n: int
+    bodies: Mapping[str, Conductor],
+    loads: Mapping[int, HeatLoad],
+    parts: Mapping[str, HeatPart],
+    lumps: tuple[Lump, ...],
+    n: int,
 ) -> Loads:
     """Surfaces, sources, and nodes with prescribed temperatures, of which each belongs to one load."""
+    rigid = {lump.name: (lump, n - len(lumps) + number) for number, lump in enumerate(lumps)}
     surfaces: list[HeatSurface] = []
     sources: list[tuple[HeatSource, Array]] = []
     owner = np.full(n, -1)
     for k, load in loads.items():
-        name, tag = place_of(load)
+        name, _ = place_of(load)
         with within(f"loads[{k}].{'of' if isinstance(load, HeatSource) else 'on'}"):
-            if name not in parts:
+            if name not in parts and name not in rigid:
                 raise InputError("", f"there is no body {name!r}", ", ".join(repr(known) for known in parts))
-            part = parts[name]
-            section = section_of(bodies[name], part.mesh)
-            match load:
-                case Temperature():
-                    owner[part.nodes.start + part.mesh.nodes(tag)] = k
-                case HeatSource():
-                    sources.append((load, _source(part, section, tag, n)))
+            found = _on_rigid(load, *rigid[name], n) if name in rigid else _on_part(load, bodies[name], parts[name], n)
+            match found:
+                case HeatSurface():
+                    surfaces.append(found)
+                case tuple():
+                    sources.append(found)
                 case _:
-                    table, areas = surface_points(part.mesh, section, tag)
-                    data = (table.data, table.indices + part.nodes.start, table.indptr)
-                    points = sp.csr_array(data, shape=(len(areas), n))
-                    surfaces.append(HeatSurface(load=load, points=points, areas=areas))
+                    owner[found] = k
     held = [(load, np.flatnonzero(owner == k)) for k, load in loads.items() if isinstance(load, Temperature)]
     return tuple(surfaces), tuple(sources), tuple(held)
+
+
+OnBody = HeatSurface | tuple[HeatSource, Array] | IntArray
+"""Load on a body: its surface, its source with nodal volumes, or the nodes with its temperature."""
+
+
+def _on_part(load: HeatLoad, body: Conductor, part: HeatPart, n: int) -> OnBody:
+    """Load on a conductor."""
+    tag, section = place_of(load)[1], section_of(body, part.mesh)
+    match load:
+        case Temperature():
+            return part.nodes.start + part.mesh.nodes(tag)
+        case HeatSource():
+            return load, _source(part, section, tag, n)
+        case _:
+            table, areas = surface_points(part.mesh, section, tag)
+            data = (table.data, table.indices + part.nodes.start, table.indptr)
+            return HeatSurface(load=load, points=sp.csr_array(data, shape=(len(areas), n)), areas=areas)
+
+
+def _on_rigid(load: HeatLoad, lump: Lump, node: int, n: int) -> OnBody:
+    """Load on a rigid body, the node of this number."""
+    if load.on != lump.name:
+        raise InputError("", f"{load.on!r}: a rigid body has one temperature, and no tags", repr(lump.name))
+    one = np.zeros(n)
+    one[node] = 1.0
+    match load:
+        case Temperature():
+            return np.array([node])
+        case HeatSource():
+            if lump.volume is None:
+                problem = f"power per volume of {lump.name!r}, whose density is not given"
+                raise InputError("", problem, f"bodies.{lump.name}.density, or a HeatFlux on its area")
+            return load, lump.volume * one
+        case _:
+            if lump.area is None:
+                problem = f"{type(load).__name__} on {lump.name!r}, whose surface has no area"
+                raise InputError("", problem, f"bodies.{lump.name}.thermal.area, the surface that takes the heat")
+            return HeatSurface(load=load, points=sp.csr_array(one[None]), areas=np.array([lump.area]))
 
 
 def _exchanges(

@@ -80,6 +80,30 @@ class HeatPart:
     volume: Array
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lump:
+    """Rigid body with one temperature: a node without cells.
+
+    Parameters
+    ----------
+    name
+        Name in the scene.
+    capacity, initial
+        Heat capacity [J/K], and initial temperature [K].
+    effusivity
+        Root of conductivity, density and capacity [W s^(1/2)/(m^2 K)]; None if unknown.
+    area, volume
+        Surface [m^2] and volume [m^3] on which loads of heat act; None if unknown.
+    """
+
+    name: str
+    capacity: float
+    initial: float
+    effusivity: float | None = None
+    area: float | None = None
+    volume: float | None = None
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class HeatCells:
     """Cells of one type of a body: nodes (e, a), shape functions N (q, a), gradients (e, q, a, r) [1/m], volumes (e, q)
@@ -166,7 +190,7 @@ class HeatSurface:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class HeatModel:
-    """Discretised conductors of n nodes and E cells.
+    """Discretised conductors of n nodes and E cells; the last nodes are those of rigid bodies.
 
     Parameters
     ----------
@@ -177,7 +201,7 @@ class HeatModel:
     simplices
         Simplices of the bodies that melt.
     mass
-        (n,) lumped masses [kg].
+        (n,) lumped masses [kg]; of rigid bodies their capacities [J/K].
     pattern
         Assembly of cell matrices.
     surfaces
@@ -203,6 +227,8 @@ class HeatModel:
     conduction, capacity
         If all laws are constant: (n, n) derivative of the heat that flows out of the nodes by conduction [W/K], and
         (n,) their capacities [J/K].
+    lumps
+        Rigid bodies.
     """
 
     parts: tuple[HeatPart, ...]
@@ -222,6 +248,7 @@ class HeatModel:
     fronts: FrontCells | None = None
     conduction: sp.csr_array | None = None
     capacity: Array | None = None
+    lumps: tuple[Lump, ...] = ()
 
     @property
     def n_nodes(self) -> int:

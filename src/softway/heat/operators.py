@@ -77,8 +77,9 @@ def heat_values(model: HeatModel, unknowns: Array, slopes: bool = True) -> HeatV
             share=np.zeros(n), share_slope=np.zeros(n),
         )  # fmt: skip
     temperature, stretch, over = np.empty(n), np.ones(n), unknowns.copy()
-    content, capacity = np.empty(n), np.empty(n)
-    share, share_slope = np.zeros(n), np.zeros(n)
+    content, capacity, share, share_slope = np.empty(n), np.empty(n), np.zeros(n), np.zeros(n)
+    rigid = slice(n - len(model.lumps), n)
+    temperature[rigid], content[rigid], capacity[rigid] = unknowns[rigid], unknowns[rigid] - ZERO, 1.0
     for part in model.parts:
         here, x = part.nodes, unknowns[part.nodes]
         if part.at_nodes and isinstance(part.curve, ContentCurve):
@@ -172,6 +173,7 @@ def heat_flow(
     if model.conduction is not None:
         # from the temperature of a node of each body: a uniform one conducts nothing, not even its rounding
         first = np.repeat([temperature[p.nodes.start] for p in model.parts], [p.mesh.n_nodes for p in model.parts])
+        first = np.concatenate([first, temperature[len(first) :]])
         return model.conduction @ (temperature - first), model.conduction if slopes else None, ()
     flow = np.zeros(model.n_nodes)
     blocks: list[Array] = []
@@ -220,6 +222,12 @@ def liquid_volumes(model: HeatModel, now: HeatValues) -> dict[str, float]:
     """Volume of the liquid of each body that melts [m^3]."""
     melting = (part for part in model.parts if part.law.latent is not None)
     return {part.name: float(part.volume @ now.melted[part.cells]) for part in melting}
+
+
+def rigid_temperatures(model: HeatModel, now: HeatValues) -> dict[str, float]:
+    """Temperature of each rigid body [K]."""
+    first = model.n_nodes - len(model.lumps)
+    return {lump.name: float(now.temperature[k]) for k, lump in enumerate(model.lumps, first)}
 
 
 def heat_flux(model: HeatModel, now: HeatValues) -> Array:

@@ -10,7 +10,7 @@ from softway.arrays import Array, BoolArray
 from softway.bodies.assembled import material_states
 from softway.contact.contact_rows import ContactRows
 from softway.errors import InputError
-from softway.model.field import in_states
+from softway.model.field import FieldEquations, FieldOfBodies, FieldState, in_states
 from softway.model.model import Model
 from softway.model.rigid.rigid_state import RigidState
 from softway.model.scene import State
@@ -75,8 +75,7 @@ def join_states(model: Model, state: State, span: float = 1.0) -> ModelState:
     u = model.join(state.displacement)
     states = _remembered(model, state, u, span)
     energy, force, viscous = material_states.stored_force(model.parts, states, u)
-    companions = in_states(model.companions, states)
-    fields = tuple(c.at(model.join(state.fields[c.field.name]), u) for c in companions)
+    fields = tuple(_field(model, c, state, u) for c in in_states(model.companions, states))
     labels, count = model.contacts.labels, len(model.contacts.contact)
     rough = not model.friction.frictionless
     return ModelState(
@@ -99,6 +98,19 @@ def join_states(model: Model, state: State, span: float = 1.0) -> ModelState:
         slip=np.concatenate([state.slip[n] for n in labels]) if rough and state.slip else None,
         span=state.span,
     )
+
+
+def _field(model: Model, equations: FieldEquations, state: State, u: Array) -> FieldState:
+    """State of a companion field."""
+    values = state.fields[equations.field.name]
+    found = equations.at(model.join(values), u)
+    return equations.with_bodies(found, values) if isinstance(equations, FieldOfBodies) else found
+
+
+def _split_field(model: Model, equations: FieldEquations, state: FieldState) -> dict[str, Array]:
+    """Values of a companion field by bodies."""
+    rigid = equations.of_bodies(state) if isinstance(equations, FieldOfBodies) else {}
+    return {**model.split(state.values), **rigid}
 
 
 def _remembered(model: Model, state: State, u: Array, span: float) -> material_states.MaterialStates:
@@ -137,7 +149,9 @@ def split_states(model: Model, state: ModelState) -> State:
         sliding=_by_contact(model, state.sliding),
         slip={} if state.slip is None else _by_contact(model, state.slip),
         span=state.span,
-        fields={c.field.name: model.split(f.values) for c, f in zip(model.companions, state.start.fields, strict=True)},
+        fields={
+            c.field.name: _split_field(model, c, f) for c, f in zip(model.companions, state.start.fields, strict=True)
+        },
         rigid={} if model.rigid is None or state.rigid is None else model.rigid.bodies(state.rigid),
     )
 

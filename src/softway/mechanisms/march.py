@@ -149,6 +149,7 @@ def march(
     >>> abs(last.energy_error) < 1e-12, abs(float(np.hypot(*last.bodies["mass"].centre)) - 1.0) < 1e-13
     (True, True)
     """
+    mechanism.require_cold()
     if not (np.isfinite(until) and until > 0.0):
         raise InputError("until", f"{until:g} s is not positive", "a time after the start")
     if not (np.isfinite(step) and 0.0 < step <= until):

@@ -55,7 +55,9 @@ def build(scene: Scene) -> Model:
     heated = (f"bodies.{name}.thermal" for name, body in scene.bodies.items() if _has_heat(body))
     loads = (f"loads[{k}]" for k, load in enumerate(scene.loads) if not isinstance(load, Gravity | Traction))
     contacts = (f"contacts[{k}].heat" for k, contact in enumerate(scene.contacts) if contact.heat is not None)
-    for where in (*heated, *loads, *contacts):
+    rigid = {} if scene.mechanism is None else scene.mechanism.bodies
+    lumps = (f"bodies.{name}.thermal" for name, body in rigid.items() if body.thermal is not None)
+    for where in (*heated, *lumps, *loads, *contacts):
         raise InputError(where, "heat in a model of the motion alone", "softway.build, or a scene without heat")
     return mechanical(scene)
 

@@ -5,7 +5,7 @@ slab at every evaluation of the equations of motion, so that motion and field me
 force and an energy to the motion.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
@@ -165,6 +165,19 @@ class StiffField(Protocol):
         ...
 
 
+@runtime_checkable
+class FieldOfBodies(Protocol):
+    """Equations of a companion field that has values of rigid bodies, too."""
+
+    def of_bodies(self, state: FieldState) -> dict[str, Array]:
+        """Values (1, components) of rigid bodies in a state, by name."""
+        ...
+
+    def with_bodies(self, state: FieldState, found: Mapping[str, Array]) -> FieldState:
+        """State with the values ``found`` (1, components) of rigid bodies by name."""
+        ...
+
+
 def stiffness_factor(companions: tuple[FieldEquations, ...], fields: Sequence[FieldState]) -> Array | None:
     """Factor (n,) of the stiffness of the nodes in the operator, from states of the fields; None without."""
     for c, state in zip(companions, fields, strict=True):
@@ -195,10 +208,15 @@ class TimedField(Protocol):
     """
 
     def in_slab(
-        self, ends: tuple[float, float], parts: Sequence[DiscreteSolid], u0: Array, start: FieldState
+        self,
+        ends: tuple[float, float],
+        parts: Sequence[DiscreteSolid],
+        u0: Array,
+        start: FieldState,
+        beside: Mapping[str, Array],
     ) -> FieldEquations:
         """Equations in a slab between two times [s], of solids with the material states, the displacement ``u0`` (n, d)
-        [m] and the state of the field at its ``start``.
+        [m], the state of the field at its ``start``, and the values there of all fields by name.
         """
         ...
 
@@ -213,7 +231,8 @@ def in_slab(
     """Companion fields in a slab between two times [s], from their states at its start; the same if none changes."""
     if not any(isinstance(c, TimedField) for c in companions):
         return companions
+    beside = {c.field.name: state.values for c, state in zip(companions, fields, strict=True)}
     return tuple(
-        c.in_slab(ends, parts, u0, state) if isinstance(c, TimedField) else c
+        c.in_slab(ends, parts, u0, state, beside) if isinstance(c, TimedField) else c
         for c, state in zip(companions, fields, strict=True)
     )

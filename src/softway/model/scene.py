@@ -97,7 +97,7 @@ class State:
     span
         Length of the slab before, zero at the start [s].
     fields
-        Companion field -> body name -> (n, components).
+        Companion field -> body name -> (n, components); of rigid bodies (1, components).
     rigid
         Name of a rigid body -> its state.
     """

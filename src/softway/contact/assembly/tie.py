@@ -29,13 +29,13 @@ class Tie:
         Cohesive law of the glue; none for a permanent tie.
     conductance
         Conductance of the glue between solids with heat [W/(m^2 K)]; by default heat passes a permanent tie nearly
-        freely: the glue has a thousandth of the resistance of a cell.  No heat passes ties that break.
+        freely: the glue has a thousandth of the resistance of a cell.  A tie that breaks conducts by the share that
+        still holds, and heats both solids by what it dissipates; without a conductance it does neither.
 
     Raises
     ------
     InputError
-        If there are not two surfaces with a tag, the tolerance or the conductance is negative, or a tie that breaks has
-        a conductance.
+        If there are not two surfaces with a tag, or the tolerance or the conductance is negative.
 
     Examples
     --------
@@ -57,8 +57,6 @@ class Tie:
             real(self.conductance, "conductance")
             if not 0.0 <= self.conductance < inf:
                 raise InputError("conductance", f"{self.conductance:g}", "zero or a positive number")
-            if self.breaks is not None:
-                raise InputError("conductance", "heat through a tie that breaks", "a permanent tie, or no conductance")
         real(self.tolerance, "tolerance")
         if not (isfinite(self.tolerance) and self.tolerance >= 0.0):
             raise InputError("tolerance", f"{self.tolerance:g} is no fraction of an edge", "a fraction such as 0.05")

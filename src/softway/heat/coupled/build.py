@@ -1,13 +1,13 @@
 """Model of a scene with the temperatures of its solids."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from softway.arrays import IntArray
 from softway.bodies.assembled.material_states import scaled
-from softway.bodies.conductor import Conductor, Thermal, conduction_laws
+from softway.bodies.conductor import Conductor, RigidThermal, Thermal, conduction_laws
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.setup.heat_loads import HeatLoad, place_of
 from softway.bodies.setup.loads import Gravity, Traction
@@ -22,12 +22,13 @@ from softway.heat.coupled.strain.expansion import Expansion, expansions
 from softway.heat.coupled.strain.free_strain import FreeStrain
 from softway.heat.coupled.strain.moduli import Moduli
 from softway.heat.coupled.strain.stored import ElasticTerm, elastic_terms
-from softway.heat.coupled.through_ties import through_ties
-from softway.heat.heat_model import HeatModel
+from softway.heat.coupled.through_ties import breaking_glue, require_heated, through_ties
+from softway.heat.heat_model import HeatModel, Lump
 from softway.heat.operators import heat_values, unknowns_of
 from softway.heat.regional_laws import regional_laws
 from softway.laws.heat.stiffness_table import StiffnessCurve
 from softway.laws.law import softens
+from softway.mechanisms.members.rigid import Rigid
 from softway.model.build import mechanical, with_field
 from softway.model.model import Model
 from softway.model.scene import Scene
@@ -40,7 +41,8 @@ def build(scene: Scene) -> Model:
     ------
     InputError
         With the place in the scene: if a tag matches nothing, a body does not exist, dimensions are mixed, a solid
-        with heat has no temperature, no conduction or no expansion, or a law needs the temperature of a solid without.
+        with heat has no temperature, no conduction or no expansion, a law needs the temperature of a solid without, or
+        a rigid body has heat where no solid has.
 
     Examples
     --------
@@ -54,17 +56,27 @@ def build(scene: Scene) -> Model:
     model = mechanical(scene)
     heated = {name: body for name, body in scene.bodies.items() if isinstance(body, Solid) and body.thermal is not None}
     loads = {k: load for k, load in enumerate(scene.loads) if not isinstance(load, Gravity | Traction)}
-    _require_heated(loads, heated)
+    rigid = {} if scene.mechanism is None else scene.mechanism.bodies
+    lumps = tuple(_lump(name, body, body.thermal) for name, body in rigid.items() if body.thermal is not None)
+    if lumps and not heated:
+        problem, remedy = "of a rigid body among solids without a temperature", "bodies.NAME.thermal of a solid as well"
+        raise InputError(f"bodies.{lumps[0].name}.thermal", problem, f"{remedy}, or no thermal of the rigid body")
+    _require_heated(loads, [*heated, *(lump.name for lump in lumps)])
     for k, contact in enumerate(scene.contacts):
         if contact.heat is not None and not heated:
             problem = f"heat across {contact.label!r}, of bodies without a temperature"
             raise InputError(f"contacts[{k}].heat", problem, "the heat of a solid, thermal, or a contact without heat")
     _require_temperature(scene)
-    return with_temperature(model, heated, loads) if heated else model
+    require_heated(model, heated)
+    return with_temperature(model, heated, loads, lumps) if heated else model
 
 
-def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[int, HeatLoad]) -> Model:
-    """Model whose solids ``heated`` have a temperature, with the heat ``loads`` by their numbers in the scene."""
+def with_temperature(
+    model: Model, heated: Mapping[str, Solid], loads: Mapping[int, HeatLoad], lumps: tuple[Lump, ...] = ()
+) -> Model:
+    """Model whose solids ``heated`` and rigid bodies ``lumps`` have a temperature, with the heat ``loads`` by their
+    numbers in the scene.
+    """
     parts = {part.name: part for part in model.parts if part.name in heated}
     thermals = {name: thermal for name, body in heated.items() if (thermal := body.thermal) is not None}
     found: list[Expansion] = []
@@ -84,16 +96,17 @@ def with_temperature(model: Model, heated: Mapping[str, Solid], loads: Mapping[i
             if table is not None:
                 elastic.extend(elastic_terms(number, part, min(table.values)))
             softened.extend(point_temperatures(number, part, table is not None))
-    heat = heat_model(conductors, loads)
+    heat = heat_model(conductors, loads, lumps=lumps)
     nodes = np.concatenate([np.arange(part.nodes.start, part.nodes.stop) for part in parts.values()])
-    heat = replace(heat, exchanges=tuple(through_ties(model, thermals, nodes)))
+    heat = replace(heat, exchanges=tuple(through_ties(model, thermals, nodes, len(lumps))))
     pairs = ((part, regional_laws(conductors[part.name], part.mesh)) for part in heat.parts)
     effusivity = {part.name: laws.effusivity(part.mesh, part.volume) for part, laws in pairs}
     equations = SolidTemperature(
-        contacts=contact_exchange(model, nodes, effusivity), inert=model.inert,
+        contacts=contact_exchange(model, nodes, effusivity, lumps), inert=model.inert,
         model=heat, nodes=nodes, count=model.shape[0], parts=len(model.parts), part=model.part_of[nodes],
         moduli=Moduli(free=_free_strain(heat, thermals), curves=tuple(_curves(heat, thermals))),
         expansions=tuple(found), dissipations=tuple(spent), elastic=tuple(elastic), points=tuple(softened),
+        glue=tuple(breaking_glue(model, nodes, len(lumps))),
     )  # fmt: skip
     if softened:
         start = equations.of_points(after_jumps(heat, heat.initial, 0.0))
@@ -143,6 +156,18 @@ def _conductor(part: DiscreteSolid, thermal: Thermal) -> Conductor:
     )  # fmt: skip
 
 
+def _lump(name: str, body: Rigid, thermal: RigidThermal) -> Lump:
+    """Rigid body with one temperature."""
+    return Lump(
+        name=name,
+        capacity=thermal.capacity_of(body.mass),
+        initial=thermal.temperature,
+        effusivity=thermal.effusivity(body.mass, body.density),
+        area=thermal.area,
+        volume=None if body.density is None else body.mass / body.density,
+    )
+
+
 def _require_temperature(scene: Scene) -> None:
     """Refuse laws that depend on the temperature in solids without one."""
     for name, body in scene.bodies.items():
@@ -154,7 +179,7 @@ def _require_temperature(scene: Scene) -> None:
                 raise InputError(f"bodies.{name}.thermal", problem, remedy)
 
 
-def _require_heated(loads: Mapping[int, HeatLoad], heated: Mapping[str, Solid]) -> None:
+def _require_heated(loads: Mapping[int, HeatLoad], heated: Collection[str]) -> None:
     """Refuse heat loads on bodies without a temperature."""
     for k, load in loads.items():
         name = place_of(load)[0]

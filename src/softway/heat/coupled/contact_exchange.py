@@ -8,113 +8,21 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.contact.contact import Contact, NodeToSurface
-from softway.contact.friction_rows import DeclaredSurface, surfaces_of
+from softway.contact.friction_rows import surfaces_of
 from softway.contact.impact_rule import Energy
 from softway.errors import InputError, within
 from softway.heat.coupled.contact_sides import ContactSides, contact_sides
-from softway.heat.coupled.facing_areas import FacingAreas, facing_areas
+from softway.heat.coupled.rows_of_contact import STILL, RowsOfContact
 from softway.heat.heat_contact import HeatExchange
+from softway.heat.heat_model import Lump
 from softway.laws.heat.contact_heat import ContactHeat
 from softway.model.field import FieldContact
 from softway.model.model import Model
 
-STILL = 1e-9
-"""Distance of surfaces that touch without a force, relative to the shortest edge: rows that others relieve."""
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class RowsOfContact:
-    """Rows of a contact across which heat passes.
-
-    Parameters
-    ----------
-    heat
-        Law of its heat.
-    rows, node
-        (r,) numbers of its rows, and their slave nodes.
-    surfaces
-        Declared surfaces of its solids.
-    share
-        Share of the area of its node that a row stands for: one half where the nodes of both surfaces have rows.
-    order
-        (parts,) place of each solid in the names of the contact.
-    tool
-        True if the opponent is a tool.
-    still
-        Distance of surfaces that touch without a force [m].
-    facing
-        Areas at the start of a slab; None outside.
-    """
-
-    heat: ContactHeat
-    rows: IntArray
-    node: IntArray
-    surfaces: tuple[DeclaredSurface, ...]
-    share: float
-    order: IntArray
-    tool: bool
-    still: float
-    facing: FacingAreas | None = None
-
-    def at(self, u: Array) -> "RowsOfContact":
-        """Rows with their areas at the displacement ``u`` (n, d) [m]."""
-        return replace(self, facing=facing_areas(self.surfaces, u, self.node))
-
-    def conductances(
-        self, contact: FieldContact, gaps: tuple[Array, Array], of: ContactSides, temperature: Array, tool: Array
-    ) -> Array:
-        """Conductances (r,) [W/K] in a slab.
-
-        Rows of one node share its area: those that touch by the part of the slab in which they do, and what passes the
-        open gap goes to the nearest one.
-
-        Parameters
-        ----------
-        contact, gaps
-            Contact of the slab, and the gaps (m,) at both ends [m].
-        of
-            Sides of the rows.
-        temperature
-            (n,) temperatures for the radiation [K].
-        tool
-            (r,) temperature of the tool; not a number for rows between solids [K].
-        """
-        assert self.facing is not None
-        rows, heat = self.rows, self.heat
-        area = self.share * self.facing.towards(contact.last.normal[rows])
-        group = np.unique(self.node, return_inverse=True)[1]
-        touches = [
-            (force[rows] > 0.0) | (gap[rows] <= self.still)
-            for force, gap in zip((contact.before, contact.after), gaps, strict=True)
-        ]
-        closed = np.mean(touches, axis=0)
-        whole = np.bincount(group, weights=closed)[group]
-        share = closed / np.where(whole > 0.0, whole, 1.0)
-        touching = np.minimum(whole, 1.0)
-        own = area * share
-        force = 0.5 * (contact.before[rows] + contact.after[rows])
-        spots = own * heat.closed(force / np.where(own > 0.0, own, 1.0)) * (touching if heat.hardness is None else 1.0)
-        gap = np.mean([np.maximum(g[rows], 0.0) for g in gaps], axis=0)
-        through = heat.through_gas(gap)
-        if heat.emissivity:
-            mine = np.asarray(of.mine @ temperature)
-            other = np.where(np.isnan(tool), of.theirs @ temperature, tool)
-            through = through + (1.0 - touching) * heat.radiated(mine, other)
-        return np.asarray(spots + area * np.where(_nearest(group, gap), through, 0.0))
-
-
-def _nearest(group: IntArray, gap: Array) -> BoolArray:
-    """Rows (r,) with the least gap of their group; none in a group without an opponent in reach."""
-    order = np.lexsort((gap, group))
-    first = order[np.unique(group[order], return_index=True)[1]]
-    out = np.zeros(len(gap), bool)
-    out[first] = np.isfinite(gap[first])
-    return out
-
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ContactExchange:
-    """Heat across the contacts of a model of n nodes, k of which have a temperature.
+    """Heat across the contacts of a model of n nodes, k of which have a temperature, and r rigid bodies that have one.
 
     Parameters
     ----------
@@ -126,17 +34,20 @@ class ContactExchange:
         (k,) nodes with a temperature.
     effusivity
         (n,) roots of conductivity, density and capacity [W s^(1/2)/(m^2 K)].
+    lumps
+        The rigid bodies.
     """
 
     contacts: tuple[RowsOfContact, ...]
     part_of: IntArray
     nodes: IntArray
     effusivity: Array
+    lumps: tuple[Lump, ...] = ()
 
     @property
     def with_tools(self) -> BoolArray:
-        """Contacts (c,) with tools."""
-        return np.array([c.tool for c in self.contacts], bool)
+        """Contacts (c,) with tools, and with rigid bodies without a temperature."""
+        return np.array([c.tool and c.lump is None for c in self.contacts], bool)
 
     @property
     def radiates(self) -> bool:
@@ -157,7 +68,12 @@ class ContactExchange:
         return tuple(contact_sides(contact.first, contact.last, c.rows, self.part_of) for c in self.contacts)
 
     def exchanges(
-        self, contact: FieldContact, ends: tuple[Array, Array], sides: tuple[ContactSides, ...], temperature: Array
+        self,
+        contact: FieldContact,
+        ends: tuple[Array, Array],
+        sides: tuple[ContactSides, ...],
+        temperature: Array,
+        rigid: Array,
     ) -> dict[int, HeatExchange]:
         """Exchange of the contacts that pass heat in a slab, by their places among ``contacts``.
 
@@ -169,38 +85,49 @@ class ContactExchange:
             (n, d) displacements at both ends [m].
         sides
             Sides of the rows.
-        temperature
-            (n,) temperatures for the radiation [K].
+        temperature, rigid
+            (n,) temperatures of the nodes and (r,) of the rigid bodies, for the radiation [K].
         """
         gaps = contact.first.gap(ends[0]), contact.last.gap(ends[1])
         found = {}
         for k, (rows, of) in enumerate(zip(self.contacts, sides, strict=True)):
-            given = np.nan if rows.heat.tool_temperature is None else rows.heat.tool_temperature
-            tool = np.where(of.opponent < 0, given, np.nan)
+            tool = rows.opposite(of, rigid)
             conductance = rows.conductances(contact, gaps, of, temperature, tool)
             here = np.flatnonzero((conductance > 0.0) & ((of.opponent >= 0) | ~np.isnan(tool)))
             if here.size:
                 sign = np.where(self._begins(rows, of), 1.0, -1.0)[here]
-                jump = sp.diags_array(sign) @ (of.mine[here] - of.theirs[here])
-                ambient = np.where(np.isnan(tool), 0.0, tool)[here]
-                found[k] = HeatExchange(
-                    jump=sp.csr_array(jump[:, self.nodes]), conductances=conductance[here], ambient=ambient
-                )
+                jump = self._with_rigid((sp.diags_array(sign) @ (of.mine[here] - of.theirs[here]))[:, self.nodes], rows)
+                ambient = np.where(np.isnan(tool) | (rows.lump is not None), 0.0, tool)[here]
+                found[k] = HeatExchange(jump=jump, conductances=conductance[here], ambient=ambient)
         return found
 
+    def _with_rigid(self, jump: sp.csr_array, rows: RowsOfContact) -> sp.csr_array:
+        """Jumps (p, k + r) of rows whose nodes have the weights ``jump`` (p, k)."""
+        if not self.lumps:
+            return sp.csr_array(jump)
+        theirs = np.zeros((jump.shape[0], len(self.lumps)))
+        if rows.lump is not None:
+            theirs[:, rows.lump] = -1.0
+        return sp.csr_array(sp.hstack([jump, sp.csr_array(theirs)]))
+
     def spread(self, rubbed: Array, sides: tuple[ContactSides, ...]) -> tuple[Array, Array]:
-        """Heat (k,) of friction at the nodes, and that which the tools of each contact take [J], from the energies (m,)
-        that friction dissipates at the rows [J].
+        """Heat (k + r,) of friction at the nodes and in the rigid bodies, and that which the tools of each contact take
+        [J], from the energies (m,) that friction dissipates at the rows [J].
         """
         out, taken = np.zeros(len(self.part_of)), np.zeros(len(self.contacts))
+        rigid = np.zeros(len(self.lumps))
         for k, (rows, of) in enumerate(zip(self.contacts, sides, strict=True)):
             heat = rubbed[rows.rows]
             if heat.any():
                 share = self._shares(rows, of)
                 rest = (1.0 - share) * heat
                 out += of.mine.T @ (share * heat) + of.theirs.T @ rest
-                taken[k] = rest[of.opponent < 0].sum()
-        return out[self.nodes], taken
+                left = rest[of.opponent < 0].sum()
+                if rows.lump is None:
+                    taken[k] = left
+                else:
+                    rigid[rows.lump] += left
+        return np.concatenate([out[self.nodes], rigid]), taken
 
     def _begins(self, rows: RowsOfContact, of: ContactSides) -> BoolArray:
         """Rows (r,) whose slave nodes are those of the solid that is named first."""
@@ -212,12 +139,15 @@ class ContactExchange:
         tool, given = of.opponent < 0, rows.heat.share
         if given is None:
             mine, theirs = self.effusivity[rows.node], self.effusivity[of.opponent]
-            return np.where(tool, 1.0, mine / (mine + theirs))
+            other = None if rows.lump is None else self.lumps[rows.lump].effusivity
+            return np.where(tool, 1.0 if other is None else mine / (mine + other), mine / (mine + theirs))
         return np.where(self._begins(rows, of), given, 1.0 - given)
 
 
-def contact_exchange(model: Model, nodes: IntArray, effusivity: Mapping[str, float | Array]) -> ContactExchange:
-    """Heat across the contacts of a model whose ``nodes`` (k,) have a temperature.
+def contact_exchange(
+    model: Model, nodes: IntArray, effusivity: Mapping[str, float | Array], lumps: tuple[Lump, ...] = ()
+) -> ContactExchange:
+    """Heat across the contacts of a model whose ``nodes`` (k,) and rigid bodies ``lumps`` have a temperature.
 
     Parameters
     ----------
@@ -228,9 +158,10 @@ def contact_exchange(model: Model, nodes: IntArray, effusivity: Mapping[str, flo
     Raises
     ------
     InputError
-        If heat passes a contact with a solid that has no temperature.
+        If heat passes a contact with a solid that has no temperature, or nothing says how a rigid body shares the heat
+        of friction.
     """
-    names, found = [part.name for part in model.parts], []
+    names, found, rigid = [part.name for part in model.parts], [], [lump.name for lump in lumps]
     by_node = np.ones(len(model.part_of))
     for part in model.parts:
         by_node[part.nodes] = effusivity.get(part.name, 1.0)
@@ -239,7 +170,11 @@ def contact_exchange(model: Model, nodes: IntArray, effusivity: Mapping[str, flo
         if contact.heat is None:
             continue
         with within(f"contacts[{k}]"):
+            opponent = contact.opponent if model.against_tool[k] else ""
+            lump = rigid.index(opponent) if opponent in rigid else None
             _check(contact, contact.heat, bool(model.against_tool[k]))
+            if lump is not None:
+                _check_rigid(contact, contact.heat, lumps[lump])
             cold = [name for name in contact.bodies if name in names and name not in effusivity]
             if cold:
                 problem = f"heat across a contact with {cold[0]!r}, which has no temperature"
@@ -251,9 +186,10 @@ def contact_exchange(model: Model, nodes: IntArray, effusivity: Mapping[str, flo
                 heat=contact.heat, rows=rows, node=slave[rows], order=order,
                 share=0.5 if _of_both(contact) and not tool else 1.0,
                 surfaces=surfaces_of(contact, model.parts), tool=tool, still=STILL * edge,
+                lump=lump,
             )
         )  # fmt: skip
-    return ContactExchange(contacts=tuple(found), part_of=model.part_of, nodes=nodes, effusivity=by_node)
+    return ContactExchange(contacts=tuple(found), part_of=model.part_of, nodes=nodes, effusivity=by_node, lumps=lumps)
 
 
 def _check(contact: Contact, heat: ContactHeat, tool: bool) -> None:
@@ -266,6 +202,17 @@ def _check(contact: Contact, heat: ContactHeat, tool: bool) -> None:
         raise InputError("heat.share", problem, "no share, or contacts of two bodies")
     if heat.tool_temperature is not None and not tool and not contact.many:
         raise InputError("heat.tool_temperature", f"{contact.label!r} has no tool", "omit it, or a contact with a tool")
+
+
+def _check_rigid(contact: Contact, heat: ContactHeat, lump: Lump) -> None:
+    """Refuse a second temperature of a rigid body, and friction whose heat nobody shares."""
+    if heat.tool_temperature is not None:
+        problem = f"{heat.tool_temperature:g} K of {lump.name!r}, which has a temperature of its own"
+        raise InputError("heat.tool_temperature", problem, f"omit it, or no thermal of bodies.{lump.name}")
+    if heat.share is None and lump.effusivity is None and not contact.friction.frictionless:
+        problem = f"missing: the effusivity of {lump.name!r}, by which friction would share its heat, is unknown"
+        remedy = f"a share from 0 to 1, or density and thermal.conductivity of bodies.{lump.name}"
+        raise InputError("heat.share", problem, remedy)
 
 
 def _of_both(contact: Contact) -> bool:

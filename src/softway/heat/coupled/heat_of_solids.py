@@ -27,6 +27,8 @@ class HeatOfSolids:
         Entropy produced [J/K].
     liquid
         Volume of the liquid of each solid that melts, measured in the reference configuration [m^3].
+    rigid
+        Temperature of each rigid body that has one [K].
     error
         Content less that at the start, ``brought`` and ``received`` [J].
     produced, passed, rounding
@@ -47,6 +49,7 @@ class HeatOfSolids:
     cold_work: float = 0.0
     entropy: float = 0.0
     liquid: Mapping[str, float] = field(default_factory=dict)
+    rigid: Mapping[str, float] = field(default_factory=dict)
     error: float = 0.0
     produced: float = 0.0
     passed: float = 0.0

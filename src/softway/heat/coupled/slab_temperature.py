@@ -17,7 +17,7 @@ from softway.heat.heat_balance import Stage
 from softway.heat.heat_contact import HeatExchange
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_slab import HeatFactor, StageResult, solve_slab
-from softway.heat.operators import HeatValues, liquid_volumes
+from softway.heat.operators import HeatValues, liquid_volumes, rigid_temperatures
 from softway.model.field import FieldSlab, FieldSolution, FieldState
 
 
@@ -43,6 +43,8 @@ class HeatOfSlab:
         (c,) heat that passed each contact from the solid named first [J].
     liquid
         Liquid volume at the end of each solid that melts [m^3].
+    rigid
+        Temperature at the end of each rigid body that has one [K].
     """
 
     content: float
@@ -55,6 +57,7 @@ class HeatOfSlab:
     rubbed: float
     through: Array
     liquid: Mapping[str, float]
+    rigid: Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -62,7 +65,8 @@ class TimeOfSlab:
     """Slab of a march between two times [s], ``damped`` after a sudden change, in two ``halves``.
 
     At its start: solids with their material states, contacts with their areas, temperatures ``before``, heats of
-    prescribed temperatures that jumped [J], and the strain.  The factor is that of its operator without contact.
+    prescribed temperatures that jumped [J], the strain, and the damage of ties that break.  The factor is that of its
+    operator without contact and such ties.
     """
 
     start: float
@@ -75,6 +79,7 @@ class TimeOfSlab:
     jumped: Array
     strained: Deformed
     factor: HeatFactor | None
+    damage: Array | None = None
 
 
 class HeatedSolids(Protocol):
@@ -97,19 +102,23 @@ class HeatedSolids(Protocol):
 
     @property
     def moduli(self) -> Moduli:
-        """Potentials of the strain of the k nodes."""
+        """Potentials of the strain of the k nodes and of rigid bodies."""
+        ...
+
+    def kept(self, now: HeatValues) -> Array:
+        """Unknowns that a state keeps beside the temperatures of the nodes."""
         ...
 
     def of_parts(self, values: Array) -> Array:
-        """Sums (parts,) over the nodes of each solid of values (k,)."""
+        """Sums (parts,) over the nodes of each solid of values (k + r,)."""
         ...
 
     def on_all(self, values: Array) -> Array:
-        """Values (n, 1) on all nodes from those (k,) with heat."""
+        """Values (n, 1) on all nodes from those (k + r,) with heat."""
         ...
 
     def on_every(self, potentials: Array) -> Array:
-        """Potentials (2, n) on all nodes from those (2, k) with heat."""
+        """Potentials (2, n) on all nodes from those (2, k + r) with heat."""
         ...
 
 
@@ -128,9 +137,12 @@ class SlabTemperature:
     end
         Strain at the end.
     start, change
-        (2, k) energies of a free strain of one and elastic energies at the start, and their changes [J].
+        (2, k + r) energies of a free strain of one and elastic energies at the start, and their changes [J]: of the
+        nodes with heat, and none of rigid bodies.
     given, spent
-        Heat (k,) of the dissipation of the material, and its energy in all [J].
+        Heat (k + r,) of the dissipation of the material and of ties that break, and its energy in all [J].
+    glue
+        Exchange across ties that break.
     """
 
     solids: HeatedSolids
@@ -142,6 +154,7 @@ class SlabTemperature:
     change: Array
     given: Array
     spent: float
+    glue: tuple[HeatExchange, ...] = ()
 
     def __call__(self, rubbed: Array) -> FieldSolution:
         """Temperature at the end, with the energy that it takes from the motion.
@@ -174,16 +187,17 @@ class SlabTemperature:
             rubbed=rub,
             through=through + taken,
             liquid=liquid_volumes(solids.model, after),
+            rigid=rigid_temperatures(solids.model, after),
         )
         end = FieldState(
             values=solids.on_all(after.temperature), energy=energy,
             force=self.end.force(solids.on_every(last), dim), abrupt=self.time.contacts.change(slab.contact),
-            unknowns=np.zeros(0) if solids.model.linear else after.unknowns,
+            unknowns=solids.kept(after),
         )  # fmt: skip
         return FieldSolution(end=end, mean_force=mean, lost=lost, account=account)
 
     def _solved(self, rubbed: Array) -> tuple[StageResult, Array]:
-        """Result of a slab with the heat (k,) of friction, and the heat (c,) that passed the contacts [J].
+        """Result of a slab with the heat (k + r,) of friction, and the heat (c,) that passed the contacts [J].
 
         Gaps radiate at the mean temperature of a first solution.
         """
@@ -197,10 +211,10 @@ class SlabTemperature:
         if self.slab.expected is not None and len(self.slab.expected.unknowns):
             guess = self.slab.expected.unknowns
         for _ in range(1 + time.contacts.radiates):
-            found, ties = self._exchanges(at), self.solids.model.exchanges
+            found, ties = self._exchanges(at), (*self.solids.model.exchanges, *self.glue)
             across = tuple(found.values())
             model = replace(self.solids.model, exchanges=(*ties, *across))
-            factor = None if time.factor is None else time.factor.linked(across, free)
+            factor = None if time.factor is None else time.factor.linked((*self.glue, *across), free)
             try:
                 with np.errstate(invalid="ignore", over="ignore"):  # moduli at temperatures that are only tried
                     result = solve_slab(model, time.before, stage, time.halves, factor, guess=guess)
@@ -212,6 +226,7 @@ class SlabTemperature:
         return result, through
 
     def _exchanges(self, temperature: Array) -> dict[int, HeatExchange]:
-        """Exchange across contacts, with radiation at the ``temperature`` (k,) [K]."""
+        """Exchange across contacts, with radiation at the ``temperature`` (k + r,) [K]."""
         everywhere, ends = self.solids.on_all(temperature)[:, 0], (self.slab.u0, self.slab.u1)
-        return self.time.contacts.exchanges(self.slab.contact, ends, self.sides, everywhere)
+        rigid = temperature[len(self.solids.nodes) :]
+        return self.time.contacts.exchanges(self.slab.contact, ends, self.sides, everywhere, rigid)

@@ -1,7 +1,8 @@
 """Temperature of the solids of a model: a companion field of their displacement (docs/theory/heat/coupling.md)."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from softway.heat.coupled.strain.deformed import Deformed, beside_law, deformed
 from softway.heat.coupled.strain.expansion import Expansion
 from softway.heat.coupled.strain.moduli import Moduli
 from softway.heat.coupled.strain.stored import ElasticTerm
+from softway.heat.coupled.through_ties import BreakingGlue
 from softway.heat.heat_balance import put_at_once
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_plan import knots
@@ -33,7 +35,7 @@ class SolidTemperature:
     Parameters
     ----------
     model
-        Conduction in the solids with heat, of k nodes.
+        Conduction in the solids with heat, of k nodes, and in r rigid bodies, its last nodes.
     nodes
         (k,) their numbers among the n nodes of all solids.
     count, parts
@@ -41,7 +43,7 @@ class SolidTemperature:
     part
         (k,) number of the solid of each node.
     moduli
-        Potentials of the strain of the k nodes.
+        Potentials of the strain of the k + r nodes.
     expansions
         Thermal expansions.
     elastic
@@ -56,6 +58,8 @@ class SolidTemperature:
         Temperatures at the points of laws that depend on them.
     states
         Material states of the solids outside of a slab, see :meth:`in_states`.
+    glue
+        Ties that break, with the heat that they conduct and dissipate.
     time
         Slab of a march; None outside.
     """
@@ -73,6 +77,7 @@ class SolidTemperature:
     dissipations: tuple[Dissipation, ...] = ()
     points: tuple[PointTemperature, ...] = ()
     states: MaterialStates = ()
+    glue: tuple[BreakingGlue, ...] = ()
     time: TimeOfSlab | None = None
 
     @property
@@ -89,7 +94,12 @@ class SolidTemperature:
         return replace(self, states=states)
 
     def in_slab(
-        self, ends: tuple[float, float], parts: Sequence[DiscreteSolid], u0: Array, start: FieldState
+        self,
+        ends: tuple[float, float],
+        parts: Sequence[DiscreteSolid],
+        u0: Array,
+        start: FieldState,
+        beside: Mapping[str, Array],
     ) -> "SolidTemperature":
         """Equations in a slab between two times [s]; the first one and those after a sudden change are damped."""
         span = ends[1] - ends[0]
@@ -105,18 +115,36 @@ class SolidTemperature:
         time = TimeOfSlab(
             start=ends[0], end=ends[1], solids=parts, contacts=self.contacts.at(u0), damped=damped,
             halves=damped and self.inert, before=before, jumped=jumped, strained=strained, factor=factor,
+            damage=beside.get("damage"),
         )  # fmt: skip
         return replace(self, time=time)
 
     def at(self, values: Array, u: Array) -> FieldState:
-        """State with the temperatures ``values`` (n, 1) at the displacement ``u`` (n, d)."""
+        """State with the temperatures ``values`` (n, 1), of rigid bodies the initial ones, at the displacement ``u``
+        (n, d).
+        """
         shape, now = self._deformed(u, self.states), self.contents(values)
         found = self.moduli.potentials(now.temperature, now.share)
-        energy = self.of_parts((beside_law(found) * shape.amounts()[:, self.nodes]).sum(axis=0))
+        energy = self.of_parts((beside_law(found) * self.of_nodes(shape.amounts())).sum(axis=0))
         return FieldState(
             values=values, energy=energy, force=shape.force(self.on_every(found), u.shape[1]),
-            unknowns=np.zeros(0) if self.model.linear else now.unknowns,
+            unknowns=self.kept(now),
         )  # fmt: skip
+
+    def kept(self, now: HeatValues) -> Array:
+        """Unknowns that a state keeps beside the temperatures of the nodes; none where these tell all."""
+        return np.zeros(0) if self.model.linear and not self.model.lumps else now.unknowns
+
+    def of_bodies(self, state: FieldState) -> dict[str, Array]:
+        """Temperatures (1, 1) of the rigid bodies in a state, by name [K]."""
+        return {lump.name: state.unknowns[k : k + 1, None] for k, lump in enumerate(self.model.lumps, len(self.nodes))}
+
+    def with_bodies(self, state: FieldState, found: Mapping[str, Array]) -> FieldState:
+        """State whose rigid bodies have the temperatures ``found`` (1, 1) by name [K]."""
+        if not self.model.lumps:
+            return state
+        rigid = [float(found[lump.name][0, 0]) for lump in self.model.lumps]
+        return replace(state, unknowns=np.concatenate([state.unknowns[: len(self.nodes)], rigid]))
 
     def stiffness_factor(self, state: FieldState) -> Array | None:
         """Factor (n,) of the stiffness of the nodes; None if the moduli do not depend on the temperature."""
@@ -125,7 +153,7 @@ class SolidTemperature:
     def factor(self, values: Array) -> Array:
         """Factors (n, 1) of the moduli at temperatures ``values`` (n, 1) [K]; one on nodes without."""
         out = np.ones((self.count, 1))
-        out[self.nodes, 0] = self.moduli.factor(values[self.nodes, 0])
+        out[self.nodes, 0] = self.moduli.factor(values[self.nodes, 0])[: len(self.nodes)]
         return out
 
     def of_points(self, temperatures: Array) -> Array:
@@ -138,16 +166,20 @@ class SolidTemperature:
         assert self.time is not None
         before = initial_states(self.time.solids)
         after = committed(self.time.solids, slab.u1) if self.dissipations or self.elastic else ()
-        end, start = self._deformed(slab.u1, after), self.time.strained.amounts()[:, self.nodes]
-        change = end.amounts()[:, self.nodes] - start
+        end, start = self._deformed(slab.u1, after), self.of_nodes(self.time.strained.amounts())
+        change = self.of_nodes(end.amounts()) - start
         out, spent = np.zeros(self.count), 0.0
         for dissipation in self.dissipations:
             energy = dissipation.energy(before, after)
             out[dissipation.nodes] += dissipation.share * energy
             spent += float(energy.sum())
+        glue = tuple(one.in_slab(self.time.damage, slab.u1) for one in self.glue if self.time.damage is not None)
+        for one in glue:
+            out, spent = out + one.heat, spent + float(one.heat.sum())
         return SlabTemperature(
             solids=self, time=self.time, slab=slab, sides=self.time.contacts.sides(slab.contact), end=end,
-            start=start, change=change, given=out[self.nodes], spent=spent,
+            start=start, change=change, given=self.of_nodes(out), spent=spent,
+            glue=tuple(one.exchange for one in glue if len(one.exchange.conductances)),
         )  # fmt: skip
 
     def solve(self, slab: FieldSlab) -> FieldSolution:
@@ -160,15 +192,26 @@ class SolidTemperature:
         """
         return self.solver(slab)(np.zeros(len(slab.contact.after)))
 
-    def content(self, values: Array, u: Array) -> float:
-        """Heat content [J] of temperatures ``values`` (n, 1): internal energy less the energy of the field."""
-        now, amounts = self.contents(values), self._deformed(u, self.states).amounts()[:, self.nodes]
+    def content(self, state: FieldState, u: Array) -> float:
+        """Heat content [J] of a state: internal energy less the energy of the field."""
+        now = self.contents(state.values, self.of_bodies(state))
+        amounts = self.of_nodes(self._deformed(u, self.states).amounts())
         entropies = -self.moduli.slopes(now.temperature, now.share) * amounts
         return float(now.content.sum() + (now.temperature * entropies).sum())
 
-    def contents(self, values: Array) -> HeatValues:
-        """Temperatures and contents of the nodes with heat at the temperatures ``values`` (n, 1) [K]."""
-        return heat_values(self.model, unknowns_of(self.model, values[self.nodes, 0]), slopes=False)
+    def contents(self, values: Array, rigid: Mapping[str, Array] = MappingProxyType({})) -> HeatValues:
+        """Temperatures and contents of the nodes with heat at the temperatures ``values`` (n, 1) [K], and of the rigid
+        bodies at their own ``rigid`` or initial ones.
+        """
+        found = self._temperatures(values)
+        for k, lump in enumerate(self.model.lumps, len(self.nodes)):
+            if lump.name in rigid:
+                found[k] = rigid[lump.name][0, 0]
+        return heat_values(self.model, unknowns_of(self.model, found), slopes=False)
+
+    def _temperatures(self, values: Array) -> Array:
+        """Temperatures (k + r,) from those (n, 1) of all nodes, of the rigid bodies the initial ones [K]."""
+        return np.concatenate([values[self.nodes, 0], self.model.initial[len(self.nodes) :]])
 
     def liquid(self, solid: str, values: Array) -> Array | None:
         """Liquid shares (e,) of the cells of a solid at temperatures (n, 1) [K]; None if it does not melt."""
@@ -182,10 +225,9 @@ class SolidTemperature:
         if not self.points:
             return states
         assert self.time is not None
-        ends = values[self.nodes, 0]
-        following = self.of_points(after_jumps(self.model, ends, self.time.end))
+        following = self.of_points(after_jumps(self.model, self._temperatures(values), self.time.end))
         span = np.inf if self.time.start in knots(self.model) else self.time.end - self.time.start
-        return warmed(states, self.points, self.of_points(ends), following, span)
+        return warmed(states, self.points, self.of_points(values[self.nodes, 0]), following, span)
 
     def stress(self, solid: str, cells: int, values: Array, u: Array) -> Array:
         """Mean stress (cells, 3, 3) of a solid [Pa] that the temperature adds to that of the law, with the ``values``
@@ -206,19 +248,27 @@ class SolidTemperature:
         return deformed(self.expansions, self.elastic, u, states)
 
     def of_parts(self, values: Array) -> Array:
-        """Sums (parts,) over the nodes of each solid of values (k,)."""
-        return np.asarray(np.bincount(self.part, weights=values, minlength=self.parts), float)
+        """Sums (parts,) over the nodes of each solid of values (k + r,)."""
+        own = values[: len(self.nodes)]
+        return np.asarray(np.bincount(self.part, weights=own, minlength=self.parts), float)
+
+    def of_nodes(self, values: Array) -> Array:
+        """Values (..., k + r) at the nodes with heat from those (..., n) of all nodes; zero of rigid bodies."""
+        own = values[..., self.nodes]
+        if not self.model.lumps:
+            return own
+        return np.concatenate([own, np.zeros((*values.shape[:-1], len(self.model.lumps)))], axis=-1)
 
     def on_all(self, values: Array) -> Array:
-        """Values (n, 1) on all nodes from those (k,) with heat."""
+        """Values (n, 1) on all nodes from those (k + r,) with heat."""
         out = np.zeros((self.count, 1))
-        out[self.nodes, 0] = values
+        out[self.nodes, 0] = values[: len(self.nodes)]
         return out
 
     def on_every(self, potentials: Array) -> Array:
-        """Potentials (2, n) on all nodes from those (2, k) with heat; on others those of the law."""
+        """Potentials (2, n) on all nodes from those (2, k + r) with heat; on others those of the law."""
         out = np.stack([np.zeros(self.count), np.ones(self.count)])
-        out[:, self.nodes] = potentials
+        out[:, self.nodes] = potentials[:, : len(self.nodes)]
         return out
 
 

@@ -1,6 +1,7 @@
-"""Heat through permanent ties of solids that have a temperature."""
+"""Heat through the ties of solids that have a temperature, permanent ones and those that break."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
@@ -11,16 +12,102 @@ from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.dof_map import CombinedDofs
 from softway.bodies.setup.loads import facet_measures
 from softway.contact.assembly.tie import Tie
+from softway.errors import InputError
 from softway.heat.coupled.facing_areas import evened
 from softway.heat.heat_contact import HeatExchange
+from softway.model.cohesive_ties import CohesiveTie
 from softway.model.model import Model
 
 FREELY = 1e3
 """Conductance of a tie, relative to that of a cell."""
 
 
-def through_ties(model: Model, thermals: Mapping[str, Thermal], nodes: IntArray) -> Iterator[HeatExchange]:
-    """Exchange of heat through the permanent ties of solids with heat, among the ``nodes`` (k,) with a temperature.
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class GlueInSlab:
+    """Tie that breaks in a slab: the exchange through what holds of it, and the heat (n,) of its dissipation [J]."""
+
+    exchange: HeatExchange
+    heat: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class BreakingGlue:
+    """Tie that breaks, with heat.
+
+    Parameters
+    ----------
+    tie, number
+        The tie, and its place among the components of the damage.
+    points
+        (n, d) reference positions of all nodes [m].
+    jump
+        (m, k + r) jumps of the temperature from those of the nodes with heat and of rigid bodies.
+    conductance
+        Conductance while it is intact [W/(m^2 K)].
+    """
+
+    tie: CohesiveTie
+    number: int
+    points: Array
+    jump: sp.csr_array
+    conductance: float
+
+    def in_slab(self, damage: Array, u1: Array) -> GlueInSlab:
+        """Glue in a slab with the ``damage`` (n, ties) at its start and the displacement ``u1`` (n, d) at its end [m].
+
+        It conducts by the mean of what holds at both ends.  Either surface takes half of the dissipated energy.
+        """
+        node, area = self.tie.jump.node, self.tie.jump.area
+        before = damage[node, self.number]
+        after, spent = self.tie.grown(before, u1, self.points + u1)
+        conductances = self.conductance * area * (1.0 - 0.5 * (before + after))
+        here = np.flatnonzero(conductances > 0.0)
+        exchange = HeatExchange(jump=sp.csr_array(self.jump[here]), conductances=conductances[here])
+        heat: Array = np.zeros(len(u1))
+        for sign in (1.0, -1.0):
+            side = (sign * self.tie.jump.rows).maximum(0.0)
+            heat += side.T @ (0.5 * area * spent / np.asarray(side.sum(axis=1)).ravel())
+        return GlueInSlab(exchange=exchange, heat=heat)
+
+
+def breaking_glue(model: Model, nodes: IntArray, rigid: int) -> Iterator[BreakingGlue]:
+    """Ties that break and have a conductance, among the ``nodes`` (k,) with a temperature and ``rigid`` bodies."""
+    for bond in model.bonds:
+        for number, tie in enumerate(bond.ties):
+            if tie.tie.conductance is not None:
+                jump = among(tie.jump.rows, nodes, rigid)
+                yield BreakingGlue(
+                    tie=tie, number=number, points=bond.points, jump=jump, conductance=tie.tie.conductance
+                )
+
+
+def require_heated(model: Model, heated: Collection[str]) -> None:
+    """Refuse the conductance of ties that break of solids that are not among the ``heated``.
+
+    Raises
+    ------
+    InputError
+        With the place of the tie.
+    """
+    for tie in (tie for bond in model.bonds for tie in bond.ties):
+        cold = [name for name in tie.tie.bodies if name not in heated]
+        if tie.tie.conductance is not None and cold:
+            problem = f"heat through a tie of {cold[0]!r}, which has no temperature"
+            remedy = f"bodies.{cold[0]}.thermal, or no conductance"
+            raise InputError(f"ties[{tie.number}].conductance", problem, remedy)
+
+
+def among(rows: sp.csr_array, nodes: IntArray, rigid: int) -> sp.csr_array:
+    """Weights (m, k + r) of the nodes with heat and of ``rigid`` bodies, from those (m, n) of all nodes."""
+    own = sp.csr_array(rows[:, nodes])
+    return sp.csr_array((own.data, own.indices, own.indptr), shape=(own.shape[0], own.shape[1] + rigid))
+
+
+def through_ties(
+    model: Model, thermals: Mapping[str, Thermal], nodes: IntArray, rigid: int = 0
+) -> Iterator[HeatExchange]:
+    """Exchange of heat through the permanent ties of solids with heat, among the ``nodes`` (k,) with a temperature and
+    ``rigid`` bodies.
 
     The temperature of a node that follows is compared with that of the nodes that it follows, with their weights: where
     meshes do not match, a uniform flux passes exactly.
@@ -34,13 +121,14 @@ def through_ties(model: Model, thermals: Mapping[str, Thermal], nodes: IntArray)
             conductance = _conductance(tie, parts, thermals)
             for name, tag in zip(tie.bodies, tie.tags, strict=True):
                 other = next((n for n in tie.bodies if n != name), name)
-                yield from _of_side(follow, parts[name], tag, parts[other], conductance, nodes)
+                for jump, area in _of_side(follow, parts[name], tag, parts[other]):
+                    yield HeatExchange(jump=among(jump, nodes, rigid), conductances=conductance * area)
 
 
 def _of_side(
-    follow: sp.csr_array, own: DiscreteSolid, tag: str, other: DiscreteSolid, conductance: float, nodes: IntArray
-) -> Iterator[HeatExchange]:
-    """Exchange of the nodes of a surface that follow another solid."""
+    follow: sp.csr_array, own: DiscreteSolid, tag: str, other: DiscreteSolid
+) -> Iterator[tuple[sp.csr_array, Array]]:
+    """Jumps (p, n) and areas (p,) [m^2] of the nodes of a surface that follow another solid."""
     area: Array = np.zeros(own.mesh.n_nodes)
     for kind, facets in own.mesh.facets_on(tag).items():
         measure = facet_measures(own.mesh.points[facets], own.internal.section, kind)
@@ -55,8 +143,7 @@ def _of_side(
         follows &= np.asarray((mine - led).power(2).sum(axis=1)).ravel() > 0.0
     here = np.flatnonzero(follows)
     if here.size:
-        jump = sp.csr_array((mine - led)[here][:, nodes])
-        yield HeatExchange(jump=jump, conductances=conductance * area[node[here]])
+        yield sp.csr_array((mine - led)[here]), area[node[here]]
 
 
 def _conductance(tie: Tie, parts: Mapping[str, DiscreteSolid], thermals: Mapping[str, Thermal]) -> float:

@@ -41,7 +41,7 @@ class ContactHeat:
     share
         Share of the heat of friction that goes into the first body; by default that of its effusivity, the root of
         conductivity, density and capacity, in the sum of both.  With a tool: the share that goes into the solid, by
-        default the whole.
+        default the whole.  A rigid body with a temperature shares like a solid.
 
     Raises
     ------

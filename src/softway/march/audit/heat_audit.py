@@ -5,7 +5,7 @@ import numpy as np
 from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.heat.coupled.slab_temperature import HeatOfSlab
 from softway.heat.coupled.solid_temperature import temperatures_of
-from softway.heat.operators import liquid_volumes
+from softway.heat.operators import liquid_volumes, rigid_temperatures
 from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.model.model import Model
@@ -17,11 +17,13 @@ FALL = 1e-9
 def initial_heat(model: Model, now: ModelState) -> HeatOfSolids | None:
     """Heat at the start; None without temperature."""
     for k, temperature in temperatures_of(model.companions):
-        values = now.start.fields[k].values
+        state = now.start.fields[k]
+        values = temperature.contents(state.values, temperature.of_bodies(state))
         return HeatOfSolids(
-            content=temperature.in_states(now.start.states).content(values, now.start.displacement),
+            content=temperature.in_states(now.start.states).content(state, now.start.displacement),
             through=(0.0,) * len(temperature.contacts.contacts),
-            liquid=liquid_volumes(temperature.model, temperature.contents(values)),
+            liquid=liquid_volumes(temperature.model, values),
+            rigid=rigid_temperatures(temperature.model, values),
         )
     return None
 
@@ -42,6 +44,7 @@ def heat_audit(last: HeatOfSolids | None, out: SlabResult) -> HeatOfSolids | Non
             friction=last.friction + found.rubbed,
             through=tuple((np.array(last.through) + found.through).tolist()),
             liquid=found.liquid,
+            rigid=found.rigid,
             entropy=last.entropy + found.produced,
             error=last.error + ((found.content - last.content) - (found.brought + found.received)),
             produced=found.produced,

@@ -123,6 +123,20 @@ class Mechanism:
         stops = [stop.joint for stop in self.stops.values() if isinstance(stop, AngleStop)]
         return frozenset(springs + torques + geared + motors + stops)
 
+    def require_cold(self) -> None:
+        """Refuse bodies with a temperature, where nothing exchanges heat with them.
+
+        Raises
+        ------
+        InputError
+            With the place of the first of them.
+        """
+        for name, body in self.bodies.items():
+            if body.thermal is not None:
+                problem = "heat of a rigid body without solids: stops and joints pass none"
+                remedy = "omit it, or a solid with the key thermal that the body touches"
+                raise InputError(f"bodies.{name}.thermal", problem, remedy)
+
     def _require_stops(self) -> None:
         """Refuse stops of unknown bodies or joints, and unknown laws of impacts."""
         for name, stop in self.stops.items():

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.conductor import RigidThermal
 from softway.errors import InputError, within
 from softway.mechanisms.members.moments import shape_moments
 from softway.obstacles.primitives import Shape
@@ -41,6 +42,8 @@ class Rigid:
         Density of the material inside the shape [kg/m^3].
     thickness
         Thickness of a body in the plane, for its density [m].
+    thermal
+        Heat of a body beside solids with heat; without, it has no temperature.
 
     Raises
     ------
@@ -65,6 +68,7 @@ class Rigid:
     shape: Shape | None = None
     density: KilogramPerCubicMetre | None = None
     thickness: Metre = 1.0
+    thermal: RigidThermal | None = None
 
     def __post_init__(self) -> None:
         if self.density is not None:

@@ -67,8 +67,10 @@ OF_HEAT = (
     *((name, "J") for name in ("content", "brought", "received", "friction", "cold_work", "error")),
     ("entropy", "J/K"),
 )
-THROUGH, LIQUID = "heat.through.", "liquid."
-"""Beginnings of the names of the columns of heat that passed contacts, and of liquid volumes."""
+THROUGH, LIQUID, RIGID = "heat.through.", "liquid.", "temperature."
+"""Beginnings of the names of the columns of heat that passed contacts, of liquid volumes, and of the temperatures of
+rigid bodies.
+"""
 TIE = (("broken", table.RATIO), ("opening", "m"), ("dissipated", "J"))
 COLUMNS = (
     Column("time", "s", lambda step: step.after.time, lambda start: start.initial.time),
@@ -117,6 +119,10 @@ def _liquid(name: str) -> Callable[[Ledger], float]:
     return lambda ledger: float("nan") if ledger.heat is None else ledger.heat.liquid[name]
 
 
+def _of_rigid(name: str) -> Callable[[Ledger], float]:
+    return lambda ledger: float("nan") if ledger.heat is None else ledger.heat.rigid[name]
+
+
 def _of_heat(name: str) -> Callable[[Ledger], float]:
     return lambda ledger: float(getattr(ledger.heat, name))
 
@@ -126,18 +132,21 @@ HEAT = tuple(of_ledger(f"heat.{name}", unit, _of_heat(name)) for name, unit in O
 
 
 def columns(
-    contacts: tuple[str, ...], ties: tuple[str, ...] = (), heat: tuple[tuple[str, ...], tuple[str, ...]] | None = None
+    contacts: tuple[str, ...],
+    ties: tuple[str, ...] = (),
+    heat: tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]] | None = None,
 ) -> tuple[Column, ...]:
     """Columns of a run with some contacts, ties that break, and ``heat`` of solids: the contacts that it passes, in
-    order, and the solids that melt; without its probes.
+    order, the solids that melt, and the rigid bodies with a temperature; without its probes.
     """
     each = (column for label in contacts for column in of_contact(label))
     glued = (column for label in ties for column in of_tie(label))
     return (*COLUMNS, *each, *CERTIFICATE, *EXTRA, *glued, *(() if heat is None else of_heat(*heat)))
 
 
-def of_heat(passing: tuple[str, ...], melting: tuple[str, ...]) -> tuple[Column, ...]:
+def of_heat(passing: tuple[str, ...], melting: tuple[str, ...], rigid: tuple[str, ...]) -> tuple[Column, ...]:
     """Columns of the heat of solids."""
     through = (of_ledger(f"{THROUGH}{label}", "J", _through(k)) for k, label in enumerate(passing))
     liquid = (of_ledger(f"{LIQUID}{name}", "m^3", _liquid(name)) for name in melting)
-    return (*HEAT, *through, *liquid)
+    temperatures = (of_ledger(f"{RIGID}{name}", "K", _of_rigid(name)) for name in rigid)
+    return (*HEAT, *through, *liquid, *temperatures)

@@ -141,6 +141,7 @@ def check_mechanism(scenario: Scenario) -> CheckedMechanism:
             problem = f"{type(load).__name__} on {load.on!r} in a scenario of rigid bodies"
             raise InputError(f"loads[{k}]", problem, "Gravity, [[forces]], [[springs]] or [[torques]]")
     mechanism = mechanism_of(scenario)
+    mechanism.require_cold()
     joined = welded(mechanism)
     tables = arrays(joined.mechanism)
     check_motions(tables, mechanism.stops)

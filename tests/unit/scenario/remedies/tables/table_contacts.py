@@ -31,7 +31,7 @@ OF_TIES: Table = {
     "heat through a tie that breaks": Try(
         TWO,
         "ties=[{between=['b.bottom', 'c.top'], conductance=1, breaks={strength=1, energy=1, stiffness=10}}]",
-        "a permanent tie",
+        "bodies.b.thermal, or no conductance",
         GLUED,
     ),
     "tie of a tool": Try(PLANE, "ties=[{between=['b.bottom', 'w.top']}]", "known: b", "ties=[]"),

@@ -25,8 +25,44 @@ ROUND = "bodies.b.section={kind='Axisymmetric'}"
 SLIDER = "joints.axis={kind='Slider', between=['ground', 'r'], at=[0, 0.3], axis=[0, 1]}"
 DENSE = "{kind='Rigid', shape={kind='Sphere', centre=[0.5, 0.3], radius=0.2}, density=1}"
 ON_AXIS = "bodies.r.centre=[0, 0.3] & bodies.r.shape.centre=[0, 0.3]"
+HOT = "bodies.b.thermal={temperature=300, law={conductivity=1, capacity=1}}"
+WARM = f"{HOT} & bodies.r.thermal={{temperature=300, capacity=1, area=1}}"
+FLUX = "loads=[{kind='HeatFlux', on='r', value=1}]"
+FACE = "loads=[{kind='HeatFlux', on='r.face', value=1}]"
+
+
+def meets(heat: str, friction: str = "{kind='Frictionless'}") -> str:
+    """Change to a contact with heat."""
+    return f"{WARM} & contacts=[{{between=['b.top', 'r'], friction={friction}, heat={{{heat}}}}}]"
+
+
+RUBS = "{kind='Coulomb', mu=0.1}"
 
 TABLE: Table = {
+    "no heat capacity": Try(MIXED, f"{HOT} & bodies.r.thermal={{temperature=300}}", "either specific_heat", WARM),
+    "a rigid body alone is hot": Try(
+        MIXED, "bodies.r.thermal={temperature=300, capacity=1}", "bodies.NAME.thermal of a solid", WARM
+    ),
+    "heat of a mechanism": Try(
+        MIXED,
+        f"bodies={{r={DENSE.replace('}, density', '}, thermal={temperature=300, capacity=1}, density')}}} "
+        "& contacts=[] & time.step=0.001",
+        "omit it",
+        f"bodies={{r={DENSE}}} & contacts=[] & time.step=0.001",
+    ),
+    "heat on a face of a rigid body": Try(MIXED, f"{WARM} & {FACE}", "'r'", f"{WARM} & {FLUX}"),
+    "heat on no area": Try(
+        MIXED, f"{WARM.replace(', area=1', '')} & {FLUX}", "bodies.r.thermal.area", f"{WARM} & {FLUX}"
+    ),
+    "a source in no volume": Try(
+        MIXED, f"{WARM} & loads=[{{kind='HeatSource', of='r', value=1}}]", "a HeatFlux on its area", f"{WARM} & {FLUX}"
+    ),
+    "two temperatures of a rigid body": Try(
+        MIXED, meets("conductance=1, tool_temperature=300"), "omit it", meets("conductance=1")
+    ),
+    "friction whose heat nobody shares": Try(
+        MIXED, meets("conductance=1", RUBS), "a share from 0 to 1", meets("conductance=1, share=0.5", RUBS)
+    ),
     "no carrier": Try(MIXED, "bodies.b.supports=[{kind='Carried', on='bottom', by='q'}]", "one of ['r']", CARRIED),
     "no rigid at all": Try(
         MIXED,
