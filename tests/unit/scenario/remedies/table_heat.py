@@ -17,8 +17,8 @@ heat = sw.heat
 LAW = heat.Conduction(conductivity=1.0, capacity=1.0)
 MELTS = heat.Conduction(conductivity=1.0, capacity=1.0, latent=heat.Latent(heat=1.0, melting=300.0))
 BAR = interval(1.0, cells=2)
-TWO = BAR.with_region("a", lambda x: x[:, 0] < 0.5).with_region("c", lambda x: x[:, 0] > 0.5)
-TABLE = heat.TemperatureTable(temperatures=(200.0, 300.0), values=(1.0, 2.0))
+REGIONS = BAR.with_region("a", lambda x: x[:, 0] < 0.5).with_region("c", lambda x: x[:, 0] > 0.5)
+RISING = heat.TemperatureTable(temperatures=(200.0, 300.0), values=(1.0, 2.0))
 SQUARE = rectangle((1.0, 1.0), (2, 2))
 CORNER = SQUARE.with_tag("corner", lambda x: (x < 0.1).all(axis=1))
 COLD = (2.0, 1.0)
@@ -317,9 +317,9 @@ TABLE: Table = {
         lambda: built(law=MELTS, mesh=interval(1.0, cells=2), latent="front"),
     ),
     "front in several materials": call(
-        lambda: built(law={"a": LAW, "c": MELTS}, mesh=TWO, latent="front"),
+        lambda: built(law={"a": LAW, "c": MELTS}, mesh=REGIONS, latent="front"),
         "'cell'",
-        lambda: built(law={"a": LAW, "c": MELTS}, mesh=TWO, latent="cell"),
+        lambda: built(law={"a": LAW, "c": MELTS}, mesh=REGIONS, latent="cell"),
     ),
     "front in a mushy range": call(
         lambda: built(law=melting(300.0, 1.0), mesh=interval(1.0, cells=2), latent="front"),
@@ -327,9 +327,9 @@ TABLE: Table = {
         lambda: built(law=melting(300.0, 1.0), mesh=interval(1.0, cells=2), latent="node"),
     ),
     "front beside a table": call(
-        lambda: built(law=replace(MELTS, conductivity=TABLE), mesh=interval(1.0, cells=2), latent="front"),
+        lambda: built(law=replace(MELTS, conductivity=RISING), mesh=interval(1.0, cells=2), latent="front"),
         "'cell'",
-        lambda: built(law=replace(MELTS, conductivity=TABLE), mesh=interval(1.0, cells=2), latent="cell"),
+        lambda: built(law=replace(MELTS, conductivity=RISING), mesh=interval(1.0, cells=2), latent="cell"),
     ),
     "latent heat of shared nodes": call(
         lambda: halves(LAW, MELTS, latent="node"), "'cell'", lambda: halves(LAW, MELTS, latent="cell")
