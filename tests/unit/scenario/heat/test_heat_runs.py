@@ -79,6 +79,28 @@ CORNER = Path(__file__).parents[4] / "scenarios" / "freezing_corner.toml"
 TABLES = ("history.csv", "events.csv", "conductors.json", FIELDS)
 
 
+FRONT = """
+title = "A bar freezes from its end"
+[bodies.bar]
+kind = "Conductor"
+mesh = { kind = "Interval", length = "10 cm", cells = 10 }
+density = "1000 kg/m^3"
+temperature = "5 degC"
+latent = "front"
+[bodies.bar.law]
+conductivity = "2.22 W/(m*K)"
+capacity = "1762 J/(kg*K)"
+latent = { heat = "338 kJ/kg", melting = "0 degC", liquid = { conductivity = 0.556, capacity = 4226 } }
+[[loads]]
+kind = "Temperature"
+on = "bar.left"
+value = "-10 degC"
+[time]
+end = "2000 s"
+step = "50 s"
+"""
+
+
 @pytest.fixture(scope="module")
 def pond(tmp_path_factory) -> sw.Run:
     return sw.run(sw.loads(POND), tmp_path_factory.mktemp("runs") / "pond")
@@ -144,6 +166,22 @@ def test_a_resumed_run_has_the_same_bits(pond, tmp_path, after):
     assert resumed.fields.times.tolist() == pond.fields.times.tolist()
     for mine, other in zip(resumed.fields, pond.fields, strict=True):
         assert all((mine[name] == other[name]).all() for name in ("temperature", "liquid", "heat_flux"))
+
+
+def test_a_front_between_nodes_is_resumed_with_the_same_bits(tmp_path):
+    whole, seen = sw.run(sw.loads(FRONT), tmp_path / "whole"), []
+
+    def stop(progress):
+        seen.append(progress)
+        if len(seen) == 23:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sw.run(sw.loads(FRONT), tmp_path / "stopped", progress=stop)
+    resumed = sw.resume(tmp_path / "stopped")
+    assert (resumed.path / "history.csv").read_bytes() == (whole.path / "history.csv").read_bytes()
+    assert 0.01 < 0.1 - whole.history["liquid.bar"][-1] < 0.02
+    assert whole.history["heat_error_relative"].max() < 1e-12
 
 
 def test_the_scenario_in_the_folder_is_the_one_that_was_read(pond):
