@@ -110,7 +110,7 @@ def test_melting_heats_are_those_of_a_mole() -> None:
     assert find("iron").conduction().latent is None and find("iron").conduction().conductivity == 73.0
 
 
-@pytest.mark.parametrize(("name", "missing"), [("nylon", "conductivity"), ("lead", "capacity"), ("S235", "melting")])
+@pytest.mark.parametrize(("name", "missing"), [("Ti64", "conductivity"), ("lead", "capacity"), ("S235", "melting")])
 def test_what_is_not_known_of_heat_is_named(name: str, missing: str) -> None:
     with pytest.raises(InputError, match=f"no {missing}"):
         find(name).conduction(latent=True)
