@@ -16,8 +16,6 @@ from softway.heat.operators import HeatValues, heat_values
 
 SAME = 1e-9
 """Latent heat, relative to a cell, by which events miss an instant at which they are taken to happen, too."""
-AT_ONCE = 1e-12
-"""Length of a part of a slab, relative to it, below which an event happens at the start."""
 EVENTS = 8
 """Greatest number of events of each cell in a slab."""
 REMEDY = 'latent = "cell", or shorter slabs'
