@@ -32,10 +32,18 @@ class Deformed:
         """Energy that a free strain of one would take and elastic energy, (2, n) at the nodes [J]."""
         return np.stack([self.strained.held(), self.stored.nodal()])
 
+    def forces(self, potentials: Array, dim: int) -> Array:
+        """Forces (c, n, d) [N] that each of the potentials (c, 2, n) adds to those of the law."""
+        out = self.strained.forces(-potentials[:, 0], dim)
+        if self.stored.terms:
+            for one, potential in zip(out, potentials, strict=True):
+                one += self.stored.force(beside_law(potential)[1], dim)
+        return out
+
     def force(self, potentials: Array, dim: int) -> Array:
         """Forces (n, d) [N] that potentials (2, n) add to those of the law."""
-        out = self.strained.force(-potentials[0], dim)
-        return out + self.stored.force(beside_law(potentials)[1], dim) if self.stored.terms else out
+        found: Array = self.forces(potentials[None], dim)[0]
+        return found
 
 
 def deformed(

@@ -22,6 +22,7 @@ from softway.bodies.elements.strain_operator import StrainOperator
 from softway.bodies.internal_force.body_force import BodyForce
 from softway.bodies.internal_force.regions import RegionForces
 from softway.errors import InputError
+from softway.heat.coupled.strain.compiled_expansion import CompiledExpansion, compiled_expansion
 from softway.kernels.assembly.assembler import gather_table
 from softway.kernels.linalg import tensors
 from softway.laws.elasticity.free_faces import condensed
@@ -43,7 +44,7 @@ class Expansion:
     cells
         (e,) their numbers in the solid.
     nodes
-        (k,) their nodes among those of all solids.
+        (k,) their nodes among those of all solids; a slice of consecutive ones.
     values
         (p, k) functions of heat at the quadrature points.
     sampling
@@ -54,16 +55,19 @@ class Expansion:
         True for a law of the linear theory.
     modulus
         Stress that a free strain of one along each axis takes where it is held, k [Pa].
+    compiled
+        Energies and forces by kernels; None where there are none for the elements.
     """
 
     solid: str
     cells: IntArray
-    nodes: IntArray
+    nodes: IntArray | slice
     values: csr_array
     sampling: StrainOperator
     directions: Array
     small: bool
     modulus: float
+    compiled: CompiledExpansion | None = None
 
     def stress(self, free: Array, u: Array) -> Array:
         """Mean Cauchy stress (e, 3, 3) [Pa] of free strains (n,) of the nodes, at ``u`` (n, d).
@@ -105,36 +109,43 @@ class Expansion:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Strained:
-    """Solids with n nodes at a displacement: of each expansion that (k, d) of its nodes, the change of volume (p,) and
-    its derivative (p, m, D).
+    """Solids with n nodes at a displacement: of each expansion that (k, d) of its nodes and, where it is not compiled,
+    the change of volume (p,) and its derivative (p, m, D).
     """
 
     expansions: tuple[Expansion, ...]
     own: tuple[Array, ...]
-    changes: tuple[tuple[Array, Array], ...]
+    changes: tuple[tuple[Array, Array] | None, ...]
     n: int
 
     def held(self) -> Array:
         """Energies (n,) that free strains of one of the nodes would take from the strain, H [J]."""
         out = np.zeros(self.n)
-        for it, (change, _) in zip(self.expansions, self.changes, strict=True):
-            out[it.nodes] += it.values.T @ (it.modulus * it.sampling.volume * change)
+        for it, own, found in zip(self.expansions, self.own, self.changes, strict=True):
+            if it.compiled is not None:
+                out[it.nodes] += it.compiled.held(own)
+            elif found is not None:
+                out[it.nodes] += it.values.T @ (it.modulus * it.sampling.volume * found[0])
         return out
 
-    def force(self, free: Array, dim: int) -> Array:
-        """Forces (n, d) [N] of free strains (n,) of the nodes."""
-        out = np.zeros((self.n, dim))
-        for it, own, (_, flux) in zip(self.expansions, self.own, self.changes, strict=True):
-            stress = -it.modulus * (it.values @ free[it.nodes])
-            out[it.nodes] += it.sampling.nodal(stress[:, None, None] * flux, own)
+    def forces(self, free: Array, dim: int) -> Array:
+        """Forces (c, n, d) [N] of each of the free strains (c, n) of the nodes."""
+        out = np.zeros((*free.shape, dim))
+        for it, own, found in zip(self.expansions, self.own, self.changes, strict=True):
+            if it.compiled is not None:
+                out[:, it.nodes] += it.compiled.forces(own, free[:, it.nodes])
+            elif found is not None:
+                for one, strain in zip(out, free, strict=True):
+                    stress = -it.modulus * (it.values @ strain[it.nodes])
+                    one[it.nodes] += it.sampling.nodal(stress[:, None, None] * found[1], own)
         return out
 
 
 def strained(expansions: tuple[Expansion, ...], u: Array) -> Strained:
     """Solids with some ``expansions`` at the displacement ``u`` (n, d) [m]."""
     own = tuple(u[it.nodes] for it in expansions)
-    changes = tuple(it.change(mine) for it, mine in zip(expansions, own, strict=True))
-    return Strained(expansions, own, changes, len(u))
+    changes = (None if it.compiled is not None else it.change(mine) for it, mine in zip(expansions, own, strict=True))
+    return Strained(expansions, own, tuple(changes), len(u))
 
 
 def expansions(part: DiscreteSolid) -> Iterator[Expansion]:
@@ -148,15 +159,17 @@ def expansions(part: DiscreteSolid) -> Iterator[Expansion]:
     section, whole = part.internal.section, point_values(part)
     for region, cells, nodes, points, internal, law in pieces(part):
         modulus = thermal_stiffness(law, section, f"material.{region}" if region else "material")
+        small = not isinstance(law, RateLaw) and isinstance(law.measure, Small)
         yield Expansion(
             solid=part.name,
             cells=cells,
-            nodes=nodes + part.nodes.start,
+            nodes=part.nodes if len(nodes) == part.mesh.n_nodes else nodes + part.nodes.start,
             values=csr_array(whole[points][:, nodes]),
             sampling=internal.sampling,
             directions=internal.directions,
-            small=not isinstance(law, RateLaw) and isinstance(law.measure, Small),
+            small=small,
             modulus=modulus,
+            compiled=compiled_expansion(part, internal.sampling, cells, nodes, modulus, small),
         )
 
 
