@@ -201,13 +201,14 @@ def balance(model: HeatModel, before: HeatValues, stage: Stage, unknowns: Array,
 def _matrix(after: HeatValues, conduction: sp.csr_array, by_liquid: Entries, span: float) -> sp.csr_array:
     """Derivative (n, n) of the balance: capacity and latent heat, and ``span`` [s] times that of the heat flow."""
     n, E = len(after.unknowns), len(after.liquid)
-    diagonal = np.arange(n)
-    capacity = _assembled(((diagonal, diagonal, after.capacity), *after.latent_slope), (n, n))
     flow = conduction.copy()
     flow.data *= span * after.stretch[flow.indices]
+    flow.setdiag(flow.diagonal() + after.capacity)
+    if after.latent_slope:
+        flow = flow + _assembled(after.latent_slope, (n, n))
     if by_liquid and after.liquid_slope:
         flow = flow + span * (_assembled(by_liquid, (n, E)) @ _assembled(after.liquid_slope, (E, n)))
-    return sp.csr_array(capacity + flow)
+    return sp.csr_array(flow)
 
 
 def _of_strain(model: HeatModel, strain: HeatOfStrain, after: HeatValues) -> sp.csr_array:

@@ -219,7 +219,7 @@ def solve_stage(
         if not np.isfinite(size):
             break
         if iteration and size <= tolerance * found.moved + floor:
-            return _result(model, before, stage, found, iteration, frozen, floor)
+            return result_of(model, before, stage, found, iteration, frozen, floor)
         if frozen is not None:
             step = frozen.factor.solve(-found.values[free])
         elif not free.any():
@@ -233,7 +233,7 @@ def solve_stage(
     raise NoConvergence(f"the heats of the nodes are not balanced after {ITERATIONS} iterations")
 
 
-def _result(
+def result_of(
     model: HeatModel,
     before: HeatValues,
     stage: Stage,

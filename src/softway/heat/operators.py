@@ -172,9 +172,11 @@ def heat_flow(
     """
     if model.conduction is not None:
         # from the temperature of a node of each body: a uniform one conducts nothing, not even its rounding
-        first = np.repeat([temperature[p.nodes.start] for p in model.parts], [p.mesh.n_nodes for p in model.parts])
-        first = np.concatenate([first, temperature[len(first) :]])
-        return model.conduction @ (temperature - first), model.conduction if slopes else None, ()
+        over = temperature - (temperature[:1] if len(model.parts) == 1 else 0.0)
+        for part in model.parts if len(model.parts) > 1 else ():
+            over[part.nodes] -= temperature[part.nodes.start]
+        over[len(temperature) - len(model.lumps) :] = 0.0
+        return model.conduction @ over, model.conduction if slopes else None, ()
     flow = np.zeros(model.n_nodes)
     blocks: list[Array] = []
     columns = []

@@ -88,8 +88,10 @@ class ContactExchange:
         temperature, rigid
             (n,) temperatures of the nodes and (r,) of the rigid bodies, for the radiation [K].
         """
+        found: dict[int, HeatExchange] = {}
+        if not self.contacts:
+            return found
         gaps = contact.first.gap(ends[0]), contact.last.gap(ends[1])
-        found = {}
         for k, (rows, of) in enumerate(zip(self.contacts, sides, strict=True)):
             tool = rows.opposite(of, rigid)
             conductance = rows.conductances(contact, gaps, of, temperature, tool)

@@ -13,10 +13,11 @@ from softway.heat.coupled.contact_exchange import ContactExchange
 from softway.heat.coupled.contact_sides import ContactSides
 from softway.heat.coupled.strain.deformed import Deformed, beside_law
 from softway.heat.coupled.strain.moduli import ElasticHeat, Moduli
-from softway.heat.heat_balance import Stage
+from softway.heat.coupled.strain.weak_heat import balanced_heats
+from softway.heat.heat_balance import Stage, rounding
 from softway.heat.heat_contact import HeatExchange
 from softway.heat.heat_model import HeatModel
-from softway.heat.heat_slab import HeatFactor, StageResult, solve_slab
+from softway.heat.heat_slab import HeatFactor, StageResult, is_weak, result_of, solve_slab
 from softway.heat.operators import HeatValues, liquid_volumes, rigid_temperatures
 from softway.model.field import FieldSlab, FieldSolution, FieldState
 
@@ -65,8 +66,9 @@ class TimeOfSlab:
     """Slab of a march between two times [s], ``damped`` after a sudden change, in two ``halves``.
 
     At its start: solids with their material states, contacts with their areas, temperatures ``before``, heats of
-    prescribed temperatures that jumped [J], the strain, and the damage of ties that break.  The factor is that of its
-    operator without contact and such ties.
+    prescribed temperatures that jumped [J], the strain with its ``amounts`` (2, k + r) [J], see
+    :class:`SlabTemperature`, and the damage of ties that break.  The factor is that of its operator without contact and
+    such ties.
     """
 
     start: float
@@ -78,6 +80,7 @@ class TimeOfSlab:
     before: HeatValues
     jumped: Array
     strained: Deformed
+    amounts: Array
     factor: HeatFactor | None
     damage: Array | None = None
 
@@ -136,9 +139,9 @@ class SlabTemperature:
         Sides of the rows of each contact with heat.
     end
         Strain at the end.
-    start, change
-        (2, k + r) energies of a free strain of one and elastic energies at the start, and their changes [J]: of the
-        nodes with heat, and none of rigid bodies.
+    change
+        (2, k + r) changes of the energies of a free strain of one and of the elastic energies [J]: of the nodes with
+        heat, and none of rigid bodies.
     given, spent
         Heat (k + r,) of the dissipation of the material and of ties that break, and its energy in all [J].
     glue
@@ -150,7 +153,6 @@ class SlabTemperature:
     slab: FieldSlab
     sides: tuple[ContactSides, ...]
     end: Deformed
-    start: Array
     change: Array
     given: Array
     spent: float
@@ -167,14 +169,15 @@ class SlabTemperature:
         solids, slab, dim, before = self.solids, self.slab, self.slab.u1.shape[1], self.time.before
         heat, taken = self.time.contacts.spread(rubbed, self.sides)
         result, through = self._solved(heat)
-        after, moduli, amounts = result.after, solids.moduli, self.start + self.change
+        after, moduli, amounts = result.after, solids.moduli, self.time.amounts + self.change
         over = solids.on_every(moduli.between(before, after, result.mean))
         last = moduli.potentials(after.temperature, after.share)
         energy = solids.of_parts((beside_law(last) * amounts).sum(axis=0))
         lost = solids.of_parts(result.work - self.change[1]) - (energy - slab.start.energy)
-        mean = slab.first * self.time.strained.force(over, dim) + (1.0 - slab.first) * self.end.force(over, dim)
+        mean, force = self.end.forces(np.stack([over, solids.on_every(last)]), dim)
+        mean = slab.first * self.time.strained.force(over, dim) + (1.0 - slab.first) * mean
         entropies = -moduli.slopes(after.temperature, after.share) * amounts
-        initial = -moduli.slopes(before.temperature, before.share) * self.start
+        initial = -moduli.slopes(before.temperature, before.share) * self.time.amounts
         rub = float(heat.sum())
         account = HeatOfSlab(
             content=float(after.content.sum() + (after.temperature * entropies).sum()),
@@ -191,7 +194,7 @@ class SlabTemperature:
         )
         end = FieldState(
             values=solids.on_all(after.temperature), energy=energy,
-            force=self.end.force(solids.on_every(last), dim), abrupt=self.time.contacts.change(slab.contact),
+            force=force, abrupt=self.time.contacts.change(slab.contact),
             unknowns=solids.kept(after),
         )  # fmt: skip
         return FieldSolution(end=end, mean_force=mean, lost=lost, account=account)
@@ -203,27 +206,44 @@ class SlabTemperature:
         """
         time, span = self.time, self.slab.span
         strain = ElasticHeat(
-            moduli=self.solids.moduli, amounts=self.start, rates=self.change / span,
+            moduli=self.solids.moduli, amounts=self.time.amounts, rates=self.change / span,
             power=(self.given + rubbed) / span, inert=self.solids.inert,
         )  # fmt: skip
         stage = Stage(start=time.start, span=span, theta=1.0 if time.damped else 0.5, strain=strain)
-        at, free, guess = time.before.temperature, self.solids.model.free_nodes(), None
-        if self.slab.expected is not None and len(self.slab.expected.unknowns):
-            guess = self.slab.expected.unknowns
+        at, free, guess = time.before.temperature, self.solids.model.free_nodes(), self._expected()
         for _ in range(1 + time.contacts.radiates):
             found, ties = self._exchanges(at), (*self.solids.model.exchanges, *self.glue)
             across = tuple(found.values())
             model = replace(self.solids.model, exchanges=(*ties, *across))
             factor = None if time.factor is None else time.factor.linked((*self.glue, *across), free)
-            try:
-                with np.errstate(invalid="ignore", over="ignore"):  # moduli at temperatures that are only tried
-                    result = solve_slab(model, time.before, stage, time.halves, factor, guess=guess)
-            except NumericsError as error:
-                raise NoConvergence(error.what) from None
+            result = self._balanced(model, stage, strain, factor, guess)
             at = 0.5 * (time.before.temperature + result.after.temperature)
         through = np.zeros(len(self.sides))
         through[list(found)] = result.passed[len(ties) :]
         return result, through
+
+    def _balanced(
+        self, model: HeatModel, stage: Stage, strain: ElasticHeat, factor: HeatFactor | None, guess: Array | None
+    ) -> StageResult:
+        """Result of a slab: by a kernel where it has one stage in which hardly any heat flows from node to node."""
+        before, halves = self.time.before, self.time.halves
+        if is_weak(factor) and not (halves or strain.moduli.curves):
+            floor = rounding(model, before, stage)
+            found = balanced_heats(model, before, stage, strain, before.unknowns if guess is None else guess, floor)
+            if found is not None:
+                return result_of(model, before, stage, found, 1, factor, floor)
+        try:
+            with np.errstate(invalid="ignore", over="ignore"):  # moduli at temperatures that are only tried
+                return solve_slab(model, before, stage, halves, factor, guess=guess)
+        except NumericsError as error:
+            raise NoConvergence(error.what) from None
+
+    def _expected(self) -> Array | None:
+        """Unknowns (k + r,) of the iterate before; None at the first one."""
+        then = self.slab.expected
+        if then is None:
+            return None
+        return then.unknowns if len(then.unknowns) else then.values[self.solids.nodes, 0]
 
     def _exchanges(self, temperature: Array) -> dict[int, HeatExchange]:
         """Exchange across contacts, with radiation at the ``temperature`` (k + r,) [K]."""

@@ -112,10 +112,11 @@ class SolidTemperature:
         before = heat_values(self.model, known)
         before, jumped, _ = put_at_once(self.model, before, ends[0])
         strained = self._deformed(u0, initial_states(parts))
+        amounts = self.of_nodes(strained.amounts())
         time = TimeOfSlab(
             start=ends[0], end=ends[1], solids=parts, contacts=self.contacts.at(u0), damped=damped,
-            halves=damped and self.inert, before=before, jumped=jumped, strained=strained, factor=factor,
-            damage=beside.get("damage"),
+            halves=damped and self.inert, before=before, jumped=jumped, strained=strained, amounts=amounts,
+            factor=factor, damage=beside.get("damage"),
         )  # fmt: skip
         return replace(self, time=time)
 
@@ -164,10 +165,10 @@ class SolidTemperature:
     def solver(self, slab: FieldSlab) -> SlabTemperature:
         """Solver of the temperature at the end of a slab, from the energies (m,) that friction dissipates [J]."""
         assert self.time is not None
-        before = initial_states(self.time.solids)
+        before = initial_states(self.time.solids) if self.dissipations else ()
         after = committed(self.time.solids, slab.u1) if self.dissipations or self.elastic else ()
-        end, start = self._deformed(slab.u1, after), self.of_nodes(self.time.strained.amounts())
-        change = self.of_nodes(end.amounts()) - start
+        end = self._deformed(slab.u1, after)
+        change = self.of_nodes(end.amounts()) - self.time.amounts
         out, spent = np.zeros(self.count), 0.0
         for dissipation in self.dissipations:
             energy = dissipation.energy(before, after)
@@ -178,7 +179,7 @@ class SolidTemperature:
             out, spent = out + one.heat, spent + float(one.heat.sum())
         return SlabTemperature(
             solids=self, time=self.time, slab=slab, sides=self.time.contacts.sides(slab.contact), end=end,
-            start=start, change=change, given=self.of_nodes(out), spent=spent,
+            change=change, given=self.of_nodes(out), spent=spent,
             glue=tuple(one.exchange for one in glue if len(one.exchange.conductances)),
         )  # fmt: skip
 
@@ -254,7 +255,7 @@ class SolidTemperature:
 
     def of_nodes(self, values: Array) -> Array:
         """Values (..., k + r) at the nodes with heat from those (..., n) of all nodes; zero of rigid bodies."""
-        own = values[..., self.nodes]
+        own = values if len(self.nodes) == self.count else values[..., self.nodes]
         if not self.model.lumps:
             return own
         return np.concatenate([own, np.zeros((*values.shape[:-1], len(self.model.lumps)))], axis=-1)
@@ -267,6 +268,8 @@ class SolidTemperature:
 
     def on_every(self, potentials: Array) -> Array:
         """Potentials (2, n) on all nodes from those (2, k + r) with heat; on others those of the law."""
+        if len(self.nodes) == self.count:
+            return potentials[:, : self.count]
         out = np.stack([np.zeros(self.count), np.ones(self.count)])
         out[:, self.nodes] = potentials[:, : len(self.nodes)]
         return out

@@ -63,11 +63,19 @@ class Moduli:
 
     def potentials(self, temperature: Array, share: Array) -> Array:
         """Potentials (2, k) of free strain and of elastic energy at temperatures (k,) [K] and liquid shares (k,)."""
+        if not self.curves:
+            out: Array = np.ones((2, len(temperature)))
+            out[0] = -self.free.of(temperature, share)
+            return out
         m = self.factor(temperature)
         return np.stack([-m * self.free.of(temperature, share), m])
 
     def slopes(self, temperature: Array, share: Array) -> Array:
         """Derivatives (2, k) of the potentials along the temperature [1/K]."""
+        if not self.curves:
+            out: Array = np.zeros((2, len(temperature)))
+            out[0] = -self.free.coefficient
+            return out
         m, slope = self.factor(temperature), self.slope(temperature)
         return np.stack([-slope * self.free.of(temperature, share) - m * self.free.coefficient, slope])
 
@@ -110,16 +118,9 @@ class ElasticHeat:
         """Heat that the strain takes in a time ``span`` [s]."""
         theta0, theta1, change = before.temperature, after.temperature, span * self.rates
         mean = logarithmic_mean(theta0, theta1) if self.inert else arithmetic_mean(theta0, theta1)
-        middle, free = self.amounts + 0.5 * change, self.moduli.free
         if not self.moduli.curves:
-            entropy, melts = free.coefficient * change[0], free.melting * middle[0]
-            return HeatOfStrain(
-                mean=mean,
-                taken=entropy * mean - melts * (after.share - before.share),
-                slope=0.5 * entropy,
-                freezing=-melts,
-                work=self.moduli.between(before, after, mean)[0] * change[0],
-            )
+            return self.at(span, before, after, mean)
+        middle, free = self.amounts + 0.5 * change, self.moduli.free
         slope0, slope1 = (self.moduli.slopes(v.temperature, v.share) for v in (before, after))
         value0, value1 = (self.moduli.potentials(v.temperature, v.share) for v in (before, after))
         if self.inert:
@@ -133,6 +134,18 @@ class ElasticHeat:
             slope=-0.5 * (slope1 * change).sum(axis=0),
             freezing=-free.melting * middle[0] * (self.moduli.factor(theta1) - theta1 * self.moduli.slope(theta1)),
             work=(between * change).sum(axis=0),
+        )
+
+    def at(self, span: float, before: HeatValues, after: HeatValues, mean: Array) -> HeatOfStrain:
+        """:meth:`over` of moduli that do not depend on the temperature, at its ``mean`` (k,) [K]."""
+        change, free = span * self.rates, self.moduli.free
+        entropy, melts = free.coefficient * change[0], free.melting * (self.amounts[0] + 0.5 * change[0])
+        return HeatOfStrain(
+            mean=mean,
+            taken=entropy * mean - melts * (after.share - before.share),
+            slope=0.5 * entropy,
+            freezing=-melts,
+            work=self.moduli.between(before, after, mean)[0] * change[0],
         )
 
     def _shift(self, mean: Array, before: HeatValues, after: HeatValues, middle: Array) -> Array:
