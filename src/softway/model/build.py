@@ -91,6 +91,7 @@ def _model(scene: Scene) -> Model:
         parts=parts,
         mass=mass,
         follow=follow,
+        passing=sp.csr_array(follow.T),
         massive=np.asarray(mass.diagonal()) > 0.0,
         inert=factor > 0.0,
         part_of=_part_of(parts),

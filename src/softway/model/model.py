@@ -39,6 +39,8 @@ class Model:
         (n, n) nodal mass matrix; massless contact nodes of the Energy rule have empty rows.
     follow
         (n, n) velocities of all nodes from those with inertia: massless nodes follow their neighbours.
+    passing
+        (n, n) transpose of it: forces on massless nodes act on the nodes that they follow.
     massive
         (n,) nodes with inertia.
     inert
@@ -94,6 +96,7 @@ class Model:
     parts: tuple[DiscreteSolid, ...]
     mass: sp.csr_array
     follow: sp.csr_array
+    passing: sp.csr_array
     massive: BoolArray
     inert: bool
     part_of: IntArray
@@ -287,7 +290,7 @@ class Model:
             return None
         out = np.concatenate([p.shock_force(middle[p.nodes], change[p.nodes], span) for p in self.parts])
         own = out * self.massive[:, None]
-        return np.asarray(own + self.follow.T @ (out - own))
+        return np.asarray(own + self.passing @ (out - own))
 
     def kinetic(self, v: Array) -> Array:
         """Kinetic energy of each solid (parts,) [J]."""
