@@ -17,7 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from time import perf_counter
 
-from groups import accuracy, blocks, cube, methods, parts, piles
+from groups import accuracy, blocks, cube, heated, methods, parts, piles
 from groups.asked import Asked
 from processes.apart import Failed
 from record.figures import Figure, read, regressions, unmatched, written
@@ -46,6 +46,7 @@ GROUPS: dict[str, Group] = {
     "pressed": blocks.pressed,
     "blocks": blocks.blocks,
     "slab": parts.slabs,
+    "heated": heated.heated,
     "pile": piles.pile,
     "large": cube.large,
 }
