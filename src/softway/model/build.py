@@ -87,37 +87,18 @@ def _model(scene: Scene) -> Model:
     mass, weights, follow = inertia_of(parts, solids, _light(laid, massless, driven, timing.spread), factor)
     displacement, loads = at_start(parts, solids, given, driven, glue), dead_load(parts, weights, scene.loads, "loads")
     return Model(
-        scene=scene,
-        parts=parts,
-        mass=mass,
-        follow=follow,
-        passing=sp.csr_array(follow.T),
-        massive=np.asarray(mass.diagonal()) > 0.0,
-        inert=factor > 0.0,
-        part_of=_part_of(parts),
-        dofs=dofs,
+        scene=scene, parts=parts, mass=mass, follow=follow, passing=sp.csr_array(follow.T),
+        massive=np.asarray(mass.diagonal()) > 0.0, inert=factor > 0.0, part_of=_part_of(parts), dofs=dofs,
         linked=linked_parts(_part_of(parts), len(parts), dofs, laid.bonds),
-        load=loads.at(0.0),
-        load_before=loads.at(0.0),
-        loads=loads,
-        weight=weights,
-        displacement=displacement,
+        load=loads.at(0.0), load_before=loads.at(0.0), loads=loads, weight=weights, displacement=displacement,
         velocity=glue.fitting(velocity - dofs.supported(velocity), "velocity", parts),
         contacts=met.contacts.cleared(displacement, [c.start == "apart" for c in scene.contacts]),
-        contact_solids=met.solids,
-        against_tool=met.rigid,
-        touchable=met.nodes,
+        contact_solids=met.solids, against_tool=met.rigid, touchable=met.nodes,
         edge=np.concatenate([p.mesh.edges() for p in parts]),
-        driven=driven,
-        floor=np.array([p.floor() for p in parts]),
-        total=_total(mass, parts, dofs, laid.bonds),
-        timing=timing,
-        friction=met.friction,
-        space=met.contacts.space,
-        companions=intact(laid.bonds, displacement),
-        tools=tools,
-        rigid=rigid,
-    )
+        driven=driven, floor=np.array([p.floor() for p in parts]), total=_total(mass, parts, dofs, laid.bonds),
+        timing=timing, friction=met.friction, space=met.contacts.space,
+        companions=intact(laid.bonds, displacement), tools=tools, rigid=rigid,
+    )  # fmt: skip
 
 
 def _members(scene: Scene) -> tuple[list[str], list[str]]:

@@ -37,14 +37,11 @@ class Model:
         The solids.
     mass
         (n, n) nodal mass matrix; massless contact nodes of the Energy rule have empty rows.
-    follow
-        (n, n) velocities of all nodes from those with inertia: massless nodes follow their neighbours.
-    passing
-        (n, n) transpose of it: forces on massless nodes act on the nodes that they follow.
-    massive
-        (n,) nodes with inertia.
-    inert
-        True if a node has inertia.
+    follow, passing
+        (n, n) velocities of all nodes from those with inertia, as massless nodes follow their neighbours; its
+        transpose, by which forces on massless nodes act on the nodes that they follow.
+    massive, inert
+        (n,) nodes with inertia; True if there is one.
     part_of
         (n,) number of the solid of each node.
     dofs
