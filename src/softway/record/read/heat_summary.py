@@ -1,10 +1,10 @@
-"""Summary of a run of conductors, computed from its history, and told in sentences."""
+"""Summary of the heat of a run, computed from its history, and told in sentences."""
 
 from collections.abc import Mapping
 from typing import Any
 
 from softway.record.storage.table import Table
-from softway.record.write.history_columns import LIQUID
+from softway.record.write.history_columns import LIQUID, RIGID
 
 BALANCED = 1e-9
 """Error of the balance of heat, relative to the heat that moved, that passes for rounding."""
@@ -34,6 +34,27 @@ def summarise_heat(history: Table) -> dict[str, Any]:
         "contacts": {},
         "findings": [],
         "units": {"time": "s", "heat": "J", "liquid": "m^3"},
+    }
+
+
+def summarise_solids(history: Table) -> dict[str, float]:
+    """Summarise the heat of the solids of a run; empty if they have none.
+
+    ``error_worst`` is the largest error of the balance of energy and heat [J], ``entropy_least`` the least entropy that
+    a slab produced [J/K]; at the end, the heat content [J], volumes of liquid [m^3] and temperatures of rigid bodies
+    [K].
+    """
+    if "heat.content" not in history:
+        return {}
+    ends = [name for name in history if name.startswith((LIQUID, RIGID))]
+    return {
+        **{f"heat_{name}": float(history[f"heat.{name}"][-1]) for name in ("brought", "received", "friction")},
+        "heat_content_end": float(history["heat.content"][-1]),
+        "cold_work": float(history["heat.cold_work"][-1]),
+        "heat_error_worst": float(abs(history["heat.error"]).max()),
+        "entropy_produced": float(history["heat.entropy"].sum()),
+        "entropy_least": float(history["heat.entropy"].min()),
+        **{name: float(history[name][-1]) for name in ends},
     }
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from softway.record.read.findings import gathered, stored
+from softway.record.read.heat_summary import summarise_solids
 from softway.record.storage.table import Table
 
 FILE = "summary.json"
@@ -54,7 +55,8 @@ def summarise(history: Table, events: Table) -> dict[str, Any]:
     ``energy_error_worst`` is the largest ``|energy_error|`` [J]; ``energy_error_relative`` is its ratio to the largest
     sum of kinetic and strain energy; ``penetration_worst`` is the largest penetration of a contact row at the end of a
     slab [m]. ``penetration_nodes`` and ``penetration_between`` are the deepest overlaps of any two surfaces, at nodes
-    and between them, in the slabs that were audited [m]; ``findings`` are those of the audit.
+    and between them, in the slabs that were audited [m]; ``heat`` is that of solids with a temperature, ``findings``
+    are those of the audit.
     """
     if history.rows == 0:
         return {"slabs": 0, "contacts": {}, "findings": []}
@@ -75,6 +77,7 @@ def summarise(history: Table, events: Table) -> dict[str, Any]:
         "penetration_between": _deepest("certificate.gap_between", history),
         "certificate": _certificate(history),
         "contacts": contacts,
+        "heat": summarise_solids(history),
         "findings": gathered(stored(events)),
         "units": {"time": "s", "energy": "J", "penetration": "m", "impulse": "N s", "force": "N"},
     }

@@ -49,6 +49,12 @@ UNITS = {
     "heat_in": "J",
     "heat_out": "J",
     "heat_error_worst": "J",
+    "heat_brought": "J",
+    "heat_received": "J",
+    "heat_friction": "J",
+    "cold_work": "J",
+    "liquid": "m^3",
+    "temperature": "K",
     "entropy_produced": "J/K",
     "entropy_least": "J/K",
 }
@@ -108,6 +114,8 @@ def summary(run: Run, console: Console) -> None:
     _columns({"run": plain}, console)
     _columns({f"contact {n}": c for n, c in found["contacts"].items()}, console)
     _columns({f"stop {n}": c for n, c in found.get("stops", {}).items()}, console)
+    if found.get("heat"):
+        _columns({"heat of solids": found["heat"]}, console)
     if found.get("certificate"):
         _columns({"certificate (worst slab)": found["certificate"]}, console)
     _notes((Note(**note) for note in found.get("notes", ())), console)
@@ -184,7 +192,8 @@ def _columns(items: dict[str, dict[str, Any]], console: Console) -> None:
         grid.add_column("")
         for key in dict.fromkeys(k for name in chosen for k in items[name]):
             cells = [_cell(items[name].get(key)) for name in chosen]
-            grid.add_row(WORDS.get(key, key.replace("_", " ")), *cells, UNITS.get(key, ""))
+            unit = UNITS.get(key) or UNITS.get(key.partition(".")[0], "")
+            grid.add_row(WORDS.get(key, key.replace("_", " ").replace(".", " of ")), *cells, unit)
         console.print(grid)
         console.print()
 
