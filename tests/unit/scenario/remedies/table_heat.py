@@ -161,6 +161,21 @@ TABLE: Table = {
         'a difference of temperatures such as "0.5 K"',
         "bodies.b.law.latent.half_range=0.5 K",
     ),
+    "conduction of no material": Try(
+        SCENE, "bodies.b.law=cooper OFHC", "did you mean 'copper OFHC'", "bodies.b.law=copper OFHC"
+    ),
+    "conduction of a number": Try(
+        SCENE, "bodies.b.law={library=3}", '"steel S235"', "bodies.b.law={library='steel S235'}"
+    ),
+    "conduction that is not known": Try(
+        SCENE,
+        "bodies.b.law=nylon",
+        "conductivity = ..., capacity = ...",
+        "bodies.b.law={conductivity=0.25, capacity=1670}",
+    ),
+    "latent heat of a number": Try(
+        SCENE, "bodies.b.law={library='copper', latent=3}", "true", "bodies.b.law={library='copper', latent=true}"
+    ),
     "heat on a solid": Try(SOLIDS, FLUX, "a solid with the key thermal", "loads=[]"),
     "heat on a solid without": call(lambda: solids(thermal=None), "the heat of the solid, thermal", solids),
     "temperature of a solid without": Try(SOLIDS, SOLID_PROBE, "displacement", "output.probes=[]"),
