@@ -116,7 +116,7 @@ def freezing(mesh: sw.Mesh) -> object:
 
 PLASTIC = sw.J2(E=1.0, nu=0.3, yield_stress=0.1)
 FALLS = sw.J2(E=1.0, nu=0.3, yield_stress=0.1, hardening=sw.laws.LinearHardening(modulus=-0.6))
-DAMPED = sw.laws.Kelvin(E=1.0, nu=0.3, shear_viscosity=1.0)
+DAMPED = sw.laws.NortonHoff(K=1.0, m=0.2)
 SOFTER = heat.StiffnessTable(temperatures=(300.0, 900.0), values=(1.0, 0.5))
 FINE = rectangle((1.0, 1.0), (4, 4))
 CONDUCTS = heat.ContactHeat(conductance=1.0)
@@ -208,7 +208,7 @@ TABLE: Table = {
     "expansion of fibres": call(lambda: solids(material=FIBRES), "an isotropic law", solids),
     "moduli of a law that knows no factor": call(
         lambda: solids(material=DAMPED, thermal=thermal(stiffness=SOFTER)),
-        "J2, Maxwell, Hypoelastic",
+        "J2, Maxwell, Kelvin, Hypoelastic",
         lambda: solids(material=PLASTIC, thermal=thermal(stiffness=SOFTER)),
     ),
     "a yield stress that falls faster than soft moduli allow": call(
