@@ -38,7 +38,7 @@ class HeatOfSlab:
     produced, passed, rounding
         Entropy produced, the entropies that took part, and the rounding of the first [J/K].
     rubbed
-        Heat of friction in the solids [J].
+        Heat of friction in solids and rigid bodies, and of the impacts of these [J].
     through
         (c,) heat that passed each contact from the solid named first [J].
     liquid
@@ -141,8 +141,10 @@ class SlabTemperature:
         nodes with heat, and none of rigid bodies.
     given, spent
         Heat (k + r,) of the dissipation of the material and of ties that break, and its energy in all [J].
+    stopped
+        Heat (k + r,) of what stops dissipate [J].
     glue
-        Exchange across ties that break.
+        Exchange across ties that break, and through stops.
     """
 
     solids: HeatedSolids
@@ -154,6 +156,7 @@ class SlabTemperature:
     change: Array
     given: Array
     spent: float
+    stopped: Array
     glue: tuple[HeatExchange, ...] = ()
 
     def __call__(self, rubbed: Array) -> FieldSolution:
@@ -166,6 +169,7 @@ class SlabTemperature:
         """
         solids, slab, dim, before = self.solids, self.slab, self.slab.u1.shape[1], self.time.before
         heat, taken = self.time.contacts.spread(rubbed, self.sides)
+        heat = heat + self.stopped
         result, through = self._solved(heat)
         after, moduli, amounts = result.after, solids.moduli, self.start + self.change
         over = solids.on_every(moduli.between(before, after, result.mean))
