@@ -101,7 +101,7 @@ class Thermal:
         Temperature without thermal stress [K]; the initial temperature by default.
     stiffness
         Factor of the elastic moduli by the temperature, with their thermal stress: of laws with a stored energy, and of
-        ``J2``, ``Maxwell`` and ``Hypoelastic``.
+        ``J2``, ``Maxwell``, ``Kelvin`` and ``Hypoelastic``.
     heating
         Share of the dissipation of the material that heats, from zero to one; by default .9 of the plastic work of
         ``J2``, and all of viscous laws.

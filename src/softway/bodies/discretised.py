@@ -97,7 +97,9 @@ class DiscreteSolid:
         """
         values = np.asarray((scaled_matrix(self.internal.secant(u), self.factor) if secant else self.tangent(u)).data)
         viscous = self.internal.viscous_tangent(u) if viscous_factor > 0.0 else None
-        return values if viscous is None else np.asarray(values + viscous_factor * viscous.data)
+        if viscous is None:
+            return values
+        return np.asarray(values + viscous_factor * scaled_matrix(viscous, self.factor).data)
 
     def tangent(self, u: Array) -> csc_array:
         """Tangent stiffness (n d, n d) [N/m]."""

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array
-from softway.errors import Cancel, InputError, heed
+from softway.errors import Cancel, InputError, NoConvergence, NumericsError, heed
 from softway.heat.build_heat import build_heat
-from softway.heat.fronts.front_slab import solve_front_slab
+from softway.heat.fronts.front_slab import REMEDY, solve_front_slab
 from softway.heat.fronts.places import Fronts, first_fronts, turned, with_latent
 from softway.heat.heat_balance import Stage, put_at_once
 from softway.heat.heat_model import HeatModel, HeatScene
@@ -204,7 +204,7 @@ def _slabs(
         heed(cancel, slab.start)
         standing = entropy(model, with_latent(model, fronts, bare))
         bare, jumped, carried = put_at_once(model, bare, slab.start)
-        fronts = _turned(model, fronts, bare)
+        fronts = _turned(model, fronts, bare, slab.start)
         ledger = booked(ledger, with_latent(model, fronts, bare).content, _padded(model, jumped))
         calm = damped and slab.first
         stage = Stage(start=slab.start, span=slab.span, theta=1.0 if calm else 0.5)
@@ -221,11 +221,15 @@ def _slabs(
         yield _step(model, state, after, _Told(slab.span, found.iterations, calm, produced))
 
 
-def _turned(model: HeatModel, fronts: Fronts | None, bare: HeatValues) -> Fronts | None:
-    """Fronts after prescribed temperatures have jumped to those of the other phase; None without."""
+def _turned(model: HeatModel, fronts: Fronts | None, bare: HeatValues, time: float) -> Fronts | None:
+    """Fronts after prescribed temperatures have jumped to those of the other phase at a time [s]; None without."""
     if model.fronts is None or fronts is None:
         return None
-    return turned(model.fronts, fronts, bare.temperature, np.flatnonzero(~model.free_nodes()).tolist())
+    prescribed = np.flatnonzero(~model.free_nodes()).tolist()
+    try:
+        return turned(model, model.fronts, fronts, bare.temperature, prescribed)
+    except NoConvergence as error:
+        raise NumericsError(str(error), time, REMEDY) from None
 
 
 def _padded(model: HeatModel, jumped: Array) -> Array:

@@ -160,7 +160,9 @@ class Scalable(Protocol):
     """:class:`RateLaw` whose moduli may have a factor m that depends on the temperature, ``Increment.stiffness``.
 
     Stress, history variables and stored energy remain those of m = 1: the solid multiplies them by m.  A stress that
-    the law limits, such as a flow stress, is therefore divided by m; the stress has no ``Response.viscous``.
+    the law limits, such as a flow stress, is therefore divided by m.  ``Response.viscous`` has no factor, in the stress
+    of :meth:`RateLaw.respond`, too; only moduli of it, :meth:`Damped.viscous_moduli` and their part of
+    :meth:`RateLaw.moduli`, are divided by m.
     """
 
     def dissipation_factor(self, before: Array, after: Array) -> Array:

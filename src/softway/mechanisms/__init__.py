@@ -7,6 +7,7 @@ from softway.mechanisms.march import BodyState as BodyState
 from softway.mechanisms.march import MechanismStep as MechanismStep
 from softway.mechanisms.march import march as march
 from softway.mechanisms.members.couplings import Gear as Gear
+from softway.mechanisms.members.couplings import HeatLink as HeatLink
 from softway.mechanisms.members.joints import BallJoint as BallJoint
 from softway.mechanisms.members.joints import Cylindrical as Cylindrical
 from softway.mechanisms.members.joints import Hinge as Hinge
@@ -49,6 +50,7 @@ __all__ = [
     "Cylindrical",
     "DistanceStop",
     "Gear",
+    "HeatLink",
     "Hinge",
     "HingeTorque",
     "Mechanism",

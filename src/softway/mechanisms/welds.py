@@ -68,6 +68,7 @@ def welded(mechanism: Mechanism) -> Welded:
                 if (torque := _about(t, joints) if isinstance(t, turning) else _on(t, part_of)) is not None
             ),
             forces=tuple(force for f in mechanism.forces if (force := _on(f, part_of)) is not None),
+            heat_links=(),
         ),
         part_of=part_of,
     )

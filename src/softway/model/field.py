@@ -96,6 +96,24 @@ class FieldSlab:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class StopsInSlab:
+    """Stops between rigid bodies in a slab, by name: the part of it in which they were closed, and the energies that
+    they dissipated [J].
+    """
+
+    closed: Mapping[str, float]
+    spent: Mapping[str, float]
+
+    def agrees(self, other: "StopsInSlab", tolerance: float, rounding: float) -> bool:
+        """True if both are equal up to a ``tolerance``, relative to the slab and to the greatest energy, or up to the
+        ``rounding`` of energies [J].
+        """
+        most = max(tolerance * max(map(abs, self.spent.values()), default=0.0), rounding)
+        closed = all(abs(self.closed[name] - other.closed[name]) <= tolerance for name in self.closed)
+        return closed and all(abs(self.spent[name] - other.spent[name]) <= most for name in self.spent)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class FieldSolution:
     """Companion field in one slab.
 
@@ -236,3 +254,27 @@ def in_slab(
         c.in_slab(ends, parts, u0, state, beside) if isinstance(c, TimedField) else c
         for c, state in zip(companions, fields, strict=True)
     )
+
+
+@runtime_checkable
+class StoppedField(Protocol):
+    """Equations of a companion field that stops between rigid bodies heat."""
+
+    @property
+    def feels_stops(self) -> bool:
+        """True if it does in this model."""
+        ...
+
+    def with_stops(self, stops: StopsInSlab) -> FieldEquations:
+        """Equations in a slab in which stops have been closed, and have dissipated energy."""
+        ...
+
+
+def feel_stops(companions: tuple[FieldEquations, ...]) -> bool:
+    """True if a companion field depends on stops."""
+    return any(isinstance(c, StoppedField) and c.feels_stops for c in companions)
+
+
+def with_stops(companions: tuple[FieldEquations, ...], stops: StopsInSlab) -> tuple[FieldEquations, ...]:
+    """Companion fields in a slab with these stops."""
+    return tuple(c.with_stops(stops) if isinstance(c, StoppedField) else c for c in companions)

@@ -7,8 +7,10 @@ from pathlib import Path
 from types import NoneType
 from typing import Any, Literal, get_args, get_origin
 
+from softway.bodies.conductor import Conductor, Thermal
 from softway.bodies.solid import Solid
 from softway.errors import InputError
+from softway.laws.heat.conduction import Conduction
 from softway.laws.law import Material as Law
 from softway.laws.materials.material import LawName
 from softway.scenario.hints.docstrings import described
@@ -76,6 +78,7 @@ class _Making:
         others += [] if own else list(objects.values())
         others += [_OWN] if own else []
         others += _LIBRARY if set(options) >= set(members(Law)) else []
+        others += _CONDUCTION if Conduction in options else []
         others += [self.of(o, unit) for o in options if o is not NoneType and not _table(o)]
         lone = [(cls, key) for cls in known.values() for key in inputs(cls) if len(inputs(cls)) == 1]
         others += [self.of(hints(cls)[key], unit) for cls, key in lone]
@@ -92,7 +95,7 @@ class _Making:
     def _object(self, cls: type, unit: str | None) -> Schema:
         """Schema of a table: every key is a field of the class, or ``kind``."""
         known, types, told = inputs(cls), hints(cls), described(cls)
-        needed = [k for k, f in known.items() if required(f) and not (cls is Solid and k == "density")]
+        needed = [k for k, f in known.items() if required(f) and (cls, k) not in _OF_LIBRARY]
         properties: Schema = {} if "kind" in known else {"kind": {"const": cls.__name__}}
         for key, of in known.items():
             inner = self.of(types[key], unit)
@@ -179,6 +182,8 @@ _OWN: Schema = {
     "properties": {"kind": {"type": "string", "pattern": ":"}},
     "required": ["kind"],
 }
+_OF_LIBRARY = ((Solid, "density"), (Conductor, "density"), (Thermal, "law"))
+"""Keys that a library material gives."""
 _LENGTHS: Schema = {"type": "array", "items": {"type": ["number", "string"], "description": expected("m")}}
 _LIBRARY: list[Schema] = [
     {"type": "string", "description": "a library material, see softway materials"},
@@ -186,6 +191,15 @@ _LIBRARY: list[Schema] = [
         "type": "object",
         "description": "a law of a library material",
         "properties": {"library": {"type": "string"}, "law": {"enum": list(get_args(LawName))}},
+        "required": ["library"],
+    },
+]
+_CONDUCTION: list[Schema] = [
+    {"type": "string", "description": "a library material, see softway materials"},
+    {
+        "type": "object",
+        "description": "conduction of a library material",
+        "properties": {"library": {"type": "string"}, "latent": {"type": ["boolean", "object"]}},
         "required": ["library"],
     },
 ]

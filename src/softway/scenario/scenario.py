@@ -17,7 +17,7 @@ from softway.errors import InputError, real
 from softway.heat.heat_contact import HeatContact
 from softway.html_tables import table as html_table
 from softway.march.step_control import StepControl
-from softway.mechanisms.members.couplings import Gear
+from softway.mechanisms.members.couplings import Gear, HeatLink
 from softway.mechanisms.members.joints import Joint
 from softway.mechanisms.members.motors import Motor
 from softway.mechanisms.members.rigid import Rigid
@@ -188,6 +188,8 @@ class Scenario:
         What the coefficients of restitution are ratios of: velocities (``Newton``) or impulses (``Poisson``).
     pile
         Walls around balls, and laws of their contacts.
+    heat_links
+        Heat between rigid bodies with a temperature, as in :class:`~softway.mechanisms.Mechanism`.
     heat_contacts
         Exchange of heat between conductors that touch, as in :class:`~softway.heat.HeatScene`.
     """
@@ -212,6 +214,7 @@ class Scenario:
     impacts: Impacts = "simultaneous"
     restitution: Restitution = "Newton"
     pile: PileContacts = PileContacts()
+    heat_links: tuple[HeatLink, ...] = ()
     heat_contacts: tuple[HeatContact, ...] = ()
 
     def _repr_html_(self) -> str:

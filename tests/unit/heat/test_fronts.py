@@ -54,6 +54,16 @@ def test_the_front_converges_with_the_slab_where_cells_are_small() -> None:
     assert errors[1] < 0.5 * errors[0] and errors[1] < 3e-3
 
 
+def test_two_ends_of_one_cell_that_change_phase_are_refused_with_their_place() -> None:
+    """Where there are more cells, the march goes on: a front for each end."""
+    ends = walls(-10.0, -10.0)
+    with pytest.raises(sw.errors.NumericsError, match="two fronts in a cell .* at node 0 of 'b'") as found:
+        melted(ice(), 5.0, ends, 20.0, 10.0, cells=1)
+    assert found.value.when == 0.0 and 'latent = "cell"' in found.value.remedy and "smaller" in found.value.remedy
+    steps = melted(ice(), 5.0, ends, 20.0, 10.0, cells=4)
+    assert closes(steps) and steps[-1].liquid_volume["b"] < 0.1
+
+
 @pytest.mark.slow
 def test_fronts_from_both_ends_meet_in_the_middle() -> None:
     steps = melted(ice(), 5.0, walls(-10.0, -10.0), 30000.0, 400.0)

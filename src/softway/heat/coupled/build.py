@@ -22,7 +22,7 @@ from softway.heat.coupled.strain.expansion import Expansion, expansions
 from softway.heat.coupled.strain.free_strain import FreeStrain
 from softway.heat.coupled.strain.moduli import Moduli
 from softway.heat.coupled.strain.stored import ElasticTerm, elastic_terms
-from softway.heat.coupled.through_ties import breaking_glue, require_heated, through_ties
+from softway.heat.coupled.through_ties import breaking_glue, require_heated, through_links, through_ties
 from softway.heat.heat_model import HeatModel, Lump
 from softway.heat.operators import heat_values, unknowns_of
 from softway.heat.regional_laws import regional_laws
@@ -98,7 +98,8 @@ def with_temperature(
             softened.extend(point_temperatures(number, part, table is not None))
     heat = heat_model(conductors, loads, lumps=lumps)
     nodes = np.concatenate([np.arange(part.nodes.start, part.nodes.stop) for part in parts.values()])
-    heat = replace(heat, exchanges=tuple(through_ties(model, thermals, nodes, len(lumps))))
+    always, stops = through_links(model.scene.mechanism, lumps, len(nodes))
+    heat = replace(heat, exchanges=(*through_ties(model, thermals, nodes, len(lumps)), *always))
     pairs = ((part, regional_laws(conductors[part.name], part.mesh)) for part in heat.parts)
     effusivity = {part.name: laws.effusivity(part.mesh, part.volume) for part, laws in pairs}
     equations = SolidTemperature(
@@ -106,7 +107,7 @@ def with_temperature(
         model=heat, nodes=nodes, count=model.shape[0], parts=len(model.parts), part=model.part_of[nodes],
         moduli=Moduli(free=_free_strain(heat, thermals), curves=tuple(_curves(heat, thermals))),
         expansions=tuple(found), dissipations=tuple(spent), elastic=tuple(elastic), points=tuple(softened),
-        glue=tuple(breaking_glue(model, nodes, len(lumps))),
+        glue=tuple(breaking_glue(model, nodes, len(lumps))), links=tuple(stops),
     )  # fmt: skip
     if softened:
         start = equations.of_points(after_jumps(heat, heat.initial, 0.0))

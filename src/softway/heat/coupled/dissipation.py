@@ -59,7 +59,7 @@ def dissipations(number: int, part: DiscreteSolid, share: float | None) -> Itera
     whole = point_values(part)
     for region, _, nodes, points, internal, law in pieces(part):
         own = default_share(law) if share is None else share
-        if internal.path_dependent and own > 0.0:
+        if internal.path_dependent:
             yield Dissipation(
                 solid=number,
                 region=region,

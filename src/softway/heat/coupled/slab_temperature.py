@@ -39,7 +39,7 @@ class HeatOfSlab:
     produced, passed, rounding
         Entropy produced, the entropies that took part, and the rounding of the first [J/K].
     rubbed
-        Heat of friction in the solids [J].
+        Heat of friction in solids and rigid bodies, and of the impacts of these [J].
     through
         (c,) heat that passed each contact from the solid named first [J].
     liquid
@@ -144,8 +144,10 @@ class SlabTemperature:
         heat, and none of rigid bodies.
     given, spent
         Heat (k + r,) of the dissipation of the material and of ties that break, and its energy in all [J].
+    stopped
+        Heat (k + r,) of what stops dissipate [J].
     glue
-        Exchange across ties that break.
+        Exchange across ties that break, and through stops.
     """
 
     solids: HeatedSolids
@@ -156,6 +158,7 @@ class SlabTemperature:
     change: Array
     given: Array
     spent: float
+    stopped: Array
     glue: tuple[HeatExchange, ...] = ()
 
     def __call__(self, rubbed: Array) -> FieldSolution:
@@ -168,6 +171,7 @@ class SlabTemperature:
         """
         solids, slab, dim, before = self.solids, self.slab, self.slab.u1.shape[1], self.time.before
         heat, taken = self.time.contacts.spread(rubbed, self.sides)
+        heat = heat + self.stopped
         result, through = self._solved(heat)
         after, moduli, amounts = result.after, solids.moduli, self.time.amounts + self.change
         over = solids.on_every(moduli.between(before, after, result.mean))

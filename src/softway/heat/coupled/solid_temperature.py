@@ -17,13 +17,13 @@ from softway.heat.coupled.strain.deformed import Deformed, beside_law, deformed
 from softway.heat.coupled.strain.expansion import Expansion
 from softway.heat.coupled.strain.moduli import Moduli
 from softway.heat.coupled.strain.stored import ElasticTerm
-from softway.heat.coupled.through_ties import BreakingGlue
+from softway.heat.coupled.through_ties import BreakingGlue, StopLink, StopsWithHeat, in_stops
 from softway.heat.heat_balance import put_at_once
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_plan import knots
 from softway.heat.heat_slab import is_weak, linear_factor
 from softway.heat.operators import HeatValues, heat_values, unknowns_of
-from softway.model.field import Field, FieldSlab, FieldSolution, FieldState
+from softway.model.field import Field, FieldSlab, FieldSolution, FieldState, StopsInSlab
 
 TEMPERATURE = Field(name="temperature", unit="K", components=1)
 
@@ -60,6 +60,8 @@ class SolidTemperature:
         Material states of the solids outside of a slab, see :meth:`in_states`.
     glue
         Ties that break, with the heat that they conduct and dissipate.
+    links, stops
+        Stops between rigid bodies that pass heat, and what they do in the slab; None outside.
     time
         Slab of a march; None outside.
     """
@@ -78,6 +80,8 @@ class SolidTemperature:
     points: tuple[PointTemperature, ...] = ()
     states: MaterialStates = ()
     glue: tuple[BreakingGlue, ...] = ()
+    links: tuple[StopLink, ...] = ()
+    stops: StopsWithHeat | None = None
     time: TimeOfSlab | None = None
 
     @property
@@ -92,6 +96,15 @@ class SolidTemperature:
     def in_states(self, states: MaterialStates) -> "SolidTemperature":
         """Equations outside of a slab, of solids in these material states."""
         return replace(self, states=states)
+
+    @property
+    def feels_stops(self) -> bool:
+        """True if heat passes through stops."""
+        return bool(self.links)
+
+    def with_stops(self, stops: StopsInSlab) -> "SolidTemperature":
+        """Equations in a slab with these stops."""
+        return replace(self, stops=in_stops(self.links, stops, self.model.n_nodes))
 
     def in_slab(
         self,
@@ -180,7 +193,11 @@ class SolidTemperature:
         return SlabTemperature(
             solids=self, time=self.time, slab=slab, sides=self.time.contacts.sides(slab.contact), end=end,
             change=change, given=self.of_nodes(out), spent=spent,
-            glue=tuple(one.exchange for one in glue if len(one.exchange.conductances)),
+            glue=(
+                *(one.exchange for one in glue if len(one.exchange.conductances)),
+                *(() if self.stops is None else self.stops.exchanges),
+            ),
+            stopped=np.zeros(self.model.n_nodes) if self.stops is None else self.stops.heat,
         )  # fmt: skip
 
     def solve(self, slab: FieldSlab) -> FieldSolution:

@@ -1,4 +1,6 @@
-"""Heat through the ties of solids that have a temperature, permanent ones and those that break."""
+"""Heat through the ties of solids that have a temperature, permanent ones and those that break, and between rigid
+bodies that have one, always or through stops that are closed.
+"""
 
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
@@ -15,7 +17,11 @@ from softway.contact.assembly.tie import Tie
 from softway.errors import InputError
 from softway.heat.coupled.facing_areas import evened
 from softway.heat.heat_contact import HeatExchange
+from softway.heat.heat_model import Lump
+from softway.mechanisms.members.couplings import HeatLink
+from softway.mechanisms.members.mechanism import Mechanism
 from softway.model.cohesive_ties import CohesiveTie
+from softway.model.field import StopsInSlab
 from softway.model.model import Model
 
 FREELY = 1e3
@@ -153,3 +159,90 @@ def _conductance(tie: Tie, parts: Mapping[str, DiscreteSolid], thermals: Mapping
     laws = [law for name in tie.bodies for law in conduction_laws(thermals[name].law).values()]
     best = max(law.greatest_conductivity for law in laws)
     return FREELY * best / min(parts[name].mesh.edge() for name in tie.bodies)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class StopLink:
+    """Heat through a stop.
+
+    Parameters
+    ----------
+    stop
+        Name of the stop.
+    exchange
+        Exchange of its bodies while it is closed; None if it conducts nothing.
+    shares
+        (k + r,) shares of its dissipated energy, of two rigid bodies among the nodes with heat and the rigid bodies.
+    """
+
+    stop: str
+    exchange: HeatExchange | None
+    shares: Array
+
+    def closed(self, stops: StopsInSlab) -> HeatExchange | None:
+        """Exchange in a slab, in the part of it in which the stop is closed; None if there is none."""
+        part = stops.closed.get(self.stop, 0.0)
+        if self.exchange is None or not part:
+            return None
+        return HeatExchange(jump=self.exchange.jump, conductances=part * self.exchange.conductances)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class StopsWithHeat:
+    """Stops that pass heat, in a slab: their ``exchanges``, and the heat (k + r,) of what they dissipate [J]."""
+
+    exchanges: tuple[HeatExchange, ...]
+    heat: Array
+
+
+def in_stops(links: tuple[StopLink, ...], stops: StopsInSlab, size: int) -> StopsWithHeat:
+    """Heat through stops in a slab, of ``size`` nodes and rigid bodies with a temperature."""
+    heat = np.zeros(size)
+    for link in links:
+        heat += stops.spent.get(link.stop, 0.0) * link.shares
+    found = (link.closed(stops) for link in links)
+    return StopsWithHeat(exchanges=tuple(one for one in found if one is not None), heat=heat)
+
+
+def through_links(
+    mechanism: Mechanism | None, lumps: tuple[Lump, ...], nodes: int
+) -> tuple[list[HeatExchange], list[StopLink]]:
+    """Heat between the rigid bodies ``lumps``, which are behind a number of ``nodes``: always, and through stops.
+
+    Raises
+    ------
+    InputError
+        If nothing says how the bodies of a stop share what it dissipates.
+    """
+    always: list[HeatExchange] = []
+    stops: list[StopLink] = []
+    place = {lump.name: nodes + k for k, lump in enumerate(lumps)}
+    for k, link in enumerate(() if mechanism is None else mechanism.heat_links):
+        assert mechanism is not None
+        one, other = mechanism.linked_by_heat(link)
+        at, size = np.array([place[one], place[other]]), nodes + len(lumps)
+        jump = sp.csr_array((np.array([1.0, -1.0]), (np.zeros(2, int), at)), shape=(1, size))
+        exchange = HeatExchange(jump=jump, conductances=np.array([link.conductance]))
+        if link.stop is None:
+            always.append(exchange)
+            continue
+        share = _share(link, mechanism, {lump.name: lump for lump in lumps}, f"heat_links[{k}].share")
+        shares = np.zeros(size)
+        shares[at] = share, 1.0 - share
+        stops.append(StopLink(stop=link.stop, exchange=exchange if link.conductance else None, shares=shares))
+    return always, stops
+
+
+def _share(link: HeatLink, mechanism: Mechanism, lumps: dict[str, Lump], where: str) -> float:
+    """Share of what a stop dissipates that heats its first body."""
+    if link.share is not None:
+        return link.share
+    one, other = (lumps[name].effusivity for name in mechanism.linked_by_heat(link))
+    if one is None or other is None:
+        assert link.stop is not None
+        stop = mechanism.stops[link.stop]
+        if stop.restitution == 1.0 and not (stop.law.at_rest or stop.law.turns):
+            return 0.5  # of nothing
+        problem = f"missing: nothing says how the bodies of {link.stop!r} share what it dissipates"
+        raise InputError(where, problem, "a share from 0 to 1, or density and thermal.conductivity of both bodies")
+    return one / (one + other)

@@ -8,7 +8,7 @@ from softway.arrays import Array
 from softway.errors import NoConvergence, NumericsError
 from softway.heat.fronts.events import CROSSED, FrontEvent, Piece, Search, pocket_after, standing_at
 from softway.heat.fronts.held_fronts import held_fronts
-from softway.heat.fronts.places import Fronts, emptied, handed_on, overflowed, passed, standing
+from softway.heat.fronts.places import Fronts, content_of_phases, emptied, handed_on, overflowed, passed, standing
 from softway.heat.heat_balance import Stage
 from softway.heat.heat_model import FrontCells, HeatModel
 from softway.heat.heat_slab import StageResult
@@ -18,7 +18,7 @@ SAME = 1e-9
 """Latent heat, relative to a cell, by which events miss an instant at which they are taken to happen, too."""
 EVENTS = 8
 """Greatest number of events of each cell in a slab."""
-REMEDY = 'latent = "cell", or shorter slabs'
+REMEDY = 'latent = "cell", smaller cells, or shorter slabs'
 
 
 def solve_front_slab(
@@ -88,7 +88,7 @@ def _stage(
         else:
             events = tuple(e for e in events if search.at_start[e] >= -slight)
         fronts, earlier = _after(cells, fronts, events, changed), fronts
-        fronts = handed_on(cells, fronts, sorted(search.held.prescribed))
+        fronts = handed_on(model, cells, fronts, sorted(search.held.prescribed))
         changed_heat = _heat(model, cells, earlier, before) - _heat(model, cells, fronts, before)
         before = _warmed(model, (cells, fronts), before, changed_heat, events)
         changed |= {event.node for event in events}
@@ -140,11 +140,8 @@ def _carried(
 
 def _heat(model: HeatModel, cells: FrontCells, fronts: Fronts, bare: HeatValues) -> float:
     """Heat content of the bodies with fronts [J]."""
-    total = fronts.latent_heat(cells)
-    for phases in cells.phases:
-        here = phases.nodes
-        total += float(model.mass[here] @ phases.content(fronts.liquid).content(bare.temperature[here]))
-    return total
+    content = content_of_phases(model, cells, fronts, bare)
+    return fronts.latent_heat(cells) + sum(float(content[phases.nodes].sum()) for phases in cells.phases)
 
 
 def _warmed(

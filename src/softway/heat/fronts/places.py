@@ -94,6 +94,15 @@ def first_fronts(cells: FrontCells, temperature: Array) -> Fronts:
     return Fronts(share=share, liquid=liquid, pocket=none, least=none, limit=none)
 
 
+def content_of_phases(model: HeatModel, cells: FrontCells, fronts: Fronts, bare: HeatValues) -> Array:
+    """Contents (n,) of the nodes in their phases without latent heat [J]."""
+    content = bare.content.copy()
+    for phases in cells.phases:
+        here = phases.nodes
+        content[here] = model.mass[here] * phases.content(fronts.liquid).content(bare.temperature[here])
+    return content
+
+
 def with_latent(model: HeatModel, fronts: Fronts | None, bare: HeatValues) -> HeatValues:
     """Contents of the phases and liquid shares of a state with the latent heat of the liquid; ``bare`` are those
     without.
@@ -101,10 +110,7 @@ def with_latent(model: HeatModel, fronts: Fronts | None, bare: HeatValues) -> He
     cells = model.fronts
     if cells is None or fronts is None:
         return bare
-    content, share = bare.content.copy(), fronts.shares(cells)
-    for phases in cells.phases:
-        here = phases.nodes
-        content[here] = model.mass[here] * phases.content(fronts.liquid).content(bare.temperature[here])
+    content, share = content_of_phases(model, cells, fronts, bare), fronts.shares(cells)
     whole, melted, liquid = cells.latent, bare.melted.copy(), bare.liquid.copy()
     cut = ~np.isnan(fronts.share)
     far = np.where(cut, 0.5 * share**2, 0.5 * share)
@@ -149,21 +155,37 @@ def passed(cells: FrontCells, fronts: Fronts, nodes: Sequence[int]) -> Fronts:
     return Fronts(share=share, liquid=liquid, pocket=pocket, least=_least(fronts, pocket), limit=limit)
 
 
-def turned(cells: FrontCells, fronts: Fronts, temperature: Array, prescribed: Sequence[int]) -> Fronts:
-    """Fronts after nodes with ``prescribed`` temperatures (n,) [K] have been put to that of the other phase."""
+def turned(
+    model: HeatModel, cells: FrontCells, fronts: Fronts, temperature: Array, prescribed: Sequence[int]
+) -> Fronts:
+    """Fronts after nodes with ``prescribed`` temperatures (n,) [K] have been put to that of the other phase.
+
+    Raises
+    ------
+    NoConvergence
+        Of :func:`handed_on`.
+    """
     over = temperature - cells.melting
     wrong = [j for j in prescribed if (over[j] < 0.0 if fronts.liquid[j] else over[j] > 0.0)]
-    return handed_on(cells, passed(cells, fronts, wrong), prescribed) if wrong else fronts
+    return handed_on(model, cells, passed(cells, fronts, wrong), prescribed) if wrong else fronts
 
 
-def handed_on(cells: FrontCells, fronts: Fronts, prescribed: Sequence[int]) -> Fronts:
-    """Fronts with the pockets of nodes with a ``prescribed`` temperature at nodes of the same phase beside them."""
+def handed_on(model: HeatModel, cells: FrontCells, fronts: Fronts, prescribed: Sequence[int]) -> Fronts:
+    """Fronts with the pockets of nodes with a ``prescribed`` temperature at nodes of the same phase beside them.
+
+    Raises
+    ------
+    NoConvergence
+        If there is no such node: there would be two fronts in a cell.
+    """
     pocket, limit = fronts.pocket.copy(), fronts.limit.copy()
     for node in set(fronts.waiting.tolist()) & set(prescribed):
         beside = [int(k) for k in np.unique(cells.nodes[cells.around(node)]) if k != node and k not in prescribed]
         beside = [k for k in beside if fronts.liquid[k] == fronts.liquid[node]]
         if not beside:
-            raise NoConvergence("two fronts in a cell between prescribed temperatures")
+            part = next(p for p in model.parts if p.nodes.start <= node < p.nodes.stop)
+            place = f"at node {node - part.nodes.start} of {part.name!r}"
+            raise NoConvergence(f"two fronts in a cell between prescribed temperatures, {place}")
         left, pocket[node], limit[node] = float(pocket[node]), np.nan, np.nan
         _add(cells, (pocket, limit), beside[0], left)
     return replace(fronts, pocket=pocket, least=_least(fronts, pocket), limit=limit)

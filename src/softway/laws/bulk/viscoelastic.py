@@ -19,7 +19,7 @@ from softway.units import Pascal, PascalSecond, Pure, Second
 class Kelvin:
     """Spring and dashpot in parallel (Kelvin-Voigt): ``s = lambda tr(e) I + 2 mu e + 2 eta D' + zeta tr(D) I``.
 
-    The elastic part is hypoelastic.
+    The elastic part is hypoelastic.  Moduli that depend on the temperature leave the viscosities as they are.
 
     Parameters
     ----------
@@ -80,8 +80,13 @@ class Kelvin:
         return self.viscous_moduli(increment) + self.elastic_moduli()
 
     def viscous_moduli(self, increment: Increment) -> Array:
-        """Moduli of the dashpot, (..., 3, 3, 3, 3) [Pa]."""
-        return np.broadcast_to(self._viscosity() / increment.span, (*increment.strain.shape, 3, 3))
+        """Moduli of the dashpot, (..., 3, 3, 3, 3) [Pa], divided by the factor of those of the spring."""
+        found = np.broadcast_to(self._viscosity() / increment.span, (*increment.strain.shape, 3, 3))
+        return found if increment.stiffness is None else found / increment.stiffness[..., None, None, None, None]
+
+    def dissipation_factor(self, before: Array, after: Array) -> Array:
+        """One: the dashpot has no factor."""
+        return np.ones_like(after)
 
     def elastic_moduli(self) -> Array:
         """Isotropic moduli, (3, 3, 3, 3) [Pa]."""

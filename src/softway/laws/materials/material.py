@@ -62,7 +62,7 @@ class Strength:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ThermalConstants:
     """Conductivity [W/(m K)], heat capacity [J/(kg K)] and linear expansion [1/K] near 20 degrees Celsius; temperature
-    of melting, of alloys that at which it begins, and latent heat of melting.
+    of melting, of alloys that at which it begins or that of the flow stress, and latent heat of melting.
     """
 
     conductivity: Annotated[float, "W/(m K)"] | None = None
@@ -87,7 +87,7 @@ class Material:
     strength
         Flow stress, if the material yields and its yield stress is known.
     thermal
-        ThermalConstants constants, if known.
+        Thermal constants, if known.
     source
         Source of the constants.
     note

@@ -12,6 +12,7 @@ from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.slab.carried_motion import CarriedMotion, Response
 from softway.march.slab.rigid_forces import carriers, forces_on_rigid
+from softway.model.field import StopsInSlab
 from softway.model.model import Model
 from softway.model.rigid.rigid_bodies import RigidBodies, RigidSlab
 from softway.model.rigid.rigid_state import RigidState
@@ -88,6 +89,11 @@ class RigidIteration:
             least=ROUNDING * extent,
             touched=any(contact.opponent in model.rigid.mechanism.bodies for contact in model.scene.contacts),
         )
+
+    def feels(self, found: Answer, stops: StopsInSlab, waited: int) -> bool:
+        """True if the solids felt the ``stops`` as they are, up to rounding, or have ``waited`` for it long enough."""
+        scale = float(np.abs(found.after.state.energy).sum() + np.abs(found.after.state.work).sum())
+        return waited >= PATIENCE or found.after.stops.agrees(stops, AGREES, ROUNDING * scale)
 
     @property
     def unit(self) -> Array:

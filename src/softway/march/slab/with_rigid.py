@@ -2,7 +2,8 @@
 
 The solids see the rigid bodies as tools in a motion, and push them; with these forces the rigid bodies have another
 motion.  Nodes that they carry move along inside the iteration of the solids (``carried_motion.py``), so that one turn
-is enough without contact.  The contraction of the turns with contact is about the mass of the cells at the contact over
+is enough without contact.  The heat of stops between rigid bodies is that of the turn before, until it agrees, too.
+The contraction of the turns with contact is about the mass of the cells at the contact over
 that of the rigid body; mixing the last motions takes care of light bodies (docs/theory/contact/rigid_bodies.md).
 """
 
@@ -17,6 +18,7 @@ from softway.march.results.slab_result import SlabResult
 from softway.march.rules.slab_rule import Attempt, SlabRule
 from softway.march.slab.rigid_iteration import AGREES, PATIENCE, RigidIteration
 from softway.mechanisms.members.stops import StopEvent
+from softway.model.field import feel_stops, with_stops
 from softway.model.model import Model
 from softway.model.rigid.rigid_state import RigidState
 from softway.model.slab import Slab
@@ -55,16 +57,19 @@ def coupled_slabs(
         If the motions do not come to agree, or as for the rule of the solids.
     """
     it = RigidIteration.of(model, now, slab)
-    x, others, response = it.follow(it.before.given), np.zeros_like(it.before.given), None
+    first, others, response = it.after(it.before.given), np.zeros_like(it.before.given), None
+    x, stops, felt, waited = it.motion(first), first.stops, feel_stops(model.companions), 0
     mixing, seen, closest, iterations = Anderson(DEPTH), Stagnation(), np.inf, 0
     attempt = replace(attempt, tolerance=ROUGH if it.touched and it.before.given.any() else 0.0)
     for _ in range(LIMIT):
         moving = it.moving(x)
+        moving = replace(moving, companions=with_stops(moving.companions, stops)) if felt else moving
         attempt = replace(attempt, follower=it.follower(moving, now, x, others, response))
         for out, after in rule.solve(moving, now, slab, memory, attempt):
             found = it.answer(out, now, x)
             seen = seen.after(found.change, it.least)
-            agrees = found.agrees(seen, it.least)
+            agrees = found.agrees(seen, it.least) and (not felt or it.feels(found, stops, waited))
+            waited += felt and found.agrees(seen, it.least)
             if agrees and found.change < 0.5 * closest and attempt.tolerance <= AGREES:
                 closest, whole = found.change, replace(out, iterations=iterations + out.iterations)
                 yield CoupledSlab(out=whole, rigid=found.after.state, memory=after, events=found.after.events)
@@ -73,6 +78,7 @@ def coupled_slabs(
             if it.touched or not found.joint:
                 break
         iterations, memory, others = iterations + out.iterations, after, found.others
+        stops = found.after.stops
         response = response or it.response(out)
         step = (found.motion - found.seen).ravel()
         step = step if response is None else response.newton @ step

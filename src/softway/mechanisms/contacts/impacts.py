@@ -80,6 +80,7 @@ class StopMarch:
     def slab(self, time: float, h: float, extent: float, told: Array) -> tuple[list[StopEvent], int]:
         """March a slab of length h: its events, and the number of iterations."""
         events: list[StopEvent] = []
+        self.stops.spent[:] = self.stops.shut[:] = 0.0
         left, iterations = h, 0
         for touches in itertools.count():
             if touches < LOCATED:
@@ -227,7 +228,7 @@ class StopMarch:
             events.append(replace(one, velocity_before=float(before[k]), velocity_after=float(after[k])))
             self.touched[k] = time
         self._close((self.stops.closed | touching) & (np.abs(after) <= _still(before, extent / h)), time, events)
-        self.stops.lose(excess - self.stops.excess())
+        self.stops.lose(excess - self.stops.excess(), impulse)
         self.stops.see_sliding(NOISE * extent / h)
         self.stops.it.motion.impulse[self.stops.rows.ravel()] = 0.0
 

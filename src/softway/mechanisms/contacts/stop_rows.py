@@ -46,10 +46,8 @@ class Stops:
     friction, static
         (s, q) coefficients of friction in motion: against sliding, and lengths [m] against rolling and drilling; (s,)
         that against sliding at rest.
-    located
-        (s,) stops whose sliding begins and ends at located instants.
-    names
-        Names of the stops.
+    located, names
+        (s,) stops whose sliding begins and ends at located instants, and names of the stops.
     held
         (g,) groups that the ground holds by joints.
     closed, sliding
@@ -58,6 +56,8 @@ class Stops:
         (s, q - 1) stops whose bodies roll, and drill.
     told
         (s,) sliding of the closed located stops as the events say: 1, at rest 0, and -1 of open ones.
+    spent, shut
+        (s,) energies that they dissipated in the slab [J], and times in which they were closed [s].
     """
 
     it: Arrays
@@ -73,6 +73,8 @@ class Stops:
     sliding: BoolArray
     turning: BoolArray
     told: IntArray
+    spent: Array
+    shut: Array
 
     def tried(self, span: float, extent: float, smooth: BoolArray | None = None) -> int:
         """Solve a slab with the closed stops, without taking it; the number of iterations, 0 if it has no solution.
@@ -98,7 +100,11 @@ class Stops:
             If no velocities at the end satisfy the laws of contact.
         """
         it, (rows, friction) = self.it, self.closed_rows()
-        book_slab(it.bodies, it.joints, it.motion, self.room, rows, span)
+        for k in np.flatnonzero(self.closed):
+            lost = float(it.motion.work[1])
+            book_slab(it.bodies, it.joints, it.motion, self.room, self.rows[k], span)
+            self.spent[k] += it.motion.work[1] - lost
+        self.shut[self.closed] += span
         take_motion(*self._tables, span)
         through = it.motion.impulse[rows]
         below = self.below_limit(through, friction)
@@ -114,7 +120,9 @@ class Stops:
         if steady:
             told[2] = max(told[2], close_energy(it.bodies, it.springs, it.joints, it.motion, self.room))
         else:
-            self.lose(excess - self.excess())
+            pushed = np.zeros(len(self.rows))
+            pushed[self.closed] = self._table(total)[:, 0]
+            self.lose(excess - self.excess(), pushed)
         tell_joints(it.joints, it.motion, self.room, told)
         closed, speed = self.closed.copy(), self.speeds()
         self.see_sliding(NOISE * extent / span, below[:, 0])
@@ -279,7 +287,13 @@ class Stops:
         kinetic_energy(self.it.bodies, self.it.motion, out)
         return out
 
-    def lose(self, lost: Array) -> None:
-        """Book energies (g,) of the groups that stops dissipated [J]."""
+    def lose(self, lost: Array, pushed: Array) -> None:
+        """Book energies (g,) of the groups that stops dissipated [J], in the ratio of normal impulses (s,)."""
         self.it.motion.work[1] += float(lost.sum())
         self.it.motion.energy[:] -= lost
+        first, other = self.it.joints.a[self.rows[:, 0]], self.it.joints.b[self.rows[:, 0]]
+        group = self.it.bodies.group[np.where(first == len(self.it.names), other, first)]
+        for g in np.flatnonzero(lost):
+            here = np.flatnonzero(group == g)
+            weight = pushed[here] if pushed[here].sum() > 0.0 else np.ones(len(here))
+            self.spent[here] += lost[g] * weight / max(float(weight.sum()), 1e-300)

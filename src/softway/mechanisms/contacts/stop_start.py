@@ -38,6 +38,8 @@ def stop_march(it: Arrays, room: Space, mechanism: Mechanism) -> StopMarch:
         sliding=np.ones(len(rows), bool),
         turning=np.zeros((len(rows), blocks - 1), bool),
         told=np.full(len(rows), -1, dtype=np.int64),
+        spent=np.zeros(len(rows)),
+        shut=np.zeros(len(rows)),
     )
     return StopMarch(
         stops=found, law=mechanism.impacts, restitution=mechanism.restitution, touched=np.full(len(rows), -np.inf)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from itertools import combinations
 
 from softway.errors import InputError
-from softway.mechanisms.members.couplings import Gear
+from softway.mechanisms.members.couplings import Gear, HeatLink
 from softway.mechanisms.members.joints import GROUND, Joint, Rod, motor_row, travel_axis, turning_axis
 from softway.mechanisms.members.motors import Motor
 from softway.mechanisms.members.rigid import FAR, Rigid
@@ -45,6 +45,8 @@ class Mechanism:
         Constant forces at points of bodies.
     gravity
         Acceleration of gravity [m/s^2]; none by default.
+    heat_links
+        Heat between bodies with a temperature, beside solids with heat.
 
     Raises
     ------
@@ -70,6 +72,7 @@ class Mechanism:
     torques: tuple[Torque | HingeTorque, ...] = ()
     forces: tuple[PointForce, ...] = ()
     gravity: tuple[MetrePerSecondSquared, ...] | None = None
+    heat_links: tuple[HeatLink, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.bodies:
@@ -105,6 +108,8 @@ class Mechanism:
                 self._require(f"torques[{k}]", (torque.on, GROUND), ())
         for k, force in enumerate(self.forces):
             self._require(f"forces[{k}]", (force.on, GROUND), (force.at,))
+        for k, link in enumerate(self.heat_links):
+            self._require_warm(f"heat_links[{k}]", link)
 
     @property
     def dim(self) -> int:
@@ -123,8 +128,29 @@ class Mechanism:
         stops = [stop.joint for stop in self.stops.values() if isinstance(stop, AngleStop)]
         return frozenset(springs + torques + geared + motors + stops)
 
+    def linked_by_heat(self, link: HeatLink) -> tuple[str, str]:
+        """Names of the two bodies between which heat passes."""
+        if link.between is not None:
+            return link.between
+        assert link.stop is not None
+        stop = self.stops[link.stop]
+        return self.joints[stop.joint].between if isinstance(stop, AngleStop) else stop.between
+
+    def _require_warm(self, where: str, link: HeatLink) -> None:
+        """Refuse heat of a stop that is not there, and of bodies without a temperature."""
+        key = "between" if link.stop is None else "stop"
+        if link.stop is not None and link.stop not in self.stops:
+            raise InputError(f"{where}.stop", f"no stop {link.stop!r}", f"one of {[*self.stops]}")
+        for name in (both := self.linked_by_heat(link)):
+            if name not in self.bodies or self.bodies[name].thermal is None:
+                warm = [n for n, body in self.bodies.items() if body.thermal is not None]
+                problem = f"heat with {name!r}, which is no body with a temperature"
+                raise InputError(f"{where}.{key}", problem, f"bodies with thermal, of which there are {warm}")
+        if both[0] == both[1]:
+            raise InputError(f"{where}.{key}", f"{both[0]!r} twice", "two different bodies")
+
     def require_cold(self) -> None:
-        """Refuse bodies with a temperature, where nothing exchanges heat with them.
+        """Refuse bodies with a temperature, in a march of rigid bodies alone.
 
         Raises
         ------
@@ -133,8 +159,8 @@ class Mechanism:
         """
         for name, body in self.bodies.items():
             if body.thermal is not None:
-                problem = "heat of a rigid body without solids: stops and joints pass none"
-                remedy = "omit it, or a solid with the key thermal that the body touches"
+                problem = "heat of a rigid body without solids: it is solved for together with theirs"
+                remedy = "omit it, or a solid with the key thermal beside the body"
                 raise InputError(f"bodies.{name}.thermal", problem, remedy)
 
     def _require_stops(self) -> None:

@@ -24,6 +24,7 @@ from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.stops import StopEvent
 from softway.mechanisms.newton import march_on
 from softway.mechanisms.welds import Welded, welded
+from softway.model.field import StopsInSlab
 from softway.model.rigid.rigid_state import RigidState, at_work
 
 
@@ -38,10 +39,11 @@ class RigidEnergies:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class RigidSlab:
-    """Slab of the rigid bodies: the state at its end, and the events of their stops."""
+    """Slab of the rigid bodies: the state at its end, the events of their stops, and what these did."""
 
     state: RigidState
     events: tuple[StopEvent, ...]
+    stops: StopsInSlab
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -131,7 +133,7 @@ class RigidBodies:
                 events = work.stops.slab(time, span, work.it.reach(span), told)[0]
         except NumericsError as error:
             raise NoConvergence(str(error)) from None
-        return RigidSlab(state=work.state(told[:2]), events=tuple(events))
+        return RigidSlab(state=work.state(told[:2]), events=tuple(events), stops=work.stops_in_slab(span))
 
     def motions(self, before: RigidState, moved: Array, start: float, end: float) -> dict[str, RigidMotion]:
         """Motion of each body over a slab from a state, with the displacements and rotation vectors (n, 6)."""

@@ -12,6 +12,7 @@ from softway.mechanisms.arrays import Arrays
 from softway.mechanisms.contacts.impacts import StopMarch
 from softway.mechanisms.contacts.stop_start import stop_march
 from softway.mechanisms.members.mechanism import Mechanism
+from softway.model.field import StopsInSlab
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -75,6 +76,14 @@ class RigidWork:
         if self.stops is None:
             return {}
         return {**self.stops.changing, "supported": self.it.bodies.supported}
+
+    def stops_in_slab(self, span: float) -> StopsInSlab:
+        """What the stops did in the slab of this length [s]."""
+        if self.stops is None:
+            return StopsInSlab(closed={}, spent={})
+        found = self.stops.stops
+        closed = dict(zip(found.names, np.minimum(found.shut / span, 1.0).tolist(), strict=True))
+        return StopsInSlab(closed=closed, spent=dict(zip(found.names, found.spent.tolist(), strict=True)))
 
     def prepare(self) -> None:
         """Prepare the work space for the state, without changing its energies."""

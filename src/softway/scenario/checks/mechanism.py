@@ -27,7 +27,7 @@ MOST = 1_000_000_000
 """Maximum number of time steps (slabs) in a run."""
 ROWS = 1000
 """Number of stored instants when the scenario does not prescribe it, at most."""
-PARTS = ("joints", "stops", "springs", "torques", "forces", "gears", "motors", "impacts", "restitution")
+PARTS = ("joints", "stops", "springs", "torques", "forces", "gears", "motors", "impacts", "restitution", "heat_links")
 """Keys that only a mechanism has."""
 FOREIGN = {
     "contacts": "[stops.NAME] with a PlaneStop or a DistanceStop: rigid bodies touch at declared stops only",
@@ -209,6 +209,7 @@ def mechanism_of(scenario: Scenario) -> Mechanism:
         forces=scenario.forces,
         gears=scenario.gears,
         motors=scenario.motors,
+        heat_links=scenario.heat_links,
         gravity=gravity_of(scenario, next(iter(bodies.values())).dim),
     )
 

@@ -8,10 +8,10 @@ from softway.errors import InputError
 from softway.laws.heat.conduction import Conduction
 from softway.laws.law import Material as Law
 from softway.laws.materials import find
-from softway.laws.materials.library import everything
 from softway.laws.materials.material import LawName
 from softway.laws.materials.material import Material as Constants
 from softway.scenario.hints.type_hints import kinds, members, nearest
+from softway.scenario.text.conduction_names import furnish_conduction, named, with_expansion
 from softway.scenario.text.writer import write
 
 
@@ -22,7 +22,7 @@ def with_materials(data: Mapping[str, Any]) -> dict[str, Any]:
     ``material = { library = "steel S235", law = "plastic" }`` selects another law: elastic, linear or plastic.  Further
     keys of such a table replace parameters of the law.  A table of tables or names gives a material to each region.
     Solids with a ``thermal`` table soften where the constants are known; a thermal table without a law gets that of the
-    material, with its expansion if none is given.
+    material, with its expansion if none is given.  Laws of conduction may be names, too.
 
     Examples
     --------
@@ -35,14 +35,9 @@ def with_materials(data: Mapping[str, Any]) -> dict[str, Any]:
         for name, body in bodies.items():
             if isinstance(body, dict) and "material" in body:
                 _furnish(body, f"bodies.{name}.material")
+            if isinstance(body, dict):
+                furnish_conduction(body, f"bodies.{name}")
     return out
-
-
-def _named(kind: Any) -> bool:
-    """True if a kind is the name of a library material, as in a table that an override of one parameter has created."""
-    if not isinstance(kind, str) or kind in kinds(members(Law)):
-        return False
-    return kind.casefold() in [word.casefold() for m in everything() for word in (m.name, *m.aliases)]
 
 
 def _by_regions(given: Any) -> bool:
@@ -73,7 +68,12 @@ def _furnish(body: dict[str, Any], where: str) -> None:
     if _by_regions(given):
         _furnish_regions(body, given, where)
         return
-    if isinstance(given, dict) and "library" not in given and _named(given.get("kind")):
+    if (
+        isinstance(given, dict)
+        and "library" not in given
+        and given.get("kind") not in kinds(members(Law))
+        and named(given.get("kind"))
+    ):
         given = {"library": given["kind"], **{key: value for key, value in given.items() if key != "kind"}}
     if isinstance(given, str) and given not in kinds(members(Law)):
         given = {"library": given}
@@ -106,5 +106,4 @@ def _conducting(thermal: dict[str, Any], material: Constants, where: str) -> Non
         thermal["law"] = write(material.conduction(), Conduction, where)
     except InputError as error:
         raise error.within(where) from None
-    if material.thermal is not None and material.thermal.expansion is not None:
-        thermal.setdefault("expansion", f"{material.thermal.expansion!r} 1/K")
+    with_expansion(thermal, material)

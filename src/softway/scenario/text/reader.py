@@ -23,7 +23,19 @@ from softway.scenario.hints.units_text import Units, example, is_quantity
 from softway.scenario.text.user_modules import Modules
 
 SOLIDS = ("contacts", "ties", "loads", "time", "start", "inertia", "solver", "output")
-TOP = (*SOLIDS, "joints", "stops", "springs", "torques", "forces", "gears", "motors", "pile", "heat_contacts")
+TOP = (
+    *SOLIDS,
+    "joints",
+    "stops",
+    "springs",
+    "torques",
+    "forces",
+    "gears",
+    "motors",
+    "pile",
+    "heat_contacts",
+    "heat_links",
+)
 """Top-level keys of a scenario that users may put inside a body by mistake."""
 
 

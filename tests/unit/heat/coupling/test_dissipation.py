@@ -64,3 +64,5 @@ def test_each_region_heats_by_its_own_law() -> None:
 def test_without_heating_the_temperature_stays() -> None:
     *_, last = squeezed(PLASTIC, 2, "mean", heating=0.0)
     assert (last.after.fields["temperature"]["b"] == 300.0).all() and last.ledger.heat.received == 0.0
+    assert last.ledger.dissipation > 1e-3
+    assert last.ledger.heat.cold_work == pytest.approx(last.ledger.dissipation, rel=1e-12)

@@ -1,7 +1,10 @@
 """The materials: laws that pass, numbers that follow from their sources, names."""
 
 import re
+import tomllib
+from collections.abc import Mapping
 from dataclasses import fields
+from importlib import resources
 from pathlib import Path
 
 import numpy as np
@@ -110,7 +113,68 @@ def test_melting_heats_are_those_of_a_mole() -> None:
     assert find("iron").conduction().latent is None and find("iron").conduction().conductivity == 73.0
 
 
-@pytest.mark.parametrize(("name", "missing"), [("Ti64", "conductivity"), ("lead", "capacity"), ("S235", "melting")])
+def test_every_metal_has_all_constants_of_heat() -> None:
+    text = (resources.files("softway.laws.materials") / "data" / "metals.toml").read_text(encoding="utf-8")
+    assert len(names := tomllib.loads(text)) >= 10
+    for name in names:
+        thermal = find(name).thermal
+        assert thermal is not None
+        assert not [field.name for field in fields(thermal) if getattr(thermal, field.name) is None], name
+        assert find(name).conduction(latent=True).latent is not None
+
+
+MOLES = {
+    "Fe": (13.81, 55.845),
+    "Cr": (21.00, 51.996),
+    "Ni": (17.48, 58.693),
+    "Mn": (12.91, 54.938),
+    "Mo": (37.48, 95.95),
+    "Si": (50.21, 28.086),
+    "Al": (10.71, 26.982),
+    "Mg": (8.48, 24.305),
+    "Cu": (13.26, 63.546),
+    "Ti": (14.15, 47.867),
+    "V": (21.5, 50.942),
+}
+"""Enthalpies of fusion [kJ/mol] and molar masses [g/mol], CRC Handbook of chemistry and physics."""
+ALLOYS = {
+    "steel S235": {"Fe": 100.0},
+    "stainless steel 304": {"Fe": 72.0, "Cr": 18.0, "Ni": 10.0},
+    "steel 4340": {"Fe": 96.2, "Ni": 1.8, "Cr": 0.8, "Mn": 0.7, "Mo": 0.25, "Si": 0.25},
+    "aluminium 6061-T6": {"Al": 97.9, "Mg": 1.0, "Si": 0.6, "Cu": 0.28, "Cr": 0.2},
+    "aluminium 2024-T3": {"Al": 93.5, "Cu": 4.4, "Mg": 1.5, "Mn": 0.6},
+}
+
+
+def of_its_elements(shares: Mapping[str, float]) -> float:
+    """Latent heat [J/kg] of shares by mass [%]."""
+    return sum(0.01 * share * 1e6 * MOLES[name][0] / MOLES[name][1] for name, share in shares.items())
+
+
+@pytest.mark.parametrize("name", ALLOYS)
+def test_latent_heats_of_alloys_are_those_of_their_elements(name: str) -> None:
+    thermal = find(name).thermal
+    assert thermal is not None and thermal.latent == pytest.approx(of_its_elements(ALLOYS[name]), rel=3e-3)
+
+
+def test_the_elements_of_titanium_have_nearly_the_latent_heat_of_its_measurement() -> None:
+    """Measured within 6 %; the sum over the elements is within a tenth."""
+    thermal = find("Ti64").thermal
+    assert thermal is not None
+    assert thermal.latent == pytest.approx(of_its_elements({"Ti": 90.0, "Al": 6.0, "V": 4.0}), rel=0.1)
+
+
+def test_capacities_of_elements_are_those_of_a_mole() -> None:
+    """Heat capacities in J/(mol K), CRC Handbook of chemistry and physics; the law of Dulong and Petit is 3 R."""
+    for name, (heat, mass) in {"lead": (26.65, 207.2), "tungsten": (24.27, 183.84)}.items():
+        thermal = find(name).thermal
+        assert thermal is not None and thermal.capacity == pytest.approx(1e3 * heat / mass, rel=4e-3)
+        assert thermal.capacity == pytest.approx(3e3 * 8.314 / mass, rel=0.08)
+
+
+@pytest.mark.parametrize(
+    ("name", "missing"), [("nylon", "conductivity"), ("concrete", "conductivity"), ("glass", "melting")]
+)
 def test_what_is_not_known_of_heat_is_named(name: str, missing: str) -> None:
     with pytest.raises(InputError, match=f"no {missing}"):
         find(name).conduction(latent=True)

@@ -58,3 +58,59 @@ def test_the_history_has_the_temperature_and_a_resumed_run_the_same_bits(tmp_pat
     assert taken == pytest.approx(shared, rel=1e-9) and table["heat.friction"][-1] > 0.0
     assert (np.diff(table["heat.entropy"]) >= 0.0).all()
     assert picture(whole, "history").save(tmp_path / "history.png").stat().st_size > 5000
+
+
+SEAT = """
+[bodies.plate]
+kind = "Solid"
+mesh = { kind = "Rectangle", size = [1, 1], cells = [1, 1] }
+material = { kind = "LinearElastic", E = 1e5, nu = 0.3 }
+density = 1000
+supports = [{ on = "bottom" }]
+thermal = { temperature = 300, law = { conductivity = 1, capacity = 1 } }
+[bodies.table]
+kind = "Rigid"
+mass = 3
+centre = [5, -1]
+inertia = 1
+thermal = { temperature = 300, capacity = 2 }
+[bodies.block]
+kind = "Rigid"
+mass = 2
+centre = [5, 0]
+inertia = 1
+velocity = [1, 0]
+thermal = { temperature = 300, capacity = 5 }
+[joints.guide]
+kind = "Slider"
+between = ["ground", "table"]
+at = [5, -1]
+axis = [1, 0]
+[stops.seat]
+kind = "PlaneStop"
+between = ["table", "block"]
+point = [5, 0]
+plane = [5, 0]
+normal = [0, 1]
+friction = 0.3
+[[loads]]
+kind = "Gravity"
+acceleration = [0, -10]
+[[heat_links]]
+stop = "seat"
+share = 0.25
+[time]
+end = 0.4
+step = 0.02
+"""
+
+
+def test_a_file_of_two_rigid_bodies_that_rub_each_other(tmp_path: Path) -> None:
+    """Both warm up by their shares of the energy that they lose until they move together."""
+    scenario = sw.loads(SEAT)
+    assert sw.loads(sw.dumps(scenario)) == scenario
+    run = sw.run(scenario, tmp_path / "run")
+    rise = {name: run.history[f"temperature.{name}"][-1] - 300.0 for name in ("table", "block")}
+    assert rise["table"] == pytest.approx(0.25 * 0.6 / 2.0, rel=1e-9)
+    assert rise["block"] == pytest.approx(0.75 * 0.6 / 5.0, rel=1e-9)
+    assert run.history["heat.friction"][-1] == pytest.approx(0.6, rel=1e-10)

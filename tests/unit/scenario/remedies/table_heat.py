@@ -116,7 +116,7 @@ def freezing(mesh: sw.Mesh) -> object:
 
 PLASTIC = sw.J2(E=1.0, nu=0.3, yield_stress=0.1)
 FALLS = sw.J2(E=1.0, nu=0.3, yield_stress=0.1, hardening=sw.laws.LinearHardening(modulus=-0.6))
-DAMPED = sw.laws.Kelvin(E=1.0, nu=0.3, shear_viscosity=1.0)
+DAMPED = sw.laws.NortonHoff(K=1.0, m=0.2)
 SOFTER = heat.StiffnessTable(temperatures=(300.0, 900.0), values=(1.0, 0.5))
 FINE = rectangle((1.0, 1.0), (4, 4))
 CONDUCTS = heat.ContactHeat(conductance=1.0)
@@ -161,6 +161,21 @@ TABLE: Table = {
         'a difference of temperatures such as "0.5 K"',
         "bodies.b.law.latent.half_range=0.5 K",
     ),
+    "conduction of no material": Try(
+        SCENE, "bodies.b.law=cooper OFHC", "did you mean 'copper OFHC'", "bodies.b.law=copper OFHC"
+    ),
+    "conduction of a number": Try(
+        SCENE, "bodies.b.law={library=3}", '"steel S235"', "bodies.b.law={library='steel S235'}"
+    ),
+    "conduction that is not known": Try(
+        SCENE,
+        "bodies.b.law=nylon",
+        "conductivity = ..., capacity = ...",
+        "bodies.b.law={conductivity=0.25, capacity=1670}",
+    ),
+    "latent heat of a number": Try(
+        SCENE, "bodies.b.law={library='copper', latent=3}", "true", "bodies.b.law={library='copper', latent=true}"
+    ),
     "heat on a solid": Try(SOLIDS, FLUX, "a solid with the key thermal", "loads=[]"),
     "heat on a solid without": call(lambda: solids(thermal=None), "the heat of the solid, thermal", solids),
     "temperature of a solid without": Try(SOLIDS, SOLID_PROBE, "displacement", "output.probes=[]"),
@@ -193,7 +208,7 @@ TABLE: Table = {
     "expansion of fibres": call(lambda: solids(material=FIBRES), "an isotropic law", solids),
     "moduli of a law that knows no factor": call(
         lambda: solids(material=DAMPED, thermal=thermal(stiffness=SOFTER)),
-        "J2, Maxwell, Hypoelastic",
+        "J2, Maxwell, Kelvin, Hypoelastic",
         lambda: solids(material=PLASTIC, thermal=thermal(stiffness=SOFTER)),
     ),
     "a yield stress that falls faster than soft moduli allow": call(

@@ -66,7 +66,7 @@ def test_the_heat_of_a_solid_from_its_material() -> None:
     solid = bar(BARE, "bodies.bar.material=copper", "bodies.bar.thermal={temperature=300, expansion=0}")
     assert solid.thermal.law.capacity == 383.0 and solid.thermal.expansion == 0.0
     with pytest.raises(InputError, match="no conductivity") as found:
-        bar(BARE, "bodies.bar.material=Ti64", "bodies.bar.thermal={temperature=300}")
+        bar(BARE, "bodies.bar.material=nylon", "bodies.bar.thermal={temperature=300}")
     assert found.value.where == "bodies.bar.thermal.law"
 
 

@@ -129,6 +129,9 @@ class RatePoints:
         axes = np.array(self.free)
         C = self.law.moduli(found.increment)[:, axes, axes][:, :, axes, axes]
         pull = found.response.stress[:, axes, axes]
+        viscous, factor = found.response.viscous, found.increment.stiffness
+        if viscous is not None and factor is not None:  # it has no factor, unlike the rest of the stress
+            pull = pull + (1.0 / factor[:, None] - 1.0) * viscous[:, axes, axes]
         out = -np.linalg.solve(np.where(np.isfinite(C), C, np.eye(len(axes))), pull[..., None])[..., 0]
         return np.where(np.isfinite(out), out, 0.0)
 

@@ -15,7 +15,7 @@ from softway.bodies.internal_force.material_state import MaterialState
 from softway.errors import InputError, within
 from softway.heat.coupled.strain.expansion import pieces, point_values
 from softway.kernels.linalg import tensors
-from softway.laws.bulk import J2
+from softway.laws.bulk import J2, NortonHoff
 from softway.laws.law import Material, Scalable
 
 
@@ -78,12 +78,12 @@ class Historic:
         """Energy (p,) [J/m^3] stored since the start of the march, and flux (p, m, D) [Pa], in the states."""
         state = self._own(states)
         H, F = self._gradients(state)
-        return state.stored, self.internal.points.flux(state.stress, F, H)
+        return state.stored, self.internal.points.flux(_elastic_stress(state), F, H)
 
     def stress(self, weight: Array, u: Array, states: MaterialStates) -> Array:
         """Mean Cauchy stress (e, 3, 3) [Pa] of the law times weights (n,) of the nodes, in the states."""
         state, sampling = self._own(states), self.internal.sampling
-        weighted = (self.values @ weight[self.nodes])[:, None, None] * state.stress
+        weighted = (self.values @ weight[self.nodes])[:, None, None] * _elastic_stress(state)
         return sampling.cell_means(weighted, tensors.determinant(self._gradients(state)[1]) * sampling.volume)
 
     def _gradients(self, state: MaterialState) -> tuple[Array, Array]:
@@ -99,6 +99,11 @@ class Historic:
 
 
 ElasticTerm = Elastic | Historic
+
+
+def _elastic_stress(state: MaterialState) -> Array:
+    """Stress (p, 3, 3) without the viscous part, whose viscosity has no factor [Pa]."""
+    return state.stress if state.viscous is None else state.stress - state.viscous
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -165,7 +170,9 @@ def _require_scalable(law: Material, region: str, least: float) -> None:
     """Refuse laws with a history whose moduli cannot have a factor down to the ``least``."""
     if not isinstance(law, Scalable):
         problem = f"{type(law).__name__}{f' in {region}' if region else ''} knows no factor of its moduli"
-        raise InputError("thermal.stiffness", problem, "none, or J2, Maxwell, Hypoelastic, or one with a stored energy")
+        known = "J2, Maxwell, Kelvin, Hypoelastic, or one with a stored energy"
+        own = "softening of its consistency" if isinstance(law, NortonHoff) else "none"
+        raise InputError("thermal.stiffness", problem, f"{own}, or {known}")
     if isinstance(law, J2):
         with within(f"material.{region}" if region else "material"):
             replace(law, E=least * law.E, kinematic=least * law.kinematic)

@@ -104,9 +104,9 @@ TABLE: Table = {
     "name of a number": Try(PLANE, f"{LAW}={{library=3}}", "steel S235", f"{LAW}.library=steel S235"),
     "no conductivity": Try(
         PLANE,
-        f"{LAW}=Ti64 & bodies.b.thermal={{temperature=300}}",
+        f"{LAW}=nylon & bodies.b.thermal={{temperature=300}}",
         "conductivity = ..., capacity = ...",
-        "bodies.b.thermal.law={conductivity=7, capacity=560}",
+        "bodies.b.thermal.law={conductivity=0.25, capacity=1670}",
     ),
     "no yield stress": Try(PLANE, f"{LAW}={{library='rubber', law='plastic'}}", "elastic", f"{LAW}.law=elastic"),
 }

@@ -36,6 +36,47 @@ def meets(heat: str, friction: str = "{kind='Frictionless'}") -> str:
     return f"{WARM} & contacts=[{{between=['b.top', 'r'], friction={friction}, heat={{{heat}}}}}]"
 
 
+PAIR = """
+[bodies.b]
+kind = "Solid"
+mesh = { kind = "Rectangle", size = [1, 1], cells = [1, 1], origin = [0, -3] }
+material = { kind = "LinearElastic", E = 1000, nu = 0.3 }
+density = 1
+thermal = { temperature = 300, law = { conductivity = 1, capacity = 1 } }
+[bodies.r]
+kind = "Rigid"
+mass = 1
+centre = [0, 0]
+inertia = 0.1
+thermal = { temperature = 300, capacity = 1 }
+[bodies.q]
+kind = "Rigid"
+mass = 1
+centre = [0, 1]
+inertia = 0.1
+thermal = { temperature = 310, capacity = 1 }
+[stops.seat]
+kind = "PlaneStop"
+between = ["r", "q"]
+point = [0, 1]
+plane = [0, 1]
+normal = [0, 1]
+[[heat_links]]
+between = ["r", "q"]
+conductance = 1
+[time]
+end = 0.01
+"""
+"""Two rigid bodies with a temperature."""
+LINK = "heat_links=[{between=['r', 'q'], conductance=1}]"
+SEAT = "heat_links=[{stop='seat', share=0.5}]"
+
+
+def links(**given: object) -> str:
+    """Change to one heat link."""
+    return "heat_links=[{" + ", ".join(f"{key}={value!r}" for key, value in given.items()) + "}]"
+
+
 RUBS = "{kind='Coulomb', mu=0.1}"
 
 TABLE: Table = {
@@ -50,6 +91,16 @@ TABLE: Table = {
         "omit it",
         f"bodies={{r={DENSE}}} & contacts=[] & time.step=0.001",
     ),
+    "heat between nothing": Try(PAIR, links(conductance=1), "stop = the name of one", LINK),
+    "heat that passes backwards": Try(
+        PAIR, links(between=["r", "q"], conductance=-1), "zero or a positive number", SEAT
+    ),
+    "heat that does not pass": Try(PAIR, links(between=["r", "q"]), "a positive number", LINK),
+    "a share of no stop": Try(PAIR, links(between=["r", "q"], conductance=1, share=0.5), "omit it", LINK),
+    "heat of no stop": Try(PAIR, links(stop="wall"), "one of ['seat']", SEAT),
+    "heat with the ground": Try(PAIR, links(between=["r", "ground"], conductance=1), "['r', 'q']", LINK),
+    "heat with itself": Try(PAIR, links(between=["r", "r"], conductance=1), "two different bodies", LINK),
+    "a stop that nobody shares": Try(PAIR, links(stop="seat"), "a share from 0 to 1", SEAT),
     "heat on a face of a rigid body": Try(MIXED, f"{WARM} & {FACE}", "'r'", f"{WARM} & {FLUX}"),
     "heat on no area": Try(
         MIXED, f"{WARM.replace(', area=1', '')} & {FLUX}", "bodies.r.thermal.area", f"{WARM} & {FLUX}"
