@@ -82,6 +82,22 @@ class TimeOfSlab:
     damage: Array | None = None
 
 
+def heat_at_rest(
+    model: HeatModel, before: HeatValues, stage: Stage, halves: bool, factor: HeatFactor | None
+) -> HeatValues:
+    """Temperatures at the end of a slab without motion and without contact.
+
+    Raises
+    ------
+    NoConvergence
+        If the heats of the nodes cannot be balanced.
+    """
+    try:
+        return solve_slab(model, before, stage, halves, factor).after
+    except NumericsError as error:
+        raise NoConvergence(error.what) from None
+
+
 class HeatedSolids(Protocol):
     """Solids with a temperature, see :class:`~softway.heat.coupled.solid_temperature.SolidTemperature`."""
 
@@ -139,6 +155,8 @@ class SlabTemperature:
     start, change
         (2, k + r) energies of a free strain of one and elastic energies at the start, and their changes [J]: of the
         nodes with heat, and none of rigid bodies.
+    flow
+        (3, k + r) energies of the inelastic strain, see :meth:`Strained.flow` [J].
     given, spent
         Heat (k + r,) of the dissipation of the material and of ties that break, and its energy in all [J].
     glue
@@ -154,6 +172,7 @@ class SlabTemperature:
     change: Array
     given: Array
     spent: float
+    flow: Array
     glue: tuple[HeatExchange, ...] = ()
 
     def __call__(self, rubbed: Array) -> FieldSolution:
@@ -204,7 +223,8 @@ class SlabTemperature:
         time, span = self.time, self.slab.span
         strain = ElasticHeat(
             moduli=self.solids.moduli, amounts=self.start, rates=self.change / span,
-            power=(self.given + rubbed) / span, inert=self.solids.inert,
+            flow=self.flow / span if self.flow.any() else None, power=(self.given + rubbed) / span,
+            inert=self.solids.inert,
         )  # fmt: skip
         stage = Stage(start=time.start, span=span, theta=1.0 if time.damped else 0.5, strain=strain)
         at, free, guess = time.before.temperature, self.solids.model.free_nodes(), None
