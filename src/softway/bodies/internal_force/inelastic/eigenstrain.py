@@ -173,6 +173,18 @@ def dilation(H: Array, g: Array) -> tuple[Array, Array]:
         return 0.5 * np.log1p(np.where(inverted, np.nan, change)), _inverse_transposed(f)
 
 
+def unstressed(C: Array, free: tuple[int, ...]) -> Array:
+    """Moduli (p, 3, 3, 3, 3) at zero stress on the free axes."""
+    if not free:
+        return C
+    axes = np.array(free)
+    stiff = C[:, axes, axes][:, :, axes, axes]
+    right = C[:, axes, axes].reshape(len(C), len(axes), 9)
+    left = np.moveaxis(C[..., axes, axes], -1, 1).reshape(len(C), len(axes), 9)
+    follow = np.linalg.solve(stiff, right)
+    return C - np.einsum("pkx,pky->pxy", left, follow).reshape(C.shape)
+
+
 def _inverse_transposed(f: Array) -> Array:
     """Transposed inverse of (p, m, m) with m = 2, 3; not a number where there is none."""
     cofactor = np.empty_like(f)

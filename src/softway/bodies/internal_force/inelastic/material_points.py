@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.arrays import Array
-from softway.bodies.internal_force.inelastic.eigenstrain import FreeStrainModuli, Relief, dilation
+from softway.bodies.internal_force.inelastic.eigenstrain import FreeStrainModuli, Relief, dilation, unstressed
 from softway.bodies.internal_force.inelastic.slab_kinematics import SlabDeformation, push_forward, slab_deformation
 from softway.bodies.internal_force.material_state import MaterialState
 from softway.kernels.linalg import tensors
@@ -100,7 +100,7 @@ class RatePoints:
                 found = self._response(F0, self.gradient(H1, lateral), state, span, lateral, relief)
                 if not np.any(np.abs(step) > TOLERANCE):
                     break
-            return found if relief is None else self._relieved(found, relief, state)
+            return found if relief is None else self._relieved(self._released(found), relief, state)
 
     def _relief(self, H0: Array, H1: Array, state: MaterialState) -> Relief | None:
         before, after, moduli = state.eigenstrain, state.coming_eigenstrain, self.moduli_of_free_strain
@@ -164,6 +164,15 @@ class RatePoints:
         pull = found.response.stress[:, axes, axes]
         out = -np.linalg.solve(np.where(np.isfinite(C), C, np.eye(len(axes))), pull[..., None])[..., 0]
         return np.where(np.isfinite(out), out, 0.0)
+
+    def _released(self, found: PointResponse) -> PointResponse:
+        """Response without the stress on the free faces that the rounding of the lateral stretches leaves.
+
+        In a plastic flow, which hardly resists, it would move the nodes.
+        """
+        axes = np.array(self.free)
+        more = self.law.moduli(found.increment)[..., axes, axes] @ self._lateral_correction(found)[:, None, :, None]
+        return replace(found, response=replace(found.response, stress=found.response.stress + more[..., 0]))
 
     def stress(self, found: PointResponse) -> Array:
         """Cauchy stress (p, 3, 3) at the end [Pa]."""
@@ -238,7 +247,7 @@ class RatePoints:
         m, size = H.shape[1:]
         if m == 1:
             return self._bar_moduli(C, sigma, found, H, J)
-        C = _condensed(C, self.free)
+        C = unstressed(C, self.free)
         B = found.deformation.second
         if isinstance(self.law.rate, Truesdell):
             B = tensors.rotation(B)
@@ -258,7 +267,7 @@ class RatePoints:
 
     def _bar_moduli(self, C: Array, sigma: Array, found: PointResponse, H: Array, J: Array) -> Array:
         """Moduli (p, 1, D, 1, D) of a bar: axial stiffness, and geometric stiffness across the axis."""
-        C = _condensed(C, self.free)
+        C = unstressed(C, self.free)
         length = found.F[:, 0, 0]
         along = (self.directions + H)[:, 0] / length[:, None]
         axis = along[:, :, None] * along[:, None, :]
@@ -281,18 +290,6 @@ def spatial(C: Array, sigma: Array, rate: Rate) -> Array:
     part = one[:, None, :, None] * sigma[..., None, :, None, :] + sigma[..., :, None, :, None] * one[None, :, None, :]
     part = part + np.swapaxes(part, -1, -2)
     return np.asarray(out - 0.5 * part)
-
-
-def _condensed(C: Array, free: tuple[int, ...]) -> Array:
-    """Moduli (p, 3, 3, 3, 3) at zero stress on the free axes."""
-    if not free:
-        return C
-    axes = np.array(free)
-    stiff = C[:, axes, axes][:, :, axes, axes]
-    right = C[:, axes, axes].reshape(len(C), len(axes), 9)
-    left = np.moveaxis(C[..., axes, axes], -1, 1).reshape(len(C), len(axes), 9)
-    follow = np.linalg.solve(stiff, right)
-    return C - np.einsum("pkx,pky->pxy", left, follow).reshape(C.shape)
 
 
 def _pushed_forward(history: Mapping[str, Array], A: Array, rate: Rate) -> Mapping[str, Array]:
