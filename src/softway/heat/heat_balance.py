@@ -52,6 +52,8 @@ class HeatOfStrain:
         (n,) derivative of the heat along the liquid share of the end [J].
     work
         (n,) work of the stresses that depend on the temperature [J].
+    unknown
+        (n,) heat of the stress in a flow that its law did not know, of either sign [J]; zero for none.
     """
 
     mean: Array
@@ -59,6 +61,7 @@ class HeatOfStrain:
     slope: Array
     freezing: Array
     work: Array
+    unknown: Array | float = 0.0
 
 
 def at_rest(before: HeatValues, after: HeatValues) -> HeatOfStrain:

@@ -253,7 +253,7 @@ def result_of(
         factor=frozen,
         mean=strain.mean,
         work=strain.work,
-        produced=stage.span * (power - found.flow) / strain.mean,
+        produced=(stage.span * (power - found.flow) + strain.unknown) / strain.mean,
         turned=moved / strain.mean,
         passed=passed(model, stage, found),
         entropy=entropy_brought(model, stage, found),

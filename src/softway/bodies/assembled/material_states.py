@@ -28,6 +28,22 @@ def during(parts: Sequence[DiscreteSolid], states: MaterialStates, span: float) 
     return tuple(p.during(s, span) for p, s in zip(parts, _given(parts, states), strict=True))
 
 
+def own_state(states: MaterialStates, solid: int, region: str) -> MaterialState:
+    """State of the law of a region of a solid, by its number; of a solid of one law without a region."""
+    state = states[solid]
+    assert state is not None
+    return state.regions[region] if region else state
+
+
+def with_own_state(states: MaterialStates, solid: int, region: str, new: MaterialState) -> MaterialStates:
+    """States with a new one in the place of :func:`own_state`."""
+    state = states[solid]
+    assert state is not None
+    if region:
+        new = replace(state, regions={**state.regions, region: new})
+    return (*states[:solid], new, *states[solid + 1 :])
+
+
 def scaled(parts: tuple[DiscreteSolid, ...], factor: Array | None) -> tuple[DiscreteSolid, ...]:
     """Solids with factors (n,) of the stiffness at the nodes; the solids themselves without any."""
     return parts if factor is None else tuple(replace(part, factor=factor[part.nodes]) for part in parts)

@@ -7,6 +7,11 @@ import numpy as np
 
 from softway.arrays import Array, IntArray
 
+OPTIONAL = (
+    "viscous", "temperature", "warming", "stiffness", "stiffening", "eigenstrain", "coming_eigenstrain", "unforeseen",
+)  # fmt: skip
+"""Arrays (p, ...) of a state that are None where the law does not need them."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class MaterialState:
@@ -35,6 +40,11 @@ class MaterialState:
         (p,) temperature of the points [K] and its rate in the slab before [K/s]; None for laws that do not need them.
     stiffness, stiffening
         (p,) factor of the moduli at the points and its rate in the slab before [1/s]; None where it is one.
+    eigenstrain, coming_eigenstrain
+        (p,) free strain that the law knows at the points, now and at the end of the coming slab; None where it knows
+        none.
+    unforeseen
+        (p,) rate of the free strain in the slab before that was not foreseen [1/s].
     """
 
     displacement: Array
@@ -50,16 +60,21 @@ class MaterialState:
     warming: Array | None = None
     stiffness: Array | None = None
     stiffening: Array | None = None
+    eigenstrain: Array | None = None
+    coming_eigenstrain: Array | None = None
+    unforeseen: Array | None = None
 
     def __post_init__(self) -> None:
         for array in (self.displacement, self.stress, *self.law.values(), self.lateral, self.stored, self.dissipated):
             array.flags.writeable = False
-        for some in (self.viscous, self.temperature, self.warming, self.stiffness, self.stiffening):
+        for name in OPTIONAL:
+            some = getattr(self, name)
             if some is not None:
                 some.flags.writeable = False
 
     def part(self, nodes: IntArray, points: IntArray) -> "MaterialState":
         """State of some nodes (k,) and points (q,)."""
+        some = {name: values for name in OPTIONAL if (values := getattr(self, name)) is not None}
         return MaterialState(
             displacement=self.displacement[nodes],
             stress=self.stress[points],
@@ -67,11 +82,7 @@ class MaterialState:
             lateral=self.lateral[points],
             stored=self.stored[points],
             dissipated=self.dissipated[points],
-            viscous=None if self.viscous is None else self.viscous[points],
-            temperature=None if self.temperature is None else self.temperature[points],
-            warming=None if self.warming is None else self.warming[points],
-            stiffness=None if self.stiffness is None else self.stiffness[points],
-            stiffening=None if self.stiffening is None else self.stiffening[points],
+            **{name: values[points] for name, values in some.items()},
         )
 
     def middle_temperature(self, span: float) -> Array | None:

@@ -88,14 +88,14 @@ def with_temperature(
         with within(f"bodies.{name}"):
             conductors[name] = _conductor(part, thermals[name])
             expands = bool(thermals[name].expansion or thermals[name].melting_strain)
-            if expands:
-                found.extend(expansions(part))
             number = list(model.meshes).index(name)
+            if expands:
+                found.extend(expansions(number, part))
             spent.extend(dissipations(number, part, thermals[name].heating))
             table = thermals[name].stiffness
             if table is not None:
                 elastic.extend(elastic_terms(number, part, min(table.values)))
-            softened.extend(point_temperatures(number, part, table is not None))
+            softened.extend(point_temperatures(number, part, table is not None, expands))
     heat = heat_model(conductors, loads, lumps=lumps)
     nodes = np.concatenate([np.arange(part.nodes.start, part.nodes.stop) for part in parts.values()])
     always, stops = through_links(model.scene.mechanism, lumps, len(nodes))
@@ -110,7 +110,8 @@ def with_temperature(
         glue=tuple(breaking_glue(model, nodes, len(lumps))), links=tuple(stops),
     )  # fmt: skip
     if softened:
-        start = equations.of_points(after_jumps(heat, heat.initial, 0.0))
+        known = heat_values(heat, unknowns_of(heat, heat.initial))
+        start = equations.of_points(after_jumps(heat, known, 0.0))
         model = replace(model, parts=starting(model.parts, softened, start))
     return with_field(_scaled(model, equations), equations)
 

@@ -85,6 +85,22 @@ class TimeOfSlab:
     damage: Array | None = None
 
 
+def heat_at_rest(
+    model: HeatModel, before: HeatValues, stage: Stage, halves: bool, factor: HeatFactor | None
+) -> HeatValues:
+    """Temperatures at the end of a slab without motion and without contact.
+
+    Raises
+    ------
+    NoConvergence
+        If the heats of the nodes cannot be balanced.
+    """
+    try:
+        return solve_slab(model, before, stage, halves, factor).after
+    except NumericsError as error:
+        raise NoConvergence(error.what) from None
+
+
 class HeatedSolids(Protocol):
     """Solids with a temperature, see :class:`~softway.heat.coupled.solid_temperature.SolidTemperature`."""
 
@@ -142,6 +158,8 @@ class SlabTemperature:
     change
         (2, k + r) changes of the energies of a free strain of one and of the elastic energies [J]: of the nodes with
         heat, and none of rigid bodies.
+    flow
+        (3, k + r) energies of the inelastic strain, see :meth:`Strained.flow` [J]; None without.
     given, spent
         Heat (k + r,) of the dissipation of the material and of ties that break, and its energy in all [J].
     stopped
@@ -159,6 +177,7 @@ class SlabTemperature:
     given: Array
     spent: float
     stopped: Array
+    flow: Array | None = None
     glue: tuple[HeatExchange, ...] = ()
 
     def __call__(self, rubbed: Array) -> FieldSolution:
@@ -211,7 +230,8 @@ class SlabTemperature:
         time, span = self.time, self.slab.span
         strain = ElasticHeat(
             moduli=self.solids.moduli, amounts=self.time.amounts, rates=self.change / span,
-            power=(self.given + rubbed) / span, inert=self.solids.inert,
+            flow=None if self.flow is None else self.flow / span, power=(self.given + rubbed) / span,
+            inert=self.solids.inert,
         )  # fmt: skip
         stage = Stage(start=time.start, span=span, theta=1.0 if time.damped else 0.5, strain=strain)
         at, free, guess = time.before.temperature, self.solids.model.free_nodes(), self._expected()
@@ -231,7 +251,7 @@ class SlabTemperature:
     ) -> StageResult:
         """Result of a slab: by a kernel where it has one stage in which hardly any heat flows from node to node."""
         before, halves = self.time.before, self.time.halves
-        if is_weak(factor) and not (halves or strain.moduli.curves):
+        if is_weak(factor) and not (halves or strain.moduli.curves or strain.flow is not None):
             floor = rounding(model, before, stage)
             found = balanced_heats(model, before, stage, strain, before.unknowns if guess is None else guess, floor)
             if found is not None:

@@ -11,14 +11,14 @@ from softway.bodies.assembled.material_states import MaterialStates, committed, 
 from softway.bodies.discretised import DiscreteSolid
 from softway.heat.coupled.contact_exchange import ContactExchange
 from softway.heat.coupled.dissipation import Dissipation
-from softway.heat.coupled.point_temperature import PointTemperature, after_jumps, warmed
-from softway.heat.coupled.slab_temperature import SlabTemperature, TimeOfSlab
+from softway.heat.coupled.point_temperature import PointTemperature, after_jumps, foreseen, warmed
+from softway.heat.coupled.slab_temperature import SlabTemperature, TimeOfSlab, heat_at_rest
 from softway.heat.coupled.strain.deformed import Deformed, beside_law, deformed
 from softway.heat.coupled.strain.expansion import Expansion
 from softway.heat.coupled.strain.moduli import Moduli
 from softway.heat.coupled.strain.stored import ElasticTerm
 from softway.heat.coupled.through_ties import BreakingGlue, StopLink, StopsWithHeat, in_stops
-from softway.heat.heat_balance import put_at_once
+from softway.heat.heat_balance import Stage, put_at_once
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_plan import knots
 from softway.heat.heat_slab import is_weak, linear_factor
@@ -121,15 +121,17 @@ class SolidTemperature:
         damped = sudden or (start.abrupt and not is_weak(factor))
         if damped and not sudden and not self.inert:
             factor = linear_factor(self.model, span)
-        known = start.unknowns if len(start.unknowns) else unknowns_of(self.model, start.values[self.nodes, 0])
-        before = heat_values(self.model, known)
-        before, jumped, _ = put_at_once(self.model, before, ends[0])
+        before, jumped, _ = put_at_once(self.model, self._values(start), ends[0])
         strained = self._deformed(u0, initial_states(parts))
-        amounts = self.of_nodes(strained.amounts())
+        halves, amounts = damped and self.inert, self.of_nodes(strained.amounts())
+        if any(point.expands for point in self.points):
+            stage = Stage(start=ends[0], span=span, theta=1.0 if damped else 0.5)
+            still = heat_at_rest(self.model, before, stage, halves, factor)
+            parts = foreseen(parts, self.points, self.of_points(still), span)
         time = TimeOfSlab(
             start=ends[0], end=ends[1], solids=parts, contacts=self.contacts.at(u0), damped=damped,
-            halves=damped and self.inert, before=before, jumped=jumped, strained=strained, amounts=amounts,
-            factor=factor, damage=beside.get("damage"),
+            halves=halves, before=before, jumped=jumped, strained=strained, amounts=amounts, factor=factor,
+            damage=beside.get("damage"),
         )  # fmt: skip
         return replace(self, time=time)
 
@@ -170,18 +172,25 @@ class SolidTemperature:
         out[self.nodes, 0] = self.moduli.factor(values[self.nodes, 0])[: len(self.nodes)]
         return out
 
-    def of_points(self, temperatures: Array) -> Array:
-        """Temperatures [K] and factors of the moduli (2, n) on all nodes, from temperatures (k,) of those with heat."""
-        values = self.on_all(temperatures)
-        return np.stack([values[:, 0], self.factor(values)[:, 0]])
+    def of_points(self, now: HeatValues) -> Array:
+        """Temperatures [K], factors of the moduli and free strains (3, n) on all nodes, from those with heat."""
+        values = self.on_all(now.temperature)
+        strain = self.on_all(self.moduli.free.of(now.temperature, now.share))
+        return np.stack([values[:, 0], self.factor(values)[:, 0], strain[:, 0]])
+
+    @property
+    def solids(self) -> Sequence[DiscreteSolid] | None:
+        """Solids of the slab, whose laws know the temperatures that are foreseen in it; None outside of a slab."""
+        return None if self.time is None else self.time.solids
 
     def solver(self, slab: FieldSlab) -> SlabTemperature:
         """Solver of the temperature at the end of a slab, from the energies (m,) that friction dissipates [J]."""
         assert self.time is not None
         before = initial_states(self.time.solids) if self.dissipations else ()
-        after = committed(self.time.solids, slab.u1) if self.dissipations or self.elastic else ()
+        after = committed(self.time.solids, slab.u1) if self._historic else ()
         end = self._deformed(slab.u1, after)
         change = self.of_nodes(end.amounts()) - self.time.amounts
+        flow = end.strained.flow(self.time.strained.strained, slab.span)
         out, spent = np.zeros(self.count), 0.0
         for dissipation in self.dissipations:
             energy = dissipation.energy(before, after)
@@ -192,13 +201,18 @@ class SolidTemperature:
             out, spent = out + one.heat, spent + float(one.heat.sum())
         return SlabTemperature(
             solids=self, time=self.time, slab=slab, sides=self.time.contacts.sides(slab.contact), end=end,
-            change=change, given=self.of_nodes(out), spent=spent,
+            change=change, given=self.of_nodes(out), spent=spent, flow=None if flow is None else self.of_nodes(flow),
             glue=(
                 *(one.exchange for one in glue if len(one.exchange.conductances)),
                 *(() if self.stops is None else self.stops.exchanges),
             ),
             stopped=np.zeros(self.model.n_nodes) if self.stops is None else self.stops.heat,
         )  # fmt: skip
+
+    @property
+    def _historic(self) -> bool:
+        """True if material states tell heats."""
+        return bool(self.dissipations or self.elastic) or any(it.relieved is not None for it in self.expansions)
 
     def solve(self, slab: FieldSlab) -> FieldSolution:
         """Temperature at the end of a slab without friction, with the energy that it takes from the motion.
@@ -238,14 +252,21 @@ class SolidTemperature:
                 return self.contents(values).melted[part.cells]
         return None
 
-    def warmed(self, states: MaterialStates, values: Array) -> MaterialStates:
-        """Material states at the end of a slab whose laws know the temperatures ``values`` (n, 1) there."""
+    def _values(self, state: FieldState) -> HeatValues:
+        """Temperatures and contents of a state."""
+        known = state.unknowns if len(state.unknowns) else unknowns_of(self.model, state.values[self.nodes, 0])
+        return heat_values(self.model, known)
+
+    def warmed(self, states: MaterialStates, state: FieldState) -> MaterialStates:
+        """Material states at the end of a slab whose laws know the temperatures of the ``state`` there."""
         if not self.points:
             return states
         assert self.time is not None
-        following = self.of_points(after_jumps(self.model, self._temperatures(values), self.time.end))
-        span = np.inf if self.time.start in knots(self.model) else self.time.end - self.time.start
-        return warmed(states, self.points, self.of_points(values[self.nodes, 0]), following, span)
+        last = self._values(state)
+        following = after_jumps(self.model, last, self.time.end)
+        span = self.time.end - self.time.start
+        known = np.inf if self.time.start in knots(self.model) else span
+        return warmed(states, self.points, self.of_points(last), self.of_points(following), known, span)
 
     def stress(self, solid: str, cells: int, values: Array, u: Array) -> Array:
         """Mean stress (cells, 3, 3) of a solid [Pa] that the temperature adds to that of the law, with the ``values``
@@ -255,7 +276,7 @@ class SolidTemperature:
         out, found = np.zeros((cells, 3, 3)), self.on_every(self.moduli.potentials(now.temperature, now.share))
         for expansion in self.expansions:
             if expansion.solid == solid:
-                out[expansion.cells] = expansion.stress(-found[0], u)
+                out[expansion.cells] = expansion.stress(-found[0], found[1], u, self.states)
         for elastic in self.elastic:
             if elastic.solid == solid:
                 out[elastic.cells] += elastic.stress(beside_law(found)[1], u, self.states)

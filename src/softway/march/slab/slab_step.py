@@ -84,6 +84,8 @@ def advance(
         ends = slab.start, slab.end
         fields = in_slab(model.companions, ends, model.parts, start.displacement, start.fields)
         model = replace(model, companions=fields)
+        for _, temperature in temperatures_of(fields):
+            model = model if temperature.solids is None else replace(model, parts=tuple(temperature.solids))
     if model.rigid is None:
         for out, after in stepper.rule.solve(model, now, slab, memory, attempt):
             yield _state(slab, out), _with_breaks(model, now, slab, out), after
@@ -143,7 +145,7 @@ def _committed(out: SlabResult) -> SlabStart:
     model, end = out.system.model, out.solution.end
     states = material_states.committed(model.parts, end.displacement)
     for k, temperature in temperatures_of(model.companions):
-        states = temperature.warmed(states, end.fields[k].end.values)
+        states = temperature.warmed(states, end.fields[k].end)
     of_fields: Array | float = sum(f.end.energy for f in end.fields)
     return SlabStart(
         displacement=end.displacement,

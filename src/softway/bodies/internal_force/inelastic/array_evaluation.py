@@ -41,7 +41,7 @@ class RateArrayEvaluation:
     def _energy_and_force(self, u: Array, state: MaterialState, H: Array, found: PointResponse) -> tuple[float, Array]:
         with np.errstate(invalid="ignore"):
             taken = found.ratio * (found.response.stored + found.response.dissipated)
-            flux = self.points.flux(self.points.stress(found), found.F, H)
+            flux = self.points.body_flux(self.points.stress(found), found.F, H, found.eigenstrain)
         energy = float(self.sampling.volume @ (state.stored + taken))
         return energy if np.isfinite(energy) else np.inf, self.sampling.nodal(flux, u)
 
@@ -92,9 +92,6 @@ class RateArrayEvaluation:
         u = state.displacement
         H = self.sampling.derivatives(u)
         F = self.points.gradient(H, state.lateral)
-        force, viscous = (
-            None if s is None else self.sampling.nodal(self.points.flux(s, F, H), u)
-            for s in (state.stress, state.viscous)
-        )
-        assert force is not None
+        force = self.sampling.nodal(self.points.body_flux(state.stress, F, H, state.eigenstrain), u)
+        viscous = None if state.viscous is None else self.sampling.nodal(self.points.flux(state.viscous, F, H), u)
         return float(self.sampling.volume @ state.stored), force, viscous

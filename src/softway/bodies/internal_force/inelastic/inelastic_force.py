@@ -12,6 +12,7 @@ from softway.bodies.elements.section import PlaneStrain, Section, free_axes
 from softway.bodies.elements.strain_operator import StrainOperator
 from softway.bodies.internal_force.body_force import BodyForce
 from softway.bodies.internal_force.inelastic.array_evaluation import RateArrayEvaluation
+from softway.bodies.internal_force.inelastic.eigenstrain import free_strain_moduli
 from softway.bodies.internal_force.inelastic.kernel_evaluation import RateKernelEvaluation
 from softway.bodies.internal_force.inelastic.material_points import RatePoints
 from softway.bodies.internal_force.inelastic.mean_dilatation_evaluation import RateMeanEvaluation
@@ -198,9 +199,11 @@ def inelastic_force(mesh: Mesh, material: RateLaw, section: Section, dilatation:
         raise InputError("section", problem, "a law that stores energy, or a plate in the plane")
     free = free_axes(section)
     points = len(sampled.sampling.volume)
-    plain = RateArrayEvaluation(
-        sampling=sampled.sampling, points=RatePoints(law=material, free=free, directions=sampled.directions)
-    )
+    law_points = RatePoints(
+        law=material, free=free, directions=sampled.directions,
+        moduli_of_free_strain=free_strain_moduli(material, free) if free else None,
+    )  # fmt: skip
+    plain = RateArrayEvaluation(sampling=sampled.sampling, points=law_points)
     return InelasticForce(
         material=material,
         section=section,

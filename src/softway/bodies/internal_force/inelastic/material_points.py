@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.internal_force.inelastic.eigenstrain import FreeStrainModuli, Relief, dilation, unstressed
 from softway.bodies.internal_force.inelastic.slab_kinematics import SlabDeformation, push_forward, slab_deformation
 from softway.bodies.internal_force.material_state import MaterialState
 from softway.kernels.linalg import tensors
@@ -36,6 +37,8 @@ class PointResponse:
         Argument of the law.
     lateral
         (p, k) stretches of the free axes at the end.
+    eigenstrain
+        (p,) free strain that the law knows at the end; None if it knows none.
     """
 
     response: Response
@@ -44,6 +47,7 @@ class PointResponse:
     ratio: Array
     increment: Increment
     lateral: Array
+    eigenstrain: Array | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -60,11 +64,14 @@ class RatePoints:
         Axes outside the element whose normal stress is zero.
     directions
         (p, m, D) or (1, m, D) orthonormal reference directions.
+    moduli_of_free_strain
+        Moduli of the law for a free strain; None without free axes.
     """
 
     law: RateLaw
     free: tuple[int, ...]
     directions: Array
+    moduli_of_free_strain: FreeStrainModuli | None = None
 
     def gradient(self, H: Array, lateral: Array) -> Array:
         """Deformation gradient (p, 3, 3) with the stretches (p, k) of the free axes; for a bar in its own axes."""
@@ -85,26 +92,52 @@ class RatePoints:
         F0 = self.gradient(H0, state.lateral)
         lateral = state.lateral
         with np.errstate(all="ignore"):
-            found = self._response(F0, self.gradient(H1, lateral), state, span, lateral)
+            relief = self._relief(H0, H1, state)
+            found = self._response(F0, self.gradient(H1, lateral), state, span, lateral, relief)
             for _ in range(LIMIT if self.free else 0):
                 step = self._lateral_correction(found)
                 lateral = np.asarray(lateral * np.exp(np.clip(step, -0.5, 0.5)))
-                found = self._response(F0, self.gradient(H1, lateral), state, span, lateral)
+                found = self._response(F0, self.gradient(H1, lateral), state, span, lateral, relief)
                 if not np.any(np.abs(step) > TOLERANCE):
                     break
-        return found
+            return found if relief is None else self._relieved(self._released(found), relief, state)
 
-    def _response(self, F0: Array, F1: Array, state: MaterialState, span: float, lateral: Array) -> PointResponse:
+    def _relief(self, H0: Array, H1: Array, state: MaterialState) -> Relief | None:
+        before, after, moduli = state.eigenstrain, state.coming_eigenstrain, self.moduli_of_free_strain
+        if before is None or after is None or moduli is None:
+            return None
+        ends = dilation(H0, self.directions)[0], dilation(H1, self.directions)[0]
+        return Relief(moduli=moduli, before=before, after=after, dilations=ends, lateral=state.lateral)
+
+    def _relieved(self, found: PointResponse, relief: Relief, state: MaterialState) -> PointResponse:
+        """Response with the energies of the strain, of which the law has seen the elastic part."""
+        given, response = found.increment, found.response
+        mean = 0.5 * (given.stress + response.stress)
+        if response.viscous is not None and state.viscous is not None:
+            before = push_forward(state.viscous, found.deformation.first, self.law.rate)
+            mean = mean + 0.5 * (response.viscous - before)
+        factor: Array | float = 1.0
+        if state.stiffness is not None and given.stiffness is not None:
+            factor = 0.5 * (state.stiffness + given.stiffness)
+        ends = found.lateral, found.ratio
+        response = relief.accounted(response, found.deformation.strain, mean, ends, factor)
+        return replace(found, response=response, eigenstrain=relief.after)
+
+    def _response(
+        self, F0: Array, F1: Array, state: MaterialState, span: float, lateral: Array, relief: Relief | None
+    ) -> PointResponse:
         rate = self.law.rate
         inverted = ~(tensors.determinant(F1) > 0.0)
         if inverted.any():
             F1 = np.where(inverted[:, None, None], np.nan, F1)
             F1 = np.where(np.isfinite(F1), F1, np.eye(3))
         deformation = slab_deformation(rate, F0, F1)
+        if relief is not None:
+            deformation = replace(deformation, strain=relief.strain(deformation.strain, lateral))
         increment = Increment(
             stress=push_forward(state.stress, deformation.first, rate),
             memory=_pushed_forward(state.law, deformation.first, rate),
-            strain=deformation.strain,
+            strain=deformation.strain if relief is None else relief.elastic(deformation.strain),
             span=span,
             temperature=state.middle_temperature(span),
             stiffness=state.coming_stiffness(span),
@@ -135,6 +168,15 @@ class RatePoints:
         out = -np.linalg.solve(np.where(np.isfinite(C), C, np.eye(len(axes))), pull[..., None])[..., 0]
         return np.where(np.isfinite(out), out, 0.0)
 
+    def _released(self, found: PointResponse) -> PointResponse:
+        """Response without the stress on the free faces that the rounding of the lateral stretches leaves.
+
+        In a plastic flow, which hardly resists, it would move the nodes.
+        """
+        axes = np.array(self.free)
+        more = self.law.moduli(found.increment)[..., axes, axes] @ self._lateral_correction(found)[:, None, :, None]
+        return replace(found, response=replace(found.response, stress=found.response.stress + more[..., 0]))
+
     def stress(self, found: PointResponse) -> Array:
         """Cauchy stress (p, 3, 3) at the end [Pa]."""
         return push_forward(found.response.stress, found.deformation.second, self.law.rate)
@@ -155,6 +197,13 @@ class RatePoints:
         """Part of :meth:`stress` due to the mean rate of the slab, (p, 3, 3) [Pa]; None without viscosity."""
         viscous = found.response.viscous
         return None if viscous is None else push_forward(viscous, found.deformation.second, self.law.rate)
+
+    def body_flux(self, sigma: Array, F: Array, H: Array, eigenstrain: Array | None) -> Array:
+        """Flux (p, m, D) [Pa] of the stress of a law that knows an eigenstrain (p,), and of that eigenstrain."""
+        flux = self.flux(sigma, F, H)
+        if eigenstrain is None or self.moduli_of_free_strain is None:
+            return flux
+        return flux + (self.moduli_of_free_strain.held * eigenstrain)[:, None, None] * dilation(H, self.directions)[1]
 
     def flux(self, sigma: Array, F: Array, H: Array) -> Array:
         """First Piola-Kirchhoff stress along the directions, (p, m, D) [Pa], of a Cauchy stress (p, 3, 3)."""
@@ -181,6 +230,9 @@ class RatePoints:
             warming=state.warming,
             stiffness=state.stiffness,
             stiffening=state.stiffening,
+            eigenstrain=found.eigenstrain,
+            coming_eigenstrain=found.eigenstrain,
+            unforeseen=state.unforeseen,
         )
 
     def moduli(self, found: PointResponse, H: Array, secant: bool = False) -> Array:
@@ -198,7 +250,7 @@ class RatePoints:
         m, size = H.shape[1:]
         if m == 1:
             return self._bar_moduli(C, sigma, found, H, J)
-        C = _condensed(C, self.free)
+        C = unstressed(C, self.free)
         B = found.deformation.second
         if isinstance(self.law.rate, Truesdell):
             B = tensors.rotation(B)
@@ -218,7 +270,7 @@ class RatePoints:
 
     def _bar_moduli(self, C: Array, sigma: Array, found: PointResponse, H: Array, J: Array) -> Array:
         """Moduli (p, 1, D, 1, D) of a bar: axial stiffness, and geometric stiffness across the axis."""
-        C = _condensed(C, self.free)
+        C = unstressed(C, self.free)
         length = found.F[:, 0, 0]
         along = (self.directions + H)[:, 0] / length[:, None]
         axis = along[:, :, None] * along[:, None, :]
@@ -241,18 +293,6 @@ def spatial(C: Array, sigma: Array, rate: Rate) -> Array:
     part = one[:, None, :, None] * sigma[..., None, :, None, :] + sigma[..., :, None, :, None] * one[None, :, None, :]
     part = part + np.swapaxes(part, -1, -2)
     return np.asarray(out - 0.5 * part)
-
-
-def _condensed(C: Array, free: tuple[int, ...]) -> Array:
-    """Moduli (p, 3, 3, 3, 3) at zero stress on the free axes."""
-    if not free:
-        return C
-    axes = np.array(free)
-    stiff = C[:, axes, axes][:, :, axes, axes]
-    right = C[:, axes, axes].reshape(len(C), len(axes), 9)
-    left = np.moveaxis(C[..., axes, axes], -1, 1).reshape(len(C), len(axes), 9)
-    follow = np.linalg.solve(stiff, right)
-    return C - np.einsum("pkx,pky->pxy", left, follow).reshape(C.shape)
 
 
 def _pushed_forward(history: Mapping[str, Array], A: Array, rate: Rate) -> Mapping[str, Array]:

@@ -50,4 +50,4 @@ def deformed(
     expansions: tuple[Expansion, ...], elastic: tuple[ElasticTerm, ...], u: Array, states: MaterialStates
 ) -> Deformed:
     """Solids in material states at the displacement ``u`` (n, d) [m]."""
-    return Deformed(strained(expansions, u), stored_energies(elastic, u, states))
+    return Deformed(strained(expansions, u, states), stored_energies(elastic, u, states))

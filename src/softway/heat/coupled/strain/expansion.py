@@ -4,7 +4,8 @@
 
 with the free strain ``e`` of the nodes, ``k = 3 kappa`` in a volume, ``E / (1 - nu)`` in plane stress and ``E`` in a
 bar, and J the ratio of volumes, areas or lengths; for a law of the linear theory the trace of the strain takes the
-place of ln J.
+place of ln J.  In bodies with free faces a law with a history tells the elastic part of ln J, see
+:mod:`softway.bodies.internal_force.inelastic.eigenstrain`.
 """
 
 from collections.abc import Iterator
@@ -14,12 +15,16 @@ import numpy as np
 from scipy.sparse import csr_array, vstack
 
 from softway.arrays import Array, IntArray
+from softway.bodies.assembled.material_states import MaterialStates, own_state
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.elements.heat_functions import heat_functions
 from softway.bodies.elements.quadrature import sampled_cells
 from softway.bodies.elements.section import Section, free_axes
 from softway.bodies.elements.strain_operator import StrainOperator
 from softway.bodies.internal_force.body_force import BodyForce
+from softway.bodies.internal_force.inelastic.eigenstrain import FreeStrainModuli, dilation
+from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
+from softway.bodies.internal_force.material_state import MaterialState
 from softway.bodies.internal_force.regions import RegionForces
 from softway.errors import InputError
 from softway.heat.coupled.strain.compiled_expansion import CompiledExpansion, compiled_expansion
@@ -57,6 +62,10 @@ class Expansion:
         Stress that a free strain of one along each axis takes where it is held, k [Pa].
     compiled
         Energies and forces by kernels; None where there are none for the elements.
+    number, region
+        Number of the solid, and name of the region of the law; empty for a solid of one law.
+    relieved
+        Moduli of a law with a history in a body with free faces, which knows an eigenstrain; None for other laws.
     """
 
     solid: str
@@ -68,12 +77,27 @@ class Expansion:
     small: bool
     modulus: float
     compiled: CompiledExpansion | None = None
+    number: int = 0
+    region: str = ""
+    relieved: FreeStrainModuli | None = None
 
-    def stress(self, free: Array, u: Array) -> Array:
+    def stress(self, free: Array, factor: Array, u: Array, states: MaterialStates) -> Array:
         """Mean Cauchy stress (e, 3, 3) [Pa] of free strains (n,) of the nodes, at ``u`` (n, d).
 
-        It is that in the axes of the section; a bar has it along its axis.
+        It is that in the axes of the section; a bar has it along its axis, but in its own axes beside a law with a
+        history, whose stress is in these.
+
+        Parameters
+        ----------
+        free
+            Free strains times the ``factor`` of the moduli.
+        factor
+            (n,) factor of the moduli.
+        u, states
+            Displacement [m], and material states of all solids, of which the law knows the eigenstrains.
         """
+        if self.relieved is not None:
+            return self._beside(free, factor, u, own_state(states, self.number, self.region))
         H = self.sampling.derivatives(u[self.nodes])
         m, size = (np.broadcast_to(self.directions, H.shape) + H).shape[-2:]
         ratio: Array = np.ones(len(H)) if self.small else np.exp(self.change(u[self.nodes])[0])
@@ -88,44 +112,85 @@ class Expansion:
             axes[:, :size, :size] = along[:, :, None] * along[:, None, :]
         return np.asarray(mean[:, None, None] * self.sampling.cell_means(axes, self.sampling.volume))
 
-    def change(self, u: Array) -> tuple[Array, Array]:
-        """Change of volume (p,), ln J or the trace of the strain, and its derivative (p, m, D) by the derivatives.
+    def _beside(self, free: Array, factor: Array, u: Array, state: MaterialState) -> Array:
+        """Mean stress (e, 3, 3) [Pa] of what the free strains are more than the eigenstrain of a law with a history."""
+        at, known = self.values @ free[self.nodes], state.eigenstrain
+        if known is not None:
+            at = at - (self.values @ factor[self.nodes]) * known
+        ratio = np.exp(self.change(u[self.nodes])[0]) * state.lateral.prod(axis=1)
+        mean = self.sampling.cell_means(self.modulus * at / ratio, self.sampling.volume * ratio)
+        m = self.directions.shape[-2]
+        return np.asarray(-mean[:, None, None] * np.diag([1.0] * m + [0.0] * (3 - m)))
 
-        ln J is half the logarithm of det C = 1 + tr + minors of C - 1: a body at rest has all digits of a small one.
-        """
+    def change(self, u: Array) -> tuple[Array, Array]:
+        """Change of volume (p,), ln J or the trace of the strain, and its derivative (p, m, D) by the derivatives."""
         H, g = self.sampling.derivatives(u), self.directions
         if self.small:
             return tensors.double_dot(np.broadcast_to(g, H.shape), H), np.broadcast_to(g, H.shape)
-        f, more = g + H, 2.0 * tensors.symmetric(H @ np.swapaxes(g, -1, -2)) + H @ np.swapaxes(H, -1, -2)
-        trace = np.einsum("pii->p", more)
-        change = trace + 0.5 * (trace * trace - tensors.double_dot(more, more))
-        with np.errstate(invalid="ignore", divide="ignore"):
-            if f.shape[-2] == 1:
-                return 0.5 * np.log1p(change), f / tensors.double_dot(f, f)[:, None, None]
-            change = change + (tensors.determinant(more) if f.shape[-2] == 3 else 0.0)
-            inverted = tensors.determinant(f) <= 0.0
-            return 0.5 * np.log1p(np.where(inverted, np.nan, change)), _inverse_transposed(f)
+        return dilation(H, g)
+
+    def elastic(self, change: Array, states: MaterialStates) -> tuple[Array, MaterialState | None]:
+        """Elastic part (p,) of a ``change`` (p,) of volume, and the state of a law that knows an eigenstrain."""
+        if self.relieved is None:
+            return change, None
+        state = own_state(states, self.number, self.region)
+        assert state.eigenstrain is not None
+        return self.relieved.energy(change, state.lateral, state.eigenstrain) / self.modulus, state
+
+    def flow(self, start: MaterialState, end: MaterialState, change: Array, span: float) -> Array:
+        """Energies (3, k) of the inelastic ``change`` (p,) of volume in a slab at the nodes [J], see
+        :meth:`Strained.flow`.
+        """
+        assert start.eigenstrain is not None and end.eigenstrain is not None
+        size = self.modulus * self.sampling.volume * change
+        rows = [size, 0.5 * (start.eigenstrain + end.eigenstrain) * size, np.zeros_like(size)]
+        factor = start.coming_stiffness(span)
+        if factor is not None and start.stiffness is not None:
+            spent = self.sampling.volume * (end.dissipated - start.dissipated)
+            rows[1] = rows[1] + spent / (0.5 * (start.stiffness + factor))
+            rows[2] = -spent
+        return np.stack([self.values.T @ row for row in rows])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Strained:
     """Solids with n nodes at a displacement: of each expansion that (k, d) of its nodes and, where it is not compiled,
-    the change of volume (p,) and its derivative (p, m, D).
+    the change of volume (p,) and its derivative (p, m, D), and the elastic part of that change with the state of a law
+    that knows an eigenstrain.
     """
 
     expansions: tuple[Expansion, ...]
     own: tuple[Array, ...]
     changes: tuple[tuple[Array, Array] | None, ...]
+    elastic: tuple[tuple[Array, MaterialState | None] | None, ...]
     n: int
 
     def held(self) -> Array:
-        """Energies (n,) that free strains of one of the nodes would take from the strain, H [J]."""
+        """Energies (n,) that free strains of one of the nodes would take from the elastic strain, H [J]."""
         out = np.zeros(self.n)
-        for it, own, found in zip(self.expansions, self.own, self.changes, strict=True):
+        for it, own, found in zip(self.expansions, self.own, self.elastic, strict=True):
             if it.compiled is not None:
                 out[it.nodes] += it.compiled.held(own)
             elif found is not None:
                 out[it.nodes] += it.values.T @ (it.modulus * it.sampling.volume * found[0])
+        return out
+
+    def flow(self, start: "Strained", span: float) -> Array | None:
+        """Energies (3, n) of inelastic strain in a slab of length ``span`` [s] at the nodes [J]; None without.
+
+        With the potentials of free strain and elastic energy, and one, they are the work of the stress that the laws
+        did not know: that of the free strain less the eigenstrain, and of the factor of the moduli less the expected.
+        """
+        if all(it.relieved is None for it in self.expansions):
+            return None
+        out = np.zeros((3, self.n))
+        for k, it in enumerate(self.expansions):
+            first, last, before, after = start.changes[k], self.changes[k], start.elastic[k], self.elastic[k]
+            if first is None or last is None or before is None or after is None:
+                continue
+            if before[1] is not None and after[1] is not None:
+                change = (last[0] - first[0]) - (after[0] - before[0])
+                out[:, it.nodes] += it.flow(before[1], after[1], change, span)
         return out
 
     def forces(self, free: Array, dim: int) -> Array:
@@ -141,15 +206,19 @@ class Strained:
         return out
 
 
-def strained(expansions: tuple[Expansion, ...], u: Array) -> Strained:
-    """Solids with some ``expansions`` at the displacement ``u`` (n, d) [m]."""
+def strained(expansions: tuple[Expansion, ...], u: Array, states: MaterialStates = ()) -> Strained:
+    """Solids in material states, with some ``expansions``, at the displacement ``u`` (n, d) [m]."""
     own = tuple(u[it.nodes] for it in expansions)
-    changes = (None if it.compiled is not None else it.change(mine) for it, mine in zip(expansions, own, strict=True))
-    return Strained(expansions, own, tuple(changes), len(u))
+    changes = tuple(
+        None if it.compiled is not None else it.change(mine) for it, mine in zip(expansions, own, strict=True)
+    )
+    elastic = (None if found is None else it.elastic(found[0], states)
+               for it, found in zip(expansions, changes, strict=True))  # fmt: skip
+    return Strained(expansions, own, changes, tuple(elastic), len(u))
 
 
-def expansions(part: DiscreteSolid) -> Iterator[Expansion]:
-    """Free expansions of the laws of a solid.
+def expansions(number: int, part: DiscreteSolid) -> Iterator[Expansion]:
+    """Free expansions of the laws of the solid of this ``number``.
 
     Raises
     ------
@@ -170,6 +239,9 @@ def expansions(part: DiscreteSolid) -> Iterator[Expansion]:
             small=small,
             modulus=modulus,
             compiled=compiled_expansion(part, internal.sampling, cells, nodes, modulus, small),
+            number=number,
+            region=region,
+            relieved=internal.points.moduli_of_free_strain if isinstance(internal, InelasticForce) else None,
         )
 
 
@@ -217,16 +289,3 @@ def point_values(part: DiscreteSolid) -> csr_array:
     kinds = sampled_cells(part.mesh, part.internal.section, "point", small=False).kinds
     tables = [gather_table(cells.nodes, heat_functions(cells)[..., None], part.mesh.n_nodes) for cells in kinds]
     return csr_array(vstack(tables, format="csr"))
-
-
-def _inverse_transposed(f: Array) -> Array:
-    """Transposed inverse of (p, m, m) with m = 2, 3; not a number where there is none."""
-    cofactor = np.empty_like(f)
-    if f.shape[-1] == 2:
-        cofactor[:, 0, 0], cofactor[:, 0, 1] = f[:, 1, 1], -f[:, 1, 0]
-        cofactor[:, 1, 0], cofactor[:, 1, 1] = -f[:, 0, 1], f[:, 0, 0]
-    else:
-        for k in range(3):
-            cofactor[:, k] = np.cross(f[:, k - 2], f[:, k - 1])
-    cofactor /= tensors.determinant(f)[:, None, None]
-    return cofactor

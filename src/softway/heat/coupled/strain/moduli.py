@@ -102,6 +102,8 @@ class ElasticHeat:
         (k,) heat of dissipation per time [W].
     inert
         True if the body has inertia.
+    flow
+        (3, k) rates of the energies of inelastic strain, of the potentials and of one [W]; None without.
     """
 
     moduli: Moduli
@@ -109,6 +111,7 @@ class ElasticHeat:
     rates: Array
     power: Array
     inert: bool
+    flow: Array | None = None
 
     def later(self, span: float) -> "ElasticHeat":
         """The rest, after a time ``span`` [s]."""
@@ -116,6 +119,25 @@ class ElasticHeat:
 
     def over(self, span: float, before: HeatValues, after: HeatValues) -> HeatOfStrain:
         """Heat that the strain takes in a time ``span`` [s]."""
+        found = self._reversible(span, before, after)
+        return found if self.flow is None else self._flowing(found, span * self.flow, before, after)
+
+    def _flowing(self, found: HeatOfStrain, flow: Array, before: HeatValues, after: HeatValues) -> HeatOfStrain:
+        """Heat of strain with the work of the stress that the law of a flow did not know, which is heat as well."""
+        work = (self.moduli.between(before, after, found.mean) * flow[:2]).sum(axis=0) + flow[2]
+        slope = self.moduli.slopes(after.temperature, after.share)
+        melts = self.moduli.free.melting * self.moduli.factor(after.temperature)
+        return replace(
+            found,
+            taken=found.taken - work,
+            slope=found.slope - 0.5 * (slope * flow[:2]).sum(axis=0),
+            freezing=found.freezing + 0.5 * melts * flow[0],
+            work=found.work + work,
+            unknown=work,
+        )
+
+    def _reversible(self, span: float, before: HeatValues, after: HeatValues) -> HeatOfStrain:
+        """Heat that elastic strain takes in a time ``span`` [s]."""
         theta0, theta1, change = before.temperature, after.temperature, span * self.rates
         mean = logarithmic_mean(theta0, theta1) if self.inert else arithmetic_mean(theta0, theta1)
         if not self.moduli.curves:

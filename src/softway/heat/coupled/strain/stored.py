@@ -7,7 +7,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from softway.arrays import Array, IntArray
-from softway.bodies.assembled.material_states import MaterialStates
+from softway.bodies.assembled.material_states import MaterialStates, own_state
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.internal_force.elastic.elastic_force import ElasticForce
 from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
@@ -76,13 +76,13 @@ class Historic:
 
     def energy_and_flux(self, u: Array, states: MaterialStates) -> tuple[Array, Array]:
         """Energy (p,) [J/m^3] stored since the start of the march, and flux (p, m, D) [Pa], in the states."""
-        state = self._own(states)
+        state = own_state(states, self.number, self.region)
         H, F = self._gradients(state)
-        return state.stored, self.internal.points.flux(_elastic_stress(state), F, H)
+        return state.stored, self.internal.points.body_flux(_elastic_stress(state), F, H, state.eigenstrain)
 
     def stress(self, weight: Array, u: Array, states: MaterialStates) -> Array:
         """Mean Cauchy stress (e, 3, 3) [Pa] of the law times weights (n,) of the nodes, in the states."""
-        state, sampling = self._own(states), self.internal.sampling
+        state, sampling = own_state(states, self.number, self.region), self.internal.sampling
         weighted = (self.values @ weight[self.nodes])[:, None, None] * _elastic_stress(state)
         return sampling.cell_means(weighted, tensors.determinant(self._gradients(state)[1]) * sampling.volume)
 
@@ -90,12 +90,6 @@ class Historic:
         """Displacement derivatives (p, m, D) and deformation gradients (p, 3, 3) of a state."""
         H = self.internal.sampling.derivatives(state.displacement)
         return H, self.internal.points.gradient(H, state.lateral)
-
-    def _own(self, states: MaterialStates) -> MaterialState:
-        """Its state among those of all solids."""
-        state = states[self.number]
-        assert state is not None
-        return state.regions[self.region] if self.region else state
 
 
 ElasticTerm = Elastic | Historic

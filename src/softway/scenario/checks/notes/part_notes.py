@@ -24,7 +24,6 @@ from softway.meshes.files.listed_mesh import LeftOut
 from softway.model.model import Model
 from softway.scenario.checks.locking import locking_notes
 from softway.scenario.checks.names import mesh_of
-from softway.scenario.checks.notes.thermal_notes import thermal_notes
 from softway.scenario.checks.notes.tool_notes import tool_curvature
 
 SHARE = 0.1
@@ -100,7 +99,7 @@ def cell_notes(model: Model) -> tuple[Note, ...]:
     for name, solid in model.scene.bodies.items():
         if isinstance(solid, Solid):
             fixed = ~free_components(solid.supports, mesh_of(solid))
-            notes += [note.within(f"bodies.{name}") for note in (*locking_notes(solid, fixed), *thermal_notes(solid))]
+            notes += [note.within(f"bodies.{name}") for note in locking_notes(solid, fixed)]
     return _told_once(notes)
 
 
