@@ -13,11 +13,11 @@ from softway.heat.coupled.contact_exchange import ContactExchange
 from softway.heat.coupled.dissipation import Dissipation
 from softway.heat.coupled.point_temperature import PointTemperature, after_jumps, foreseen, warmed
 from softway.heat.coupled.slab_temperature import SlabTemperature, TimeOfSlab, heat_at_rest
-from softway.heat.coupled.strain.deformed import Deformed, beside_law, deformed
+from softway.heat.coupled.strain.deformed import added_stress, beside_law, deformed
 from softway.heat.coupled.strain.expansion import Expansion
 from softway.heat.coupled.strain.moduli import Moduli
 from softway.heat.coupled.strain.stored import ElasticTerm
-from softway.heat.coupled.through_ties import BreakingGlue, StopLink, StopsWithHeat, in_stops
+from softway.heat.coupled.through_ties import BreakingGlue, StopLink, StopsWithHeat, exchanges_of, in_stops
 from softway.heat.heat_balance import Stage, put_at_once
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_plan import knots
@@ -122,7 +122,7 @@ class SolidTemperature:
         if damped and not sudden and not self.inert:
             factor = linear_factor(self.model, span)
         before, jumped, _ = put_at_once(self.model, self._values(start), ends[0])
-        strained = self._deformed(u0, initial_states(parts))
+        strained = deformed(self.expansions, self.elastic, u0, initial_states(parts))
         halves, amounts = damped and self.inert, self.of_nodes(strained.amounts())
         if any(point.expands for point in self.points):
             stage = Stage(start=ends[0], span=span, theta=1.0 if damped else 0.5)
@@ -139,7 +139,7 @@ class SolidTemperature:
         """State with the temperatures ``values`` (n, 1), of rigid bodies the initial ones, at the displacement ``u``
         (n, d).
         """
-        shape, now = self._deformed(u, self.states), self.contents(values)
+        shape, now = deformed(self.expansions, self.elastic, u, self.states), self.contents(values)
         found = self.moduli.potentials(now.temperature, now.share)
         energy = self.of_parts((beside_law(found) * self.of_nodes(shape.amounts())).sum(axis=0))
         return FieldState(
@@ -187,8 +187,9 @@ class SolidTemperature:
         """Solver of the temperature at the end of a slab, from the energies (m,) that friction dissipates [J]."""
         assert self.time is not None
         before = initial_states(self.time.solids) if self.dissipations else ()
-        after = committed(self.time.solids, slab.u1) if self._historic else ()
-        end = self._deformed(slab.u1, after)
+        historic = self.dissipations or self.elastic or any(it.relieved is not None for it in self.expansions)
+        after = committed(self.time.solids, slab.u1) if historic else ()
+        end = deformed(self.expansions, self.elastic, slab.u1, after)
         change = self.of_nodes(end.amounts()) - self.time.amounts
         flow = end.strained.flow(self.time.strained.strained, slab.span)
         out, spent = np.zeros(self.count), 0.0
@@ -197,22 +198,13 @@ class SolidTemperature:
             out[dissipation.nodes] += dissipation.share * energy
             spent += float(energy.sum())
         glue = tuple(one.in_slab(self.time.damage, slab.u1) for one in self.glue if self.time.damage is not None)
-        for one in glue:
-            out, spent = out + one.heat, spent + float(one.heat.sum())
+        out, spent = out + sum(one.heat for one in glue), spent + sum(float(one.heat.sum()) for one in glue)
         return SlabTemperature(
             solids=self, time=self.time, slab=slab, sides=self.time.contacts.sides(slab.contact), end=end,
             change=change, given=self.of_nodes(out), spent=spent, flow=None if flow is None else self.of_nodes(flow),
-            glue=(
-                *(one.exchange for one in glue if len(one.exchange.conductances)),
-                *(() if self.stops is None else self.stops.exchanges),
-            ),
+            glue=exchanges_of(glue, self.stops),
             stopped=np.zeros(self.model.n_nodes) if self.stops is None else self.stops.heat,
         )  # fmt: skip
-
-    @property
-    def _historic(self) -> bool:
-        """True if material states tell heats."""
-        return bool(self.dissipations or self.elastic) or any(it.relieved is not None for it in self.expansions)
 
     def solve(self, slab: FieldSlab) -> FieldSolution:
         """Temperature at the end of a slab without friction, with the energy that it takes from the motion.
@@ -227,7 +219,7 @@ class SolidTemperature:
     def content(self, state: FieldState, u: Array) -> float:
         """Heat content [J] of a state: internal energy less the energy of the field."""
         now = self.contents(state.values, self.of_bodies(state))
-        amounts = self.of_nodes(self._deformed(u, self.states).amounts())
+        amounts = self.of_nodes(deformed(self.expansions, self.elastic, u, self.states).amounts())
         entropies = -self.moduli.slopes(now.temperature, now.share) * amounts
         return float(now.content.sum() + (now.temperature * entropies).sum())
 
@@ -273,18 +265,8 @@ class SolidTemperature:
         (n, 1) of all solids [K] at the displacement ``u`` (n, d) [m].
         """
         now = self.contents(values)
-        out, found = np.zeros((cells, 3, 3)), self.on_every(self.moduli.potentials(now.temperature, now.share))
-        for expansion in self.expansions:
-            if expansion.solid == solid:
-                out[expansion.cells] = expansion.stress(-found[0], found[1], u, self.states)
-        for elastic in self.elastic:
-            if elastic.solid == solid:
-                out[elastic.cells] += elastic.stress(beside_law(found)[1], u, self.states)
-        return out
-
-    def _deformed(self, u: Array, states: MaterialStates) -> Deformed:
-        """Solids in material states at the displacement ``u`` (n, d) [m]."""
-        return deformed(self.expansions, self.elastic, u, states)
+        found = self.on_every(self.moduli.potentials(now.temperature, now.share))
+        return added_stress((self.expansions, self.elastic), solid, cells, found, u, self.states)
 
     def of_parts(self, values: Array) -> Array:
         """Sums (parts,) over the nodes of each solid of values (k + r,)."""

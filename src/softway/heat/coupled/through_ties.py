@@ -195,6 +195,12 @@ class StopsWithHeat:
     heat: Array
 
 
+def exchanges_of(glue: tuple[GlueInSlab, ...], stops: StopsWithHeat | None) -> tuple[HeatExchange, ...]:
+    """Exchanges through ties that break and through stops, in a slab."""
+    found = (one.exchange for one in glue if len(one.exchange.conductances))
+    return (*found, *(() if stops is None else stops.exchanges))
+
+
 def in_stops(links: tuple[StopLink, ...], stops: StopsInSlab, size: int) -> StopsWithHeat:
     """Heat through stops in a slab, of ``size`` nodes and rigid bodies with a temperature."""
     heat = np.zeros(size)

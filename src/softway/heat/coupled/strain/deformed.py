@@ -51,3 +51,25 @@ def deformed(
 ) -> Deformed:
     """Solids in material states at the displacement ``u`` (n, d) [m]."""
     return Deformed(strained(expansions, u, states), stored_energies(elastic, u, states))
+
+
+def added_stress(
+    terms: tuple[tuple[Expansion, ...], tuple[ElasticTerm, ...]],
+    solid: str,
+    cells: int,
+    potentials: Array,
+    u: Array,
+    states: MaterialStates,
+) -> Array:
+    """Mean stress (cells, 3, 3) [Pa] that potentials (2, n) add to that of the law of a ``solid``, at the displacement
+    ``u`` (n, d) [m] of all solids in material states; of expansions and elastic ``terms``.
+    """
+    expansions, elastic = terms
+    out = np.zeros((cells, 3, 3))
+    for expansion in expansions:
+        if expansion.solid == solid:
+            out[expansion.cells] = expansion.stress(-potentials[0], potentials[1], u, states)
+    for term in elastic:
+        if term.solid == solid:
+            out[term.cells] += term.stress(beside_law(potentials)[1], u, states)
+    return out
