@@ -125,6 +125,8 @@ class FieldSolution:
         (n, d) mean over the slab of the internal force that the field adds [N].
     lost
         (parts,) energy that motion and stored energy give to the field [J].
+    cancelled
+        (parts,) magnitude of energies that cancel those of the solids, whose rounding is in the balance [J].
     account
         What the field tells about the slab.
     """
@@ -133,6 +135,7 @@ class FieldSolution:
     mean_force: Array
     lost: Array
     account: object = None
+    cancelled: Array | float = 0.0
 
 
 class FieldEquations(Protocol):

@@ -209,17 +209,19 @@ def test_a_bar_at_rest_yields_without_work() -> None:
     """With inertia, clamped, uniformly hot: nothing moves, and energy and entropy are exact."""
     heat = Thermal(law=sw.heat.Conduction(conductivity=1e-12, capacity=1e-3), temperature=START, expansion=EXPANSION)
     load = sw.heat.HeatSource(of="b", value=0.1)
+    mesh = sw.meshes.Interval(length=1.0, cells=5).build()
+    mesh = replace(mesh, points=mesh.points + 0.07 * np.sin(2.0 * np.pi * mesh.points))
     for table in (None, LINE):
         law = replace(METAL, kinematic=0.1)
         body = sw.Solid(
-            mesh=BAR, material=law, density=1.0, thermal=replace(heat, stiffness=table), supports=ENDS,
+            mesh=mesh, material=law, density=1.0, thermal=replace(heat, stiffness=table), supports=ENDS,
         )  # fmt: skip
         steps = list(sw.march(sw.Scene(bodies={"b": body}, loads=(load,)), until=4.0, step=0.2))
         books = [step.ledger for step in steps]
         whole = [b.energy_strain + b.heat.content + b.heat.cold_work - b.heat.brought for b in books]
         assert np.ptp(whole) < 1e-12 * whole[0] and max(b.energy_kinetic for b in books) < 1e-28
         assert max(abs(b.energy_error) for b in books) < 1e-17 and min(b.heat.produced for b in books) > -1e-17
-        assert sum(step.report.iterations for step in steps) < 2 * len(steps)
+        assert len(steps) == 20 and max(step.report.iterations for step in steps) < 10
         assert table is not None or steps[-1].after.memory["b"].law["plastic_strain"].min() > 1e-3
 
 

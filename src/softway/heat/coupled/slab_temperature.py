@@ -220,7 +220,8 @@ class SlabTemperature:
             force=force, abrupt=self.time.contacts.change(slab.contact),
             unknowns=solids.kept(after),
         )  # fmt: skip
-        return FieldSolution(end=end, mean_force=mean, lost=lost, account=account)
+        flows = solids.of_parts(np.abs(self.flow[1:]).sum(axis=0))
+        return FieldSolution(end=end, mean_force=mean, lost=lost, account=account, cancelled=flows)
 
     def _solved(self, rubbed: Array) -> tuple[StageResult, Array]:
         """Result of a slab with the heat (k + r,) of friction, and the heat (c,) that passed the contacts [J].

@@ -13,7 +13,8 @@ class EndForces:
     ``u0``, ``u1``, ``f0``, ``f1`` (n, d) displacement and internal force at both ends, ``V0``, ``V1`` (parts,) stored
     energy, ``mean`` (n, d) the mean force to complete, ``v0`` (n, d) velocity at the start; ``rows0``, ``rows1`` and
     ``force0``, ``force1`` (m,) contact rows and normal forces at both ends, ``shear0``, ``shear1`` (m, d) tangential
-    forces where there is friction; ``viscous`` (n, d) the part of the mean force that belongs to the mean rate.
+    forces where there is friction; ``viscous`` (n, d) the part of the mean force that belongs to the mean rate;
+    ``cancelled`` (parts,) the magnitude of energies that cancel in the stored energy.
     """
 
     u0: Array
@@ -31,6 +32,7 @@ class EndForces:
     shear0: Array
     shear1: Array
     viscous: Array | None = None
+    cancelled: Array | float = 0.0
 
     @property
     def both(self) -> tuple[tuple[Array, ContactRows, Array], tuple[Array, ContactRows, Array]]:

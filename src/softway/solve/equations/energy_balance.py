@@ -217,7 +217,7 @@ def _energies(model: Model, ends: EndForces, moving: Array) -> tuple[Array, Arra
         r0, r1 = (_support_forces(model, f - q, rows, p) for (f, rows, p), q in zip(ends.both, loads, strict=True))
         num = num - model.space.totals(0.5 * (r0 + r1) * du)
         den = den + model.space.totals((r1 - r0) * du)
-    level = np.abs(ends.V1) + np.abs(ends.V0) + model.kinetic(ends.v0)
+    level = np.abs(ends.V1) + np.abs(ends.V0) + model.kinetic(ends.v0) + ends.cancelled
     level += model.space.totals(np.abs(ends.mean * moving)) + model.space.totals(np.abs(model.load * du))
     level += np.bincount(slave, weights=np.abs(d0) + np.abs(d1), minlength=n)
     return num, den, level

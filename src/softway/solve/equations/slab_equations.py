@@ -190,7 +190,8 @@ class SlabEquations:
         for start, found in zip(self.start.fields, coupled, strict=True):
             energy, force = energy + found.end.energy + found.lost, force + found.end.force
             mean = mean + self._carried(start, found)
-        return replace(bare, V1=energy, f1=force, mean=mean)
+        cancelled = sum((found.cancelled for found in coupled), bare.cancelled)
+        return replace(bare, V1=energy, f1=force, mean=mean, cancelled=cancelled)
 
     def _carried(self, start: FieldState, found: FieldSolution) -> Array:
         """Mean force (n, d) of a field [N].

@@ -84,18 +84,14 @@ class Relief:
         """
         m, change, (lateral, ratio) = self.moduli.axes, self.after - self.before, ends
         s, e = mean[:, :m, :m], strain[:, :m, :m]
-        given, size, square = np.einsum("pii->p", s) * change, tensors.double_dot(e, e), change * change
-        rest = factor * (response.stored - tensors.double_dot(s, e) + given) + response.dissipated
-        share = square / np.where(square + size > 0.0, square + size, 1.0)
-        less = np.minimum(share * rest, response.dissipated)
+        work, size, square = tensors.double_dot(s, e), tensors.double_dot(e, e), change * change
+        rest = factor * (response.stored - work + np.einsum("pii->p", s) * change) + response.dissipated
+        moves = size / np.where(square + size > 0.0, square + size, 1.0)
+        dissipated = response.dissipated - np.minimum((1.0 - moves) * rest, response.dissipated)
         held0 = self.moduli.energy(self.dilations[0], self.lateral, self.before)
         held1 = self.moduli.energy(self.dilations[1], lateral, self.after)
         taken = 0.5 * (self.before + self.after) * (held1 - held0) / ratio
-        return replace(
-            response,
-            stored=response.stored + given - (share * rest - less) / factor + taken,
-            dissipated=response.dissipated - less,
-        )
+        return replace(response, stored=work + (moves * rest - dissipated) / factor + taken, dissipated=dissipated)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
