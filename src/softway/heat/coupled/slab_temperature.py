@@ -220,7 +220,7 @@ class SlabTemperature:
             force=force, abrupt=self.time.contacts.change(slab.contact),
             unknowns=solids.kept(after),
         )  # fmt: skip
-        flows = solids.of_parts(np.abs(self.flow[1:]).sum(axis=0))
+        flows = 0.0 if self.flow is None else solids.of_parts(np.abs(self.flow[1:]).sum(axis=0))
         return FieldSolution(end=end, mean_force=mean, lost=lost, account=account, cancelled=flows)
 
     def _solved(self, rubbed: Array) -> tuple[StageResult, Array]:

@@ -24,7 +24,9 @@ def test_numbers_of_the_end_and_of_the_worst_slab():
         }
     )
     found = summarise_solids(history)
-    assert found["heat_content_end"] == 12.5 and found["heat_brought"] == 2.0 and found["cold_work"] == pytest.approx(0.05)
+    assert (
+        found["heat_content_end"] == 12.5 and found["heat_brought"] == 2.0 and found["cold_work"] == pytest.approx(0.05)
+    )
     assert found["heat_error_worst"] == pytest.approx(3e-12)
     assert found["entropy_least"] == pytest.approx(-2e-15)
     assert found["entropy_produced"] == pytest.approx(0.5)
