@@ -1,11 +1,12 @@
 """events.csv: one line for each contact event of a node (touch, release, stick or slip) and each finding."""
 
 from dataclasses import dataclass
+from math import nan
 from pathlib import Path
 
 import numpy as np
 
-from softway.march.results.step import Step
+from softway.march.results.step import Ledger, Step
 from softway.record.storage import table
 from softway.record.storage.table import Lines
 from softway.record.write.recorder import RunStart
@@ -26,13 +27,17 @@ COLUMNS = (
 """Columns of every run."""
 EXTRA = (("depth", "m"), ("finding", table.TEXT), ("bodies", table.TEXT))
 """Columns of the findings of the audit, and the bodies that touch; files of earlier versions lack them."""
+HEAT = (("heat", "J"),)
+"""Column of runs with contacts that pass heat: what has passed from the first body to the end of the slab of the event.
+"""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Events:
-    """Open file ``events.csv``."""
+    """Open file ``events.csv``, with the labels of the contacts that pass heat."""
 
     lines: Lines
+    passing: tuple[str, ...] = ()
 
     def take(self, step: Step) -> None:
         """Write the events inside one time step (slab), in order of time."""
@@ -43,7 +48,14 @@ class Events:
                 float(x) for x in (*place, event.velocity_before, event.velocity_after, event.impulse, event.depth)
             ]
             texts = event.finding, "-".join(event.bodies)
-            self.lines.write([float(event.time), event.contact, event.kind, int(event.node), *numbers, *texts])
+            heat = [self._passed(event.contact, step.ledger)] if self.passing else []
+            self.lines.write([float(event.time), event.contact, event.kind, int(event.node), *numbers, *texts, *heat])
+
+    def _passed(self, contact: str, ledger: Ledger) -> float:
+        """Heat that has passed a contact by the end of a slab [J]; not a number of others."""
+        if ledger.heat is None or contact not in self.passing:
+            return nan
+        return float(ledger.heat.through[self.passing.index(contact)])
 
     @property
     def mark(self) -> int:
@@ -61,7 +73,7 @@ class Events:
 
 def open_events(folder: Path, opening: RunStart, mark: int | None = None) -> Events:
     """Create ``events.csv`` with its header, or continue the existing file."""
-    rows = table.lines(folder / FILE, mark)
+    rows, passing = table.lines(folder / FILE, mark), opening.passing_heat
     if mark is None:
-        rows.write(table.header((*COLUMNS, *EXTRA)))
-    return Events(rows)
+        rows.write(table.header((*COLUMNS, *EXTRA, *(HEAT if passing else ()))))
+    return Events(rows, passing)

@@ -43,10 +43,8 @@ def open_history(folder: Path, opening: RunStart, mark: int | None = None) -> Hi
     """Create ``history.csv``, or continue the existing file; its first line is the initial state, with ``h = 0``."""
     ties = tuple(tie.label for tie in opening.scene.ties if tie.breaks is not None)
     heat = opening.ledger.heat
-    contacts, passing = (
-        tuple(c.label for c in opening.scene.contacts if c.heat is not None or every) for every in (True, False)
-    )
-    of_heat = None if heat is None else (passing, tuple(heat.liquid), tuple(heat.rigid))
+    contacts = tuple(c.label for c in opening.scene.contacts)
+    of_heat = None if heat is None else (opening.passing_heat, tuple(heat.liquid), tuple(heat.rigid))
     rows, found = table.lines(folder / FILE, mark), columns(contacts, ties, of_heat)
     if mark is None:
         rows.write(table.header([*((c.name, c.unit) for c in found), *((r.name, r.unit) for r in opening.readings)]))

@@ -87,6 +87,11 @@ class RunStart:
     pushed: Callable[[Step], Mapping[tuple[str, ...], Pushed]] | None = None
     rounding: float = 0.0
 
+    @property
+    def passing_heat(self) -> tuple[str, ...]:
+        """Labels of the contacts that pass heat between solids with a temperature."""
+        return () if self.ledger.heat is None else tuple(c.label for c in self.scene.contacts if c.heat is not None)
+
     def frame_due(self, before: float, after: float) -> bool:
         """True if a slab between two times [s] passes an instant at which a frame is stored, or reaches the end."""
         return frame_due(self.fields_every, self.until, before, after)
