@@ -244,6 +244,17 @@ def heat_flux(model: HeatModel, now: HeatValues) -> Array:
     return out
 
 
+def cell_values(model: HeatModel, body: str, now: HeatValues) -> dict[str, Array]:
+    """Heat fluxes (e, 3) [W/m^2] in the cells of a body, and liquid shares (e,) if it melts; empty without heat."""
+    out: dict[str, Array] = {}
+    for part in model.parts:
+        if part.name == body:
+            out["heat_flux"] = heat_flux(model, now)[part.cells]
+            if part.law.latent is not None:
+                out["liquid"] = now.melted[part.cells]
+    return out
+
+
 def _conductivity(cells: HeatCells, temperature: Array, liquid: Array) -> tuple[Array, Array, Array]:
     """Conductivities (e, q, r), and their derivatives along the temperature and the liquid share of the cells."""
     r = cells.gradients.shape[-1]

@@ -234,12 +234,10 @@ def _stress(model: Model, name: str, state: State) -> Array:
 
 
 def _remembered(model: Model, part: DiscreteSolid, state: State) -> Mapping[str, Array]:
-    """History variables of the cells of a solid, arrays (cells,) by name, and the liquid share where it melts."""
+    """History variables of the cells of a solid, arrays (cells, ...) by name, with its heat flux and liquid share."""
     found = dict(part.internal.stored_scalars(state.memory.get(part.name)))
     for _, of_heat in temperatures_of(model.companions):
-        liquid = of_heat.liquid(part.name, model.join(state.fields[of_heat.field.name]))
-        if liquid is not None:
-            found["liquid"] = liquid
+        found.update(of_heat.in_cells(part.name, model.join(state.fields[of_heat.field.name])))
     return found
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from softway.arrays import IntArray
 from softway.bodies.assembled.material_states import scaled
-from softway.bodies.conductor import Conductor, RigidThermal, Thermal, conduction_laws
+from softway.bodies.conductor import Conductor, RigidThermal, Thermal, conduction_laws, sample_temperature
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.setup.heat_loads import HeatLoad, place_of
 from softway.bodies.setup.loads import Gravity, Traction
@@ -144,6 +144,8 @@ def _free_strain(heat: HeatModel, thermals: Mapping[str, Thermal]) -> FreeStrain
 
 def _conductor(part: DiscreteSolid, thermal: Thermal) -> Conductor:
     """The solid as a conductor of heat."""
+    with within("thermal.temperature"):
+        sample_temperature(thermal.temperature, part.mesh)
     laws = conduction_laws(thermal.law).values()
     sharp = any(law.latent is not None and not law.latent.half_range for law in laws)
     if sharp and "hex20" in part.mesh.blocks:

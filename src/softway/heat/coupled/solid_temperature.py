@@ -22,7 +22,7 @@ from softway.heat.heat_balance import Stage, put_at_once
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_plan import knots
 from softway.heat.heat_slab import is_weak, linear_factor
-from softway.heat.operators import HeatValues, heat_values, unknowns_of
+from softway.heat.operators import HeatValues, cell_values, heat_values, unknowns_of
 from softway.model.field import Field, FieldSlab, FieldSolution, FieldState, StopsInSlab
 
 TEMPERATURE = Field(name="temperature", unit="K", components=1)
@@ -237,12 +237,11 @@ class SolidTemperature:
         """Temperatures (k + r,) from those (n, 1) of all nodes, of the rigid bodies the initial ones [K]."""
         return np.concatenate([values[self.nodes, 0], self.model.initial[len(self.nodes) :]])
 
-    def liquid(self, solid: str, values: Array) -> Array | None:
-        """Liquid shares (e,) of the cells of a solid at temperatures (n, 1) [K]; None if it does not melt."""
-        for part in self.model.parts:
-            if part.name == solid and part.law.latent is not None:
-                return self.contents(values).melted[part.cells]
-        return None
+    def in_cells(self, solid: str, values: Array) -> dict[str, Array]:
+        """Mean heat fluxes (e, 3) [W/m^2] in the cells of a solid, in the axes and per area of the reference state, and
+        liquid shares (e,) if it melts, at temperatures (n, 1) [K]; empty without heat.
+        """
+        return cell_values(self.model, solid, self.contents(values))
 
     def _values(self, state: FieldState) -> HeatValues:
         """Temperatures and contents of a state."""

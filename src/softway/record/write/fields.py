@@ -19,7 +19,7 @@ FILE = "fields.vtkhdf"
 POINT_DATA = {"displacement": "m", "velocity": "m/s", "contact_force": "N"}
 CELL_DATA = {"stress": "Pa", "von_mises": "Pa"}
 """Names and units of the fields in every frame."""
-MORE = {"contact_pressure": "Pa", "tangential_traction": "Pa", "dissipation": "J/m^3"}
+MORE = {"contact_pressure": "Pa", "tangential_traction": "Pa", "dissipation": "J/m^3", "heat_flux": "W/m^2"}
 """Units of the further fields of a run with contact, friction or a history-dependent law; other fields have none."""
 
 
@@ -107,11 +107,11 @@ def _tractions(cells: Layout, opening: RunStart, state: State, force: Array) -> 
 
 
 def _past(cells: Layout, opening: RunStart, state: State) -> dict[str, Array]:
-    """History variables (e,) of the cells by name; zero in solids without history."""
+    """History variables (e, ...) of the cells by name; zero in solids without history."""
     found = [opening.remembered[name](state) if name in opening.remembered else {} for name in cells.bodies]
     counts = [mesh.n_cells for mesh in opening.meshes.values()]
-    names = dict.fromkeys(name for one in found for name in one if name.isidentifier())
+    shapes = {name: values.shape[1:] for one in found for name, values in one.items() if name.isidentifier()}
     return {
-        name: np.concatenate([one.get(name, np.zeros(n)) for one, n in zip(found, counts, strict=True)])
-        for name in names
+        name: np.concatenate([one.get(name, np.zeros((n, *shape))) for one, n in zip(found, counts, strict=True)])
+        for name, shape in shapes.items()
     }

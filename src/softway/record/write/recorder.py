@@ -49,7 +49,7 @@ class RunStart:
     initial, ledger
         Initial state, and its energy and momentum audit.
     remembered
-        For each solid with history, a function from a state to the history variables of its cells: arrays (e,) by name.
+        For each solid with history, a function from a state to the history variables of its cells: (e, ...) by name.
     spread
         Function from a state and contact forces (n, k) of all nodes [N] to forces per current area (n, k) [Pa].
     until

@@ -1,4 +1,4 @@
-"""Heat that has passed a contact, in the events of a run."""
+"""Heat that has passed a contact in the events of a run, heat fluxes in its frames, and the place of a wrong one."""
 
 import numpy as np
 import pytest
@@ -47,3 +47,19 @@ def test_events_tell_the_heat_that_has_passed(tmp_path) -> None:
 def test_events_of_contacts_without_heat_have_no_such_column(tmp_path) -> None:
     run = ran(tmp_path, "")
     assert "heat" not in run.events and events.HEAT[0][0] == "heat"
+
+
+def test_frames_have_the_flux_of_the_cells(tmp_path) -> None:
+    """Conductivity times the gradient of the temperature, in bars of four cells."""
+    last = ran(tmp_path, "heat = { conductance = 0.5 }").fields[-1]
+    falls = -np.diff(last["temperature"].reshape(2, 5), axis=1).ravel() / 0.25
+    assert falls.max() > 1.0
+    np.testing.assert_allclose(last["heat_flux"][:, 0], 0.01 * falls, rtol=1e-12, atol=1e-12)
+    assert not last["heat_flux"][:, 1:].any()
+
+
+def test_a_temperature_below_zero_is_refused_at_its_place() -> None:
+    text = BLOCKS.format(heat="").replace("temperature = 400.0", "temperature = -5.0")
+    with pytest.raises(sw.InputError, match="in kelvin") as error:
+        sw.check(sw.loads(text))
+    assert error.value.where == "bodies.hot.thermal.temperature"
