@@ -71,8 +71,8 @@ def _furnish(body: dict[str, Any], where: str) -> None:
     if (
         isinstance(given, dict)
         and "library" not in given
-        and given.get("kind") not in kinds(members(Law))
         and named(given.get("kind"))
+        and given["kind"] not in kinds(members(Law))
     ):
         given = {"library": given["kind"], **{key: value for key, value in given.items() if key != "kind"}}
     if isinstance(given, str) and given not in kinds(members(Law)):
