@@ -4,7 +4,7 @@ import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
@@ -124,7 +124,7 @@ class Kind:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fields:
-    """Frames of a run; ``fields[k]`` reads one, and negative numbers count from the end.
+    """Frames of a run; ``fields[k]`` reads one, negative numbers count from the end, ``fields[::10]`` reads a tuple.
 
     ``keep`` is an object that must live as long as the file, such as the holder of a temporary folder.
     """
@@ -139,7 +139,18 @@ class Fields:
     def __iter__(self) -> Iterator[Frame]:
         return (self[k] for k in range(len(self)))
 
-    def __getitem__(self, k: int) -> Frame:
+    @overload
+    def __getitem__(self, k: int) -> Frame: ...
+
+    @overload
+    def __getitem__(self, k: slice) -> tuple[Frame, ...]: ...
+
+    def __getitem__(self, k: int | slice) -> Frame | tuple[Frame, ...]:
+        if isinstance(k, slice):
+            return tuple(self._frame(one) for one in range(len(self))[k])
+        return self._frame(k)
+
+    def _frame(self, k: int) -> Frame:
         with reading(self.path, REMEDY) as file:
             root = file["VTKHDF"]
             count = _count(root)
