@@ -62,14 +62,15 @@ def heat_model(
     loads: Mapping[int, HeatLoad],
     contacts: tuple[HeatContact, ...] = (),
     lumps: tuple[Lump, ...] = (),
+    key: str = "",
 ) -> HeatModel:
-    """Discretise conductors and rigid bodies, with loads by their numbers in a scene; errors as :func:`build_heat`."""
+    """Model of conductors, or of the ``key`` of solids, with loads by their numbers; errors as :func:`build_heat`."""
     parts: list[HeatPart] = []
     cells: list[HeatCells] = []
     simplices: list[Simplices] = []
     masses, initial, n, e = [], [], 0, 0
     for name, body in bodies.items():
-        with within(f"bodies.{name}"):
+        with within(f"bodies.{name}.{key}".rstrip(".")):
             part, section, laws, mass = _part(name, body, n, e)
             cells.extend(_cells(part, section, laws))
             simplices.extend(() if body.latent == "front" else _simplices(part, section, laws))

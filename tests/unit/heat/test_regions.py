@@ -171,3 +171,18 @@ def test_a_node_between_regions_has_the_mean_of_their_effusivities() -> None:
     )  # fmt: skip
     found = regional_laws(body, mesh).effusivity(mesh, np.full(4, 0.25))
     np.testing.assert_allclose(found, [10.0, 10.0, 6.5, 3.0, 3.0], rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "where"),
+    [
+        ({"law": {"in": STEEL, "nowhere": FELT}}, "bodies.b.thermal.law"),
+        ({"temperature": (300.0, 310.0)}, "bodies.b.thermal.temperature"),
+    ],
+)
+def test_wrong_heat_of_a_solid_is_named_where_it_stands(wrong: dict, where: str) -> None:
+    thermal = Thermal(**{"law": LAYERS, "temperature": 300.0} | wrong)
+    solid = sw.Solid(mesh=layered("quad4"), material=sw.LinearElastic(E=1.0), density=1.0, thermal=thermal)
+    with pytest.raises(sw.InputError) as found:
+        sw.build(sw.Scene(bodies={"b": solid}))
+    assert found.value.where.startswith(where)

@@ -7,7 +7,7 @@ import numpy as np
 
 from softway.arrays import IntArray
 from softway.bodies.assembled.material_states import scaled
-from softway.bodies.conductor import Conductor, RigidThermal, Thermal, conduction_laws, sample_temperature
+from softway.bodies.conductor import Conductor, RigidThermal, Thermal, conduction_laws
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.setup.heat_loads import HeatLoad, place_of
 from softway.bodies.setup.loads import Gravity, Traction
@@ -96,7 +96,7 @@ def with_temperature(
             if table is not None:
                 elastic.extend(elastic_terms(number, part, min(table.values)))
             softened.extend(point_temperatures(number, part, table is not None, expands))
-    heat = heat_model(conductors, loads, lumps=lumps)
+    heat = heat_model(conductors, loads, lumps=lumps, key="thermal")
     nodes = np.concatenate([np.arange(part.nodes.start, part.nodes.stop) for part in parts.values()])
     always, stops = through_links(model.scene.mechanism, lumps, len(nodes))
     heat = replace(heat, exchanges=(*through_ties(model, thermals, nodes, len(lumps)), *always))
@@ -144,8 +144,6 @@ def _free_strain(heat: HeatModel, thermals: Mapping[str, Thermal]) -> FreeStrain
 
 def _conductor(part: DiscreteSolid, thermal: Thermal) -> Conductor:
     """The solid as a conductor of heat."""
-    with within("thermal.temperature"):
-        sample_temperature(thermal.temperature, part.mesh)
     laws = conduction_laws(thermal.law).values()
     sharp = any(law.latent is not None and not law.latent.half_range for law in laws)
     if sharp and "hex20" in part.mesh.blocks:
