@@ -182,12 +182,12 @@ def balance(model: HeatModel, before: HeatValues, stage: Stage, unknowns: Array,
         if matrix is not None:
             matrix = matrix + exchange.matrix()
     values = gained + h * flow
-    for surface, factor in zip(model.surfaces, _factors(model, stage), strict=True):
+    for surface, factor in zip(model.surfaces, factors(model, stage), strict=True):
         heat, slope = surface_heat(surface, mean, factor)
         values, moved = values - h * (surface.points.T @ heat), moved + h * np.abs(heat).sum()
         if matrix is not None and slope.any():
             matrix = matrix - surface.points.T @ sp.diags_array(slope) @ surface.points
-    for power in _powers(model, stage):
+    for power in powers(model, stage):
         values, moved = values - h * power, moved + h * np.abs(power).sum()
     total = None if matrix is None else _matrix(after, matrix, by_liquid, theta * h)
     strain = None if stage.strain is None else stage.strain.over(h, before, after)
@@ -233,9 +233,9 @@ def heats(model: HeatModel, before: HeatValues, stage: Stage, found: Balance) ->
     """Heat that came in by each load on a surface, each source and each prescribed temperature, in this order [J]."""
     surfaces = [
         surface_heat(surface, found.mean, factor)[0].sum() * stage.span
-        for surface, factor in zip(model.surfaces, _factors(model, stage), strict=True)
+        for surface, factor in zip(model.surfaces, factors(model, stage), strict=True)
     ]
-    sources = [power.sum() * stage.span for power in _powers(model, stage)]
+    sources = [power.sum() * stage.span for power in powers(model, stage)]
     return np.array([*surfaces, *sources, *(found.values[nodes].sum() for _, nodes in model.held)])
 
 
@@ -247,10 +247,10 @@ def passed(model: HeatModel, stage: Stage, found: Balance) -> Array:
 def entropy_brought(model: HeatModel, stage: Stage, found: Balance) -> float:
     """Entropy that loads brought [J/K]: their heats over the temperatures at which they came in."""
     total = 0.0
-    for surface, factor in zip(model.surfaces, _factors(model, stage), strict=True):
+    for surface, factor in zip(model.surfaces, factors(model, stage), strict=True):
         heat, _ = surface_heat(surface, found.mean, factor)
         total += stage.span * float((heat / (surface.points @ found.mean)).sum())
-    for power in _powers(model, stage):
+    for power in powers(model, stage):
         total += stage.span * float((power / found.mean).sum())
     held = ~model.free_nodes()
     return total + float((found.values[held] / found.mean[held]).sum())
@@ -282,11 +282,11 @@ def rounding(model: HeatModel, before: HeatValues, stage: Stage) -> float:
     return ROUNDING * total
 
 
-def _factors(model: HeatModel, stage: Stage) -> list[float]:
-    """mean factors of the loads on surfaces."""
+def factors(model: HeatModel, stage: Stage) -> list[float]:
+    """Mean factors of the loads on surfaces in a stage."""
     return [surface.load.ramp.mean(stage.start, stage.end) for surface in model.surfaces]
 
 
-def _powers(model: HeatModel, stage: Stage) -> list[Array]:
-    """Mean powers (n,) of the sources [W]."""
+def powers(model: HeatModel, stage: Stage) -> list[Array]:
+    """Mean powers (n,) of the sources in a stage [W]."""
     return [load.value * load.ramp.mean(stage.start, stage.end) * at for load, at in model.sources]

@@ -95,8 +95,16 @@ def heat_at_rest(
     NoConvergence
         If the heats of the nodes cannot be balanced.
     """
+    return _solved(model, before, stage, halves, factor).after
+
+
+def _solved(
+    model: HeatModel, before: HeatValues, stage: Stage, halves: bool, factor: HeatFactor | None,
+    guess: Array | None = None,
+) -> StageResult:  # fmt: skip
+    """Result of a slab, whose failure is one of the slab and not of the march."""
     try:
-        return solve_slab(model, before, stage, halves, factor).after
+        return solve_slab(model, before, stage, halves, factor, guess=guess)
     except NumericsError as error:
         raise NoConvergence(error.what) from None
 
@@ -257,11 +265,8 @@ class SlabTemperature:
             found = balanced_heats(model, before, stage, strain, before.unknowns if guess is None else guess, floor)
             if found is not None:
                 return result_of(model, before, stage, found, 1, factor, floor)
-        try:
-            with np.errstate(invalid="ignore", over="ignore"):  # moduli at temperatures that are only tried
-                return solve_slab(model, before, stage, halves, factor, guess=guess)
-        except NumericsError as error:
-            raise NoConvergence(error.what) from None
+        with np.errstate(invalid="ignore", over="ignore"):  # moduli at temperatures that are only tried
+            return _solved(model, before, stage, halves, factor, guess)
 
     def _expected(self) -> Array | None:
         """Unknowns (k + r,) of the iterate before; None at the first one."""

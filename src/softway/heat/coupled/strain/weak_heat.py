@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from softway.arrays import Array
 from softway.bodies.setup.heat_loads import Convection, HeatFlux
 from softway.heat.coupled.strain.moduli import ElasticHeat
-from softway.heat.heat_balance import Balance, Stage, prescribed
+from softway.heat.heat_balance import Balance, Stage, factors, powers, prescribed
 from softway.heat.heat_contact import HeatExchange
 from softway.heat.heat_model import HeatModel
 from softway.heat.heat_slab import MOVING
@@ -38,10 +38,9 @@ def balanced_heats(
     """
     assert model.conduction is not None and model.capacity is not None
     end, given, fluids = prescribed(model, guess, stage.end), stage.span * strain.power, []
-    for source, at in model.sources:
-        given = given + stage.span * source.value * source.ramp.mean(stage.start, stage.end) * at
-    for surface in model.surfaces:
-        factor = surface.load.ramp.mean(stage.start, stage.end)
+    for power in powers(model, stage):
+        given = given + stage.span * power
+    for surface, factor in zip(model.surfaces, factors(model, stage), strict=True):
         match surface.load:
             case HeatFlux(value=flux):
                 given = given + stage.span * (surface.points.T @ (surface.areas * flux * factor))
@@ -66,7 +65,8 @@ def balanced_heats(
 
 def _rows(matrix: sp.csr_array) -> tuple[NDArray[np.uint32], NDArray[np.uint32], Array]:
     """Pointers of the rows, columns and values of a matrix; unsigned: no wrap-around of negative indices."""
-    return matrix.indptr.astype(np.uint32), matrix.indices.astype(np.uint32), matrix.data
+    indptr, indices = (index.astype(np.int32, copy=False).view(np.uint32) for index in (matrix.indptr, matrix.indices))
+    return indptr, indices, matrix.data
 
 
 def _linked(links: Sequence[HeatExchange], n: int) -> tuple[Array | NDArray[np.uint32], ...]:
