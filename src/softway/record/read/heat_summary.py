@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from softway.record.storage.table import Table
 from softway.record.write.history_columns import LIQUID, RIGID
 
@@ -47,13 +49,14 @@ def summarise_solids(history: Table) -> dict[str, float]:
     if "heat.content" not in history:
         return {}
     ends = [name for name in history if name.startswith((LIQUID, RIGID))]
+    entropy = history["heat.entropy"]  # produced since the start
     return {
         **{f"heat_{name}": float(history[f"heat.{name}"][-1]) for name in ("brought", "received", "friction")},
         "heat_content_end": float(history["heat.content"][-1]),
         "cold_work": float(history["heat.cold_work"][-1]),
         "heat_error_worst": float(abs(history["heat.error"]).max()),
-        "entropy_produced": float(history["heat.entropy"].sum()),
-        "entropy_least": float(history["heat.entropy"].min()),
+        "entropy_produced": float(entropy[-1]),
+        "entropy_least": float(np.diff(entropy, prepend=0.0).min()),
         **{name: float(history[name][-1]) for name in ends},
     }
 
