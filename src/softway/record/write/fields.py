@@ -1,5 +1,6 @@
 """fields.vtkhdf: deformed solids with their fields at a series of instants, in the format of grid_series.py."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -90,7 +91,7 @@ def _frame(cells: Layout, opening: RunStart, state: State) -> GridFrame:
             "displacement": displacement,
             "velocity": cells.nodal(state.velocity),
             "contact_force": force,
-            **{name: np.concatenate([values[body] for body in cells.bodies]) for name, values in state.fields.items()},
+            **{name: _at_nodes([values[body] for body in cells.bodies]) for name, values in state.fields.items()},
         },
         in_cells={**_past(cells, opening, state), "stress": components(stress), "von_mises": von_mises(stress)},
     )
@@ -115,3 +116,9 @@ def _past(cells: Layout, opening: RunStart, state: State) -> dict[str, Array]:
         name: np.concatenate([one.get(name, np.zeros((n, *shape))) for one, n in zip(found, counts, strict=True)])
         for name, shape in shapes.items()
     }
+
+
+def _at_nodes(values: Sequence[Array]) -> Array:
+    """Values (n, k) of a field at the nodes of all bodies; (n,) of a scalar."""
+    whole = np.concatenate(values)
+    return whole[:, 0] if whole.shape[1] == 1 else whole

@@ -44,6 +44,16 @@ def test_events_tell_the_heat_that_has_passed(tmp_path) -> None:
     assert 0.0 < told["heat"][0] < told["heat"][1] == pytest.approx(history["heat.through.meet"][-1], rel=1e-9)
 
 
+def test_summary_tells_the_entropy_of_the_whole_run(tmp_path) -> None:
+    """Two insulated bars that exchange heat: sum of C ln(T / T0) of their nodes."""
+    run = ran(tmp_path, "heat = { conductance = 0.5 }")
+    end = run.fields[-1]
+    assert end.time == pytest.approx(4.0)
+    capacity, start = np.tile([0.125, 0.25, 0.25, 0.25, 0.125], 2), np.repeat([400.0, 300.0], 5)
+    produced = float((capacity * np.log(end["temperature"] / start)).sum())
+    assert run.summary["heat"]["entropy_produced"] == pytest.approx(produced, rel=1e-6)
+
+
 def test_events_of_contacts_without_heat_have_no_such_column(tmp_path) -> None:
     run = ran(tmp_path, "")
     assert "heat" not in run.events and events.HEAT[0][0] == "heat"
