@@ -37,6 +37,8 @@ TOP = (
     "heat_links",
 )
 """Top-level keys of a scenario that users may put inside a body by mistake."""
+OF_BODIES = ("mesh", "material", "density", "velocity", "supports", "thermal")
+"""Keys of bodies that users may put at the top level by mistake."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -230,9 +232,13 @@ def _check_keys(value: Mapping[str, Any], cls: type, where: str, unit: str | Non
     known = inputs(cls)
     for key, given in value.items():
         if key not in known and key != "kind":
-            top = f"'{key}' at the top level of the file; " if where and key in TOP else ""
+            place = ""
+            if where and key in TOP:
+                place = f"'{key}' at the top level of the file; "
+            elif not where and key in OF_BODIES:
+                place = f"'{key}' in the table of its body, bodies.NAME.{key}; "
             problem = f"unknown key (value {given!r}); {cls.__name__}"
-            raise InputError(join(where, key), problem, top + nearest(key, known))
+            raise InputError(join(where, key), problem, place + nearest(key, known))
     kind = str(value.get("kind", cls.__name__))
     if "kind" not in known and kind.rpartition(":")[2] != cls.__name__:
         raise InputError(join(where, "kind"), f"{kind!r} is unknown", nearest(kind, [cls.__name__]))

@@ -100,6 +100,12 @@ TABLE: Table = {
     "kind of one": Try(PLANE, "output={kind='Outpt'}", "Output", "output.kind=Output"),
     "unknown key": read("[time]\nend = 1\nstp = 1", "step", "[time]\nend = 1\nstep = 1"),
     "key elsewhere": read("[time]\nend = 1\nloads = []", "at the top level", "loads = []\n[time]\nend = 1", "known"),
+    "key of a body": Try(
+        PLANE,
+        "supports=[{kind='Fixed', on='bottom'}]",
+        "bodies.NAME.supports",
+        f"{B}.supports=[{{kind='Fixed', on='bottom'}}] & contacts=[]",
+    ),  # fmt: skip
     "missing key": read("[time]", "end =", "[time]\nend = 1"),
     "missing mesh": Try(PLANE, f"{B}.mesh={{kind='MeshFile'}}", "add path", f"{B}.mesh.path=tagged.inp & contacts=[]"),
     "no dataclass": Try(
