@@ -266,8 +266,8 @@ VARIANTS: Mapping[str, Variant] = {
         },
     ),
     "freezing_drop": Variant(
-        changes=("bodies.drop.mesh.cells=3", "time.end=1.5 ms"),
-        same="the drop spreads and begins to freeze; larger cells, a quarter of the time",
+        changes=("bodies.drop.mesh.cells=3", "time.step=75 us", "time.end=1.2 ms"),
+        same="the drop spreads and begins to freeze; larger cells, shorter slabs, a fifth of the time",
         held={"drop": {"axis": (0,), "boundary": (0, 1)}},  # the drop starts in touch with the plate
     ),
     "snap_fit": Variant(
