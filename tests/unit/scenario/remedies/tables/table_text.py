@@ -4,7 +4,7 @@ from math import inf
 from pathlib import Path
 
 import numpy as np
-from try_it import PLANE, UNITS, Call, Table, Try
+from try_it import PLANE, SOLID, UNITS, Call, Table, Try
 
 from softway.bodies.prescribed_motion import Still
 from softway.bodies.solid import Solid, Tool
@@ -100,12 +100,11 @@ TABLE: Table = {
     "kind of one": Try(PLANE, "output={kind='Outpt'}", "Output", "output.kind=Output"),
     "unknown key": read("[time]\nend = 1\nstp = 1", "step", "[time]\nend = 1\nstep = 1"),
     "key elsewhere": read("[time]\nend = 1\nloads = []", "at the top level", "loads = []\n[time]\nend = 1", "known"),
-    "key of a body": Try(
-        PLANE,
-        "supports=[{kind='Fixed', on='bottom'}]",
+    "key of a body": Call(
+        lambda _: loads("supports = [{ on = 'bottom' }]" + PLANE, units=UNITS),
         "bodies.NAME.supports",
-        f"{B}.supports=[{{kind='Fixed', on='bottom'}}] & contacts=[]",
-    ),  # fmt: skip
+        lambda _: loads(PLANE.replace(SOLID, SOLID + "supports = [{ on = 'bottom' }]\n"), units=UNITS),
+    ),
     "missing key": read("[time]", "end =", "[time]\nend = 1"),
     "missing mesh": Try(PLANE, f"{B}.mesh={{kind='MeshFile'}}", "add path", f"{B}.mesh.path=tagged.inp & contacts=[]"),
     "no dataclass": Try(
