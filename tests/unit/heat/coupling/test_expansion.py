@@ -74,6 +74,24 @@ def test_the_recorded_stress_contains_that_of_the_temperature(kind: str) -> None
     np.testing.assert_allclose(stress[:, 1:], 0.0, atol=1e-10)
 
 
+@pytest.mark.parametrize("clamped", [False, True])
+@pytest.mark.parametrize("law", ["linear", "strong"])
+def test_plane_strain_holds_the_expansion_out_of_the_plane(law: str, clamped: bool) -> None:
+    """Along the held axes ``-E e`` of one and ``-E e / (1 - nu)`` of two, and von Mises the same in both cases."""
+    laws = {"linear": LINEAR, "strong": sw.laws.J2(E=E, nu=NU, yield_stress=1.0)}
+    body = block(2, PlaneStrain(), laws[law], "quad4")
+    if clamped:
+        body = replace(body, supports=(*body.supports, Fixed(on="right", components="x")))
+    load = sw.heat.HeatSource(of="b", value=RHO * C * 50.0)
+    run = sw.run(Scenario(bodies={"b": body}, loads=(load,), inertia=sw.bodies.Off(), time=Time(end=1.0, step=0.5)))
+    frame = run.fields[-1]
+    held = E * ALPHA * (frame["temperature"].mean() - THETA) / (1.0 - NU if clamped else 1.0)
+    expected = [-held if clamped else 0.0, 0.0, -held, 0.0, 0.0, 0.0]
+    small = 1e-9 if law == "linear" else 0.02 * held  # Cauchy stress of finite strains
+    np.testing.assert_allclose(frame.stress, np.tile(expected, (len(frame.stress), 1)), atol=small)
+    np.testing.assert_allclose(frame.von_mises, held, atol=small)
+
+
 def test_a_free_body_has_the_heat_capacity_at_constant_pressure() -> None:
     """It is greater by ``9 kappa alpha^2 theta``, the heat that the strain takes."""
     *_, last = heated(block(3, None, LINEAR, "hex8"), 50.0)

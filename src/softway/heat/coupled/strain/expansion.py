@@ -58,8 +58,9 @@ class Expansion:
         (p, m, D) or (1, m, D) reference directions of the points.
     small
         True for a law of the linear theory.
-    modulus
-        Stress that a free strain of one along each axis takes where it is held, k [Pa].
+    modulus, held
+        Stress that a free strain of one along each axis takes where it is held, k [Pa], and the number of axes along
+        which it is: in plane strain the one out of the plane, too.
     compiled
         Energies and forces by kernels; None where there are none for the elements.
     number, region
@@ -76,6 +77,7 @@ class Expansion:
     directions: Array
     small: bool
     modulus: float
+    held: int
     compiled: CompiledExpansion | None = None
     number: int = 0
     region: str = ""
@@ -105,7 +107,7 @@ class Expansion:
         mean = -self.sampling.cell_means(pressure, self.sampling.volume * ratio)
         axes = np.zeros((len(H), 3, 3))
         if m == size:
-            axes[:] = np.diag([1.0] * m + [0.0] * (3 - m))
+            axes[:] = self._held_axes()
         else:
             along = np.broadcast_to(self.directions, H.shape)[:, 0] + (0.0 if self.small else H[:, 0])
             along = along / np.linalg.norm(along, axis=1)[:, None]
@@ -119,8 +121,11 @@ class Expansion:
             at = at - (self.values @ factor[self.nodes]) * known
         ratio = np.exp(self.change(u[self.nodes])[0]) * state.lateral.prod(axis=1)
         mean = self.sampling.cell_means(self.modulus * at / ratio, self.sampling.volume * ratio)
-        m = self.directions.shape[-2]
-        return np.asarray(-mean[:, None, None] * np.diag([1.0] * m + [0.0] * (3 - m)))
+        return np.asarray(-mean[:, None, None] * self._held_axes())
+
+    def _held_axes(self) -> Array:
+        """Stress (3, 3) of a unit stress along each of the axes that are held."""
+        return np.diag([1.0] * self.held + [0.0] * (3 - self.held))
 
     def change(self, u: Array) -> tuple[Array, Array]:
         """Change of volume (p,), ln J or the trace of the strain, and its derivative (p, m, D) by the derivatives."""
@@ -238,6 +243,7 @@ def expansions(number: int, part: DiscreteSolid) -> Iterator[Expansion]:
             directions=internal.directions,
             small=small,
             modulus=modulus,
+            held=3 - len(free_axes(section)),
             compiled=compiled_expansion(part, internal.sampling, cells, nodes, modulus, small),
             number=number,
             region=region,
