@@ -129,9 +129,9 @@ def require_open(
         With the contact.
     """
     first, rows = pairs.start(now.start.displacement), pairs.at(coasting)
-    gap = rows.gap(coasting)
-    closing = np.where(first.near & rows.near, first.gap(now.start.displacement) - gap, 0.0)
-    closes = rows.near & ~now.closed & (closing > 0.0) & (gap < closing * later / length)
+    open_rows = first.near & rows.near & ~now.closed
+    before, gap = (np.where(open_rows, g, 0.0) for g in (first.gap(now.start.displacement), rows.gap(coasting)))
+    closes = open_rows & (gap < before) & (gap < (before - gap) * later / length)
     if closes.any():
         label = rows.labels[rows.contact[int(np.argmax(closes))]]
         raise TooFast(f"in {label} a node would touch inside a time step above the lowest rung")

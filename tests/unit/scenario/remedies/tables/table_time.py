@@ -67,6 +67,14 @@ TABLE: Table = {
         "time.weight.at=[0.5]",
     ),
     "control": Try(PLANE, "time.control={approach=-1}", "a positive number", "time.control.approach=1"),
+    "error of a slab": Try(PLANE, "time.tolerance=0", "1e-2", "time.tolerance=1e-2"),
+    "error, explicit": Try(PLANE, "time.tolerance=1e-2 & solver=Explicit", "FixedPoint", "solver=FixedPoint"),
+    "error, weight": Try(
+        PLANE, f"time.tolerance=1e-2 & contacts=[] & {MOMENTUM}", "EndPeaks with theta = 0.5", "time.weight=EndPeaks"
+    ),
+    "error, no inertia": Try(PLANE, f"time.tolerance=1e-2 & inertia=Off & {LOW}", "omit it", "time.tolerance!"),
+    "error, rigid": Try(BESIDE, "time.tolerance=1e-2", "omit it", "time.tolerance!"),
+    "error, heat": Try(PLANE, f"time.tolerance=1e-2 & {WARM}", "omit it", "time.tolerance!"),
     "tolerance": Try(PLANE, "solver={kind='FixedPoint', tolerance=1}", "at most 1e-2", "solver.tolerance=1e-2"),
     "limit": Try(PLANE, "solver={kind='Newton', limit=0}", "at least 1", "solver.limit=1"),
     "depth": Try(PLANE, "solver={kind='FixedPoint', depth=-1}", "about 8", "solver.depth=8"),
