@@ -51,9 +51,9 @@ class Time:
     control
         Limits for the acceptance of a slab; a rejected slab is repeated with a shorter length.
     tolerance
-        Error of the displacement in a slab, relative to the way in one ``step`` at the greatest velocity so far, up to
-        which slabs grow beyond ``step``, to at most ``control.longest`` of it, while nothing touches, parts, sticks or
-        slips; values between 0.01 and 0.1 are usual.  Without it all slabs have the length ``step``.
+        Error of the mean velocity of a node in a slab, relative to the greatest velocity so far, up to which slabs grow
+        beyond ``step``, to at most ``control.longest`` of it, while nothing touches, parts, sticks or slips; 0.01 to
+        0.1 are usual.  Without it all slabs have the length ``step``.
 
     Examples
     --------

@@ -101,7 +101,7 @@ CASES: dict[str, tuple[sw.Scene, dict[str, Any]]] = {
     "multigrid": (block(NEO), {"until": 0.4, "step": 0.1, "method": sw.FixedPoint(operator=sw.solve.Multigrid())}),
     "Newton": (block(NEO), {"until": 0.6, "step": 0.1, "method": sw.Newton()}),
     "explicit": (block(NEO, mass=sw.bodies.Lumped()), {"until": 0.5, "method": sw.Explicit()}),
-    "ladder": (block(NEO, gap=0.6), {"until": 4.0, "tolerance": 0.05}),
+    "ladder": (block(NEO, gap=1.0, speed=0.4), {"until": 4.0, "tolerance": 0.05}),
     "ladder, Impulse": (bar(sw.contact.Impulse(), at=2.0), {"until": 3.0, "step": 0.05, "tolerance": 0.05}),
     "Paper": (bar(sw.contact.Paper()), {"until": 1.5, "step": 0.05}),
     "Impulse": (bar(sw.contact.Impulse(), NEO), {"until": 1.5, "step": 0.05}),

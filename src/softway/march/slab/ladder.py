@@ -64,11 +64,11 @@ def on_ladder(settings: Settings, history: StepHistory, span: float) -> bool:
     return settings.tolerance is not None and span > 0.5 * history.span * (1.0 + ROUNDING)
 
 
-def displacement_error(now: ModelState, slab: Slab, after: ModelState) -> Array:
-    """Error (n, d) of the displacement in a slab, from the jump of the slopes of the velocity [m].
+def velocity_error(now: ModelState, slab: Slab, after: ModelState) -> Array:
+    """Error (n, d) of the mean velocity in a slab, from the jump of the slopes of the velocity [m/s].
 
     The velocity is linear in a slab.  Against an acceleration that changes at the rate ``a' = 2 |a1 - a0| / (h0 + h)``,
-    h0 and h the lengths of the slab before and of this one, the displacement has the error ``h^3 a' / 12``.
+    h0 and h the lengths of the slab before and of this one, its mean has the error ``h^2 a' / 12``.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def displacement_error(now: ModelState, slab: Slab, after: ModelState) -> Array:
     slab
         The slab.
     """
-    return slab.span**3 * np.abs(after.acceleration - now.acceleration) / (6.0 * (now.span + slab.span))
+    return slab.span**2 * np.abs(after.acceleration - now.acceleration) / (6.0 * (now.span + slab.span))
 
 
 def fastest(model: Model, history: StepHistory, *states: ModelState) -> float:
@@ -93,8 +93,7 @@ class Quality:
     Parameters
     ----------
     error
-        Greatest error of the displacement, relative to the way in the requested length at the greatest velocity so
-        far; infinite without an estimate.
+        Greatest error of the mean velocity, relative to the greatest velocity so far; infinite without an estimate.
     flow
         Energy that the materials dissipated in the slab, relative to the kinetic and stored energy.
     leap
@@ -110,21 +109,21 @@ class Quality:
         """Quality of a solved slab."""
         error = np.inf
         if now.span > 0.0:
-            found = np.where(model.massive[:, None], displacement_error(now, slab, after), 0.0)
-            error = _ratio(model.space.greatest(found), fastest(model, history, now, after) * history.span)
+            found = np.where(model.massive[:, None], velocity_error(now, slab, after), 0.0)
+            error = _ratio(model.space.greatest(found), fastest(model, history, now, after))
         return cls(error=error, flow=_flow(model, now, after), leap=_leap(model, now, slab, after))
 
     def excess(self, tolerance: float) -> str:
         """Reason to drop a slab above the lowest rung; empty if there is none."""
         if self.error > tolerance:
-            return f"error {self.error:.3g}"
+            return f"an error of {self.error:.3g} of the velocity"
         if self.flow > tolerance:
             return f"{self.flow:.3g} of the energy dissipated by the materials"
         return f"a way of {self.leap:.3g} edges near other surfaces" if self.leap > LEAP else ""
 
     def allows_twice(self, tolerance: float) -> bool:
-        """True if a slab of twice the length is expected to have a small error: eight times that of this one."""
-        return max(8.0 * self.error, 2.0 * self.flow) <= tolerance and 2.0 * self.leap <= LEAP
+        """True if a slab of twice the length is expected to have a small error: four times that of this one."""
+        return max(4.0 * self.error, 2.0 * self.flow) <= tolerance and 2.0 * self.leap <= LEAP
 
 
 def _ratio(value: float, scale: float) -> float:

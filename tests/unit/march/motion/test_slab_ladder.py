@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 import softway as sw
+from softway.apps.verify.cases.waves import a09_bouncing_bar as a09
+from softway.apps.verify.exact import bar as waves
 from softway.arrays import Array
 from softway.march.march_state import Settings, StepHistory
 from softway.march.results.step import Step
-from softway.march.slab.ladder import Quality, displacement_error, next_rung, rungs
+from softway.march.slab.ladder import Quality, next_rung, rungs, velocity_error
 from softway.model.slab import Slab
 
 END_PEAKS = sw.model.EndPeaks()
@@ -93,21 +95,18 @@ def test_without_a_tolerance_slabs_are_equal_and_keep_one_operator() -> None:
 
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-3, 1e-2])
 def test_a_vibration_takes_the_rung_of_its_error(tolerance: float) -> None:
-    """The lowest mode of a free bar: ``(h/h0)^3 (omega h0)^2 |cos(omega t)| / 12`` of the way in h0.
-
-    The way is that at the greatest velocity, and t the time at which the slope jumps.
-    """
+    """The lowest mode of a free bar: ``(omega h)^2 |cos(omega t)| / 12``, t the time at which the slope jumps."""
     steps = list(sw.march(vibrating(), until=0.7, step=0.002, tolerance=tolerance, control=LONG))
     h = lengths(steps)
     times = np.array([s.before.time for s in steps])
-    expected = h**3 * (OMEGA * steps[0].slab.span) ** 2 * np.abs(np.cos(OMEGA * times)) / 12.0
+    expected = (h * OMEGA * steps[0].slab.span) ** 2 * np.abs(np.cos(OMEGA * times)) / 12.0
     assert 0.5 * tolerance < expected[h > 1.5].max() < 1.05 * tolerance
 
 
 def test_the_error_of_a_vibration_falls_with_the_tolerance() -> None:
-    """Slabs half as long for an eighth of the tolerance: errors of the second order, a quarter."""
+    """Slabs half as long for a quarter of the tolerance: errors of the second order, a quarter."""
     errors = []
-    for tolerance in (8e-3, 1e-3):
+    for tolerance in (4e-3, 1e-3):
         steps = list(sw.march(vibrating(), until=0.7, step=0.001, tolerance=tolerance, control=LONG))
         moved = np.array([s.after.displacement["bar"][0, 0] for s in steps])
         exact = np.sin(OMEGA * np.array([s.after.time for s in steps])) / OMEGA
@@ -117,15 +116,15 @@ def test_the_error_of_a_vibration_falls_with_the_tolerance() -> None:
 
 @pytest.mark.parametrize("before", [0.5, 1.0, 4.0])
 def test_the_estimate_is_exact_for_an_acceleration_that_changes_linearly(before: float) -> None:
-    """Place t^3: the chord of the velocity 3 t^2 misses ``h^3/12`` times its second derivative of 6."""
+    """Place t^3: the mean of the chord of the velocity 3 t^2 is off by ``h^2/12`` times its second derivative, 6."""
     h = 2.0
     velocity = [3.0 * t**2 for t in (-before, 0.0, h)]
     slopes = ((velocity[1] - velocity[0]) / before, (velocity[2] - velocity[1]) / h)
     states = [
         SimpleNamespace(acceleration=np.full((1, 1), a), span=s) for a, s in zip(slopes, (before, h), strict=True)
     ]
-    found = displacement_error(states[0], Slab(start=0.0, end=h, weight=END_PEAKS), states[1])
-    assert found[0, 0] == pytest.approx(0.5 * h * (velocity[1] + velocity[2]) - h**3)
+    found = velocity_error(states[0], Slab(start=0.0, end=h, weight=END_PEAKS), states[1])
+    assert found[0, 0] == pytest.approx(0.5 * (velocity[1] + velocity[2]) - h**2)
 
 
 def test_a_load_that_comes_without_notice_drops_a_long_slab() -> None:
@@ -172,9 +171,9 @@ def settings(**given: object) -> Settings:
 @pytest.mark.parametrize(
     ("error", "flow", "leap", "smooth", "expected"),
     [
-        (0.012, 0.0, 0.0, 2, (2.0, 0)),
-        (0.012, 0.0, 0.0, 1, (1.0, 2)),
-        (0.013, 0.0, 0.0, 2, (1.0, 0)),
+        (0.024, 0.0, 0.0, 2, (2.0, 0)),
+        (0.024, 0.0, 0.0, 1, (1.0, 2)),
+        (0.026, 0.0, 0.0, 2, (1.0, 0)),
         (np.inf, 0.0, 0.0, 2, (1.0, 0)),
         (0.0, 0.06, 0.0, 2, (1.0, 0)),
         (0.0, 0.0, 0.6, 2, (1.0, 0)),
@@ -214,3 +213,25 @@ def test_a_tolerance_without_inertia_is_refused() -> None:
     scene = replace(bar(supports=(sw.Fixed(on="right"),)), inertia=sw.bodies.Off())
     with pytest.raises(sw.InputError, match="without inertia"):
         sw.march(scene, until=1.0, tolerance=0.1)
+
+
+def force_error(steps: list[Step], until: float) -> float:
+    """Root of the mean square of the error of the force in case A09, relative to the force."""
+    exact = waves.solve(a09.BAR, until)
+    t = (np.arange(5000) + 0.5) * until / 5000
+    of = np.searchsorted([s.after.time for s in steps[:-1]], t)
+    force = np.array([s.ledger.contacts["bar.left-floor"].force_n for s in steps])[of]
+    wanted = np.array([exact.force(x) for x in t.tolist()])
+    return float(np.sqrt(np.sum((force - wanted) ** 2) / np.sum(wanted**2)))
+
+
+@pytest.mark.slow
+def test_the_bouncing_bar_of_a09_needs_fewer_slabs_for_the_same_force() -> None:
+    """Two contacts with 100 cells: at most 60 % of the slabs, no greater error, 8 factors; measured 36 %."""
+    scene = replace(bar(100), loads=(GRAVITY,))
+    equal = list(sw.march(scene, until=5.0))
+    found = list(sw.march(scene, until=5.0, tolerance=0.05))
+    assert len(found) <= 0.6 * len(equal)
+    assert force_error(found, 5.0) <= force_error(equal, 5.0)
+    assert found[-1].report.factorisations <= 8
+    assert max(abs(s.ledger.energy_error) for s in found) < 1e-12 * a09.ENERGY
