@@ -54,7 +54,7 @@ class StepControl:
         True for slabs that end where loads and prescribed motions bend: at knots of their tables that are half a slab
         or more apart.
     longest
-        Longest slab under a tolerance, in requested lengths.
+        Longest slab under a tolerance, in requested lengths; every power of two up to it has an operator of its own.
 
     References
     ----------

@@ -141,7 +141,7 @@ def test_a_march_goes_on_with_the_same_bits(name: str) -> None:
     whole = list(sw.march(model, **asked))
     assert any(s.ledger.contacts and next(iter(s.ledger.contacts.values())).force_n > 0.0 for s in whole), "no contact"
     assert name != "rejections" or any(s.report.rejections for s in whole)
-    assert not name.startswith("ladder") or len({round(s.slab.span / whole[0].slab.span, 9) for s in whole}) > 3
+    assert not name.startswith("ladder") or len({round(s.slab.span / whole[0].slab.span, 9) for s in whole}) >= 3
     for k in {len(whole) // 3, 2 * len(whole) // 3}:
         rest = list(sw.march(model, state=kept(whole[k].march_state), **asked))
         assert len(rest) == len(whole) - k - 1

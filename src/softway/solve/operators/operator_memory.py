@@ -214,8 +214,7 @@ class OperatorMemory:
         others = (present, *(m for m in self.others if m not in kept))[: self.room]
         if not kept:
             return replace(self, others=others)
-        counts = {"factorisations": self.factorisations, "renewals": self.renewals}
-        return replace(kept[0], others=others, **counts)
+        return replace(kept[0], others=others, factorisations=self.factorisations, renewals=self.renewals)
 
     def serves(self, span: float) -> bool:
         """True if the operator is that of the slab length ``span`` [s] of the default time weight."""
