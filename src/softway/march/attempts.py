@@ -19,9 +19,10 @@ from softway.march.results.step import Certificate, Ledger
 from softway.march.results.trying import watched
 from softway.march.rules.slab_rule import Attempt, SlabRule
 from softway.march.slab.endings import crushed, reason, remedy, touching
-from softway.march.slab.ladder import before_event, fault
 from softway.march.slab.slab_step import Stepper, advance
 from softway.march.start.knots import slab_end
+from softway.march.start.ladder import before_event, fault
+from softway.march.start.slab_length import proposed
 from softway.march.step_control import CRAWL, ENDLESS, above
 from softway.model.model import Model
 from softway.model.slab import Slab
@@ -80,15 +81,7 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
         end = slab_end(stepper.ends, settings.until, now.time, length)
         slab = Slab(start=now.time, end=end, weight=_weight(stepper.model, march_state))
         try:
-            attempt = Attempt(
-                approach=settings.control.approach,
-                lowest=np.inf if settings.tolerance is None else history.span,
-                energy_along_motion=unbalanced >= PATIENCE,
-                cancel=stepper.cancel,
-                effort=_effort(stepper, march_state.slabs + 1, slab),
-                positive_definite=positive_definite,
-                rested=history.halted,
-            )
+            attempt = _attempt(stepper, march_state, slab, unbalanced >= PATIENCE, positive_definite)
             found = _on_rung(stepper, march_state, slab, memory, attempt)
             return replace(found, rejections=tuple(reasons), halted=halted)
         except _Dropped as failure:
@@ -108,7 +101,7 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
             stepper, fresh, memory = replace(first, rule=rule), True, memory.failed()
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
     told = reason(march_state, reasons, crawls) + touching(stepper.model, now) + crushed(stepper.model, now)
-    raise NumericsError(told, now.time, remedy(stepper, march_state))
+    raise NumericsError(told, now.time, _remedy(stepper, march_state))
 
 
 def _other_way(first: Stepper, rule: SlabRule, failed: Attempt) -> tuple[SlabRule, bool]:
@@ -130,6 +123,29 @@ def _weight(model: Model, march_state: MarchState) -> TimeWeight:
     """Virtual time function of the next slab: after a stop that of a damped slab if there are massless nodes."""
     damped = march_state.step_history.halted and not model.space.every(model.massive)
     return DAMPED if damped else march_state.settings.weight
+
+
+def _attempt(
+    stepper: Stepper, march_state: MarchState, slab: Slab, energy_along_motion: bool, positive_definite: bool
+) -> Attempt:
+    """Attempt at the next slab."""
+    settings, history = march_state.settings, march_state.step_history
+    return Attempt(
+        approach=settings.control.approach,
+        lowest=np.inf if settings.tolerance is None else history.span,
+        energy_along_motion=energy_along_motion,
+        cancel=stepper.cancel,
+        effort=_effort(stepper, march_state.slabs + 1, slab),
+        positive_definite=positive_definite,
+        rested=history.halted,
+    )
+
+
+def _remedy(stepper: Stepper, march_state: MarchState) -> str:
+    """Possible remedies if no time step was accepted."""
+    settings = march_state.settings
+    usual = proposed(stepper.model, "auto", settings.weight, settings.until, settings.method)
+    return remedy(stepper, march_state, usual)
 
 
 def _effort(stepper: Stepper, number: int, slab: Slab) -> Effort:
@@ -154,7 +170,7 @@ def require_progress(stepper: Stepper, march_state: MarchState, length: float) -
         f"the time step stays at h = {length:.3g} s of the {history.span:.3g} s given, {left:.1g} more of them lead to "
         f"the end{last}{touching(stepper.model, now)}{crushed(stepper.model, now)}",
         now.time,
-        f"{remedy(stepper, march_state)}, or to go on regardless time.control.patience = {10 * control.patience:.0f}",
+        f"{_remedy(stepper, march_state)}, or to go on regardless time.control.patience = {10 * control.patience:.0f}",
     )
 
 

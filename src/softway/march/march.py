@@ -15,9 +15,9 @@ from softway.march.model_state import split_states
 from softway.march.results.step import Report, Step
 from softway.march.results.trying import TryWatch
 from softway.march.rules.slab_rule import Method
-from softway.march.slab.ladder import Quality, fastest, next_rung, on_ladder
 from softway.march.slab.slab_step import Stepper
 from softway.march.start.knots import slab_length
+from softway.march.start.ladder import Quality, fastest, next_rung, on_ladder
 from softway.march.start.preparation import prepare
 from softway.march.step_control import StepControl, crushing, may_grow
 from softway.model.model import Model

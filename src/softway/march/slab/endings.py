@@ -6,7 +6,6 @@ from softway.laws.bulk import StVenantKirchhoff
 from softway.march.march_state import MarchState
 from softway.march.model_state import ModelState
 from softway.march.slab.slab_step import Stepper
-from softway.march.start.slab_length import proposed
 from softway.march.step_control import CRAWL
 from softway.model.model import Model
 from softway.solve.methods.newton import Newton
@@ -47,10 +46,11 @@ def _volumes_left(model: Model, now: ModelState) -> dict[str, float]:
     return {name: ratio for name, ratio in left.items() if ratio < CRUSHED}
 
 
-def remedy(stepper: Stepper, march_state: MarchState) -> str:
-    """Possible remedies if no time step was accepted; without inertia very short slabs move nothing but rounding."""
-    settings = march_state.settings
-    usual = proposed(stepper.model, "auto", settings.weight, settings.until, settings.method)
+def remedy(stepper: Stepper, march_state: MarchState, usual: float) -> str:
+    """Possible remedies if no time step was accepted; without inertia very short slabs move nothing but rounding.
+
+    ``usual`` is the automatic length [s].
+    """
     short = not stepper.model.inert and march_state.step_history.span < SHORT * usual
     found = [f"a longer step, such as {usual:.3g} s" if short else "a smaller step"]
     found.append("a finer mesh where the cells are crushed")

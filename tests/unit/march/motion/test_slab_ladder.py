@@ -12,7 +12,7 @@ from softway.apps.verify.exact import bar as waves
 from softway.arrays import Array
 from softway.march.march_state import Settings, StepHistory
 from softway.march.results.step import Step
-from softway.march.slab.ladder import Quality, next_rung, rungs, velocity_error
+from softway.march.start.ladder import Quality, next_rung, rungs, velocity_error
 from softway.model.slab import Slab
 
 END_PEAKS = sw.model.EndPeaks()
