@@ -60,7 +60,7 @@ class StepHistory:
     smooth
         Number of successive slabs of this length with a small error, under a tolerance.
     fastest
-        Greatest velocity of a node so far, under a tolerance [m/s].
+        Greatest velocity of a node so far, at least one that strains by no more than rounding, under a tolerance [m/s].
     """
 
     span: float
@@ -101,9 +101,8 @@ class MarchState:
     memory: OperatorMemory = OperatorMemory()
     slabs: int = 0
 
-    def asked(self, settings: Settings, span: float, memory: OperatorMemory) -> "MarchState":
-        """Initial march state for other ``settings`` and slab length ``span`` [s], with an empty ``memory``."""
-        history = StepHistory(span=span, length=span)
+    def asked(self, settings: Settings, history: StepHistory, memory: OperatorMemory) -> "MarchState":
+        """Initial march state for other ``settings``, with a new ``history`` and an empty ``memory``."""
         return replace(self, settings=settings, step_history=history, memory=memory, slabs=0)
 
     def fitting(self, model: Model) -> "MarchState":

@@ -25,6 +25,8 @@ from softway.solve.methods.central_difference import Explicit
 
 SMOOTH = 3
 """Number of successive slabs with a small error after which slabs grow."""
+UNSTRAINED = 1e-9
+"""Strain that is rounding."""
 LEAP = 1.0
 """Greatest way of a node in a slab above the lowest rung, in edges, where surfaces might pass through each other."""
 
@@ -78,6 +80,11 @@ def velocity_error(now: ModelState, slab: Slab, after: ModelState) -> Array:
         The slab.
     """
     return slab.span**2 * np.abs(after.acceleration - now.acceleration) / (6.0 * (now.span + slab.span))
+
+
+def slowest(model: Model) -> float:
+    """Velocity that strains the stiffest solid by no more than rounding [m/s]: vibrations at rest."""
+    return UNSTRAINED * max(model.wave_speed(p) for p in model.parts)
 
 
 def fastest(model: Model, history: StepHistory, *states: ModelState) -> float:

@@ -10,7 +10,7 @@ from softway.march.results.trying import TryWatch
 from softway.march.slab.slab_step import Stepper, stepper
 from softway.march.start.initial_state import initial_state
 from softway.march.start.knots import slab_ends
-from softway.march.start.ladder import require_ladder, rungs
+from softway.march.start.ladder import require_ladder, rungs, slowest
 from softway.march.start.slab_length import proposed
 from softway.model.model import Model
 from softway.model.scene import State
@@ -77,13 +77,15 @@ def _begun(
         return state.fitting(model)
     past = 0.0 if state is None else state.state.time if isinstance(state, MarchState) else state.time
     span = proposed(model, settings.step, settings.weight, settings.until - past, settings.method)
+    slow = 0.0 if settings.tolerance is None else slowest(model)
+    history, memory = StepHistory(span=span, length=span, fastest=slow), OperatorMemory(room=rungs(settings))
     if isinstance(state, MarchState):
-        return state.fitting(model).asked(settings, span, OperatorMemory(room=rungs(settings)))
+        return state.fitting(model).asked(settings, history, memory)
     now = initial_state(model, span, cancel, trying) if state is None else join_states(model, state, span)
     return MarchState(
         settings=settings,
         state=now,
         account=open_account(initial_ledger(model, now)),
-        step_history=StepHistory(span=span, length=span),
-        memory=OperatorMemory(room=rungs(settings)),
+        step_history=history,
+        memory=memory,
     )

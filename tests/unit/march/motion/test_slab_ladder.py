@@ -14,6 +14,7 @@ from softway.march.march_state import Settings, StepHistory
 from softway.march.results.step import Step
 from softway.march.start.ladder import Quality, next_rung, rungs, velocity_error
 from softway.model.slab import Slab
+from softway.solve.operators.operator_memory import OperatorMemory
 
 END_PEAKS = sw.model.EndPeaks()
 LONG = sw.StepControl(longest=1024.0)
@@ -235,3 +236,34 @@ def test_the_bouncing_bar_of_a09_needs_fewer_slabs_for_the_same_force() -> None:
     assert force_error(found, 5.0) <= force_error(equal, 5.0)
     assert found[-1].report.factorisations <= 8
     assert max(abs(s.ledger.energy_error) for s in found) < 1e-12 * a09.ENERGY
+
+
+def test_operators_of_other_lengths_are_kept_and_found_again() -> None:
+    """The last used first, as many as there is room for; counts of the whole march go on, a worn one loses all."""
+    memory = OperatorMemory(room=2, origin=object(), span=1.0, factorisations=1)  # type: ignore[arg-type]
+    assert memory.serving(1.0) is memory
+    for k, span in enumerate((2.0, 4.0, 8.0)):
+        memory = replace(memory.serving(span), span=span, factorisations=k + 2)
+    assert memory.span == 8.0 and [m.span for m in memory.others] == [4.0, 2.0]  # as given
+    again = memory.serving(2.0)
+    assert again.span == 2.0 and [m.span for m in again.others] == [8.0, 4.0]  # as given
+    assert again.factorisations == 4
+    assert memory.serving(1.0).span == 8.0  # as given
+    assert memory.failed().others == () and memory.failed().serving(2.0).stale
+    assert replace(memory, room=0, others=()).serving(2.0).others == ()
+
+
+def test_a_body_that_lies_on_a_floor_takes_long_slabs() -> None:
+    """In equilibrium from the start nothing moves: closed rows alone do not keep slabs short."""
+    block = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(1.0, 0.5), cells=(4, 2)), material=sw.LinearElastic(E=1e3, nu=0.3), density=1.0
+    )
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
+    scene = sw.Scene(
+        bodies={"block": block, "floor": floor}, contacts=(sw.Contact(between=("block.bottom", "floor")),),
+        loads=(sw.Gravity(acceleration=(0.0, -1.0)),), start=sw.model.StaticStart(),
+    )  # fmt: skip
+    steps = list(sw.march(scene, until=1.0, step=0.001, tolerance=0.05))
+    assert len(steps) < 130 and lengths(steps).max() == pytest.approx(32.0)
+    assert steps[-1].ledger.contacts["block.bottom-floor"].force_n == pytest.approx(0.5, rel=1e-6)
+    assert max(abs(s.ledger.energy_error) for s in steps) < 1e-15
