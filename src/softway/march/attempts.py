@@ -8,7 +8,6 @@ from typing import cast
 import numpy as np
 
 from softway.errors import Halts, NoConvergence, NumericsError, TooFast, Unbalanced, heed
-from softway.laws.bulk import StVenantKirchhoff
 from softway.march.audit.certificate import balance, certify, violation
 from softway.march.audit.ledger import audit
 from softway.march.friction.slip_end import slip_end
@@ -19,10 +18,12 @@ from softway.march.results.slab_result import SlabResult
 from softway.march.results.step import Certificate, Ledger
 from softway.march.results.trying import watched
 from softway.march.rules.slab_rule import Attempt, SlabRule
+from softway.march.slab.endings import crushed, reason, remedy, touching
 from softway.march.slab.slab_step import Stepper, advance
 from softway.march.start.knots import slab_end
+from softway.march.start.ladder import before_event, fault
 from softway.march.start.slab_length import proposed
-from softway.march.step_control import CRAWL, ENDLESS
+from softway.march.step_control import CRAWL, ENDLESS, above
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks, TimeWeight
@@ -35,10 +36,6 @@ PATIENCE = 1
 """Cutbacks after which an energy balance that the scalar cannot close is closed along the motion."""
 STEPS = 24
 """Steps of the contact problems for each iterate above which an attempt is given up; accepted slabs take up to 10."""
-CRUSHED = 0.7
-"""Ratio of present to reference volume below which a message calls matter crushed."""
-SHORT = 1e-2
-"""Step without inertia, relative to that of the prescribed motion, below which a longer one is advised."""
 DAMPED = EndPeaks(theta=1.0)
 """Virtual time function of the slab after a stop: the forces at its end act over the whole slab.  Friction may reverse
 at once, and vibrations caused by the stop are damped.  The operator is that of a slab longer by the root of 2."""
@@ -84,22 +81,18 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
         end = slab_end(stepper.ends, settings.until, now.time, length)
         slab = Slab(start=now.time, end=end, weight=_weight(stepper.model, march_state))
         try:
-            attempt = Attempt(
-                approach=settings.control.approach,
-                energy_along_motion=unbalanced >= PATIENCE,
-                cancel=stepper.cancel,
-                effort=_effort(stepper, march_state.slabs + 1, slab),
-                positive_definite=positive_definite,
-                rested=history.halted,
-            )
-            found = _tried(stepper, march_state, slab, memory, attempt)
+            attempt = _attempt(stepper, march_state, slab, unbalanced >= PATIENCE, positive_definite)
+            found = _on_rung(stepper, march_state, slab, memory, attempt)
             return replace(found, rejections=tuple(reasons), halted=halted)
+        except _Dropped as failure:
+            length, memory = failure.length, failure.memory
+            reasons.append(f"h = {slab.span:.3g} s: {failure}")
         except Halts as stop:
             length, halted = stop.fraction * length, True
             continue
         except (TooFast, Unbalanced) as failure:
             length = 0.5 * length
-            unbalanced += isinstance(failure, Unbalanced)
+            unbalanced += isinstance(failure, Unbalanced) and not above(slab.span, history.span)
             reasons.append(f"h = {slab.span:.3g} s: {failure}")
         except NoConvergence as failure:
             reasons.append(f"h = {slab.span:.3g} s: {failure}")
@@ -107,8 +100,8 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
             length = 0.5 * length if fresh and rule is first.rule and not positive_definite else length
             stepper, fresh, memory = replace(first, rule=rule), True, memory.failed()
         log.info("slab at t = %.6g s rejected: %s", now.time, reasons[-1])
-    reason = _reason(march_state, reasons, crawls) + _touching(stepper.model, now) + _crushed(stepper.model, now)
-    raise NumericsError(reason, now.time, _remedy(stepper, march_state))
+    told = reason(march_state, reasons, crawls) + touching(stepper.model, now) + crushed(stepper.model, now)
+    raise NumericsError(told, now.time, _remedy(stepper, march_state))
 
 
 def _other_way(first: Stepper, rule: SlabRule, failed: Attempt) -> tuple[SlabRule, bool]:
@@ -132,6 +125,29 @@ def _weight(model: Model, march_state: MarchState) -> TimeWeight:
     return DAMPED if damped else march_state.settings.weight
 
 
+def _attempt(
+    stepper: Stepper, march_state: MarchState, slab: Slab, energy_along_motion: bool, positive_definite: bool
+) -> Attempt:
+    """Attempt at the next slab."""
+    settings, history = march_state.settings, march_state.step_history
+    return Attempt(
+        approach=settings.control.approach,
+        lowest=np.inf if settings.tolerance is None else history.span,
+        energy_along_motion=energy_along_motion,
+        cancel=stepper.cancel,
+        effort=_effort(stepper, march_state.slabs + 1, slab),
+        positive_definite=positive_definite,
+        rested=history.halted,
+    )
+
+
+def _remedy(stepper: Stepper, march_state: MarchState) -> str:
+    """Possible remedies if no time step was accepted."""
+    settings = march_state.settings
+    usual = proposed(stepper.model, "auto", settings.weight, settings.until, settings.method)
+    return remedy(stepper, march_state, usual)
+
+
 def _effort(stepper: Stepper, number: int, slab: Slab) -> Effort:
     """Counted work of an attempt at the slab of this number."""
     return Effort(STEPS, watched(stepper.trying, number, slab.start, slab.span))
@@ -152,7 +168,7 @@ def require_progress(stepper: Stepper, march_state: MarchState, length: float) -
     last = f"; the last rejection: {history.last_rejection}" if history.last_rejection else ""
     raise NumericsError(
         f"the time step stays at h = {length:.3g} s of the {history.span:.3g} s given, {left:.1g} more of them lead to "
-        f"the end{last}{_touching(stepper.model, now)}{_crushed(stepper.model, now)}",
+        f"the end{last}{touching(stepper.model, now)}{crushed(stepper.model, now)}",
         now.time,
         f"{_remedy(stepper, march_state)}, or to go on regardless time.control.patience = {10 * control.patience:.0f}",
     )
@@ -178,52 +194,40 @@ def recent_rejections(before: StepHistory, span: float, rejections: int, left: f
     return max(0.0, before.recent_rejections + more) if span <= CRAWL * before.span else 0.0
 
 
-def _reason(march_state: MarchState, reasons: list[str], crawls: bool) -> str:
-    """Reason for the end of a march."""
-    if not reasons:
-        return "no time step was accepted: bodies come to rest again and again"
-    if crawls:
-        count = march_state.step_history.recent_rejections + len(reasons)
-        return f"{count:.0f} rejections among slabs shorter than {CRAWL:g} of the step; last: {reasons[-1]}"
-    return f"no time step was accepted after {len(reasons)} cutbacks; last: {reasons[-1]}"
+class _Dropped(Exception):
+    """Slab above the lowest rung that is dropped; ``length`` [s] and ``memory`` are those of the next attempt."""
+
+    def __init__(self, reason: str, length: float, memory: OperatorMemory) -> None:
+        self.length, self.memory = length, memory
+        super().__init__(reason)
 
 
-def _touching(model: Model, now: ModelState) -> str:
-    """Names of the contacts that are closed."""
-    contacts = model.contacts
-    closed = [contacts.labels[k] for k in np.unique(contacts.contact[now.closed]).tolist()]
-    return f"; in contact: {', '.join(closed)}" if closed else ""
+def _on_rung(
+    stepper: Stepper, march_state: MarchState, slab: Slab, memory: OperatorMemory, attempt: Attempt
+) -> AcceptedSlab:
+    """Solve and audit one slab; above the lowest rung of a ladder it must be smooth, and nothing may happen in it.
 
-
-def _crushed(model: Model, now: ModelState) -> str:
-    """Names of the crushed bodies, with the volume that is left in one place."""
-    left = _volumes_left(model, now)
-    return "".join(f"; {name!r} is crushed to {100.0 * ratio:.2g} % of its volume" for name, ratio in left.items())
-
-
-def _volumes_left(model: Model, now: ModelState) -> dict[str, float]:
-    """Least ratio of present to reference volume of each crushed body."""
-    u = now.start.displacement
-    left = {p.name: p.internal.volume_ratio(u[p.nodes]) for p in model.parts}
-    return {name: ratio for name, ratio in left.items() if ratio < CRUSHED}
-
-
-def _remedy(stepper: Stepper, march_state: MarchState) -> str:
-    """Possible remedies if no time step was accepted; without inertia very short slabs move nothing but rounding."""
-    settings = march_state.settings
-    usual = proposed(stepper.model, "auto", settings.weight, settings.until, settings.method)
-    short = not stepper.model.inert and march_state.step_history.span < SHORT * usual
-    found = [f"a longer step, such as {usual:.3g} s" if short else "a smaller step"]
-    found.append("a finer mesh where the cells are crushed")
-    crushed = _volumes_left(stepper.model, march_state.state)
-    laws = (law for p in stepper.model.parts if p.name in crushed for law in p.materials.laws)
-    if any(type(law) is StVenantKirchhoff for law in laws):
-        found.append("the material NeoHookean, which stiffens where StVenantKirchhoff softens under compression")
-    if isinstance(stepper.method, Newton) and not stepper.method.handover:
-        found.append("the method FixedPoint, which converges more often than Newton alone")
-    if stepper.model.contacts.overlap_methods:  # mean gaps
-        found.append("the method NodeToSurface for coarse facets in contact")
-    return ", or ".join(found)
+    Raises
+    ------
+    _Dropped
+        If a slab above the lowest rung has an event or too great an error, or is not solved.
+    NoConvergence, Halts
+        As for :func:`_tried`, on the lowest rung.
+    """
+    settings, history, now = march_state.settings, march_state.step_history, march_state.state
+    if settings.tolerance is None or not above(slab.span, history.span):
+        return _tried(stepper, march_state, slab, memory, attempt)
+    try:
+        found = _tried(stepper, march_state, slab, memory, attempt)
+    except Halts as stop:
+        raise _Dropped(str(stop), 0.5 * slab.span, memory) from stop
+    except NoConvergence as failure:
+        raise _Dropped(str(failure), 0.5 * slab.span, memory.failed()) from failure
+    dropped = fault(stepper.model, settings, history, now, slab, found.out, found.after)
+    if dropped:
+        kept = replace(found.memory, stale=False)  # what happened in the slab, not the operator, made it expensive
+        raise _Dropped(dropped, before_event(slab, history.span, found.out), kept)
+    return found
 
 
 def _tried(
@@ -249,7 +253,7 @@ def _tried(
             return AcceptedSlab(
                 after=after,
                 out=out,
-                memory=new.after(out.iterations // out.passes),
+                memory=_used(stepper, march_state, new, out.iterations // out.passes),
                 slab=slab,
                 ledger=ledger,
                 certificate=certificate,
@@ -258,6 +262,13 @@ def _tried(
             )
         log.debug("after %d iterations: %s; iterating further", out.iterations, broken)
     raise NoConvergence(f"certificate: {broken}")
+
+
+def _used(stepper: Stepper, march_state: MarchState, memory: OperatorMemory, iterations: int) -> OperatorMemory:
+    """Memory after a slab with a number of iterations; the operators of a ladder are not worn if they are exact."""
+    after = memory.after(iterations)
+    exact = march_state.settings.tolerance is not None and stepper.model.linear
+    return replace(after, stale=memory.stale) if exact else after
 
 
 def _stuck(stepper: Stepper, now: ModelState, slab: Slab, memory: OperatorMemory, attempt: Attempt) -> SlabResult:

@@ -11,12 +11,13 @@ from softway.heat.coupled.build import build
 from softway.march.attempts import DAMPED, AcceptedSlab, accept_slab, recent_rejections, require_progress
 from softway.march.audit.ledger import update_account
 from softway.march.march_state import MarchState, Settings, StepHistory
-from softway.march.model_state import ModelState, split_states
+from softway.march.model_state import split_states
 from softway.march.results.step import Report, Step
 from softway.march.results.trying import TryWatch
 from softway.march.rules.slab_rule import Method
 from softway.march.slab.slab_step import Stepper
 from softway.march.start.knots import slab_length
+from softway.march.start.ladder import Quality, fastest, next_rung, on_ladder
 from softway.march.start.preparation import prepare
 from softway.march.step_control import StepControl, crushing, may_grow
 from softway.model.model import Model
@@ -40,6 +41,7 @@ def march(
     method: Method = FixedPoint(),
     state: State | MarchState | None = None,
     control: StepControl = StepControl(),
+    tolerance: float | None = None,
     cancel: Cancel | None = None,
     trying: TryWatch | None = None,
 ) -> Iterator[Step]:
@@ -66,6 +68,10 @@ def march(
         start of the scene.
     control
         Limits of a slab; a slab that exceeds them is tried again with half the length.
+    tolerance
+        Error of the mean velocity of a node in a slab, relative to the greatest velocity so far, up to which slabs grow
+        beyond ``step``: to two, four, ... ``control.longest`` lengths, in smooth motion without events
+        (docs/theory/time/control.md).  None for slabs of the length ``step``.
     cancel
         Callback at every iteration, from the first equilibrium on, that may cancel the march.
     trying
@@ -74,7 +80,8 @@ def march(
     Raises
     ------
     InputError
-        Before the first step: if the step is beyond the stability limit, or a body starts inside an obstacle.
+        Before the first step: if the step is beyond the stability limit, a body starts inside an obstacle, or nothing
+        estimates the error of a slab that a tolerance asks for.
     NumericsError
         If a slab fails at every attempted length; earlier steps stay valid.
     Cancelled
@@ -92,7 +99,7 @@ def march(
     True
     """
     model = scene if isinstance(scene, Model) else build(scene)
-    settings = Settings(until=until, step=step, weight=weight, method=method, control=control)
+    settings = Settings(until=until, step=step, weight=weight, method=method, control=control, tolerance=tolerance)
     prepared = prepare(model, settings, state, cancel, trying)
     return _steps(prepared.stepper, prepared.march_state)
 
@@ -107,8 +114,9 @@ def _steps(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
         found = accept_slab(stepper, march_state, length, memory)
         if memory.choice is None and found.memory.choice is not None:
             log.info("operator %s: %s", found.memory.choice.operator, found.memory.choice.reason)
-        following = _next(model, settings.control, span, march_state.state, found)
-        following = min(following, span * cells.shortest_ratio(found.after.start.displacement))
+        following, smooth = _next(model, march_state, found)
+        if cells.edges:
+            following = min(following, span * cells.shortest_ratio(found.after.start.displacement))
         march_state = MarchState(
             settings=settings,
             state=found.after,
@@ -125,6 +133,8 @@ def _steps(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
                     (until - found.after.time) / found.slab.span,
                 ),
                 last_rejection=[march_state.step_history.last_rejection, *found.rejections][-1],
+                smooth=smooth,
+                fastest=_fastest(model, march_state, found),
             ),
             memory=found.memory.bare(),
             slabs=march_state.slabs + 1,
@@ -135,13 +145,20 @@ def _steps(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
         before, memory = step.after, found.memory
 
 
-def _next(model: Model, control: StepControl, span: float, before: ModelState, found: AcceptedSlab) -> float:
-    """Length of the next slab."""
-    length = found.slab.span
+def _fastest(model: Model, march_state: MarchState, found: AcceptedSlab) -> float:
+    """Greatest velocity so far [m/s]; zero without a tolerance."""
+    history = march_state.step_history
+    return 0.0 if march_state.settings.tolerance is None else fastest(model, history, march_state.state, found.after)
+
+
+def _next(model: Model, march_state: MarchState, found: AcceptedSlab) -> tuple[float, int]:
+    """Length of the next slab, and the number of successive smooth slabs of this length under a tolerance."""
+    settings, history, now = march_state.settings, march_state.step_history, march_state.state
+    control, span, length = settings.control, history.span, found.slab.span
     if found.halted:
-        return span * float(np.sqrt(0.5))
+        return span * float(np.sqrt(0.5)), 0
     if found.slab.weight == DAMPED:
-        return span
+        return span, 0
     end = found.out.solution.end
     strained = (
         model.inert
@@ -150,10 +167,13 @@ def _next(model: Model, control: StepControl, span: float, before: ModelState, f
     )
     if strained and length > STRAINED * span:
         log.info("next slab after t = %.6g s halved: large scalar of the energy balance", found.after.time)
-        return 0.5 * length
+        return 0.5 * length, 0
+    if on_ladder(settings, history, length):
+        quality = Quality.of(model, history, now, found.slab, found.after)
+        return next_rung(settings, history, length, quality, bool(found.rejections or found.out.events))
     if found.rejections or length >= span:
-        return min(span, length)
-    return min(span, 2.0 * length) if may_grow(model, control, length, before, found.after) else length
+        return min(span, length), 0
+    return (min(span, 2.0 * length) if may_grow(model, control, length, now, found.after) else length), 0
 
 
 def _step(model: Model, before: State, found: AcceptedSlab, march_state: MarchState) -> Step:

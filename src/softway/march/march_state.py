@@ -24,6 +24,7 @@ class Settings:
     weight: TimeWeight
     method: FixedPoint | Newton | Explicit
     control: StepControl
+    tolerance: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,6 +57,10 @@ class StepHistory:
         Number of recent rejections in slabs far below the requested length, and of such slabs without end in sight.
     last_rejection
         Reason of the last rejection.
+    smooth
+        Number of successive slabs of this length with a small error, under a tolerance.
+    fastest
+        Greatest velocity of a node so far, at least one that strains by no more than rounding, under a tolerance [m/s].
     """
 
     span: float
@@ -64,6 +69,8 @@ class StepHistory:
     halted: bool = False
     recent_rejections: float = 0.0
     last_rejection: str = ""
+    smooth: int = 0
+    fastest: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -94,11 +101,9 @@ class MarchState:
     memory: OperatorMemory = OperatorMemory()
     slabs: int = 0
 
-    def asked(self, settings: Settings, span: float) -> "MarchState":
-        """Initial march state for other ``settings`` and slab length ``span`` [s]."""
-        return replace(
-            self, settings=settings, step_history=StepHistory(span=span, length=span), memory=OperatorMemory(), slabs=0
-        )
+    def asked(self, settings: Settings, history: StepHistory, memory: OperatorMemory) -> "MarchState":
+        """Initial march state for other ``settings``, with a new ``history`` and an empty ``memory``."""
+        return replace(self, settings=settings, step_history=history, memory=memory, slabs=0)
 
     def fitting(self, model: Model) -> "MarchState":
         """Check that the state belongs to this model, and return it.

@@ -21,6 +21,10 @@ ENDLESS = 1e6
 lead nowhere."""
 SMALL_STRAIN = 1.0
 """Least limit of the approach, in edges, for bodies of small strain: their cells cannot be crushed."""
+EARLY = 0.25
+"""Least time from the end of a slab above the lowest rung to an event, in lowest rungs."""
+ROUNDING = 1e-6
+"""Relative difference of slab lengths that is rounding."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,6 +53,8 @@ class StepControl:
     knots
         True for slabs that end where loads and prescribed motions bend: at knots of their tables that are half a slab
         or more apart.
+    longest
+        Longest slab under a tolerance, in requested lengths; every power of two up to it has an operator of its own.
 
     References
     ----------
@@ -67,11 +73,22 @@ class StepControl:
     least: float = 1e-7
     patience: int = 300
     knots: bool = True
+    longest: float = 32.0
 
     def __post_init__(self) -> None:
         positive(
-            approach=self.approach, scalar=self.scalar, growth=self.growth, least=self.least, patience=self.patience
+            approach=self.approach,
+            scalar=self.scalar,
+            growth=self.growth,
+            least=self.least,
+            patience=self.patience,
+            longest=self.longest,
         )
+
+
+def above(span: float, lowest: float) -> bool:
+    """True if a slab of the length ``span`` is longer than the lowest rung [s]."""
+    return span > lowest * (1.0 + ROUNDING)
 
 
 def require_slow(model: Model, pairs: SlabContacts, start: Array, coasting: Array, limit: float) -> None:
@@ -97,6 +114,27 @@ def require_slow(model: Model, pairs: SlabContacts, start: Array, coasting: Arra
         worst = int(np.argmax(depth / allowed))
         label = rows.labels[rows.contact[worst]]
         raise TooFast(f"in {label} a node approaches by {depth[worst]:.3g} edges beyond the touch")
+
+
+def require_open(
+    model: Model, pairs: SlabContacts, now: ModelState, coasting: Array, length: float, later: float
+) -> None:
+    """Refuse a slab at whose end, or ``later`` [s] after it, an open row would be closed.
+
+    ``coasting`` (n, d) is the free displacement at its end.
+
+    Raises
+    ------
+    TooFast
+        With the contact.
+    """
+    first, rows = pairs.start(now.start.displacement), pairs.at(coasting)
+    open_rows = first.near & rows.near & ~now.closed
+    before, gap = (np.where(open_rows, g, 0.0) for g in (first.gap(now.start.displacement), rows.gap(coasting)))
+    closes = open_rows & (gap < before) & (gap < (before - gap) * later / length)
+    if closes.any():
+        label = rows.labels[rows.contact[int(np.argmax(closes))]]
+        raise TooFast(f"in {label} a node would touch inside a time step above the lowest rung")
 
 
 def _in_edges(model: Model, rows: ContactRows, overlap: Array) -> Array:

@@ -41,7 +41,7 @@ def schema() -> Schema:
     Examples
     --------
     >>> sorted(schema()["$defs"]["scenario.scenario.Time"]["properties"])
-    ['control', 'end', 'kind', 'step', 'weight']
+    ['control', 'end', 'kind', 'step', 'tolerance', 'weight']
     """
     making = _Making()
     whole = making.of(Scenario, None)

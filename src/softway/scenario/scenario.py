@@ -50,6 +50,10 @@ class Time:
         Virtual time function of the weighted momentum balance.
     control
         Limits for the acceptance of a slab; a rejected slab is repeated with a shorter length.
+    tolerance
+        Error of the mean velocity of a node in a slab, relative to the greatest velocity so far, up to which slabs grow
+        beyond ``step``, to at most ``control.longest`` of it, while nothing touches, parts, sticks or slips; 0.01 to
+        0.1 are usual.  Without it all slabs have the length ``step``.
 
     Examples
     --------
@@ -61,6 +65,7 @@ class Time:
     step: Second | Literal["auto"] = "auto"
     weight: TimeWeight = EndPeaks()
     control: StepControl = StepControl()
+    tolerance: float | None = None
 
     def __post_init__(self) -> None:
         real(self.end, "end")

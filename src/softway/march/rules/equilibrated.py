@@ -25,7 +25,7 @@ from softway.march.rules.massless_slab import (
     with_prescribed,
 )
 from softway.march.rules.slab_rule import Attempt, Solutions
-from softway.march.step_control import require_slow
+from softway.march.step_control import EARLY, above, require_open, require_slow
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks, TimeWeight
@@ -59,6 +59,8 @@ class Equilibrated:
         contacts = model.contacts
         pairs = contacts.meet(start.displacement, coasting, slab.start, slab.end, contacts.closest)
         require_slow(model, pairs, start.displacement, coasting, attempt.approach)
+        if above(slab.span, attempt.lowest):
+            require_open(model, pairs, now, coasting, slab.span, EARLY * attempt.lowest)
         method, guess, before = cancellable(self.method, attempt.cancel, slab.start), attempt.guess, 0
         missed: SlabContacts | None = pairs
         while missed is not None:

@@ -34,7 +34,7 @@ from softway.march.rules.touch import (
     without_own_inertia,
 )
 from softway.march.rules.velocity_jumps import velocity_jumps
-from softway.march.step_control import require_slow
+from softway.march.step_control import EARLY, above, require_open, require_slow
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import TimeWeight
@@ -70,6 +70,8 @@ class Impulsive:
         coasting = coasting + bent(model.bends(slab.start, slab.end), slab.span)
         pairs = model.contacts.meet(now.start.displacement, coasting, slab.start, slab.end)
         require_slow(model, pairs, now.start.displacement, coasting, attempt.approach)
+        if above(slab.span, attempt.lowest):
+            require_open(model, pairs, now, coasting, slab.span, EARLY * attempt.lowest)
         current, facets = without_events(model, now, pairs, pairs.at(coasting), guess, slab.span), pairs
         method, iterations = cancellable(self.method, attempt.cancel, slab.start), 0
         halts = np.zeros(len(now.closed), bool)

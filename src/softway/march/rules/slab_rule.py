@@ -32,6 +32,8 @@ class Attempt:
     ----------
     approach
         Greatest approach of two surfaces in the slab, in edges; beyond it the slab is refused.
+    lowest
+        Length of the lowest rung under a tolerance [s]: in a longer slab no row may close.
     energy_along_motion
         True if an energy balance that the bounded scalar cannot close is closed along the motion.
     stick_at_any_force
@@ -53,6 +55,7 @@ class Attempt:
     """
 
     approach: float = np.inf
+    lowest: float = np.inf
     energy_along_motion: bool = False
     stick_at_any_force: bool = False
     cancel: Cancel | None = None

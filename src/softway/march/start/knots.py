@@ -5,6 +5,7 @@ slab takes as smooth, are not.  So slabs end at knots (docs/theory/time/control.
 """
 
 from collections.abc import Iterable, Iterator
+from math import log2
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from softway.bodies.setup.directions import DirectedMotion
 from softway.bodies.setup.knots import knots_of_pieces, knots_of_table
 from softway.bodies.setup.supports import Driven, Guided
 from softway.bodies.solid import Tool
-from softway.march.march_state import MarchState, Settings
+from softway.march.march_state import MarchState, Settings, StepHistory
 from softway.march.start.slab_length import evenly
 from softway.model.model import Model
 from softway.solve.methods.central_difference import Explicit
@@ -45,13 +46,21 @@ def slab_ends(model: Model, settings: Settings, span: float) -> tuple[float, ...
 def slab_length(ends: tuple[float, ...], march_state: MarchState) -> float:
     """Length [s] of the next slab, at most the proposed one: it divides the time to the next end evenly."""
     settings, history, time = march_state.settings, march_state.step_history, march_state.state.time
-    least, until = settings.control.least * history.span, settings.until
-    sliver = max(SLIVER * history.length, least)
+    least, until, lowest = settings.control.least * history.span, settings.until, min(history.length, history.span)
+    sliver = max(SLIVER * lowest, least)
     for end in ends:
         if end - time > sliver:
-            return evenly(end - time, history.length)
-    length = min(history.length, until - time)
+            return _within(evenly(end - time, lowest), history, end - time)
+    length = _within(min(lowest, until - time), history, until - time)
     return until - time if until - time - length < least else length
+
+
+def _within(lowest: float, history: StepHistory, left: float) -> float:
+    """Length [s] on the proposed rung above the ``lowest`` one, or on the highest one that fits into the time left."""
+    length, doublings = lowest, max(0, round(log2(history.length / history.span)))
+    for _ in range(doublings):
+        length = 2.0 * length if 2.0 * length <= left * (1.0 + 1e-9) else length
+    return length
 
 
 def slab_end(ends: tuple[float, ...], until: float, time: float, length: float) -> float:

@@ -10,10 +10,12 @@ from softway.march.results.trying import TryWatch
 from softway.march.slab.slab_step import Stepper, stepper
 from softway.march.start.initial_state import initial_state
 from softway.march.start.knots import slab_ends
+from softway.march.start.ladder import require_ladder, rungs, slowest
 from softway.march.start.slab_length import proposed
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.solve.methods.central_difference import Explicit
+from softway.solve.operators.operator_memory import OperatorMemory
 from softway.solve.stable_step import require_stable, require_stable_weight
 
 
@@ -55,6 +57,7 @@ def prepare(
         method if isinstance(method, Explicit) else weight,
     )
     require_stable_weight(stepping)
+    require_ladder(model, settings)
     march_state = _begun(model, settings, state, cancel, trying)
     if not march_state.slabs and not (isinstance(stepping, Explicit) and settings.step == "auto"):  # auto is stable
         require_stable(model, march_state.state.start.displacement, stepping, march_state.step_history.span)
@@ -74,12 +77,15 @@ def _begun(
         return state.fitting(model)
     past = 0.0 if state is None else state.state.time if isinstance(state, MarchState) else state.time
     span = proposed(model, settings.step, settings.weight, settings.until - past, settings.method)
+    slow = 0.0 if settings.tolerance is None else slowest(model)
+    history, memory = StepHistory(span=span, length=span, fastest=slow), OperatorMemory(room=rungs(settings))
     if isinstance(state, MarchState):
-        return state.fitting(model).asked(settings, span)
+        return state.fitting(model).asked(settings, history, memory)
     now = initial_state(model, span, cancel, trying) if state is None else join_states(model, state, span)
     return MarchState(
         settings=settings,
         state=now,
         account=open_account(initial_ledger(model, now)),
-        step_history=StepHistory(span=span, length=span),
+        step_history=history,
+        memory=memory,
     )

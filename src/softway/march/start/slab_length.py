@@ -50,7 +50,7 @@ def proposed(
             raise InputError("time.step", f"{step:g} s", f"a time of at least {SHORTEST:g} s, or 'auto'")
         return evenly(duration, step)
     if not model.inert:
-        return evenly(duration, min(duration / SLABS, QUARTER * _edge(model) / max(_prescribed_speed(model), 1e-300)))
+        return evenly(duration, min(duration / SLABS, QUARTER * _edge(model) / max(prescribed_speed(model), 1e-300)))
     if isinstance(method, Explicit):
         stable = method.safety * stable_step(model, model.displacement, method)
         return evenly(duration, stable if np.isfinite(stable) else _crossing(model))
@@ -68,7 +68,7 @@ def _crossing(model: Model) -> float:
     return float(min(p.mesh.edge() / model.wave_speed(p) for p in model.parts) / np.sqrt(2.0))
 
 
-def _prescribed_speed(model: Model) -> float:
+def prescribed_speed(model: Model) -> float:
     """Greatest speed of tools, where the solids are, and of driven supports [m/s]."""
     tools = [_tool_speed(model, b.motion) for b in model.scene.bodies.values() if isinstance(b, Tool)]
     return max([0.0, *tools, *(support.greatest_speed for support, _ in model.driven)])

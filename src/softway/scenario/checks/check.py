@@ -225,7 +225,12 @@ def _begun(scenario: Scenario, model: Model, cancel: Cancel | None) -> MarchStat
     if time.step != "auto" and time.step > time.end:
         raise InputError("time.step", f"{time.step:g} s is longer than time.end = {time.end:g} s", "a shorter step")
     settings = Settings(
-        until=time.end, step=time.step, weight=time.weight, method=scenario.solver, control=time.control
+        until=time.end,
+        step=time.step,
+        weight=time.weight,
+        method=scenario.solver,
+        control=time.control,
+        tolerance=time.tolerance,
     )
     march_state = prepare(model, settings, cancel=cancel).march_state
     slabs, span = time.end / march_state.step_history.span, march_state.step_history.span

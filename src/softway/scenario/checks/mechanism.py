@@ -177,9 +177,10 @@ def require_default(scenario: Scenario, foreign: Mapping[str, str], what: str) -
             )
             raise InputError(where, f"{kind} in a scenario of {what}", remedy)
     standard = Time(end=1.0)
-    for key in ("weight", "control"):
-        if getattr(scenario.time, key) != getattr(standard, key):
-            problem = f"{type(getattr(scenario.time, key)).__name__} in a scenario of {what}"
+    for key in ("weight", "control", "tolerance"):
+        value = getattr(scenario.time, key)
+        if value != getattr(standard, key):
+            problem = f"{value if isinstance(value, float) else type(value).__name__} in a scenario of {what}"
             raise InputError(f"time.{key}", problem, "omit it: only solids use it")
 
 

@@ -176,6 +176,9 @@ class OperatorMemory:
         Cost of a factor, in iterations.
     skin, near
         For central differences, where ``frozen`` is the operator of the nodes near contact.
+    room, others
+        Greatest number of operators of other slab lengths that are kept, and their memories, the last used first: zero
+        and none unless the march chooses its lengths by a tolerance.
     """
 
     frozen: FrozenOperator | None = None
@@ -193,10 +196,29 @@ class OperatorMemory:
     price: float = 0.0
     skin: Skin | None = None
     near: Near | None = None
+    room: int = 0
+    others: tuple["OperatorMemory", ...] = ()
 
     def failed(self) -> "OperatorMemory":
         """Memory after a slab without solution: everything is renewed."""
-        return replace(self, stale=True, skin=None, near=None)
+        return replace(self, stale=True, skin=None, near=None, others=())
+
+    def serving(self, span: float) -> "OperatorMemory":
+        """Memory with the operator of the slab length ``span`` [s] if it is among the others that are kept.
+
+        The present one is kept in its place; without one of this length it stays present, for its symbolic work.
+        """
+        if not self.room or self.stale or self.origin is None or self.serves(span):
+            return self
+        present, kept = replace(self, others=()), [m for m in self.others if m.serves(span)]
+        others = (present, *(m for m in self.others if m not in kept))[: self.room]
+        if not kept:
+            return replace(self, others=others)
+        return replace(kept[0], others=others, factorisations=self.factorisations, renewals=self.renewals)
+
+    def serves(self, span: float) -> bool:
+        """True if the operator is that of the slab length ``span`` [s] of the default time weight."""
+        return abs(self.span / span - 1.0) <= 1e-9
 
     def after(self, iterations: int) -> "OperatorMemory":
         """Memory after a slab with a number of iterations; it requests a new factor if this saves time.
@@ -216,6 +238,7 @@ class OperatorMemory:
             self,
             skin=None if self.skin is None else replace(self.skin, factor=None),
             near=None if self.near is None else replace(self.near, layer=None),
+            others=tuple(other.bare() for other in self.others),
         )
         if self.frozen is None:
             return light

@@ -21,7 +21,8 @@ def refreshed(
     system: SlabEquations, q: Array, memory: OperatorMemory, operator: Operator | Literal["auto"]
 ) -> OperatorMemory:
     """Operator memory with a frozen operator that fits the slab; q (n, d) is an initial guess."""
-    serves = not memory.stale and abs(memory.span / system.equivalent_span - 1.0) <= 1e-9
+    memory = memory.serving(system.equivalent_span)
+    serves = not memory.stale and memory.serves(system.equivalent_span)
     memory = restored(system, memory, serves)
     if memory.frozen is None or not serves:
         memory = renewed(system, _place(system, q), memory, operator)
@@ -67,6 +68,7 @@ def renewed(
         factorisations=memory.factorisations + 1,
         taken=IterationCount(),
         price=made.price,
+        others=() if memory.stale or memory.serves(system.equivalent_span) else memory.others,
     )
 
 

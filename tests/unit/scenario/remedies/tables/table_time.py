@@ -22,6 +22,7 @@ MOVING = "bodies.w.motion={kind='Translation', velocity=[0, 0.1]}"
 ROUGH = "contacts[0].friction={kind='Coulomb', mu=0.3}"
 BESIDE = f"{PLANE}[bodies.r]\nkind = 'Rigid'\nmass = 1\ncentre = [5, 5]\ninertia = 1\n"
 MOMENTUM = "time.weight=Momentum"
+WARM = "{temperature=300, expansion=1e-5, law={kind='Conduction', conductivity=1, capacity=1}}"
 
 
 def bar() -> Model:
@@ -67,6 +68,14 @@ TABLE: Table = {
         "time.weight.at=[0.5]",
     ),
     "control": Try(PLANE, "time.control={approach=-1}", "a positive number", "time.control.approach=1"),
+    "error of a slab": Try(PLANE, "time.tolerance=0", "1e-2", "time.tolerance=1e-2"),
+    "error, explicit": Try(PLANE, "time.tolerance=1e-2 & solver=Explicit", "FixedPoint", "solver=FixedPoint"),
+    "error, weight": Try(
+        PLANE, f"time.tolerance=1e-2 & contacts=[] & {MOMENTUM}", "EndPeaks with theta = 0.5", "time.weight=EndPeaks"
+    ),
+    "error, no inertia": Try(PLANE, f"time.tolerance=1e-2 & inertia=Off & {HELD}", "omit it", "time={end=0.01}"),
+    "error, rigid": Try(BESIDE, "time.tolerance=1e-2", "omit it", "time={end=0.01}"),
+    "error, heat": Try(PLANE, f"time.tolerance=1e-2 & bodies.b.thermal={WARM}", "omit it", "time={end=0.01}"),
     "tolerance": Try(PLANE, "solver={kind='FixedPoint', tolerance=1}", "at most 1e-2", "solver.tolerance=1e-2"),
     "limit": Try(PLANE, "solver={kind='Newton', limit=0}", "at least 1", "solver.limit=1"),
     "depth": Try(PLANE, "solver={kind='FixedPoint', depth=-1}", "about 8", "solver.depth=8"),
