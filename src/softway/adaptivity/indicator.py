@@ -107,21 +107,31 @@ def buffered(adapted: AdaptedMesh, reach: float) -> AdaptedMesh:
     (13, 17)
     """
     found = adapted
-    corners = CELLS[adapted.cell].corners
-    levels = np.unique(adapted.leaves.level)[:0:-1]
-    cells = next(iter(adapted.mesh.blocks.values()))[:, :corners]
-    for level in levels:
-        near = cKDTree(adapted.mesh.points[np.unique(cells[adapted.leaves.level >= level])])
-        while True:
-            own = found.mesh.points[next(iter(found.mesh.blocks.values()))[:, :corners]]
-            centre = own.mean(axis=1)
-            radius = np.linalg.norm(own - centre[:, None], axis=2).max(axis=1)
-            coarse = np.flatnonzero(found.leaves.level < level)
-            distance = near.query(centre[coarse])[0] if len(coarse) else np.zeros(0)
-            late = coarse[distance < radius[coarse] + reach]
-            if not len(late):
-                break
-            want = found.leaves.level.copy()
-            want[late] += 1
-            found = refined(found.base, want, found.leaves)
+    cells = next(iter(adapted.mesh.blocks.values()))[:, : CELLS[adapted.cell].corners]
+    for level in np.unique(adapted.leaves.level)[:0:-1]:
+        finer = np.unique(cells[adapted.leaves.level >= level])
+        found = refined_near(found, adapted.mesh.points[finer], int(level), reach)
     return found
+
+
+def refined_near(adapted: AdaptedMesh, points: Array, level: int, reach: float) -> AdaptedMesh:
+    """Mesh in which cells that come within a distance ``reach`` [m] of one of the points (k, d) have a level or more.
+
+    Distances are those from the ball around a cell.
+
+    Examples
+    --------
+    >>> from softway.meshes.generators.shapes import interval
+    >>> whole = refined(interval(1.0, cells=1), np.array([0]))
+    >>> refined_near(whole, np.array([[1.0]]), 3, 0.05).leaves.level.tolist()
+    [1, 2, 3, 3]
+    """
+    found, corners, near = adapted, CELLS[adapted.cell].corners, cKDTree(points)
+    while True:
+        own = found.mesh.points[next(iter(found.mesh.blocks.values()))[:, :corners]]
+        centre = own.mean(axis=1)
+        radius = np.linalg.norm(own - centre[:, None], axis=2).max(axis=1)
+        late = (found.leaves.level < level) & (near.query(centre)[0] < radius + reach)
+        if not late.any():
+            return found
+        found = refined(found.base, found.leaves.level + late, found.leaves)

@@ -57,7 +57,13 @@ class Transferred:
     projection: Projection
 
 
-def transfer(before: AdaptedSolid, after: AdaptedSolid, motion: Motion) -> Transferred:
+def transfer(
+    before: AdaptedSolid,
+    after: AdaptedSolid,
+    motion: Motion,
+    cast: Projection | None = None,
+    displacement: Array | None = None,
+) -> Transferred:
     """Transfer a motion to another mesh of the same base.
 
     Velocities are projected with the consistent mass, displacements with mass and stiffness.  Then a rigid motion, in
@@ -71,6 +77,11 @@ def transfer(before: AdaptedSolid, after: AdaptedSolid, motion: Motion) -> Trans
         The solid on both meshes.
     motion
         Its motion on the mesh before.
+    cast
+        Projections from one mesh to the other, where they are known.
+    displacement
+        (m, d) displacement on the new mesh [m], such as the projected one with massless nodes in equilibrium; by
+        default the projected one.
 
     Raises
     ------
@@ -89,9 +100,9 @@ def transfer(before: AdaptedSolid, after: AdaptedSolid, motion: Motion) -> Trans
     >>> abs(found.booked) < 1e-15, abs(found.scalar - 1.0) < 0.02
     (True, True)
     """
-    cast = projection(before, after)
+    cast = projection(before, after) if cast is None else cast
     velocity = after.following(cast.velocity(before.following(motion.velocity)))
-    displacement = cast.displacement(motion.displacement)
+    displacement = cast.displacement(motion.displacement) if displacement is None else displacement
     state = None if motion.state is None else remembered(before, after, motion.state, displacement)
     old, new = _stored(before, motion.state, motion.displacement), _stored(after, state, displacement)
     places = before.points + motion.displacement, after.points + displacement

@@ -59,6 +59,7 @@ PARTS = (
     "model",
     "obstacles",
     "piles",
+    "remeshing",
     "scenario",
     "solve",
 )
@@ -112,6 +113,10 @@ REASONS = {
     "piles/march.py: march": "from Python: tests/unit/piles/test_input.py",
     "piles/pile.py: __post_init__": "gravity of a load fits: tests/unit/piles/test_input.py",
     "piles/state.py: writable": "states of other marches, from Python: tests/unit/piles/test_groups.py",
+    "remeshing/adapt.py: __post_init__": "from Python: tests/unit/remeshing/test_adaptive_march.py",
+    "remeshing/adaptive_march.py: adaptive_march": "from Python: tests/unit/remeshing/test_adaptive_march.py",
+    "remeshing/adapted_scene.py: adapted_scene": "from Python: tests/unit/remeshing/test_adaptive_march.py",
+    "remeshing/adapted_scene.py: on": "from Python, contacts whose rows change with the mesh",
     "scenario/files.py: load": "millions of characters",
     "scenario/run.py: _require_state": "of a mechanism: tests/unit/scenario/mechanisms/test_resumed_runs.py",
     "scenario/run_rigid.py: _require_state": "and of solids: the same",
