@@ -40,7 +40,7 @@ class Adapt:
     """
 
     levels: int
-    tolerance: Pure = 0.33
+    tolerance: Pure = 0.15
     every: int = 4
     buffer: int = 4
     contact_cells: int = 12

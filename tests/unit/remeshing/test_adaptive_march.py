@@ -60,7 +60,7 @@ def test_the_force_is_as_good_as_on_the_finest_mesh(adapted: list[AdaptedStep], 
 @pytest.mark.slow
 def test_it_has_a_fraction_of_the_unknowns(adapted: list[AdaptedStep], fine: list[sw.Step]) -> None:
     nodes = sum(taken.model.shape[0] for taken in adapted)
-    assert nodes < 0.5 * len(fine) * (10 * 2**LEVELS + 1)  # 27 % with one level more
+    assert nodes < 2 / 3 * len(fine) * (10 * 2**LEVELS + 1)  # 37 % with one level more, 3 % with five
     assert any(taken.transfers for taken in adapted)
 
 
