@@ -1,0 +1,1 @@
+"""Motion and memory of solids on meshes that change (docs/theory/bodies/adaptive.md)."""

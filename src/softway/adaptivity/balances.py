@@ -1,0 +1,126 @@
+"""Balances of a transfer: rigid correction for momentum and spin, and a scalar for the energy
+(docs/theory/bodies/adaptive.md#balances).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.adaptivity.adapted_solid import AdaptedSolid
+from softway.arrays import Array
+from softway.bodies.assembled.rigid_body_modes import motion_names
+from softway.bodies.elements.section import Axisymmetric
+
+HELD = 1e-9
+"""Supported part of a rigid motion, relative to the motion, below which supports leave it free."""
+MOST = 0.1
+"""Greatest ``|s^2 - 1|`` of the scalar s; beyond it the difference of energies is booked."""
+SMALL = 1e-13
+"""Energy, relative to that of the body, below which the rest of the motion is rounding."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class RigidMotions:
+    """Free rigid motions (n d, m) of a solid on two meshes, at its places there."""
+
+    before: Array
+    after: Array
+
+
+def rigid_motions_of(before: AdaptedSolid, after: AdaptedSolid, places: tuple[Array, Array]) -> RigidMotions:
+    """Rigid motions that the supports leave free, the same ones at the ``places`` (n, d) and (m, d) of both meshes."""
+    d = after.points.shape[1]
+    names = motion_names(d, isinstance(after.part.internal.section, Axisymmetric))
+    centre = places[1].mean(axis=0)
+    size = float(np.abs(places[1] - centre).max())
+    own, others = (_motions(x, names, centre, size) for x in (places[1], places[0]))
+    held = after.part.dofs.supported
+    rows = np.stack([held(mode.reshape(-1, d)).ravel() for mode in own.T], axis=1)
+    _, values, right = np.linalg.svd(rows[rows.any(axis=1)], full_matrices=True)
+    largest = float(np.sqrt(len(own)))
+    free = right[int((values > HELD * largest).sum()) :].T
+    return RigidMotions(before=others @ free, after=own @ free)
+
+
+def _motions(places: Array, names: tuple[str, ...], centre: Array, size: float) -> Array:
+    """Rigid motions (n d, m) by name about a centre (d,), rotations divided by a size [m]."""
+    n, d = places.shape
+    arm = np.zeros((n, 3))
+    arm[:, :d] = (places - centre) / size
+    columns = []
+    for name in names:
+        axis = np.eye(3)["xyz".index(name[-1])]
+        field = np.cross(axis, arm) if name.startswith("rotation") else np.tile(axis, (n, 1))
+        columns.append(field[:, :d].ravel())
+    return np.array(columns).T
+
+
+def spin(places: Array, momenta: Array) -> Array:
+    """Angular momentum (3,) about the origin of nodal momenta (n, d) at places (n, d) [kg m^2/s].
+
+    Examples
+    --------
+    >>> spin(np.array([[2.0, 0.0]]), np.array([[0.0, 3.0]])).tolist()
+    [0.0, 0.0, 6.0]
+    """
+    both = np.zeros((2, len(places), 3))
+    both[0, :, : places.shape[1]], both[1, :, : places.shape[1]] = places, momenta
+    return np.asarray(np.cross(both[0], both[1]).sum(axis=0))
+
+
+def balanced(
+    after: AdaptedSolid, motions: Array, velocity: Array, momenta: Array, kinetic: float
+) -> tuple[Array, float]:
+    """Velocity (n, d) with given momenta of the free rigid motions and, where a scalar allows it, kinetic energy.
+
+    The velocity is ``g + Z c + s w``: its part g on supports, a rigid one, and the rest w, orthogonal to all free rigid
+    motions in the mass.
+
+    Parameters
+    ----------
+    after
+        The solid.
+    motions
+        Free rigid motions Z (n d, m).
+    velocity
+        (n, d) velocity [m/s].
+    momenta
+        (m,) momenta ``Z^T M v`` to have.
+    kinetic
+        Kinetic energy to have [J].
+
+    Returns
+    -------
+    The velocity, and the scalar s; one where it would have to differ much from one, or the rest is rounding.
+    """
+    given = after.part.dofs.supported(velocity)
+    rest = velocity - given
+    base = given + _rigid(after, motions, momenta - _momenta(after, motions, given)).reshape(given.shape)
+    for _ in range(2):  # a second time removes the rounding of the first
+        rest = rest - _rigid(after, motions, _momenta(after, motions, rest)).reshape(given.shape)
+        left = momenta - _momenta(after, motions, base + rest)
+        base = base + _rigid(after, motions, left).reshape(given.shape)
+    return base + (scalar := _scalar(after, base, rest, kinetic)) * rest, scalar
+
+
+def _momenta(after: AdaptedSolid, motions: Array, velocity: Array) -> Array:
+    """Momenta (m,) of a velocity (n, d)."""
+    return np.asarray(motions.T @ (after.mass @ velocity).ravel())
+
+
+def _rigid(after: AdaptedSolid, motions: Array, momenta: Array) -> Array:
+    """Rigid motion (n d,) with given momenta (m,); without those about which a body on a line has no inertia."""
+    n, d = after.points.shape
+    inertia = motions.T @ (after.mass @ motions.reshape(n, -1)).reshape(n * d, -1)
+    return np.asarray(motions @ (np.linalg.pinv(inertia, rcond=HELD, hermitian=True) @ momenta))
+
+
+def _scalar(after: AdaptedSolid, base: Array, rest: Array, kinetic: float) -> float:
+    """Scalar s near one with ``T(base + s rest) = kinetic``; one if there is none."""
+    quadratic, constant = after.kinetic(rest), after.kinetic(base) - kinetic
+    half = 0.5 * float((base * (after.mass @ rest)).sum())
+    root = half**2 - quadratic * constant
+    if quadratic <= SMALL * max(abs(kinetic), after.kinetic(base)) or root < 0.0:
+        return 1.0
+    found = (-half + float(np.sqrt(root))) / quadratic
+    return found if abs(found**2 - 1.0) <= MOST else 1.0

@@ -1,0 +1,137 @@
+"""Where a mesh is too coarse: recovered stress and rate against those of the cells, wanted levels, and a buffer.
+
+Indicator of Zienkiewicz and Zhu (Int. J. Num. Meth. Eng. 24 (1987) 337) for a solid in motion
+(docs/theory/bodies/adaptive.md#indicator).
+"""
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from softway.adaptivity.adapted_solid import AdaptedSolid
+from softway.adaptivity.transfer import Motion
+from softway.arrays import Array, IntArray
+from softway.meshes.adaptive.leaves import DEPTH
+from softway.meshes.adaptive.refinement import AdaptedMesh, refined
+from softway.meshes.cells import CELLS
+
+FINER = (1.0, 3.0)
+"""Indicators, relative to the threshold, above which a cell wants one level and two levels more."""
+COARSER = (0.35, 0.15)
+"""Indicators, relative to the threshold, below which it wants one level and two levels less."""
+
+
+def indicator(solid: AdaptedSolid, motion: Motion) -> Array:
+    """Indicator (e,) of each cell, the root of an energy [J^(1/2)].
+
+    Its square is the integral of ``|s* - s|^2 / (rho c^2) + rho h^2 |l* - l|^2`` over the cell.  The stress s and the
+    gradient l of the velocity are means over the cell; s* and l* are linear between recovered values at its corners,
+    means over the cells around them by volume, in one material; c is the speed of the fastest wave and h the shortest
+    edge.
+
+    Examples
+    --------
+    >>> import softway as sw
+    >>> from softway.adaptivity.adapted_solid import adapted_solid
+    >>> bar = sw.Solid(mesh=sw.meshes.Interval(length=1.0, cells=4), material=sw.LinearElastic(E=1.0), density=1.0)
+    >>> on = adapted_solid("bar", bar, refined(bar.mesh.build(), np.zeros(4, int)), np.zeros(0, int))
+    >>> kink = np.maximum(on.points - 0.5, 0.0)
+    >>> indicator(on, Motion(displacement=kink, velocity=0.0 * kink)).round(3).tolist()
+    [0.0, 0.144, 0.144, 0.0]
+    """
+    part, mesh = solid.part, solid.adapted.mesh
+    count = mesh.n_cells
+    volume = part.internal.sampling.volume.reshape(count, -1)
+    stress = part.internal.stress(motion.displacement, motion.state).reshape(count, -1)
+    rates = part.internal.sampling.plain_derivatives(motion.velocity).reshape(count, volume.shape[1], -1)
+    whole = volume.sum(axis=1)
+    rate = np.einsum("eq,eqk->ek", volume, rates) / whole[:, None]
+    materials = part.materials
+    owner = np.zeros(count, dtype=np.int64) if materials.owner is None else materials.owner
+    density = np.array(materials.densities)[owner]
+    modulus = density * np.array(materials.speeds(part.internal.section))[owner] ** 2
+    (edge,) = mesh.cell_edges()
+    square = whole / modulus * _spread(solid.adapted, owner, whole, stress)
+    square += density * whole * edge**2 * _spread(solid.adapted, owner, whole, rate)
+    return np.sqrt(square)
+
+
+def _spread(adapted: AdaptedMesh, owner: IntArray, volume: Array, values: Array) -> Array:
+    """Mean square (e,) over a cell of its values (e, k) less the linear field of those recovered at its corners."""
+    rows = next(iter(adapted.mesh.blocks.values()))[:, : CELLS[adapted.cell].corners]
+    nodes = rows + owner[:, None] * adapted.mesh.n_nodes
+    size = int(nodes.max()) + 1
+    total, weight = np.zeros((size, values.shape[1])), np.zeros(size)
+    np.add.at(total, nodes, (volume[:, None] * values)[:, None])
+    np.add.at(weight, nodes, volume[:, None])
+    recovered = total[nodes] / weight[nodes][:, :, None]
+    apart, c = recovered - values[:, None], rows.shape[1]
+    return np.asarray(((apart**2).sum(axis=(1, 2)) + (apart.sum(axis=1) ** 2).sum(axis=1)) / (c * (c + 1)))
+
+
+def wanted_levels(adapted: AdaptedMesh, indicated: Array, threshold: float, greatest: int) -> IntArray:
+    """Wanted levels (e,) on the leaves of a mesh: up to two more or less than they have, 0 to ``greatest``.
+
+    Parameters
+    ----------
+    adapted
+        The mesh.
+    indicated
+        (e,) indicator of each cell.
+    threshold
+        Indicator above which a cell is too coarse.
+    greatest
+        Greatest level.
+
+    Examples
+    --------
+    >>> from softway.meshes.generators.shapes import interval
+    >>> found = refined(interval(1.0, cells=1), np.array([2]))
+    >>> wanted_levels(found, np.array([4.0, 1.5, 0.5, 0.1]), 1.0, 9).tolist()
+    [4, 3, 2, 0]
+    """
+    ratio = indicated / threshold
+    change = (ratio[:, None] > np.array(FINER)).sum(axis=1) - (ratio[:, None] < np.array(COARSER)).sum(axis=1)
+    return np.asarray(np.clip(adapted.leaves.level + change, 0, min(greatest, DEPTH)))
+
+
+def buffered(adapted: AdaptedMesh, reach: float) -> AdaptedMesh:
+    """Mesh in which a cell that comes within a distance ``reach`` [m] of a finer one of ``adapted`` is as fine as it.
+
+    Distances are those of the corners of the finer cell from the ball around the coarser one.
+
+    Examples
+    --------
+    >>> from softway.meshes.generators.shapes import interval
+    >>> sharp = refined(interval(1.0, cells=4), np.array([3, 0, 0, 0]))
+    >>> sharp.mesh.n_cells, buffered(sharp, 0.1).mesh.n_cells
+    (13, 17)
+    """
+    found = adapted
+    cells = next(iter(adapted.mesh.blocks.values()))[:, : CELLS[adapted.cell].corners]
+    for level in np.unique(adapted.leaves.level)[:0:-1]:
+        finer = np.unique(cells[adapted.leaves.level >= level])
+        found = refined_near(found, adapted.mesh.points[finer], int(level), reach)
+    return found
+
+
+def refined_near(adapted: AdaptedMesh, points: Array, level: int, reach: float) -> AdaptedMesh:
+    """Mesh in which cells that come within a distance ``reach`` [m] of one of the points (k, d) have a level or more.
+
+    Distances are those from the ball around a cell.
+
+    Examples
+    --------
+    >>> from softway.meshes.generators.shapes import interval
+    >>> whole = refined(interval(1.0, cells=1), np.array([0]))
+    >>> refined_near(whole, np.array([[1.0]]), 3, 0.05).leaves.level.tolist()
+    [1, 2, 3, 3]
+    """
+    found, corners, near = adapted, CELLS[adapted.cell].corners, cKDTree(points)
+    while True:
+        own = found.mesh.points[next(iter(found.mesh.blocks.values()))[:, :corners]]
+        centre = own.mean(axis=1)
+        radius = np.linalg.norm(own - centre[:, None], axis=2).max(axis=1)
+        late = (found.leaves.level < level) & (near.query(centre)[0] < radius + reach)
+        if not late.any():
+            return found
+        found = refined(found.base, found.leaves.level + late, found.leaves)

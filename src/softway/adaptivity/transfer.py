@@ -1,0 +1,128 @@
+"""Transfer of the motion of a solid from one adapted mesh to another, with its momentum, spin and energy."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.adaptivity.adapted_solid import AdaptedSolid
+from softway.adaptivity.balances import balanced, rigid_motions_of, spin
+from softway.adaptivity.memory import remembered
+from softway.adaptivity.projection import Projection, projection
+from softway.arrays import Array
+from softway.bodies.internal_force.material_state import MaterialState
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Motion:
+    """Motion of a solid of n nodes at one time.
+
+    Parameters
+    ----------
+    displacement, velocity
+        (n, d) [m], [m/s].
+    state
+        Material state; None for an elastic solid.
+    """
+
+    displacement: Array
+    velocity: Array
+    state: MaterialState | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Transferred:
+    """Motion of a solid after a transfer, and what the transfer has changed.
+
+    Parameters
+    ----------
+    motion
+        The motion on the new mesh.
+    scalar
+        Scalar s that closes the energy; one where none does.
+    momentum, spin, energy
+        Defects of the projection alone: momentum (d,) [kg m/s], angular momentum (3,) about the origin [kg m^2/s], and
+        energy [J], new less old.
+    booked
+        Energy that the solid has lost in the transfer [J]: rounding where the scalar closes it.
+    projection
+        Projections of other fields: accelerations.
+    """
+
+    motion: Motion
+    scalar: float
+    momentum: Array
+    spin: Array
+    energy: float
+    booked: float
+    projection: Projection
+
+
+def transfer(
+    before: AdaptedSolid,
+    after: AdaptedSolid,
+    motion: Motion,
+    cast: Projection | None = None,
+    displacement: Array | None = None,
+) -> Transferred:
+    """Transfer a motion to another mesh of the same base.
+
+    Velocities are projected with the consistent mass, displacements with mass and stiffness.  Then a rigid motion, in
+    the mass matrices of the march, gives the momentum and spin before, and a scalar times the rest of the motion the
+    energy (docs/theory/bodies/adaptive.md#transfer).  With supports this holds for the rigid motions that they leave
+    free.
+
+    Parameters
+    ----------
+    before, after
+        The solid on both meshes.
+    motion
+        Its motion on the mesh before.
+    cast
+        Projections from one mesh to the other, where they are known.
+    displacement
+        (m, d) displacement on the new mesh [m], such as the projected one with massless nodes in equilibrium; by
+        default the projected one.
+
+    Raises
+    ------
+    InputError
+        If the meshes have different bases.
+
+    Examples
+    --------
+    >>> import softway as sw
+    >>> from softway.adaptivity.adapted_solid import adapted_solid
+    >>> from softway.meshes.adaptive.refinement import refined
+    >>> bar = sw.Solid(mesh=sw.meshes.Interval(length=1.0, cells=2), material=sw.LinearElastic(E=1.0), density=1.0)
+    >>> fine, coarse = (adapted_solid("bar", bar, refined(bar.mesh.build(), np.full(2, k)), ()) for k in (3, 1))
+    >>> x = fine.points
+    >>> found = transfer(fine, coarse, Motion(displacement=0.1 * x**2, velocity=1.0 + x**3))
+    >>> abs(found.booked) < 1e-15, abs(found.scalar - 1.0) < 0.02
+    (True, True)
+    """
+    cast = projection(before, after) if cast is None else cast
+    velocity = after.following(cast.velocity(before.following(motion.velocity)))
+    displacement = cast.displacement(motion.displacement) if displacement is None else displacement
+    state = None if motion.state is None else remembered(before, after, motion.state, displacement)
+    old, new = _stored(before, motion.state, motion.displacement), _stored(after, state, displacement)
+    places = before.points + motion.displacement, after.points + displacement
+    momenta = before.mass @ motion.velocity, after.mass @ velocity
+    total = before.kinetic(motion.velocity) + old
+    rigid = rigid_motions_of(before, after, places)
+    closed, scalar = balanced(after, rigid.after, velocity, rigid.before.T @ momenta[0].ravel(), total - new)
+    closed = after.following(closed)
+    return Transferred(
+        motion=Motion(displacement=displacement, velocity=closed, state=state),
+        scalar=scalar,
+        momentum=np.asarray(momenta[1].sum(axis=0) - momenta[0].sum(axis=0)),
+        spin=spin(places[1], momenta[1]) - spin(places[0], momenta[0]),
+        energy=after.kinetic(velocity) + new - total,
+        booked=total - after.kinetic(closed) - new,
+        projection=cast,
+    )
+
+
+def _stored(solid: AdaptedSolid, state: MaterialState | None, displacement: Array) -> float:
+    """Stored energy [J] of a solid in its material state."""
+    internal = solid.part.internal
+    return internal.energy(displacement) if state is None else internal.stored_force(state, displacement)[0]

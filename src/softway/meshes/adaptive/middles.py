@@ -1,0 +1,63 @@
+"""Nodes in the middle of edges that bisection has cut; each edge has one, whenever it is met."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softway.arrays import BoolArray, IntArray
+
+SHIFT = 32
+"""Bits of the greater number in the code of a pair of nodes."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Middles:
+    """Middles of edges.
+
+    Parameters
+    ----------
+    codes
+        (m,) codes of the edges, in rising order.
+    nodes
+        (m,) node in the middle of each.
+    count
+        Number of nodes so far.
+
+    Examples
+    --------
+    >>> found, middle = Middles.none(3).with_middles(np.array([[0, 1], [2, 0], [1, 0]]))
+    >>> middle.tolist(), found.on_edges(np.array([[1, 2], [0, 2]])).tolist()
+    ([3, 4, 3], [False, True])
+    """
+
+    codes: IntArray
+    nodes: IntArray
+    count: int
+
+    @classmethod
+    def none(cls, count: int) -> "Middles":
+        """No middles, in a mesh of ``count`` nodes."""
+        return cls(codes=np.zeros(0, dtype=np.int64), nodes=np.zeros(0, dtype=np.int64), count=count)
+
+    def with_middles(self, edges: IntArray) -> tuple["Middles", IntArray]:
+        """Middles with those of ``edges`` (k, 2) too, and the node (k,) of each."""
+        code = edge_codes(edges)
+        new = np.setdiff1d(code, self.codes)
+        codes = np.concatenate([self.codes, new])
+        nodes = np.concatenate([self.nodes, self.count + np.arange(len(new))])
+        order = np.argsort(codes, kind="stable")
+        found = Middles(codes=codes[order], nodes=nodes[order], count=self.count + len(new))
+        return found, found.nodes[np.searchsorted(found.codes, code)]
+
+    def on_edges(self, corners: IntArray) -> BoolArray:
+        """True (e,) for the cells, by their corners (e, c), that have an edge with a middle."""
+        out = np.zeros(len(corners), dtype=bool)
+        for i in range(corners.shape[1]):
+            for j in range(i):
+                out |= np.isin(edge_codes(corners[:, [i, j]]), self.codes)
+        return out
+
+
+def edge_codes(edges: IntArray) -> IntArray:
+    """Codes (k,) of edges (k, 2), the same in both directions."""
+    return np.asarray((edges.min(axis=-1) << SHIFT) + edges.max(axis=-1))

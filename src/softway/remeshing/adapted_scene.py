@@ -1,0 +1,182 @@
+"""Scene with adapted meshes: its model, and its state on other meshes."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from softway.adaptivity.adapted_solid import AdaptedSolid
+from softway.adaptivity.projection import projection
+from softway.adaptivity.transfer import Motion, Transferred, transfer
+from softway.arrays import Array, IntArray
+from softway.bodies.assembled.material_states import any_path_dependent
+from softway.bodies.setup.placement import Placement, placed
+from softway.bodies.solid import Solid
+from softway.errors import InputError, within
+from softway.heat.coupled.build import build
+from softway.march.march_state import MarchState
+from softway.march.model_state import join_states, split_states
+from softway.meshes.adaptive.leaves import same
+from softway.meshes.adaptive.refinement import AdaptedMesh, refined
+from softway.meshes.mesh import Mesh
+from softway.model.model import Model
+from softway.model.scene import Scene
+from softway.remeshing.adapt import Adapt
+from softway.solve.operators.operator_memory import OperatorMemory
+from softway.solve.static_equilibrium import StaticState, equilibrium
+
+BARS = "elastic bars without friction, heat, ties, bulk viscosity or rigid bodies, with contacts at nodes of the mesh"
+"""What may adapt."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class AdaptedScene:
+    """Scene with its adapted meshes.
+
+    Parameters
+    ----------
+    scene, model
+        The scene on these meshes, and its model.
+    meshes
+        Mesh of each solid of bars.
+    """
+
+    scene: Scene
+    model: Model
+    meshes: Mapping[str, AdaptedMesh]
+
+    def solid(self, name: str) -> AdaptedSolid:
+        """A solid of bars, with its inertia in the model."""
+        part = next(p for p in self.model.parts if p.name == name)
+        solid = self.scene.bodies[name]
+        assert isinstance(solid, Solid)
+        mass, follow = (matrix[part.nodes][:, part.nodes] for matrix in (self.model.mass, self.model.follow))
+        return AdaptedSolid(solid=solid, adapted=self.meshes[name], part=part, mass=mass, follow=follow)
+
+    def on(self, meshes: Mapping[str, AdaptedMesh]) -> "AdaptedScene":
+        """The scene on other meshes; itself if they are the same.
+
+        Raises
+        ------
+        InputError
+            If the contacts have other rows on them.
+        """
+        if all(same(self.meshes[name].leaves, mesh.leaves) for name, mesh in meshes.items()):
+            return self
+        bodies = dict(self.scene.bodies)
+        for name, mesh in meshes.items():
+            solid = bodies[name]
+            assert isinstance(solid, Solid)
+            bodies[name] = replace(solid, mesh=mesh.mesh)
+        scene = replace(self.scene, bodies=bodies)
+        model = build(scene)
+        if len(model.contacts.node) != len(self.model.contacts.node):
+            rows = f"{len(model.contacts.node)} contact rows on another mesh, {len(self.model.contacts.node)} before"
+            raise InputError("contacts", rows, f"contacts at the ends of bars: {BARS}")
+        return AdaptedScene(scene=scene, model=model, meshes=dict(meshes))
+
+    def wanted(self, adapt: Mapping[str, Adapt], now: MarchState, energy: float, ahead: float) -> "AdaptedScene":
+        """The scene on the meshes for the coming slabs, contacts that close within ``ahead`` [s] in fine cells."""
+        touching = _touching(self.model, now, ahead)
+        meshes = dict(self.meshes)
+        for name, how in adapt.items():
+            solid = self.solid(name)
+            nodes = solid.part.nodes
+            motion = _motion(self.model, now, name)
+            places = self.model.points[touching[(touching >= nodes.start) & (touching < nodes.stop)]]
+            meshes[name] = how.mesh(solid, motion, energy, places)
+        return self.on(meshes)
+
+
+def adapted_scene(scene: Scene, adapt: Mapping[str, Adapt]) -> AdaptedScene:
+    """Scene on the base meshes; bars that do not adapt have their base mesh for ever.
+
+    Raises
+    ------
+    InputError
+        For bodies whose meshes cannot adapt.
+    """
+    bodies = dict(scene.bodies)
+    solids = {name: body for name, body in bodies.items() if isinstance(body, Solid)}
+    bases = {name: placed(_built(solid), solid.place, solid.group) for name, solid in solids.items()}
+    for name in adapt:
+        with within(f"adapt.{name}"):
+            if name not in solids:
+                raise InputError("", "no solid of this name", f"one of: {', '.join(solids)}")
+            if bases[name].cell_dim > 1 or solids[name].thermal is not None or solids[name].shock is not None:
+                raise InputError("", "a solid whose mesh cannot adapt in a march", BARS)
+    bars = {name: base for name, base in bases.items() if base.cell_dim == 1 and len(base.blocks) == 1}
+    meshes = {name: refined(base, np.zeros(base.n_cells, dtype=np.int64)) for name, base in bars.items()}
+    for name, mesh in meshes.items():
+        bodies[name] = replace(solids[name], mesh=mesh.mesh, place=Placement(), group=())
+    scene = replace(scene, bodies=bodies)
+    model = build(scene)
+    plain = not model.companions and model.rigid is None and all(_own_dofs(model)) and model.friction.frictionless
+    if not plain or any_path_dependent(model.parts):
+        raise InputError("adapt", "a scene in which no mesh can adapt", BARS)
+    return AdaptedScene(scene=scene, model=model, meshes=meshes)
+
+
+def _built(solid: Solid) -> Mesh:
+    """Mesh of a solid."""
+    return solid.mesh if isinstance(solid.mesh, Mesh) else solid.mesh.build()
+
+
+def _own_dofs(model: Model) -> list[bool]:
+    """True for each solid whose unknowns are its own: no solid is in the group of another one."""
+    return [int((model.linked == group).sum()) == 1 for group in model.linked]
+
+
+def _motion(model: Model, now: MarchState, name: str) -> Motion:
+    """Motion of a solid."""
+    start = now.state.start
+    nodes = next(p.nodes for p in model.parts if p.name == name)
+    return Motion(displacement=start.displacement[nodes], velocity=start.velocity[nodes])
+
+
+def _touching(model: Model, now: MarchState, ahead: float) -> IntArray:
+    """Nodes (k,) of contacts that are closed, or would close within ``ahead`` [s] at the present velocities."""
+    start, state = now.state.start, now.state
+    coming = start.displacement + ahead * start.velocity
+    gap = model.rows(coming, state.time + ahead).gap(coming)
+    contacts = np.unique(model.contacts.contact[state.closed | (gap <= 0.0)])
+    solids = {s for k in contacts for s in model.contact_solids[k]}
+    return model.touchable[np.isin(model.part_of[model.touchable], list(solids))]
+
+
+def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple[MarchState, Mapping[str, Transferred]]:
+    """State of a march on the new meshes, and the transfers of the solids of bars.
+
+    Displacements are projected, massless nodes of all solids find their equilibrium with the contacts, and then the
+    balances are closed.  The account of the energy goes on from what the transfers, and this equilibrium in other
+    solids, have taken.
+    """
+    state, names = split_states(old.model, now.state), list(new.meshes)
+    pairs = {name: (old.solid(name), new.solid(name)) for name in names}
+    casts = {name: projection(*pair) for name, pair in pairs.items()}
+    places = {n: cast.displacement(state.displacement[n]) for n, cast in casts.items()}
+    rest = _settled(new.model, new.model.join({**state.displacement, **places}), now.state.time)
+    places = new.model.split(rest.displacement)
+    found = {n: transfer(*pairs[n], _motion(old.model, now, n), casts[n], places[n]) for n in names}
+    labels, rows = new.model.contacts.labels, new.model.contacts
+    pressure = {label: rest.pressure[rows.rows_of(k)] for k, label in enumerate(labels)}
+    state = replace(
+        state,
+        displacement=places,
+        velocity={**state.velocity, **{n: one.motion.velocity for n, one in found.items()}},
+        acceleration={**state.acceleration, **{n: casts[n].velocity(state.acceleration[n]) for n in names}},
+        pressure=pressure,
+        closed={label: value > 0.0 for label, value in pressure.items()},
+    )
+    joined = join_states(new.model, state, now.step_history.span)
+    fixed = np.array([part.name not in new.meshes for part in new.model.parts])
+    taken = sum(one.booked for one in found.values()) + float(
+        (now.state.start.energy - joined.start.energy)[fixed].sum()
+    )
+    account = replace(now.account, energy_start=now.account.energy_start - taken)
+    return replace(now, state=joined, account=account, memory=OperatorMemory()), found
+
+
+def _settled(model: Model, u: Array, time: float) -> StaticState:
+    """Massless nodes in equilibrium with the contacts, the others at the displacement u (n, d)."""
+    return equilibrium(model, u, model.dofs.only(~model.massive), model.loads.at(time), time)
