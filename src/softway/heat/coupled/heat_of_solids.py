@@ -24,7 +24,7 @@ class HeatOfSolids:
     cold_work
         Energy that the material dissipated and that did not heat [J].
     entropy
-        Entropy produced [J/K].
+        Entropy produced [J/K], with that of the heat which tools take at their temperatures; none of tools without.
     liquid
         Volume of the liquid of each solid that melts, measured in the reference configuration [m^3].
     rigid
