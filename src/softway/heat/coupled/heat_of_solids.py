@@ -16,6 +16,9 @@ class HeatOfSolids:
         Heat that loads brought, less what they took away [J].
     received
         Heat that the motion gave: dissipated in the solids or by friction, or work against the thermal stress [J].
+    reversible
+        The part of ``received`` that nothing dissipated: work of the thermal stress and energy that the temperature
+        takes from the strain energy, of either sign [J].
     friction
         Heat of friction in the solids; what tools take is not in it [J].
     through
@@ -45,6 +48,7 @@ class HeatOfSolids:
     brought: float = 0.0
     received: float = 0.0
     friction: float = 0.0
+    reversible: float = 0.0
     through: tuple[float, ...] = ()
     cold_work: float = 0.0
     entropy: float = 0.0

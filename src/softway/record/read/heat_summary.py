@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.record.storage.table import Table
 from softway.record.write.history_columns import LIQUID, RIGID
 
@@ -39,6 +40,19 @@ def summarise_heat(history: Table) -> dict[str, Any]:
     }
 
 
+def dissipated(history: Table) -> Array:
+    """Energy (t,) dissipated by friction and material [J]: without what the heat of solids took and may give back.
+
+    Examples
+    --------
+    >>> columns = {"dissipation": np.array([0.0, 14.5]), "heat.reversible": np.array([0.0, 14.0])}
+    >>> dissipated(Table(columns)).tolist(), dissipated(Table({"dissipation": np.ones(1)})).tolist()
+    ([0.0, 0.5], [1.0])
+    """
+    given = history.get("heat.reversible", 0.0)  # earlier versions lack it
+    return np.asarray(history["dissipation"] - given)
+
+
 def summarise_solids(history: Table) -> dict[str, float]:
     """Summarise the heat of the solids of a run; empty if they have none.
 
@@ -52,6 +66,7 @@ def summarise_solids(history: Table) -> dict[str, float]:
     entropy = history["heat.entropy"]  # produced since the start
     return {
         **{f"heat_{name}": float(history[f"heat.{name}"][-1]) for name in ("brought", "received", "friction")},
+        **({"heat_reversible": float(history["heat.reversible"][-1])} if "heat.reversible" in history else {}),
         "heat_content_end": float(history["heat.content"][-1]),
         "cold_work": float(history["heat.cold_work"][-1]),
         "heat_error_worst": float(abs(history["heat.error"]).max()),
