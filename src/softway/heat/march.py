@@ -69,7 +69,8 @@ class HeatStep:
         True for a slab of two halves whose heat flows at the temperature of their ends.
     entropy_produced
         Entropy that the slab produced [J/K]: that of the bodies gained, less what the heats of loads brought at the
-        temperatures at which they came in.  It is not negative but for errors of discretisation.
+        temperatures at which the heat flows in the slab.  It contains the error of the slab, which may be most of it
+        where bodies have one temperature (docs/theory/heat/conduction.md), and is not negative but for such errors.
     state
         State for another march that goes on.
     """

@@ -59,3 +59,25 @@ def test_water_that_freezes_never_loses_entropy(latent: str, half_range: float) 
     walls = (heat.Temperature(on=f"b.{side}", value=263.15) for side in ("left", "right", "top", "bottom"))
     found = produced(body, *walls, until=600.0, step=10.0)
     assert found.min() > -1e-12 * found.sum() and found.sum() > 10.0
+
+
+def test_a_uniform_body_produces_the_error_of_its_slabs_alone() -> None:
+    """A capacity of 6 J/K takes 60 J in each slab; the first is of two halves whose heat flows at their ends."""
+    law = heat.Conduction(conductivity=1.0, capacity=2.0)
+    bar = heat.Conductor(mesh=interval(1.0, cells=4), law=law, density=3.0, temperature=300.0)
+    found = produced(bar, heat.HeatSource(of="b", value=60.0), until=3.0, step=1.0)
+    halves = sum(6.0 * np.log(b / (b - 5.0)) - 30.0 / b for b in (305.0, 310.0))
+    whole = [6.0 * np.log((m + 5.0) / (m - 5.0)) - 60.0 / m for m in (315.0, 325.0)]
+    assert found == pytest.approx([halves, *whole], rel=1e-6)
+    assert halves == pytest.approx(2.0 * 3.0 * (5.0 / 305.0) ** 2, rel=5e-2)
+    assert whole[0] == pytest.approx(6.0 / 12.0 * (10.0 / 315.0) ** 3, rel=1e-3)
+
+
+def test_what_the_length_of_slabs_produces_falls_with_them() -> None:
+    """A uniform plate is heated against its radiation."""
+    law = heat.Conduction(conductivity=1e4, capacity=900.0)
+    plate = heat.Conductor(mesh=rectangle((0.02, 0.01), (4, 2)), law=law, density=2700.0, temperature=300.0)
+    air = heat.Radiation(on="b", emissivity=0.5, ambient=300.0)
+    loads = air, heat.HeatSource(of="b", value=2e6)
+    long, short = (float(produced(plate, *loads, until=3600.0, step=step).sum()) for step in (120.0, 30.0))
+    assert long == pytest.approx(9.18, rel=1e-2) and short < 0.1 * long

@@ -100,3 +100,20 @@ def test_every_kind_of_cell_melts_through(cell: str, latent: str) -> None:
     taken = model.mass @ (2.0 * (found[-1].temperature["b"] - 300.0) + 10.0 + 2.0)
     assert found[-1].ledger.heat_in == pytest.approx(taken, rel=1e-9)
     assert found[-1].ledger.relative_error < 1e-9
+
+
+@pytest.mark.parametrize(("latent", "cells", "coldest"), [("cell", 4, -2.0), ("cell", 8, -1.0), ("node", 4, 0.0)])
+def test_the_node_ahead_of_a_front_lends_its_heat(latent: str, cells: int, coldest: float) -> None:
+    """Tin that starts at melting gets colder ahead of the front, by a part of the fall q dx/k across a cell."""
+    law = heat.Conduction(conductivity=60.0, capacity=240.0, latent=heat.Latent(heat=60e3, melting=505.15))
+    mesh = interval(0.02, cells=cells)
+    bar = heat.Conductor(mesh=mesh, law=law, density=7300.0, temperature=505.15, latent=latent)
+    scene = heat.HeatScene(bodies={"b": bar}, loads=(heat.HeatFlux(on="b.left", value=1e5),))
+    found = list(heat.march_heat(scene, until=40.0, step=1.0))
+    below = min(step.temperature["b"].min() - 505.15 for step in found)
+    assert below == pytest.approx(coldest, rel=5e-3, abs=1e-9) and below >= -0.25 * 1e5 * 0.02 / cells / 60.0
+    tenth = found[9]  # all the heat is in the liquid and in the temperatures
+    taken = 7300.0 * (60e3 * tenth.liquid_volume["b"] + 240.0 * (np.full(cells + 1, 0.02 / cells) @ (
+        tenth.temperature["b"] - 505.15
+    ) - 0.01 / cells * (tenth.temperature["b"][[0, -1]] - 505.15).sum()))  # fmt: skip
+    assert taken == pytest.approx(1e6, rel=1e-9)

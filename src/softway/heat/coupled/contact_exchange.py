@@ -131,6 +131,11 @@ class ContactExchange:
                     rigid[rows.lump] += left
         return np.concatenate([out[self.nodes], rigid]), taken
 
+    def entropy_of_tools(self, taken: Array) -> float:
+        """Entropy that the tools with a temperature gain with the heat (c,) of friction that they take [J/K]."""
+        at = ((heat, rows.heat.tool_temperature) for heat, rows in zip(taken.tolist(), self.contacts, strict=True))
+        return sum(heat / temperature for heat, temperature in at if temperature is not None)
+
     def _begins(self, rows: RowsOfContact, of: ContactSides) -> BoolArray:
         """Rows (r,) whose slave nodes are those of the solid that is named first."""
         mine, theirs = (rows.order[self.part_of[node]] for node in (rows.node, of.opponent))

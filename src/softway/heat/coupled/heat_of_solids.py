@@ -16,6 +16,9 @@ class HeatOfSolids:
         Heat that loads brought, less what they took away [J].
     received
         Heat that the motion gave: dissipated in the solids or by friction, or work against the thermal stress [J].
+    reversible
+        The part of ``received`` that nothing dissipated: work of the thermal stress and energy that the temperature
+        takes from the strain energy, of either sign [J].
     friction
         Heat of friction in the solids; what tools take is not in it [J].
     through
@@ -24,7 +27,7 @@ class HeatOfSolids:
     cold_work
         Energy that the material dissipated and that did not heat [J].
     entropy
-        Entropy produced [J/K].
+        Entropy produced [J/K], with that of the heat which tools take at their temperatures; none of tools without.
     liquid
         Volume of the liquid of each solid that melts, measured in the reference configuration [m^3].
     rigid
@@ -45,6 +48,7 @@ class HeatOfSolids:
     brought: float = 0.0
     received: float = 0.0
     friction: float = 0.0
+    reversible: float = 0.0
     through: tuple[float, ...] = ()
     cold_work: float = 0.0
     entropy: float = 0.0

@@ -32,8 +32,8 @@ class HeatOfSlab:
         Heat content at the end [J], see :meth:`SolidTemperature.content`.
     brought
         Heat that loads and tools brought, less what they took away [J].
-    received
-        Heat that the motion gave to the solids [J].
+    received, reversible
+        Heat that the motion gave to the solids, and the part of it that nothing dissipated [J].
     stored
         Dissipated energy that did not heat: the cold work [J].
     produced, passed, rounding
@@ -51,6 +51,7 @@ class HeatOfSlab:
     content: float
     brought: float
     received: float
+    reversible: float
     stored: float
     produced: float
     passed: float
@@ -209,14 +210,15 @@ class SlabTemperature:
         mean = slab.first * self.time.strained.force(over, dim) + (1.0 - slab.first) * mean
         entropies = -moduli.slopes(after.temperature, after.share) * amounts
         initial = -moduli.slopes(before.temperature, before.share) * self.time.amounts
-        rub = float(heat.sum())
+        rub, gained = float(heat.sum()), self.time.contacts.entropy_of_tools(taken)
         account = HeatOfSlab(
             content=float(after.content.sum() + (after.temperature * entropies).sum()),
             brought=float(self.time.jumped.sum() + result.heats.sum() - through[self.time.contacts.with_tools].sum()),
             received=float(lost.sum() + self.given.sum()) + rub,
+            reversible=float(lost.sum()),
             stored=self.spent - float(self.given.sum()),
-            produced=float(result.produced.sum()) + result.reservoirs,
-            passed=float(result.turned.sum() + np.abs(entropies - initial).sum()),
+            produced=float(result.produced.sum()) + result.reservoirs + gained,
+            passed=float(result.turned.sum() + np.abs(entropies - initial).sum()) + gained,
             rounding=result.rounding / float(after.temperature.min()),
             rubbed=rub,
             through=through + taken,

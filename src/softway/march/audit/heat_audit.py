@@ -42,6 +42,7 @@ def heat_audit(last: HeatOfSolids | None, out: SlabResult) -> HeatOfSolids | Non
             received=last.received + found.received,
             cold_work=last.cold_work + found.stored,
             friction=last.friction + found.rubbed,
+            reversible=last.reversible + found.reversible,
             through=tuple((np.array(last.through) + found.through).tolist()),
             liquid=found.liquid,
             rigid=found.rigid,

@@ -107,7 +107,8 @@ class Ledger:
     energy_kinetic, energy_strain
         At the end [J].
     work_external, dissipation
-        Since the start: work of loads, supports and moving tools; energy dissipated by friction and material [J].
+        Since the start: work of loads, supports and moving tools; energy dissipated by friction and material,
+        with ``heat.reversible`` in solids with a temperature [J].
     energy_error
         ``kinetic + strain - initial - work_external + dissipation`` [J].
     momentum

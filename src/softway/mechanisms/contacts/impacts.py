@@ -64,13 +64,18 @@ class StopMarch:
         flags = {name: getattr(self.stops, name) for name in ("closed", "sliding", "turning", "told")}
         return {**flags, "touched": self.touched}
 
-    def start(self, h: float, extent: float) -> list[StopEvent]:
-        """Close the stops that are touched at the start, with an impact if bodies approach there; its events."""
+    def start(self, h: float, extent: float, impacts: bool = True) -> list[StopEvent]:
+        """Close the stops that are touched at the start, with an impact if bodies approach there; its events.
+
+        Without ``impacts`` such stops stay open, and are struck in the slab that follows.
+        """
         gaps, events = self.stops.at_state(), list[StopEvent]()
         for k in np.flatnonzero(gaps < -NEAR * extent):
             problem = f"is overlapped by {-gaps[k]:.3g} m at the start"
             raise InputError(f"stops.{self.stops.names[k]}", problem, "places with a gap of zero or more")
         touching = gaps <= NEAR * extent
+        if not impacts:
+            touching &= self.stops.speeds() >= -NOISE * extent / h
         if touching.any():
             self._impact(0.0, h, touching, extent, events)
         self.stops.see_sliding(NOISE * extent / h)

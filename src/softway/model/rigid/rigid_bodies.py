@@ -85,6 +85,8 @@ class RigidBodies:
     def state_of(self, found: Mapping[str, BodyState], time: float) -> RigidState:
         """State with these states of the bodies at a time [s]; angles of joints are within half a turn.
 
+        Bodies that approach at a stop that they touch strike it in the slab that follows.
+
         Raises
         ------
         InputError
@@ -113,7 +115,7 @@ class RigidBodies:
         begin(it.bodies, it.joints, it.springs, it.motion, room)
         it.motion.time[0] = time
         if work.stops is not None:
-            work.stops.start(1.0, it.reach(1.0))
+            work.stops.start(1.0, it.reach(1.0), impacts=False)
         return work.state(np.zeros(2))
 
     def slab(self, state: RigidState, time: float, span: float, given: Array) -> RigidSlab:

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from softway.arrays import Array
 from softway.record.storage.table import Table
 from softway.record.write.history_columns import LIQUID, RIGID
 
@@ -39,6 +40,19 @@ def summarise_heat(history: Table) -> dict[str, Any]:
     }
 
 
+def dissipated(history: Table) -> Array:
+    """Energy (t,) dissipated by friction and material [J]: without what the heat of solids took and may give back.
+
+    Examples
+    --------
+    >>> columns = {"dissipation": np.array([0.0, 14.5]), "heat.reversible": np.array([0.0, 14.0])}
+    >>> dissipated(Table(columns)).tolist(), dissipated(Table({"dissipation": np.ones(1)})).tolist()
+    ([0.0, 0.5], [1.0])
+    """
+    given = history.get("heat.reversible", 0.0)  # earlier versions lack it
+    return np.asarray(history["dissipation"] - given)
+
+
 def summarise_solids(history: Table) -> dict[str, float]:
     """Summarise the heat of the solids of a run; empty if they have none.
 
@@ -52,6 +66,7 @@ def summarise_solids(history: Table) -> dict[str, float]:
     entropy = history["heat.entropy"]  # produced since the start
     return {
         **{f"heat_{name}": float(history[f"heat.{name}"][-1]) for name in ("brought", "received", "friction")},
+        **({"heat_reversible": float(history["heat.reversible"][-1])} if "heat.reversible" in history else {}),
         "heat_content_end": float(history["heat.content"][-1]),
         "cold_work": float(history["heat.cold_work"][-1]),
         "heat_error_worst": float(abs(history["heat.error"]).max()),
@@ -72,19 +87,20 @@ def told_of_heat(found: Mapping[str, Any]) -> tuple[str, ...]:
     ...     print(sentence)
     Heat was conducted for 60 s in 10 slabs (time steps): 5 J came in, 0 J went out.
     The balance of heat holds to 0 J, 0 of the heat that moved.
-    Conduction produced 2 J/K of entropy, and no slab less than none.
+    The slabs produced 2 J/K of entropy, by conduction and by their length, and none of them less than none.
     Of pond 0.25 m^3 are liquid at the end.
     """
     if not found["slabs"]:
         return ("No heat has been conducted yet.",)
     falls = found["entropy_least"] < -BALANCED * abs(found["entropy_produced"])
-    least = f"but a slab {found['entropy_least']:.2g} J/K" if falls else "and no slab less than none"
+    least = f"but one of them {found['entropy_least']:.2g} J/K" if falls else "and none of them less than none"
     holds = "holds" if found["heat_error_relative"] < BALANCED else "misses, it holds only"
     return (
         f"Heat was conducted for {found['time_end']:.6g} s in {found['slabs']} slabs (time steps): "
         f"{found['heat_in']:.6g} J came in, {found['heat_out']:.6g} J went out.",
         f"The balance of heat {holds} to {found['heat_error_worst']:.2g} J, "
         f"{found['heat_error_relative']:.2g} of the heat that moved.",
-        f"Conduction produced {found['entropy_produced']:.4g} J/K of entropy, {least}.",
+        f"The slabs produced {found['entropy_produced']:.4g} J/K of entropy, by conduction and by their length, "
+        f"{least}.",
         *(f"Of {name} {volume:.6g} m^3 are liquid at the end." for name, volume in found["liquid"].items()),
     )

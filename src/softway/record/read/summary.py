@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from softway.record.read.findings import gathered, stored
-from softway.record.read.heat_summary import summarise_solids
+from softway.record.read.heat_summary import dissipated, summarise_solids
 from softway.record.storage.table import Table
 
 FILE = "summary.json"
@@ -53,10 +53,11 @@ def summarise(history: Table, events: Table) -> dict[str, Any]:
     """Summarise a finished or unfinished run in a few numbers.
 
     ``energy_error_worst`` is the largest ``|energy_error|`` [J]; ``energy_error_relative`` is its ratio to the largest
-    sum of kinetic and strain energy; ``penetration_worst`` is the largest penetration of a contact row at the end of a
-    slab [m]. ``penetration_nodes`` and ``penetration_between`` are the deepest overlaps of any two surfaces, at nodes
-    and between them, in the slabs that were audited [m]; ``heat`` is that of solids with a temperature, ``findings``
-    are those of the audit.
+    sum of kinetic and strain energy; ``dissipation`` is that of friction and material, in solids with a temperature
+    without the column ``heat.reversible`` [J]; ``penetration_worst`` is the largest penetration of a contact row at the
+    end of a slab [m]. ``penetration_nodes`` and ``penetration_between`` are the deepest overlaps of any two surfaces,
+    at nodes and between them, in the slabs that were audited [m]; ``heat`` is that of solids with a temperature,
+    ``findings`` are those of the audit.
     """
     if history.rows == 0:
         return {"slabs": 0, "contacts": {}, "findings": []}
@@ -69,7 +70,7 @@ def summarise(history: Table, events: Table) -> dict[str, Any]:
         "iterations": int(history["iterations"].sum()),
         "energy_error_worst": worst,
         "energy_error_relative": worst / scale if scale > 0.0 else None,
-        "dissipation": float(history["dissipation"][-1]),
+        "dissipation": float(dissipated(history)[-1]),
         "work_external": float(history["work_external"][-1]),
         "penetration_worst": max((c["penetration_worst"] for c in contacts.values()), default=0.0),
         "power_residual_worst": max((c["power_residual_worst"] for c in contacts.values()), default=0.0),

@@ -64,7 +64,7 @@ def _number(label: str, name: str) -> Callable[[Ledger], float]:
 
 CONTACT = (("force_n", "N"), ("force_t", "N"), ("min_gap", "m"), ("power_residual", "J"))
 OF_HEAT = (
-    *((name, "J") for name in ("content", "brought", "received", "friction", "cold_work", "error")),
+    *((name, "J") for name in ("content", "brought", "received", "reversible", "friction", "cold_work", "error")),
     ("entropy", "J/K"),
 )
 THROUGH, LIQUID, RIGID = "heat.through.", "liquid.", "temperature."

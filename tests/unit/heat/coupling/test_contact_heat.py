@@ -124,6 +124,32 @@ def test_a_tool_takes_heat_at_its_temperature() -> None:
     assert min(s.ledger.heat.produced for s in steps) > 0.0
 
 
+def braked(tool_temperature: float | None) -> sw.Step:
+    """A block that slides on a floor until friction has stopped it; the floor takes .3 of the heat. The last step."""
+    body = sw.Solid(
+        mesh=rectangle((0.02, 0.01), (4, 2)), material=sw.LinearElastic(E=1e7, nu=0.3), density=2000.0,
+        velocity=Uniform(value=(3.0, 0.0)),
+        thermal=Thermal(law=sw.heat.Conduction(conductivity=0.3, capacity=1000.0), temperature=300.0),
+    )  # fmt: skip
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
+    heat = ContactHeat(share=0.7, tool_temperature=tool_temperature)
+    contact = sw.Contact(between=("b.bottom", "floor"), friction=sw.Coulomb(mu=0.25), heat=heat)
+    scene = sw.Scene(
+        bodies={"b": body, "floor": floor}, contacts=(contact,), loads=(sw.Gravity(acceleration=(0.0, -1e3)),)
+    )
+    *_, last = sw.march(scene, until=5e-3, step=5e-5)
+    return last
+
+
+def test_friction_heat_of_a_tool_has_the_entropy_of_its_temperature() -> None:
+    """The solid, some hundredths of a kelvin warmer than 300 K, takes 0.7 of the heat; the tool 0.3, at 250 K."""
+    with_one, without = braked(250.0), braked(None)
+    given = with_one.ledger.dissipation
+    assert given > 1.0 and with_one.ledger.heat.friction == pytest.approx(0.7 * given, rel=1e-9)
+    assert without.ledger.heat.entropy == pytest.approx(0.7 * given / 300.0, rel=2e-4)
+    assert with_one.ledger.heat.entropy - without.ledger.heat.entropy == pytest.approx(0.3 * given / 250.0, rel=1e-9)
+
+
 @pytest.mark.parametrize("conductance", [None, 200.0])
 def test_heat_passes_a_tie(conductance: float | None) -> None:
     """A wall of two layers between two temperatures: freely, or with the fall across the glue."""

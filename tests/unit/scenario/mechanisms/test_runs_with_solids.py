@@ -12,6 +12,7 @@ from softway.march.march import march
 from softway.record.audit.among_solids import audited_among_solids
 from softway.record.storage.table import read
 from softway.scenario.checks.check import check
+from softway.scenario.files import loads
 
 FOLDER = Path(__file__).parents[4] / "scenarios"
 SHORT = ("bodies.beam.mesh.cells=[20, 2]", "time.end=6 ms", "time.step=0.2 ms", "output.fields_every=1 ms")
@@ -19,6 +20,51 @@ STOP = (
     "stops.limit={kind='PlaneStop', between=['ground', 'hammer'], point=[0.4, 0.06], plane=[0, '0.0599 m'], "
     "normal=[0, 1], restitution=0.5}"
 )
+FALL = """
+title = "A sled falls by 0.2 m onto a plate and touches it at the end of a slab"
+[bodies.plate]
+kind = "Rigid"
+mass = "8 kg"
+centre = ["0 m", "-0.05 m"]
+inertia = "0.1 kg m^2"
+[bodies.sled]
+kind = "Rigid"
+mass = "2 kg"
+centre = ["0 m", "0.2 m"]
+inertia = "0.01 kg m^2"
+[bodies.witness]
+kind = "Solid"
+mesh = { kind = "Rectangle", size = ["10 mm", "10 mm"], cells = [1, 1], origin = ["0 m", "1 m"] }
+material = { kind = "LinearElastic", E = "1 MPa", nu = 0.3 }
+density = "2000 kg/m^3"
+supports = [{ on = "bottom", components = "xy" }]
+[joints.rail]
+kind = "Slider"
+between = ["ground", "plate"]
+at = ["0 m", "-0.05 m"]
+axis = [1, 0]
+[stops.left]
+kind = "PlaneStop"
+between = ["plate", "sled"]
+point = ["-0.05 m", "0.2 m"]
+plane = ["0 m", "0 m"]
+normal = [0, 1]
+[stops.right]
+kind = "PlaneStop"
+between = ["plate", "sled"]
+point = ["0.05 m", "0.2 m"]
+plane = ["0 m", "0 m"]
+normal = [0, 1]
+[[loads]]
+kind = "Gravity"
+acceleration = ["0 m/s^2", "-10 m/s^2"]
+[time]
+end = "0.3 s"
+step = "10 ms"
+[output]
+fields_every = "0.1 s"
+"""
+"""The speed of 2 m/s of the sled has 4 J, which are dissipated in the slab after the touch."""
 TABLES = ("history.csv", "rigid.csv", "events.csv", "scenario.toml")
 
 
@@ -161,3 +207,23 @@ def test_a_cradle_of_elastic_discs_passes_the_velocity_on_less_what_vibrates(tmp
     first = run.events["contact"][np.argsort(run.events["time"])]
     touched = [name for name in dict.fromkeys(first.tolist()) if name.startswith("disc")]
     assert touched == [f"disc{k}.boundary-disc{k + 1}.boundary" for k in range(1, 5)]
+
+
+def test_the_audit_sees_the_state_before_an_impact_at_the_end_of_a_slab(tmp_path):
+    run = sw.run(loads(FALL), tmp_path / "run")
+    assert not [f for f in run.events["finding"] if f]
+    assert run.events["time"] == pytest.approx([0.2, 0.2]) and run.events["impulse"] == pytest.approx([2.0, 2.0])
+    assert run.history["energy_kinetic"][20] == pytest.approx(4.0, rel=1e-6)
+    assert run.history["dissipation"][20:22] == pytest.approx([0.0, 4.0], rel=1e-12)
+
+
+def test_a_march_from_a_state_at_a_touch_has_the_impact_in_its_first_slab():
+    checked = check(loads(FALL))
+    *_, last = march(checked.model, until=0.2, step=checked.step)
+    assert last.after.rigid["sled"].velocity == pytest.approx([0.0, -2.0], abs=1e-12)
+    first = next(march(checked.model, until=0.3, step=checked.step, state=last.after))
+    assert [event.kind for event in first.events] == ["touch", "touch"]
+    assert first.ledger.dissipation == pytest.approx(4.0, rel=1e-12)
+    resting = next(march(checked.model, until=0.4, step=checked.step, state=first.after))
+    assert not resting.events and resting.ledger.dissipation == pytest.approx(0.0, abs=1e-12)
+    assert resting.after.rigid["sled"].centre == pytest.approx([0.0, 0.0], abs=1e-12)

@@ -51,6 +51,7 @@ UNITS = {
     "heat_error_worst": "J",
     "heat_brought": "J",
     "heat_received": "J",
+    "heat_reversible": "J",
     "heat_friction": "J",
     "cold_work": "J",
     "liquid": "m^3",

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from softway.arrays import Array
+from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.prescribed_motion import PlacedShape
 from softway.errors import InputError
 from softway.record.read.frames import Cells, Frame
@@ -26,6 +26,10 @@ if TYPE_CHECKING:
 
 WIDTH = 7.6
 """Width of the picture [inches]."""
+HEATED = "heat.content"
+"""Column of runs in which solids have a temperature."""
+NOTHING = 1e-6
+"""Work of stresses that are rounding, relative to the greatest strain energy."""
 LASTING = ("plastic_strain", "dissipation")
 """Fields that never decrease; by default they are shown at the end of the run."""
 
@@ -183,9 +187,14 @@ def _chosen(run: Records, look: PictureOptions, colour: Colour) -> tuple[list[in
         return [nearest(run, time) for time in look.times], ""
     if colour.name in LASTING or run.of_heat:
         return [len(run.fields) - 1], ", end of the run"
-    frame = _strained(run)
+    if HEATED in run.history:
+        frame, what = _stressed(run), "von Mises stress"
+        if frame is None:
+            return [len(run.fields) - 1], ", end of the run"
+    else:
+        frame, what = _strained(run), "strain energy"
     contact = " in contact" if run.fields[frame].contact_force.any() else ""
-    return [frame], f", at the largest strain energy{contact}"
+    return [frame], f", at the largest {what}{contact}"
 
 
 def _fit(figure: "Figure", axes: "Sequence[Axes]", stage: Stage, look: PictureOptions, grid: tuple[int, int]) -> None:
@@ -230,9 +239,31 @@ def _most(colour: Colour, values: Array) -> str:
 
 def _strained(run: Records) -> int:
     """Number of the frame with the largest strain energy, among the frames in contact if there are any."""
+    row, touching = _in_contact(run)
+    return int(np.argmax(np.where(touching, run.history["energy_strain"][row], -1.0)))
+
+
+def _stressed(run: Records) -> int | None:
+    """The same with the largest von Mises stress, of solids with a temperature; None if all stresses are rounding.
+
+    Their strain energy is less than none where they expand freely.
+    """
+    row, touching = _in_contact(run)
+    stress, moved = np.full(len(row), -1.0), 0.0
+    for k in np.flatnonzero(touching).tolist():
+        frame = run.fields[k]
+        stress[k] = np.nanmax(frame.von_mises, initial=0.0)
+        moved = max(moved, float(np.abs(frame.displacement).max()))
+    largest = float(np.abs(run.history["energy_strain"][row]).max())
+    extents = np.sort(np.ptp(run.fields.cells.reference, axis=0))[::-1][: run.fields.cells.dimension]
+    work = float(stress.max()) * moved * float(np.prod(extents[1:]))
+    return None if work < NOTHING * largest else int(np.argmax(stress))
+
+
+def _in_contact(run: Records) -> tuple[IntArray, BoolArray]:
+    """Lines (t,) of the history of the frames, and the frames (t,) in contact; all frames if there are none."""
     history = run.history
     row = np.searchsorted(history["time"], run.fields.times * (1.0 - 1e-12))
     forces = [history[f"contact.{c}.force_n"][row] for c in contacts_of(history)]
     touching = np.sum(forces, axis=0) > 0.0
-    strain = history["energy_strain"][row]
-    return int(np.argmax(np.where(touching, strain, -1.0) if touching.any() else strain))
+    return row, touching if touching.any() else np.ones(len(row), bool)

@@ -7,7 +7,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.record.storage.table import Table
-from softway.record.view.style import BLACK, BLUE, CYCLE, GREEN, PURPLE, RED, scaled
+from softway.record.view.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, PURPLE, RED, scaled
 from softway.record.write.history_columns import LIQUID
 
 if TYPE_CHECKING:
@@ -17,6 +17,7 @@ HEATS = (("heat_in", RED, "came in"), ("heat_out", BLUE, "went out"))
 """Columns with colours and labels."""
 OF_SOLIDS = (
     ("heat.received", RED, "from the motion"),
+    ("heat.reversible", ORANGE, "of it, reversible"),
     ("heat.friction", GREEN, "of friction"),
     ("heat.brought", BLUE, "by loads and tools"),
     ("heat.cold_work", BLACK, "dissipated without heating"),

@@ -8,6 +8,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.record.pile.summary import energy_scale as energy_scale_of_pile
+from softway.record.read.heat_summary import dissipated
 from softway.record.read.mechanism_summary import energy_scale
 from softway.record.read.records import Records
 from softway.record.read.summary import contacts_of, ties_of
@@ -120,8 +121,11 @@ def energies(axis: "Axes", time: Array, table: Table) -> None:
         (f"kinetic + {word}", total, BLACK, "--"),
     ]
     for name, color, label, style in WORKS:
-        if name in table and np.abs(table[name]).max() > 1e-3 * np.abs(total).max():
-            curves.append((label, table[name], color, style))
+        if name not in table:
+            continue
+        work = dissipated(table) if name == "dissipation" else table[name]
+        if np.abs(work).max() > 1e-3 * np.abs(total).max():
+            curves.append((label, work, color, style))
     factor, unit = scaled(np.concatenate([values for _, values, _, _ in curves]), "J")
     for label, values, color, style in curves:
         axis.plot(time, factor * values, linestyle=style, color=color, label=label)
