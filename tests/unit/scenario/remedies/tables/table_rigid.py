@@ -100,6 +100,12 @@ TABLE: Table = {
     "heat of no stop": Try(PAIR, links(stop="wall"), "one of ['seat']", SEAT),
     "heat with the ground": Try(PAIR, links(between=["r", "ground"], conductance=1), "['r', 'q']", LINK),
     "heat with itself": Try(PAIR, links(between=["r", "r"], conductance=1), "two different bodies", LINK),
+    "a stop that heats twice": Try(
+        PAIR,
+        "heat_links=[{stop='seat', share=0.5}, {stop='seat', conductance=1, share=0.5}]",
+        "one link of the stop",
+        "heat_links=[{stop='seat', conductance=1, share=0.5}]",
+    ),
     "a stop that nobody shares": Try(PAIR, links(stop="seat"), "a share from 0 to 1", SEAT),
     "heat on a face of a rigid body": Try(MIXED, f"{WARM} & {FACE}", "'r'", f"{WARM} & {FLUX}"),
     "heat on no area": Try(
