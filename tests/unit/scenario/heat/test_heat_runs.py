@@ -184,6 +184,38 @@ def test_a_front_between_nodes_is_resumed_with_the_same_bits(tmp_path):
     assert whole.history["heat_error_relative"].max() < 1e-12
 
 
+def test_frames_have_the_liquid_share_of_a_front(tmp_path):
+    """A bar of little capacity just below melting: the heat that came in is latent, but for a thousandth, and as much of
+    it flows through a cell as there is liquid in it.
+    """
+    law = "{conductivity=60, capacity=1, latent={heat='60 kJ/kg', melting='232 degC'}}"
+    changes = (
+        "bodies.bar.mesh.length=2 cm", "bodies.bar.mesh.cells=4", "bodies.bar.density=7300", f"bodies.bar.law={law}",
+        "bodies.bar.temperature=231.99 degC", "loads=[{kind='HeatFlux', on='bar.left', value='100 kW/m^2'}]",
+        "time={end='40 s', step='1 s'}", "output.fields_every=10 s",
+    )  # fmt: skip
+    run = sw.run(sw.loads(FRONT, changes=changes), tmp_path / "run")
+    told = dict(zip(run.history["time"].tolist(), run.history["liquid.bar"], strict=True))
+    for frame in run.fields:
+        molten = 1e5 * frame.time / (7300.0 * 6e4)
+        shares = np.clip((molten - 0.005 * np.arange(4)) / 0.005, 0.0, 1.0)
+        assert frame["liquid"] == pytest.approx(shares, abs=2e-3), frame.time
+        assert 0.005 * frame["liquid"].sum() == pytest.approx(told[frame.time], abs=1e-15)
+        assert frame["heat_flux"][:, 0] == pytest.approx(1e5 * shares, abs=300.0), frame.time
+
+
+def test_the_heat_flux_of_frames_is_that_of_both_phases(tmp_path):
+    """Between a warm and a cold wall, at last, the same heat flows through the liquid, the front and the solid."""
+    ends = (("left", 293.15), ("right", 263.15))
+    loads = ", ".join(f"{{kind='Temperature', on='bar.{end}', value={value}}}" for end, value in ends)
+    changes = (f"loads=[{loads}]", "bodies.bar.law.latent.heat=3 kJ/kg", "time={end=40000, step=400}")
+    run = sw.run(sw.loads(FRONT, changes=(*changes, "output.fields_every=40000")), tmp_path / "run")
+    front = 0.1 * 0.556 * 20.0 / (0.556 * 20.0 + 2.22 * 10.0)
+    last = run.fields[-1]
+    assert 0.01 * last["liquid"].sum() == pytest.approx(front, rel=1e-5)
+    assert last["heat_flux"][:, 0] == pytest.approx(np.full(10, 0.556 * 20.0 / front), rel=1e-4)
+
+
 def test_the_scenario_in_the_folder_is_the_one_that_was_read(pond):
     again = sw.loads(pond.scenario)
     assert again.bodies["pond"].law == sw.loads(POND).bodies["pond"].law and again.loads == sw.loads(POND).loads
