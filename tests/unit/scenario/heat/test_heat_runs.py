@@ -185,8 +185,8 @@ def test_a_front_between_nodes_is_resumed_with_the_same_bits(tmp_path):
 
 
 def test_frames_have_the_liquid_share_of_a_front(tmp_path):
-    """A bar of little capacity just below melting: the heat that came in is latent, but for a thousandth, and as much of
-    it flows through a cell as there is liquid in it.
+    """A bar of little capacity just below melting: the heat that came in is latent but for a thousandth, and as much
+    of it flows through a cell as there is liquid in it.
     """
     law = "{conductivity=60, capacity=1, latent={heat='60 kJ/kg', melting='232 degC'}}"
     changes = (
