@@ -268,9 +268,12 @@ def test_a_body_that_slides_on_another_warms_up_both_by_their_shares() -> None:
 
 
 def test_effusivities_share_what_a_stop_dissipates() -> None:
-    scene = pair(HeatLink(stop="f"), {"f": FLOOR}, velocity=(1.0, 0.0), thermal=replace(OTHER, conductivity=9.0))
+    scene = pair(HeatLink(stop="f"), {"f": FLOOR}, velocity=(1.0, 0.0))
     with pytest.raises(sw.errors.InputError, match="nothing says"):
         sw.build(scene)
+    with pytest.raises(sw.errors.InputError, match="9 W/.m K. without a density") as found:
+        pair(HeatLink(stop="f"), {"f": FLOOR}, velocity=(1.0, 0.0), thermal=replace(OTHER, conductivity=9.0))
+    assert found.value.where == "thermal.conductivity"
     low = Rigid(density=1.5, shape=Block(low=(4.0, -1.5), high=(6.0, -0.5)), thermal=replace(ONE, conductivity=4.0))
     shape, warm = Block(low=(4.5, -0.25), high=(5.5, 0.25)), replace(OTHER, conductivity=9.0)
     top = Rigid(density=4.0, shape=shape, velocity=(1.0, 0.0), thermal=warm)

@@ -81,6 +81,13 @@ RUBS = "{kind='Coulomb', mu=0.1}"
 
 TABLE: Table = {
     "no heat capacity": Try(MIXED, f"{HOT} & bodies.r.thermal={{temperature=300}}", "either specific_heat", WARM),
+    "a conductivity without a density": Try(
+        PAIR,
+        "bodies.r.thermal={temperature=300, capacity=1, conductivity=2}",
+        "no conductivity",
+        "bodies.r={kind='Rigid', shape={kind='Block', low=[-1, -1], high=[1, 0]}, density=1, "
+        "thermal={temperature=300, capacity=1, conductivity=2}}",
+    ),
     "a rigid body alone is hot": Try(
         MIXED, "bodies.r.thermal={temperature=300, capacity=1}", "bodies.NAME.thermal of a solid", WARM
     ),
