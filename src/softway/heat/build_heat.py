@@ -13,6 +13,7 @@ from softway.bodies.elements.section import Axisymmetric, Section, check_section
 from softway.bodies.inertia.mass_matrix import body_of
 from softway.bodies.inertia.nodal_heat import heated_volumes
 from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, Radiation, Temperature, place_of, surface_points
+from softway.bodies.setup.held_temperatures import held_temperatures
 from softway.errors import InputError, within
 from softway.heat.fronts.build_fronts import with_fronts
 from softway.heat.heat_contact import HeatContact, HeatExchange, heat_exchange
@@ -214,7 +215,7 @@ def _loads(
     rigid = {lump.name: (lump, n - len(lumps) + number) for number, lump in enumerate(lumps)}
     surfaces: list[HeatSurface] = []
     sources: list[tuple[HeatSource, Array]] = []
-    owner = np.full(n, -1)
+    held: dict[int, IntArray] = {}
     for k, load in loads.items():
         name, _ = place_of(load)
         with within(f"loads[{k}].{'of' if isinstance(load, HeatSource) else 'on'}"):
@@ -227,9 +228,8 @@ def _loads(
                 case tuple():
                     sources.append(found)
                 case _:
-                    owner[found] = k
-    held = [(load, np.flatnonzero(owner == k)) for k, load in loads.items() if isinstance(load, Temperature)]
-    return tuple(surfaces), tuple(sources), tuple(held)
+                    held[k] = found
+    return tuple(surfaces), tuple(sources), held_temperatures(loads, held)
 
 
 OnBody = HeatSurface | tuple[HeatSource, Array] | IntArray

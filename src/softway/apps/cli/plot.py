@@ -37,7 +37,8 @@ def plot(
         File of the first picture (.png, .pdf, .svg), the second is next to it; by default both are in the run folder.
     field
         Field that colours the bodies, such as von_mises, contact_pressure, velocity.x, stress.xy; by default the
-        plastic strain if there is any, otherwise the von Mises stress. Of a pile: speed or body.
+        plastic strain if there is any, otherwise the von Mises stress. Of conductors: temperature, liquid or
+        heat_flux.x, for bars drawn along them. Of a pile: speed or body.
     at
         Time of the picture, such as "2 ms"; by default the time of the greatest strain energy.
     times

@@ -20,6 +20,8 @@ from softway.units import Kelvin, Pure, WattPerCubicMetre, WattPerSquareMetre, W
 class Temperature:
     """Prescribed temperature of the nodes of a tag.
 
+    Of two surfaces that meet, the temperature that is declared last holds at their common nodes.
+
     Parameters
     ----------
     on

@@ -20,10 +20,11 @@ class HeatOfSolids:
         The part of ``received`` that nothing dissipated: work of the thermal stress and energy that the temperature
         takes from the strain energy, of either sign [J].
     friction
-        Heat of friction in the solids; what tools take is not in it [J].
+        Heat of friction in the solids and in rigid bodies with a temperature; what tools take is not in it [J].
     through
         Heat that passed each contact with heat, in the order of the scene: from the solid named first to the other one,
-        with the heat of friction that a tool takes [J].
+        with the heat of friction that a tool takes, but without that of a rigid body with a temperature, which is in
+        ``friction`` [J].
     cold_work
         Energy that the material dissipated and that did not heat [J].
     entropy

@@ -86,12 +86,18 @@ def first_fronts(cells: FrontCells, temperature: Array) -> Fronts:
     n = len(cells.melting)
     with np.errstate(invalid="ignore"):
         liquid = temperature > cells.melting
-    one, other = (temperature[cells.nodes[:, k]] - cells.melting[cells.nodes[:, k]] for k in (0, 1))
-    above, below = np.maximum(one, other), np.minimum(one, other)
     apart = liquid[cells.nodes[:, 0]] != liquid[cells.nodes[:, 1]]
-    share = np.where(apart, above / np.where(apart, above - below, 1.0), np.nan)
+    share = np.where(apart, _above(cells, temperature), np.nan)
     none = np.full(n, np.nan)
     return Fronts(share=share, liquid=liquid, pocket=none, least=none, limit=none)
+
+
+def _above(cells: FrontCells, temperature: Array) -> Array:
+    """Part (c,) of the difference of the temperatures (n,) of the nodes [K] of cells that is above melting."""
+    one, other = (temperature[cells.nodes[:, k]] - cells.melting[cells.nodes[:, k]] for k in (0, 1))
+    above, below = np.maximum(one, other), np.minimum(one, other)
+    differ = above > below
+    return np.asarray(np.clip(above / np.where(differ, above - below, 1.0), 0.0, 1.0))
 
 
 def content_of_phases(model: HeatModel, cells: FrontCells, fronts: Fronts, bare: HeatValues) -> Array:
@@ -106,6 +112,9 @@ def content_of_phases(model: HeatModel, cells: FrontCells, fronts: Fronts, bare:
 def with_latent(model: HeatModel, fronts: Fronts | None, bare: HeatValues) -> HeatValues:
     """Contents of the phases and liquid shares of a state with the latent heat of the liquid; ``bare`` are those
     without.
+
+    A cell with a front conducts like the liquid by the part of its difference of temperatures that is above melting:
+    its mean heat flux is that of both parts.
     """
     cells = model.fronts
     if cells is None or fronts is None:
@@ -116,6 +125,7 @@ def with_latent(model: HeatModel, fronts: Fronts | None, bare: HeatValues) -> He
     far = np.where(cut, 0.5 * share**2, 0.5 * share)
     near = share - far
     first = fronts.liquid[cells.nodes[:, 0]]
+    liquid[cells.numbers] = np.where(cut, _above(cells, bare.temperature), first)
     np.add.at(content, cells.nodes[:, 0], whole * np.where(first, near, far))
     np.add.at(content, cells.nodes[:, 1], whole * np.where(first, far, near))
     for node in fronts.waiting.tolist():
@@ -123,7 +133,7 @@ def with_latent(model: HeatModel, fronts: Fronts | None, bare: HeatValues) -> He
         content[node] += pocket
         around = [c for c in cells.around(node).tolist() if not cut[c]] or cells.around(node).tolist()
         share[around] += pocket / whole[around].sum()
-    melted[cells.numbers] = liquid[cells.numbers] = np.clip(share, 0.0, 1.0)
+    melted[cells.numbers] = np.clip(share, 0.0, 1.0)
     return replace(bare, content=content, melted=melted, liquid=liquid)
 
 

@@ -46,7 +46,7 @@ class Mechanism:
     gravity
         Acceleration of gravity [m/s^2]; none by default.
     heat_links
-        Heat between bodies with a temperature, beside solids with heat.
+        Heat between bodies with a temperature, beside solids with heat; at most one of each stop.
 
     Raises
     ------
@@ -108,8 +108,7 @@ class Mechanism:
                 self._require(f"torques[{k}]", (torque.on, GROUND), ())
         for k, force in enumerate(self.forces):
             self._require(f"forces[{k}]", (force.on, GROUND), (force.at,))
-        for k, link in enumerate(self.heat_links):
-            self._require_warm(f"heat_links[{k}]", link)
+        self._require_links()
 
     @property
     def dim(self) -> int:
@@ -135,6 +134,15 @@ class Mechanism:
         assert link.stop is not None
         stop = self.stops[link.stop]
         return self.joints[stop.joint].between if isinstance(stop, AngleStop) else stop.between
+
+    def _require_links(self) -> None:
+        """Refuse heat links of the same stop, whose friction would heat once by each, and those of cold bodies."""
+        stops: dict[str, int] = {}
+        for k, link in enumerate(self.heat_links):
+            self._require_warm(f"heat_links[{k}]", link)
+            if link.stop is not None and (first := stops.setdefault(link.stop, k)) != k:
+                problem = f"{link.stop!r}, as in heat_links[{first}]: what the stop dissipates would heat twice"
+                raise InputError(f"heat_links[{k}].stop", problem, "one link of the stop, with the whole conductance")
 
     def _require_warm(self, where: str, link: HeatLink) -> None:
         """Refuse heat of a stop that is not there, and of bodies without a temperature."""

@@ -87,6 +87,10 @@ class Rigid:
             raise InputError("velocity", f"{self.velocity} with the spin {self.spin}", "velocities of a motion")
         if self.shape is not None and self.shape.dim != self.dim:
             raise InputError("shape", f"in {self.shape.dim}D for a body in {self.dim}D", f"a shape in {self.dim}D")
+        if self.thermal is not None and self.thermal.conductivity is not None and self.density is None:
+            problem = f"{self.thermal.conductivity:g} W/(m K) without a density, by which friction would share its heat"
+            remedy = "density and shape of the body, or no conductivity: a share of the contact or of the heat link"
+            raise InputError("thermal.conductivity", problem, remedy)
         _require_inertia(self.tensor)
 
     def _fill(self, density: float) -> None:

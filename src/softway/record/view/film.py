@@ -180,6 +180,8 @@ def _window(box: Array, size: Array) -> tuple[Array, Array]:
 
 def _bars(run: Records, look: PictureOptions, numbers: list[int]) -> "tuple[Figure, Draw]":
     """Figure of the diagrams of bars, drawn once, with lines that mark the present instant."""
+    if look.field is not None:
+        raise InputError("--field", "the film of bars shows no field", "omit this option")
     made, times = diagrams(run, look), run.fields.times
     made.figure.set_dpi(look.dpi)
     still = library().backends.backend_agg.FigureCanvasAgg(made.figure)

@@ -16,7 +16,9 @@ class PictureOptions:
     ----------
     field
         Field that colours the bodies, such as ``von_mises``, ``velocity.x`` or ``stress.xy``; by default plastic strain
-        if there is any, and von Mises stress otherwise.  Of a pile ``speed`` or ``body``, the group of a ball.
+        if there is any, and von Mises stress otherwise.  Of bars that conduct heat
+        the field that is drawn along them, by default the temperature; of a pile ``speed`` or ``body``, the group of a
+        ball.
     times
         Instants [s]; the bodies are drawn at each of them.  By default the instant of the largest strain energy, of
         solids with a temperature that of the largest von Mises stress.

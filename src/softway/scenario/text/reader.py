@@ -39,6 +39,8 @@ TOP = (
 """Top-level keys of a scenario that users may put inside a body by mistake."""
 OF_BODIES = ("mesh", "material", "density", "velocity", "supports", "thermal")
 """Keys of bodies that users may put at the top level by mistake."""
+OF_HEAT = ("conductance", "hardness", "gas", "roughness", "emissivity", "tool_temperature", "share")
+"""Keys of the heat of a contact that users may put into the contact by mistake."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,6 +239,8 @@ def _check_keys(value: Mapping[str, Any], cls: type, where: str, unit: str | Non
                 place = f"'{key}' at the top level of the file; "
             elif not where and key in OF_BODIES:
                 place = f"'{key}' in the table of its body, bodies.NAME.{key}; "
+            elif cls.__name__ == "Contact" and key in OF_HEAT:
+                place = f"'{key}' in the table of its heat, heat = {{ {key} = ... }}; "
             problem = f"unknown key (value {given!r}); {cls.__name__}"
             raise InputError(join(where, key), problem, place + nearest(key, known))
     kind = str(value.get("kind", cls.__name__))

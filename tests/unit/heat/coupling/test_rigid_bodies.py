@@ -173,6 +173,17 @@ def test_effusivities_share_the_heat_of_friction() -> None:
     assert heat.friction > 1e-3 and heat.through == (0.0,)
 
 
+def test_friction_heat_of_a_tool_is_in_what_passes_and_that_of_a_rigid_body_is_not() -> None:
+    """Of what friction dissipates a rigid body takes 0.7, without a temperature like a tool."""
+    tool, rigid = (slid(ContactHeat(share=0.3), thermal, until=2e-3)[-1].ledger for thermal in (None, COOL))
+    for ledger, own, passed in ((tool, 0.3, 0.7), (rigid, 1.0, 0.0)):
+        rubbed = ledger.heat.friction / own
+        assert rubbed == pytest.approx(ledger.dissipation, rel=1e-4)  # the rest: work against the thermal stress
+        assert ledger.heat.through[0] == pytest.approx(passed * rubbed, rel=1e-10)
+    taken = COOL.capacity * (rigid.heat.rigid["top"] - COOL.temperature)
+    assert taken == pytest.approx(0.7 * rigid.heat.friction, rel=1e-10)
+
+
 def test_a_state_carries_the_temperature() -> None:
     scene = resting(ContactHeat(conductance=200.0))
     whole = list(sw.march(scene, until=8.0, step=2.0))
@@ -268,9 +279,12 @@ def test_a_body_that_slides_on_another_warms_up_both_by_their_shares() -> None:
 
 
 def test_effusivities_share_what_a_stop_dissipates() -> None:
-    scene = pair(HeatLink(stop="f"), {"f": FLOOR}, velocity=(1.0, 0.0), thermal=replace(OTHER, conductivity=9.0))
+    scene = pair(HeatLink(stop="f"), {"f": FLOOR}, velocity=(1.0, 0.0))
     with pytest.raises(sw.errors.InputError, match="nothing says"):
         sw.build(scene)
+    with pytest.raises(sw.errors.InputError, match="9 W/.m K. without a density") as found:
+        pair(HeatLink(stop="f"), {"f": FLOOR}, velocity=(1.0, 0.0), thermal=replace(OTHER, conductivity=9.0))
+    assert found.value.where == "thermal.conductivity"
     low = Rigid(density=1.5, shape=Block(low=(4.0, -1.5), high=(6.0, -0.5)), thermal=replace(ONE, conductivity=4.0))
     shape, warm = Block(low=(4.5, -0.25), high=(5.5, 0.25)), replace(OTHER, conductivity=9.0)
     top = Rigid(density=4.0, shape=shape, velocity=(1.0, 0.0), thermal=warm)

@@ -97,8 +97,11 @@ def test_without_ffmpeg_a_film_is_a_gif(flat, tmp_path, monkeypatch, caplog):
     assert [f.name for f in tmp_path.glob("*fall*")] == ["fall.gif"]
 
 
-def test_bars_have_no_field(thin):
-    assert main(["plot", str(thin.path), "--field", "velocity"]) == 2
+@pytest.mark.parametrize("more", [(), ("--film", "bar.gif")])
+def test_bars_have_no_field(thin, more, monkeypatch, tmp_path, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["plot", str(thin.path), "--field", "velocity", *more]) == 2
+    assert "omit" in "".join(capsys.readouterr()) and not list(tmp_path.glob("*.*"))
 
 
 def test_world_lines_bend_at_events(thin):

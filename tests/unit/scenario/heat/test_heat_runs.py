@@ -10,6 +10,7 @@ from scipy.special import erf, erfc
 import softway as sw
 from softway.apps.cli.commands import main
 from softway.errors import InputError
+from softway.record.view.options import PictureOptions
 from softway.record.view.page import page
 from softway.record.view.pictures import picture
 from softway.record.write.fields import FILE as FIELDS
@@ -111,6 +112,18 @@ def bar(tmp_path_factory) -> sw.Run:
     return sw.run(sw.loads(BAR), tmp_path_factory.mktemp("runs") / "bar")
 
 
+@pytest.fixture(scope="module")
+def molten(tmp_path_factory) -> sw.Run:
+    """Half of a bar melts: two of four cells are solid at the end, and one is cut."""
+    law = "{conductivity=60, capacity=1, latent={heat='60 kJ/kg', melting='232 degC'}}"
+    changes = (
+        "bodies.bar.mesh.length=2 cm", "bodies.bar.mesh.cells=4", "bodies.bar.density=7300", f"bodies.bar.law={law}",
+        "bodies.bar.temperature=231.99 degC", "loads=[{kind='HeatFlux', on='bar.left', value='100 kW/m^2'}]",
+        "time={end='40 s', step='1 s'}", "output.fields_every=10 s",
+    )  # fmt: skip
+    return sw.run(sw.loads(FRONT, changes=changes), tmp_path_factory.mktemp("runs") / "molten")
+
+
 def test_records_are_those_of_the_march_in_python(pond):
     given = sw.loads(POND)
     steps = list(sw.heat.march_heat(sw.heat.HeatScene(bodies=given.bodies, loads=given.loads), until=200.0, step=10.0))
@@ -184,6 +197,31 @@ def test_a_front_between_nodes_is_resumed_with_the_same_bits(tmp_path):
     assert whole.history["heat_error_relative"].max() < 1e-12
 
 
+def test_frames_have_the_liquid_share_of_a_front(molten):
+    """A bar of little capacity just below melting: the heat that came in is latent but for a thousandth, and as much
+    of it flows through a cell as there is liquid in it.
+    """
+    told = dict(zip(molten.history["time"].tolist(), molten.history["liquid.bar"], strict=True))
+    for frame in molten.fields:
+        molten = 1e5 * frame.time / (7300.0 * 6e4)
+        shares = np.clip((molten - 0.005 * np.arange(4)) / 0.005, 0.0, 1.0)
+        assert frame["liquid"] == pytest.approx(shares, abs=2e-3), frame.time
+        assert 0.005 * frame["liquid"].sum() == pytest.approx(told[frame.time], abs=1e-15)
+        assert frame["heat_flux"][:, 0] == pytest.approx(1e5 * shares, abs=300.0), frame.time
+
+
+def test_the_heat_flux_of_frames_is_that_of_both_phases(tmp_path):
+    """Between a warm and a cold wall, at last, the same heat flows through the liquid, the front and the solid."""
+    ends = (("left", 293.15), ("right", 263.15))
+    loads = ", ".join(f"{{kind='Temperature', on='bar.{end}', value={value}}}" for end, value in ends)
+    changes = (f"loads=[{loads}]", "bodies.bar.law.latent.heat=3 kJ/kg", "time={end=40000, step=400}")
+    run = sw.run(sw.loads(FRONT, changes=(*changes, "output.fields_every=40000")), tmp_path / "run")
+    front = 0.1 * 0.556 * 20.0 / (0.556 * 20.0 + 2.22 * 10.0)
+    last = run.fields[-1]
+    assert 0.01 * last["liquid"].sum() == pytest.approx(front, rel=1e-5)
+    assert last["heat_flux"][:, 0] == pytest.approx(np.full(10, 0.556 * 20.0 / front), rel=1e-4)
+
+
 def test_the_scenario_in_the_folder_is_the_one_that_was_read(pond):
     again = sw.loads(pond.scenario)
     assert again.bodies["pond"].law == sw.loads(POND).bodies["pond"].law and again.loads == sw.loads(POND).loads
@@ -197,6 +235,36 @@ def test_pictures_and_pages(which, request, tmp_path):
     for what in ("bodies", "history"):
         assert picture(run, what).save(tmp_path / f"{what}.png").stat().st_size > 5000
     assert "<img" in page(run, ("Told.",))
+
+
+def curves(run, field, *times):
+    """Label and curves of the picture of a field along bars."""
+    axis = picture(run, "bodies", PictureOptions(field=field, times=times)).figure.axes[0]
+    return axis.get_ylabel(), [line.get_xydata() for line in axis.get_lines()]
+
+
+def test_a_picture_of_bars_has_the_field_that_is_wanted(molten):
+    """Cells have one value from end to end, in the units of the labels: 100 kW/m^2 flow into 9.13 mm of liquid."""
+    length = 1e5 * 40.0 / (7300.0 * 6e4)
+    label, (liquid,) = curves(molten, "liquid", 40.0)
+    share = (length - 0.005) / 0.005
+    assert label == "liquid" and liquid[:, 0] == pytest.approx([0, 5, 5, 10, 10, 15, 15, 20])
+    assert liquid[:, 1] == pytest.approx([1.0, 1.0, share, share, 0.0, 0.0, 0.0, 0.0], abs=2e-3)
+    label, (start, end) = curves(molten, "heat_flux.x", 0.0, 40.0)
+    assert label == "heat flux x [kW/m²]" and not start[:, 1].any()
+    assert end[[0, 2, 4], 1] == pytest.approx([100.0, 100.0 * share, 0.0], abs=0.3)
+    label, (line,) = curves(molten, None, 40.0)
+    assert label == "temperature [K]" and line[:, 0] == pytest.approx([0, 5, 10, 15, 20])
+    assert line[0, 1] == pytest.approx(505.15 + 1e5 * length / 60.0, abs=0.05)
+
+
+@pytest.mark.parametrize("more", [(), ("--film", "bar.gif")])
+def test_a_field_that_bars_have_not_is_named(molten, more, monkeypatch, tmp_path, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["plot", str(molten.path), "--field", "nonsense", *more]) == 2
+    told = " ".join("".join(capsys.readouterr()).split())
+    assert "no field 'nonsense'" in told and "heat_flux, liquid" in told and not list(tmp_path.glob("*.*"))
+    assert main(["plot", str(molten.path), "--field", "liquid", "--dpi", "40", *more]) == 0
 
 
 def test_the_command_line_runs_it_to_the_end(tmp_path, capsys):

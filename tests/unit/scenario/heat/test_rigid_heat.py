@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import softway as sw
+from softway.errors import InputError
 from softway.record.view.pictures import picture
 
 DIE = """
@@ -114,3 +115,24 @@ def test_a_file_of_two_rigid_bodies_that_rub_each_other(tmp_path: Path) -> None:
     assert rise["table"] == pytest.approx(0.25 * 0.6 / 2.0, rel=1e-9)
     assert rise["block"] == pytest.approx(0.75 * 0.6 / 5.0, rel=1e-9)
     assert run.history["heat.friction"][-1] == pytest.approx(0.6, rel=1e-10)
+
+
+def test_a_second_link_of_the_same_stop_is_refused() -> None:
+    twice = (
+        "heat_links=[{between=['table', 'block'], conductance=1}, {stop='seat', share=0.25}, {stop='seat', share=1}]"
+    )
+    with pytest.raises(InputError, match="'seat', as in heat_links.1.") as found:
+        sw.check(sw.loads(SEAT, changes=(twice,)))
+    assert found.value.where == "heat_links[2].stop" and "one link of the stop" in found.value.remedy
+
+
+def test_conductances_between_the_same_bodies_add_up(tmp_path: Path) -> None:
+    """Two bodies that do not touch: the difference of their temperatures decays with the sum of both conductances."""
+    links = [f"{{between=['table', 'block'], conductance={g}}}" for g in (2.0, 3.0)]
+    changes = [f"heat_links=[{', '.join(links)}]", "loads=[]", "bodies.block.velocity=[0, 0]", "stops={}"]
+    run = sw.run(sw.loads(SEAT, changes=(*changes, "bodies.block.thermal.temperature=370")), tmp_path / "run")
+    table, block = (run.history[f"temperature.{name}"] for name in ("table", "block"))
+    middle = (2.0 * 300.0 + 5.0 * 370.0) / 7.0
+    assert 2.0 * table + 5.0 * block == pytest.approx(np.full(len(table), 7.0 * middle), rel=1e-12)
+    rate = 5.0 * (1.0 / 2.0 + 1.0 / 5.0)
+    assert block[-1] - table[-1] == pytest.approx(70.0 * np.exp(-rate * 0.4), rel=1e-3)

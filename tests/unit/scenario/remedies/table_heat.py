@@ -292,6 +292,11 @@ TABLE: Table = {
         "in kelvin",
         lambda: heat.Temperature(on="b", value=263.15),
     ),
+    "two temperatures of an end": call(
+        lambda: built(heat.Temperature(on="b.left", value=300.0), heat.Temperature(on="b.left", value=310.0)),
+        "one temperature for each surface",
+        lambda: built(heat.Temperature(on="b.left", value=310.0)),
+    ),
     "endless flux": call(
         lambda: heat.HeatFlux(on="b", value=inf), "a finite number", lambda: heat.HeatFlux(on="b", value=1.0)
     ),

@@ -30,12 +30,17 @@ class Colour:
     kind: Kind
     part: str = ""
 
-    def at_nodes(self, cells: Cells, frame: Frame) -> Array:
-        """Values (n,) at the nodes of a frame; for cell fields the mean of the adjacent cells."""
+    def of(self, frame: Frame) -> Array:
+        """Values (n,) at the nodes of a frame, or (e,) in its cells."""
         values = frame[self.name]
         if values.ndim > 1:
             names = parts(self.kind)
             values = values[:, names.index(self.part)] if self.part else np.linalg.norm(values, axis=1)
+        return values
+
+    def at_nodes(self, cells: Cells, frame: Frame) -> Array:
+        """Values (n,) at the nodes of a frame; for cell fields the mean of the adjacent cells."""
+        values = self.of(frame)
         return values if self.kind.on == "nodes" else at_nodes(cells, values)
 
     @property

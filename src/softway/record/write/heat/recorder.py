@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from softway.heat.fronts.places import with_latent
 from softway.heat.heat_model import HeatModel
 from softway.heat.march import HeatStep, heat_at_start
 from softway.heat.operators import heat_flux, heat_values
@@ -102,7 +103,7 @@ def _frame(model: HeatModel, step: HeatStep) -> GridFrame:
     points = np.zeros((model.n_nodes, 3))
     for part in model.parts:
         points[part.nodes, : part.mesh.dim] = part.mesh.points
-    now = heat_values(model, step.state.unknowns, slopes=False)
+    now = with_latent(model, step.state.fronts, heat_values(model, step.state.unknowns, slopes=False))
     cells = {"heat_flux": heat_flux(model, now)}
     if step.liquid:
         cells["liquid"] = now.melted

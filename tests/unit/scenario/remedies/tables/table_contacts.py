@@ -135,7 +135,15 @@ OF_TIES: Table = {
         TWO, f"{GLUED} & solver={{kind='Explicit'}}", "FixedPoint or Newton", "solver={kind='FixedPoint'}"
     ),
 }
+WARM = "bodies.b.thermal={temperature=300, law={conductivity=1, capacity=1}}"
+
 TABLE: Table = {
+    "heat in the contact itself": Try(
+        PLANE,
+        f"{WARM} & contacts=[{{between=['b.bottom', 'w'], conductance=1}}]",
+        "heat = { conductance = ... }",
+        "contacts=[{between=['b.bottom', 'w'], heat={conductance=1, tool_temperature=300}}]",
+    ),
     **OF_TIES,
     "tool first": Try(PLANE, f"{PAIR}=['w', 'b.bottom']", '["b.bottom", "w"]', f"{PAIR}=['b.bottom', 'w']"),
     "tag of a tool": Try(PLANE, f"{PAIR}=['b.bottom', 'w.top']", '["b.bottom", "w"]', f"{PAIR}=['b.bottom', 'w']"),

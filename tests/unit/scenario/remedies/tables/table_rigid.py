@@ -81,6 +81,13 @@ RUBS = "{kind='Coulomb', mu=0.1}"
 
 TABLE: Table = {
     "no heat capacity": Try(MIXED, f"{HOT} & bodies.r.thermal={{temperature=300}}", "either specific_heat", WARM),
+    "a conductivity without a density": Try(
+        PAIR,
+        "bodies.r.thermal={temperature=300, capacity=1, conductivity=2}",
+        "no conductivity",
+        "bodies.r={kind='Rigid', shape={kind='Block', low=[-1, -1], high=[1, 0]}, density=1, "
+        "thermal={temperature=300, capacity=1, conductivity=2}}",
+    ),
     "a rigid body alone is hot": Try(
         MIXED, "bodies.r.thermal={temperature=300, capacity=1}", "bodies.NAME.thermal of a solid", WARM
     ),
@@ -100,6 +107,12 @@ TABLE: Table = {
     "heat of no stop": Try(PAIR, links(stop="wall"), "one of ['seat']", SEAT),
     "heat with the ground": Try(PAIR, links(between=["r", "ground"], conductance=1), "['r', 'q']", LINK),
     "heat with itself": Try(PAIR, links(between=["r", "r"], conductance=1), "two different bodies", LINK),
+    "a stop that heats twice": Try(
+        PAIR,
+        "heat_links=[{stop='seat', share=0.5}, {stop='seat', conductance=1, share=0.5}]",
+        "one link of the stop",
+        "heat_links=[{stop='seat', conductance=1, share=0.5}]",
+    ),
     "a stop that nobody shares": Try(PAIR, links(stop="seat"), "a share from 0 to 1", SEAT),
     "heat on a face of a rigid body": Try(MIXED, f"{WARM} & {FACE}", "'r'", f"{WARM} & {FLUX}"),
     "heat on no area": Try(
