@@ -24,6 +24,7 @@ _EXAMPLES = {
     "rad/s": ("an angular velocity", "60 rpm"),
     "N": ("a force", "2 kN"),
     "K": ("a temperature", "20 degC"),
+    "1/K": ("a coefficient of expansion", "12e-6 1/K"),
     "kelvin": ("a difference of temperatures", "0.5 K"),
     "W/(m K)": ("a conductivity", "50 W/(m*K)"),
     "W/m^2": ("a heat flux", "10 kW/m^2"),

@@ -103,6 +103,12 @@ def test_colours_end_below_a_lonely_peak():
     assert peaked.high == pytest.approx(0.99, abs=2e-3) and peaked.peaked and peaked.low == 0.0
 
 
+def test_a_uniform_temperature_has_one_colour():
+    """Half a kelvin below and above it: differences in the last digits are not drawn."""
+    found = range_of(313.5 + 1e-12 * np.arange(9.0), "temperature")
+    assert (found.low, found.high) == pytest.approx((313.0, 314.0))
+
+
 def test_colours_of_both_signs_are_alike_around_zero():
     found = range_of(np.linspace(-3.0, 1.0, 101))
     assert found.low == -found.high and found.high == pytest.approx(3.0, rel=0.02) and found.map == "RdBu_r"

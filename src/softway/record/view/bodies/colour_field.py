@@ -114,6 +114,10 @@ def parts(kind: Kind) -> tuple[str, ...]:
     return {3: ("x", "y", "z"), len(TENSOR): TENSOR}.get(kind.components, ())
 
 
+UNIFORM = 1e-9
+"""Difference of temperatures, relative to the greatest, that passes for rounding."""
+
+
 def range_of(values: Array, name: str = "") -> Range:
     """Range of the colours: from zero to the largest value, without a few values that are far above the others.
 
@@ -128,7 +132,9 @@ def range_of(values: Array, name: str = "") -> Range:
     if name in FROM_LEAST:
         given = values[values > 0.0] if (values > 0.0).any() else values
         low, high = float(given.min()), float(given.max())
-        return Range(low=low, high=high if high > low else low + 1.0)
+        if high - low <= UNIFORM * abs(high):
+            return Range(low=low - 0.5, high=low + 0.5)
+        return Range(low=low, high=high)
     most, usual = float(values.max()), float(np.percentile(values, 99.0))
     if values.min() < -1e-9 * max(most, 0.0) and values.min() < 0.0:
         size = float(np.percentile(np.abs(values), 99.5))
