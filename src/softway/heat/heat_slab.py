@@ -37,6 +37,7 @@ MOVING = 1e-14
 """The same in a body that deforms, whose motion meets the temperature in another iteration."""
 SHORTENINGS = 30
 """Greatest number of shorter corrections that are tried."""
+REMEDY = 'latent = "node" where matter melts, or shorter slabs'
 ENOUGH = 0.8
 """Unbalanced heat along a correction, relative to that before it, at which it is not shortened further."""
 
@@ -154,8 +155,7 @@ def solve_slab(
             return solve_stage(model, before, slab, factor, linear, guess)
         except NoConvergence as error:
             if depth == HALVINGS:
-                remedy = 'latent = "node" where matter melts, or shorter slabs'
-                raise NumericsError(str(error), slab.start, remedy) from None
+                raise NumericsError(str(error), slab.start, REMEDY) from None
     half = 0.5 * slab.span
     one = replace(slab, span=half, theta=1.0)
     middle = None if guess is None else 0.5 * (before.unknowns + guess)
@@ -218,6 +218,8 @@ def solve_stage(
         size = float(np.abs(found.values[free]).sum())
         if not np.isfinite(size):
             break
+        if iteration and model.fronts is not None:  # a trial may be far from the start
+            floor = max(floor, rounding(model, found.after, stage))
         if iteration and size <= tolerance * found.moved + floor:
             return result_of(model, before, stage, found, iteration, frozen, floor)
         if frozen is not None:

@@ -15,6 +15,8 @@ from softway.errors import NoConvergence
 from softway.heat.heat_model import FrontCells, HeatModel
 from softway.heat.operators import HeatValues
 
+CROSSED = 1e-12
+"""Difference from the temperature of melting, relative to it, up to which a temperature is this one."""
 STANDING = 1e-6
 """Way of a front that stands at a node, relative to a cell, after which it moves again."""
 
@@ -62,6 +64,11 @@ class Fronts:
         one, other = cells.nodes[cell]
         return int(other if self.liquid[one] else one)
 
+    def beyond(self, cells: FrontCells, temperature: Array) -> Array:
+        """By how much temperatures (n,) are beyond melting for the phases of the nodes [K]."""
+        over = temperature - cells.melting
+        return np.where(self.liquid, -over, over)
+
     def shares(self, cells: FrontCells) -> Array:
         """Liquid share (c,) of the cells without pockets."""
         return np.where(np.isnan(self.share), self.liquid[cells.nodes[:, 0]], self.share)
@@ -74,7 +81,8 @@ class Fronts:
 
 
 def first_fronts(cells: FrontCells, temperature: Array) -> Fronts:
-    """Fronts of initial temperatures (n,) [K]: where a linear temperature is that of melting; at it matter is solid.
+    """Fronts of initial temperatures (n,) [K]: where a linear temperature is that of melting; at it matter is solid,
+    whatever the rounding of its temperature.
 
     Examples
     --------
@@ -85,7 +93,7 @@ def first_fronts(cells: FrontCells, temperature: Array) -> Fronts:
     """
     n = len(cells.melting)
     with np.errstate(invalid="ignore"):
-        liquid = temperature > cells.melting
+        liquid = temperature > cells.melting * (1.0 + CROSSED)
     apart = liquid[cells.nodes[:, 0]] != liquid[cells.nodes[:, 1]]
     share = np.where(apart, _above(cells, temperature), np.nan)
     none = np.full(n, np.nan)
@@ -175,8 +183,9 @@ def turned(
     NoConvergence
         Of :func:`handed_on`.
     """
-    over = temperature - cells.melting
-    wrong = [j for j in prescribed if (over[j] < 0.0 if fronts.liquid[j] else over[j] > 0.0)]
+    with np.errstate(invalid="ignore"):
+        beyond = fronts.beyond(cells, temperature) > CROSSED * cells.melting
+    wrong = [j for j in prescribed if beyond[j]]
     return handed_on(model, cells, passed(cells, fronts, wrong), prescribed) if wrong else fronts
 
 
