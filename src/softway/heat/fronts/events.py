@@ -156,7 +156,7 @@ class Search:
 
     @cached_property
     def _at_melting(self) -> frozenset[int]:
-        """Nodes with a free temperature and without a front beside them that are at melting, or beyond it."""
+        """Nodes of these with a free temperature that are at melting, or beyond it."""
         cells, fronts, now = self.held.cells, self.held.fronts, self.held.before.temperature
         over = fronts.beyond(cells, now) * cells.capacity
         return frozenset(j for j in self._alone.tolist() if over[j] >= -self._slight[j]) - self.held.prescribed
@@ -175,10 +175,10 @@ class Search:
 
     @cached_property
     def _alone(self) -> IntArray:
-        """Nodes (k,) that may melt, and have neither a front beside them nor a pocket."""
+        """Nodes (k,) that may melt, and have neither a front that moves beside them nor a pocket."""
         cells, fronts = self.held.cells, self.held.fronts
         alone = ~np.isnan(cells.melting) & np.isnan(fronts.pocket)
-        alone[cells.nodes[fronts.cells]] = False
+        alone[cells.nodes[[c for c in fronts.cells.tolist() if c not in self._standing]]] = False
         return np.flatnonzero(alone)
 
     def _pins(self, stopped: Mapping[int, tuple[int, float]], shares: Mapping[int, float]) -> frozenset[int]:

@@ -165,11 +165,11 @@ def passed(cells: FrontCells, fronts: Fronts, nodes: Sequence[int]) -> Fronts:
             one, other = cells.nodes[cell].tolist()
             twin = other if one == node else one
             if rest == 1.0 and twin in nodes:
-                _add(cells, (pocket, limit), twin, 0.5 * cells.latent[cell])
+                _add(cells, (pocket, limit), share, twin, 0.5 * cells.latent[cell])
                 rest = 0.5
             left += rest * cells.latent[cell]
         if left:
-            _add(cells, (pocket, limit), node, left)
+            _add(cells, (pocket, limit), share, node, left)
     return Fronts(share=share, liquid=liquid, pocket=pocket, least=_least(fronts, pocket), limit=limit)
 
 
@@ -206,7 +206,7 @@ def handed_on(model: HeatModel, cells: FrontCells, fronts: Fronts, prescribed: S
             place = f"at node {node - part.nodes.start} of {part.name!r}"
             raise NoConvergence(f"two fronts in a cell between prescribed temperatures, {place}")
         left, pocket[node], limit[node] = float(pocket[node]), np.nan, np.nan
-        _add(cells, (pocket, limit), beside[0], left)
+        _add(cells, (pocket, limit), fronts.share, beside[0], left)
     return replace(fronts, pocket=pocket, least=_least(fronts, pocket), limit=limit)
 
 
@@ -236,7 +236,7 @@ def overflowed(cells: FrontCells, fronts: Fronts, nodes: Sequence[int]) -> Front
             elif not set(cells.nodes[cell].tolist()) <= set(nodes):
                 share[cell] = part if liquid[node] else 1.0 - part
         if left:
-            _add(cells, (pocket, limit), node, left)
+            _add(cells, (pocket, limit), share, node, left)
     return Fronts(share=share, liquid=liquid, pocket=pocket, least=_least(fronts, pocket), limit=limit)
 
 
@@ -257,8 +257,12 @@ def _least(fronts: Fronts, pocket: Array) -> Array:
     return np.where(np.isnan(pocket), np.nan, np.where(np.isnan(fronts.least), 0.0, fronts.least))
 
 
-def _add(cells: FrontCells, waiting: tuple[Array, Array], node: int, left: float) -> None:
-    """Add to the pocket of a node, and set the limit at which it changes back: half of its cells, or all of it."""
+def _add(cells: FrontCells, waiting: tuple[Array, Array], share: Array, node: int, left: float) -> None:
+    """Add to the pocket of a node, and set the limit at which it changes back: half of its cells without a front in
+    the shares (c,), or all of it.
+    """
     pocket, limit = waiting
+    around = cells.around(node)
+    whole = [c for c in around.tolist() if np.isnan(share[c])] or around
     pocket[node] = left + (0.0 if np.isnan(pocket[node]) else pocket[node])
-    limit[node] = max(0.5 * float(cells.latent[cells.around(node)].sum()), float(pocket[node]))
+    limit[node] = max(0.5 * float(cells.latent[whole].sum()), float(pocket[node]))
