@@ -218,8 +218,7 @@ def solve_stage(
         size = float(np.abs(found.values[free]).sum())
         if not np.isfinite(size):
             break
-        if iteration and model.fronts is not None:  # a trial may be far from the start
-            floor = max(floor, rounding(model, found.after, stage))
+        floor = floor if model.fronts is None else max(floor, rounding(model, found.after, stage))  # far trials
         if iteration and size <= tolerance * found.moved + floor:
             return result_of(model, before, stage, found, iteration, frozen, floor)
         if frozen is not None:
@@ -289,8 +288,7 @@ def _corrected(
 
 def _length(along: Callable[[float], float], start: float) -> float:
     """Length at which ``along`` is less than at zero, where it is ``start`` < 0: one, or the zero by bisection."""
-    found = along(1.0)
-    if found <= -ENOUGH * start:
+    if along(1.0) <= -ENOUGH * start:
         return 1.0
     low, high, length = 0.0, 1.0, 1.0
     for _ in range(SHORTENINGS):
