@@ -37,6 +37,7 @@ MOVING = 1e-14
 """The same in a body that deforms, whose motion meets the temperature in another iteration."""
 SHORTENINGS = 30
 """Greatest number of shorter corrections that are tried."""
+REMEDY = 'latent = "node" where matter melts, or shorter slabs'
 ENOUGH = 0.8
 """Unbalanced heat along a correction, relative to that before it, at which it is not shortened further."""
 
@@ -154,8 +155,7 @@ def solve_slab(
             return solve_stage(model, before, slab, factor, linear, guess)
         except NoConvergence as error:
             if depth == HALVINGS:
-                remedy = 'latent = "node" where matter melts, or shorter slabs'
-                raise NumericsError(str(error), slab.start, remedy) from None
+                raise NumericsError(str(error), slab.start, REMEDY) from None
     half = 0.5 * slab.span
     one = replace(slab, span=half, theta=1.0)
     middle = None if guess is None else 0.5 * (before.unknowns + guess)
@@ -218,6 +218,7 @@ def solve_stage(
         size = float(np.abs(found.values[free]).sum())
         if not np.isfinite(size):
             break
+        floor = floor if model.fronts is None else max(floor, rounding(model, found.after, stage))  # far trials
         if iteration and size <= tolerance * found.moved + floor:
             return result_of(model, before, stage, found, iteration, frozen, floor)
         if frozen is not None:
@@ -287,8 +288,7 @@ def _corrected(
 
 def _length(along: Callable[[float], float], start: float) -> float:
     """Length at which ``along`` is less than at zero, where it is ``start`` < 0: one, or the zero by bisection."""
-    found = along(1.0)
-    if found <= -ENOUGH * start:
+    if along(1.0) <= -ENOUGH * start:
         return 1.0
     low, high, length = 0.0, 1.0, 1.0
     for _ in range(SHORTENINGS):

@@ -2,15 +2,20 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
+from scipy.special import erf
 
 import softway as sw
 from neumann import DENSITY, HEAT, MELTING, front, ice, neumann
+from softway.arrays import Array
 from softway.heat.fronts.places import first_fronts, overflowed, passed
 from softway.heat.heat_model import FrontCells
 from softway.meshes.generators.shapes import interval, rectangle
 
 heat = sw.heat
 EQUAL = heat.Conduction(conductivity=2.0, capacity=2000.0, latent=heat.Latent(heat=3e5, melting=MELTING))
+
+TIN = 505.15
 
 
 def melted(
@@ -119,6 +124,100 @@ def test_a_march_goes_on_with_the_same_bits() -> None:
     rest = list(heat.march_heat(scene, until=600.0, step=20.0, state=whole[13].state))
     assert len(rest) == len(whole) - 14
     assert all((a.temperature["b"] == b.temperature["b"]).all() for a, b in zip(whole[14:], rest, strict=True))
+    assert whole[-1].ledger == rest[-1].ledger
+
+
+def tin(
+    loads: tuple[object, ...], until: float, step: float, *, start: float = 0.0, capacity: float = 240.0,
+    cells: int = 4, length: float = 0.02, state: heat.HeatState | None = None,
+) -> list[heat.HeatStep]:  # fmt: skip
+    """March of a bar of tin that starts some degrees above melting."""
+    law = heat.Conduction(conductivity=60.0, capacity=capacity, latent=heat.Latent(heat=6e4, melting=TIN))
+    body = heat.Conductor(
+        mesh=interval(length, cells=cells), law=law, density=7300.0, temperature=TIN + start, latent="front"
+    )
+    scene = heat.HeatScene(bodies={"b": body}, loads=loads)
+    return list(heat.march_heat(scene, until=until, step=step, state=state))
+
+
+def fluxes(left: float, right: float = 0.0) -> tuple[heat.HeatFlux, ...]:
+    """Heat fluxes into both ends."""
+    return tuple(heat.HeatFlux(on=f"b.{end}", value=value) for end, value in (("left", left), ("right", right)))
+
+
+def stefan(number: float, times: Array) -> Array:
+    """Front of the one-phase problem of Stefan in tin (Carslaw and Jaeger, chapter XI)."""
+    root = brentq(lambda x: x * np.exp(x * x) * erf(x) - number / np.sqrt(np.pi), 1e-6, 2.0, xtol=1e-14)
+    return np.asarray(2.0 * root * np.sqrt(60.0 / (240.0 * 7300.0) * times))
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("number", [0.1, 1.0])
+def test_the_front_of_stefan_from_the_temperature_of_melting_is_of_first_order(number: float, sign: float) -> None:
+    """Solid at melting before a warm end; and liquid at melting, a microkelvin above it, before a cold one."""
+    wall = (heat.Temperature(on="b.left", value=TIN + sign * number * 250.0),)
+    errors = []
+    for cells, step in ((20, 2.0), (40, 0.5)):
+        steps = tin(wall, 40.0, step, start=1e-6 if sign < 0.0 else 0.0, cells=cells, length=0.1)
+        changed = steps[-1].liquid_volume["b"] if sign > 0.0 else 0.1 - steps[-1].liquid_volume["b"]
+        errors.append(abs(changed / stefan(number, np.array(40.0)) - 1.0))
+        ahead = np.linspace(0.0, 0.1, cells + 1) > changed + 0.1 / cells
+        np.testing.assert_allclose(steps[-1].temperature["b"][ahead], TIN, rtol=0.0, atol=2e-6)
+        assert closes(steps)
+    assert errors[0] < 1.2e-2 and errors[1] < 0.4 * errors[0]
+
+
+@pytest.mark.parametrize("start", [0.0, 1e-13, -1e-13, -1e-10, -1e-7])
+def test_a_flux_into_a_bar_at_melting_makes_one_front_whatever_the_last_bits(start: float) -> None:
+    steps = tin(fluxes(1e5), 21.0, 1.0, start=start)
+    warm, *ahead = steps[-1].temperature["b"] - TIN
+    share = (1e5 * 21.0 - 7300.0 * 240.0 * 0.0025 * warm) / (7300.0 * 6e4 * 0.005)
+    np.testing.assert_allclose(steps[-1].liquid["b"], [share, 0.0, 0.0, 0.0], rtol=0.0, atol=1e-6)
+    assert warm == pytest.approx(1e5 * 0.005 * share / 60.0, rel=0.03)  # the node takes some of the flux
+    assert closes(steps) and np.abs(ahead).max() < 2e-7
+
+
+@pytest.mark.parametrize("start", [0.0, -0.01])
+@pytest.mark.parametrize("capacity", [1e-3, 1e-6])
+def test_without_capacity_all_heat_of_a_flux_is_the_fronts(capacity: float, start: float) -> None:
+    """The front is at q t over the latent heat, but for the heat of the liquid, 1e-7 of it; with a linear fall."""
+    steps = tin(fluxes(1e5), 40.0, 1.0, start=start, capacity=capacity)
+    for step in steps:
+        way = 1e5 * step.time / (7300.0 * 6e4)
+        assert step.liquid_volume["b"] == pytest.approx(way, rel=4e-4 * capacity + 1e-9)
+        fall = TIN + 1e5 / 60.0 * np.maximum(way - np.linspace(0.0, 0.02, 5), 0.0)
+        np.testing.assert_allclose(step.temperature["b"], fall, rtol=0.0, atol=2e-2)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("cells", [2, 4, 5])
+def test_both_ends_of_a_bar_at_melting_have_their_front(cells: int, sign: float) -> None:
+    steps = tin(fluxes(sign * 1e5, sign * 1e5), 80.0, 1.0, start=1e-6 if sign < 0.0 else 0.0, cells=cells)
+    early = steps[cells]
+    changed = early.liquid["b"] if sign > 0.0 else 1.0 - early.liquid["b"]
+    assert changed[0] > 0.0 and changed[-1] == pytest.approx(changed[0]) and not changed[1:-1].any()
+    assert closes(steps) and steps[-1].liquid_volume["b"] == pytest.approx(0.02 if sign > 0.0 else 0.0, abs=1e-15)
+
+
+def test_a_source_from_melting_on_makes_all_of_a_bar_mushy() -> None:
+    steps = tin((heat.HeatSource(of="b", value=5e6),), 80.0, 4.0)
+    for step in steps:
+        np.testing.assert_allclose(step.liquid["b"], 5e6 * step.time / (7300.0 * 6e4), rtol=1e-9)
+        np.testing.assert_allclose(step.temperature["b"], TIN, rtol=0.0, atol=1e-6)
+
+
+def test_a_mushy_bar_that_is_cooled_at_its_end_is_solid_as_far_as_heat_is_drawn() -> None:
+    """At rest the source of the solid part, one half here, is what flows out: a parabola of q x^2 / 2 k."""
+    steps = tin((heat.HeatSource(of="b", value=5e6), *fluxes(-5e4)), 80.0, 1.0)
+    depth = np.maximum(0.01 - np.linspace(0.0, 0.02, 5), 0.0)
+    np.testing.assert_allclose(steps[-1].temperature["b"], TIN - 5e6 * depth**2 / 120.0, rtol=0.0, atol=0.1)
+    assert closes(steps)
+
+
+def test_a_march_from_melting_goes_on_with_the_same_bits() -> None:
+    whole = tin(fluxes(1e5), 30.0, 1.0)
+    rest = tin(fluxes(1e5), 30.0, 1.0, state=whole[9].state)
+    assert all((a.temperature["b"] == b.temperature["b"]).all() for a, b in zip(whole[10:], rest, strict=True))
     assert whole[-1].ledger == rest[-1].ledger
 
 

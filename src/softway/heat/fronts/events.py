@@ -10,9 +10,10 @@ from scipy.optimize import brentq
 from softway.arrays import Array, IntArray
 from softway.errors import NoConvergence
 from softway.heat.fronts.held_fronts import Held, HeldFronts
-from softway.heat.fronts.places import Fronts
-from softway.heat.heat_balance import Stage
+from softway.heat.fronts.places import CROSSED, Fronts
+from softway.heat.heat_balance import Stage, prescribed
 from softway.heat.heat_model import FrontCells
+from softway.heat.operators import heat_values
 
 SWEEPS = 60
 """Greatest number of rounds in which each of several fronts is placed with the others held."""
@@ -22,14 +23,14 @@ ROUNDED = 1e-10
 """Change of the shares of cells in a round below which several fronts are placed."""
 SEARCHED = 1e-13
 """Error of an instant that is searched for, relative to a slab."""
-CROSSED = 1e-12
-"""Difference from the temperature of melting, relative to it, at which a node without a front changes phase."""
+SAME = 1e-9
+"""Latent heat, relative to a cell, by which nodes and events miss what they are taken to have reached."""
 
 
 @dataclass(frozen=True, slots=True)
 class FrontEvent:
-    """What ends a part of a slab: the front of a ``cell``, or its own temperature, brings a ``node`` to melting
-    (``pass``), or its pocket is ``empty`` or ``full``.
+    """What ends a part of a slab: the front of a ``cell`` or a prescribed temperature makes a ``node`` change phase
+    (``pass``), its own temperature gets to melting (``reach``), or its pocket is ``empty`` or ``full``.
     """
 
     kind: str
@@ -113,6 +114,27 @@ class Search:
         accuracy = {"xtol": SEARCHED * left.span, "rtol": 8.0 * float(np.finfo(float).eps)}
         return float(brentq(over, 0.0, left.span, **accuracy))
 
+    def begun(self, stage: Stage) -> tuple[int, ...]:
+        """Nodes at melting at which fronts begin at the start of a stage: those that take heat as long as no node goes
+        beyond melting.  Others keep their phase.
+
+        Raises
+        ------
+        NoConvergence
+            If the heats of the nodes cannot be balanced.
+        """
+        if not self._at_melting:
+            return ()
+        fronts, kept = self.held.fronts, self._bounded
+        places = {cell: float(fronts.share[cell]) for cell in fronts.cells.tolist()}
+        fixed, whole = self._pins({}, places) | self._crossing(stage.end), replace(stage, theta=1.0)
+        while True:
+            taken = self.held.solve(whole, places, fixed | kept).taken
+            rest = {j for j in kept if (-taken[j] if fronts.liquid[j] else taken[j]) > 0.5 * self._slight[j]}
+            if rest == kept or not rest & self._at_melting:
+                return tuple(sorted(rest & self._at_melting))
+            kept = frozenset(rest)
+
     @cached_property
     def at_start(self) -> Mapping[FrontEvent, float]:
         """By how much heat each event is over at the start [J]."""
@@ -128,11 +150,35 @@ class Search:
         return frozenset(c for j in fronts.waiting.tolist() for c in standing_at(cells, fronts, j))
 
     @cached_property
+    def _slight(self) -> Array:
+        """Heats (n,) by which nodes may miss the temperature of melting [J]."""
+        return slight_heats(self.held.cells)
+
+    @cached_property
+    def _at_melting(self) -> frozenset[int]:
+        """Nodes of these with a free temperature that are at melting, or beyond it."""
+        cells, fronts, now = self.held.cells, self.held.fronts, self.held.before.temperature
+        over = fronts.beyond(cells, now) * cells.capacity
+        return frozenset(j for j in self._alone.tolist() if over[j] >= -self._slight[j]) - self.held.prescribed
+
+    @cached_property
+    def _bounded(self) -> frozenset[int]:
+        """Nodes with a free temperature that may melt, and do not wait."""
+        may = ~np.isnan(self.held.cells.melting) & np.isnan(self.held.fronts.pocket)
+        return frozenset(np.flatnonzero(may).tolist()) - self.held.prescribed
+
+    def _crossing(self, time: float) -> frozenset[int]:
+        """Nodes whose prescribed temperature of a time [s] is beyond melting."""
+        then = prescribed(self.held.model, self.held.before.unknowns, time)
+        over = self.held.fronts.beyond(self.held.cells, heat_values(self.held.model, then, slopes=False).temperature)
+        return frozenset(j for j in self.held.prescribed if over[j] > 0.0)
+
+    @cached_property
     def _alone(self) -> IntArray:
-        """Nodes (k,) that may melt, and have neither a front beside them nor a pocket."""
+        """Nodes (k,) that may melt, and have neither a front that moves beside them nor a pocket."""
         cells, fronts = self.held.cells, self.held.fronts
         alone = ~np.isnan(cells.melting) & np.isnan(fronts.pocket)
-        alone[cells.nodes[fronts.cells]] = False
+        alone[cells.nodes[[c for c in fronts.cells.tolist() if c not in self._standing]]] = False
         return np.flatnonzero(alone)
 
     def _pins(self, stopped: Mapping[int, tuple[int, float]], shares: Mapping[int, float]) -> frozenset[int]:
@@ -196,15 +242,27 @@ class Search:
             node, beyond = stopped.get(cell, (-1, 0.0))
             for end, rest in ((fronts.liquid_node(cells, cell), share), (fronts.solid_node(cells, cell), 1.0 - share)):
                 found[FrontEvent("pass", end, cell)] = beyond if end == node else -rest * float(cells.latent[cell])
-        for node in self._alone.tolist():
-            melting = float(cells.melting[node])
-            over = (temperature[node] - melting) * (-1.0 if fronts.liquid[node] else 1.0) - CROSSED * melting
-            found[FrontEvent("pass", node)] = float(cells.capacity[node] * over)
+        over = fronts.beyond(cells, temperature) * cells.capacity
+        for node in (j for j in self._alone.tolist() if j not in self._at_melting):
+            if node in self.held.prescribed:
+                least = CROSSED * cells.melting[node] * cells.capacity[node]
+                found[FrontEvent("pass", node)] = float(over[node] - least)
+            else:
+                found[FrontEvent("reach", node)] = float(over[node])
         for node in fronts.waiting.tolist():
             pocket = pocket_after(cells, fronts, *heats, node)
             found[FrontEvent("empty", node)] = float(fronts.least[node]) - pocket
             found[FrontEvent("full", node)] = pocket - float(fronts.limit[node])
         return found
+
+
+def slight_heats(cells: FrontCells) -> Array:
+    """Heats (n,) by which nodes that may melt may miss melting [J], not a number at others: a billionth of the latent
+    heat of half their cells, and the rounding of the temperature.
+    """
+    half = np.zeros(len(cells.melting))
+    np.add.at(half, cells.nodes, 0.5 * cells.latent[:, None])
+    return SAME * half + CROSSED * cells.melting * cells.capacity
 
 
 def pocket_after(cells: FrontCells, fronts: Fronts, into: Array, taken: Mapping[int, float], node: int) -> float:

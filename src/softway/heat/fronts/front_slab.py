@@ -6,7 +6,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.errors import NoConvergence, NumericsError
-from softway.heat.fronts.events import CROSSED, FrontEvent, Piece, Search, pocket_after, standing_at
+from softway.heat.fronts.events import SAME, FrontEvent, Piece, Search, pocket_after, slight_heats, standing_at
 from softway.heat.fronts.held_fronts import held_fronts
 from softway.heat.fronts.places import Fronts, content_of_phases, emptied, handed_on, overflowed, passed, standing
 from softway.heat.heat_balance import Stage
@@ -14,8 +14,6 @@ from softway.heat.heat_model import FrontCells, HeatModel
 from softway.heat.heat_slab import StageResult
 from softway.heat.operators import HeatValues, heat_values
 
-SAME = 1e-9
-"""Latent heat, relative to a cell, by which events miss an instant at which they are taken to happen, too."""
 EVENTS = 8
 """Greatest number of events of each cell in a slab."""
 REMEDY = 'latent = "cell", smaller cells, or shorter slabs'
@@ -64,9 +62,15 @@ def _stage(
 ) -> tuple[HeatValues, Fronts]:
     """State after a stage; the results of its parts are added to ``results``."""
     (before, fronts), end, now = start, stage.end, stage.start
+    slight = SAME * float(cells.latent.min())
     changed: set[int] = set()
     for _ in range(EVENTS * (len(cells.latent) + 1)):
         search = Search(held_fronts(model, cells, fronts, before))
+        begun = search.begun(replace(stage, start=now, span=end - now))
+        if begun:
+            events = tuple(FrontEvent("pass", node) for node in begun)
+            before, fronts = _changed(model, cells, (before, fronts), events, changed)
+            continue
         fresh = bool(len(fronts.waiting)) or np.isin(fronts.share, (0.0, 1.0)).any()
         left = replace(stage, start=now, span=end - now, theta=1.0 if fresh else stage.theta)
         whole = search.solved(left)
@@ -78,7 +82,6 @@ def _stage(
             results.append(replace(whole.held.result, after=before))
             return before, fronts
         piece, span = search.first(left, whole)
-        slight = SAME * float(cells.latent.min())
         events = tuple(e for e in whole.happened if piece is None or piece.over[e] >= -slight)
         if piece is not None:
             changed = set()
@@ -87,19 +90,32 @@ def _stage(
             now += span
         else:
             events = tuple(e for e in events if search.at_start[e] >= -slight)
-        fronts, earlier = _after(cells, fronts, events, changed), fronts
-        fronts = handed_on(model, cells, fronts, sorted(search.held.prescribed))
-        changed_heat = _heat(model, cells, earlier, before) - _heat(model, cells, fronts, before)
-        before = _warmed(model, (cells, fronts), before, changed_heat, events)
-        changed |= {event.node for event in events}
+        before, fronts = _changed(model, cells, (before, fronts), events, changed)
     raise NoConvergence(f"a slab with more than {EVENTS} events in each cell")
+
+
+def _changed(
+    model: HeatModel,
+    cells: FrontCells,
+    at: tuple[HeatValues, Fronts],
+    events: tuple[FrontEvent, ...],
+    changed: set[int],
+) -> tuple[HeatValues, Fronts]:
+    """State after events; their nodes are added to those that have ``changed`` at this instant."""
+    before, earlier = at
+    fronts = handed_on(
+        model, cells, _after(cells, earlier, events, changed), np.flatnonzero(~model.free_nodes()).tolist()
+    )
+    heat = _heat(model, cells, earlier, before) - _heat(model, cells, fronts, before)
+    changed |= {event.node for event in events if event.kind != "reach"}
+    return _warmed(model, (cells, fronts), before, heat, events), fronts
 
 
 def _rings(cells: FrontCells, fronts: Fronts, piece: Piece) -> bool:
     """True if a node swings over the temperature of melting of its phase."""
-    over = piece.held.result.after.temperature - cells.melting
+    over = fronts.beyond(cells, piece.held.result.after.temperature) * cells.capacity
     with np.errstate(invalid="ignore"):
-        return bool((np.where(fronts.liquid, -over, over) > CROSSED * cells.melting).any())
+        return bool((over > slight_heats(cells)).any())
 
 
 def _after(cells: FrontCells, fronts: Fronts, events: tuple[FrontEvent, ...], changed: set[int]) -> Fronts:

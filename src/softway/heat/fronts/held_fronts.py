@@ -130,6 +130,7 @@ def held_fronts(model: HeatModel, cells: FrontCells, fronts: Fronts, before: Hea
                         numbers=block.numbers[here],
                     )  # fmt: skip
                 )
+    blocks = blocks or [_no_cells(model.cells[0])]
     pattern = assembler([block.nodes for block in blocks], model.n_nodes, 1)
     known = frozenset(int(j) for _, nodes in model.held for j in nodes)
     radiates = any(isinstance(surface.load, Radiation) for surface in model.surfaces)
@@ -139,4 +140,13 @@ def held_fronts(model: HeatModel, cells: FrontCells, fronts: Fronts, before: Hea
     rest = replace(model, parts=parts, cells=tuple(blocks), pattern=pattern, linear=linear)
     return HeldFronts(
         cells=cells, fronts=fronts, model=rest, before=heat_values(rest, before.unknowns), prescribed=known
+    )  # fmt: skip
+
+
+def _no_cells(block: HeatCells) -> HeatCells:
+    """Block without a cell, of a model whose cells all have a front."""
+    none = slice(0)
+    return replace(
+        block, nodes=block.nodes[none], gradients=block.gradients[none], volume=block.volume[none],
+        numbers=block.numbers[none],
     )  # fmt: skip

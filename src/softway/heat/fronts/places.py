@@ -15,6 +15,8 @@ from softway.errors import NoConvergence
 from softway.heat.heat_model import FrontCells, HeatModel
 from softway.heat.operators import HeatValues
 
+CROSSED = 1e-12
+"""Difference from the temperature of melting, relative to it, up to which a temperature is this one."""
 STANDING = 1e-6
 """Way of a front that stands at a node, relative to a cell, after which it moves again."""
 
@@ -62,6 +64,11 @@ class Fronts:
         one, other = cells.nodes[cell]
         return int(other if self.liquid[one] else one)
 
+    def beyond(self, cells: FrontCells, temperature: Array) -> Array:
+        """By how much temperatures (n,) are beyond melting for the phases of the nodes [K]."""
+        over = temperature - cells.melting
+        return np.where(self.liquid, -over, over)
+
     def shares(self, cells: FrontCells) -> Array:
         """Liquid share (c,) of the cells without pockets."""
         return np.where(np.isnan(self.share), self.liquid[cells.nodes[:, 0]], self.share)
@@ -74,7 +81,8 @@ class Fronts:
 
 
 def first_fronts(cells: FrontCells, temperature: Array) -> Fronts:
-    """Fronts of initial temperatures (n,) [K]: where a linear temperature is that of melting; at it matter is solid.
+    """Fronts of initial temperatures (n,) [K]: where a linear temperature is that of melting; at it matter is solid,
+    whatever the rounding of its temperature.
 
     Examples
     --------
@@ -85,7 +93,7 @@ def first_fronts(cells: FrontCells, temperature: Array) -> Fronts:
     """
     n = len(cells.melting)
     with np.errstate(invalid="ignore"):
-        liquid = temperature > cells.melting
+        liquid = temperature > cells.melting * (1.0 + CROSSED)
     apart = liquid[cells.nodes[:, 0]] != liquid[cells.nodes[:, 1]]
     share = np.where(apart, _above(cells, temperature), np.nan)
     none = np.full(n, np.nan)
@@ -157,11 +165,11 @@ def passed(cells: FrontCells, fronts: Fronts, nodes: Sequence[int]) -> Fronts:
             one, other = cells.nodes[cell].tolist()
             twin = other if one == node else one
             if rest == 1.0 and twin in nodes:
-                _add(cells, (pocket, limit), twin, 0.5 * cells.latent[cell])
+                _add(cells, (pocket, limit), share, twin, 0.5 * cells.latent[cell])
                 rest = 0.5
             left += rest * cells.latent[cell]
         if left:
-            _add(cells, (pocket, limit), node, left)
+            _add(cells, (pocket, limit), share, node, left)
     return Fronts(share=share, liquid=liquid, pocket=pocket, least=_least(fronts, pocket), limit=limit)
 
 
@@ -175,8 +183,9 @@ def turned(
     NoConvergence
         Of :func:`handed_on`.
     """
-    over = temperature - cells.melting
-    wrong = [j for j in prescribed if (over[j] < 0.0 if fronts.liquid[j] else over[j] > 0.0)]
+    with np.errstate(invalid="ignore"):
+        beyond = fronts.beyond(cells, temperature) > CROSSED * cells.melting
+    wrong = [j for j in prescribed if beyond[j]]
     return handed_on(model, cells, passed(cells, fronts, wrong), prescribed) if wrong else fronts
 
 
@@ -197,7 +206,7 @@ def handed_on(model: HeatModel, cells: FrontCells, fronts: Fronts, prescribed: S
             place = f"at node {node - part.nodes.start} of {part.name!r}"
             raise NoConvergence(f"two fronts in a cell between prescribed temperatures, {place}")
         left, pocket[node], limit[node] = float(pocket[node]), np.nan, np.nan
-        _add(cells, (pocket, limit), beside[0], left)
+        _add(cells, (pocket, limit), fronts.share, beside[0], left)
     return replace(fronts, pocket=pocket, least=_least(fronts, pocket), limit=limit)
 
 
@@ -227,7 +236,7 @@ def overflowed(cells: FrontCells, fronts: Fronts, nodes: Sequence[int]) -> Front
             elif not set(cells.nodes[cell].tolist()) <= set(nodes):
                 share[cell] = part if liquid[node] else 1.0 - part
         if left:
-            _add(cells, (pocket, limit), node, left)
+            _add(cells, (pocket, limit), share, node, left)
     return Fronts(share=share, liquid=liquid, pocket=pocket, least=_least(fronts, pocket), limit=limit)
 
 
@@ -248,8 +257,12 @@ def _least(fronts: Fronts, pocket: Array) -> Array:
     return np.where(np.isnan(pocket), np.nan, np.where(np.isnan(fronts.least), 0.0, fronts.least))
 
 
-def _add(cells: FrontCells, waiting: tuple[Array, Array], node: int, left: float) -> None:
-    """Add to the pocket of a node, and set the limit at which it changes back: half of its cells, or all of it."""
+def _add(cells: FrontCells, waiting: tuple[Array, Array], share: Array, node: int, left: float) -> None:
+    """Add to the pocket of a node, and set the limit at which it changes back: half of its cells without a front in
+    the shares (c,), or all of it.
+    """
     pocket, limit = waiting
+    around = cells.around(node)
+    whole = [c for c in around.tolist() if np.isnan(share[c])] or around
     pocket[node] = left + (0.0 if np.isnan(pocket[node]) else pocket[node])
-    limit[node] = max(0.5 * float(cells.latent[cells.around(node)].sum()), float(pocket[node]))
+    limit[node] = max(0.5 * float(cells.latent[whole].sum()), float(pocket[node]))
