@@ -17,15 +17,16 @@ from softway.units import Pure
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Adapt:
-    """Adaption of the mesh of a solid of bars.
+    """Adaption of the mesh of a solid of bars, triangles or tetrahedra.
 
     Parameters
     ----------
     levels
-        Greatest number of bisections of a cell of the mesh of the solid.
+        Greatest number of bisections of a cell of the mesh of the solid.  One halves the edges of bars, two those of
+        triangles, three those of tetrahedra.
     tolerance
-        Factor c of the threshold ``c sqrt(E h / L)`` of the indicator: E the energy of the scene, the greatest so far,
-        h the finest cell, L the size of the solid.
+        Factor c of the threshold ``c sqrt(E (h / L)^k)`` of the indicator: E the energy of the scene, the greatest so
+        far, h the shortest edge of the finest cells, L the size of the solid, k its dimension.
     every
         Slabs between two changes of the mesh.
     buffer
@@ -71,7 +72,8 @@ class Adapt:
         """
         base = solid.adapted.base
         finest, size = self.finest(base), float(np.linalg.norm(np.ptp(base.points, axis=0)))
-        threshold = max(self.tolerance * float(np.sqrt(energy * finest / size)), float(np.finfo(float).tiny))
+        share = (finest / size) ** base.cell_dim
+        threshold = max(self.tolerance * float(np.sqrt(energy * share)), float(np.finfo(float).tiny))
         levels = wanted_levels(solid.adapted, indicator(solid, motion), threshold, self.levels)
         found = refined(base, levels, solid.adapted.leaves)
         if len(touching):
