@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
-from softway.adaptivity.indicator import buffered, indicator, refined_near, wanted_levels
+from softway.adaptivity.indicator import indicator, wanted_levels
+from softway.adaptivity.neighbourhood import buffered, refined_near
 from softway.adaptivity.transfer import Motion
 from softway.arrays import Array
 from softway.errors import InputError, positive
@@ -76,6 +77,5 @@ class Adapt:
         threshold = max(self.tolerance * float(np.sqrt(energy * share)), float(np.finfo(float).tiny))
         levels = wanted_levels(solid.adapted, indicator(solid, motion), threshold, self.levels)
         found = refined(base, levels, solid.adapted.leaves)
-        if len(touching):
-            found = refined_near(found, touching, self.levels, self.contact_cells * finest)
+        found = refined_near(found, [(self.levels, touching)], self.contact_cells * finest)
         return buffered(found, self.buffer * finest)

@@ -60,15 +60,16 @@ class AdaptedScene:
 
     def on(self, meshes: Mapping[str, AdaptedMesh]) -> "AdaptedScene":
         """The scene on other meshes; itself if they are the same."""
-        if all(same(self.meshes[name].leaves, mesh.leaves) for name, mesh in meshes.items()):
+        changed = {n: mesh for n, mesh in meshes.items() if not same(self.meshes[n].leaves, mesh.leaves)}
+        if not changed:
             return self
         bodies = dict(self.scene.bodies)
-        for name, mesh in meshes.items():
+        for name, mesh in changed.items():
             solid = bodies[name]
             assert isinstance(solid, Solid)
             bodies[name] = replace(solid, mesh=mesh.mesh)
         scene = replace(self.scene, bodies=bodies)
-        return AdaptedScene(scene=scene, model=build(scene), meshes=dict(meshes))
+        return AdaptedScene(scene=scene, model=build(scene), meshes={**self.meshes, **changed})
 
     def wanted(self, adapt: Mapping[str, Adapt], now: MarchState, energy: float, ahead: float) -> "AdaptedScene":
         """The scene on the meshes for the coming slabs, in fine cells what closes or is pushed within ``ahead`` [s]."""

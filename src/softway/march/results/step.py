@@ -139,7 +139,7 @@ class Ledger:
 
     def _repr_html_(self) -> str:
         """A table for notebooks."""
-        joules = ("energy_kinetic", "energy_strain", "work_external", "dissipation", "energy_error")
+        joules: tuple[str, ...] = ("energy_kinetic", "energy_strain", "work_external", "dissipation", "energy_error")
         joules += ("remeshing",) if self.remeshing else ()
         rows = {name.replace("_", " "): f"{getattr(self, name):.4g} J" for name in joules}
         rows["momentum"] = f"{np.array2string(self.momentum, precision=4)} kg m/s"
