@@ -1,17 +1,16 @@
-"""Where a mesh is too coarse: recovered stress and rate against those of the cells, wanted levels, and a buffer.
+"""Where a mesh is too coarse: recovered stress and rate against those of the cells, and wanted levels.
 
 Indicator of Zienkiewicz and Zhu (Int. J. Num. Meth. Eng. 24 (1987) 337) for a solid in motion
 (docs/theory/bodies/adaptive.md#indicator).
 """
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.transfer import Motion
 from softway.arrays import Array, IntArray
 from softway.meshes.adaptive.leaves import DEPTH
-from softway.meshes.adaptive.refinement import AdaptedMesh, refined
+from softway.meshes.adaptive.refinement import AdaptedMesh
 from softway.meshes.cells import CELLS
 
 FINER = (1.0, 3.0)
@@ -32,6 +31,7 @@ def indicator(solid: AdaptedSolid, motion: Motion) -> Array:
     --------
     >>> import softway as sw
     >>> from softway.adaptivity.adapted_solid import adapted_solid
+    >>> from softway.meshes.adaptive.refinement import refined
     >>> bar = sw.Solid(mesh=sw.meshes.Interval(length=1.0, cells=4), material=sw.LinearElastic(E=1.0), density=1.0)
     >>> on = adapted_solid("bar", bar, refined(bar.mesh.build(), np.zeros(4, int)), np.zeros(0, int))
     >>> kink = np.maximum(on.points - 0.5, 0.0)
@@ -84,6 +84,7 @@ def wanted_levels(adapted: AdaptedMesh, indicated: Array, threshold: float, grea
 
     Examples
     --------
+    >>> from softway.meshes.adaptive.refinement import refined
     >>> from softway.meshes.generators.shapes import interval
     >>> found = refined(interval(1.0, cells=1), np.array([2]))
     >>> wanted_levels(found, np.array([4.0, 1.5, 0.5, 0.1]), 1.0, 9).tolist()
@@ -92,46 +93,3 @@ def wanted_levels(adapted: AdaptedMesh, indicated: Array, threshold: float, grea
     ratio = indicated / threshold
     change = (ratio[:, None] > np.array(FINER)).sum(axis=1) - (ratio[:, None] < np.array(COARSER)).sum(axis=1)
     return np.asarray(np.clip(adapted.leaves.level + change, 0, min(greatest, DEPTH)))
-
-
-def buffered(adapted: AdaptedMesh, reach: float) -> AdaptedMesh:
-    """Mesh in which a cell that comes within a distance ``reach`` [m] of a finer one of ``adapted`` is as fine as it.
-
-    Distances are those of the corners of the finer cell from the ball around the coarser one.
-
-    Examples
-    --------
-    >>> from softway.meshes.generators.shapes import interval
-    >>> sharp = refined(interval(1.0, cells=4), np.array([3, 0, 0, 0]))
-    >>> sharp.mesh.n_cells, buffered(sharp, 0.1).mesh.n_cells
-    (13, 17)
-    """
-    found = adapted
-    cells = next(iter(adapted.mesh.blocks.values()))[:, : CELLS[adapted.cell].corners]
-    for level in np.unique(adapted.leaves.level)[:0:-1]:
-        finer = np.unique(cells[adapted.leaves.level >= level])
-        found = refined_near(found, adapted.mesh.points[finer], int(level), reach)
-    return found
-
-
-def refined_near(adapted: AdaptedMesh, points: Array, level: int, reach: float) -> AdaptedMesh:
-    """Mesh in which cells that come within a distance ``reach`` [m] of one of the points (k, d) have a level or more.
-
-    Distances are those from the ball around a cell.
-
-    Examples
-    --------
-    >>> from softway.meshes.generators.shapes import interval
-    >>> whole = refined(interval(1.0, cells=1), np.array([0]))
-    >>> refined_near(whole, np.array([[1.0]]), 3, 0.05).leaves.level.tolist()
-    [1, 2, 3, 3]
-    """
-    found, corners, near = adapted, CELLS[adapted.cell].corners, cKDTree(points)
-    while True:
-        own = found.mesh.points[next(iter(found.mesh.blocks.values()))[:, :corners]]
-        centre = own.mean(axis=1)
-        radius = np.linalg.norm(own - centre[:, None], axis=2).max(axis=1)
-        late = (found.leaves.level < level) & (near.query(centre)[0] < radius + reach)
-        if not late.any():
-            return found
-        found = refined(found.base, found.leaves.level + late, found.leaves)

@@ -56,7 +56,20 @@ class Projection:
         return np.asarray(near + dofs.nodes(self.stiff_factored.solve(dofs.forces(right))))
 
 
-def projection(before: AdaptedSolid, after: AdaptedSolid) -> Projection:
+@dataclass(frozen=True, slots=True)
+class Unchanged:
+    """Projections between two meshes that are the same: fields keep their values."""
+
+    def velocity(self, field: Array) -> Array:
+        """The field (n, d)."""
+        return field
+
+    def displacement(self, field: Array) -> Array:
+        """The field (n, d)."""
+        return field
+
+
+def projection(before: AdaptedSolid, after: AdaptedSolid) -> Projection | Unchanged:
     """Projections of a solid from its mesh ``before`` to its mesh ``after``.
 
     Velocities are projected with the mass M, displacements with ``M + t^2 K``: K is the stiffness of the undeformed
@@ -82,6 +95,8 @@ def projection(before: AdaptedSolid, after: AdaptedSolid) -> Projection:
     >>> projection(fine, coarse).velocity(np.array([[0.0], [0.0], [1.0]])).round(12).ravel().tolist()
     [0.5, 0.5]
     """
+    if before.adapted is after.adapted:
+        return Unchanged()
     both = _on_united(before, after)
     ours, theirs = embedding(after.adapted, both.adapted), embedding(before.adapted, both.adapted)
     d = after.points.shape[1]

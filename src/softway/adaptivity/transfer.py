@@ -7,7 +7,7 @@ import numpy as np
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.balances import balanced, rigid_motions_of, spin
 from softway.adaptivity.memory import remembered
-from softway.adaptivity.projection import Projection, projection
+from softway.adaptivity.projection import Projection, Unchanged, projection
 from softway.arrays import Array
 from softway.bodies.internal_force.material_state import MaterialState
 
@@ -54,14 +54,14 @@ class Transferred:
     spin: Array
     energy: float
     booked: float
-    projection: Projection
+    projection: Projection | Unchanged
 
 
 def transfer(
     before: AdaptedSolid,
     after: AdaptedSolid,
     motion: Motion,
-    cast: Projection | None = None,
+    cast: Projection | Unchanged | None = None,
     displacement: Array | None = None,
 ) -> Transferred:
     """Transfer a motion to another mesh of the same base.

@@ -30,7 +30,7 @@ class Settings:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EnergyAccount:
     """Energy account: energy at the start, and since then external work, dissipation, error of the energy balance,
-    energy dissipated by each tie that breaks [J], and the heat of the solids.
+    energy dissipated by each tie that breaks [J], the heat of the solids, and the energy that changes of the mesh took.
     """
 
     energy_start: float
@@ -39,6 +39,7 @@ class EnergyAccount:
     energy_error: float = 0.0
     ties: tuple[float, ...] = ()
     heat: HeatOfSolids | None = None
+    remeshing: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
-from softway.adaptivity.indicator import buffered, indicator, refined_near, wanted_levels
+from softway.adaptivity.indicator import indicator, wanted_levels
+from softway.adaptivity.neighbourhood import buffered, refined_near
 from softway.adaptivity.transfer import Motion
 from softway.arrays import Array
 from softway.errors import InputError, positive
@@ -17,15 +18,16 @@ from softway.units import Pure
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Adapt:
-    """Adaption of the mesh of a solid of bars.
+    """Adaption of the mesh of a solid of bars, triangles or tetrahedra.
 
     Parameters
     ----------
     levels
-        Greatest number of bisections of a cell of the mesh of the solid.
+        Greatest number of bisections of a cell of the mesh of the solid.  One halves the edges of bars, two those of
+        triangles, three those of tetrahedra.
     tolerance
-        Factor c of the threshold ``c sqrt(E h / L)`` of the indicator: E the energy of the scene, the greatest so far,
-        h the finest cell, L the size of the solid.
+        Factor c of the threshold ``c sqrt(E (h / L)^k)`` of the indicator: E the energy of the scene, the greatest so
+        far, h the shortest edge of the finest cells, L the size of the solid, k its dimension.
     every
         Slabs between two changes of the mesh.
     buffer
@@ -71,9 +73,9 @@ class Adapt:
         """
         base = solid.adapted.base
         finest, size = self.finest(base), float(np.linalg.norm(np.ptp(base.points, axis=0)))
-        threshold = max(self.tolerance * float(np.sqrt(energy * finest / size)), float(np.finfo(float).tiny))
+        share = (finest / size) ** base.cell_dim
+        threshold = max(self.tolerance * float(np.sqrt(energy * share)), float(np.finfo(float).tiny))
         levels = wanted_levels(solid.adapted, indicator(solid, motion), threshold, self.levels)
         found = refined(base, levels, solid.adapted.leaves)
-        if len(touching):
-            found = refined_near(found, touching, self.levels, self.contact_cells * finest)
+        found = refined_near(found, [(self.levels, touching)], self.contact_cells * finest)
         return buffered(found, self.buffer * finest)

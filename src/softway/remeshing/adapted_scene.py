@@ -10,6 +10,8 @@ from softway.adaptivity.projection import projection
 from softway.adaptivity.transfer import Motion, Transferred, transfer
 from softway.arrays import Array, IntArray
 from softway.bodies.assembled.material_states import any_path_dependent
+from softway.bodies.setup.amplitude import Ramp
+from softway.bodies.setup.loads import Traction
 from softway.bodies.setup.placement import Placement, placed
 from softway.bodies.solid import Solid
 from softway.errors import InputError, within
@@ -17,7 +19,7 @@ from softway.heat.coupled.build import build
 from softway.march.march_state import MarchState
 from softway.march.model_state import join_states, split_states
 from softway.meshes.adaptive.leaves import same
-from softway.meshes.adaptive.refinement import AdaptedMesh, refined
+from softway.meshes.adaptive.refinement import BISECTED, AdaptedMesh, refined
 from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
@@ -25,7 +27,10 @@ from softway.remeshing.adapt import Adapt
 from softway.solve.operators.operator_memory import OperatorMemory
 from softway.solve.static_equilibrium import StaticState, equilibrium
 
-BARS = "elastic bars without friction, heat, ties, bulk viscosity or rigid bodies, with contacts at nodes of the mesh"
+WHAT = (
+    f"elastic solids of one type of cell, {', '.join(BISECTED)}, without friction, heat, ties, bulk viscosity or "
+    "rigid bodies, with contacts whose nodes have no inertia"
+)
 """What may adapt."""
 
 
@@ -38,7 +43,7 @@ class AdaptedScene:
     scene, model
         The scene on these meshes, and its model.
     meshes
-        Mesh of each solid of bars.
+        Mesh of each solid of cells that can be bisected.
     """
 
     scene: Scene
@@ -46,7 +51,7 @@ class AdaptedScene:
     meshes: Mapping[str, AdaptedMesh]
 
     def solid(self, name: str) -> AdaptedSolid:
-        """A solid of bars, with its inertia in the model."""
+        """A solid with a mesh in ``meshes``, with its inertia in the model."""
         part = next(p for p in self.model.parts if p.name == name)
         solid = self.scene.bodies[name]
         assert isinstance(solid, Solid)
@@ -54,30 +59,21 @@ class AdaptedScene:
         return AdaptedSolid(solid=solid, adapted=self.meshes[name], part=part, mass=mass, follow=follow)
 
     def on(self, meshes: Mapping[str, AdaptedMesh]) -> "AdaptedScene":
-        """The scene on other meshes; itself if they are the same.
-
-        Raises
-        ------
-        InputError
-            If the contacts have other rows on them.
-        """
-        if all(same(self.meshes[name].leaves, mesh.leaves) for name, mesh in meshes.items()):
+        """The scene on other meshes; itself if they are the same."""
+        changed = {n: mesh for n, mesh in meshes.items() if not same(self.meshes[n].leaves, mesh.leaves)}
+        if not changed:
             return self
         bodies = dict(self.scene.bodies)
-        for name, mesh in meshes.items():
+        for name, mesh in changed.items():
             solid = bodies[name]
             assert isinstance(solid, Solid)
             bodies[name] = replace(solid, mesh=mesh.mesh)
         scene = replace(self.scene, bodies=bodies)
-        model = build(scene)
-        if len(model.contacts.node) != len(self.model.contacts.node):
-            rows = f"{len(model.contacts.node)} contact rows on another mesh, {len(self.model.contacts.node)} before"
-            raise InputError("contacts", rows, f"contacts at the ends of bars: {BARS}")
-        return AdaptedScene(scene=scene, model=model, meshes=dict(meshes))
+        return AdaptedScene(scene=scene, model=build(scene), meshes={**self.meshes, **changed})
 
     def wanted(self, adapt: Mapping[str, Adapt], now: MarchState, energy: float, ahead: float) -> "AdaptedScene":
-        """The scene on the meshes for the coming slabs, contacts that close within ``ahead`` [s] in fine cells."""
-        touching = _touching(self.model, now, ahead)
+        """The scene on the meshes for the coming slabs, in fine cells what closes or is pushed within ``ahead`` [s]."""
+        touching = np.concatenate([_touching(self.model, now, ahead), _pushed(self.model, now.state.time, ahead)])
         meshes = dict(self.meshes)
         for name, how in adapt.items():
             solid = self.solid(name)
@@ -89,7 +85,7 @@ class AdaptedScene:
 
 
 def adapted_scene(scene: Scene, adapt: Mapping[str, Adapt]) -> AdaptedScene:
-    """Scene on the base meshes; bars that do not adapt have their base mesh for ever.
+    """Scene on the base meshes; solids that do not adapt have their base mesh for ever.
 
     Raises
     ------
@@ -103,18 +99,24 @@ def adapted_scene(scene: Scene, adapt: Mapping[str, Adapt]) -> AdaptedScene:
         with within(f"adapt.{name}"):
             if name not in solids:
                 raise InputError("", "no solid of this name", f"one of: {', '.join(solids)}")
-            if bases[name].cell_dim > 1 or solids[name].thermal is not None or solids[name].shock is not None:
-                raise InputError("", "a solid whose mesh cannot adapt in a march", BARS)
-    bars = {name: base for name, base in bases.items() if base.cell_dim == 1 and len(base.blocks) == 1}
-    meshes = {name: refined(base, np.zeros(base.n_cells, dtype=np.int64)) for name, base in bars.items()}
+            if not _bisected(bases[name]) or solids[name].thermal is not None or solids[name].shock is not None:
+                raise InputError("", "a solid whose mesh cannot adapt in a march", WHAT)
+    known = {name: base for name, base in bases.items() if _bisected(base)}
+    meshes = {name: refined(base, np.zeros(base.n_cells, dtype=np.int64)) for name, base in known.items()}
     for name, mesh in meshes.items():
         bodies[name] = replace(solids[name], mesh=mesh.mesh, place=Placement(), group=())
     scene = replace(scene, bodies=bodies)
     model = build(scene)
     plain = not model.companions and model.rigid is None and all(_own_dofs(model)) and model.friction.frictionless
-    if not plain or any_path_dependent(model.parts):
-        raise InputError("adapt", "a scene in which no mesh can adapt", BARS)
+    light = model.timing.massless or not scene.contacts
+    if not (plain and light) or any_path_dependent(model.parts):
+        raise InputError("adapt", "a scene in which no mesh can adapt", WHAT)
     return AdaptedScene(scene=scene, model=model, meshes=meshes)
+
+
+def _bisected(mesh: Mesh) -> bool:
+    """True for meshes that bisection refines."""
+    return len(mesh.blocks) == 1 and next(iter(mesh.blocks)) in BISECTED
 
 
 def _built(solid: Solid) -> Mesh:
@@ -135,21 +137,40 @@ def _motion(model: Model, now: MarchState, name: str) -> Motion:
 
 
 def _touching(model: Model, now: MarchState, ahead: float) -> IntArray:
-    """Nodes (k,) of contacts that are closed, or would close within ``ahead`` [s] at the present velocities."""
+    """Nodes (k,) of contact rows that are closed, or would close within ``ahead`` [s] at the present velocities, with
+    those of the facets in them.
+    """
     start, state = now.state.start, now.state
     coming = start.displacement + ahead * start.velocity
-    gap = model.rows(coming, state.time + ahead).gap(coming)
-    contacts = np.unique(model.contacts.contact[state.closed | (gap <= 0.0)])
-    solids = {s for k in contacts for s in model.contact_solids[k]}
-    return model.touchable[np.isin(model.part_of[model.touchable], list(solids))]
+    here, later = model.rows(start.displacement, state.time), model.rows(coming, state.time + ahead)
+    closing = later.near & (later.gap(coming) <= 0.0)
+    chosen = ((here, state.closed), (later, closing), (here, closing))
+    nodes = [rows.gradient[which].indices // model.shape[1] for rows, which in chosen]
+    return np.unique(np.concatenate(nodes))
+
+
+def _pushed(model: Model, time: float, ahead: float) -> IntArray:
+    """Nodes (k,) of tractions that change within ``ahead`` [s]; of all of them at the start, where they are sudden."""
+    parts, found = {part.name: part for part in model.parts}, [np.zeros(0, dtype=np.int64)]
+    for load in model.scene.loads:
+        if isinstance(load, Traction) and (time <= 0.0 or _changes(load.ramp, time, time + ahead)):
+            part = parts[load.body]
+            found.append(part.nodes.start + part.mesh.nodes(load.tag))
+    return np.concatenate(found)
+
+
+def _changes(ramp: Ramp, start: float, end: float) -> bool:
+    """True if a factor of a load changes between two times."""
+    inner = (time for time in ramp.times if start < time < end)
+    return len({ramp.at(time) for time in (start, *inner, end)}) > 1
 
 
 def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple[MarchState, Mapping[str, Transferred]]:
-    """State of a march on the new meshes, and the transfers of the solids of bars.
+    """State of a march on the new meshes, and the transfers of the solids with meshes of their own.
 
     Displacements are projected, massless nodes of all solids find their equilibrium with the contacts, and then the
-    balances are closed.  The account of the energy goes on from what the transfers, and this equilibrium in other
-    solids, have taken.
+    balances are closed.  What the transfers, and this equilibrium in other solids, have taken of the energy is in its
+    account.
     """
     state, names = split_states(old.model, now.state), list(new.meshes)
     pairs = {name: (old.solid(name), new.solid(name)) for name in names}
@@ -173,7 +194,7 @@ def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple
     taken = sum(one.booked for one in found.values()) + float(
         (now.state.start.energy - joined.start.energy)[fixed].sum()
     )
-    account = replace(now.account, energy_start=now.account.energy_start - taken)
+    account = replace(now.account, remeshing=now.account.remeshing + taken)
     return replace(now, state=joined, account=account, memory=OperatorMemory()), found
 
 

@@ -37,18 +37,15 @@ class AdaptedStep:
     model
         Model of the scene on these meshes.
     meshes
-        Mesh of each solid of bars.
+        Mesh of each solid of cells that can be bisected.
     transfers
         Transfers at the start of the slab, by solid; empty where the meshes have not changed.
-    booked
-        Energy that changes of the meshes have taken since the start of the march, and no scalar has closed [J].
     """
 
     step: Step
     model: Model
     meshes: Mapping[str, AdaptedMesh]
     transfers: Mapping[str, Transferred] = field(default_factory=dict)
-    booked: float = 0.0
 
 
 def adaptive_march(
@@ -65,7 +62,8 @@ def adaptive_march(
     """Accepted slabs of a march in which the meshes of some solids follow their waves.
 
     The meshes change between slabs.  Momentum, spin and energy pass from mesh to mesh (:mod:`softway.adaptivity`), and
-    the energy balance of a step is that of the whole march, less ``booked``.
+    the energy balance of a step is that of the whole march; what changes of the meshes took, and no scalar has closed,
+    is ``ledger.remeshing``.
 
     Parameters
     ----------
@@ -100,7 +98,7 @@ def adaptive_march(
         what = "no solid" if not adapt else "Explicit, whose stable step the finest cell determines"
         raise InputError("adapt" if not adapt else "method", what, "a solid that adapts, and FixedPoint or Newton")
     settings = Settings(until=until, step=step, weight=weight, method=method, control=control)
-    every, now, opened = min(how.every for how in adapt.values()), None, None
+    every, now = min(how.every for how in adapt.values()), None
     on = _first(adapted_scene(scene, adapt), adapt, settings, every)
     transfers: Mapping[str, Transferred] = {}
     energy = 0.0
@@ -110,10 +108,8 @@ def adaptive_march(
         )
         for taken in islice(steps, every):
             now = taken.march_state
-            opened = now.account.energy_start if opened is None else opened
-            booked = opened - now.account.energy_start
             energy = max(energy, taken.ledger.energy_kinetic + taken.ledger.energy_strain)
-            yield AdaptedStep(step=taken, model=on.model, meshes=on.meshes, transfers=transfers, booked=booked)
+            yield AdaptedStep(step=taken, model=on.model, meshes=on.meshes, transfers=transfers)
             transfers = {}
         assert now is not None
         new = on.wanted(adapt, now, energy, AHEAD * every * now.step_history.span)

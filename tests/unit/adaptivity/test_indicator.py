@@ -6,7 +6,8 @@ from turning import NONE, on_levels, solid
 
 import softway as sw
 from softway.adaptivity.adapted_solid import adapted_solid
-from softway.adaptivity.indicator import buffered, indicator, wanted_levels
+from softway.adaptivity.indicator import indicator, wanted_levels
+from softway.adaptivity.neighbourhood import buffered
 from softway.adaptivity.transfer import Motion
 from softway.meshes.adaptive.refinement import refined
 from softway.meshes.generators.shapes import box, interval, rectangle

@@ -115,12 +115,13 @@ def audit(model: Model, last: EnergyAccount, before: ModelState, out: SlabResult
         energy_strain=strain,
         work_external=work,
         dissipation=lost,
-        energy_error=kinetic + strain - last.energy_start - work + lost,
+        energy_error=kinetic + strain - last.energy_start - work + lost + last.remeshing,
         momentum=momentum(model.space, momenta) + rigid.momentum,
         spin=spin(model, after.start.displacement, momenta) + rigid.spin,
         contacts=_contacts(model, before, out, after),
         ties=tie_ledgers(model, last.ties, before, after),
         heat=heat_audit(last.heat, out),
+        remeshing=last.remeshing,
     )
 
 

@@ -110,7 +110,7 @@ class Ledger:
         Since the start: work of loads, supports and moving tools; energy dissipated by friction and material,
         with ``heat.reversible`` in solids with a temperature [J].
     energy_error
-        ``kinetic + strain - initial - work_external + dissipation`` [J].
+        ``kinetic + strain - initial - work_external + dissipation + remeshing`` [J].
     momentum
         (3,) [kg m/s].
     spin
@@ -121,6 +121,8 @@ class Ledger:
         Label of a tie that breaks -> its audit.
     heat
         Heat of the solids with a temperature; None without.
+    remeshing
+        Energy that changes of the mesh have taken since the start; zero where none has changed [J].
     """
 
     energy_kinetic: float
@@ -133,10 +135,12 @@ class Ledger:
     contacts: Mapping[str, ContactLedger]
     ties: Mapping[str, TieLedger] = field(default_factory=dict)
     heat: HeatOfSolids | None = None
+    remeshing: float = 0.0
 
     def _repr_html_(self) -> str:
         """A table for notebooks."""
-        joules = ("energy_kinetic", "energy_strain", "work_external", "dissipation", "energy_error")
+        joules: tuple[str, ...] = ("energy_kinetic", "energy_strain", "work_external", "dissipation", "energy_error")
+        joules += ("remeshing",) if self.remeshing else ()
         rows = {name.replace("_", " "): f"{getattr(self, name):.4g} J" for name in joules}
         rows["momentum"] = f"{np.array2string(self.momentum, precision=4)} kg m/s"
         rows |= {f"contact {name}": _contact(found) for name, found in self.contacts.items()}

@@ -11,6 +11,7 @@ from softway.record.audit.watch import AGREED
 from softway.record.read.findings import ENERGY, finding, gathered
 from softway.record.read.frames import Fields
 from softway.record.storage.table import Table
+from softway.record.write.history_columns import REMESHING
 
 DEEPER = 1e-9
 """Relative difference of depths that were computed from the same frame."""
@@ -26,7 +27,8 @@ def frames_audited(fields: Fields) -> Iterator[Depths]:
 
 
 def history_audited(history: Table) -> list[Event]:
-    """Finding on a history whose column ``energy_error`` is not what the other energies leave.
+    """Finding on a history whose column ``energy_error`` is not what the other energies leave, with those that changes
+    of the mesh took.
 
     Examples
     --------
@@ -37,6 +39,7 @@ def history_audited(history: Table) -> list[Event]:
     """
     names = ("energy_kinetic", "energy_strain", "work_external", "dissipation")
     kinetic, strain, work, lost = (history[name] for name in names)
+    lost = lost + history[REMESHING.name] if REMESHING.name in history else lost
     left = kinetic + strain - (kinetic + strain)[:1] - work + lost
     scale = np.abs(kinetic) + np.abs(strain) + np.abs(work) + np.abs(lost) + (kinetic + strain)[:1]
     wrong = np.flatnonzero(~(np.abs(left - history["energy_error"]) <= AGREED * scale))

@@ -45,7 +45,7 @@ def open_history(folder: Path, opening: RunStart, mark: int | None = None) -> Hi
     heat = opening.ledger.heat
     contacts = tuple(c.label for c in opening.scene.contacts)
     of_heat = None if heat is None else (opening.passing_heat, tuple(heat.liquid), tuple(heat.rigid))
-    rows, found = table.lines(folder / FILE, mark), columns(contacts, ties, of_heat)
+    rows, found = table.lines(folder / FILE, mark), columns(contacts, ties, of_heat, opening.adapts)
     if mark is None:
         rows.write(table.header([*((c.name, c.unit) for c in found), *((r.name, r.unit) for r in opening.readings)]))
         probes = [r.value(opening.initial, {}) for r in opening.readings]

@@ -127,6 +127,8 @@ def _of_heat(name: str) -> Callable[[Ledger], float]:
     return lambda ledger: float(getattr(ledger.heat, name))
 
 
+REMESHING = of_ledger("remeshing", "J", lambda ledger: ledger.remeshing)
+"""Column of runs in which meshes change: energy that these changes took."""
 HEAT = tuple(of_ledger(f"heat.{name}", unit, _of_heat(name)) for name, unit in OF_HEAT)
 """Columns of runs in which solids have a temperature."""
 
@@ -135,13 +137,16 @@ def columns(
     contacts: tuple[str, ...],
     ties: tuple[str, ...] = (),
     heat: tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]] | None = None,
+    adapts: bool = False,
 ) -> tuple[Column, ...]:
-    """Columns of a run with some contacts, ties that break, and ``heat`` of solids: the contacts that it passes, in
-    order, the solids that melt, and the rigid bodies with a temperature; without its probes.
+    """Columns of a run with some contacts, ties that break, ``heat`` of solids: the contacts that it passes, in order,
+    the solids that melt, and the rigid bodies with a temperature; and with meshes that change, ``adapts``; without its
+    probes.
     """
     each = (column for label in contacts for column in of_contact(label))
     glued = (column for label in ties for column in of_tie(label))
-    return (*COLUMNS, *each, *CERTIFICATE, *EXTRA, *glued, *(() if heat is None else of_heat(*heat)))
+    heated, changed = () if heat is None else of_heat(*heat), (REMESHING,) if adapts else ()
+    return (*COLUMNS, *each, *CERTIFICATE, *EXTRA, *glued, *heated, *changed)
 
 
 def of_heat(passing: tuple[str, ...], melting: tuple[str, ...], rigid: tuple[str, ...]) -> tuple[Column, ...]:

@@ -68,6 +68,8 @@ class RunStart:
         Function from a step to the contact forces that the change of momentum of each body needs.
     rounding
         Energy of strains that are rounding errors [J].
+    adapts
+        True if meshes change between slabs.
     """
 
     scene: Scene
@@ -86,6 +88,7 @@ class RunStart:
     balances: Callable[[State], Balances] | None = None
     pushed: Callable[[Step], Mapping[tuple[str, ...], Pushed]] | None = None
     rounding: float = 0.0
+    adapts: bool = False
 
     @property
     def passing_heat(self) -> tuple[str, ...]:
