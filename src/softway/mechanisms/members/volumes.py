@@ -58,7 +58,7 @@ def rigid_mesh(
     --------
     >>> from softway.meshes.generators.graded import grid
     >>> body = rigid_mesh(grid((0.0, 2.0), (0.0, 1.0)), density=3.0)
-    >>> body.mass, body.centre, round(body.inertia, 12)
+    >>> round(body.mass, 12), tuple(round(x, 12) for x in body.centre), round(body.inertia, 12)
     (6.0, (1.0, 0.5), 2.5)
     """
     dim, volume = mesh.dim, 0.0
@@ -108,7 +108,7 @@ def rigid_surface(
     --------
     >>> square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
     >>> body = rigid_surface(square, [(0, 1), (1, 2), (2, 3), (3, 0)], density=6.0)
-    >>> body.mass, body.centre, round(body.inertia, 12)
+    >>> round(body.mass, 12), tuple(round(x, 12) for x in body.centre), round(body.inertia, 12)
     (6.0, (0.5, 0.5), 1.0)
     """
     surface = Facets(points=np.asarray(points, float), cells=np.asarray(cells, np.int64))
