@@ -20,6 +20,7 @@ from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import ContactSet
 from softway.contact.friction_rows import FrictionRows
 from softway.contact.impact_rule import ImpactRule
+from softway.meshes.adaptive.refinement import AdaptedMesh
 from softway.meshes.mesh import Mesh
 from softway.model.cohesive_ties import CohesiveTies, damaged
 from softway.model.field import Field, FieldEquations, FieldState, stiffness_factor
@@ -87,6 +88,8 @@ class Model:
         Rigid bodies; None without.
     declared
         Number in the scene as it was given of each contact.
+    adapted
+        Adapted meshes of the solids whose meshes change in a march, by name.
     """
 
     scene: Scene
@@ -120,6 +123,7 @@ class Model:
     tools: Mapping[str, Tool | RigidShape] = field(default_factory=dict)
     rigid: RigidBodies | None = None
     declared: tuple[int, ...] = ()
+    adapted: Mapping[str, AdaptedMesh] = field(default_factory=dict)
 
     @property
     def free(self) -> BoolArray:
