@@ -5,14 +5,14 @@ from typing import Literal
 
 from softway.errors import Cancel
 from softway.heat.coupled.build import build
-from softway.march.march_state import MarchState, Settings
 from softway.march.remeshing.adaptive_march import adaptive_march, adapts
 from softway.march.results.step import Step
 from softway.march.results.trying import TryWatch
 from softway.march.rules.slab_rule import Method
-from softway.march.slab.slabs import slabs
+from softway.march.slabs import slabs
 from softway.march.start.preparation import prepare
-from softway.march.step_control import StepControl
+from softway.march.state.march_state import MarchState, Settings
+from softway.march.state.step_control import StepControl
 from softway.model.model import Model
 from softway.model.scene import Scene, State
 from softway.model.time_weight import EndPeaks, TimeWeight

@@ -1,6 +1,6 @@
 """Model: constant data of a march as arrays."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent, during, end_force, scaled
 from softway.bodies.assembled.nodal_loads import DeadLoads
+from softway.bodies.assembled.tangent import assembled_tangent
 from softway.bodies.assembled.vector_space import VectorSpace
 from softway.bodies.discretised import DiscreteSolid, Moved
 from softway.bodies.dof_map import DofMap, MatrixSum
@@ -296,9 +297,3 @@ class Model:
     def kinetic(self, v: Array) -> Array:
         """Kinetic energy of each solid (parts,) [J]."""
         return 0.5 * self.space.totals(v * (self.mass @ v))
-
-
-def assembled_tangent(parts: Sequence[DiscreteSolid], u: Array) -> sp.csc_array:
-    """Tangent stiffness (n d, n d) of all solids [N/m]."""
-    blocks = [part.tangent(u[part.nodes]) for part in parts]
-    return blocks[0] if len(blocks) == 1 else sp.csc_array(sp.block_diag(blocks, format="csc"))

@@ -16,9 +16,9 @@ from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 from softway.heat.coupled.build import build
-from softway.march.march_state import AdaptedMeshes, MarchState
-from softway.march.model_state import join_states, split_states
 from softway.march.remeshing.wanted_mesh import wanted_mesh
+from softway.march.state.march_state import AdaptedMeshes, MarchState
+from softway.march.state.model_state import join_states, split_states
 from softway.meshes.adaptive.adapt import Adapt, adaption
 from softway.meshes.adaptive.leaves import Leaves, same
 from softway.meshes.adaptive.refinement import BISECTED, AdaptedMesh, refined

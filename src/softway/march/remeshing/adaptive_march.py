@@ -6,12 +6,12 @@ from itertools import islice
 
 from softway.adaptivity.transfer import Transferred
 from softway.errors import Cancel, InputError
-from softway.march.march_state import AdaptedMeshes, MarchState, Settings
 from softway.march.remeshing.adapted_scene import AdaptedScene, adapted_scene, adaptions, carried_over
 from softway.march.results.step import Step
 from softway.march.results.trying import TryWatch
-from softway.march.slab.slabs import slabs
+from softway.march.slabs import slabs
 from softway.march.start.preparation import Preparation, prepare
+from softway.march.state.march_state import AdaptedMeshes, MarchState, Settings
 from softway.model.model import Model
 from softway.model.scene import Scene, State
 from softway.solve.methods.central_difference import Explicit

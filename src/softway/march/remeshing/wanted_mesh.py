@@ -1,7 +1,5 @@
 """Mesh of a solid for the coming slabs."""
 
-import numpy as np
-
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.indicator import indicator, wanted_levels
 from softway.adaptivity.neighbourhood import buffered, refined_near
@@ -27,9 +25,7 @@ def wanted_mesh(adapt: Adapt, solid: AdaptedSolid, motion: Motion, energy: float
     """
     base = solid.adapted.base
     finest, deepest = adapt.finest(base), adapt.deepest(base.cell_dim)
-    share = (finest / float(np.linalg.norm(np.ptp(base.points, axis=0)))) ** base.cell_dim
-    threshold = max(adapt.tolerance * float(np.sqrt(energy * share)), float(np.finfo(float).tiny))
-    levels = wanted_levels(solid.adapted, indicator(solid, motion), threshold, deepest)
+    levels = wanted_levels(solid.adapted, indicator(solid, motion), adapt.threshold(base, energy), deepest)
     found = refined(base, levels, solid.adapted.leaves)
     found = refined_near(found, [(deepest, touching)], adapt.contact_cells * finest)
     return buffered(found, adapt.buffer * finest)

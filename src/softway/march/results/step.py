@@ -10,7 +10,7 @@ from softway.adaptivity.transfer import Transferred
 from softway.arrays import Array
 from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.html_tables import table
-from softway.march.march_state import MarchState
+from softway.march.state.march_state import MarchState
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.model.slab import Slab

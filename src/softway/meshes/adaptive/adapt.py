@@ -63,6 +63,11 @@ class Adapt:
         """Shortest edge of the finest cells [m]."""
         return float(np.ldexp(base.edge(), -(self.deepest(base.cell_dim) // base.cell_dim)))
 
+    def threshold(self, base: Mesh, energy: float) -> float:
+        """Threshold of the indicator [sqrt(J)] in a scene with an energy [J]."""
+        share = (self.finest(base) / float(np.linalg.norm(np.ptp(base.points, axis=0)))) ** base.cell_dim
+        return max(self.tolerance * float(np.sqrt(energy * share)), float(np.finfo(float).tiny))
+
 
 Adapting = Adapt | Literal["auto"] | None
 """Adaption of the mesh of a solid; ``auto`` is that of ``Adapt()``, None that of a mesh that stays."""

@@ -6,8 +6,8 @@ from typing import Literal
 
 from softway.errors import InputError
 from softway.heat.coupled.heat_of_solids import HeatOfSolids
-from softway.march.model_state import ModelState
-from softway.march.step_control import StepControl
+from softway.march.state.model_state import ModelState
+from softway.march.state.step_control import StepControl
 from softway.meshes.adaptive.leaves import Leaves
 from softway.model.model import Model
 from softway.model.time_weight import TimeWeight

@@ -6,15 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 
+from softway.march.attempts import DAMPED, AcceptedSlab, accept_slab, recent_rejections, require_progress
 from softway.march.audit.ledger import update_account
-from softway.march.march_state import AdaptedMeshes, MarchState, StepHistory
-from softway.march.model_state import split_states
 from softway.march.results.step import Ledger, Report, Step
-from softway.march.slab.attempts import DAMPED, AcceptedSlab, accept_slab, recent_rejections, require_progress
 from softway.march.slab.slab_step import Stepper
 from softway.march.start.knots import slab_length
 from softway.march.start.ladder import Quality, fastest, next_rung, on_ladder
-from softway.march.step_control import crushing, may_grow
+from softway.march.state.march_state import AdaptedMeshes, MarchState, StepHistory
+from softway.march.state.model_state import split_states
+from softway.march.state.step_control import crushing, may_grow
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.solve.equations.energy_balance import SLIGHT
