@@ -132,6 +132,9 @@ class MarchState:
         pasts = [m is not None for m in start.states]
         complete = len(pasts) in (0, len(model.parts))
         fitting = len(start.fields) == len(model.companions)
+        if (self.adapted is None) == bool(model.adapted):
+            problem, remedy = ("without", "with") if self.adapted is None else ("with", "without")
+            raise InputError("state", f"{problem} adapted meshes", f"a state {remedy} adapted meshes")
         if start.displacement.shape != ours or len(closed) != rows or not complete or not fitting:
             found = f"{start.displacement.shape} nodal values and {len(closed)} contact rows"
             raise InputError("state", f"of another scene: {found}", f"one of {ours} and {rows}")
