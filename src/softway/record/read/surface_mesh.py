@@ -7,7 +7,7 @@ import numpy as np
 
 from softway.arrays import Array, IntArray
 from softway.meshes.mesh import Mesh
-from softway.record.read.frames import Cells
+from softway.record.read.cells import Cells
 
 MOST = 60000
 """Maximum number of small triangles on a surface."""

@@ -9,7 +9,8 @@ import numpy as np
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.prescribed_motion import PlacedShape
 from softway.errors import InputError
-from softway.record.read.frames import Cells, Frame
+from softway.record.read.cells import Cells
+from softway.record.read.frames import Frame
 from softway.record.read.records import Records
 from softway.record.read.summary import contacts_of
 from softway.record.read.surface_mesh import MOST, Skin, skin_of
