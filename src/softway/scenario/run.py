@@ -205,7 +205,7 @@ def _start(given: Scenario, initial: State, ledger: Ledger, model: Model) -> Run
         ledger=ledger,
         until=given.time.end,
         fields_every=_every(given),
-        readings=probe_readings(given, model.meshes, model.scene.mechanism),
+        readings=probe_readings(given, model.meshes, model.scene.mechanism, model.adapted),
         fields=model.fields,
         audit=given.output.audit,
         balances=partial(balances, model),

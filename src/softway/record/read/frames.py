@@ -144,13 +144,16 @@ class Fields:
     @property
     def cells(self) -> Cells:
         """Cells, reference coordinates and rigid obstacles of the first frame; of all frames where meshes stay."""
-        with reading(self.path, REMEDY) as file:
-            return read_cells(file, self.path.parent, 0)
+        return self.geometry(0)
 
     def cells_of(self, frame: Frame) -> Cells:
         """Cells of a frame."""
+        return self.geometry(frame.geometry)
+
+    def geometry(self, number: int) -> Cells:
+        """Cells with the number that a frame has as its ``geometry``."""
         with reading(self.path, REMEDY) as file:
-            return read_cells(file, self.path.parent, frame.geometry)
+            return read_cells(file, self.path.parent, number)
 
     def with_cells(self, numbers: Iterable[int] | None = None) -> Iterator[tuple[Frame, Cells]]:
         """Frames with the given numbers, by default all of them, each with its cells."""

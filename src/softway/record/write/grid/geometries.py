@@ -7,7 +7,6 @@ grow.
 from dataclasses import dataclass
 from typing import Any
 
-import h5py
 import numpy as np
 
 from softway.arrays import Array, IntArray
@@ -73,7 +72,7 @@ def rows_of_frame(root: Any, parts: IntArray) -> tuple[slice, slice]:
     return tuple(slice(int(size[:-1].sum()), int(size.sum())) for size in (points, cells))
 
 
-def create_geometry(file: h5py.File, grid: Grid, grows: bool) -> None:
+def create_geometry(file: Any, grid: Grid, grows: bool) -> None:
     """Write the first geometry of a new file, in arrays that grow by further ones or in arrays that stay."""
     arrays = _arrays(grid)
     for name, data in arrays.items():
@@ -85,13 +84,13 @@ def create_geometry(file: h5py.File, grid: Grid, grows: bool) -> None:
             put(made, 0, data)
 
 
-def add_geometry(file: h5py.File, grid: Grid) -> None:
+def add_geometry(file: Any, grid: Grid) -> None:
     """Write a further geometry: its data before their sizes."""
     for name, data in _arrays(grid).items():
         put(file[name], len(file[name]), data)
 
 
-def is_last(file: h5py.File, grid: Grid) -> bool:
+def is_last(file: Any, grid: Grid) -> bool:
     """True for the geometry of the last part, and for every one if the arrays do not grow."""
     root = file["VTKHDF"]
     if root["Types"].maxshape[0] is not None:
@@ -102,7 +101,7 @@ def is_last(file: h5py.File, grid: Grid) -> bool:
     return all(np.array_equal(found, _arrays(grid)[name]) for name, found in stored.items())
 
 
-def cut_geometries(file: h5py.File, number: int) -> None:
+def cut_geometries(file: Any, number: int) -> None:
     """Remove all geometries after the part ``number``."""
     last = part(file["VTKHDF"], number)
     for name in SIZES:
@@ -112,8 +111,8 @@ def cut_geometries(file: h5py.File, number: int) -> None:
 
 
 def series(
-    group: h5py.Group, name: str, shape: tuple[int, ...], rows: int, unit: str = "", dtype: Any = float
-) -> h5py.Dataset:
+    group: Any, name: str, shape: tuple[int, ...], rows: int, unit: str = "", dtype: Any = float
+) -> Any:
     """Create an empty array that grows by about ``rows`` along its first axis at a time."""
     chunks = (max(1, min(rows if rows > 1 else 256, CHUNK)), *shape)
     packed = PACKED if rows > 1 else {}
@@ -123,13 +122,13 @@ def series(
     return made
 
 
-def put(rows: h5py.Dataset, start: int, data: Array) -> None:
+def put(rows: Any, start: int, data: Array) -> None:
     """Write data from a row on, as the end of an array."""
     rows.resize(start + len(data), axis=0)
     rows[start:] = data
 
 
-def shorten(rows: h5py.Dataset, count: int) -> None:
+def shorten(rows: Any, count: int) -> None:
     """Remove the rows of an array after the first ``count``."""
     if len(rows) > count:
         rows.resize(count, axis=0)
