@@ -94,7 +94,11 @@ def _changes(history: Table, events: Table) -> dict[str, Any]:
         return {}
     nodes = history[NODES.name]
     changes = len(np.unique(events["time"][events["kind"] == MESH]))
-    return {"changes": changes, "most_nodes": int(nodes.max()), "mean_nodes": float(nodes[min(1, history.rows - 1) :].mean())}
+    return {
+        "changes": changes,
+        "most_nodes": int(nodes.max()),
+        "mean_nodes": float(nodes[min(1, history.rows - 1) :].mean()),
+    }
 
 
 def status(reason: str, found: Mapping[str, Any]) -> str:

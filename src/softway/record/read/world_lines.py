@@ -24,10 +24,10 @@ def kinks(run: Records) -> Mapping[int, Array]:
     An event gives the node number in its body, but not the body.  Among the bodies that have such a node, the one whose
     node was closest to the place of the event is taken.
     """
-    events, fields = run.events, run.fields
-    rows = np.flatnonzero(~np.isin(events["kind"], (*KINDS, MESH)))
     if changes(run):
         return {}
+    events, fields = run.events, run.fields
+    rows = np.flatnonzero(~np.isin(events["kind"], (*KINDS, MESH)))
     cells, times, node = fields.cells, fields.times, np.asarray(events["node"], int)[rows]
     starts = [
         int(cells.connectivity[cells.offsets[np.flatnonzero(cells.body == b)[0]] :].min())
@@ -108,7 +108,8 @@ def _pieces(run: Records, axis: int) -> Iterator[_Piece]:
     part = fields.geometries
     firsts = np.flatnonzero(np.diff(part, prepend=-1))
     lasts = np.append(firsts[1:] - 1, len(part) - 1)
-    changed = np.unique(run.events["time"][run.events["kind"] == MESH])
+    events = run.events
+    changed = np.unique(events["time"][events["kind"] == MESH])
     begin = times[0]
     for first, last in zip(firsts, lasts, strict=True):
         frames = list(fields[int(first) : int(last) + 1])

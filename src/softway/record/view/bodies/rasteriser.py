@@ -18,9 +18,7 @@ MESH = (0.36, 0.36, 0.36)
 """Colour of the edges of cells."""
 
 
-def paint(
-    axis: "Axes", skin: Skin, place: BodyPlacement, view: Camera, colours: Array, edged: bool = False
-) -> None:
+def paint(axis: "Axes", skin: Skin, place: BodyPlacement, view: Camera, colours: Array, edged: bool = False) -> None:
     """Draw the small triangles with their ``colours`` (t, 3) and the outlines, with ``edged`` the edges of the cells,
     too, from back to front.
     """

@@ -110,9 +110,7 @@ def cut_geometries(file: Any, number: int) -> None:
         shorten(file[name], at.stop)
 
 
-def series(
-    group: Any, name: str, shape: tuple[int, ...], rows: int, unit: str = "", dtype: Any = float
-) -> Any:
+def series(group: Any, name: str, shape: tuple[int, ...], rows: int, unit: str = "", dtype: Any = float) -> Any:
     """Create an empty array that grows by about ``rows`` along its first axis at a time."""
     chunks = (max(1, min(rows if rows > 1 else 256, CHUNK)), *shape)
     packed = PACKED if rows > 1 else {}
