@@ -1,6 +1,4 @@
-"""events.csv: one line for each contact event of a node (touch, release, stick or slip), each change of a mesh, and each
-finding.
-"""
+"""events.csv: contact events of nodes (touch, release, stick or slip), changes of meshes, and findings, one line each."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

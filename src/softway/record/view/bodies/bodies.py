@@ -62,8 +62,8 @@ class Stage:
     """Common data of all frames of a picture: field and its range, camera, and enlargement of the deformation.
 
     ``cells`` are those of the first frame, ``surfaces`` gives the surface of the geometry with a number, and
-    ``changing`` is True if there are several: then the mesh is drawn, too.  ``box`` (2, 2) holds the corners of the bodies of all frames in the plane of the picture, ``bounds`` (2, 3) those in
-    space.
+    ``changing`` is True if there are several: then the edges of the cells are drawn, too.  ``box`` (2, 2) holds the
+    corners of the bodies of all frames in the plane of the picture, ``bounds`` (2, 3) those in space.
     """
 
     cells: Cells

@@ -68,8 +68,9 @@ def parts_of_frames(root: Any, count: int) -> IntArray:
 
 def rows_of_frame(root: Any, parts: IntArray) -> tuple[slice, slice]:
     """Rows of the last of the frames on some ``parts`` (k,): in the arrays at points, and in those in cells."""
-    points, cells = (np.asarray(root[name][:])[parts] for name in SIZES[:2])
-    return tuple(slice(int(size[:-1].sum()), int(size.sum())) for size in (points, cells))
+    sizes = [np.asarray(root[name][:])[parts] for name in SIZES[:2]]
+    points, cells = (slice(int(size[:-1].sum()), int(size.sum())) for size in sizes)
+    return points, cells
 
 
 def create_geometry(file: Any, grid: Grid, grows: bool) -> None:
