@@ -1,4 +1,4 @@
-"""events.csv: contact events of nodes (touch, release, stick or slip), changes of meshes, and findings, one line each."""
+"""events.csv: contact events of nodes (touch, release, stick, slip), changes of meshes, and findings, one line each."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

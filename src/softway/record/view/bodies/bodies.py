@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,7 +11,7 @@ from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.prescribed_motion import PlacedShape
 from softway.errors import InputError
 from softway.record.read.cells import Cells
-from softway.record.read.frames import Frame
+from softway.record.read.frames import Fields, Frame
 from softway.record.read.records import Records
 from softway.record.read.summary import contacts_of
 from softway.record.read.surface_mesh import MOST, Skin, skin_of
@@ -153,15 +153,9 @@ def stage_of(run: Records, colour: Colour, numbers: Sequence[int], most: int = M
     view = camera(cells, place.points, tools, _focus(place, frame))
     everywhere = np.concatenate(corners)
     seen = view.seen(everywhere)[:, :2]
-
-    @lru_cache(maxsize=KEPT)
-    def surfaces(geometry: int) -> Surface:
-        own = fields.geometry(geometry)
-        return Surface(cells=own, skin=skin_of(own, most))
-
     return Stage(
         cells=fields.cells,
-        surfaces=surfaces,
+        surfaces=lru_cache(maxsize=KEPT)(partial(_surface, fields, most)),
         changing=bool(fields.geometries.any()),
         colour=colour,
         range=range_of(np.concatenate(values), colour.name),
@@ -170,6 +164,12 @@ def stage_of(run: Records, colour: Colour, numbers: Sequence[int], most: int = M
         box=np.array([seen.min(axis=0), seen.max(axis=0)]),
         bounds=np.array([everywhere.min(axis=0), everywhere.max(axis=0)]),
     )
+
+
+def _surface(fields: Fields, most: int, geometry: int) -> Surface:
+    """Surface of the geometry with a number, divided into about ``most`` small triangles."""
+    cells = fields.geometry(geometry)
+    return Surface(cells=cells, skin=skin_of(cells, most))
 
 
 def caption(figure: "Figure", run: Records, stage: Stage, shown: Sequence[Shown], when: str) -> None:
