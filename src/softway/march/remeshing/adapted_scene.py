@@ -97,7 +97,8 @@ class AdaptedScene:
             nodes = solid.part.nodes
             motion = _motion(self.model, now, name)
             places = self.model.points[touching[(touching >= nodes.start) & (touching < nodes.stop)]]
-            meshes[name] = wanted_mesh(how, solid, motion, energy, places)
+            stretch = now.step_history.longest / now.step_history.span
+            meshes[name] = wanted_mesh(how, solid, motion, energy, places, stretch)
         return self.on(meshes)
 
 
