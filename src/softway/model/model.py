@@ -155,11 +155,13 @@ class Model:
         return max(part.materials.speeds(part.internal.section, self.scene.inertia.factor if self.inert else 1.0))
 
     def prescribed(self, time: float) -> Array:
-        """Velocity (n, d) of the driven components at a time [m/s]; zero on all others."""
+        """Velocity (n, d) of the driven components at a time [m/s], and what hanging nodes have of it; zero on all
+        others.
+        """
         out = np.zeros(self.shape)
         for support, where in self.driven:
             out[where] = support.at(time)
-        return out
+        return self._with_hanging(out)
 
     def bends(self, start: float, end: float) -> tuple[tuple[float, Array], ...]:
         """Bends of the prescribed velocities inside a slab, see
@@ -172,7 +174,13 @@ class Model:
             for tau, change in support.bends(start, end):
                 found.append((tau, np.zeros(self.shape)))
                 found[-1][1][where] = change
-        return tuple(found)
+        return tuple((tau, self._with_hanging(change)) for tau, change in found)
+
+    def _with_hanging(self, prescribed: Array) -> Array:
+        """Prescribed field (n, d) with that of the nodes that hang between driven ones."""
+        if all(p.mesh.hanging is None for p in self.parts):
+            return prescribed
+        return self.dofs.supported(prescribed)
 
     @property
     def meshes(self) -> Mapping[str, Mesh]:

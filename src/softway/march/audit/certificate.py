@@ -119,8 +119,8 @@ def _unrest(out: SlabResult, after: ModelState) -> Array:
     force = after.start.force - model.load - out.rows.spread(after.pressure, model.shape)
     if out.rows.shear.count:
         force = force - out.rows.shear.spread(after.traction)
-    force = model.dofs.gathered(force)
-    force = np.where(model.massive[:, None], 0.0, force - model.supported(force))
+    force = model.dofs.gathered(force) - model.dofs.reactions(force)
+    force = np.where(model.massive[:, None], 0.0, force)
     return np.asarray(out.system.path.span * model.space.sums(force))
 
 

@@ -198,7 +198,7 @@ def _booked(
     support, work = out.support, h * float(every[held.index] @ held.rate)
     if not model.space.every(model.dofs.unsupported):
         inner = model.mass @ (velocity - out.velocity) + held.elastic(relaxed)
-        pull = model.supported(model.dofs.gathered(inner / h - normal - tangential))
+        pull = model.dofs.reactions(inner / h - normal - tangential)
         support, work = support + pull, work + h * model.space.total(pull * model.supported(velocity))
     friction = out.friction
     return replace(

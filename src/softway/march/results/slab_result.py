@@ -105,7 +105,7 @@ def supports(model: Model, now: ModelState, end: Evaluation, velocity: Array, pu
         return np.zeros(model.shape)
     inertia = model.mass @ ((velocity - now.start.velocity) / span)
     force = inertia + end.mean_force - model.slab_load(end.scalar) - push
-    return model.supported(model.dofs.gathered(force))
+    return model.dofs.reactions(force)
 
 
 def support_work(model: Model, path: Trajectory, support: Array, moved: Array, velocity: Array) -> float:

@@ -256,7 +256,7 @@ def _blurred(model: Model, ends: EndForces) -> Array:
 def _support_forces(model: Model, force: Array, rows: ContactRows, push: Array) -> Array:
     """Forces (n, d) of supports on massless components; ``force`` (n, d) are internal forces less loads."""
     out = force - rows.spread(push, model.shape)
-    return np.where(model.massive[:, None], 0.0, model.supported(out))
+    return np.where(model.massive[:, None], 0.0, model.dofs.reactions(out))
 
 
 def _along_motion(model: Model, ends: EndForces, moving: Array, members: BoolArray) -> Array:
