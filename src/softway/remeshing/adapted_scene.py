@@ -2,10 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
+from softway.adaptivity.even_surface import even
 from softway.adaptivity.projection import projection
 from softway.adaptivity.transfer import Motion, Transferred, transfer
 from softway.arrays import Array, IntArray
@@ -80,7 +82,8 @@ class AdaptedScene:
             nodes = solid.part.nodes
             motion = _motion(self.model, now, name)
             places = self.model.points[touching[(touching >= nodes.start) & (touching < nodes.stop)]]
-            meshes[name] = how.mesh(solid, motion, energy, places)
+            tags = [tag for body, tag in chain(*(c.surfaces for c in self.model.scene.contacts)) if body == name]
+            meshes[name] = even(how.mesh(solid, motion, energy, places), tags)
         return self.on(meshes)
 
 

@@ -56,7 +56,8 @@ def refined(base: Mesh, want: IntArray, on: Leaves | None = None) -> AdaptedMesh
 
     The mesh is a function of the base mesh and the wanted levels at each place; it has no history, so that a mesh is
     made coarser by wanting less.  Triangles and tetrahedra share whole facets; levels of bars that share a node differ
-    by one at most.  Quadrilaterals and hexahedra are cut into four and eight, and have hanging nodes.  Cells of second order keep the exact shape of the base cell, also where it is curved.
+    by one at most.  Quadrilaterals and hexahedra are cut into four and eight, and nodes hang in the middle of edges and
+    faces of larger cells.  Cells of second order keep the exact shape of the base cell, also where it is curved.
 
     Parameters
     ----------
