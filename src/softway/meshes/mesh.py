@@ -122,7 +122,7 @@ class Mesh:
         single = {facet: _single(np.concatenate(part), CELLS[facet].corners) for facet, part in parts.items()}
         if self.hanging is not None:
             inside = self.hanging.inside
-            single = {name: found[~inside(found, CELLS[name].corners)] for name, found in single.items()}
+            single = {name: found[~inside(found[:, : CELLS[name].corners])] for name, found in single.items()}
         return {facet: found for facet, found in single.items() if len(found)}
 
     def facets_on(self, tag: str) -> Mapping[str, IntArray]:

@@ -6,8 +6,10 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError
-from softway.meshes.adaptive.balanced import BALANCED, CutNodes, balanced, hanging
-from softway.meshes.adaptive.leaf_nodes import leaf_nodes, located
+from softway.meshes.adaptive.balanced import BALANCED, balanced
+from softway.meshes.adaptive.balanced_nodes import square_nodes
+from softway.meshes.adaptive.hanging_nodes import HangingNodes
+from softway.meshes.adaptive.leaf_nodes import FirstPlaces, leaf_nodes, located
 from softway.meshes.adaptive.leaves import DEPTH, MOST_CELLS, Leaves, finest, roots
 from softway.meshes.adaptive.middles import Middles
 from softway.meshes.adaptive.tags import refined_tags
@@ -62,7 +64,7 @@ def refined(base: Mesh, want: IntArray, on: Leaves | None = None) -> AdaptedMesh
     Parameters
     ----------
     base
-        Mesh of one type of cell: ``bar2 bar3 tri3 tri6 tet4 tet10 quad4 hex8``.
+        Mesh of one type of cell: ``bar2 bar3 tri3 tri6 tet4 tet10 quad4 quad8 quad9 hex8 hex20 hex27``.
     want
         (e,) wanted levels, 0 to 40: of the base cells, or on the leaves ``on``.  A level more halves a cell;
         quadrilaterals have even levels, hexahedra multiples of three.
@@ -96,9 +98,10 @@ def refined(base: Mesh, want: IntArray, on: Leaves | None = None) -> AdaptedMesh
         raise InputError("want", problem, f"whole numbers from 0 to {DEPTH} for {len(given.level)} cells")
     if next(iter(base.blocks)) in BALANCED:
         cells, cuts = balanced(base, given, level)
-        return _adapted(base, cells, Middles.none(base.n_nodes), cuts)
+        return _adapted(base, cells, cells.place, square_nodes(base, cells, cuts))
     cells, middles = _bisected(base_cells(base), Middles.none(base.n_nodes), given, level)
-    return _adapted(base, cells, middles)
+    corners, place = _oriented(cells)
+    return _adapted(base, cells, place, (*leaf_nodes(base, corners, middles), None))
 
 
 def _require_bisected(base: Mesh) -> None:
@@ -131,11 +134,14 @@ def _too_coarse(bars: TreeCells) -> BoolArray:
     return np.asarray(greatest[bars.corners].max(axis=1) > bars.level + 1)
 
 
-def _adapted(base: Mesh, cells: TreeCells, middles: Middles, cuts: CutNodes | None = None) -> AdaptedMesh:
-    """Adapted mesh of the leaves ``cells``; quadrilaterals and hexahedra have hanging nodes at some ``cuts``."""
+def _adapted(
+    base: Mesh, cells: TreeCells, place: Array, numbered: tuple[IntArray, FirstPlaces, HangingNodes | None]
+) -> AdaptedMesh:
+    """Adapted mesh of the leaves ``cells``, from the places (e, c, c) of their corners, their nodes (e, a), where the
+    new ones occur first, and the hanging ones.
+    """
     name, rows = next(iter(base.blocks.items()))
-    corners, place = _oriented(cells) if cuts is None else (cells.corners, cells.place)
-    nodes, first = leaf_nodes(base, corners, middles)
+    nodes, first, hanging = numbered
     points, carriers = located(base, rows[cells.start >> DEPTH], place, first)
     leaves = Leaves(np.array(cells.start), np.array(cells.level))
     regions = {region: np.flatnonzero(np.isin(leaves.root, own)) for region, own in base.regions.items()}
@@ -144,7 +150,7 @@ def _adapted(base: Mesh, cells: TreeCells, middles: Middles, cuts: CutNodes | No
         blocks={name: nodes},
         tags=refined_tags(base, carriers),
         regions=regions,
-        hanging=None if cuts is None else hanging(name, cells, cuts, nodes),
+        hanging=hanging,
     )
     return AdaptedMesh(base=base, mesh=mesh, leaves=leaves, place=place)
 

@@ -47,10 +47,14 @@ BASES: Mapping[str, Callable[[], Mesh]] = {
     "quad4": lambda: rectangle((1.0, 0.7), (4, 3), cell="quad4"),
     "quad4 irregular": lambda: disc(1.0, 4, cell="quad4"),
     "hex8": lambda: box((1.0, 0.8, 0.6), (3, 2, 2), cell="hex8"),
+    "quad8": lambda: rectangle((1.0, 0.7), (3, 3), cell="quad8"),
+    "quad9 curved": lambda: disc(1.0, 4, cell="quad9"),
+    "hex20": lambda: box((1.0, 0.8, 0.6), (2, 1, 2), cell="hex20"),
+    "hex27 curved": lambda: warped(box((1.0, 0.8, 0.6), (2, 1, 2), cell="hex27"), 3),
     "hex8 curved": lambda: warped(box((1.0, 0.8, 0.6), (3, 2, 2), cell="hex8"), 3),
 }
 """Base meshes by name."""
-CONFORMING = [name for name in BASES if name[:4] not in ("quad", "hex8")]
+CONFORMING = [name for name in BASES if name[:3] not in ("qua", "hex")]
 """Those whose refinements have no hanging nodes."""
 HANGING = [name for name in BASES if name not in CONFORMING]
 """Those whose refinements have hanging nodes."""

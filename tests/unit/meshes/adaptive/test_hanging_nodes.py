@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from adapted import HANGING, adapted, cells_of, some_levels, surface_measure
 
+from softway.meshes.adaptive.leaf_nodes import node_places, shape_functions
 from softway.meshes.adaptive.overlay import embedding
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
-from softway.meshes.cells import CELLS
+from softway.meshes.cells import CELLS, linear
 from softway.meshes.generators.shapes import box, rectangle
 from softway.meshes.mesh import Mesh
 
@@ -21,8 +22,7 @@ def found(request: pytest.FixtureRequest) -> AdaptedMesh:
 def on_leaves(mesh: Mesh, field: np.ndarray) -> np.ndarray:
     """Values (h, k) of a field (n, k) at the hanging nodes, as the larger cell beside has them."""
     assert mesh.hanging is not None
-    used = mesh.hanging.parents >= 0
-    return (field[mesh.hanging.parents] * used[:, :, None]).sum(axis=1) / used.sum(axis=1)[:, None]
+    return np.einsum("hp,hpk->hk", mesh.hanging.weights, field[mesh.hanging.parents])
 
 
 def test_hanging_nodes_lie_between_parents_that_do_not_hang(found: AdaptedMesh) -> None:
@@ -38,10 +38,10 @@ def test_all_nodes_on_edges_and_faces_of_larger_cells_hang(found: AdaptedMesh) -
     """A node in the closed cell, by the places in the base cell, is a corner of the cell or hangs."""
     mesh, cells = found.mesh, cells_of(found.mesh)
     assert mesh.hanging is not None
-    corners = CELLS[found.cell].nodes
+    corners = CELLS[linear(found.cell)].nodes
     for root in range(found.base.n_cells):
         own = np.flatnonzero(found.leaves.root == root)
-        places = found.place[own] @ corners
+        places = node_places(found.cell, found.place[own]) @ corners
         nodes, points = cells[own].ravel(), places.reshape(-1, corners.shape[1])
         for leaf, place in zip(own, places, strict=True):
             inside = (points >= place.min(axis=0)).all(axis=1) & (points <= place.max(axis=0)).all(axis=1)
@@ -70,17 +70,19 @@ def test_a_field_that_follows_is_continuous(found: AdaptedMesh) -> None:
     at = cells_of(fine.mesh)
     around = found.leaves.around(fine.leaves.start)
     shares = fine.place @ np.linalg.inv(found.place[around])
-    every = np.einsum("eca,ea->ec", shares, field[cells_of(mesh)[around], 0])
+    values = shape_functions(found.cell, node_places(found.cell, shares))
+    every = np.einsum("eca,ea->ec", values, field[cells_of(mesh)[around], 0])
     assert every == pytest.approx((into @ field)[at, 0], abs=1e-13)
 
 
-def test_inner_facets_of_two_sizes_are_no_boundary() -> None:
-    for base in (rectangle((1.0, 1.0), (4, 4)), box((1.0, 1.0, 1.0), (2, 2, 2), cell="hex8")):
-        found = refined(base, some_levels(base.n_cells, 1, 6))
-        assert found.mesh.hanging is not None
-        assert surface_measure(found.mesh) == pytest.approx(2.0 * base.dim, rel=1e-13)
-        x = found.mesh.points[found.mesh.nodes("surface")]
-        assert ((x % 1.0 == 0.0).any(axis=1)).all()
+@pytest.mark.parametrize("cell", ["quad4", "quad8", "quad9", "hex8", "hex20", "hex27"])
+def test_inner_facets_of_two_sizes_are_no_boundary(cell: str) -> None:
+    cube = box((1.0, 1.0, 1.0), (2, 2, 2), cell=cell) if cell[:3] == "hex" else rectangle((1.0, 1.0), (4, 4), cell=cell)
+    found = refined(cube, some_levels(cube.n_cells, 1, 6))
+    assert found.mesh.hanging is not None
+    assert surface_measure(found.mesh) == pytest.approx(2.0 * cube.dim, rel=1e-13)
+    x = found.mesh.points[found.mesh.nodes("surface")]
+    assert ((x % 1.0 == 0.0).any(axis=1)).all()
 
 
 def test_levels_are_rounded_up_to_whole_cuts() -> None:

@@ -163,7 +163,7 @@ def test_curved_cells_keep_their_shape() -> None:
     assert np.array_equal(np.unique(fine), rim)
 
 
-@pytest.mark.parametrize("cell", ["tri3", "tri6", "quad4"])
+@pytest.mark.parametrize("cell", ["tri3", "tri6", "quad4", "quad8", "quad9"])
 def test_sides_of_a_rectangle(cell: str) -> None:
     base = rectangle((1.0, 2.0), (3, 4), cell=cell)
     found = refined(base, some_levels(base.n_cells, 2))
@@ -172,7 +172,7 @@ def test_sides_of_a_rectangle(cell: str) -> None:
         assert found.mesh.nodes(name).tolist() == np.flatnonzero(where).tolist(), name
 
 
-@pytest.mark.parametrize("cell", ["tet4", "tet10", "hex8"])
+@pytest.mark.parametrize("cell", ["tet4", "tet10", "hex8", "hex20", "hex27"])
 def test_sides_of_a_box(cell: str) -> None:
     base = box((1.0, 2.0, 4.0), (2, 2, 2), cell=cell)
     found = refined(base, some_levels(base.n_cells, 2))
@@ -189,7 +189,7 @@ def test_sides_of_a_box(cell: str) -> None:
     assert np.array_equal(found.mesh.nodes("surface"), np.unique(np.concatenate(list(found.mesh.tags.values()))))
 
 
-@pytest.mark.parametrize("cell", ["tri3", "tri6", "quad4"])
+@pytest.mark.parametrize("cell", ["tri3", "tri6", "quad4", "quad8", "quad9"])
 def test_two_sides_do_not_take_the_diagonal_between_them(cell: str) -> None:
     base = rectangle((1.0, 1.0), (3, 3), cell=cell).with_tag("rim", lambda x: (x % 1.0 == 0.0).any(axis=1))
     found = refined(base, np.full(base.n_cells, 3))
@@ -245,10 +245,16 @@ def test_the_greatest_level_is_reached_at_one_end() -> None:
     assert found.mesh.edge() == np.ldexp(1.0, -DEPTH)
 
 
+def both() -> Mesh:
+    """A quadrilateral and a triangle."""
+    points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.5]])
+    return Mesh(points=points, blocks={"quad4": np.array([[0, 1, 2, 3]]), "tri3": np.array([[1, 4, 2]])})
+
+
 @pytest.mark.parametrize(
     ("mesh", "want", "place"),
     [
-        (rectangle((1.0, 1.0), (2, 2), cell="quad8"), np.zeros(4, int), "mesh"),
+        (both(), np.zeros(2, int), "mesh"),
         (interval(1.0, cells=2), np.zeros(3, int), "want"),
         (interval(1.0, cells=2), np.array([0, DEPTH + 1]), "want"),
         (interval(1.0, cells=2), np.array([0, -1]), "want"),
