@@ -1,10 +1,12 @@
 """Nodes of the leaves of a balanced tree, and which of them hang."""
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
-from softway.arrays import Array, IntArray
+from softway.arrays import IntArray
 from softway.meshes.adaptive.balanced import WHOLE, lattice
 from softway.meshes.adaptive.cut_nodes import CutNodes
 from softway.meshes.adaptive.hanging_nodes import HangingNodes
@@ -13,6 +15,7 @@ from softway.meshes.adaptive.tree_cells import TreeCells
 from softway.meshes.cells import CELLS, FACETS
 from softway.meshes.mesh import Mesh
 
+Scalar = TypeVar("Scalar", bound=np.generic)
 Group = tuple[int, ...]
 
 
@@ -122,6 +125,6 @@ def _on(kind: str, every: IntArray, nodes: Divided) -> HangingNodes:
     )
 
 
-def _wide(table: Array, width: int, fill: float) -> Array:
+def _wide(table: NDArray[Scalar], width: int, fill: float) -> NDArray[Scalar]:
     """Table (k, width) with more columns."""
     return np.pad(table, ((0, 0), (0, width - table.shape[1])), constant_values=fill)

@@ -6,6 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.errors import InputError
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -58,3 +59,20 @@ class HangingNodes:
         both = np.sort(np.concatenate([self.inner, facets]), axis=1)
         number = np.unique(both, axis=0, return_inverse=True)[1].ravel()
         return np.asarray(np.isin(number[len(self.inner) :], number[: len(self.inner)]))
+
+
+def require_none(hanging: HangingNodes | None, what: str) -> None:
+    """Refuse a mesh with hanging nodes, which do not fit ``what``.
+
+    Raises
+    ------
+    InputError
+        At the place of the mesh.
+
+    Examples
+    --------
+    >>> require_none(None, "ties")
+    """
+    if hanging is not None:
+        problem = f"{len(hanging.node)} hanging nodes, and {what}"
+        raise InputError("mesh", problem, f"a mesh whose cells share whole facets, or no {what}")
