@@ -8,7 +8,7 @@ from scipy.sparse import csc_array
 
 from softway.arrays import Array, BoolArray
 from softway.bodies.bulk_viscosity import BulkViscosityForce, bulk_viscosity_force
-from softway.bodies.dof_map import DofMap, with_hanging
+from softway.bodies.dof_map import DofMap
 from softway.bodies.elements.quadrature import Dilating
 from softway.bodies.elements.section import default_section
 from softway.bodies.internal_force.assembled import internal_force
@@ -26,6 +26,7 @@ from softway.bodies.setup.directions import (
     directions,
     held_directions,
     solid_dofs,
+    with_hanging,
 )
 from softway.bodies.setup.initial_fields import sample
 from softway.bodies.setup.placement import placed

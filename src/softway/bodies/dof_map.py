@@ -66,10 +66,6 @@ class DofMap(Protocol):
         """Forces (n, d) with those on nodes that follow others on the nodes that they follow."""
         ...
 
-    def reactions(self, force: Array) -> Array:
-        """Part (n, d) of the forces (n, d), gathered on the nodes that others follow, which supports carry."""
-        ...
-
     def rows(self, gradient: sp.csr_array) -> sp.csr_array:
         """Rows (m, f) on the unknowns from rows (m, n d) on the nodes, ``gradient J``."""
         ...
@@ -160,10 +156,6 @@ class NodalDofs:
         """The forces: no node follows another."""
         return force
 
-    def reactions(self, force: Array) -> Array:
-        """Forces (n, d) on the supported components."""
-        return self.supported(force)
-
     def rows(self, gradient: sp.csr_array) -> sp.csr_array:
         """Columns (m, f) of the free components."""
         return sp.csr_array(gradient[:, self.components])
@@ -203,9 +195,8 @@ class NodalDofs:
 class CombinedDofs:
     """Unknowns that move several components: ``jacobian`` (n d, f) of full column rank, for nodes (n,) in ``d``
     dimensions.  A component with an empty row is supported; supports along other directions of nodes have their
-    projector ``inclined`` (n d, n d), whose range no unknown moves.  Nodes that follow others have their motion from
-    that of all nodes, ``follow`` (n d, n d).  Where they follow supported ones, ``inclined`` has their part of this
-    motion (:func:`with_hanging`), and ``carried`` (n d, n d) the forces that supports carry.
+    projector ``inclined`` (n d, n d), whose range no unknown moves, and nodes that hang between supported ones their
+    share of it.  Nodes that follow others have their motion from that of all nodes, ``follow`` (n d, n d).
 
     Examples
     --------
@@ -220,7 +211,6 @@ class CombinedDofs:
     d: int
     inclined: sp.csr_array | None = None
     follow: sp.csr_array | None = None
-    carried: sp.csr_array | None = None
     free: BoolArray = field(init=False)
     normal: SuperLU = field(init=False)
 
@@ -261,7 +251,7 @@ class CombinedDofs:
 
     def unknowns(self, field: Array) -> Array:
         """Unknowns (f,) of the nearest field, by least squares."""
-        own = field if self.carried is None else field - self.supported(field)
+        own = field if self.follow is None else field - self.supported(field)
         return np.asarray(self.normal.solve(self.forces(own)))
 
     def forces(self, force: Array) -> Array:
@@ -271,13 +261,6 @@ class CombinedDofs:
     def gathered(self, force: Array) -> Array:
         """Forces (n, d) with those on nodes that follow others on the nodes that they follow."""
         return force if self.follow is None else np.asarray(self.follow.T @ force.ravel()).reshape(force.shape)
-
-    def reactions(self, force: Array) -> Array:
-        """Forces (n, d) on supported components and along supported directions, of nodes that follow none."""
-        gathered = self.gathered(force)
-        if self.carried is None:
-            return self.supported(gathered)
-        return np.asarray(self.carried @ gathered.ravel()).reshape(force.shape)
 
     def rows(self, gradient: sp.csr_array) -> sp.csr_array:
         """Rows (m, f) on the unknowns."""
@@ -314,37 +297,3 @@ class CombinedDofs:
         others = self.moving(np.flatnonzero(~nodes))
         kept = np.setdiff1d(np.arange(self.size), others)
         return CombinedDofs(sp.csr_array(self.jacobian[:, kept]), self.d)
-
-
-def with_hanging(own: DofMap, follow: sp.csr_array) -> CombinedDofs:
-    """Map of nodes some of which hang: they have no unknowns of their own, and follow others.
-
-    Parameters
-    ----------
-    own
-        Map of the nodes without regard to what they follow.
-    follow
-        (n, n) motion of all nodes from that of those that hang nowhere, whose rows are those of the identity.
-
-    Examples
-    --------
-    The middle of three nodes on a line follows the others, the last of which has a support:
-
-    >>> follow = sp.csr_array(np.array([[1.0, 0, 0], [0.5, 0, 0.5], [0, 0, 1]]))
-    >>> dofs = with_hanging(NodalDofs(np.array([[True], [True], [False]])), follow)
-    >>> dofs.nodes(np.array([2.0]), np.array([[0.0], [0.0], [4.0]])).ravel().tolist()
-    [2.0, 3.0, 4.0]
-    >>> dofs.reactions(np.array([[0.0], [1.0], [0.0]])).ravel().tolist()
-    [0.0, 0.0, 0.5]
-    """
-    d = own.free.shape[1]
-    wide = sp.csr_array(sp.kron(follow, sp.eye_array(d), format="csr"))
-    jacobian = sp.csc_array(wide @ own.jacobian)
-    jacobian = sp.csr_array(jacobian[:, np.flatnonzero(np.diff(jacobian.indptr))])
-    inclined = getattr(own, "inclined", None)
-    held = sp.csr_array(sp.diags_array((~own.free).ravel().astype(float)))
-    held = held if inclined is None else sp.csr_array(held + inclined)
-    fixed = sp.csr_array(sp.diags_array((np.diff(jacobian.indptr) == 0).astype(float)))
-    ahead = sp.csr_array(sp.diags_array((wide.diagonal() == 1.0).astype(float)))
-    carried = sp.csr_array(ahead @ held)
-    return CombinedDofs(jacobian, d, sp.csr_array(wide @ carried - fixed), wide, carried)

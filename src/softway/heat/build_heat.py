@@ -24,7 +24,6 @@ from softway.kernels.assembly.assembler import assembler
 from softway.kernels.geometry.jacobians import cell_geometry
 from softway.laws.heat.conduction import Conduction
 from softway.laws.heat.temperature_table import value_at
-from softway.meshes.adaptive.hanging_nodes import require_none
 from softway.meshes.element import element, exact_degree, stiffness_degree
 from softway.meshes.mesh import Mesh
 
@@ -112,7 +111,6 @@ def _part(name: str, body: Conductor, n: int, e: int) -> tuple[HeatPart, Section
     """Body with its first node ``n`` and its first cell ``e``, and the masses of its nodes [kg]."""
     with within("mesh"):
         mesh = body.mesh if isinstance(body.mesh, Mesh) else body.mesh.build()
-    require_none(mesh.hanging, "conduction of heat")
     section, laws = section_of(body, mesh), regional_laws(body, mesh)
     melts = laws.first.latent
     at_nodes = melts is not None and (body.latent == "node" or melts.half_range > 0.0)

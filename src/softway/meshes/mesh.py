@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError
-from softway.meshes.adaptive.hanging_nodes import HangingNodes
 from softway.meshes.cells import CELLS, FACETS
 from softway.meshes.element import element
-from softway.meshes.topology import check_topology
+from softway.meshes.topology import HangingNodes, check_topology
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 

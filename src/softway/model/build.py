@@ -23,7 +23,7 @@ from softway.bodies.solid import Solid, Tool
 from softway.contact.assembly.declared import at_declared, resolved
 from softway.contact.impact_rule import Energy, ImpactRule
 from softway.errors import InputError, within
-from softway.meshes.adaptive.hanging_nodes import require_none
+from softway.meshes.topology import require_none
 from softway.model.cohesive_ties import CohesiveTies, intact
 from softway.model.field import FieldEquations
 from softway.model.initial_displacement import at_start, given_fields

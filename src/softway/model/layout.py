@@ -15,7 +15,7 @@ from softway.bodies.solid import Solid, Tool
 from softway.contact.assembly.assemble import ContactAssembly, assemble_contacts
 from softway.contact.assembly.tied_surfaces import tied_surfaces
 from softway.errors import InputError, within
-from softway.meshes.adaptive.hanging_nodes import require_none
+from softway.meshes.topology import require_none
 from softway.model.cohesive_ties import CohesiveTies, cohesive_ties
 from softway.model.scene import Scene, StaticStart
 from softway.model.ties import Glue, glued, joined

@@ -7,6 +7,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.assembled.following_nodes import driven_field
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent, during, end_force, scaled
 from softway.bodies.assembled.nodal_loads import DeadLoads
 from softway.bodies.assembled.vector_space import VectorSpace
@@ -155,13 +156,11 @@ class Model:
         return max(part.materials.speeds(part.internal.section, self.scene.inertia.factor if self.inert else 1.0))
 
     def prescribed(self, time: float) -> Array:
-        """Velocity (n, d) of the driven components at a time [m/s], and what hanging nodes have of it; zero on all
-        others.
-        """
+        """Velocity (n, d) of the driven components at a time [m/s]; zero on all others."""
         out = np.zeros(self.shape)
         for support, where in self.driven:
             out[where] = support.at(time)
-        return self._with_hanging(out)
+        return driven_field(self.parts, self.dofs, out)
 
     def bends(self, start: float, end: float) -> tuple[tuple[float, Array], ...]:
         """Bends of the prescribed velocities inside a slab, see
@@ -174,13 +173,7 @@ class Model:
             for tau, change in support.bends(start, end):
                 found.append((tau, np.zeros(self.shape)))
                 found[-1][1][where] = change
-        return tuple((tau, self._with_hanging(change)) for tau, change in found)
-
-    def _with_hanging(self, prescribed: Array) -> Array:
-        """Prescribed field (n, d) with that of the nodes that hang between driven ones."""
-        if all(p.mesh.hanging is None for p in self.parts):
-            return prescribed
-        return self.dofs.supported(prescribed)
+        return tuple((tau, driven_field(self.parts, self.dofs, change)) for tau, change in found)
 
     @property
     def meshes(self) -> Mapping[str, Mesh]:

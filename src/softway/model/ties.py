@@ -177,28 +177,21 @@ def joined(maps: Sequence[DofMap]) -> DofMap:
         return NodalDofs(np.concatenate([m.free for m in maps]))
     none = [sp.csr_array((m.free.size, m.free.size)) for m in maps]
     whole = [sp.csr_array(sp.eye_array(m.free.size)) for m in maps]
-    held = [sp.csr_array(sp.diags_array((~m.free).ravel().astype(float))) for m in maps]
-    carried = [sp.csr_array(own + along) for own, along in zip(held, _filled(maps, "inclined", none), strict=True)]
     return CombinedDofs(
         sp.csr_array(sp.block_diag([m.jacobian for m in maps], format="csr")),
         maps[0].free.shape[1],
         _together(maps, "inclined", none),
         _together(maps, "follow", whole),
-        _together(maps, "carried", carried),
     )
-
-
-def _filled(maps: Sequence[DofMap], name: str, others: Sequence[sp.csr_array]) -> list[sp.csr_array]:
-    """A matrix of each map by its name; that of ``others`` where it has none."""
-    found = [getattr(m, name, None) for m in maps]
-    return [other if one is None else one for one, other in zip(found, others, strict=True)]
 
 
 def _together(maps: Sequence[DofMap], name: str, others: Sequence[sp.csr_array]) -> sp.csr_array | None:
     """Matrix of all maps by its name, with that of ``others`` for maps that have none; None if no map has one."""
-    if all(getattr(m, name, None) is None for m in maps):
+    found = [getattr(m, name, None) for m in maps]
+    if all(one is None for one in found):
         return None
-    return sp.csr_array(sp.block_diag(_filled(maps, name, others), format="csr"))
+    blocks = [other if one is None else one for one, other in zip(found, others, strict=True)]
+    return sp.csr_array(sp.block_diag(blocks, format="csr"))
 
 
 def linked_parts(part_of: IntArray, parts: int, dofs: DofMap, bonds: Sequence[CohesiveTies] = ()) -> IntArray:

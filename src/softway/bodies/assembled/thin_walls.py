@@ -13,7 +13,7 @@ from softway.bodies.setup.initial_fields import Affine, FieldSum, OnTag, Profile
 from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid
 from softway.errors import within
-from softway.meshes.adaptive.hanging_nodes import require_none
+from softway.meshes.topology import require_none
 from softway.meshes.walls.division import divided_at
 from softway.meshes.walls.wall_edges import wall_edges
 

@@ -29,7 +29,7 @@ from softway.heat.regional_laws import regional_laws
 from softway.laws.heat.stiffness_table import StiffnessCurve
 from softway.laws.law import softens
 from softway.mechanisms.members.rigid import Rigid
-from softway.meshes.adaptive.hanging_nodes import require_none
+from softway.meshes.topology import require_none
 from softway.model.build import mechanical, with_field
 from softway.model.model import Model
 from softway.model.scene import Scene

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from softway.arrays import IntArray
 from softway.meshes.adaptive.balanced import WHOLE, lattice
 from softway.meshes.adaptive.cut_nodes import CutNodes
-from softway.meshes.adaptive.hanging_nodes import HangingNodes
 from softway.meshes.adaptive.leaf_nodes import FirstPlaces, node_places, numbered, shape_functions
 from softway.meshes.adaptive.tree_cells import TreeCells
 from softway.meshes.cells import CELLS, FACETS
 from softway.meshes.mesh import Mesh
+from softway.meshes.topology import HangingNodes
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 Group = tuple[int, ...]

@@ -98,7 +98,7 @@ REASONS = {
     "mechanisms/robots/robot_file.py: _compiled": ROBOTS,
     "mechanisms/robots/robot_file.py: _mujoco": ROBOTS,
     "mechanisms/robots/robot_file.py: read_robot": ROBOTS,
-    "meshes/adaptive/hanging_nodes.py: require_none": "from Python: tests/unit/model/test_hanging_nodes.py",
+    "meshes/topology.py: require_none": "from Python: tests/unit/model/test_hanging_nodes.py",
     "meshes/adaptive/overlay.py: _require_one_base": "from Python: tests/unit/meshes/adaptive/test_overlay.py",
     "meshes/adaptive/overlay.py: embedding": "from Python: tests/unit/meshes/adaptive/test_overlay.py",
     "meshes/adaptive/refinement.py: _require_bisected": "from Python: tests/unit/meshes/adaptive/test_refinement.py",
