@@ -9,11 +9,11 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from softway.arrays import Array, BoolArray
-from softway.meshes.adaptive.balanced import BALANCED, cut, square_cells
-from softway.meshes.adaptive.cut_nodes import CutNodes
 from softway.meshes.adaptive.leaf_nodes import shape_functions
 from softway.meshes.adaptive.leaves import DEPTH, Leaves, finest, same
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
+from softway.meshes.adaptive.squares.balanced import BALANCED, cut, square_cells
+from softway.meshes.adaptive.squares.cut_nodes import CutNodes
 from softway.meshes.adaptive.tree_cells import TreeCells, base_cells, children, joined
 from softway.meshes.cells import CELLS
 from softway.meshes.mesh import Mesh

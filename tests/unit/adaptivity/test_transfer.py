@@ -9,7 +9,7 @@ from turning import around, balances, moving, on_levels, solid
 import softway as sw
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.transfer import Motion, Transferred, transfer
-from softway.meshes.adaptive.balanced import BALANCED
+from softway.meshes.adaptive.squares.balanced import BALANCED
 from softway.meshes.generators.shapes import box, disc, interval, rectangle
 from softway.meshes.mesh import Mesh
 

@@ -6,11 +6,11 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError
-from softway.meshes.adaptive.balanced import BALANCED, balanced
-from softway.meshes.adaptive.balanced_nodes import square_nodes
 from softway.meshes.adaptive.leaf_nodes import FirstPlaces, leaf_nodes, located
 from softway.meshes.adaptive.leaves import DEPTH, MOST_CELLS, Leaves, finest, roots
 from softway.meshes.adaptive.middles import Middles
+from softway.meshes.adaptive.squares.balanced import BALANCED, balanced
+from softway.meshes.adaptive.squares.square_nodes import square_nodes
 from softway.meshes.adaptive.tags import refined_tags
 from softway.meshes.adaptive.tree_cells import TreeCells, base_cells, children, joined
 from softway.meshes.mesh import Mesh
