@@ -2,10 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
+from softway.adaptivity.even_surface import even
 from softway.adaptivity.projection import projection
 from softway.adaptivity.transfer import Motion, Transferred, transfer
 from softway.arrays import Array, IntArray
@@ -97,7 +99,9 @@ class AdaptedScene:
             nodes = solid.part.nodes
             motion = _motion(self.model, now, name)
             places = self.model.points[touching[(touching >= nodes.start) & (touching < nodes.stop)]]
-            meshes[name] = wanted_mesh(how, solid, motion, energy, places)
+            stretch = now.step_history.longest / now.step_history.span
+            tags = [tag for body, tag in chain(*(c.surfaces for c in self.scene.contacts)) if body == name]
+            meshes[name] = even(wanted_mesh(how, solid, motion, energy, places, stretch), tags)
         return self.on(meshes)
 
 

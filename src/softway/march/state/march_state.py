@@ -75,6 +75,11 @@ class StepHistory:
     smooth: int = 0
     fastest: float = 0.0
 
+    @property
+    def longest(self) -> float:
+        """The longer one of the requested slab length and that of the next slab, which is longer on a ladder [s]."""
+        return max(self.span, self.length)
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class AdaptedMeshes:

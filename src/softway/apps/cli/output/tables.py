@@ -24,6 +24,7 @@ UNITS = {
     "length": "m",
     "transit": "s",
     "edge": "m",
+    "finest_edge": "m",
     "stable_step": "s",
     "gap": "m",
     "approach": "m/s",
@@ -65,6 +66,7 @@ WORDS = {
     "approach": "approach speed",
     "transit": "wave transit time",
     "edge": "smallest edge",
+    "finest_edge": "smallest edge, adapted",
     "dofs": "free components",
     "wall": "wall time",
     "cpu": "CPU time",
@@ -168,7 +170,8 @@ def _short(value: float | int | None) -> str | int | None:
 
 
 def _numbers(item: Any) -> dict[str, Any]:
-    return {f.name: getattr(item, f.name) for f in fields(item)} if is_dataclass(item) else dict(item)
+    numbers = {f.name: getattr(item, f.name) for f in fields(item)} if is_dataclass(item) else dict(item)
+    return {name: value for name, value in numbers.items() if value is not None}
 
 
 def _merged(what: str, items: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
