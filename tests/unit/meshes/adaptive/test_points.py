@@ -7,15 +7,16 @@ from adapted import BASES, adapted, cells_of
 from softway.meshes.adaptive.overlay import embedding
 from softway.meshes.adaptive.points import around
 from softway.meshes.adaptive.refinement import refined
+from softway.meshes.cells import CELLS
 from softway.meshes.generators.shapes import interval
 
 
 def places_inside(base, count=6):
-    """Places (k, d) at random combinations of the nodes of cells: those of cells with straight edges are inside."""
+    """Places (k, d) at random combinations of the corners of cells, which are inside of a convex body."""
     rng = np.random.default_rng(3)
     cells = cells_of(base)[rng.integers(0, base.n_cells, count)]
-    corners = base.points[cells[:, : base.cell_dim + 1]]
-    return np.einsum("kc,kcd->kd", rng.dirichlet(np.full(base.cell_dim + 1, 3.0), count), corners)
+    corners = base.points[cells[:, : CELLS[next(iter(base.blocks))].corners]]
+    return np.einsum("kc,kcd->kd", rng.dirichlet(np.full(corners.shape[1], 3.0), count), corners)
 
 
 @pytest.mark.parametrize("name", BASES)
