@@ -41,7 +41,8 @@ def around(adapted: AdaptedMesh, point: Array) -> tuple[IntArray, Array]:
     root, local = _in_base(base, x)
     leaves = np.flatnonzero(adapted.leaves.root == root)
     corners = adapted.place[leaves] @ _corners(adapted.cell)
-    inside = np.linalg.solve(_derivative(adapted.cell, corners), (local - corners[:, 0])[:, :, None])[:, :, 0]
+    from_first = (local - corners[:, 0])[:, :, None]
+    inside = np.asarray(np.linalg.solve(_derivative(adapted.cell, corners), from_first)[:, :, 0], float)
     own = _first(_depth(adapted.cell, inside), 1.0)
     nodes = next(iter(adapted.mesh.blocks.values()))[leaves[own]]
     return nodes, shape_functions(adapted.cell, _place(adapted.cell, inside[own]))

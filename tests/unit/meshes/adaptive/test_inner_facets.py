@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-
 from adapted import BASES, HANGING, adapted
-from softway.meshes.cells import CELLS
+
 from softway.meshes.adaptive.squares.inner_facets import beside_smaller
+from softway.meshes.cells import CELLS
 from softway.meshes.mesh import Mesh
 from softway.record.audit.geometry.solids import solids
 

@@ -7,9 +7,9 @@ from functools import cached_property
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.meshes.adaptive.squares.inner_facets import beside_smaller
 from softway.meshes.cells import CELLS, FACETS, FLAT
 from softway.meshes.element import tabulate
-from softway.meshes.adaptive.squares.inner_facets import beside_smaller
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
