@@ -2,6 +2,7 @@
 
 import itertools
 import shutil
+from functools import partial
 
 import h5py
 import numpy as np
@@ -50,10 +51,10 @@ def bar_on_a_wall() -> sw.Scenario:
     )
 
 
-def disc_on_a_floor() -> sw.Scenario:
-    """A disc of triangles that falls on a floor, with a probe at its rim."""
+def disc_on_a_floor(cell: str = "tri3") -> sw.Scenario:
+    """A disc that falls on a floor, with a probe at its rim."""
     disc = sw.Solid(
-        mesh=sw.meshes.Disc(radius=1.0, cells=8, cell="tri3"),
+        mesh=sw.meshes.Disc(radius=1.0, cells=8, cell=cell),
         material=sw.LinearElastic(E=10.0, nu=0.3),
         density=1.0,
         velocity=sw.bodies.Uniform(value=(0.0, -0.2)),
@@ -70,7 +71,7 @@ def disc_on_a_floor() -> sw.Scenario:
     )
 
 
-SCENES = {"bar": bar_on_a_wall, "disc": disc_on_a_floor}
+SCENES = {"bar": bar_on_a_wall, "disc": disc_on_a_floor, "quads": partial(disc_on_a_floor, "quad4")}
 
 
 @pytest.fixture(scope="module")
@@ -93,7 +94,7 @@ def sizes(cells) -> np.ndarray:
     x = cells.reference[cells.connectivity.reshape(len(cells.types), -1)]
     if x.shape[1] == 2:
         return np.abs(x[:, 1, 0] - x[:, 0, 0])
-    return 0.5 * np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])[:, 2]
+    return 0.5 * np.cross(x, np.roll(x, -1, axis=1)).sum(axis=1)[:, 2]
 
 
 def test_frames_have_their_own_cells(run):
@@ -208,7 +209,7 @@ def test_pictures_and_films(run, tmp_path):
     assert drawing is not None and drawing.end == pytest.approx(run.history["time"][-1])
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", ["bar", "disc"])
 def test_the_page_shows_each_mesh(runs, name):
     pytest.importorskip("trame")
     pytest.importorskip("pyvista")
@@ -228,7 +229,7 @@ def test_the_page_shows_each_mesh(runs, name):
     assert MESH not in {event["kind"] for event in events_of(run)}
 
 
-@pytest.mark.parametrize(("name", "after"), [("bar", 3), ("bar", 20), ("disc", 13)])
+@pytest.mark.parametrize(("name", "after"), [("bar", 3), ("bar", 20), ("disc", 13), ("quads", 10)])
 def test_a_resumed_run_has_the_same_bits(runs, tmp_path, name, after):
     seen = itertools.count(1)
 
