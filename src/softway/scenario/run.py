@@ -3,7 +3,8 @@
 import logging
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
-from functools import cache, partial
+from dataclasses import replace
+from functools import cache, lru_cache, partial
 from pathlib import Path
 from typing import cast
 
@@ -183,7 +184,11 @@ def stored(folder: Path, allow_python: bool = False) -> Scenario:
 def _opening(checked: Checked) -> RunStart:
     """Start of the run of a checked scenario."""
     model, start = checked.model, checked.march_state.state
-    return _start(checked.scenario, split_states(model, start), audit(model, start), model)
+    given, initial, ledger = checked.scenario, split_states(model, start), audit(model, start)
+    if not model.adapted:
+        return _start(given, initial, ledger, model)
+    on_meshes = lru_cache(maxsize=1)(partial(_start, given, initial, ledger))
+    return replace(_start(given, initial, ledger, model), on_meshes=on_meshes)
 
 
 def _start(given: Scenario, initial: State, ledger: Ledger, model: Model) -> RunStart:
@@ -200,14 +205,13 @@ def _start(given: Scenario, initial: State, ledger: Ledger, model: Model) -> Run
         ledger=ledger,
         until=given.time.end,
         fields_every=_every(given),
-        readings=probe_readings(given, model.meshes, model.scene.mechanism),
+        readings=probe_readings(given, model.meshes, model.scene.mechanism, model.adapted),
         fields=model.fields,
         audit=given.output.audit,
         balances=partial(balances, model),
         pushed=partial(contact_forces, model),
         rounding=float(model.floor.sum()),
         model=model,
-        on_meshes=partial(_start, given, initial, ledger) if model.adapted else None,
     )
 
 

@@ -119,6 +119,8 @@ def summary(run: Run, console: Console) -> None:
     _columns({f"stop {n}": c for n, c in found.get("stops", {}).items()}, console)
     if found.get("heat"):
         _columns({"heat of solids": found["heat"]}, console)
+    if found.get("mesh"):
+        _columns({"meshes that change": found["mesh"]}, console)
     if found.get("certificate"):
         _columns({"certificate (worst slab)": found["certificate"]}, console)
     _notes((Note(**note) for note in found.get("notes", ())), console)
