@@ -6,10 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
-from softway.adaptivity.projection import projection
-from softway.adaptivity.transfer import Motion, Transferred, transfer
-from softway.arrays import Array, IntArray
-from softway.bodies.assembled.material_states import any_path_dependent
+from softway.adaptivity.transfer import Motion
+from softway.arrays import IntArray
 from softway.bodies.setup.amplitude import Ramp
 from softway.bodies.setup.loads import Traction
 from softway.bodies.setup.placement import Placement, placed
@@ -17,19 +15,16 @@ from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 from softway.heat.coupled.build import build
 from softway.march.march_state import MarchState
-from softway.march.model_state import join_states, split_states
 from softway.meshes.adaptive.leaves import same
 from softway.meshes.adaptive.refinement import BISECTED, AdaptedMesh, refined
 from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
 from softway.remeshing.adapt import Adapt
-from softway.solve.operators.operator_memory import OperatorMemory
-from softway.solve.static_equilibrium import StaticState, equilibrium
 
 WHAT = (
-    f"elastic solids of one type of cell, {', '.join(BISECTED)}, without friction, heat, ties, bulk viscosity or "
-    "rigid bodies, with contacts whose nodes have no inertia"
+    f"solids of one type of cell, {', '.join(BISECTED)}, without heat, ties, bulk viscosity or rigid bodies, with "
+    "contacts whose nodes have no inertia"
 )
 """What may adapt."""
 
@@ -78,7 +73,7 @@ class AdaptedScene:
         for name, how in adapt.items():
             solid = self.solid(name)
             nodes = solid.part.nodes
-            motion = _motion(self.model, now, name)
+            motion = motion_of(self.model, now, name)
             places = self.model.points[touching[(touching >= nodes.start) & (touching < nodes.stop)]]
             meshes[name] = how.mesh(solid, motion, energy, places)
         return self.on(meshes)
@@ -107,9 +102,9 @@ def adapted_scene(scene: Scene, adapt: Mapping[str, Adapt]) -> AdaptedScene:
         bodies[name] = replace(solids[name], mesh=mesh.mesh, place=Placement(), group=())
     scene = replace(scene, bodies=bodies)
     model = build(scene)
-    plain = not model.companions and model.rigid is None and all(_own_dofs(model)) and model.friction.frictionless
+    plain = not model.companions and model.rigid is None and all(_own_dofs(model))
     light = model.timing.massless or not scene.contacts
-    if not (plain and light) or any_path_dependent(model.parts):
+    if not (plain and light):
         raise InputError("adapt", "a scene in which no mesh can adapt", WHAT)
     return AdaptedScene(scene=scene, model=model, meshes=meshes)
 
@@ -129,11 +124,12 @@ def _own_dofs(model: Model) -> list[bool]:
     return [int((model.linked == group).sum()) == 1 for group in model.linked]
 
 
-def _motion(model: Model, now: MarchState, name: str) -> Motion:
-    """Motion of a solid."""
+def motion_of(model: Model, now: MarchState, name: str) -> Motion:
+    """Motion of a solid, with its material state."""
     start = now.state.start
-    nodes = next(p.nodes for p in model.parts if p.name == name)
-    return Motion(displacement=start.displacement[nodes], velocity=start.velocity[nodes])
+    k = [p.name for p in model.parts].index(name)
+    nodes, state = model.parts[k].nodes, start.states[k] if start.states else None
+    return Motion(displacement=start.displacement[nodes], velocity=start.velocity[nodes], state=state)
 
 
 def _touching(model: Model, now: MarchState, ahead: float) -> IntArray:
@@ -163,41 +159,3 @@ def _changes(ramp: Ramp, start: float, end: float) -> bool:
     """True if a factor of a load changes between two times."""
     inner = (time for time in ramp.times if start < time < end)
     return len({ramp.at(time) for time in (start, *inner, end)}) > 1
-
-
-def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple[MarchState, Mapping[str, Transferred]]:
-    """State of a march on the new meshes, and the transfers of the solids with meshes of their own.
-
-    Displacements are projected, massless nodes of all solids find their equilibrium with the contacts, and then the
-    balances are closed.  What the transfers, and this equilibrium in other solids, have taken of the energy is in its
-    account.
-    """
-    state, names = split_states(old.model, now.state), list(new.meshes)
-    pairs = {name: (old.solid(name), new.solid(name)) for name in names}
-    casts = {name: projection(*pair) for name, pair in pairs.items()}
-    places = {n: cast.displacement(state.displacement[n]) for n, cast in casts.items()}
-    rest = _settled(new.model, new.model.join({**state.displacement, **places}), now.state.time)
-    places = new.model.split(rest.displacement)
-    found = {n: transfer(*pairs[n], _motion(old.model, now, n), casts[n], places[n]) for n in names}
-    labels, rows = new.model.contacts.labels, new.model.contacts
-    pressure = {label: rest.pressure[rows.rows_of(k)] for k, label in enumerate(labels)}
-    state = replace(
-        state,
-        displacement=places,
-        velocity={**state.velocity, **{n: one.motion.velocity for n, one in found.items()}},
-        acceleration={**state.acceleration, **{n: casts[n].velocity(state.acceleration[n]) for n in names}},
-        pressure=pressure,
-        closed={label: value > 0.0 for label, value in pressure.items()},
-    )
-    joined = join_states(new.model, state, now.step_history.span)
-    fixed = np.array([part.name not in new.meshes for part in new.model.parts])
-    taken = sum(one.booked for one in found.values()) + float(
-        (now.state.start.energy - joined.start.energy)[fixed].sum()
-    )
-    account = replace(now.account, remeshing=now.account.remeshing + taken)
-    return replace(now, state=joined, account=account, memory=OperatorMemory()), found
-
-
-def _settled(model: Model, u: Array, time: float) -> StaticState:
-    """Massless nodes in equilibrium with the contacts, the others at the displacement u (n, d)."""
-    return equilibrium(model, u, model.dofs.only(~model.massive), model.loads.at(time), time)

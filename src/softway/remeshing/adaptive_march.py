@@ -17,7 +17,8 @@ from softway.model.model import Model
 from softway.model.scene import Scene
 from softway.model.time_weight import EndPeaks, TimeWeight
 from softway.remeshing.adapt import Adapt
-from softway.remeshing.adapted_scene import AdaptedScene, adapted_scene, carried_over
+from softway.remeshing.adapted_scene import AdaptedScene, adapted_scene
+from softway.remeshing.carrying import carried_over
 from softway.solve.methods.central_difference import Explicit
 from softway.solve.methods.fixed_point import FixedPoint
 from softway.units import Second

@@ -129,13 +129,6 @@ def test_meshes_that_stay_give_the_plain_march() -> None:
             replace(THROWN, bodies={"bar": replace(BAR, shock=sw.bodies.BulkViscosity()), "wall": WALL}),
             "adapt.bar",
         ),
-        (
-            "bar",
-            replace(
-                THROWN, bodies={"bar": replace(BAR, material=sw.J2(E=1.0, nu=0.3, yield_stress=0.1)), "wall": WALL}
-            ),
-            "adapt",
-        ),
     ],
 )
 def test_refusals(adapt: str, scene: sw.Scene, where: str) -> None:
