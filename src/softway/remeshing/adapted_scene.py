@@ -94,7 +94,7 @@ def adapted_scene(scene: Scene, adapt: Mapping[str, Adapt]) -> AdaptedScene:
         with within(f"adapt.{name}"):
             if name not in solids:
                 raise InputError("", "no solid of this name", f"one of: {', '.join(solids)}")
-            if not _bisected(bases[name]) or solids[name].thermal is not None or solids[name].shock is not None:
+            if not _bisected(bases[name]) :
                 raise InputError("", "a solid whose mesh cannot adapt in a march", WHAT)
     known = {name: base for name, base in bases.items() if _bisected(base)}
     meshes = {name: refined(base, np.zeros(base.n_cells, dtype=np.int64)) for name, base in known.items()}
@@ -102,7 +102,7 @@ def adapted_scene(scene: Scene, adapt: Mapping[str, Adapt]) -> AdaptedScene:
         bodies[name] = replace(solids[name], mesh=mesh.mesh, place=Placement(), group=())
     scene = replace(scene, bodies=bodies)
     model = build(scene)
-    plain = not model.companions and model.rigid is None and all(_own_dofs(model))
+    plain = model.rigid is None and all(_own_dofs(model)) and not model.bonds
     light = model.timing.massless or not scene.contacts
     if not (plain and light):
         raise InputError("adapt", "a scene in which no mesh can adapt", WHAT)

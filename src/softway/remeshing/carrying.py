@@ -12,12 +12,13 @@ from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.memory import remembered
 from softway.adaptivity.projection import Projection, Unchanged, projection
 from softway.adaptivity.transfer import Settled, Transferred, transfer
-from softway.arrays import Array
+from softway.arrays import Array, BoolArray
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent
 from softway.march.march_state import MarchState
 from softway.march.model_state import ModelState, join_states, split_states
 from softway.model.scene import State
 from softway.remeshing.adapted_scene import AdaptedScene, motion_of
+from softway.remeshing.carried_heat import account_of_heat, carried_temperatures, heat_of, starting_at, strained, with_content
 from softway.remeshing.settling import Unsettled
 from softway.remeshing.surface_forces import SurfaceForces, surface_forces
 from softway.solve.operators.operator_memory import OperatorMemory
@@ -37,10 +38,13 @@ def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple
         If massless nodes find no equilibrium.
     """
     change = _change(old, new, now)
-    rest, states = change.unsettled().settled()
-    joined = join_states(new.model, change.resting(rest, states), now.step_history.span)
-    lost = change.dissipated(joined)
-    before = now.state.start.energy - lost
+    joined = change.joined()
+    if strained(new.model):
+        change = change.with_content(joined)
+        joined = change.joined()
+    lost, heats = change.dissipated(joined), (heat_of(old.model, now.state), heat_of(new.model, joined))
+    warmed = np.zeros(len(lost)) if heats[0] is None or heats[1] is None else heats[1].contents - heats[0].contents
+    before = now.state.start.energy - lost - warmed
     names = [part.name for part in new.model.parts]
     found = {}
     for name, pair in change.pairs.items():
@@ -59,7 +63,8 @@ def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple
     account = replace(
         now.account,
         remeshing=now.account.remeshing + taken,
-        dissipation=now.account.dissipation + float(lost.sum()),
+        dissipation=now.account.dissipation + float(lost.sum() + warmed.sum()),
+        heat=account_of_heat(now.account.heat, *heats, float(lost[change.heated()].sum())),
     )
     return replace(now, state=state, account=account, memory=OperatorMemory()), found
 
@@ -67,7 +72,7 @@ def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class _Change:
     """Change of meshes: the scene before and after it, the state before, and for each solid of cells that can be
-    bisected both of its meshes and the projections between them.
+    bisected both of its meshes and the projections between them; values of the companion fields after it.
     """
 
     old: AdaptedScene
@@ -77,6 +82,7 @@ class _Change:
     span: float
     pairs: Mapping[str, tuple[AdaptedSolid, AdaptedSolid]]
     casts: Mapping[str, Projection | Unchanged]
+    fields: Mapping[str, Mapping[str, Array]]
 
     def unsettled(self) -> Unsettled:
         """Solids on the new meshes with projected displacements and inherited histories."""
@@ -84,7 +90,7 @@ class _Change:
         projected = {name: cast.displacement(self.state.displacement[name]) for name, cast in self.casts.items()}
         u = model.join({**self.state.displacement, **projected})
         return Unsettled(
-            model=model, displacement=u, states=self._states(u), friction=self._friction(), time=self.state.time,
+            model=starting_at(model, self.fields, u), displacement=u, states=self._states(u), friction=self._friction(), time=self.state.time,
             span=self.span,
         )  # fmt: skip
 
@@ -112,6 +118,17 @@ class _Change:
             blocks.append(cast.at_nodes if isinstance(cast, Projection) else sp.eye_array(part.mesh.n_nodes))
         return sp.csr_array(sp.block_diag(blocks, format="csr"))
 
+    def joined(self) -> ModelState:
+        """State in equilibrium, with projected velocities."""
+        return join_states(self.new.model, self.resting(*self.unsettled().settled()), self.span)
+
+    def with_content(self, found: ModelState) -> "_Change":
+        """Change to temperatures with which a state that was found so far would have the heat content before."""
+        heats = heat_of(self.old.model, self.now), heat_of(self.new.model, found)
+        if heats[0] is None or heats[1] is None:
+            return self
+        return replace(self, fields={n: with_content(self.new.model, v, *heats) for n, v in self.fields.items()})
+
     def resting(self, rest: StaticState, states: MaterialStates) -> State:
         """State in equilibrium, with projected velocities."""
         model, contacts = self.new.model, self.new.model.contacts
@@ -125,6 +142,7 @@ class _Change:
         return replace(
             self.state,
             displacement=model.split(rest.displacement),
+            fields=self.fields,
             velocity=self._cast(self.state.velocity),
             acceleration=self._cast(self.state.acceleration),
             memory={part.name: state for part, state in parts if state is not None},
@@ -134,6 +152,11 @@ class _Change:
             sliding=of(rest.sliding) if rough else {},
             slip={} if slips is None else of(slips),
         )
+
+    def heated(self) -> BoolArray:
+        """True (parts,) for solids with heat."""
+        bodies = self.new.scene.bodies
+        return np.array([getattr(bodies[p.name], "thermal", None) is not None for p in self.new.model.parts])
 
     def _cast(self, fields: Mapping[str, Array]) -> dict[str, Array]:
         """Fields of the solids, projected."""
@@ -160,7 +183,10 @@ class _Change:
 def _change(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> _Change:
     """Change between the meshes of two scenes."""
     pairs = {name: (old.solid(name), new.solid(name)) for name in new.meshes}
+    casts, state = {name: projection(*pair) for name, pair in pairs.items()}, split_states(old.model, now.state)
+    models = old.model, new.model
+    fields = {name: carried_temperatures(models, pairs, casts, values) for name, values in state.fields.items()}
     return _Change(
-        old=old, new=new, now=now.state, state=split_states(old.model, now.state), span=now.step_history.span,
-        pairs=pairs, casts={name: projection(*pair) for name, pair in pairs.items()},
+        old=old, new=new, now=now.state, state=state, span=now.step_history.span, pairs=pairs, casts=casts,
+        fields=fields,
     )  # fmt: skip
