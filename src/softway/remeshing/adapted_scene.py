@@ -1,6 +1,6 @@
 """Scene with adapted meshes: its model, and its state on other meshes."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,6 +14,7 @@ from softway.bodies.setup.placement import Placement, placed
 from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 from softway.heat.coupled.build import build
+from softway.heat.coupled.solid_temperature import SolidTemperature
 from softway.march.march_state import MarchState
 from softway.meshes.adaptive.leaves import same
 from softway.meshes.adaptive.refinement import BISECTED, AdaptedMesh, refined
@@ -21,11 +22,10 @@ from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
 from softway.remeshing.adapt import Adapt
+from softway.remeshing.carried_heat import carries_heat
+from softway.remeshing.standing import standing
 
-WHAT = (
-    f"solids of one type of cell, {', '.join(BISECTED)}, without heat, ties, bulk viscosity or rigid bodies, with "
-    "contacts whose nodes have no inertia"
-)
+WHAT = f"solids of one type of cell, {', '.join(BISECTED)}"
 """What may adapt."""
 
 
@@ -94,7 +94,7 @@ def adapted_scene(scene: Scene, adapt: Mapping[str, Adapt]) -> AdaptedScene:
         with within(f"adapt.{name}"):
             if name not in solids:
                 raise InputError("", "no solid of this name", f"one of: {', '.join(solids)}")
-            if not _bisected(bases[name]) :
+            if not _bisected(bases[name]):
                 raise InputError("", "a solid whose mesh cannot adapt in a march", WHAT)
     known = {name: base for name, base in bases.items() if _bisected(base)}
     meshes = {name: refined(base, np.zeros(base.n_cells, dtype=np.int64)) for name, base in known.items()}
@@ -102,11 +102,26 @@ def adapted_scene(scene: Scene, adapt: Mapping[str, Adapt]) -> AdaptedScene:
         bodies[name] = replace(solids[name], mesh=mesh.mesh, place=Placement(), group=())
     scene = replace(scene, bodies=bodies)
     model = build(scene)
-    plain = model.rigid is None and all(_own_dofs(model)) and not model.bonds
-    light = model.timing.massless or not scene.contacts
-    if not (plain and light):
-        raise InputError("adapt", "a scene in which no mesh can adapt", WHAT)
+    _require_carried(model, meshes)
     return AdaptedScene(scene=scene, model=model, meshes=meshes)
+
+
+def _require_carried(model: Model, names: Collection[str]) -> None:
+    """Refuse scenes of which something would not pass to other meshes."""
+    scene, remedy = model.scene, "a march of fixed meshes, or a scene without"
+    if not all(_own_dofs(model)) or model.bonds:
+        raise InputError("ties", "surfaces that are glued, where meshes change", f"{remedy} ties")
+    for k, contact in enumerate(scene.contacts if not model.timing.massless else ()):
+        problem = f"{contact.label!r} whose nodes have inertia, where meshes change"
+        raise InputError(f"contacts[{k}]", problem, "the rule Energy, whose contact nodes are massless")
+    for name in names:
+        if not carries_heat(model, name):
+            problem = "latent heat, or a capacity that depends on the temperature in several regions, on a changing mesh"
+            raise InputError(f"bodies.{name}.thermal.law", problem, "one law without latent heat, or a march of fixed meshes")
+    for field in model.companions:
+        if not isinstance(field, SolidTemperature):
+            problem = f"the field {field.field.name!r}, which does not pass to other meshes"
+            raise InputError("adapt", problem, f"{remedy} this field")
 
 
 def _bisected(mesh: Mesh) -> bool:
@@ -136,7 +151,7 @@ def _touching(model: Model, now: MarchState, ahead: float) -> IntArray:
     """Nodes (k,) of contact rows that are closed, or would close within ``ahead`` [s] at the present velocities, with
     those of the facets in them.
     """
-    start, state = now.state.start, now.state
+    start, state, model = now.state.start, now.state, standing(model, now.state)
     coming = start.displacement + ahead * start.velocity
     here, later = model.rows(start.displacement, state.time), model.rows(coming, state.time + ahead)
     closing = later.near & (later.gap(coming) <= 0.0)

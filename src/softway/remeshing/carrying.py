@@ -20,6 +20,7 @@ from softway.model.scene import State
 from softway.remeshing.adapted_scene import AdaptedScene, motion_of
 from softway.remeshing.carried_heat import account_of_heat, carried_temperatures, heat_of, starting_at, strained, with_content
 from softway.remeshing.settling import Unsettled
+from softway.remeshing.standing import standing
 from softway.remeshing.surface_forces import SurfaceForces, surface_forces
 from softway.solve.operators.operator_memory import OperatorMemory
 from softway.solve.static_equilibrium import StaticState
@@ -90,7 +91,7 @@ class _Change:
         projected = {name: cast.displacement(self.state.displacement[name]) for name, cast in self.casts.items()}
         u = model.join({**self.state.displacement, **projected})
         return Unsettled(
-            model=starting_at(model, self.fields, u), displacement=u, states=self._states(u), friction=self._friction(), time=self.state.time,
+            model=standing(starting_at(model, self.fields, u), self.now), displacement=u, states=self._states(u), friction=self._friction(), time=self.state.time,
             span=self.span,
         )  # fmt: skip
 
@@ -120,7 +121,8 @@ class _Change:
 
     def joined(self) -> ModelState:
         """State in equilibrium, with projected velocities."""
-        return join_states(self.new.model, self.resting(*self.unsettled().settled()), self.span)
+        found = join_states(self.new.model, self.resting(*self.unsettled().settled()), self.span)
+        return replace(found, rigid=self.now.rigid)
 
     def with_content(self, found: ModelState) -> "_Change":
         """Change to temperatures with which a state that was found so far would have the heat content before."""
@@ -167,7 +169,7 @@ class _Change:
         friction = self._friction()
         if friction is None or self.now.slip is None:
             return None
-        return friction.slips(self.new.model.rows(rest.displacement, self.state.time))
+        return friction.slips(standing(self.new.model, self.now).rows(rest.displacement, self.state.time))
 
     def dissipated(self, after: ModelState) -> Array:
         """Energy (parts,) that the materials have dissipated in the change [J]."""

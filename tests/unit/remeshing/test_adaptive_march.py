@@ -124,11 +124,6 @@ def test_meshes_that_stay_give_the_plain_march() -> None:
     [
         ("rod", THROWN, "adapt.rod"),
         ("wall", THROWN, "adapt.wall"),
-        (
-            "bar",
-            replace(THROWN, bodies={"bar": replace(BAR, shock=sw.bodies.BulkViscosity()), "wall": WALL}),
-            "adapt.bar",
-        ),
     ],
 )
 def test_refusals(adapt: str, scene: sw.Scene, where: str) -> None:
