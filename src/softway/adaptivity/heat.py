@@ -59,7 +59,8 @@ def carried_heat(
     >>> from softway.meshes.generators.shapes import interval
     >>> base = interval(2.0, cells=2)
     >>> coarse, fine = refined(base, np.array([0, 0])), refined(base, np.array([1, 0]))
-    >>> one, two = (Heated(adapted=m, shares=0.5 * m.mesh.cell_edges()[0][:, None] * np.ones(2)) for m in (coarse, fine))
+    >>> halves = (0.5 * mesh.mesh.cell_edges()[0][:, None] * np.ones(2) for mesh in (coarse, fine))
+    >>> one, two = (Heated(adapted=m, shares=half) for m, half in zip((coarse, fine), halves))
     >>> carried_heat(one, two, embedding(coarse, fine), np.array([1.0, 3.0, 2.0]), np.log).round(12).tolist()
     [1.0, 3.0, 2.0, 2.0]
     """
@@ -89,12 +90,13 @@ def _places(
     used, number = np.unique(np.concatenate([mine, theirs]), return_inverse=True)
     mine, theirs = number[: len(mine)], number[len(mine) :]
     at = values[one.cells]
-    content = np.bincount(mine, (one.shares * at).sum(axis=1), len(used))
-    total = np.bincount(mine, (one.shares * entropy(at)).sum(axis=1), len(used))
-    least, most = np.full(len(used), np.inf), np.full(len(used), -np.inf)
+    content: Array = np.bincount(mine, (one.shares * at).sum(axis=1), len(used))
+    total: Array = np.bincount(mine, (one.shares * entropy(at)).sum(axis=1), len(used))
+    least: Array = np.full(len(used), np.inf)
+    most: Array = np.full(len(used), -np.inf)
     np.minimum.at(least, mine, at.min(axis=1))
     np.maximum.at(most, mine, at.max(axis=1))
-    return theirs, content, total, (least, most)
+    return np.asarray(theirs), content, total, (least, most)
 
 
 def _within(found: Array, mean: Array, place: IntArray, ends: tuple[Array, Array]) -> Array:

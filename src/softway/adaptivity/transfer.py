@@ -143,9 +143,7 @@ def transfer(
     )
 
 
-def _at_once(
-    before: AdaptedSolid, after: AdaptedSolid, motion: Motion, cast: Projection | Unchanged
-) -> Settled:
+def _at_once(before: AdaptedSolid, after: AdaptedSolid, motion: Motion, cast: Projection | Unchanged) -> Settled:
     """The solid at its projected displacement."""
     displacement = cast.displacement(motion.displacement)
     state = None if motion.state is None else remembered(before, after, motion.state, displacement)

@@ -108,20 +108,22 @@ def adapted_scene(scene: Scene, adapt: Mapping[str, Adapt]) -> AdaptedScene:
 
 def _require_carried(model: Model, names: Collection[str]) -> None:
     """Refuse scenes of which something would not pass to other meshes."""
-    scene, remedy = model.scene, "a march of fixed meshes, or a scene without"
+    scene, other = model.scene, "a march of fixed meshes, or a scene without"
     if not all(_own_dofs(model)) or model.bonds:
-        raise InputError("ties", "surfaces that are glued, where meshes change", f"{remedy} ties")
+        raise InputError("ties", "surfaces that are glued, where meshes change", f"{other} ties")
     for k, contact in enumerate(scene.contacts if not model.timing.massless else ()):
         problem = f"{contact.label!r} whose nodes have inertia, where meshes change"
         raise InputError(f"contacts[{k}]", problem, "the rule Energy, whose contact nodes are massless")
     for name in names:
         if not carries_heat(model, name):
-            problem = "latent heat, or a capacity that depends on the temperature in several regions, on a changing mesh"
-            raise InputError(f"bodies.{name}.thermal.law", problem, "one law without latent heat, or a march of fixed meshes")
+            problem = "latent heat, or capacities of several regions that depend on the temperature"
+            raise InputError(
+                f"bodies.{name}.thermal.law", problem, "one law without latent heat, or a march of fixed meshes"
+            )
     for field in model.companions:
         if not isinstance(field, SolidTemperature):
             problem = f"the field {field.field.name!r}, which does not pass to other meshes"
-            raise InputError("adapt", problem, f"{remedy} this field")
+            raise InputError("adapt", problem, f"{other} this field")
 
 
 def _bisected(mesh: Mesh) -> bool:

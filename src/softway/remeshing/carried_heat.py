@@ -67,9 +67,11 @@ def carried_temperatures(
             if isinstance(cast, Projection):
                 out[name] = np.zeros((cast.at_nodes.shape[0], 1))
             continue
-        sides = [_heated(on, heat, part) for on, heat, part in zip(pair, heats, parts, strict=True) if part is not None]
+        one, other = (
+            _heated(on, heat, part) for on, heat, part in zip(pair, heats, parts, strict=True) if part is not None
+        )
         to, back, rule = _measures(heats[0], parts[0])
-        found_values = carried_heat(*sides, cast.at_nodes, to(values[name][:, 0]), rule)
+        found_values = carried_heat(one, other, cast.at_nodes, to(values[name][:, 0]), rule)
         out[name] = back(found_values)[:, None]
     return out
 

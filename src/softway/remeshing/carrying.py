@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
+from numpy.typing import NDArray
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.memory import remembered
@@ -15,10 +16,17 @@ from softway.adaptivity.transfer import Settled, Transferred, transfer
 from softway.arrays import Array, BoolArray
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent
 from softway.march.march_state import MarchState
-from softway.march.model_state import ModelState, join_states, split_states
+from softway.march.model_state import Kind, ModelState, join_states, split_states
 from softway.model.scene import State
 from softway.remeshing.adapted_scene import AdaptedScene, motion_of
-from softway.remeshing.carried_heat import account_of_heat, carried_temperatures, heat_of, starting_at, strained, with_content
+from softway.remeshing.carried_heat import (
+    account_of_heat,
+    carried_temperatures,
+    heat_of,
+    starting_at,
+    strained,
+    with_content,
+)
 from softway.remeshing.settling import Unsettled
 from softway.remeshing.standing import standing
 from softway.remeshing.surface_forces import SurfaceForces, surface_forces
@@ -49,13 +57,7 @@ def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple
     names = [part.name for part in new.model.parts]
     found = {}
     for name, pair in change.pairs.items():
-        k, nodes = names.index(name), new.model.parts[names.index(name)].nodes
-        there = Settled(
-            displacement=joined.start.displacement[nodes],
-            state=joined.start.states[k] if joined.start.states else None,
-            before=float(before[k]),
-            energy=float(joined.start.energy[k]),
-        )
+        there = change.settled(name, joined, float(before[names.index(name)]))
         found[name] = transfer(*pair, motion_of(old.model, now, name), change.casts[name], there)
     fixed = np.array([name not in new.meshes for name in names])
     taken = sum(one.booked for one in found.values()) + float((before - joined.start.energy)[fixed].sum())
@@ -91,9 +93,13 @@ class _Change:
         projected = {name: cast.displacement(self.state.displacement[name]) for name, cast in self.casts.items()}
         u = model.join({**self.state.displacement, **projected})
         return Unsettled(
-            model=standing(starting_at(model, self.fields, u), self.now), displacement=u, states=self._states(u), friction=self._friction(), time=self.state.time,
+            model=standing(starting_at(model, self.fields, u), self.now),
+            displacement=u,
+            states=self._states(u),
+            friction=self._friction(),
+            time=self.state.time,
             span=self.span,
-        )  # fmt: skip
+        )
 
     def _states(self, u: Array) -> MaterialStates:
         """Material states on the new meshes at the displacement u (n, d)."""
@@ -126,10 +132,11 @@ class _Change:
 
     def with_content(self, found: ModelState) -> "_Change":
         """Change to temperatures with which a state that was found so far would have the heat content before."""
-        heats = heat_of(self.old.model, self.now), heat_of(self.new.model, found)
-        if heats[0] is None or heats[1] is None:
+        before, after = heat_of(self.old.model, self.now), heat_of(self.new.model, found)
+        if before is None or after is None:
             return self
-        return replace(self, fields={n: with_content(self.new.model, v, *heats) for n, v in self.fields.items()})
+        shifted = {n: with_content(self.new.model, values, before, after) for n, values in self.fields.items()}
+        return replace(self, fields=shifted)
 
     def resting(self, rest: StaticState, states: MaterialStates) -> State:
         """State in equilibrium, with projected velocities."""
@@ -137,7 +144,7 @@ class _Change:
         by = {label: contacts.rows_of(k) for k, label in enumerate(contacts.labels)}
         rough, slips = not model.friction.frictionless, self._slips(rest)
 
-        def of(values: Array) -> dict[str, Array]:
+        def of(values: NDArray[Kind]) -> dict[str, NDArray[Kind]]:
             return {label: values[rows] for label, rows in by.items()}
 
         parts = zip(model.parts, states, strict=False)
@@ -170,6 +177,17 @@ class _Change:
         if friction is None or self.now.slip is None:
             return None
         return friction.slips(standing(self.new.model, self.now).rows(rest.displacement, self.state.time))
+
+    def settled(self, name: str, found: ModelState, before: float) -> Settled:
+        """A solid in a state, with the stored energy ``before`` that is to pass over [J]."""
+        k = [part.name for part in self.new.model.parts].index(name)
+        states = found.start.states
+        return Settled(
+            displacement=found.start.displacement[self.new.model.parts[k].nodes],
+            state=states[k] if states else None,
+            before=before,
+            energy=float(found.start.energy[k]),
+        )
 
     def dissipated(self, after: ModelState) -> Array:
         """Energy (parts,) that the materials have dissipated in the change [J]."""

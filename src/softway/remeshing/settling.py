@@ -92,7 +92,8 @@ def _changing(part: DiscreteSolid, state: MaterialState | None, span: float) -> 
     if state is None:
         return part
     if isinstance(internal, RegionForces):
-        terms = (replace(t, internal=_law_changing(t.internal, state.regions.get(t.region), span)) for t in internal.terms)
+        own = state.regions
+        terms = (replace(t, internal=_law_changing(t.internal, own.get(t.region), span)) for t in internal.terms)
         return replace(part, internal=replace(internal, terms=tuple(terms)))
     return replace(part, internal=_law_changing(internal, state, span))
 

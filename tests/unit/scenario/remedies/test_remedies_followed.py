@@ -116,6 +116,7 @@ REASONS = {
     "remeshing/adapt.py: __post_init__": "from Python: tests/unit/remeshing/test_adaptive_march.py",
     "remeshing/adaptive_march.py: adaptive_march": "from Python: tests/unit/remeshing/test_adaptive_march.py",
     "remeshing/adapted_scene.py: adapted_scene": "from Python: tests/unit/remeshing/test_adaptive_march.py",
+    "remeshing/adapted_scene.py: _require_carried": "from Python: tests/unit/remeshing/test_other_parts.py",
     "scenario/files.py: load": "millions of characters",
     "scenario/run.py: _require_state": "of a mechanism: tests/unit/scenario/mechanisms/test_resumed_runs.py",
     "scenario/run_rigid.py: _require_state": "and of solids: the same",
