@@ -90,8 +90,8 @@ def _places(
     used, number = np.unique(np.concatenate([mine, theirs]), return_inverse=True)
     mine, theirs = number[: len(mine)], number[len(mine) :]
     at = values[one.cells]
-    content: Array = np.bincount(mine, (one.shares * at).sum(axis=1), len(used))
-    total: Array = np.bincount(mine, (one.shares * entropy(at)).sum(axis=1), len(used))
+    content = np.bincount(mine, (one.shares * at).sum(axis=1), len(used)).astype(float)
+    total = np.bincount(mine, (one.shares * entropy(at)).sum(axis=1), len(used)).astype(float)
     least: Array = np.full(len(used), np.inf)
     most: Array = np.full(len(used), -np.inf)
     np.minimum.at(least, mine, at.min(axis=1))
