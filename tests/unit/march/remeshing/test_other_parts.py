@@ -3,14 +3,14 @@
 from dataclasses import replace
 
 import pytest
+from adapting import adaptive_march
 from passing import keeps_its_balances
 
 import softway as sw
 from softway.errors import InputError
 from softway.mechanisms import Mechanism, Rigid
+from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.generators.shapes import rectangle
-from softway.remeshing.adapt import Adapt
-from softway.remeshing.adaptive_march import adaptive_march
 
 ADAPT = Adapt(levels=3, tolerance=1.0, buffer=1, contact_cells=2)
 BLOCK = sw.Solid(
@@ -28,7 +28,7 @@ def test_a_rigid_disc_that_hits_a_solid(mu: float) -> None:
     contact = sw.Contact(between=("block.top", "disc"), friction=friction)
     scene = sw.Scene(bodies={"block": BLOCK}, contacts=(contact,), mechanism=Mechanism(bodies={"disc": disc}))
     steps = list(adaptive_march(scene, {"block": ADAPT}, until=1.0, step=0.02))
-    ledgers = [taken.step.ledger for taken in steps]
+    ledgers = [taken.ledger for taken in steps]
     energy = ledgers[0].energy_kinetic + ledgers[0].energy_strain
     assert sum(bool(taken.transfers) for taken in steps) >= 3
     assert max(abs(ledger.energy_error) for ledger in ledgers) < 1e-11 * energy
@@ -49,7 +49,7 @@ def test_a_shock_with_bulk_viscosity() -> None:
     fine = replace(bar, mesh=sw.meshes.Interval(length=1.0, cells=80))
     *_, exact = sw.march(replace(scene, bodies={"bar": fine, "wall": wall}), until=0.8, step=0.01)
     assert keeps_its_balances(steps) > 3
-    assert steps[-1].step.ledger.dissipation == pytest.approx(exact.ledger.dissipation, rel=0.02)
+    assert steps[-1].ledger.dissipation == pytest.approx(exact.ledger.dissipation, rel=0.02)
 
 
 def test_ties_are_refused() -> None:
@@ -67,5 +67,13 @@ def test_contacts_with_massive_nodes_are_refused() -> None:
     scene = sw.Scene(bodies={"block": BLOCK, "floor": floor}, contacts=(contact,))
     with pytest.raises(InputError) as refusal:
         next(adaptive_march(scene, {"block": ADAPT}, until=0.1, step=0.01))
-    assert refusal.value.where == "contacts[0]"
+    assert refusal.value.where == "contacts[0].timing"
+    assert refusal.value.remedy
+
+
+def test_cells_that_cannot_be_bisected_are_refused() -> None:
+    scene = sw.Scene(bodies={"block": replace(BLOCK, mesh=rectangle((2.0, 1.0), (4, 2), cell="quad8"))})
+    with pytest.raises(InputError) as refusal:
+        next(adaptive_march(scene, {"block": ADAPT}, until=0.1, step=0.01))
+    assert refusal.value.where == "bodies.block.adapt"
     assert refusal.value.remedy

@@ -9,7 +9,6 @@ import pytest
 import softway as sw
 from softway.adaptivity.balances import spin
 from softway.meshes.adaptive.refinement import refined
-from softway.remeshing.adaptive_march import AdaptedStep
 
 
 def finest(scene: sw.Scene, levels: int, *names: str) -> sw.Scene:
@@ -21,14 +20,14 @@ def finest(scene: sw.Scene, levels: int, *names: str) -> sw.Scene:
     return replace(scene, bodies=bodies)
 
 
-def keeps_its_balances(steps: Sequence[AdaptedStep], around: bool = False) -> int:
+def keeps_its_balances(steps: Sequence[sw.Step], around: bool = False) -> int:
     """Momentum and spin of each slab begin as the last one ended, to rounding; only the momentum along the axis where
     bodies are ``around`` one; the energy of the whole march is in its ledger.  Number of the changes.
     """
-    ledgers = [taken.step.ledger for taken in steps]
+    ledgers = [taken.ledger for taken in steps]
     energy = max(ledger.energy_kinetic + ledger.energy_strain for ledger in ledgers)
     for last, taken in zip(steps[:-1], steps[1:], strict=True):
-        model, before, ledger = taken.model, taken.step.before, last.step.ledger
+        model, before, ledger = taken.model, taken.before, last.ledger
         u, v = (model.join(field) for field in (before.displacement, before.velocity))
         momenta = model.mass @ v
         scale = float(abs(momenta).sum())
@@ -36,5 +35,5 @@ def keeps_its_balances(steps: Sequence[AdaptedStep], around: bool = False) -> in
         assert momenta.sum(axis=0)[axes] == pytest.approx(ledger.momentum[axes], abs=1e-12 * scale)
         if not around:
             assert spin(model.points + u, momenta) == pytest.approx(ledger.spin, abs=1e-12 * scale)
-        assert abs(taken.step.ledger.energy_error - ledgers[0].energy_error) < 1e-12 * energy
+        assert abs(taken.ledger.energy_error - ledgers[0].energy_error) < 1e-12 * energy
     return sum(bool(taken.transfers) for taken in steps)

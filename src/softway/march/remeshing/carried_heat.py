@@ -18,7 +18,7 @@ from softway.heat.heat_model import HeatModel, HeatPart
 from softway.heat.operators import entropy, liquid_volumes, rigid_temperatures
 from softway.laws.heat.heat_content import ContentCurve
 from softway.laws.heat.temperature_table import value_at
-from softway.march.model_state import ModelState
+from softway.march.state.model_state import ModelState
 from softway.model.field import stiffness_factor
 from softway.model.model import Model
 

@@ -12,7 +12,7 @@ import scipy.sparse as sp
 from softway.arrays import Array, BoolArray
 from softway.contact.contact_rows import ContactRows
 from softway.contact.friction_rows import FrictionRows
-from softway.march.model_state import ModelState
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 
 SLIDES = 0.4

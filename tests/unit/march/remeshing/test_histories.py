@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from adapting import adaptive_march
 from passing import finest, keeps_its_balances
 
 import softway as sw
@@ -9,9 +10,8 @@ from softway.arrays import Array
 from softway.bodies.elements.section import Axisymmetric
 from softway.kernels.linalg import tensors
 from softway.laws.plasticity.deviator import deviator, equivalent_stress
+from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.generators.shapes import disc, rectangle
-from softway.remeshing.adapt import Adapt
-from softway.remeshing.adaptive_march import AdaptedStep, adaptive_march
 
 LEVELS = 4
 HARDENING = sw.laws.LinearHardening(modulus=0.1)
@@ -39,7 +39,7 @@ def thrown(law: object) -> sw.Scene:
     return sw.Scene(bodies={"body": body, "floor": floor}, contacts=(sw.Contact(between=("body.boundary", "floor")),))
 
 
-def adapted(scene: sw.Scene, until: float, step: float, adapt: Adapt) -> list[AdaptedStep]:
+def adapted(scene: sw.Scene, until: float, step: float, adapt: Adapt) -> list[sw.Step]:
     return list(adaptive_march(scene, {"body": adapt}, until=until, step=step))
 
 
@@ -50,7 +50,7 @@ def test_balances_and_dissipation(law: object) -> None:
     steps = adapted(scene, 2.0, 0.05, Adapt(levels=LEVELS, tolerance=1.0, buffer=2, contact_cells=4))
     assert keeps_its_balances(steps) > 4
     *_, fine = sw.march(finest(scene, LEVELS, "body"), until=2.0, step=0.05)
-    one, other = steps[-1].step.ledger, fine.ledger
+    one, other = steps[-1].ledger, fine.ledger
     assert one.dissipation == pytest.approx(other.dissipation, rel=0.02)
     assert one.momentum[1] == pytest.approx(other.momentum[1], abs=0.02 * 0.1 * np.pi / 4)
     assert abs(one.remeshing) < 1e-12 * 0.004
@@ -60,7 +60,7 @@ def test_stresses_stay_within_the_yield_surface() -> None:
     steps = adapted(thrown(J2), 1.6, 0.05, Adapt(levels=LEVELS, tolerance=2.0, every=2, buffer=1, contact_cells=1))
     changes = 0
     for taken in steps:
-        state = taken.step.before.memory["body"]
+        state = taken.before.memory["body"]
         limit = J2.yield_stress + HARDENING.modulus * state.law["plastic_strain"]
         if taken.transfers:
             changes += 1
@@ -69,14 +69,14 @@ def test_stresses_stay_within_the_yield_surface() -> None:
     assert changes > 4
 
 
-def volumes(taken: AdaptedStep) -> Array:
+def volumes(taken: sw.Step) -> Array:
     return taken.model.parts[0].internal.sampling.volume
 
 
 def test_histories_keep_their_totals_but_for_the_contact() -> None:
     steps = adapted(thrown(J2), 1.6, 0.05, Adapt(levels=LEVELS, tolerance=2.0, every=2, buffer=1, contact_cells=1))
     for last, taken in zip(steps[:-1], steps[1:], strict=True):
-        old, new = last.step.after.memory["body"], taken.step.before.memory["body"]
+        old, new = last.after.memory["body"], taken.before.memory["body"]
         before, after = (float(volumes(s) @ m.law["plastic_strain"]) for s, m in ((last, old), (taken, new)))
         assert after == pytest.approx(before, rel=1e-3)
         assert float(volumes(taken) @ new.dissipated) >= float(volumes(last) @ old.dissipated) * (1.0 - 1e-12)
@@ -95,12 +95,11 @@ def test_a_taylor_bar() -> None:
     steps = adapted(scene, 40e-6, 1e-7, Adapt(levels=levels, every=8, buffer=2, contact_cells=3))
     *_, fine = sw.march(finest(scene, levels, "body"), until=40e-6, step=1e-7)
 
-    def length(mesh: sw.meshes.Mesh, step: sw.Step) -> float:
-        return float(np.ptp((mesh.points + step.after.displacement["body"])[:, 1]))
+    def length(step: sw.Step) -> float:
+        return float(np.ptp((step.model.points + step.after.displacement["body"])[:, 1]))
 
     one, other = steps[-1], fine
-    on = finest(scene, levels, "body").bodies["body"].mesh
-    assert length(one.meshes["body"].mesh, one.step) == pytest.approx(length(on, other), rel=1e-4)
-    assert one.step.ledger.dissipation == pytest.approx(other.ledger.dissipation, rel=1e-4)
+    assert length(one) == pytest.approx(length(other), rel=1e-4)
+    assert one.ledger.dissipation == pytest.approx(other.ledger.dissipation, rel=1e-4)
     assert keeps_its_balances(steps, around=True) > 20
-    assert sum(taken.model.shape[0] for taken in steps) < 0.85 * 400 * len(on.points)
+    assert sum(taken.model.shape[0] for taken in steps) < 0.85 * 400 * other.model.shape[0]

@@ -5,16 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from adapting import adaptive_march
 from passing import finest, keeps_its_balances
 
 import softway as sw
+from softway.heat.coupled.build import build
+from softway.march.remeshing.adapted_scene import adapted_scene
+from softway.march.remeshing.carrying import carried_over
+from softway.march.remeshing.surface_forces import SurfaceForces
+from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.refinement import refined
 from softway.meshes.generators.shapes import disc, rectangle
-from softway.remeshing.adapt import Adapt
-from softway.remeshing.adapted_scene import adapted_scene
-from softway.remeshing.adaptive_march import adaptive_march
-from softway.remeshing.carrying import carried_over
-from softway.remeshing.surface_forces import SurfaceForces
 
 LEVELS = 4
 ADAPT = Adapt(levels=LEVELS, tolerance=1.0, buffer=2, contact_cells=4)
@@ -57,8 +58,8 @@ def test_a_ball_that_bounces_with_spin(law: object) -> None:
     steps = list(adaptive_march(scene, {"ball": ADAPT}, until=2.8, step=0.05))
     assert keeps_its_balances(steps) > 4
     fine = list(sw.march(finest(scene, LEVELS, "ball"), until=2.8, step=0.05))
-    assert impulses([taken.step for taken in steps]) == pytest.approx(impulses(fine), rel=0.02)
-    one, other = steps[-1].step.ledger, fine[-1].ledger
+    assert impulses(steps) == pytest.approx(impulses(fine), rel=0.02)
+    one, other = steps[-1].ledger, fine[-1].ledger
     assert one.spin[2] == pytest.approx(other.spin[2], abs=0.02 * 0.5 * impulses(fine)[1])
     assert one.dissipation == pytest.approx(other.dissipation, rel=0.1)
     assert abs(one.remeshing) < 1e-10 * 0.005
@@ -69,7 +70,7 @@ def test_forces_and_states_of_the_rows_pass_over(law: object) -> None:
     steps = list(adaptive_march(dropped(law), {"ball": ADAPT}, until=2.8, step=0.05))
     (label,) = steps[0].model.contacts.labels
     for last, taken in zip(steps[:-1], steps[1:], strict=True):
-        old, new = last.step.after, taken.step.before
+        old, new = last.after, taken.before
         pressed = float(old.pressure[label].sum())
         assert new.pressure[label].sum() == pytest.approx(pressed, rel=1e-3)
         assert new.traction[label].sum(axis=0) == pytest.approx(old.traction[label].sum(axis=0), abs=1e-3 * pressed)
@@ -93,11 +94,11 @@ def test_a_block_slides_to_rest() -> None:
     adapt = {"block": Adapt(levels=3, tolerance=0.5, buffer=1, contact_cells=1)}
     steps = list(adaptive_march(scene, adapt, until=1.3 * v / (mu * g), step=0.2))
     last = steps[-1]
-    way = last.model.weight @ last.step.after.displacement["block"] / last.model.weight.sum()
+    way = last.model.weight @ last.after.displacement["block"] / last.model.weight.sum()
     assert way[0] == pytest.approx(v**2 / (2.0 * mu * g), rel=1e-3)
-    assert abs(last.step.ledger.momentum[0]) < 5e-3 * 0.5 * v
+    assert abs(last.ledger.momentum[0]) < 5e-3 * 0.5 * v
     assert keeps_its_balances(steps) > 8
-    assert abs(last.step.ledger.remeshing) < 1e-3 * 0.25 * v**2
+    assert abs(last.ledger.remeshing) < 1e-3 * 0.25 * v**2
 
 
 @pytest.mark.slow
@@ -111,10 +112,10 @@ def test_two_solids_of_which_some_change(cell: str, names: tuple[str, ...]) -> N
     scene = sw.Scene(bodies={"ball": ball((0.03, -0.1)), "block": block}, contacts=(contact,))
     steps = list(adaptive_march(scene, dict.fromkeys(names, ADAPT), until=1.6, step=0.05))
     assert keeps_its_balances(steps) > 4
-    first, last = steps[0].step.ledger, steps[-1].step.ledger
+    first, last = steps[0].ledger, steps[-1].ledger
     assert last.momentum == pytest.approx(first.momentum, abs=1e-14)
     fine = list(sw.march(finest(scene, LEVELS, *names), until=1.6, step=0.05))
-    assert impulses([taken.step for taken in steps]) == pytest.approx(impulses(fine), rel=0.02)
+    assert impulses(steps) == pytest.approx(impulses(fine), rel=0.02)
 
 
 @pytest.mark.parametrize("levels", [(1, 2), (2, 1), (2, 3)])
@@ -125,7 +126,7 @@ def test_a_block_on_a_slope_stays(levels: tuple[int, int]) -> None:
     contact = sw.Contact(between=("block.bottom", "floor"), friction=sw.laws.Coulomb(mu=0.8))
     weight = sw.Gravity(acceleration=(2e-3, -1e-2))
     scene = sw.Scene(bodies={"block": block, "floor": floor}, contacts=(contact,), loads=(weight,))
-    base = adapted_scene(scene, {"block": Adapt(levels=3)})
+    base = adapted_scene(build(scene))
     one, other = (base.on({"block": refined(block.mesh, np.full(32, level))}) for level in levels)
     *_, step = sw.march(one.model, until=4.0, step=0.1)
     old = step.march_state.state

@@ -15,11 +15,8 @@ from softway.adaptivity.projection import Projection, Unchanged, projection
 from softway.adaptivity.transfer import Settled, Transferred, transfer
 from softway.arrays import Array, BoolArray
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent
-from softway.march.march_state import MarchState
-from softway.march.model_state import Kind, ModelState, join_states, split_states
-from softway.model.scene import State
-from softway.remeshing.adapted_scene import AdaptedScene, motion_of
-from softway.remeshing.carried_heat import (
+from softway.march.remeshing.adapted_scene import AdaptedScene, motion_of
+from softway.march.remeshing.carried_heat import (
     account_of_heat,
     carried_temperatures,
     heat_of,
@@ -27,9 +24,12 @@ from softway.remeshing.carried_heat import (
     strained,
     with_content,
 )
-from softway.remeshing.settling import Unsettled
-from softway.remeshing.standing import standing
-from softway.remeshing.surface_forces import SurfaceForces, surface_forces
+from softway.march.remeshing.settling import Unsettled
+from softway.march.remeshing.standing import standing
+from softway.march.remeshing.surface_forces import SurfaceForces, surface_forces
+from softway.march.state.march_state import AdaptedMeshes, MarchState
+from softway.march.state.model_state import Kind, ModelState, join_states, split_states
+from softway.model.scene import State
 from softway.solve.operators.operator_memory import OperatorMemory
 from softway.solve.static_equilibrium import StaticState
 
@@ -69,7 +69,9 @@ def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple
         dissipation=now.account.dissipation + float(lost.sum() + warmed.sum()),
         heat=account_of_heat(now.account.heat, *heats, float(lost[change.heated()].sum())),
     )
-    return replace(now, state=state, account=account, memory=OperatorMemory()), found
+    adapted = AdaptedMeshes(leaves=new.leaves, energy=0.0 if now.adapted is None else now.adapted.energy)
+    memory = OperatorMemory(room=now.memory.room)
+    return replace(now, state=state, account=account, memory=memory, adapted=adapted), found
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -5,13 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from adapting import adaptive_march
 from passing import finest, keeps_its_balances
 
 import softway as sw
 from softway.errors import InputError
+from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.generators.shapes import disc, rectangle
-from softway.remeshing.adapt import Adapt
-from softway.remeshing.adaptive_march import AdaptedStep, adaptive_march
 
 LEVELS = 3
 ADAPT = Adapt(levels=LEVELS, tolerance=1.0, buffer=1, contact_cells=2)
@@ -37,10 +37,10 @@ def thrown(law: object, heat: object, expansion: float = 1e-4, **given: object) 
     return sw.Scene(bodies={"body": body, "floor": floor}, contacts=(contact,))
 
 
-def keeps_its_heat(steps: Sequence[AdaptedStep]) -> None:
+def keeps_its_heat(steps: Sequence[sw.Step]) -> None:
     """Energy with the heat, and the content, are in the account to rounding; changes of meshes lower no entropy."""
     for last, taken in zip(steps[:-1], steps[1:], strict=True):
-        old, new = last.step.ledger.heat, taken.step.ledger.heat
+        old, new = last.ledger.heat, taken.ledger.heat
         assert old is not None
         assert new is not None
         assert abs(new.error) < 1e-12 * new.content
@@ -64,11 +64,11 @@ def test_first_and_second_law(case: tuple[object, object, dict[str, object]]) ->
     assert keeps_its_balances(steps) > 2
     keeps_its_heat(steps)
     *_, fine = sw.march(finest(scene, LEVELS, "body"), until=1.6, step=0.05)
-    one, other = steps[-1].step.ledger.heat, fine.ledger.heat
+    one, other = steps[-1].ledger.heat, fine.ledger.heat
     assert one is not None
     assert other is not None
     assert one.received == pytest.approx(other.received, rel=0.02, abs=1e-6)
-    temperature, exact = (s.after.fields["temperature"]["body"] for s in (steps[-1].step, fine))
+    temperature, exact = (s.after.fields["temperature"]["body"] for s in (steps[-1], fine))
     assert np.ptp(temperature) == pytest.approx(np.ptp(exact), rel=0.02)
 
 
@@ -90,7 +90,7 @@ def test_friction_heats_two_solids_of_which_one_changes() -> None:
     assert keeps_its_balances(steps) > 1
     keeps_its_heat(steps)
     *_, fine = sw.march(finest(scene, 4, "ball"), until=1.2, step=0.05)
-    one, other = steps[-1].step.ledger.heat, fine.ledger.heat
+    one, other = steps[-1].ledger.heat, fine.ledger.heat
     assert one is not None
     assert other is not None
     assert one.friction == pytest.approx(other.friction, rel=0.03)

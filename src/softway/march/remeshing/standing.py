@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from softway.march.model_state import ModelState
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 
 
