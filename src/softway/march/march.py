@@ -5,7 +5,8 @@ from typing import Literal
 
 from softway.errors import Cancel
 from softway.heat.coupled.build import build
-from softway.march.remeshing.adaptive_march import adaptive_march, adapts
+from softway.march.remeshing.adaptive_march import adaptive_march
+from softway.march.remeshing.admitted import adaptions, admitted
 from softway.march.results.step import Step
 from softway.march.results.trying import TryWatch
 from softway.march.rules.slab_rule import Method
@@ -89,7 +90,8 @@ def march(
     """
     model = scene if isinstance(scene, Model) else build(scene)
     settings = Settings(until=until, step=step, weight=weight, method=method, control=control, tolerance=tolerance)
-    if adapts(model.scene):
+    model = admitted(model, method)[0]
+    if adaptions(model.scene):
         return adaptive_march(model, settings, state, cancel, trying)
     prepared = prepare(model, settings, state, cancel, trying)
     return slabs(prepared.stepper, prepared.march_state)

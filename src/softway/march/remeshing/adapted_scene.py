@@ -1,6 +1,6 @@
 """Scene with adapted meshes: its model, and its state on other meshes."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import chain
 
@@ -16,20 +16,14 @@ from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 from softway.heat.coupled.build import build
-from softway.heat.coupled.solid_temperature import SolidTemperature
-from softway.march.remeshing.carried_heat import carries_heat
+from softway.march.remeshing.admitted import adaptions, can_be_cut, require_admitted
 from softway.march.remeshing.standing import standing
 from softway.march.remeshing.wanted_mesh import wanted_mesh
 from softway.march.state.march_state import MarchState
-from softway.meshes.adaptive.adapt import Adapt, adaption
 from softway.meshes.adaptive.leaves import Leaves, require_cover, same
-from softway.meshes.adaptive.refinement import BISECTED, AdaptedMesh, refined
-from softway.meshes.mesh import Mesh
+from softway.meshes.adaptive.refinement import AdaptedMesh, refined
 from softway.model.model import Model
 from softway.model.scene import Scene
-
-WHAT = f"solids of one type of cell, {', '.join(BISECTED)}"
-"""What may adapt."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,12 +94,6 @@ class AdaptedScene:
         return self.on(meshes)
 
 
-def adaptions(scene: Scene) -> dict[str, Adapt]:
-    """Adaptions of the solids whose meshes adapt, by name."""
-    solids = {name: body for name, body in scene.bodies.items() if isinstance(body, Solid)}
-    return {name: how for name, solid in solids.items() if (how := adaption(solid.adapt)) is not None}
-
-
 def adapted_scene(model: Model) -> AdaptedScene:
     """Scene of a model, on its adapted meshes, or else on the base meshes of its solids.
 
@@ -118,49 +106,14 @@ def adapted_scene(model: Model) -> AdaptedScene:
         return AdaptedScene(model)
     bodies = dict(model.scene.bodies)
     bases = model.meshes
-    for name in adaptions(model.scene):
-        solid = bodies[name]
-        assert isinstance(solid, Solid)
-        with within(f"bodies.{name}.adapt"):
-            if not _bisected(bases[name]):
-                raise InputError("", "a solid whose mesh cannot adapt in a march", WHAT)
-    known = {name: base for name, base in bases.items() if _bisected(base)}
+    require_admitted(model)
+    known = {name: base for name, base in bases.items() if can_be_cut(base)}
     for name, base in known.items():
         solid = bodies[name]
         assert isinstance(solid, Solid)
         bodies[name] = replace(solid, mesh=base, place=Placement(), group=())
-    _require_carried(model, known)
     meshes = {name: refined(base, np.zeros(base.n_cells, dtype=np.int64)) for name, base in known.items()}
     return AdaptedScene(replace(model, scene=replace(model.scene, bodies=bodies), adapted=meshes))
-
-
-def _require_carried(model: Model, names: Collection[str]) -> None:
-    """Refuse scenes of which something would not pass to other meshes."""
-    scene, other = model.scene, "meshes that stay, or a scene without"
-    if not all(_own_dofs(model)) or model.bonds:
-        raise InputError("ties", "surfaces that are glued, where meshes adapt", f"{other} ties")
-    for k, contact in enumerate(scene.contacts if not model.timing.massless else ()):
-        problem = f"{contact.label!r} whose nodes have inertia, where meshes adapt"
-        raise InputError(f"contacts[{k}].timing", problem, "Energy, whose contact nodes are massless")
-    for name in names:
-        if not carries_heat(model, name):
-            problem = "latent heat, or capacities of several regions that depend on the temperature"
-            remedy = "one law without latent heat, or meshes that stay"
-            raise InputError(f"bodies.{name}.thermal.law", f"{problem}, where meshes adapt", remedy)
-    for field in model.companions:
-        if not isinstance(field, SolidTemperature):
-            problem = f"the field {field.field.name!r}, which does not pass to other meshes"
-            raise InputError(f"bodies.{next(iter(adaptions(scene)))}.adapt", problem, f"{other} this field")
-
-
-def _bisected(mesh: Mesh) -> bool:
-    """True for meshes that bisection refines."""
-    return len(mesh.blocks) == 1 and next(iter(mesh.blocks)) in BISECTED
-
-
-def _own_dofs(model: Model) -> list[bool]:
-    """True for each solid whose unknowns are its own: no solid is in the group of another one."""
-    return [int((model.linked == group).sum()) == 1 for group in model.linked]
 
 
 def motion_of(model: Model, now: MarchState, name: str) -> Motion:

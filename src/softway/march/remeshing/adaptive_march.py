@@ -5,8 +5,9 @@ from dataclasses import replace
 from itertools import islice
 
 from softway.adaptivity.transfer import Transferred
-from softway.errors import Cancel, InputError
-from softway.march.remeshing.adapted_scene import AdaptedScene, adapted_scene, adaptions
+from softway.errors import Cancel
+from softway.march.remeshing.adapted_scene import AdaptedScene, adapted_scene
+from softway.march.remeshing.admitted import adaptions
 from softway.march.remeshing.carrying import carried_over
 from softway.march.results.step import Step
 from softway.march.results.trying import TryWatch
@@ -14,16 +15,10 @@ from softway.march.slabs import slabs
 from softway.march.start.preparation import Preparation, prepare
 from softway.march.state.march_state import AdaptedMeshes, MarchState, Settings
 from softway.model.model import Model
-from softway.model.scene import Scene, State
-from softway.solve.methods.central_difference import Explicit
+from softway.model.scene import State
 
 AHEAD = 2.0
 """Time within which contacts count as soon closed, in those between two changes of the mesh."""
-
-
-def adapts(scene: Scene) -> bool:
-    """True if the meshes of some solids adapt."""
-    return bool(adaptions(scene))
 
 
 def adaptive_march(
@@ -53,9 +48,6 @@ def adaptive_march(
     NumericsError, Cancelled
         As for a march.
     """
-    if isinstance(settings.method, Explicit):
-        problem = "Explicit, whose stable step the finest cells determine, with meshes that adapt"
-        raise InputError("solver", problem, "FixedPoint or Newton, or meshes that stay")
     stored = state.adapted if isinstance(state, MarchState) else None
     if stored is not None:
         on = adapted_scene(model).at(stored.leaves)

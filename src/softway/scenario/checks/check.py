@@ -1,6 +1,6 @@
 """Check of a scenario before the computation, and the scales of its bodies and contacts."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -9,7 +9,8 @@ from softway.bodies.discretised import dofs_of
 from softway.bodies.solid import Solid
 from softway.errors import Cancel, InputError, Note, within
 from softway.heat.coupled.build import build
-from softway.march.remeshing.adaptive_march import adapted_start, adapts
+from softway.march.remeshing.adaptive_march import adapted_start
+from softway.march.remeshing.admitted import adaptions, admitted
 from softway.march.start.preparation import prepare
 from softway.march.state.march_state import MarchState, Settings
 from softway.meshes.files.listed_mesh import LeftOut
@@ -147,7 +148,8 @@ def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked
     probe_readings(scenario, {n: mesh_of(s) for n, s in solids.items()}, scene.mechanism)
     if isinstance(scenario.start, StaticStart):
         check_loads(scenario.start.loads, "start.loads", solids)
-    scene = (model := _model(scenario, scene)).scene
+    model, stay = admitted(_model(scenario, scene), scenario.solver)
+    scene = model.scene
     bodies = _scales({n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}, scenario)
     model, march_state = _begun(scenario, model, cancel)
     step = march_state.step_history.span
@@ -161,7 +163,7 @@ def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked
         march_state=march_state,
         step=step,
         slabs=int(np.ceil(scenario.time.end / step * (1.0 - 1e-12))),
-        notes=(*notes, *wall_notes(model, solids), *_model_notes(model, contacts), *flutter),
+        notes=(*notes, *_staying(stay), *wall_notes(model, solids), *_model_notes(model, contacts), *flutter),
         left_out=left_out,
     )
 
@@ -184,6 +186,13 @@ def _model(scenario: Scenario, scene: Scene) -> Model:
             raise
         remedy = f"{error.remedy}; a tie of the scenario between the same surfaces takes its place"
         raise InputError("ties", f"{error.problem} (a tie of a mesh file)", remedy) from None
+
+
+def _staying(meshes: Mapping[str, InputError]) -> Iterator[Note]:
+    """Notes on meshes with ``auto`` that stay, with the reasons."""
+    for name, error in meshes.items():
+        problem = f"'auto', but the mesh stays; {error.where} is {error.problem}"
+        yield Note(where=f"bodies.{name}.adapt", problem=problem, remedy=error.remedy)
 
 
 def _check_densities(scenario: Scenario) -> None:
@@ -233,7 +242,7 @@ def _begun(scenario: Scenario, model: Model, cancel: Cancel | None) -> tuple[Mod
         control=time.control,
         tolerance=time.tolerance,
     )
-    if adapts(model.scene):
+    if adaptions(model.scene):
         model = adapted_start(model, settings).model
     march_state = prepare(model, settings, cancel=cancel).march_state
     slabs, span = time.end / march_state.step_history.span, march_state.step_history.span

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from adapting import adaptive_march
 from passing import keeps_its_balances
@@ -11,6 +12,7 @@ from softway.errors import InputError
 from softway.mechanisms import Mechanism, Rigid
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.generators.shapes import rectangle
+from softway.meshes.mesh import Mesh
 
 ADAPT = Adapt(levels=3, tolerance=1.0, buffer=1, contact_cells=2)
 BLOCK = sw.Solid(
@@ -71,9 +73,25 @@ def test_contacts_with_massive_nodes_are_refused() -> None:
     assert refusal.value.remedy
 
 
-def test_cells_that_cannot_be_bisected_are_refused() -> None:
-    scene = sw.Scene(bodies={"block": replace(BLOCK, mesh=rectangle((2.0, 1.0), (4, 2), cell="quad8"))})
+MIXED = Mesh(
+    points=np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 1.0], [1.0, 1.0]]),
+    blocks={"quad4": np.array([[0, 1, 4, 3]]), "tri3": np.array([[1, 2, 4]])},
+)
+
+
+def test_cells_of_several_types_are_refused() -> None:
     with pytest.raises(InputError) as refusal:
-        next(adaptive_march(scene, {"block": ADAPT}, until=0.1, step=0.01))
+        adaptive_march(sw.Scene(bodies={"block": replace(BLOCK, mesh=MIXED)}), {"block": ADAPT}, until=0.1, step=0.01)
     assert refusal.value.where == "bodies.block.adapt"
     assert refusal.value.remedy
+
+
+def test_auto_where_nothing_can_adapt_is_a_mesh_that_stays() -> None:
+    block = replace(BLOCK, mesh=MIXED, adapt="auto")
+    scenario = sw.Scenario(bodies={"block": block}, time=sw.Time(end=0.1, step=0.01))
+    checked = sw.check(scenario)
+    assert [note.where for note in checked.notes if "mesh stays" in note.problem] == ["bodies.block.adapt"]
+    steps = list(sw.march(sw.Scene(bodies={"block": block}), until=0.1, step=0.01))
+    assert not steps[-1].model.adapted
+    *_, explicit = sw.march(sw.Scene(bodies={"block": replace(BLOCK, adapt="auto")}), until=0.01, method=sw.Explicit())
+    assert not explicit.model.adapted
