@@ -30,6 +30,28 @@ class Motion:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Settled:
+    """Solid on a new mesh before its velocity is known.
+
+    Parameters
+    ----------
+    displacement
+        (m, d) [m].
+    state
+        Material state; None for an elastic solid.
+    before
+        Stored energy on the mesh before, less what is not to pass over, such as energy dissipated on the way [J].
+    energy
+        Stored energy now [J].
+    """
+
+    displacement: Array
+    state: MaterialState | None
+    before: float
+    energy: float
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Transferred:
     """Motion of a solid after a transfer, and what the transfer has changed.
 
@@ -62,7 +84,7 @@ def transfer(
     after: AdaptedSolid,
     motion: Motion,
     cast: Projection | Unchanged | None = None,
-    displacement: Array | None = None,
+    there: Settled | None = None,
 ) -> Transferred:
     """Transfer a motion to another mesh of the same base.
 
@@ -79,9 +101,9 @@ def transfer(
         Its motion on the mesh before.
     cast
         Projections from one mesh to the other, where they are known.
-    displacement
-        (m, d) displacement on the new mesh [m], such as the projected one with massless nodes in equilibrium; by
-        default the projected one.
+    there
+        The solid on the new mesh, with massless nodes in equilibrium; by default the projected displacement with the
+        memory of the material.
 
     Raises
     ------
@@ -102,17 +124,16 @@ def transfer(
     """
     cast = projection(before, after) if cast is None else cast
     velocity = after.following(cast.velocity(before.following(motion.velocity)))
-    displacement = cast.displacement(motion.displacement) if displacement is None else displacement
-    state = None if motion.state is None else remembered(before, after, motion.state, displacement)
-    old, new = _stored(before, motion.state, motion.displacement), _stored(after, state, displacement)
+    there = _at_once(before, after, motion, cast) if there is None else there
+    displacement, new = there.displacement, there.energy
     places = before.points + motion.displacement, after.points + displacement
     momenta = before.mass @ motion.velocity, after.mass @ velocity
-    total = before.kinetic(motion.velocity) + old
+    total = before.kinetic(motion.velocity) + there.before
     rigid = rigid_motions_of(before, after, places)
     closed, scalar = balanced(after, rigid.after, velocity, rigid.before.T @ momenta[0].ravel(), total - new)
     closed = after.following(closed)
     return Transferred(
-        motion=Motion(displacement=displacement, velocity=closed, state=state),
+        motion=Motion(displacement=displacement, velocity=closed, state=there.state),
         scalar=scalar,
         momentum=np.asarray(momenta[1].sum(axis=0) - momenta[0].sum(axis=0)),
         spin=spin(places[1], momenta[1]) - spin(places[0], momenta[0]),
@@ -120,6 +141,14 @@ def transfer(
         booked=total - after.kinetic(closed) - new,
         projection=cast,
     )
+
+
+def _at_once(before: AdaptedSolid, after: AdaptedSolid, motion: Motion, cast: Projection | Unchanged) -> Settled:
+    """The solid at its projected displacement."""
+    displacement = cast.displacement(motion.displacement)
+    state = None if motion.state is None else remembered(before, after, motion.state, displacement)
+    old, new = _stored(before, motion.state, motion.displacement), _stored(after, state, displacement)
+    return Settled(displacement=displacement, state=state, before=old, energy=new)
 
 
 def _stored(solid: AdaptedSolid, state: MaterialState | None, displacement: Array) -> float:

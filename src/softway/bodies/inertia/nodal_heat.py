@@ -8,7 +8,7 @@ from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.elements.heat_functions import QUADRATIC, heat_functions
 from softway.bodies.elements.quadrature import sampled_cells
 from softway.bodies.elements.section import Section
-from softway.bodies.inertia.mass_matrix import Body, Lumped, assembled, body_of
+from softway.bodies.inertia.mass_matrix import Body, Lumped, assembled, body_of, cell_masses
 from softway.meshes.mesh import Mesh
 
 
@@ -42,6 +42,23 @@ def heat_masses(mesh: Mesh, section: Section, density: float | Array, inside: Bo
     for nodes, volume in _spread(mesh, section, weight if inside is None else weight * inside):
         np.add.at(out, nodes, volume)
     return out
+
+
+def cell_heat_masses(mesh: Mesh, section: Section, density: float | Array) -> Array:
+    """Masses (e, a) [kg] of :func:`heat_masses` by the cells of a mesh of one type.
+
+    Examples
+    --------
+    >>> from softway.bodies.elements.section import Bar
+    >>> from softway.meshes.generators.shapes import interval
+    >>> cell_heat_masses(interval(2.0, cells=2), Bar(), 4.0).round(12).tolist()
+    [[2.0, 2.0], [2.0, 2.0]]
+    """
+    weight = np.array(np.broadcast_to(np.asarray(density, float), mesh.n_cells))
+    for _, volume in _spread(mesh, section, weight):
+        return volume
+    ((_, masses),) = cell_masses(body_of(mesh, section, weight), Lumped(), np.ones(mesh.n_nodes))
+    return np.asarray(masses.sum(axis=2))
 
 
 def heated_volumes(mesh: Mesh, section: Section, inside: Array) -> Array:

@@ -1,6 +1,6 @@
 """Scene with adapted meshes: its model, and its state on other meshes."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from itertools import chain
 
@@ -8,32 +8,27 @@ import numpy as np
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.even_surface import even
-from softway.adaptivity.projection import projection
-from softway.adaptivity.transfer import Motion, Transferred, transfer
-from softway.arrays import Array, IntArray
-from softway.bodies.assembled.material_states import any_path_dependent
+from softway.adaptivity.transfer import Motion
+from softway.arrays import IntArray
 from softway.bodies.setup.amplitude import Ramp
 from softway.bodies.setup.loads import Traction
 from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 from softway.heat.coupled.build import build
+from softway.heat.coupled.solid_temperature import SolidTemperature
+from softway.march.remeshing.carried_heat import carries_heat
+from softway.march.remeshing.standing import standing
 from softway.march.remeshing.wanted_mesh import wanted_mesh
-from softway.march.state.march_state import AdaptedMeshes, MarchState
-from softway.march.state.model_state import join_states, split_states
+from softway.march.state.march_state import MarchState
 from softway.meshes.adaptive.adapt import Adapt, adaption
 from softway.meshes.adaptive.leaves import Leaves, require_cover, same
 from softway.meshes.adaptive.refinement import BISECTED, AdaptedMesh, refined
 from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
-from softway.solve.operators.operator_memory import OperatorMemory
-from softway.solve.static_equilibrium import StaticState, equilibrium
 
-WHAT = (
-    f"elastic solids of one type of cell, {', '.join(BISECTED)}, without friction, heat, ties, bulk viscosity or "
-    "rigid bodies, with contacts whose nodes have no inertia"
-)
+WHAT = f"solids of one type of cell, {', '.join(BISECTED)}"
 """What may adapt."""
 
 
@@ -97,7 +92,7 @@ class AdaptedScene:
         for name, how in adaptions(self.scene).items():
             solid = self.solid(name)
             nodes = solid.part.nodes
-            motion = _motion(self.model, now, name)
+            motion = motion_of(self.model, now, name)
             places = self.model.points[touching[(touching >= nodes.start) & (touching < nodes.stop)]]
             stretch = now.step_history.longest / now.step_history.span
             tags = [tag for body, tag in chain(*(c.surfaces for c in self.scene.contacts)) if body == name]
@@ -127,20 +122,35 @@ def adapted_scene(model: Model) -> AdaptedScene:
         solid = bodies[name]
         assert isinstance(solid, Solid)
         with within(f"bodies.{name}.adapt"):
-            if not _bisected(bases[name]) or solid.thermal is not None or solid.shock is not None:
+            if not _bisected(bases[name]):
                 raise InputError("", "a solid whose mesh cannot adapt in a march", WHAT)
     known = {name: base for name, base in bases.items() if _bisected(base)}
     for name, base in known.items():
         solid = bodies[name]
         assert isinstance(solid, Solid)
         bodies[name] = replace(solid, mesh=base, place=Placement(), group=())
-    plain = not model.companions and model.rigid is None and all(_own_dofs(model)) and model.friction.frictionless
-    light = model.timing.massless or not model.scene.contacts
-    if not (plain and light) or any_path_dependent(model.parts):
-        where = f"bodies.{next(iter(adaptions(model.scene)))}.adapt"
-        raise InputError(where, "in a scene in which no mesh can adapt", WHAT)
+    _require_carried(model, known)
     meshes = {name: refined(base, np.zeros(base.n_cells, dtype=np.int64)) for name, base in known.items()}
     return AdaptedScene(replace(model, scene=replace(model.scene, bodies=bodies), adapted=meshes))
+
+
+def _require_carried(model: Model, names: Collection[str]) -> None:
+    """Refuse scenes of which something would not pass to other meshes."""
+    scene, other = model.scene, "meshes that stay, or a scene without"
+    if not all(_own_dofs(model)) or model.bonds:
+        raise InputError("ties", "surfaces that are glued, where meshes adapt", f"{other} ties")
+    for k, contact in enumerate(scene.contacts if not model.timing.massless else ()):
+        problem = f"{contact.label!r} whose nodes have inertia, where meshes adapt"
+        raise InputError(f"contacts[{k}].timing", problem, "Energy, whose contact nodes are massless")
+    for name in names:
+        if not carries_heat(model, name):
+            problem = "latent heat, or capacities of several regions that depend on the temperature"
+            remedy = "one law without latent heat, or meshes that stay"
+            raise InputError(f"bodies.{name}.thermal.law", f"{problem}, where meshes adapt", remedy)
+    for field in model.companions:
+        if not isinstance(field, SolidTemperature):
+            problem = f"the field {field.field.name!r}, which does not pass to other meshes"
+            raise InputError(f"bodies.{next(iter(adaptions(scene)))}.adapt", problem, f"{other} this field")
 
 
 def _bisected(mesh: Mesh) -> bool:
@@ -153,18 +163,19 @@ def _own_dofs(model: Model) -> list[bool]:
     return [int((model.linked == group).sum()) == 1 for group in model.linked]
 
 
-def _motion(model: Model, now: MarchState, name: str) -> Motion:
-    """Motion of a solid."""
+def motion_of(model: Model, now: MarchState, name: str) -> Motion:
+    """Motion of a solid, with its material state."""
     start = now.state.start
-    nodes = next(p.nodes for p in model.parts if p.name == name)
-    return Motion(displacement=start.displacement[nodes], velocity=start.velocity[nodes])
+    k = [p.name for p in model.parts].index(name)
+    nodes, state = model.parts[k].nodes, start.states[k] if start.states else None
+    return Motion(displacement=start.displacement[nodes], velocity=start.velocity[nodes], state=state)
 
 
 def _touching(model: Model, now: MarchState, ahead: float) -> IntArray:
     """Nodes (k,) of contact rows that are closed, or would close within ``ahead`` [s] at the present velocities, with
     those of the facets in them.
     """
-    start, state = now.state.start, now.state
+    start, state, model = now.state.start, now.state, standing(model, now.state)
     coming = start.displacement + ahead * start.velocity
     here, later = model.rows(start.displacement, state.time), model.rows(coming, state.time + ahead)
     closing = later.near & (later.gap(coming) <= 0.0)
@@ -187,45 +198,3 @@ def _changes(ramp: Ramp, start: float, end: float) -> bool:
     """True if a factor of a load changes between two times."""
     inner = (time for time in ramp.times if start < time < end)
     return len({ramp.at(time) for time in (start, *inner, end)}) > 1
-
-
-def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple[MarchState, Mapping[str, Transferred]]:
-    """State of a march on the new meshes, and the transfers of the solids with meshes of their own.
-
-    Displacements are projected, massless nodes of all solids find their equilibrium with the contacts, and then the
-    balances are closed.  What the transfers, and this equilibrium in other solids, have taken of the energy is in its
-    account.
-    """
-    state, names = split_states(old.model, now.state), list(new.meshes)
-    pairs = {name: (old.solid(name), new.solid(name)) for name in names}
-    casts = {name: projection(*pair) for name, pair in pairs.items()}
-    places = {n: cast.displacement(state.displacement[n]) for n, cast in casts.items()}
-    rest = _settled(new.model, new.model.join({**state.displacement, **places}), now.state.time)
-    places = new.model.split(rest.displacement)
-    found = {n: transfer(*pairs[n], _motion(old.model, now, n), casts[n], places[n]) for n in names}
-    labels, rows = new.model.contacts.labels, new.model.contacts
-    pressure = {label: rest.pressure[rows.rows_of(k)] for k, label in enumerate(labels)}
-    state = replace(
-        state,
-        displacement=places,
-        velocity={**state.velocity, **{n: one.motion.velocity for n, one in found.items()}},
-        acceleration={**state.acceleration, **{n: casts[n].velocity(state.acceleration[n]) for n in names}},
-        pressure=pressure,
-        closed={label: value > 0.0 for label, value in pressure.items()},
-    )
-    joined = join_states(new.model, state, now.step_history.span)
-    fixed = np.array([part.name not in new.meshes for part in new.model.parts])
-    taken = sum(one.booked for one in found.values()) + float(
-        (now.state.start.energy - joined.start.energy)[fixed].sum()
-    )
-    account = replace(now.account, remeshing=now.account.remeshing + taken)
-    energy = 0.0 if now.adapted is None else now.adapted.energy
-    adapted = AdaptedMeshes(leaves=new.leaves, energy=energy)
-    return replace(
-        now, state=joined, account=account, memory=OperatorMemory(room=now.memory.room), adapted=adapted
-    ), found
-
-
-def _settled(model: Model, u: Array, time: float) -> StaticState:
-    """Massless nodes in equilibrium with the contacts, the others at the displacement u (n, d)."""
-    return equilibrium(model, u, model.dofs.only(~model.massive), model.loads.at(time), time)

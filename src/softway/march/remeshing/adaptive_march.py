@@ -6,7 +6,8 @@ from itertools import islice
 
 from softway.adaptivity.transfer import Transferred
 from softway.errors import Cancel, InputError
-from softway.march.remeshing.adapted_scene import AdaptedScene, adapted_scene, adaptions, carried_over
+from softway.march.remeshing.adapted_scene import AdaptedScene, adapted_scene, adaptions
+from softway.march.remeshing.carrying import carried_over
 from softway.march.results.step import Step
 from softway.march.results.trying import TryWatch
 from softway.march.slabs import slabs

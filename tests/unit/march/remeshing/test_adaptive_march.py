@@ -119,30 +119,6 @@ def test_meshes_that_stay_give_the_plain_march() -> None:
 
 
 @pytest.mark.parametrize(
-    ("adapt", "scene", "where"),
-    [
-        (
-            "bar",
-            replace(THROWN, bodies={"bar": replace(BAR, shock=sw.bodies.BulkViscosity()), "wall": WALL}),
-            "bodies.bar.adapt",
-        ),
-        (
-            "bar",
-            replace(
-                THROWN, bodies={"bar": replace(BAR, material=sw.J2(E=1.0, nu=0.3, yield_stress=0.1)), "wall": WALL}
-            ),
-            "bodies.bar.adapt",
-        ),
-    ],
-)
-def test_refusals(adapt: str, scene: sw.Scene, where: str) -> None:
-    with pytest.raises(InputError) as refusal:
-        next(adaptive_march(scene, {adapt: Adapt(levels=2)}, until=0.1, step=0.01))
-    assert refusal.value.where == where
-    assert refusal.value.remedy
-
-
-@pytest.mark.parametrize(
     "wrong", [{"levels": -1}, {"levels": 41}, {"levels": 2, "every": 0}, {"levels": 2, "tolerance": 0.0}]
 )
 def test_numbers_out_of_range(wrong: dict[str, int]) -> None:

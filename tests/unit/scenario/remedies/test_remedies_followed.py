@@ -117,6 +117,7 @@ REASONS = {
     "meshes/adaptive/adapt.py: __post_init__": "from Python: tests/unit/march/remeshing/test_adaptive_march.py",
     "march/remeshing/adaptive_march.py: adaptive_march": "tests/unit/march/remeshing/test_adaptive_march.py",
     "march/remeshing/adapted_scene.py: adapted_scene": "tests/unit/march/remeshing/test_adaptive_march.py",
+    "march/remeshing/adapted_scene.py: _require_carried": "tests/unit/march/remeshing/test_other_parts.py",
     "march/remeshing/adapted_scene.py: at": "a state of another scene, from Python",
     "scenario/files.py: load": "millions of characters",
     "scenario/run.py: _require_state": "of a mechanism: tests/unit/scenario/mechanisms/test_resumed_runs.py",

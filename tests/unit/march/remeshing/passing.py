@@ -1,0 +1,39 @@
+"""What must pass through every change of the meshes of a march."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import softway as sw
+from softway.adaptivity.balances import spin
+from softway.meshes.adaptive.refinement import refined
+
+
+def finest(scene: sw.Scene, levels: int, *names: str) -> sw.Scene:
+    """The scene with some solids on their finest cells everywhere."""
+    bodies = dict(scene.bodies)
+    for name in names:
+        mesh = bodies[name].mesh
+        bodies[name] = replace(bodies[name], mesh=refined(mesh, np.full(mesh.n_cells, levels)).mesh)
+    return replace(scene, bodies=bodies)
+
+
+def keeps_its_balances(steps: Sequence[sw.Step], around: bool = False) -> int:
+    """Momentum and spin of each slab begin as the last one ended, to rounding; only the momentum along the axis where
+    bodies are ``around`` one; the energy of the whole march is in its ledger.  Number of the changes.
+    """
+    ledgers = [taken.ledger for taken in steps]
+    energy = max(ledger.energy_kinetic + ledger.energy_strain for ledger in ledgers)
+    for last, taken in zip(steps[:-1], steps[1:], strict=True):
+        model, before, ledger = taken.model, taken.before, last.ledger
+        u, v = (model.join(field) for field in (before.displacement, before.velocity))
+        momenta = model.mass @ v
+        scale = float(abs(momenta).sum())
+        axes = slice(1 if around else 0, model.shape[1])
+        assert momenta.sum(axis=0)[axes] == pytest.approx(ledger.momentum[axes], abs=1e-12 * scale)
+        if not around:
+            assert spin(model.points + u, momenta) == pytest.approx(ledger.spin, abs=1e-12 * scale)
+        assert abs(taken.ledger.energy_error - ledgers[0].energy_error) < 1e-12 * energy
+    return sum(bool(taken.transfers) for taken in steps)

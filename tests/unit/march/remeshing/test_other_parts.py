@@ -1,0 +1,79 @@
+"""Rigid bodies, bulk viscosity, and what is refused, where meshes change."""
+
+from dataclasses import replace
+
+import pytest
+from adapting import adaptive_march
+from passing import keeps_its_balances
+
+import softway as sw
+from softway.errors import InputError
+from softway.mechanisms import Mechanism, Rigid
+from softway.meshes.adaptive.adapt import Adapt
+from softway.meshes.generators.shapes import rectangle
+
+ADAPT = Adapt(levels=3, tolerance=1.0, buffer=1, contact_cells=2)
+BLOCK = sw.Solid(
+    mesh=rectangle((2.0, 1.0), (4, 2), cell="tri3"), material=sw.NeoHookean(E=10.0, nu=0.3), density=1.0,
+)  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("mu", [0.0, 0.3], ids=["smooth", "rough"])
+def test_a_rigid_disc_that_hits_a_solid(mu: float) -> None:
+    place = (1.1, 1.52)
+    shape = sw.obstacles.Sphere(centre=place, radius=0.5)
+    disc = Rigid(mass=1.0, centre=place, inertia=0.1, velocity=(0.1, -0.3), spin=0.2, shape=shape)
+    friction = sw.laws.Coulomb(mu=mu) if mu else sw.laws.Frictionless()
+    contact = sw.Contact(between=("block.top", "disc"), friction=friction)
+    scene = sw.Scene(bodies={"block": BLOCK}, contacts=(contact,), mechanism=Mechanism(bodies={"disc": disc}))
+    steps = list(adaptive_march(scene, {"block": ADAPT}, until=1.0, step=0.02))
+    ledgers = [taken.ledger for taken in steps]
+    energy = ledgers[0].energy_kinetic + ledgers[0].energy_strain
+    assert sum(bool(taken.transfers) for taken in steps) >= 3
+    assert max(abs(ledger.energy_error) for ledger in ledgers) < 1e-11 * energy
+    for ledger in ledgers:
+        assert ledger.momentum == pytest.approx(ledgers[0].momentum, abs=1e-12)
+    assert max(ledger.contacts["block.top-disc"].count for ledger in ledgers) > 1
+    assert (ledgers[-1].dissipation > 1e-4 * energy) == (mu > 0.0)
+
+
+def test_a_shock_with_bulk_viscosity() -> None:
+    bar = sw.Solid(
+        mesh=sw.meshes.Interval(length=1.0, cells=10), material=sw.LinearElastic(E=1.0, nu=0.0), density=1.0,
+        velocity=sw.bodies.Uniform(value=0.1), shock=sw.bodies.BulkViscosity(),
+    )  # fmt: skip
+    wall = sw.Tool(shape=sw.obstacles.HalfSpace(point=1.005, normal=-1.0))
+    scene = sw.Scene(bodies={"bar": bar, "wall": wall}, contacts=(sw.Contact(between=("bar.right", "wall")),))
+    steps = list(adaptive_march(scene, {"bar": Adapt(levels=3)}, until=0.8, step=0.01))
+    fine = replace(bar, mesh=sw.meshes.Interval(length=1.0, cells=80))
+    *_, exact = sw.march(replace(scene, bodies={"bar": fine, "wall": wall}), until=0.8, step=0.01)
+    assert keeps_its_balances(steps) > 3
+    assert steps[-1].ledger.dissipation == pytest.approx(exact.ledger.dissipation, rel=0.02)
+
+
+def test_ties_are_refused() -> None:
+    other = replace(BLOCK, mesh=rectangle((2.0, 1.0), (4, 2), cell="tri3", origin=(0.0, 1.0)))
+    scene = sw.Scene(bodies={"low": BLOCK, "high": other}, ties=(sw.Tie(between=("low.top", "high.bottom")),))
+    with pytest.raises(InputError) as refusal:
+        next(adaptive_march(scene, {"low": ADAPT}, until=0.1, step=0.01))
+    assert refusal.value.where == "ties"
+    assert refusal.value.remedy
+
+
+def test_contacts_with_massive_nodes_are_refused() -> None:
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -0.01), normal=(0.0, 1.0)))
+    contact = sw.Contact(between=("block.bottom", "floor"), timing=sw.contact.Impulse())
+    scene = sw.Scene(bodies={"block": BLOCK, "floor": floor}, contacts=(contact,))
+    with pytest.raises(InputError) as refusal:
+        next(adaptive_march(scene, {"block": ADAPT}, until=0.1, step=0.01))
+    assert refusal.value.where == "contacts[0].timing"
+    assert refusal.value.remedy
+
+
+def test_cells_that_cannot_be_bisected_are_refused() -> None:
+    scene = sw.Scene(bodies={"block": replace(BLOCK, mesh=rectangle((2.0, 1.0), (4, 2), cell="quad8"))})
+    with pytest.raises(InputError) as refusal:
+        next(adaptive_march(scene, {"block": ADAPT}, until=0.1, step=0.01))
+    assert refusal.value.where == "bodies.block.adapt"
+    assert refusal.value.remedy
