@@ -115,12 +115,13 @@ def test_two_solids_that_collide(cell: str, names: tuple[str, ...]) -> None:
     assert abs(steps[-1].ledger.remeshing) < 1e-9 * energy
 
 
-def test_the_column_of_the_history() -> None:
+def test_the_columns_of_the_history() -> None:
     (step,) = adaptive_march(met(), {"ball": Adapt(levels=1)}, until=0.05, step=0.05)
-    column = {found.name: found for found in columns((), adapts=True)}["remeshing"]
-    assert column.unit == "J"
-    assert column not in columns(())
-    assert column.value(replace(step, ledger=replace(step.ledger, remeshing=0.25))) == 0.25
+    energy, nodes = (column for column in columns((), adapts=True) if column not in columns(()))
+    assert (energy.name, energy.unit) == ("remeshing", "J")
+    assert energy.value(replace(step, ledger=replace(step.ledger, remeshing=0.25))) == 0.25
+    assert (nodes.name, nodes.unit) == ("mesh.nodes", "1")
+    assert nodes.value(step) == sum(mesh.n_nodes for mesh in step.model.meshes.values())
 
 
 @dataclass(frozen=True)

@@ -53,13 +53,27 @@ def _lit(triangles: Array, rgb: Array) -> tuple[Array, Array]:
 
 
 def _edges(skin: Skin, place: BodyPlacement, view: Camera) -> Array:
-    """Edges of the visible cells: triangles without width, shifted to the viewer by less than the outlines."""
+    """Edges of the visible cells: triangles without width, before the facets beside them and behind the outlines."""
     size = float(np.linalg.norm(np.ptp(skin.mesh.points, axis=0)))
-    kinds = [sides(p.facets, 3 if p.facets.shape[1] in (3, 6) else 4).reshape(-1, 3) for p in skin.patches]
-    lines = np.unique(np.concatenate([np.zeros((0, 3), int), *kinds]), axis=0)
+    seen = view.seen(place.points)
+    found, depths = [np.zeros((0, 3), int)], [np.zeros(0)]
+    for patch in skin.patches:
+        c = 3 if patch.facets.shape[1] in (3, 6) else 4
+        corners = seen[patch.facets[:, :c]]
+        turned = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2]
+        shown = turned > 0.0 if skin.mesh.dim == 3 else np.ones(len(turned), bool)
+        whole = len(patch.triangles) <= 2  # its triangles are drawn at the depth of the facet
+        depth = corners[shown, :, 2].max(axis=1) if whole and c == 4 else corners[shown, :, 2].mean(axis=1)
+        found.append(sides(patch.facets[shown], c).reshape(-1, 3))
+        depths.append(np.repeat(depth if whole else np.full(len(depth), -np.inf), c))
+    lines, number = np.unique(np.concatenate(found), axis=0, return_inverse=True)
+    least = np.full(len(lines), -np.inf)
+    np.maximum.at(least, number.ravel(), np.concatenate(depths))
     straight = bool((lines[:, 0] == lines[:, 1]).all())
-    dash = strokes(place.points, lines, size if straight else size / 90.0).reshape(-1, 2, 3)
-    return view.seen(dash)[:, [0, 1, 1]] + np.array([0.0, 0.0, 0.003 * size])
+    dash = view.seen(strokes(place.points, lines, size if straight else size / 90.0))
+    depth = np.maximum(dash[..., 2], least[:, None, None])
+    dash[..., 2] = depth + 0.003 * size
+    return np.asarray(dash.reshape(-1, 2, 3)[:, [0, 1, 1]])
 
 
 def _outlines(skin: Skin, place: BodyPlacement, view: Camera) -> tuple[Array, Array]:
