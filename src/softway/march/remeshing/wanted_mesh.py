@@ -9,7 +9,9 @@ from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
 
 
-def wanted_mesh(adapt: Adapt, solid: AdaptedSolid, motion: Motion, energy: float, touching: Array) -> AdaptedMesh:
+def wanted_mesh(
+    adapt: Adapt, solid: AdaptedSolid, motion: Motion, energy: float, touching: Array, stretch: float = 1.0
+) -> AdaptedMesh:
     """Mesh for the coming slabs.
 
     Parameters
@@ -22,10 +24,12 @@ def wanted_mesh(adapt: Adapt, solid: AdaptedSolid, motion: Motion, energy: float
         Energy of the scene [J].
     touching
         (k, d) reference places of its nodes at contacts that are closed or close soon [m].
+    stretch
+        Length of the coming slabs in requested ones: fronts go as much further.
     """
     base = solid.adapted.base
     finest, deepest = adapt.finest(base), adapt.deepest(base.cell_dim)
     levels = wanted_levels(solid.adapted, indicator(solid, motion), adapt.threshold(base, energy), deepest)
     found = refined(base, levels, solid.adapted.leaves)
     found = refined_near(found, [(deepest, touching)], adapt.contact_cells * finest)
-    return buffered(found, adapt.buffer * finest)
+    return buffered(found, stretch * adapt.buffer * finest)
