@@ -131,11 +131,12 @@ class Source:
     levels: int
     step: float
     until: float = 0.5
+    cell: str = "tri3"
 
     @property
     def scene(self) -> sw.Scene:
         """Block of the base mesh, pushed for a short time."""
-        mesh = rectangle((1.0, 1.0), (8, 8), cell="tri3").with_tag(
+        mesh = rectangle((1.0, 1.0), (8, 8), cell=self.cell).with_tag(
             "source", lambda x: (x[:, 0] == 0) & (x[:, 1] < 0.13)
         )
         body = sw.Solid(mesh=mesh, material=sw.LinearElastic(E=1.0, nu=0.3), density=1.0)
@@ -171,8 +172,9 @@ class Source:
 
 
 @pytest.mark.slow
-def test_a_wave_from_a_corner() -> None:
-    case = Source(levels=6, step=0.008)
+@pytest.mark.parametrize("cell", ["tri3", "quad4"])
+def test_a_wave_from_a_corner(cell: str) -> None:
+    case = Source(levels=6, step=0.008, cell=cell)
     steps = case.adapted(Adapt(levels=6, tolerance=1.0, every=8, buffer=5))
     fine, last, count = case.uniform(6, case.step)
     adapted, uniform = case.errors([(steps[-1].model.adapted["body"], steps[-1]), (fine, last)])
@@ -185,8 +187,9 @@ def test_a_wave_from_a_corner() -> None:
 
 
 @pytest.mark.slow
-def test_the_contact_force_is_that_on_the_finest_mesh() -> None:
-    scene, levels = dropped(disc(0.5, 4, cell="tri3"), "boundary"), 6
+@pytest.mark.parametrize("cell", ["tri3", "quad4"])
+def test_the_contact_force_is_that_on_the_finest_mesh(cell: str) -> None:
+    scene, levels = dropped(disc(0.5, 4, cell=cell), "boundary"), 6
     adapt = {"body": Adapt(levels=levels, tolerance=0.5)}
     steps = list(adaptive_march(scene, adapt, until=2.8, step=0.04))
     fine = list(sw.march(on_finest(scene, "body", levels)[0], until=2.8, step=0.04))
