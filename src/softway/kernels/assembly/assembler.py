@@ -63,6 +63,15 @@ class Assembler:
         size = len(self.indptr) - 1
         return csc_array((data, self.indices, self.indptr), (size, size))
 
+    def nodal(self, blocks: list[Array], components: int) -> csr_array:
+        """Matrix (n, n) on the nodes assembled from cell matrices (e, a, a), one array for each type of cell."""
+        values = self.sums @ np.concatenate([block.ravel() for block in blocks])
+        ends = self.indptr[::components]
+        stored = np.diff(self.indptr)[::components]
+        first = np.repeat(ends[:-1], stored // components)
+        own = first + components * (np.arange(len(first)) - np.repeat(ends[:-1] // components**2, stored // components))
+        return csr_array((values, self.indices[own] // components, ends // components**2))
+
     def pair_of(self) -> IntArray:
         """Pair of the pattern, (sum e a a,), to which each node pair of each cell belongs."""
         out = np.empty(self.sums.shape[1], np.int64)
