@@ -20,8 +20,8 @@ from softway.meshes.adaptive.values_at_nodes import ValuesAtNodes, values_at_nod
 
 EXACT = 1e-14
 """Relative residual of the projection with the mass."""
-CLOSE = 1e-10
-"""Relative residual of the projection with mass and stiffness: its energy is that of the exact one to rounding."""
+CLOSE = 1e-6
+"""Relative residual of the projection with mass and stiffness: the energy of the correction is exact to its square."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

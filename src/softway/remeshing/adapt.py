@@ -6,12 +6,13 @@ import numpy as np
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.indicator import indicator, wanted_levels
-from softway.adaptivity.neighbourhood import buffered, refined_near
+from softway.adaptivity.neighbourhood import grown_around, grown_near
 from softway.adaptivity.transfer import Motion
 from softway.arrays import Array
 from softway.errors import InputError, positive
-from softway.meshes.adaptive.leaves import DEPTH
-from softway.meshes.adaptive.refinement import AdaptedMesh, refined
+from softway.meshes.adaptive.leaves import DEPTH, same
+from softway.meshes.adaptive.refinement import AdaptedMesh, adapted_mesh
+from softway.meshes.adaptive.tree import tree_of
 from softway.meshes.mesh import Mesh
 from softway.units import Pure
 
@@ -76,6 +77,7 @@ class Adapt:
         share = (finest / size) ** base.cell_dim
         threshold = max(self.tolerance * float(np.sqrt(energy * share)), float(np.finfo(float).tiny))
         levels = wanted_levels(solid.adapted, indicator(solid, motion), threshold, self.levels)
-        found = refined(base, levels, solid.adapted.leaves)
-        found = refined_near(found, [(self.levels, touching)], self.contact_cells * finest)
-        return buffered(found, self.buffer * finest)
+        tree = tree_of(base).grown(solid.adapted.leaves, levels)
+        tree = grown_near(tree, [(self.levels, touching)], self.contact_cells * finest)
+        tree = grown_around(tree, self.buffer * finest)
+        return solid.adapted if same(tree.leaves, solid.adapted.leaves) else adapted_mesh(tree)

@@ -4,13 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softway.arrays import Array, BoolArray, IntArray
+from softway.arrays import Array, IntArray
 from softway.errors import InputError
 from softway.meshes.adaptive.leaf_nodes import leaf_nodes, located
-from softway.meshes.adaptive.leaves import DEPTH, MOST_CELLS, Leaves, finest, roots
-from softway.meshes.adaptive.middles import Middles
+from softway.meshes.adaptive.leaves import DEPTH, MOST_CELLS, Leaves, roots
 from softway.meshes.adaptive.tags import refined_tags
-from softway.meshes.adaptive.tree_cells import TreeCells, base_cells, children, joined
+from softway.meshes.adaptive.tree import Tree, tree_of
+from softway.meshes.adaptive.tree_cells import TreeCells
 from softway.meshes.mesh import Mesh
 
 BISECTED = ("bar2", "bar3", "tri3", "tri6", "tet4", "tet10")
@@ -85,8 +85,7 @@ def refined(base: Mesh, want: IntArray, on: Leaves | None = None) -> AdaptedMesh
     ):
         problem = f"array of shape {level.shape} and type {level.dtype}"
         raise InputError("want", problem, f"whole numbers from 0 to {DEPTH} for {len(given.level)} cells")
-    cells, middles = _bisected(base_cells(base), Middles.none(base.n_nodes), given, level)
-    return _adapted(base, cells, middles)
+    return adapted_mesh(tree_of(base).grown(given, level))
 
 
 def _require_bisected(base: Mesh) -> None:
@@ -100,31 +99,13 @@ def _require_bisected(base: Mesh) -> None:
         raise InputError("mesh", f"{base.n_cells} cells", f"a base mesh of at most {MOST_CELLS} cells")
 
 
-def _bisected(cells: TreeCells, middles: Middles, given: Leaves, level: IntArray) -> tuple[TreeCells, Middles]:
-    """Cells of the refinement, and the nodes in the middle of edges that it has cut."""
-    while True:
-        cut = finest(cells.leaves, given, level) > cells.level
-        cut |= _too_coarse(cells) if cells.corners.shape[1] == 2 else middles.on_edges(cells.corners)
-        if not cut.any():
-            return cells, middles
-        chosen = cells.some(cut)
-        middles, middle = middles.with_middles(chosen.corners[:, :2])
-        cells = joined(cells.some(~cut), *children(chosen, middle))
-
-
-def _too_coarse(bars: TreeCells) -> BoolArray:
-    """Bars (e,) that share a node with one that is finer by two levels or more."""
-    greatest = np.zeros(int(bars.corners.max()) + 1, dtype=np.int64)
-    np.maximum.at(greatest, bars.corners, bars.level[:, None])
-    return np.asarray(greatest[bars.corners].max(axis=1) > bars.level + 1)
-
-
-def _adapted(base: Mesh, cells: TreeCells, middles: Middles) -> AdaptedMesh:
-    """Adapted mesh of the leaves ``cells``."""
+def adapted_mesh(tree: Tree) -> AdaptedMesh:
+    """Adapted mesh of the cells of a tree."""
+    base, cells = tree.base, tree.cells
     name, rows = next(iter(base.blocks.items()))
     corners, place = _oriented(cells)
-    nodes, first = leaf_nodes(base, corners, middles)
-    points, carriers = located(base, rows[cells.start >> DEPTH], place, first)
+    nodes, first = leaf_nodes(base, corners, tree.middles)
+    points, carriers = located(base, rows[cells.leaves.root], place, first)
     leaves = Leaves(np.array(cells.start), np.array(cells.level))
     regions = {region: np.flatnonzero(np.isin(leaves.root, own)) for region, own in base.regions.items()}
     mesh = Mesh(

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
-from softway.meshes.adaptive.leaves import Leaves
+from softway.meshes.adaptive.leaves import Leaves, among
 from softway.meshes.adaptive.overlay import chosen_pairs, require_one_base
 from softway.meshes.adaptive.refinement import AdaptedMesh
 
@@ -51,7 +51,7 @@ def values_at_nodes(one: AdaptedMesh, other: AdaptedMesh) -> ValuesAtNodes:
     nodes = [next(iter(mesh.mesh.blocks.values())) for mesh in (one, other)]
     cut = _cut(one.leaves, other.leaves), _cut(other.leaves, one.leaves)
     same = np.full((2, max(one.mesh.n_nodes, other.mesh.n_nodes)), -1)
-    equal = _has(one.leaves, other.leaves)
+    equal = among(other.leaves, one.leaves)
     ours = nodes[0][one.leaves.around(other.leaves.start[equal])]
     same[0, ours], same[1, nodes[1][equal]] = nodes[1][equal], ours
     fine = [_inside(one, other, cut[0]), _inside(other, one, cut[1])]
@@ -64,12 +64,6 @@ def values_at_nodes(one: AdaptedMesh, other: AdaptedMesh) -> ValuesAtNodes:
         _matrix(fine[k], same[1 - k, : sizes[1 - k]], (sizes[1 - k], sizes[k])) for k in (0, 1)
     )
     return ValuesAtNodes(forward=forward, back=back)
-
-
-def _has(one: Leaves, other: Leaves) -> BoolArray:
-    """True (e,) for each leaf of ``other`` that ``one`` has too."""
-    around = one.around(other.start)
-    return np.asarray((one.start[around] == other.start) & (one.level[around] == other.level))
 
 
 def _cut(coarse: Leaves, fine: Leaves) -> BoolArray:
