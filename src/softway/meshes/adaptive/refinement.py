@@ -6,6 +6,7 @@ import numpy as np
 
 from softway.arrays import Array, IntArray
 from softway.errors import InputError
+from softway.kernels.geometry.jacobians import determinants
 from softway.meshes.adaptive.leaf_nodes import leaf_nodes, located
 from softway.meshes.adaptive.leaves import DEPTH, MOST_CELLS, Leaves, roots
 from softway.meshes.adaptive.tags import refined_tags
@@ -121,7 +122,7 @@ def _oriented(cells: TreeCells) -> tuple[IntArray, Array]:
     """Corners (e, c) in the order of VTK, and their barycentric coordinates (e, c, c); base cells as they are."""
     count, c = cells.corners.shape
     order = np.tile(np.arange(c), (count, 1))
-    order[np.linalg.det(cells.place) < 0.0, -2:] = (c - 1, c - 2)
+    order[determinants(cells.place[:, 1:, 1:] - cells.place[:, :1, 1:]) < 0.0, -2:] = (c - 1, c - 2)
     whole = cells.level == 0
     order[whole] = np.argsort(cells.place[whole].argmax(axis=2), axis=1)
     return np.take_along_axis(cells.corners, order, 1), np.take_along_axis(cells.place, order[:, :, None], 1)
