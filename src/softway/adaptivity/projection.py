@@ -15,12 +15,11 @@ from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.conjugate_gradients import conjugate_gradients
 from softway.arrays import Array
 from softway.bodies.internal_force.node_factors import scaled_product
-from softway.meshes.adaptive.refinement import refined
-from softway.meshes.adaptive.values_at_nodes import ValuesAtNodes, values_at_nodes
+from softway.meshes.adaptive.values_at_nodes import ValuesAtNodes, values_at_nodes, values_of_base
 
 EXACT = 1e-14
 """Relative residual of the projection with the mass."""
-CLOSE = 1e-6
+CLOSE = 1e-4
 """Relative residual of the projection with mass and stiffness: the energy of the correction is exact to its square."""
 
 
@@ -88,7 +87,8 @@ class Projection:
         wide = sp.csc_array(sp.kron(self.masses[1], sp.eye_array(d), format="csc"))
         form = sp.csr_array(dofs.matrix(sp.csc_array(wide + self.time**2 * part.tangent(np.zeros((dofs.free.shape))))))
         diagonal, coarse = 1.0 / form.diagonal(), _coarse(self.after, form)
-        return dofs.nodes(conjugate_gradients(lambda x: form @ x, lambda r: diagonal * r + coarse(r), right, CLOSE))
+        found = conjugate_gradients(lambda x: form @ x, lambda r: diagonal * r + coarse(r), right, CLOSE)
+        return dofs.nodes(found + coarse(right - form @ found))  # with the centre of mass of the exact projection
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,8 +147,8 @@ def _coarse(after: AdaptedSolid, form: sp.csr_array) -> Callable[[Array], Array]
     dofs, base = after.part.dofs, after.adapted.base
     if dofs.components is None:
         return np.zeros_like
-    whole = refined(base, np.zeros(base.n_cells, dtype=np.int64))
-    values = sp.kron(values_at_nodes(whole, after.adapted).forward, sp.eye_array(base.dim), format="csr")
+    values = sp.kron(values_of_base(after.adapted), sp.eye_array(base.dim), format="csr")
     into = sp.csr_array(values[dofs.components][:, np.flatnonzero(dofs.free[: base.n_nodes])])
-    factor = splu(sp.csc_array(into.T @ form @ into))
-    return lambda r: into @ factor.solve(into.T @ r)
+    onto = sp.csr_array(into.T)
+    factor = splu(sp.csc_array(onto @ form @ into))
+    return lambda r: into @ factor.solve(onto @ r)

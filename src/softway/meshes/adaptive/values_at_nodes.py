@@ -6,6 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.meshes.adaptive.leaf_nodes import node_places, shape_functions
 from softway.meshes.adaptive.leaves import Leaves, among
 from softway.meshes.adaptive.overlay import chosen_pairs, require_one_base
 from softway.meshes.adaptive.refinement import AdaptedMesh
@@ -64,6 +65,20 @@ def values_at_nodes(one: AdaptedMesh, other: AdaptedMesh) -> ValuesAtNodes:
         _matrix(fine[k], same[1 - k, : sizes[1 - k]], (sizes[1 - k], sizes[k])) for k in (0, 1)
     )
     return ValuesAtNodes(forward=forward, back=back)
+
+
+def values_of_base(adapted: AdaptedMesh) -> sp.csr_array:
+    """Values (m, n) of the fields of the base mesh, n nodes, at the m nodes of the adapted mesh."""
+    rows = next(iter(adapted.mesh.blocks.values()))
+    first = np.unique(rows.ravel(), return_index=True)[1]
+    leaf, local = np.divmod(first, rows.shape[1])
+    own = node_places(adapted.cell, adapted.place[leaf])[np.arange(len(leaf)), local]
+    values = shape_functions(adapted.cell, own)
+    columns = next(iter(adapted.base.blocks.values()))[adapted.leaves.root[leaf]]
+    starts = np.arange(0, values.size + 1, values.shape[1])
+    out = sp.csr_array((values.ravel(), columns.ravel(), starts), (len(leaf), adapted.base.n_nodes))
+    out.eliminate_zeros()
+    return out
 
 
 def _cut(coarse: Leaves, fine: Leaves) -> BoolArray:
