@@ -69,7 +69,7 @@ class AdaptedScene:
             assert isinstance(solid, Solid)
             bodies[name] = replace(solid, mesh=mesh.mesh)
         scene = replace(self.scene, bodies=bodies)
-        return AdaptedScene(scene=scene, model=build(scene), meshes={**self.meshes, **changed})
+        return AdaptedScene(scene=scene, model=build(scene, self.model), meshes={**self.meshes, **changed})
 
     def wanted(self, adapt: Mapping[str, Adapt], now: MarchState, energy: float, ahead: float) -> "AdaptedScene":
         """The scene on the meshes for the coming slabs, in fine cells what closes or is pushed within ``ahead`` [s]."""
