@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from softway.arrays import IntArray
 from softway.bodies.assembled.nodal_loads import dead_load
 from softway.bodies.assembled.nodal_masses import Massless, inertia_of
+from softway.bodies.assembled.tangent import assembled_tangent
 from softway.bodies.discretised import (
     DiscreteSolid,
     Moved,
@@ -28,7 +29,7 @@ from softway.model.field import FieldEquations
 from softway.model.initial_displacement import at_start, given_fields
 from softway.model.known_solids import known_inertias, known_parts
 from softway.model.layout import Layout, laid_out, solids_of
-from softway.model.model import Model, assembled_tangent
+from softway.model.model import Model
 from softway.model.rigid.rigid_bodies import RigidBodies, rigid_bodies
 from softway.model.rigid.rigid_refusals import require_fitting
 from softway.model.scene import Scene

@@ -15,10 +15,10 @@ from softway.heat.coupled.solid_temperature import temperatures_of
 from softway.march.audit.balances import balances, contact_forces
 from softway.march.audit.ledger import initial_ledger as audit
 from softway.march.march import march
-from softway.march.march_state import MarchState
-from softway.march.model_state import ModelState, join_states, split_states
 from softway.march.results.step import Step
 from softway.march.start.stored_state import require_of_model
+from softway.march.state.march_state import MarchState
+from softway.march.state.model_state import ModelState, join_states, split_states
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.record.conduct import continue_run, record_run

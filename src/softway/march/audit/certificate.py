@@ -7,10 +7,10 @@ from softway.bodies.elements.section import Axisymmetric
 from softway.march.audit.balances import rounding_forces
 from softway.march.audit.heat_audit import fallen
 from softway.march.audit.ledger import resultant
-from softway.march.march_state import EnergyAccount
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.results.step import Certificate, Ledger
+from softway.march.state.march_state import EnergyAccount
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.solve.equations.slab_values import SlabStart
 from softway.tolerances import DEPTH, ENERGY, FORCES, GAINED, MOMENTUM, TENSION, UNSTABLE

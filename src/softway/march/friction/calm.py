@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks

@@ -9,9 +9,9 @@ import numpy as np
 from softway.arrays import Array, BoolArray
 from softway.contact.contact_rows import ContactRows
 from softway.contact.slab_motion.trajectory import Trajectory, bent
-from softway.march.model_state import ModelState
 from softway.march.results.friction_result import FrictionResult
 from softway.march.results.step import Event
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.solve.equations.slab_equations import SlabEquations

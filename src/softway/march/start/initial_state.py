@@ -12,9 +12,9 @@ from softway.bodies.elements.section import Axisymmetric
 from softway.contact.assembly.declared import at_declared
 from softway.contact.contact import NodeToSurface
 from softway.errors import Cancel, InputError
-from softway.march.model_state import ModelState
 from softway.march.results.trying import TryWatch, watched
 from softway.march.start.initial_overlap import deepest, shrunk
+from softway.march.state.model_state import ModelState
 from softway.model.field import in_states
 from softway.model.model import Model
 from softway.model.scene import StaticStart

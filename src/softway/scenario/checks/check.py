@@ -9,8 +9,8 @@ from softway.bodies.discretised import dofs_of
 from softway.bodies.solid import Solid
 from softway.errors import Cancel, InputError, Note, within
 from softway.heat.coupled.build import build
-from softway.march.march_state import MarchState, Settings
 from softway.march.start.preparation import prepare
+from softway.march.state.march_state import MarchState, Settings
 from softway.meshes.files.listed_mesh import LeftOut
 from softway.model.model import Model
 from softway.model.scene import Scene, StaticStart

@@ -1,12 +1,14 @@
 """March state: all data that the next slab (time step) needs besides the model."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
 from softway.errors import InputError
 from softway.heat.coupled.heat_of_solids import HeatOfSolids
-from softway.march.model_state import ModelState
-from softway.march.step_control import StepControl
+from softway.march.state.model_state import ModelState
+from softway.march.state.step_control import StepControl
+from softway.meshes.adaptive.leaves import Leaves
 from softway.model.model import Model
 from softway.model.time_weight import TimeWeight
 from softway.solve.methods.central_difference import Explicit
@@ -75,6 +77,14 @@ class StepHistory:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class AdaptedMeshes:
+    """Meshes of a march that adapt: the leaves of each solid by name, and the greatest energy so far [J]."""
+
+    leaves: Mapping[str, Leaves]
+    energy: float
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class MarchState:
     """State of a march after a slab.
 
@@ -93,6 +103,8 @@ class MarchState:
         Origin and statistics of the operator.
     slabs
         Number of slabs accepted with these settings.
+    adapted
+        Meshes of the state, where meshes adapt.
     """
 
     settings: Settings
@@ -101,6 +113,7 @@ class MarchState:
     step_history: StepHistory
     memory: OperatorMemory = OperatorMemory()
     slabs: int = 0
+    adapted: AdaptedMeshes | None = None
 
     def asked(self, settings: Settings, history: StepHistory, memory: OperatorMemory) -> "MarchState":
         """Initial march state for other ``settings``, with a new ``history`` and an empty ``memory``."""
