@@ -61,7 +61,9 @@ def _spread(adapted: AdaptedMesh, owner: IntArray, volume: Array, values: Array)
     rows = next(iter(adapted.mesh.blocks.values()))[:, : CELLS[adapted.cell].corners]
     nodes = rows + owner[:, None] * adapted.mesh.n_nodes
     count, c = rows.shape
-    around = sp.csr_array((np.ones(nodes.size), nodes.ravel(), np.arange(0, nodes.size + 1, c)), (count, nodes.max() + 1))
+    around = sp.csr_array(
+        (np.ones(nodes.size), nodes.ravel(), np.arange(0, nodes.size + 1, c)), (count, nodes.max() + 1)
+    )
     total = around.T @ np.column_stack([volume[:, None] * values, volume])
     mean = total[:, :-1] / np.where(total[:, -1:] > 0.0, total[:, -1:], 1.0)
     apart = mean[nodes] - values[:, None]

@@ -61,7 +61,11 @@ Known = Mapping[str, tuple[Solid, DiscreteSolid]]
 
 
 def laid_out(
-    scene: Scene, motions: Mapping[str, RigidMotion], tools: Mapping[str, Tool | RigidShape], massless: bool, known: Known
+    scene: Scene,
+    motions: Mapping[str, RigidMotion],
+    tools: Mapping[str, Tool | RigidShape],
+    massless: bool,
+    known: Known,
 ) -> Layout:
     """Lay out a scene; if contact nodes are ``massless``, walls one cell thick that may touch are divided.
 

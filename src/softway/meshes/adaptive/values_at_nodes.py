@@ -61,9 +61,7 @@ def values_at_nodes(one: AdaptedMesh, other: AdaptedMesh) -> ValuesAtNodes:
         inner, outer = np.repeat(rows, values.shape[1])[own.ravel()], columns[own]
         same[1 - k, inner], same[k, outer] = outer, inner
     sizes = one.mesh.n_nodes, other.mesh.n_nodes
-    forward, back = (
-        _matrix(fine[k], same[1 - k, : sizes[1 - k]], (sizes[1 - k], sizes[k])) for k in (0, 1)
-    )
+    forward, back = (_matrix(fine[k], same[1 - k, : sizes[1 - k]], (sizes[1 - k], sizes[k])) for k in (0, 1))
     return ValuesAtNodes(forward=forward, back=back)
 
 
