@@ -158,10 +158,11 @@ def _greatest(cells, n, c, count):
 @inlined
 def _too_coarse(cells, i, c, greatest):
     """True if bar i shares a node with one that was finer by two levels or more."""
+    near = 0
     for k in range(2):
-        if cells[i, k] < len(greatest) and greatest[cells[i, k]] > cells[i, c + 4] + 1:
-            return True
-    return False
+        if cells[i, k] < len(greatest):
+            near = max(near, greatest[cells[i, k]])
+    return near > cells[i, c + 4] + 1
 
 
 @inlined
