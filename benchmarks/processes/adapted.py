@@ -59,16 +59,31 @@ class Problem:
         """Base mesh."""
         return self.scene.bodies["body"].mesh
 
-    def march(self, level: int, adapts: bool) -> tuple[AdaptedMesh, float, list[sw.Step]]:
-        """Last mesh, processor time [s], and slabs with cells of a level at the finest; ``adapts`` for others, too."""
+    def march(self, level: int, adapts: bool) -> "Run":
+        """A run with cells of a level at the finest, which ``adapts``, or has them everywhere."""
         fine = refined(self.base, np.full(self.base.n_cells, level))
         body = self.scene.bodies["body"]
         body = replace(body, adapt=replace(self.adapt, levels=level)) if adapts else replace(body, mesh=fine.mesh)
         scene = replace(self.scene, bodies={**self.scene.bodies, "body": body})
         step, start = self.step * 0.5 ** (level / self.base.cell_dim), process_time()
-        steps = list(sw.march(scene, until=self.until, step=step))
+        nodes, forces = 0, []
+        for last in sw.march(scene, until=self.until, step=step):
+            nodes += last.model.shape[0]
+            forces += [(last.before.time, last.after.time, c.force_n) for c in last.ledger.contacts.values()]
         taken = process_time() - start
-        return steps[-1].model.adapted["body"] if adapts else fine, taken, steps
+        mesh = last.model.adapted["body"] if adapts else fine
+        return Run(mesh=mesh, cpu=taken, nodes=nodes, forces=tuple(forces), last=last)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Run:
+    """Last mesh of a run, its processor time [s], nodes times slabs, forces in slabs (start, end, force), last slab."""
+
+    mesh: AdaptedMesh
+    cpu: float
+    nodes: int
+    forces: tuple[tuple[float, float, float], ...]
+    last: sw.Step
 
 
 def bar() -> Problem:
@@ -128,14 +143,11 @@ def corner() -> Problem:
 PROBLEMS: dict[str, Callable[[], Problem]] = {f.__name__: f for f in (bar, wave, ball, corner)}
 
 
-def force_error(steps: Sequence[sw.Step]) -> float:
+def force_error(run: Run) -> float:
     """Root mean square error of the force of the wall on the bar over its contact."""
     exact, total = Thrown(gap=0.3), 0.0
-    for step in steps:
-        (contact,) = step.ledger.contacts.values()
-        start, end = step.before.time, step.after.time
-        mean = float(exact.push(np.linspace(start, end, 41)).mean())
-        total += (contact.force_n - mean) ** 2 * (end - start)
+    for start, end, force in run.forces:
+        total += (force - float(exact.push(np.linspace(start, end, 41)).mean())) ** 2 * (end - start)
     return float(np.sqrt(total))
 
 
@@ -143,20 +155,21 @@ class Exact:
     """Motion that counts as exact: the norm of the energy on its mesh."""
 
     def __init__(self, problem: Problem, level: int) -> None:
-        self.mesh, _, steps = problem.march(level, False)
+        run = problem.march(level, False)
+        self.mesh = run.mesh
         body = problem.scene.bodies["body"]
         self.on = adapted_solid("body", body, self.mesh, np.zeros(0, dtype=np.int64))
         self.stiffness = self.on.part.tangent(np.zeros(self.mesh.mesh.points.shape))
-        self.motion = motion(steps[-1])
+        self.motion = motion(run.last)
 
     def energy(self, u: Array, v: Array) -> float:
         """Energy [J] of a displacement and a velocity (n, d)."""
         return self.on.kinetic(v) + 0.5 * float(u.ravel() @ (self.stiffness @ u.ravel()))
 
-    def error(self, mesh: AdaptedMesh, last: sw.Step) -> float:
+    def error(self, run: Run) -> float:
         """Error of a motion relative to the strained and moving part of the exact one."""
-        into = embedding(mesh, self.mesh)
-        apart = (into @ field - whole for field, whole in zip(motion(last), self.motion, strict=True))
+        into = embedding(run.mesh, self.mesh)
+        apart = (into @ field - whole for field, whole in zip(motion(run.last), self.motion, strict=True))
         u, v = self.motion
         middle = np.asarray(self.on.mass.sum(axis=1)).ravel()
         return float(np.sqrt(self.energy(*apart) / self.energy(u, v - middle @ v / middle.sum())))
@@ -176,16 +189,15 @@ def runs(problem: Problem, levels: Sequence[int]) -> Iterator[dict[str, Any]]:
     exact = Exact(problem, max(levels) + problem.reference) if problem.reference is not None else None
     for level in levels:
         for adapts in (False, True):
-            mesh, taken, steps = problem.march(level, adapts)
+            run = problem.march(level, adapts)
             yield {
                 "level": level,
                 "finest": problem.base.edge() * 0.5 ** (level // problem.base.cell_dim),
                 "adapts": adapts,
-                "cpu": taken,
-                "error": force_error(steps) if exact is None else exact.error(mesh, steps[-1]),
-                "nodes": sum(step.model.shape[0] for step in steps),
-                "slabs": len(steps),
-                "energy_error": abs(steps[-1].ledger.energy_error),
+                "cpu": run.cpu,
+                "error": force_error(run) if exact is None else exact.error(run),
+                "nodes": run.nodes,
+                "energy_error": abs(run.last.ledger.energy_error),
             }
 
 
@@ -196,8 +208,11 @@ def main() -> None:
     parser.add_argument("--smallest", action="store_true", help="two levels on the base mesh")
     parser.add_argument("--deepest", action="store_true", help="the finest cells, too")
     parser.add_argument("--levels", type=int, nargs="+", help="these levels")
+    parser.add_argument("--reference", type=int, help="bisections of the reference beyond the finest run")
     given = parser.parse_args()
     problem = PROBLEMS[given.name]()
+    if given.reference is not None:
+        problem = replace(problem, reference=given.reference)
     levels = given.levels or ((problem.base.cell_dim,) if given.smallest else
                               problem.deepest if given.deepest else problem.levels)  # fmt: skip
     print(json.dumps({"runs": list(runs(problem, levels))}))

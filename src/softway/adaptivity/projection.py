@@ -85,7 +85,7 @@ class Projection:
         if not right.any():
             return dofs.nodes(right)
         wide = sp.csc_array(sp.kron(self.masses[1], sp.eye_array(d), format="csc"))
-        form = sp.csr_array(dofs.matrix(sp.csc_array(wide + self.time**2 * part.tangent(np.zeros((dofs.free.shape))))))
+        form = sp.csr_array(dofs.matrix(sp.csc_array(wide + self.time**2 * part.tangent(np.zeros(dofs.free.shape)))))
         diagonal, coarse = 1.0 / form.diagonal(), _coarse(self.after, form)
         found = conjugate_gradients(lambda x: form @ x, lambda r: diagonal * r + coarse(r), right, CLOSE)
         return dofs.nodes(found + coarse(right - form @ found))  # with the centre of mass of the exact projection
