@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree
 from softway.arrays import Array, BoolArray
 from softway.meshes.adaptive.leaves import Leaves, among, same
 from softway.meshes.adaptive.refinement import AdaptedMesh, adapted_mesh
-from softway.meshes.adaptive.tree import Tree, halved, tree_of
+from softway.meshes.adaptive.tree import Tree, tree_of
 from softway.meshes.adaptive.tree_cells import TreeCells
 
 Mark = tuple[int, Array]
@@ -76,7 +76,8 @@ def grown_near(tree: Tree, marks: Sequence[Mark], reach: float) -> Tree:
     """Tree in which cells that come within a distance ``reach`` [m] of a point of a mark have its level or more, see
     :func:`refined_near`.
     """
-    points = [(level, cKDTree(places)) for level, places in marks if len(places)]
+    step = tree.step
+    points = [(level - level % step, cKDTree(places)) for level, places in marks if len(places)]
     fresh = np.ones(len(tree.cells.level), dtype=bool)
     while points and fresh.any():
         wanted = _bisected_near(tree, fresh, points, reach)
@@ -94,7 +95,7 @@ def _bisected_near(tree: Tree, fresh: BoolArray, points: Sequence[tuple[int, cKD
     done, cells = [tree.cells.some(~fresh)], tree.cells.some(fresh)
     while (late := _late(tree, cells, points, reach)).any():
         done.append(cells.some(~late))
-        cells = halved(cells.some(late))
+        cells = tree.parts(cells.some(late))
     if len(done) == 1:
         return None
     start, level = (np.concatenate([getattr(part, name) for part in (*done, cells)]) for name in ("start", "level"))

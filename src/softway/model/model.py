@@ -7,6 +7,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.assembled.following_nodes import driven_field
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent, during, end_force, scaled
 from softway.bodies.assembled.nodal_loads import DeadLoads
 from softway.bodies.assembled.tangent import assembled_tangent
@@ -164,7 +165,7 @@ class Model:
         out = np.zeros(self.shape)
         for support, where in self.driven:
             out[where] = support.at(time)
-        return out
+        return driven_field(self.parts, self.dofs, out)
 
     def bends(self, start: float, end: float) -> tuple[tuple[float, Array], ...]:
         """Bends of the prescribed velocities inside a slab, see
@@ -177,7 +178,7 @@ class Model:
             for tau, change in support.bends(start, end):
                 found.append((tau, np.zeros(self.shape)))
                 found[-1][1][where] = change
-        return tuple(found)
+        return tuple((tau, driven_field(self.parts, self.dofs, change)) for tau, change in found)
 
     @property
     def meshes(self) -> Mapping[str, Mesh]:

@@ -90,8 +90,8 @@ class Probe:
     tag
         Tag of the nodes; the mean over the nodes is recorded, or the sum for a reaction.
     at
-        Reference point whose nearest node is recorded, instead of a tag; of a rigid body the point itself, by default
-        its centre [m].
+        Reference point whose nearest node is recorded, instead of a tag; of a rigid body, and of a solid whose mesh
+        adapts, the point itself; for a rigid body by default its centre [m].
     quantity
         Recorded quantity; rotation and spin (angular velocity) belong to rigid bodies, temperature to conductors
         and to solids with heat.

@@ -3,6 +3,7 @@
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.assembled.following_nodes import reactions
 from softway.bodies.elements.section import Axisymmetric
 from softway.march.audit.balances import rounding_forces
 from softway.march.audit.heat_audit import fallen
@@ -119,8 +120,8 @@ def _unrest(out: SlabResult, after: ModelState) -> Array:
     force = after.start.force - model.load - out.rows.spread(after.pressure, model.shape)
     if out.rows.shear.count:
         force = force - out.rows.shear.spread(after.traction)
-    force = model.dofs.gathered(force)
-    force = np.where(model.massive[:, None], 0.0, force - model.supported(force))
+    force = model.dofs.gathered(force) - reactions(model.dofs, force)
+    force = np.where(model.massive[:, None], 0.0, force)
     return np.asarray(out.system.path.span * model.space.sums(force))
 
 

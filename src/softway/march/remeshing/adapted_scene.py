@@ -2,10 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
+from softway.adaptivity.even_surface import even
 from softway.adaptivity.projection import projection
 from softway.adaptivity.transfer import Motion, Transferred, transfer
 from softway.arrays import Array, IntArray
@@ -20,7 +22,7 @@ from softway.march.remeshing.wanted_mesh import wanted_mesh
 from softway.march.state.march_state import AdaptedMeshes, MarchState
 from softway.march.state.model_state import join_states, split_states
 from softway.meshes.adaptive.adapt import Adapt, adaption
-from softway.meshes.adaptive.leaves import Leaves, same
+from softway.meshes.adaptive.leaves import Leaves, require_cover, same
 from softway.meshes.adaptive.refinement import BISECTED, AdaptedMesh, refined
 from softway.meshes.mesh import Mesh
 from softway.model.model import Model
@@ -83,6 +85,9 @@ class AdaptedScene:
         if leaves.keys() != self.meshes.keys():
             problem = f"adapted meshes of {', '.join(leaves)}"
             raise InputError("state.adapted", problem, f"a state with those of {', '.join(self.meshes)}")
+        for name, one in leaves.items():
+            with within(f"state.adapted.{name}"):
+                require_cover(one, self.meshes[name].base.n_cells)
         return self.on({name: refined(self.meshes[name].base, one.level, one) for name, one in leaves.items()})
 
     def wanted(self, now: MarchState, energy: float, ahead: float) -> "AdaptedScene":
@@ -94,7 +99,9 @@ class AdaptedScene:
             nodes = solid.part.nodes
             motion = _motion(self.model, now, name)
             places = self.model.points[touching[(touching >= nodes.start) & (touching < nodes.stop)]]
-            meshes[name] = wanted_mesh(how, solid, motion, energy, places)
+            stretch = now.step_history.longest / now.step_history.span
+            tags = [tag for body, tag in chain(*(c.surfaces for c in self.scene.contacts)) if body == name]
+            meshes[name] = even(wanted_mesh(how, solid, motion, energy, places, stretch), tags)
         return self.on(meshes)
 
 

@@ -126,4 +126,4 @@ def _energy(now: MarchState) -> float:
 
 def _ahead(on: AdaptedScene, now: MarchState) -> float:
     """Time within which contacts close soon [s]."""
-    return AHEAD * min(how.every for how in adaptions(on.scene).values()) * now.step_history.span
+    return AHEAD * min(how.every for how in adaptions(on.scene).values()) * now.step_history.longest

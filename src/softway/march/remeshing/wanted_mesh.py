@@ -11,7 +11,9 @@ from softway.meshes.adaptive.refinement import AdaptedMesh, adapted_mesh
 from softway.meshes.adaptive.tree import tree_of
 
 
-def wanted_mesh(adapt: Adapt, solid: AdaptedSolid, motion: Motion, energy: float, touching: Array) -> AdaptedMesh:
+def wanted_mesh(
+    adapt: Adapt, solid: AdaptedSolid, motion: Motion, energy: float, touching: Array, stretch: float = 1.0
+) -> AdaptedMesh:
     """Mesh for the coming slabs.
 
     Parameters
@@ -24,11 +26,13 @@ def wanted_mesh(adapt: Adapt, solid: AdaptedSolid, motion: Motion, energy: float
         Energy of the scene [J].
     touching
         (k, d) reference places of its nodes at contacts that are closed or close soon [m].
+    stretch
+        Length of the coming slabs in requested ones: fronts go as much further.
     """
     base = solid.adapted.base
     finest, deepest = adapt.finest(base), adapt.deepest(base.cell_dim)
     levels = wanted_levels(solid.adapted, indicator(solid, motion), adapt.threshold(base, energy), deepest)
     tree = tree_of(base).grown(solid.adapted.leaves, levels)
     tree = grown_near(tree, [(deepest, touching)], adapt.contact_cells * finest)
-    tree = grown_around(tree, adapt.buffer * finest)
+    tree = grown_around(tree, stretch * adapt.buffer * finest)
     return solid.adapted if same(tree.leaves, solid.adapted.leaves) else adapted_mesh(tree)

@@ -56,6 +56,17 @@ def initial_state(
     model = model.during((), span)
     with at_declared(model.declared):
         rest = _resting(model, cancel, Effort(tell=watched(trying)))
+    return _at_rest(model, rest, span)
+
+
+def without_contact(model: Model, span: float = 1.0) -> ModelState:
+    """State at the given displacement, at t = 0, without forces of contacts: it has the sizes of all states."""
+    model = model.during((), span)
+    return _at_rest(model, StaticState.apart(model.displacement, len(model.contacts.contact)), span)
+
+
+def _at_rest(model: Model, rest: StaticState, span: float) -> ModelState:
+    """State at t = 0 with the initial velocities."""
     u, pressure = rest.displacement, rest.pressure
     energy, force = model.energy_and_force(u)
     states = material_states.committed(model.parts, u)

@@ -75,6 +75,11 @@ class StepHistory:
     smooth: int = 0
     fastest: float = 0.0
 
+    @property
+    def longest(self) -> float:
+        """The longer one of the requested slab length and that of the next slab, which is longer on a ladder [s]."""
+        return max(self.span, self.length)
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class AdaptedMeshes:
@@ -132,6 +137,9 @@ class MarchState:
         pasts = [m is not None for m in start.states]
         complete = len(pasts) in (0, len(model.parts))
         fitting = len(start.fields) == len(model.companions)
+        if (self.adapted is None) == bool(model.adapted):
+            problem, remedy = ("without", "with") if self.adapted is None else ("with", "without")
+            raise InputError("state", f"{problem} adapted meshes", f"a state {remedy} adapted meshes")
         if start.displacement.shape != ours or len(closed) != rows or not complete or not fitting:
             found = f"{start.displacement.shape} nodal values and {len(closed)} contact rows"
             raise InputError("state", f"of another scene: {found}", f"one of {ours} and {rows}")

@@ -16,13 +16,13 @@ HALVINGS = 2
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Adapt:
-    """Adaption of the mesh of a solid of bars, triangles or tetrahedra: fine cells follow waves and contacts.
+    """Adaption of the mesh of a solid of one type of cell: fine cells follow waves and contacts.
 
     Parameters
     ----------
     levels
         Greatest number of bisections of a cell of the mesh of the solid.  One halves the edges of bars, two those of
-        triangles, three those of tetrahedra; ``auto`` halves edges twice.
+        triangles and quadrilaterals, three those of tetrahedra and hexahedra; ``auto`` halves edges twice.
     tolerance
         Factor c of the threshold ``c sqrt(E (h / L)^k)`` of the indicator: E the energy of the scene, the greatest so
         far, h the shortest edge of the finest cells, L the size of the solid, k its dimension.

@@ -9,7 +9,9 @@ from softway.kernels.geometry.bisection import bisected
 from softway.meshes.adaptive.leaf_nodes import shape_functions
 from softway.meshes.adaptive.leaves import Leaves
 from softway.meshes.adaptive.middles import Middles
-from softway.meshes.adaptive.tree_cells import TreeCells, base_cells
+from softway.meshes.adaptive.squares.balanced import BALANCED, balanced, cut, square_cells
+from softway.meshes.adaptive.squares.cut_nodes import CutNodes
+from softway.meshes.adaptive.tree_cells import TreeCells, base_cells, joined
 from softway.meshes.mesh import Mesh
 
 
@@ -19,12 +21,21 @@ class Tree:
 
     base: Mesh
     cells: TreeCells
-    middles: Middles
+    middles: Middles | CutNodes
 
     @property
     def leaves(self) -> Leaves:
         """Keys of the cells."""
         return self.cells.leaves
+
+    @property
+    def step(self) -> int:
+        """Levels by which a cell that is cut becomes finer: one; two for quadrilaterals and three for hexahedra."""
+        return self.base.cell_dim if isinstance(self.middles, CutNodes) else 1
+
+    def parts(self, cells: TreeCells) -> TreeCells:
+        """Parts of cells that are cut, without numbers of their nodes: halves; quarters, eighths of squares, cubes."""
+        return joined(*cut(cells, CutNodes.none(0))[1]) if isinstance(self.middles, CutNodes) else halved(cells)
 
     def corners(self, cells: TreeCells) -> Array:
         """Places (e, c, d) of the corners of cells [m]."""
@@ -43,12 +54,17 @@ class Tree:
         >>> tree.grown(tree.leaves, np.array([2, 0])).leaves.level.tolist()
         [2, 2, 2, 2, 1, 1]
         """
+        if isinstance(self.middles, CutNodes):
+            found, cuts = balanced(self.base, given, level)
+            return Tree(base=self.base, cells=found, middles=cuts)
         cells, middles = _bisected(self.cells, self.middles, given, level, True)
         return Tree(base=self.base, cells=cells, middles=middles)
 
 
 def tree_of(base: Mesh) -> Tree:
     """Tree of the cells of a base mesh, of one type of cell."""
+    if next(iter(base.blocks)) in BALANCED:
+        return Tree(base=base, cells=square_cells(base), middles=CutNodes.none(base.n_nodes))
     return Tree(base=base, cells=base_cells(base), middles=Middles.none(base.n_nodes))
 
 

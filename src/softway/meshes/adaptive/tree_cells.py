@@ -55,6 +55,12 @@ class TreeCells:
         return TreeCells(**parts)
 
 
+def joined(*parts: TreeCells) -> TreeCells:
+    """Cells of all parts, in rising order of their keys."""
+    every = TreeCells(**{n: np.concatenate([getattr(p, n) for p in parts]) for n in TreeCells.__slots__})
+    return every.some(np.argsort(every.start, kind="stable"))
+
+
 def base_cells(mesh: Mesh) -> TreeCells:
     """Cells of a base mesh of one type: bars in their direction, others with the longest edge of each face marked.
 

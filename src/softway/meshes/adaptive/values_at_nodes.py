@@ -62,7 +62,13 @@ def values_at_nodes(one: AdaptedMesh, other: AdaptedMesh) -> ValuesAtNodes:
         same[1 - k, inner], same[k, outer] = outer, inner
     sizes = one.mesh.n_nodes, other.mesh.n_nodes
     forward, back = (_matrix(fine[k], same[1 - k, : sizes[1 - k]], (sizes[1 - k], sizes[k])) for k in (0, 1))
-    return ValuesAtNodes(forward=forward, back=back)
+    return ValuesAtNodes(forward=_followed(other, forward), back=_followed(one, back))
+
+
+def _followed(mesh: AdaptedMesh, values: sp.csr_array) -> sp.csr_array:
+    """Values (m, n) at the m nodes of a mesh, hanging ones following the others."""
+    hanging = mesh.mesh.hanging
+    return values if hanging is None else sp.csr_array(hanging.follow(values.shape[0]) @ values)
 
 
 def values_of_base(adapted: AdaptedMesh) -> sp.csr_array:

@@ -73,6 +73,7 @@ ROBOTS = "an extra that is not always installed: tests/unit/mechanisms/test_robo
 INNER = "called inside only, after the check of what the user has given"
 REASONS = {
     "bodies/setup/directions.py: _held": "nodes that a body carries: tests/unit/bodies/test_directed_supports.py",
+    "bodies/assembled/nodal_masses.py: _require_even": "from Python: tests/unit/model/test_hanging_nodes.py",
     "bodies/inertia/mass_matrix.py: body_of": INNER,
     "bodies/inertia/mass_matrix.py: condensation": INNER,
     "bodies/inertia/mass_redistribution.py: redistribute_mass": INNER,
@@ -96,6 +97,7 @@ REASONS = {
     "mechanisms/robots/robot_file.py: _compiled": ROBOTS,
     "mechanisms/robots/robot_file.py: _mujoco": ROBOTS,
     "mechanisms/robots/robot_file.py: read_robot": ROBOTS,
+    "meshes/topology.py: require_none": "from Python: tests/unit/model/test_hanging_nodes.py",
     "meshes/adaptive/overlay.py: _require_one_base": "from Python: tests/unit/meshes/adaptive/test_overlay.py",
     "meshes/adaptive/overlay.py: embedding": "from Python: tests/unit/meshes/adaptive/test_overlay.py",
     "meshes/adaptive/refinement.py: _require_bisected": "from Python: tests/unit/meshes/adaptive/test_refinement.py",
