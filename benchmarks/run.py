@@ -17,17 +17,19 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from time import perf_counter
 
-from groups import accuracy, blocks, cube, heated, methods, parts, piles
+from groups import accuracy, adapted, blocks, cube, heated, methods, parts, piles
 from groups.asked import Asked
 from processes.apart import Failed
 from record.figures import Figure, read, regressions, unmatched, written
 from record.fingerprint import Origin, origin, prints
 from record.machine import described
+from record.picture import drawn
 from record.table import page
 
 ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "benchmarks" / "results" / "latest.json"
 PAGE = ROOT / "docs" / "verification" / "benchmarks.md"
+PICTURE = ROOT / "docs" / "pictures" / "time_against_error.png"
 
 Group = Callable[[Asked], Iterator[Figure]]
 GROUPS: dict[str, Group] = {
@@ -47,6 +49,7 @@ GROUPS: dict[str, Group] = {
     "blocks": blocks.blocks,
     "slab": parts.slabs,
     "heated": heated.heated,
+    "adapted": adapted.adapted,
     "pile": piles.pile,
     "large": cube.large,
 }
@@ -198,6 +201,8 @@ def measured_and_kept(
         figures = {n: f for n, f in figures.items() if group_of(n) != name} | found
         origins = origins | {name: origin(name, perf_counter() - start)}
         written(RESULTS, in_order(figures), origins)
+        if name == "adapted":
+            drawn(found.values(), PICTURE)
         PAGE.write_text(rendered(*read(RESULTS)), encoding="utf-8")
     return failed
 

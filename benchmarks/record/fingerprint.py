@@ -21,7 +21,13 @@ MARCH = tuple(
 )  # fmt: skip
 CELLS = tuple(f"src/softway/{part}" for part in ("bodies", "kernels", "laws", "meshes"))
 PILES = ("src/softway/kernels/jit", "src/softway/kernels/pile", "src/softway/piles")
-CODE = {"heated": (*MARCH, "src/softway/heat"), "kernels": CELLS, "history": CELLS, "pile": PILES}
+CODE = {
+    "adapted": (*MARCH, "src/softway/adaptivity"),
+    "heated": (*MARCH, "src/softway/heat"),
+    "kernels": CELLS,
+    "history": CELLS,
+    "pile": PILES,
+}
 """What is measured, by group; the slab and all that it is made of where nothing is said."""
 THROWN = (
     "benchmarks/groups/cube.py",
@@ -53,6 +59,7 @@ BENCHES = {
         "benchmarks/processes/collision.py",
     ),  # fmt: skip
     "slab": (PARTS, "benchmarks/parts/bench_slab.py"),
+    "adapted": ("benchmarks/groups/adapted.py", "benchmarks/processes/adapted.py"),
     "heated": ("benchmarks/groups/heated.py", "benchmarks/processes/heated.py"),
     "pile": ("benchmarks/groups/piles.py", "benchmarks/parts/bench_pile.py"),
     "large": THROWN[::3],

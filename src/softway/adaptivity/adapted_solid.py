@@ -53,6 +53,11 @@ class AdaptedSolid:
         moved = np.asarray(self.follow @ velocity)
         return np.asarray(moved + self.part.dofs.supported(velocity - moved))
 
+    def consistent_mass(self) -> sp.csr_array:
+        """Consistent mass matrix (n, n) [kg]."""
+        mesh, pattern = self.adapted.mesh, self.part.internal.sampling.pattern
+        return pattern.nodal([self.element_masses()], mesh.dim)
+
     def element_masses(self) -> Array:
         """Consistent mass matrices (e, a, a) of the elements [kg]."""
         body = body_of(self.adapted.mesh, self.part.internal.section, self.part.materials.density)

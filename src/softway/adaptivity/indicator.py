@@ -5,6 +5,7 @@ Indicator of Zienkiewicz and Zhu (Int. J. Num. Meth. Eng. 24 (1987) 337) for a s
 """
 
 import numpy as np
+import scipy.sparse as sp
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.transfer import Motion
@@ -59,12 +60,13 @@ def _spread(adapted: AdaptedMesh, owner: IntArray, volume: Array, values: Array)
     """Mean square (e,) over a cell of its values (e, k) less the linear field of those recovered at its corners."""
     rows = next(iter(adapted.mesh.blocks.values()))[:, : CELLS[adapted.cell].corners]
     nodes = rows + owner[:, None] * adapted.mesh.n_nodes
-    size = int(nodes.max()) + 1
-    total, weight = np.zeros((size, values.shape[1])), np.zeros(size)
-    np.add.at(total, nodes, (volume[:, None] * values)[:, None])
-    np.add.at(weight, nodes, volume[:, None])
-    recovered = total[nodes] / weight[nodes][:, :, None]
-    apart = recovered - values[:, None]
+    count, c = rows.shape
+    around = sp.csr_array(
+        (np.ones(nodes.size), nodes.ravel(), np.arange(0, nodes.size + 1, c)), (count, nodes.max() + 1)
+    )
+    total = around.T @ np.column_stack([volume[:, None] * values, volume])
+    mean = total[:, :-1] / np.where(total[:, -1:] > 0.0, total[:, -1:], 1.0)
+    apart = mean[nodes] - values[:, None]
     return np.asarray(np.einsum("eak,ab,ebk->e", apart, _products(adapted), apart))
 
 

@@ -1,15 +1,26 @@
-"""Projection of fields from one adapted mesh of a solid to another (docs/theory/bodies/adaptive.md#transfer)."""
+"""Projection of fields from one adapted mesh of a solid to another (docs/theory/bodies/adaptive.md#transfer).
 
-from dataclasses import dataclass, replace
+A field of mesh A goes to mesh B by its values at the nodes of B, and a correction: the projection of the rest, which is
+zero but in cells of B that are larger than those of A.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import SuperLU, splu
+from scipy.sparse.linalg import splu
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
+from softway.adaptivity.conjugate_gradients import conjugate_gradients
 from softway.arrays import Array
-from softway.bodies.discretised import discretise
-from softway.meshes.adaptive.overlay import common_matrix, embedding, overlay, united
+from softway.bodies.internal_force.node_factors import scaled_product
+from softway.meshes.adaptive.values_at_nodes import ValuesAtNodes, values_at_nodes, values_of_base
+
+EXACT = 1e-14
+"""Relative residual of the projection with the mass."""
+CLOSE = 1e-4
+"""Relative residual of the projection with mass and stiffness: the energy of the correction is exact to its square."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -20,40 +31,64 @@ class Projection:
 
     Parameters
     ----------
-    after
-        The solid on B.
-    at_nodes
-        (m, n) values of a field of A at the nodes of B.
-    common, mass
-        (n, m) common mass matrix, and consistent mass matrix (m, m) of B [kg].
-    stiff, stiff_common
-        Form of the displacements on B, (m d, m d), and its common matrix (m d, n d) [kg].
-    factored, stiff_factored
-        Factors of ``mass`` and ``stiff`` on the unknowns of B.
+    before, after
+        The solid on A and on B.
+    values
+        Values of fields of each mesh at the nodes of the other.
+    masses
+        Consistent mass matrices (n, n) of A and (m, m) of B [kg].
+    time
+        Time t of the form of the displacements, ``M + t^2 K`` [s].
     """
 
+    before: AdaptedSolid
     after: AdaptedSolid
-    at_nodes: sp.csr_array
-    common: sp.csr_array
-    mass: sp.csr_array
-    stiff: sp.csc_array
-    stiff_common: sp.csr_array
-    factored: SuperLU
-    stiff_factored: SuperLU
+    values: ValuesAtNodes
+    masses: tuple[sp.csr_array, sp.csr_array]
+    time: float
 
     def velocity(self, field: Array) -> Array:
-        """Projection (m, d) of a field (n, d) with the mass: velocities, accelerations; the values at the nodes of B,
-        corrected.
-        """
-        near, dofs = np.asarray(self.at_nodes @ field), self.after.part.dofs
-        right = self.common.T @ field - self.mass @ near
-        return np.asarray(near + dofs.nodes(self.factored.solve(dofs.forces(right))))
+        """Projection (m, d) of a field (n, d) with the mass: velocities, accelerations."""
+        near, rest = self._at_nodes(field)
+        right = self.after.part.dofs.forces(np.asarray(self.values.back.T @ (self.masses[0] @ rest)))
+        return near + self._corrected(right)
 
     def displacement(self, field: Array) -> Array:
         """Projection (m, d) of a displacement (n, d) [m] with mass and stiffness."""
-        near, dofs = np.asarray(self.at_nodes @ field), self.after.part.dofs
-        right = (self.stiff_common @ field.ravel() - self.stiff @ near.ravel()).reshape(near.shape)
-        return np.asarray(near + dofs.nodes(self.stiff_factored.solve(dofs.forces(right))))
+        near, rest = self._at_nodes(field)
+        part = self.before.part
+        pushed = scaled_product(part.internal, part.factor, np.zeros_like(field), rest)
+        right = self.values.back.T @ (self.masses[0] @ rest + self.time**2 * pushed)
+        return near + self._relaxed(self.after.part.dofs.forces(np.asarray(right)))
+
+    def _at_nodes(self, field: Array) -> tuple[Array, Array]:
+        """Values (m, d) of a field (n, d) at the nodes of B, and the rest (n, d) at the nodes of A."""
+        near = np.asarray(self.values.forward @ field)
+        return near, np.asarray(field - self.values.back @ near)
+
+    def _corrected(self, right: Array) -> Array:
+        """Correction (m, d) with the mass by forces (f,) on the unknowns."""
+        dofs, mass = self.after.part.dofs, self.masses[1]
+        if not right.any():
+            return dofs.nodes(right)
+        d = self.after.points.shape[1]
+        inverse = dofs.block_inverse(mass.diagonal()[:, None, None] * np.eye(d))
+        found = conjugate_gradients(
+            lambda x: dofs.forces(np.asarray(mass @ dofs.nodes(x))), lambda r: inverse @ r, right, EXACT
+        )
+        return dofs.nodes(found)
+
+    def _relaxed(self, right: Array) -> Array:
+        """Correction (m, d) with mass and stiffness by forces (f,) on the unknowns."""
+        part, d = self.after.part, self.after.points.shape[1]
+        dofs = part.dofs
+        if not right.any():
+            return dofs.nodes(right)
+        wide = sp.csc_array(sp.kron(self.masses[1], sp.eye_array(d), format="csc"))
+        form = sp.csr_array(dofs.matrix(sp.csc_array(wide + self.time**2 * part.tangent(np.zeros(dofs.free.shape)))))
+        diagonal, coarse = 1.0 / form.diagonal(), _coarse(self.after, form)
+        found = conjugate_gradients(lambda x: form @ x, lambda r: diagonal * r + coarse(r), right, CLOSE)
+        return dofs.nodes(found + coarse(right - form @ found))  # with the centre of mass of the exact projection
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,63 +132,23 @@ def projection(before: AdaptedSolid, after: AdaptedSolid) -> Projection | Unchan
     """
     if before.adapted is after.adapted:
         return Unchanged()
-    both = _on_united(before, after)
-    ours, theirs = embedding(after.adapted, both.adapted), embedding(before.adapted, both.adapted)
-    d = after.points.shape[1]
-    form = _form(both)
-    wide, wide_before = (sp.csr_array(sp.kron(m, sp.eye_array(d))) for m in (ours, theirs))
-    stiff = sp.csc_array(wide.T @ form @ wide)
-    masses = after.element_masses()
-    common = common_matrix(overlay(before.adapted, after.adapted), before.element_masses(), masses)
-    mass = common_matrix(overlay(after.adapted, after.adapted), masses, masses)
-    dofs = after.part.dofs
+    part, size = after.part, float(np.linalg.norm(np.ptp(after.points, axis=0)))
     return Projection(
+        before=before,
         after=after,
-        at_nodes=_at_nodes(ours, theirs, after),
-        common=common,
-        mass=mass,
-        stiff=stiff,
-        stiff_common=sp.csr_array(wide.T @ form @ wide_before),
-        factored=splu(dofs.matrix(_wide(mass, d))),
-        stiff_factored=splu(dofs.matrix(stiff)),
+        values=values_at_nodes(before.adapted, after.adapted),
+        masses=(before.consistent_mass(), after.consistent_mass()),
+        time=size / min(part.materials.speeds(part.internal.section)),
     )
 
 
-def _on_united(before: AdaptedSolid, after: AdaptedSolid) -> AdaptedSolid:
-    """The solid on the united mesh: one of the two where it has the other's cells or smaller ones everywhere."""
-    found = united(before.adapted, after.adapted)
-    for known in (before, after):
-        if found is known.adapted:
-            return known
-    solid = replace(after.solid, mesh=found.mesh)
-    none = sp.csr_array((found.mesh.n_nodes,) * 2)
-    return AdaptedSolid(solid=solid, adapted=found, part=discretise("", solid, 0), mass=none, follow=none)
-
-
-def _form(both: AdaptedSolid) -> sp.csc_array:
-    """Mass plus the stiffness of the undeformed solid times the square of a time, (n d, n d) [kg]."""
-    masses, part = both.element_masses(), both.part
-    mass = common_matrix(overlay(both.adapted, both.adapted), masses, masses)
-    size = float(np.linalg.norm(np.ptp(both.points, axis=0)))
-    time = size / min(part.materials.speeds(part.internal.section))
-    return sp.csc_array(_wide(mass, both.points.shape[1]) + time**2 * part.tangent(np.zeros(both.points.shape)))
-
-
-def _wide(mass: sp.csr_array, d: int) -> sp.csc_array:
-    """Matrix (n d, n d) that acts on each of d components as ``mass`` (n, n)."""
-    return sp.csc_array(sp.kron(mass, sp.eye_array(d), format="csc"))
-
-
-def _at_nodes(ours: sp.csr_array, theirs: sp.csr_array, after: AdaptedSolid) -> sp.csr_array:
-    """Values (m, n) at the nodes of a mesh from those of another one by both embeddings; hanging nodes follow."""
-    found, hanging = sp.csr_array(theirs[_node_rows(ours)]), after.adapted.mesh.hanging
-    return found if hanging is None else sp.csr_array(hanging.follow(found.shape[0]) @ found)
-
-
-def _node_rows(into: sp.csr_array) -> np.ndarray:
-    """Row of an embedding (n, m) at each of the m nodes: the one whose only value is one; any for hanging nodes."""
-    entries = into.tocoo()
-    own = entries.data == 1.0  # a shape function is one at its node alone; its values here are exact
-    rows = np.zeros(into.shape[1], dtype=np.int64)
-    rows[entries.col[own]] = entries.row[own]
-    return rows
+def _coarse(after: AdaptedSolid, form: sp.csr_array) -> Callable[[Array], Array]:
+    """Correction (f,) in the fields of the base mesh of a residual (f,), with the ``form`` (f, f)."""
+    dofs, base = after.part.dofs, after.adapted.base
+    if dofs.components is None:
+        return np.zeros_like
+    values = sp.kron(values_of_base(after.adapted), sp.eye_array(base.dim), format="csr")
+    into = sp.csr_array(values[dofs.components][:, np.flatnonzero(dofs.free[: base.n_nodes])])
+    onto = sp.csr_array(into.T)
+    factor = splu(sp.csc_array(onto @ form @ into))
+    return lambda r: into @ factor.solve(onto @ r)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError
+from softway.kernels.geometry.jacobians import determinants
 from softway.meshes.cells import CELLS, FACETS
 from softway.meshes.element import element
 from softway.meshes.topology import HangingNodes, check_topology
@@ -263,7 +264,7 @@ def _check_cells(points: Array, name: str, cells: IntArray) -> None:
     """Check for positive Jacobian determinants at the quadrature points, and for positive lengths of bars."""
     jacobian = np.einsum("eai,qar->eqir", points[cells], element(name).dN, optimize=True)
     size = np.prod(np.linalg.norm(jacobian, axis=-2), axis=-1)
-    det = size if jacobian.shape[-1] < jacobian.shape[-2] else np.linalg.det(jacobian)
+    det = size if jacobian.shape[-1] < jacobian.shape[-2] else determinants(jacobian)
     scale = np.linalg.norm(np.ptp(points, axis=0)) ** CELLS[name].dim
     wrong = (det <= _DEGENERATE * size).any(axis=1) | (size <= 1e-30 * scale).any(axis=1)
     if not wrong.any():

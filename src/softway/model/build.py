@@ -28,6 +28,7 @@ from softway.meshes.topology import require_none
 from softway.model.cohesive_ties import CohesiveTies, intact
 from softway.model.field import FieldEquations
 from softway.model.initial_displacement import at_start, given_fields
+from softway.model.known_solids import known_inertias, known_parts
 from softway.model.layout import Layout, laid_out, solids_of
 from softway.model.model import Model
 from softway.model.rigid.rigid_bodies import RigidBodies, rigid_bodies
@@ -69,24 +70,28 @@ def _has_heat(body: object) -> bool:
     return isinstance(body, Solid) and body.thermal is not None
 
 
-def mechanical(scene: Scene) -> Model:
-    """Model of the motion of a scene, whose heat it leaves out; errors as of :func:`build`."""
+def mechanical(scene: Scene, known: Model | None = None) -> Model:
+    """Model of the motion of a scene, whose heat it leaves out; errors as of :func:`build`.
+
+    It has the arrays of the ``known`` model for the very same solids, with the same bits as without.
+    """
     found = resolved(scene.contacts, *_members(scene))
     numbers = tuple(number for number, _ in found)
     with at_declared(numbers):
-        model = _model(replace(scene, contacts=tuple(contact for _, contact in found)))
+        model = _model(replace(scene, contacts=tuple(contact for _, contact in found)), known)
     return replace(model, declared=numbers)
 
 
-def _model(scene: Scene) -> Model:
+def _model(scene: Scene, before: Model | None) -> Model:
     """Model of a scene whose contacts name all their members."""
     timing, factor, (rigid, motions) = _timing(scene), scene.inertia.factor, _rigid(scene)
     tools, massless = _tools(scene, rigid, motions), timing.massless and factor > 0.0
-    laid = laid_out(scene, motions, tools, massless)
+    laid = laid_out(scene, motions, tools, massless, known_parts(before))
     scene, solids, parts, glue, met = laid.scene, laid.solids, laid.parts, laid.glue, laid.met
     given, velocity = given_fields(parts, solids)
     dofs, driven = glue.dofs(joined([p.dofs for p in parts])), driven_components(parts, solids, given, motions)
-    mass, weights, follow = inertia_of(parts, solids, _light(laid, massless, driven, timing.spread), factor)
+    light, inertias = _light(laid, massless, driven, timing.spread), known_inertias(before, scene, laid.parts)
+    mass, weights, follow = inertia_of(parts, solids, light, factor, inertias)
     displacement, loads = at_start(parts, solids, given, driven, glue), dead_load(parts, weights, scene.loads, "loads")
     return Model(
         scene=scene, parts=parts, mass=mass, follow=follow, passing=sp.csr_array(follow.T),

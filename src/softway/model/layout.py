@@ -57,24 +57,34 @@ class Layout:
         return np.union1d(self.glue.together(self.met.nodes), np.setdiff1d(self.walls, self.glue.moving))
 
 
+Known = Mapping[str, tuple[Solid, DiscreteSolid]]
+"""Solids that are known as arrays."""
+
+
 def laid_out(
-    scene: Scene, motions: Mapping[str, RigidMotion], tools: Mapping[str, Tool | RigidShape], massless: bool
+    scene: Scene,
+    motions: Mapping[str, RigidMotion],
+    tools: Mapping[str, Tool | RigidShape],
+    massless: bool,
+    known: Known,
 ) -> Layout:
     """Lay out a scene; if contact nodes are ``massless``, walls one cell thick that may touch are divided.
+
+    The very same solids that are ``known`` keep their arrays.
 
     Raises
     ------
     InputError
         If the scene has no solid, bodies do not fit, or a tag, tie or contact is wrong.
     """
-    found = _laid_out(scene, motions, tools)
+    found = _laid_out(scene, motions, tools, known)
     if not massless:
         return found
     divided = {part.name: layered(part, found.solids[part.name], found.met.nodes) for part in found.parts}
     if not any(divided.values()):
         return found
     bodies = {**found.scene.bodies, **{name: one.solid for name, one in divided.items() if one is not None}}
-    again = _laid_out(replace(found.scene, bodies=bodies), motions, tools)
+    again = _laid_out(replace(found.scene, bodies=bodies), motions, tools, known)
     return replace(again, walls=_walls(again.parts, divided))
 
 
@@ -84,10 +94,12 @@ def _walls(parts: Sequence[DiscreteSolid], divided: Mapping[str, Layered | None]
     return np.concatenate(found)
 
 
-def _laid_out(scene: Scene, motions: Mapping[str, RigidMotion], tools: Mapping[str, Tool | RigidShape]) -> Layout:
+def _laid_out(
+    scene: Scene, motions: Mapping[str, RigidMotion], tools: Mapping[str, Tool | RigidShape], known: Known
+) -> Layout:
     """Solids, ties and contacts of a scene as it is."""
     solids = solids_of(scene)
-    parts = _parts(solids)
+    parts = _parts(solids, known)
     for part in parts if scene.ties else ():
         with within(f"bodies.{part.name}"):
             require_none(part.mesh.hanging, "ties")
@@ -119,7 +131,7 @@ def _closed(
             with within(f"bodies.{part.name}.mesh"):
                 mesh = replace(mesh, points=onto[part.nodes])
         moved[part.name] = replace(solids[part.name], mesh=mesh, place=Placement(), group=())
-    return replace(scene, bodies={**scene.bodies, **moved}), moved, _parts(moved)
+    return replace(scene, bodies={**scene.bodies, **moved}), moved, _parts(moved, {})
 
 
 def solids_of(scene: Scene) -> dict[str, Solid]:
@@ -130,11 +142,17 @@ def solids_of(scene: Scene) -> dict[str, Solid]:
     return solids
 
 
-def _parts(solids: Mapping[str, Solid]) -> tuple[DiscreteSolid, ...]:
+def _parts(solids: Mapping[str, Solid], known: Known) -> tuple[DiscreteSolid, ...]:
+    """Arrays of the solids; those of the very same solid where it is known."""
     parts: list[DiscreteSolid] = []
     for name, solid in solids.items():
+        first = parts[-1].nodes.stop if parts else 0
+        if name in known and known[name][0] is solid:
+            part = known[name][1]
+            parts.append(replace(part, nodes=slice(first, first + part.mesh.n_nodes)))
+            continue
         with within(f"bodies.{name}"):
-            parts.append(discretise(name, solid, parts[-1].nodes.stop if parts else 0))
+            parts.append(discretise(name, solid, first))
     if len({p.mesh.dim for p in parts}) > 1:
         raise InputError("bodies", "solids of different space dimension in one scene", "meshes of one dimension")
     return tuple(parts)

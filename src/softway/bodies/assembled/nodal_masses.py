@@ -86,15 +86,37 @@ class Massless:
         return np.unique(np.concatenate(mine)), self.spread if len(mine[0]) else 1
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class KnownInertia:
+    """Inertia of a solid that is known: its massless nodes (k,), masses (n, n) [kg], and velocities (n, n) of all nodes
+    from those with mass.
+    """
+
+    light: IntArray
+    mass: sp.csr_array
+    follow: sp.csr_array
+
+
 def inertia_of(
-    parts: Sequence[DiscreteSolid], solids: Mapping[str, Solid], light: Massless, factor: float
+    parts: Sequence[DiscreteSolid],
+    solids: Mapping[str, Solid],
+    light: Massless,
+    factor: float,
+    known: Mapping[str, KnownInertia] | None = None,
 ) -> tuple[sp.csr_array, Array, sp.csr_array]:
     """Mass (n, n) times the ``factor``, nodal mass (n,) for the weight, and velocities (n, n) of all nodes from those
-    with mass.
+    with mass; solids with a ``known`` inertia keep it if they have the same massless nodes.
     """
-    own = [light.of(p.nodes) for p in parts]
-    masses = [solid_mass(p, solids[p.name], nodes, layers) for p, (nodes, layers) in zip(parts, own, strict=True)]
-    follow = [solid_following(p, nodes) for p, (nodes, _) in zip(parts, own, strict=True)]
+    masses, follow = [], []
+    for part in parts:
+        nodes, layers = light.of(part.nodes)
+        found = None if known is None else known.get(part.name)
+        if found is not None and np.array_equal(found.light, nodes):
+            masses.append(found.mass)
+            follow.append(found.follow)
+            continue
+        masses.append(solid_mass(part, solids[part.name], nodes, layers))
+        follow.append(solid_following(part, nodes))
     weight, following = (sp.csr_array(sp.block_diag(blocks, format="csr")) for blocks in (masses, follow))
     mass = sp.csr_array(factor * weight) if factor > 0.0 else sp.csr_array(weight.shape)
     return mass, np.asarray(weight.sum(axis=1)).ravel(), following

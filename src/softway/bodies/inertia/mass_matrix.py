@@ -9,6 +9,8 @@ from scipy import sparse
 from softway.arrays import Array, IntArray
 from softway.bodies.elements.section import Axisymmetric, Section
 from softway.errors import InputError
+from softway.kernels.assembly.assembler import Assembler, assembler
+from softway.kernels.geometry.jacobians import determinants
 from softway.meshes.cells import CELLS
 from softway.meshes.element import Element, element, exact_degree
 from softway.meshes.mesh import Mesh
@@ -106,23 +108,24 @@ def cell_masses(body: Body, rule: MassRule, factor: Array) -> Iterator[tuple[Int
         yield cells, diagonal[:, :, None] * np.eye(cells.shape[1])
 
 
-def assembled(body: Body, rule: MassRule, factor: Array) -> sparse.csr_array:
-    """Mass matrix (n, n) [kg] of the density times a nodal field (n,)."""
-    n = body.mesh.n_nodes
-    total = sparse.csr_array((n, n))
-    for cells, matrices in cell_masses(body, rule, factor):
-        a = cells.shape[1]
-        places = np.repeat(cells, a, axis=1).ravel(), np.tile(cells, (1, a)).ravel()
-        total = total + sparse.csr_array((matrices.ravel(), places), shape=(n, n))
+def node_pattern(body: Body) -> Assembler:
+    """Pattern of the mass matrices of a body, (n, n)."""
+    return assembler([cells for _, cells, _ in body.blocks], body.mesh.n_nodes, 1)
+
+
+def assembled(body: Body, rule: MassRule, factor: Array, pattern: Assembler | None = None) -> sparse.csr_array:
+    """Mass matrix (n, n) [kg] of the density times a nodal field (n,), on the :func:`node_pattern` if it is known."""
+    pattern = node_pattern(body) if pattern is None else pattern
+    total = pattern.nodal([matrices for _, matrices in cell_masses(body, rule, factor)], 1)
     total.eliminate_zeros()
-    return sparse.csr_array(total)
+    return total
 
 
 def _stretch(corners: Array, dN: Array) -> Array:
     """Determinant (e, q) of the map from the reference element; for bars its length in space."""
     jacobian = np.einsum("eai,qar->eqir", corners, dN, optimize=True)
     if jacobian.shape[-1] == jacobian.shape[-2]:
-        return np.asarray(np.linalg.det(jacobian))
+        return determinants(jacobian)
     return np.asarray(np.linalg.norm(jacobian[..., 0], axis=-1))
 
 

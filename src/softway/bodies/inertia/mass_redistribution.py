@@ -20,6 +20,7 @@ from softway.bodies.inertia.mass_matrix import (
     assembled,
     body_of,
     neighbours,
+    node_pattern,
 )
 from softway.errors import InputError
 from softway.meshes.mesh import Mesh
@@ -72,15 +73,15 @@ def redistribute_mass(
     (0.0, 1.0, 0.5)
     """
     body, near = body_of(mesh, section, density), neighbours(mesh)
-    ones = np.ones(mesh.n_nodes)
+    ones, pattern = np.ones(mesh.n_nodes), node_pattern(body)
     depth = _depth(near, np.unique(candidates))
-    exact, plain = (assembled(body, one, ones) for one in (Consistent(), rule))
-    weights = plain if (plain @ ones > 0.0).all() else assembled(body, Lumped(), ones)
+    exact, plain = (assembled(body, one, ones, pattern) for one in (Consistent(), rule))
+    weights = plain if (plain @ ones > 0.0).all() else assembled(body, Lumped(), ones, pattern)
     scales = [_scale(weights, near, depth, k) for k in range(min(cells, max(int(depth.max()) // 2, 1)), 0, -1)]
     for aim in aims(mesh.points, depth > 0):
         y = scaled(mesh.points @ aim.turn, exact)
         forms = np.array(monomials(y))
-        matrices = [assembled(body, rule, form) for form in forms]
+        matrices = [assembled(body, rule, form, pattern) for form in forms]
         for scale in scales:
             diagonal = sparse.diags_array(scale)
             filled = [diagonal @ m @ diagonal for m in matrices]

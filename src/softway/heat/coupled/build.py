@@ -35,8 +35,16 @@ from softway.model.model import Model
 from softway.model.scene import Scene
 
 
-def build(scene: Scene) -> Model:
+def build(scene: Scene, known: Model | None = None) -> Model:
     """Build the model of a scene: meshes, tables, mass, contacts, and the temperature of solids with heat.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    known
+        Model of another scene: solids that are the very same object in both keep its arrays, with the same bits as
+        those that are built.
 
     Raises
     ------
@@ -54,7 +62,7 @@ def build(scene: Scene) -> Model:
     >>> [field.name for field in build(sw.Scene(bodies={"bar": bar})).fields]
     ['displacement', 'temperature']
     """
-    model = mechanical(scene)
+    model = mechanical(scene, known)
     heated = {name: body for name, body in scene.bodies.items() if isinstance(body, Solid) and body.thermal is not None}
     loads = {k: load for k, load in enumerate(scene.loads) if not isinstance(load, Gravity | Traction)}
     rigid = {} if scene.mechanism is None else scene.mechanism.bodies

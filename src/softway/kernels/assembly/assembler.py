@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array
 
 from softway.arrays import Array, IntArray
+from softway.kernels.assembly.node_pairs import expanded, node_pairs
 
 
 def gather_table(cells: IntArray, rows: Array, nodes: int) -> csr_array:
@@ -63,6 +64,15 @@ class Assembler:
         size = len(self.indptr) - 1
         return csc_array((data, self.indices, self.indptr), (size, size))
 
+    def nodal(self, blocks: list[Array], components: int) -> csr_array:
+        """Matrix (n, n) on the nodes assembled from cell matrices (e, a, a), one array for each type of cell."""
+        values = self.sums @ np.concatenate([block.ravel() for block in blocks])
+        ends = self.indptr[::components]
+        stored = np.diff(self.indptr)[::components]
+        first = np.repeat(ends[:-1], stored // components)
+        own = first + components * (np.arange(len(first)) - np.repeat(ends[:-1] // components**2, stored // components))
+        return csr_array((values, self.indices[own] // components, ends // components**2))
+
     def pair_of(self) -> IntArray:
         """Pair of the pattern, (sum e a a,), to which each node pair of each cell belongs."""
         out = np.empty(self.sums.shape[1], np.int64)
@@ -87,18 +97,9 @@ def assembler(cells: list[IntArray], nodes: int, components: int) -> Assembler:
     >>> line.assemble([np.concatenate([spring, spring])]).toarray().tolist()
     [[1.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]]
     """
-    keys = np.concatenate([(block[:, :, None] * nodes + block[:, None, :]).ravel() for block in cells])
-    pairs, pair_of = np.unique(keys, return_inverse=True)
-    by_pair = np.argsort(pair_of, kind="stable").astype(np.int32)
-    starts = np.searchsorted(pair_of[by_pair], np.arange(len(pairs) + 1))
-    sums = csr_array((np.ones(len(keys)), by_pair, starts), (len(pairs), len(keys)))
-
-    d = components
-    row, column = np.divmod(pairs, nodes)
-    shape = (len(pairs), d, d)
-    i, j = np.arange(d)[:, None], np.arange(d)[None, :]
-    rows = np.broadcast_to(row[:, None, None] * d + i, shape).ravel()
-    columns = np.broadcast_to(column[:, None, None] * d + j, shape).ravel()
-    order = np.lexsort((columns, rows))
-    indptr = np.searchsorted(rows[order], np.arange(nodes * d + 1))
-    return Assembler(sums=sums, order=order, indices=columns[order].astype(np.int32), indptr=indptr.astype(np.int32))
+    widths = np.concatenate([[0], *(np.full(len(block), block.shape[1]) for block in cells)])
+    numbers = np.concatenate([np.asarray(block, np.int64).ravel() for block in cells])
+    rows, columns, starts, members = node_pairs(numbers, np.cumsum(widths), nodes)
+    sums = csr_array((np.ones(len(members)), members, starts), (len(columns), len(members)))
+    order, indices, indptr = expanded(rows, columns, components)
+    return Assembler(sums=sums, order=order, indices=indices, indptr=indptr)

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.kernels.assembly.merged_pattern import merged_pattern
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -49,35 +50,12 @@ def sum_of(constant: csc_array, other: csc_array, keep: BoolArray) -> Sum:
     >>> total.of(stiffness.data, 10.0).toarray().tolist()
     [[11.0, -10.0], [-10.0, 20.0]]
     """
-    size = int(keep.sum())
-    number = np.cumsum(keep) - 1
-    first, second = (_keys(matrix, keep, number, size) for matrix in (constant, other))
-    lone = first[0][~_among(first[0], second[0])]
-    keys = np.sort(np.concatenate([second[0], lone]), kind="stable")
-    values = np.zeros(len(keys))
-    values[np.searchsorted(keys, first[0])] = constant.data[first[1]]
-    column, row = np.divmod(keys, max(size, 1))
-    return Sum(
-        constant=values,
-        picked=second[1],
-        place=np.searchsorted(keys, second[0]),
-        indices=row.astype(np.int32),
-        indptr=np.searchsorted(column, np.arange(size + 1)).astype(np.int32),
-    )
-
-
-def _among(keys: IntArray, ordered: IntArray) -> BoolArray:
-    """True (k,) for the keys that occur among the ordered ones (z,)."""
-    place = np.minimum(np.searchsorted(ordered, keys), max(len(ordered) - 1, 0))
-    return ordered[place] == keys if len(ordered) else np.zeros(len(keys), bool)
-
-
-def _keys(matrix: csc_array, keep: BoolArray, number: IntArray, size: int) -> tuple[IntArray, IntArray]:
-    """Sorted keys ``column * size + row`` of the kept entries, and the indices of their stored values."""
-    columns = np.repeat(np.arange(matrix.shape[1]), np.diff(matrix.indptr))
-    kept = np.flatnonzero(keep[columns] & keep[matrix.indices])
-    keys = number[columns[kept]] * size + number[matrix.indices[kept]]
-    if not matrix.has_sorted_indices:
-        order = np.argsort(keys, kind="stable")
-        keys, kept = keys[order], kept[order]
-    return keys, kept
+    number = np.where(keep, np.cumsum(keep) - 1, -1)
+    one, two, entries = constant.sorted_indices(), other, None
+    if not other.has_sorted_indices:
+        entries = csc_array((np.arange(other.nnz), other.indices, other.indptr), other.shape).sorted_indices()
+        two = entries
+    pattern = one.indptr, one.indices, one.data, two.indptr, two.indices
+    values, picked, place, indices, indptr = merged_pattern(*pattern, number)
+    picked = picked if entries is None else entries.data[picked]
+    return Sum(constant=values, picked=picked, place=place, indices=indices, indptr=indptr)

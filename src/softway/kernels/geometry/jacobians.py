@@ -46,3 +46,20 @@ def cell_geometry(corners: Array, dN: Array, weights: Array) -> tuple[Array, Arr
         gradients = dN[None] / measures[..., None, None]
         directions = jacobian / measures[..., None, None]
     return gradients, measures * weights, directions
+
+
+def determinants(matrices: Array) -> Array:
+    """Determinants (...,) of matrices (..., k, k), k up to 3.
+
+    Examples
+    --------
+    >>> determinants(np.array([[[2.0, 1.0], [1.0, 3.0]]])).tolist()
+    [5.0]
+    """
+    m, k = matrices, matrices.shape[-1]
+    if k == 1:
+        return np.asarray(m[..., 0, 0])
+    if k == 2:
+        return np.asarray(m[..., 0, 0] * m[..., 1, 1] - m[..., 0, 1] * m[..., 1, 0])
+    minors = [m[..., 1, i] * m[..., 2, j] - m[..., 1, j] * m[..., 2, i] for i, j in ((1, 2), (2, 0), (0, 1))]
+    return np.asarray(m[..., 0, 0] * minors[0] + m[..., 0, 1] * minors[1] + m[..., 0, 2] * minors[2])

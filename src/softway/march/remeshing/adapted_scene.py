@@ -65,7 +65,7 @@ class AdaptedScene:
             solid = bodies[name]
             assert isinstance(solid, Solid)
             bodies[name] = replace(solid, mesh=mesh.mesh)
-        model = build(replace(self.scene, bodies=bodies))
+        model = build(replace(self.scene, bodies=bodies), self.model)
         meshes = {**self.meshes, **changed}
         return AdaptedScene(replace(model, adapted=meshes, declared=self.model.declared))
 

@@ -2,11 +2,13 @@
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.indicator import indicator, wanted_levels
-from softway.adaptivity.neighbourhood import buffered, refined_near
+from softway.adaptivity.neighbourhood import grown_around, grown_near
 from softway.adaptivity.transfer import Motion
 from softway.arrays import Array
 from softway.meshes.adaptive.adapt import Adapt
-from softway.meshes.adaptive.refinement import AdaptedMesh, refined
+from softway.meshes.adaptive.leaves import same
+from softway.meshes.adaptive.refinement import AdaptedMesh, adapted_mesh
+from softway.meshes.adaptive.tree import tree_of
 
 
 def wanted_mesh(
@@ -30,6 +32,7 @@ def wanted_mesh(
     base = solid.adapted.base
     finest, deepest = adapt.finest(base), adapt.deepest(base.cell_dim)
     levels = wanted_levels(solid.adapted, indicator(solid, motion), adapt.threshold(base, energy), deepest)
-    found = refined(base, levels, solid.adapted.leaves)
-    found = refined_near(found, [(deepest, touching)], adapt.contact_cells * finest)
-    return buffered(found, stretch * adapt.buffer * finest)
+    tree = tree_of(base).grown(solid.adapted.leaves, levels)
+    tree = grown_near(tree, [(deepest, touching)], adapt.contact_cells * finest)
+    tree = grown_around(tree, stretch * adapt.buffer * finest)
+    return solid.adapted if same(tree.leaves, solid.adapted.leaves) else adapted_mesh(tree)

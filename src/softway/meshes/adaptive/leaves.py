@@ -107,3 +107,9 @@ def same(one: Leaves, other: Leaves) -> bool:
 def nested(coarse: Leaves, fine: Leaves) -> BoolArray:
     """True (e,) for each leaf of ``fine`` that lies in a leaf of ``coarse``."""
     return np.asarray(fine.level >= coarse.level[coarse.around(fine.start)])
+
+
+def among(cells: Leaves, others: Leaves) -> BoolArray:
+    """True (e,) for each of the ``cells`` that is one of the ``others``, too."""
+    around = others.around(cells.start)
+    return np.asarray((others.start[around] == cells.start) & (others.level[around] == cells.level))

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softway.arrays import BoolArray, IntArray
+from softway.arrays import IntArray
 
 SHIFT = 32
 """Bits of the greater number in the code of a pair of nodes."""
@@ -25,9 +25,8 @@ class Middles:
 
     Examples
     --------
-    >>> found, middle = Middles.none(3).with_middles(np.array([[0, 1], [2, 0], [1, 0]]))
-    >>> middle.tolist(), found.on_edges(np.array([[1, 2], [0, 2]])).tolist()
-    ([3, 4, 3], [False, True])
+    >>> Middles.none(3).with_middles(np.array([[0, 1], [2, 0], [1, 0]]))[1].tolist()
+    [3, 4, 3]
     """
 
     codes: IntArray
@@ -48,14 +47,6 @@ class Middles:
         order = np.argsort(codes, kind="stable")
         found = Middles(codes=codes[order], nodes=nodes[order], count=self.count + len(new))
         return found, found.nodes[np.searchsorted(found.codes, code)]
-
-    def on_edges(self, corners: IntArray) -> BoolArray:
-        """True (e,) for the cells, by their corners (e, c), that have an edge with a middle."""
-        out = np.zeros(len(corners), dtype=bool)
-        for i in range(corners.shape[1]):
-            for j in range(i):
-                out |= np.isin(edge_codes(corners[:, [i, j]]), self.codes)
-        return out
 
 
 def edge_codes(edges: IntArray) -> IntArray:

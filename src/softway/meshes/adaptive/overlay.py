@@ -71,12 +71,12 @@ def overlay(one: AdaptedMesh, other: AdaptedMesh) -> Overlay:
     >>> found.inside_one.fine.tolist(), found.inside_other.fine.tolist()
     ([1, 2], [0, 1])
     """
-    _require_one_base(one, other)
+    require_one_base(one, other)
     return Overlay(
         one=one,
         other=other,
-        inside_one=_pairs(one, other, nested(one.leaves, other.leaves)),
-        inside_other=_pairs(other, one, ~_covers(other, one)),
+        inside_one=chosen_pairs(one, other, nested(one.leaves, other.leaves)),
+        inside_other=chosen_pairs(other, one, ~_covers(other, one)),
     )
 
 
@@ -85,7 +85,7 @@ def _covers(other: AdaptedMesh, one: AdaptedMesh) -> BoolArray:
     return np.asarray(one.leaves.level <= other.leaves.level[other.leaves.around(one.leaves.start)])
 
 
-def _require_one_base(one: AdaptedMesh, other: AdaptedMesh) -> None:
+def require_one_base(one: AdaptedMesh, other: AdaptedMesh) -> None:
     """Refuse meshes of different bases."""
     same = one.base is other.base or (
         list(one.base.blocks) == list(other.base.blocks)
@@ -96,7 +96,7 @@ def _require_one_base(one: AdaptedMesh, other: AdaptedMesh) -> None:
         raise InputError("mesh", "two meshes of different bases", "refined() of the same base mesh for both")
 
 
-def _pairs(coarse: AdaptedMesh, fine: AdaptedMesh, chosen: BoolArray) -> Pairs:
+def chosen_pairs(coarse: AdaptedMesh, fine: AdaptedMesh, chosen: BoolArray) -> Pairs:
     """The ``chosen`` leaves (e,) of the finer mesh with the leaves around them."""
     own = np.flatnonzero(chosen)
     around = coarse.leaves.around(fine.leaves.start[own])
@@ -157,12 +157,12 @@ def embedding(coarse: AdaptedMesh, fine: AdaptedMesh) -> sp.csr_array:
     >>> embedding(refined(base, np.array([0])), refined(base, np.array([1]))).toarray().tolist()
     [[1.0, 0.0], [0.0, 1.0], [0.5, 0.5]]
     """
-    _require_one_base(coarse, fine)
+    require_one_base(coarse, fine)
     inside = nested(coarse.leaves, fine.leaves)
     if not inside.all():
         problem = f"{int((~inside).sum())} cells are larger than those of the coarser mesh"
         raise InputError("mesh", problem, "united() of both, which refines both")
-    pairs = _pairs(coarse, fine, inside)
+    pairs = chosen_pairs(coarse, fine, inside)
     rows, columns = _nodes(fine), _nodes(coarse)[pairs.coarse]
     number, first = np.unique(rows.ravel(), return_index=True)
     leaf, local = first // rows.shape[1], first % rows.shape[1]
@@ -183,7 +183,7 @@ def united(one: AdaptedMesh, other: AdaptedMesh) -> AdaptedMesh:
     >>> united(refined(base, np.array([2, 1])), refined(base, np.array([0, 1]))).leaves.level.tolist()
     [2, 2, 2, 2, 1, 1]
     """
-    _require_one_base(one, other)
+    require_one_base(one, other)
     if nested(one.leaves, other.leaves).all():
         return other
     if nested(other.leaves, one.leaves).all():

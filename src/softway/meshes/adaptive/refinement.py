@@ -4,15 +4,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softway.arrays import Array, BoolArray, IntArray
+from softway.arrays import Array, IntArray
 from softway.errors import InputError
+from softway.kernels.geometry.jacobians import determinants
 from softway.meshes.adaptive.leaf_nodes import FirstPlaces, leaf_nodes, located
-from softway.meshes.adaptive.leaves import DEPTH, MOST_CELLS, Leaves, finest, roots
-from softway.meshes.adaptive.middles import Middles
-from softway.meshes.adaptive.squares.balanced import BALANCED, balanced
+from softway.meshes.adaptive.leaves import DEPTH, MOST_CELLS, Leaves, roots
+from softway.meshes.adaptive.squares.balanced import BALANCED
+from softway.meshes.adaptive.squares.cut_nodes import CutNodes
 from softway.meshes.adaptive.squares.square_nodes import square_nodes
 from softway.meshes.adaptive.tags import refined_tags
-from softway.meshes.adaptive.tree_cells import TreeCells, base_cells, children, joined
+from softway.meshes.adaptive.tree import Tree, tree_of
+from softway.meshes.adaptive.tree_cells import TreeCells
 from softway.meshes.mesh import Mesh
 from softway.meshes.topology import HangingNodes
 
@@ -96,12 +98,7 @@ def refined(base: Mesh, want: IntArray, on: Leaves | None = None) -> AdaptedMesh
     ):
         problem = f"array of shape {level.shape} and type {level.dtype}"
         raise InputError("want", problem, f"whole numbers from 0 to {DEPTH} for {len(given.level)} cells")
-    if next(iter(base.blocks)) in BALANCED:
-        cells, cuts = balanced(base, given, level)
-        return _adapted(base, cells, cells.place, square_nodes(base, cells, cuts))
-    cells, middles = _bisected(base_cells(base), Middles.none(base.n_nodes), given, level)
-    corners, place = _oriented(cells)
-    return _adapted(base, cells, place, (*leaf_nodes(base, corners, middles), None))
+    return adapted_mesh(tree_of(base).grown(given, level))
 
 
 def _require_bisected(base: Mesh) -> None:
@@ -115,23 +112,12 @@ def _require_bisected(base: Mesh) -> None:
         raise InputError("mesh", f"{base.n_cells} cells", f"a base mesh of at most {MOST_CELLS} cells")
 
 
-def _bisected(cells: TreeCells, middles: Middles, given: Leaves, level: IntArray) -> tuple[TreeCells, Middles]:
-    """Cells of the refinement, and the nodes in the middle of edges that it has cut."""
-    while True:
-        cut = finest(cells.leaves, given, level) > cells.level
-        cut |= _too_coarse(cells) if cells.corners.shape[1] == 2 else middles.on_edges(cells.corners)
-        if not cut.any():
-            return cells, middles
-        chosen = cells.some(cut)
-        middles, middle = middles.with_middles(chosen.corners[:, :2])
-        cells = joined(cells.some(~cut), *children(chosen, middle))
-
-
-def _too_coarse(bars: TreeCells) -> BoolArray:
-    """Bars (e,) that share a node with one that is finer by two levels or more."""
-    greatest = np.zeros(int(bars.corners.max()) + 1, dtype=np.int64)
-    np.maximum.at(greatest, bars.corners, bars.level[:, None])
-    return np.asarray(greatest[bars.corners].max(axis=1) > bars.level + 1)
+def adapted_mesh(tree: Tree) -> AdaptedMesh:
+    """Adapted mesh of the cells of a tree."""
+    if isinstance(tree.middles, CutNodes):
+        return _adapted(tree.base, tree.cells, tree.cells.place, square_nodes(tree.base, tree.cells, tree.middles))
+    corners, place = _oriented(tree.cells)
+    return _adapted(tree.base, tree.cells, place, (*leaf_nodes(tree.base, corners, tree.middles), None))
 
 
 def _adapted(
@@ -159,7 +145,7 @@ def _oriented(cells: TreeCells) -> tuple[IntArray, Array]:
     """Corners (e, c) in the order of VTK, and their barycentric coordinates (e, c, c); base cells as they are."""
     count, c = cells.corners.shape
     order = np.tile(np.arange(c), (count, 1))
-    order[np.linalg.det(cells.place) < 0.0, -2:] = (c - 1, c - 2)
+    order[determinants(cells.place[:, 1:, 1:] - cells.place[:, :1, 1:]) < 0.0, -2:] = (c - 1, c - 2)
     whole = cells.level == 0
     order[whole] = np.argsort(cells.place[whole].argmax(axis=2), axis=1)
     return np.take_along_axis(cells.corners, order, 1), np.take_along_axis(cells.place, order[:, :, None], 1)

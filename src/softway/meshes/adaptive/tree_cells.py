@@ -1,8 +1,9 @@
-"""Cells of a tree of bisections: their children, and the labels of the cells of a base mesh.
+"""Cells of a tree of bisections, and the labels of the cells of a base mesh.
 
 A cell has its refinement edge between its corners 0 and 1.  Bars are halved; the triangle (a, b, c) with its newest
 corner c has the children (c, a, m) and (b, c, m) with the middle m of its refinement edge; tetrahedra are those of
-Arnold, Mukherjee and Pouly, SIAM J. Sci. Comput. 22 (2000) 431, which need no special base mesh.
+Arnold, Mukherjee and Pouly, SIAM J. Sci. Comput. 22 (2000) 431, which need no special base mesh
+(:mod:`softway.kernels.geometry.bisection`).
 """
 
 from dataclasses import dataclass
@@ -10,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
-from softway.meshes.adaptive.leaves import DEPTH, Leaves, roots
+from softway.meshes.adaptive.leaves import Leaves, roots
 from softway.meshes.cells import CELLS, linear
 from softway.meshes.mesh import Mesh
 
@@ -58,54 +59,6 @@ def joined(*parts: TreeCells) -> TreeCells:
     """Cells of all parts, in rising order of their keys."""
     every = TreeCells(**{n: np.concatenate([getattr(p, n) for p in parts]) for n in TreeCells.__slots__})
     return every.some(np.argsort(every.start, kind="stable"))
-
-
-def children(cells: TreeCells, middle: IntArray) -> tuple[TreeCells, TreeCells]:
-    """Both halves of each cell; ``middle`` (e,) are the nodes in the middle of their refinement edges."""
-    half = (cells.place[:, :1] + cells.place[:, 1:2]) / 2.0
-    corners = np.concatenate([cells.corners, middle[:, None]], axis=1)
-    place = np.concatenate([cells.place, half], axis=1)
-    level = cells.level + 1
-    out = []
-    for side in (0, 1):
-        order, apex, flag = _child(cells, side)
-        out.append(
-            TreeCells(
-                corners=np.take_along_axis(corners, order, axis=1),
-                place=np.take_along_axis(place, order[:, :, None], axis=1),
-                apex=apex,
-                flag=flag,
-                start=cells.start + side * np.left_shift(np.int64(1), DEPTH - level),
-                level=level,
-            )
-        )
-    return out[0], out[1]
-
-
-def _child(cells: TreeCells, side: int) -> tuple[IntArray, IntArray, BoolArray]:
-    """Corners (e, c) of the child with corner ``side``, c for the middle, and its marks (e, 2) and flags (e,)."""
-    count, corners = cells.corners.shape
-    if corners == 4:
-        return _tetrahedron(cells, side)
-    order = {2: ((0, 2), (2, 1)), 3: ((2, 0, 3), (1, 2, 3))}[corners][side]
-    return np.tile(np.array(order), (count, 1)), np.zeros((count, 2), int), np.zeros(count, bool)
-
-
-def _tetrahedron(cells: TreeCells, side: int) -> tuple[IntArray, IntArray, BoolArray]:
-    """Child of tetrahedra with their corner ``side``: the marked edge of the face that it keeps is its refinement edge.
-
-    Cut faces are marked opposite to the middle; so is the new one, except that a flagged planar parent marks its edge
-    between the middle and the refinement edge of both children.
-    """
-    kept = cells.apex[:, 1 - side]
-    planar = (cells.apex[:, 0] == cells.apex[:, 1]) & (cells.apex[:, 0] > 1)
-    opposite = kept == side
-    other = 5 - kept
-    order = np.column_stack([np.full(len(kept), side), other, np.full(len(kept), 4), kept])
-    order[opposite] = (2, 3, 4, side)
-    apex = np.full((len(kept), 2), 2)
-    apex[planar & cells.flag, 0] = 3
-    return order, apex, planar & ~cells.flag
 
 
 def base_cells(mesh: Mesh) -> TreeCells:

@@ -1,0 +1,48 @@
+"""Time against error: uniform meshes, and meshes that follow waves and contacts."""
+
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+from processes.apart import HERE, Absent, Failed, environment, line
+from record.figures import Figure
+
+from groups.asked import Asked
+
+WORDS = {
+    "bar": "A02, force",
+    "wave": "wave from a corner, tri3",
+    "ball": "disc on a floor, tri3",
+    "corner": "cube on a corner, tet4",
+}
+"""Problems by name."""
+
+
+def adapted(asked: Asked) -> Iterator[Figure]:
+    """Time against error, on uniform meshes and on meshes that follow waves and contacts: processor time of building
+    and marching by one thread, and the error at the end of the run; the bar's is that of its contact force, of
+    the exact one; others are those of the motion in the energy norm, of that on a uniform mesh with cells and slabs of
+    half the size, of the cube with the finest cells.  The figures of a line of the picture are those of one kind of
+    mesh with finer and finer cells.
+
+    ![Processor time against error of four problems](../pictures/time_against_error.png)
+    """
+    for name, words in WORDS.items():
+        found = _runs(asked, name)
+        for plain, follows in zip(found[::2], found[1::2], strict=True):
+            cells = f"adapted/{words}, cells of 1/{1.0 / plain['finest']:.0f}"
+            yield Figure(name=f"{cells}, time", value=follows["cpu"], unit="s of the processor; uniform mesh",
+                         baseline=plain["cpu"], ratio=follows["cpu"] / plain["cpu"])  # fmt: skip
+            yield Figure(name=f"{cells}, error", value=100.0 * follows["error"], unit="%; uniform mesh",
+                         baseline=100.0 * plain["error"])  # fmt: skip
+            yield Figure(name=f"{cells}, nodes times slabs", value=follows["nodes"], unit="uniform mesh",
+                         baseline=plain["nodes"], ratio=follows["nodes"] / plain["nodes"])  # fmt: skip
+
+
+def _runs(asked: Asked, name: str) -> list[dict[str, Any]]:
+    """The runs of a problem, uniform and adapted in turn."""
+    more = {"smoke": ["--smallest"], "full": ["--deepest"]}.get(asked.depth, [])
+    try:
+        return list(line([sys.executable, str(HERE / "adapted.py"), name, *more], environment(1))["runs"])
+    except Absent as why:
+        raise Failed(f"{name}: {why}") from why
