@@ -7,7 +7,7 @@ import numpy as np
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.balances import balanced, rigid_motions_of, spin
 from softway.adaptivity.memory import remembered
-from softway.adaptivity.projection import Projection, Unchanged, projection
+from softway.adaptivity.projections.projection import AnyProjection, projection
 from softway.arrays import Array
 from softway.bodies.internal_force.material_state import MaterialState
 
@@ -76,14 +76,14 @@ class Transferred:
     spin: Array
     energy: float
     booked: float
-    projection: Projection | Unchanged
+    projection: AnyProjection
 
 
 def transfer(
     before: AdaptedSolid,
     after: AdaptedSolid,
     motion: Motion,
-    cast: Projection | Unchanged | None = None,
+    cast: AnyProjection | None = None,
     there: Settled | None = None,
 ) -> Transferred:
     """Transfer a motion to another mesh of the same base.
@@ -143,7 +143,7 @@ def transfer(
     )
 
 
-def _at_once(before: AdaptedSolid, after: AdaptedSolid, motion: Motion, cast: Projection | Unchanged) -> Settled:
+def _at_once(before: AdaptedSolid, after: AdaptedSolid, motion: Motion, cast: AnyProjection) -> Settled:
     """The solid at its projected displacement."""
     displacement = cast.displacement(motion.displacement)
     state = None if motion.state is None else remembered(before, after, motion.state, displacement)

@@ -7,7 +7,7 @@ from turning import on_levels, solid
 import softway as sw
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.heat import Heated, carried_heat
-from softway.adaptivity.projection import projection
+from softway.adaptivity.projections.projection import projection
 from softway.arrays import Array
 from softway.bodies.elements.section import Axisymmetric
 from softway.bodies.inertia.nodal_heat import cell_heat_masses, heat_masses

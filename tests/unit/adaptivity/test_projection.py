@@ -8,7 +8,7 @@ from turning import around, moving, on_levels, solid
 
 import softway as sw
 from softway.adaptivity.adapted_solid import AdaptedSolid, adapted_solid
-from softway.adaptivity.projection import projection
+from softway.adaptivity.projections.projection import projection
 from softway.meshes.adaptive.overlay import common_matrix, embedding, overlay, united
 from softway.meshes.generators.shapes import box, disc, interval, rectangle
 from softway.meshes.mesh import Mesh

@@ -7,7 +7,7 @@ import numpy as np
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.heat import Heated, carried_heat
-from softway.adaptivity.projection import Projection, Unchanged
+from softway.adaptivity.projections.projection import AnyProjection, Unchanged
 from softway.arrays import Array
 from softway.bodies.assembled.material_states import scaled
 from softway.bodies.inertia.nodal_heat import cell_heat_masses
@@ -54,7 +54,7 @@ def _curve(heat: HeatModel, part: HeatPart) -> ContentCurve | None | bool:
 def carried_temperatures(
     models: tuple[Model, Model],
     pairs: Mapping[str, tuple[AdaptedSolid, AdaptedSolid]],
-    casts: Mapping[str, Projection | Unchanged],
+    casts: Mapping[str, AnyProjection],
     values: Mapping[str, Array],
 ) -> dict[str, Array]:
     """Temperatures (m, 1) of the solids on new meshes, from those (n, 1) on the old ones [K]; others stay."""
@@ -64,7 +64,7 @@ def carried_temperatures(
         cast = casts[name]
         parts = [next((p for p in heat.parts if p.name == name), None) for heat in heats]
         if isinstance(cast, Unchanged) or any(part is None for part in parts):
-            if isinstance(cast, Projection):
+            if not isinstance(cast, Unchanged):
                 out[name] = np.zeros((cast.at_nodes.shape[0], 1))
             continue
         one, other = (

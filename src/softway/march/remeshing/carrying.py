@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.memory import remembered
-from softway.adaptivity.projection import Projection, Unchanged, projection
+from softway.adaptivity.projections.projection import AnyProjection, Unchanged, projection
 from softway.adaptivity.transfer import Settled, Transferred, transfer
 from softway.arrays import Array, BoolArray
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent
@@ -86,7 +86,7 @@ class _Change:
     state: State
     span: float
     pairs: Mapping[str, tuple[AdaptedSolid, AdaptedSolid]]
-    casts: Mapping[str, Projection | Unchanged]
+    casts: Mapping[str, AnyProjection]
     fields: Mapping[str, Mapping[str, Array]]
 
     def unsettled(self) -> Unsettled:
@@ -124,7 +124,10 @@ class _Change:
         blocks = []
         for part in self.new.model.parts:
             cast = self.casts.get(part.name)
-            blocks.append(cast.at_nodes if isinstance(cast, Projection) else sp.eye_array(part.mesh.n_nodes))
+            if cast is None or isinstance(cast, Unchanged):
+                blocks.append(sp.eye_array(part.mesh.n_nodes, format="csr"))
+            else:
+                blocks.append(cast.at_nodes)
         return sp.csr_array(sp.block_diag(blocks, format="csr"))
 
     def joined(self) -> ModelState:

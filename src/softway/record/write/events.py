@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from softway.adaptivity.projection import Unchanged
+from softway.adaptivity.projections.projection import Unchanged
 from softway.march.results.step import Event, Ledger, Step
 from softway.record.storage import table
 from softway.record.storage.table import Lines

@@ -12,7 +12,8 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
-from softway.adaptivity.conjugate_gradients import conjugate_gradients
+from softway.adaptivity.projections.conjugate_gradients import conjugate_gradients
+from softway.adaptivity.projections.overlay_projection import OverlayProjection, overlay_projection
 from softway.arrays import Array
 from softway.bodies.internal_force.node_factors import scaled_product
 from softway.meshes.adaptive.values_at_nodes import ValuesAtNodes, values_at_nodes, values_of_base
@@ -47,21 +48,26 @@ class Projection:
     masses: tuple[sp.csr_array, sp.csr_array]
     time: float
 
+    @property
+    def at_nodes(self) -> sp.csr_array:
+        """Values (m, n) of fields of A at the nodes of B."""
+        return self.values.forward
+
     def velocity(self, field: Array) -> Array:
         """Projection (m, d) of a field (n, d) with the mass: velocities, accelerations."""
-        near, rest = self._at_nodes(field)
+        near, rest = self._near(field)
         right = self.after.part.dofs.forces(np.asarray(self.values.back.T @ (self.masses[0] @ rest)))
         return near + self._corrected(right)
 
     def displacement(self, field: Array) -> Array:
         """Projection (m, d) of a displacement (n, d) [m] with mass and stiffness."""
-        near, rest = self._at_nodes(field)
+        near, rest = self._near(field)
         part = self.before.part
         pushed = scaled_product(part.internal, part.factor, np.zeros_like(field), rest)
         right = self.values.back.T @ (self.masses[0] @ rest + self.time**2 * pushed)
         return near + self._relaxed(self.after.part.dofs.forces(np.asarray(right)))
 
-    def _at_nodes(self, field: Array) -> tuple[Array, Array]:
+    def _near(self, field: Array) -> tuple[Array, Array]:
         """Values (m, d) of a field (n, d) at the nodes of B, and the rest (n, d) at the nodes of A."""
         near = np.asarray(self.values.forward @ field)
         return near, np.asarray(field - self.values.back @ near)
@@ -104,7 +110,11 @@ class Unchanged:
         return field
 
 
-def projection(before: AdaptedSolid, after: AdaptedSolid) -> Projection | Unchanged:
+AnyProjection = Projection | OverlayProjection | Unchanged
+"""Projection of fields from one mesh to another."""
+
+
+def projection(before: AdaptedSolid, after: AdaptedSolid) -> AnyProjection:
     """Projections of a solid from its mesh ``before`` to its mesh ``after``.
 
     Velocities are projected with the mass M, displacements with ``M + t^2 K``: K is the stiffness of the undeformed
@@ -132,6 +142,8 @@ def projection(before: AdaptedSolid, after: AdaptedSolid) -> Projection | Unchan
     """
     if before.adapted is after.adapted:
         return Unchanged()
+    if after.adapted.step > 1:
+        return overlay_projection(before, after)
     part, size = after.part, float(np.linalg.norm(np.ptp(after.points, axis=0)))
     return Projection(
         before=before,

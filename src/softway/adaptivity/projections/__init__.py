@@ -1,0 +1,1 @@
+"""Projections of fields from one adapted mesh of a solid to another."""
