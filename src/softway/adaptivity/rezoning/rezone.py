@@ -1,6 +1,6 @@
 """New places of the nodes of a degraded mesh, with the same cells."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -13,16 +13,22 @@ from softway.meshes.cells import CELLS, linear
 from softway.meshes.element import tabulate
 from softway.meshes.mesh import Mesh
 
-OnTools = Callable[[Array], Array]
-"""Places (n, d) of the nodes of a solid with those in tools, or in contact with one, on the tools."""
+OnTools = Callable[[Array, BoolArray], Array]
+"""Places (n, d) of the nodes of a solid with those in tools, and those (n,) in contact, on the tools."""
 
 
 def rezoned(
-    part: DiscreteSolid, base: Mesh, places: Array, closed: BoolArray, kept: BoolArray, on_tools: OnTools
+    part: DiscreteSolid,
+    base: Mesh,
+    places: Array,
+    closed: BoolArray,
+    kept: BoolArray,
+    on_tools: OnTools,
+    tags: Sequence[str] = (),
 ) -> Array | None:
     """New places (n, d) of the nodes of a solid; None if no cells fit into its shape.
 
-    In the plane nodes of the boundary slide on it, between its corners, ends of tags and of contacts, with the spacing
+    In the plane nodes of the boundary slide on it, between its corners and the ends of supports and contacts, with the spacing
     of the base mesh; in space they stay.  Nodes inside have the places of least distortion from the base mesh in the
     affine motion nearest to the present one.  Free nodes of the boundary move along their normals, so that the volume
     stays.
@@ -39,16 +45,19 @@ def rezoned(
         (n,) nodes in contact, and nodes of the boundary that may not move.
     on_tools
         Contact with tools.
+    tags
+        Tags whose ends stay: those of supports.
     """
     mesh, section = part.mesh, part.internal.section
     wanted = volume_of(mesh.blocks, section, places)
     boundary = mesh.nodes("surface")
-    new = np.array(places)
+    new, closed = np.array(places), np.array(closed)
     if mesh.dim == 2:
         for rim in rims(mesh):
-            new[rim] = slid(base.points, rim, places, anchors(base, rim, places, closed), closed)
+            held = anchors(base, rim, places, closed, tags)
+            new[rim], closed[rim] = slid(base.points, rim, places, held, closed)
         new[kept] = places[kept]
-        new = on_tools(new)
+        new = on_tools(new, closed)
         free = part.dofs.free & (np.isin(np.arange(len(places)), boundary) & ~closed & ~kept)[:, None]
         new = with_volume(mesh.blocks, mesh.boundary(), section, new, wanted, free)
     found = moved(distortion(mesh.blocks, ideal_places(base.points, places)), places, boundary, new[boundary])

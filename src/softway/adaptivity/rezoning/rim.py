@@ -74,18 +74,21 @@ def turns(points: Array) -> Array:
     return np.degrees((angle - np.roll(angle, 1) + np.pi) % (2.0 * np.pi) - np.pi)
 
 
-def labels(mesh: Mesh, rim: IntArray) -> list[frozenset[str]]:
-    """Tags with both nodes of each side of a rim, the side from each node to the next one."""
-    masks = {name: np.isin(rim, nodes) for name, nodes in mesh.tags.items()}
-    both = {name: mask & np.roll(mask, -1) for name, mask in masks.items()}
-    return [frozenset(name for name, mask in both.items() if mask[k]) for k in range(len(rim))]
+def ends(mesh: Mesh, rim: IntArray, tags: Sequence[str]) -> BoolArray:
+    """Nodes (k,) of a rim at which a side in a tag follows one that is not, or is followed by one."""
+    found = np.zeros(len(rim), dtype=bool)
+    for tag in tags:
+        inside = np.isin(rim, mesh.nodes(tag))
+        side = inside & np.roll(inside, -1)
+        found |= side != np.roll(side, 1)
+    return found
 
 
-def anchors(base: Mesh, rim: IntArray, places: Array, closed: BoolArray) -> Anchors:
-    """Anchors of a rim: corners, ends of tags, and ends of the parts in contact.
+def anchors(base: Mesh, rim: IntArray, places: Array, closed: BoolArray, tags: Sequence[str] = ()) -> Anchors:
+    """Anchors of a rim: corners now and in the base mesh, ends of tags, and ends of the parts in contact.
 
-    Where the end of a tag has become smooth, with sides in contact from there to a corner, the boundary has folded
-    onto the body that it touches: the node moves to this corner, and the tag with it.
+    Where a corner of the base mesh has become smooth, and sides beyond it are in contact, the boundary has folded onto
+    the body that it touches: the node moves to the end of the contact.
 
     Parameters
     ----------
@@ -97,16 +100,17 @@ def anchors(base: Mesh, rim: IntArray, places: Array, closed: BoolArray) -> Anch
         (n, 2) places of all nodes [m].
     closed
         (n,) nodes in contact.
+    tags
+        Tags whose ends stay.
     """
-    count, own = len(rim), labels(base, rim)
-    ends = np.array([own[k] != own[k - 1] for k in range(count)])
-    kinks = np.abs(turns(places[rim])) > KINK
-    touching = closed[rim]
+    count = len(rim)
+    first, kinks = (np.abs(turns(points[rim])) > KINK for points in (base.points, places))
+    stay, touching = ends(base, rim, tags), closed[rim]
     last = touching & ~(np.roll(touching, 1) & np.roll(touching, -1))
-    fixed, target = kinks | ends | last, np.arange(count)
-    for k in np.flatnonzero(ends & ~kinks & touching).tolist():
+    fixed, target = kinks | first | stay | last, np.arange(count)
+    for k in np.flatnonzero(first & ~kinks & touching).tolist():
         for way in (1, -1):
-            passed = _folded(k, way, touching, kinks, ends)
+            passed = _folded(k, way, touching, first | stay)
             if passed:
                 target[k] = k + way * passed
                 fixed[(k + way * np.arange(1, passed + 1)) % count] = False
@@ -115,23 +119,24 @@ def anchors(base: Mesh, rim: IntArray, places: Array, closed: BoolArray) -> Anch
     return Anchors(at=at, target=target[at]) if len(at) else Anchors(at=np.array([0]), target=np.array([0]))
 
 
-def _folded(start: int, way: int, touching: BoolArray, kinks: BoolArray, ends: BoolArray) -> int:
-    """Number of sides in contact from a node to the next corner inside a tag; zero if there is none in contact."""
+def _folded(start: int, way: int, touching: BoolArray, others: BoolArray) -> int:
+    """Number of sides in contact from a node to the end of the contact; zero if another corner is before it."""
     count = len(touching)
     for k in range(1, count):
         node = (start + way * k) % count
-        if not touching[node] or ends[node]:
+        if not touching[node]:
+            return k - 1
+        if others[node]:
             return 0
-        if kinks[node]:
-            return k
     return 0
 
 
-def slid(base: Array, rim: IntArray, places: Array, held: Anchors, straight: BoolArray) -> Array:
-    """Places (k, 2) of the nodes of a rim, between its anchors with the spacing of the base mesh.
+def slid(base: Array, rim: IntArray, places: Array, held: Anchors, closed: BoolArray) -> tuple[Array, BoolArray]:
+    """Places (k, 2) of the nodes of a rim, between its anchors with the spacing of the base mesh, and those (k,) of
+    them that are in contact there.
 
     Between anchors the boundary is the cubic spline through its nodes, by the length of its chords, or their polygon
-    where all of them are ``straight``.
+    where all of them are in contact.
 
     Parameters
     ----------
@@ -141,20 +146,22 @@ def slid(base: Array, rim: IntArray, places: Array, held: Anchors, straight: Boo
         (k,) nodes of the rim.
     held
         Its anchors.
-    straight
-        (n,) nodes on parts that stay polygons: those in contact.
+    closed
+        (n,) nodes in contact.
     """
     count = len(rim)
-    out = np.array(places[rim])
+    out, touching = np.array(places[rim]), np.zeros(len(rim), dtype=bool)
     for k, start in enumerate(held.at.tolist()):
         following = (k + 1) % len(held.at)
         end = int(held.at[following]) + (count if following <= k else 0)
         first, last = int(held.target[k]), int(held.target[following]) + (count if following <= k else 0)
         new, old = rim[np.arange(start, end + 1) % count], rim[np.arange(first, last + 1) % count]
         share = _lengths(base[new])
-        curve = _curve(places[old], share / share[-1], bool(straight[old].all()))
-        out[np.arange(start, end + 1) % count] = curve
-    return out
+        flat = bool(closed[old].all())
+        out[np.arange(start, end + 1) % count] = _curve(places[old], share / share[-1], flat)
+        touching[np.arange(start, end + 1) % count] |= flat
+        touching[[start % count, end % count]] |= closed[old[[0, -1]]]
+    return out, touching
 
 
 def _lengths(points: Array) -> Array:

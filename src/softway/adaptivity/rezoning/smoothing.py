@@ -15,6 +15,8 @@ ROUNDS = 60
 """Greatest number of corrections."""
 CONVERGED = 1e-5
 """Relative decrease of the distortion below which it counts as least."""
+TRIES = 24
+"""Greatest number of shares in which the boundary moves."""
 SHORTEST = 2.0**-10
 """Least share of a correction, or of the motion of the boundary, that is tried."""
 
@@ -141,7 +143,7 @@ def moved(found: Distortion, places: Array, boundary: IntArray, targets: Array) 
         now = np.array(goal)
         now[inside] = -solve(np.asarray(coupling @ goal[rim]))
         return _relaxed(found, now, inside, solve) if np.isfinite(found.value(now)) else None
-    while True:
+    for _ in range(TRIES):
         way = goal[rim] - now[rim]
         if not way.any():
             return _relaxed(found, now, inside, solve)
@@ -156,6 +158,7 @@ def moved(found: Distortion, places: Array, boundary: IntArray, targets: Array) 
         if share < 1.0:
             now = _relaxed(found, now, inside, solve)
         share = min(1.0, 2.0 * share)
+    return None
 
 
 def _along(now: Array, step: Array, share: float, rim: IntArray, goal: Array) -> Array:

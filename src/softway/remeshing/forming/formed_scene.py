@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.adaptivity.rezoning.quality import CellQuality, cell_quality
+from softway.adaptivity.rezoning.rezone import rezoned
 from softway.adaptivity.unrelated.memory import require_recast
 from softway.arrays import Array, BoolArray
 from softway.bodies.discretised import DiscreteSolid, discretise
@@ -74,6 +75,18 @@ class FormedScene:
             new[name] = cell_quality(mesh.blocks, mesh.points)
         scene = replace(self.scene, bodies=bodies)
         return FormedScene(scene=scene, model=build(scene), bases=self.bases, new=new)
+
+    def rezoned(self, now: MarchState, name: str) -> Array | None:
+        """New places (n, d) of the nodes of a solid; None if no cells fit into its shape."""
+        closed, kept = self.touching(now, name)
+        solid = self.scene.bodies[name]
+        assert isinstance(solid, Solid)
+        tags = tuple(support.on for support in solid.supports)
+
+        def on_tools(places: Array, touching: BoolArray) -> Array:
+            return self.on_tools(now, name, touching & ~kept, places)
+
+        return rezoned(self.part(name), self.bases[name], self.places(now, name), closed, kept, on_tools, tags)
 
     def touching(self, now: MarchState, name: str) -> tuple[BoolArray, BoolArray]:
         """Nodes (n,) of a solid in closed contacts, and those of them in contact with other solids."""

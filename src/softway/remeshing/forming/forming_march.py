@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import islice
 
-from softway.adaptivity.rezoning.rezone import rezoned
 from softway.errors import Cancel, InputError
 from softway.march.march import march
 from softway.march.march_state import MarchState
@@ -130,15 +129,11 @@ def _replaced(
     """Scene and state with new meshes of the solids for which there are any."""
     meshes: dict[str, Mesh] = {}
     for name in reasons:
-        part, (closed, kept) = on.part(name), on.touching(now, name)
-        places = on.places(now, name)
-        found = rezoned(
-            part, on.bases[name], places, closed, kept, lambda x, name=name, closed=closed: on.on_tools(now, name, closed, x)
-        )
+        found = on.rezoned(now, name)
         if found is None:
             log.info("no new mesh of %r at t = %.6g s fits", name, now.state.time)
             continue
-        meshes[name] = replace(part.mesh, points=found)
+        meshes[name] = replace(on.part(name).mesh, points=found)
     if not meshes:
         return on, now, {}
     new = on.on(meshes)
