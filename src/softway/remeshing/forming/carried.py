@@ -4,16 +4,23 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy.sparse as sp
 
+from softway.adaptivity.balances import balanced, rigid_motions_of
+from softway.adaptivity.rezoning.quality import cell_quality
+from softway.adaptivity.rezoning.volume import volume_of
 from softway.adaptivity.unrelated.fields import projected
 from softway.adaptivity.unrelated.memory import recast, recast_state
-from softway.arrays import Array, BoolArray
+from softway.arrays import Array
+from softway.bodies.assembled.material_states import committed
+from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
 from softway.march.march_state import MarchState
 from softway.march.model_state import ModelState, join_states, split_states
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.remeshing.forming.formed_scene import FormedScene
+from softway.solve.static_equilibrium import equilibrium
 from softway.solve.operators.operator_memory import OperatorMemory
 
 CLOSED = 1e-10
@@ -64,21 +71,66 @@ def carried_on(
         cast = recast(before, u, after)
         memory[name] = recast_state(cast, state.memory[name], np.asarray(before.internal.sampling.volume))
         displacement[name] = np.zeros((after.mesh.n_nodes, after.mesh.dim))
-        for found in fields.values():
-            still = not found[name].any()
-            found[name] = (
-                np.zeros_like(displacement[name])
-                if still
-                else projected(before, before.mesh.points + u, after, found[name])
-            )
+        pair = Heavy.of(old.model, before), Heavy.of(new.model, after)
+        for key, found in fields.items():
+            found[name] = _moved(*pair, u, found[name], key == "velocity")
     state = replace(state, displacement=displacement, memory=memory, **fields)
-    joined = _in_contact(old.model, new.model, now.state, state)
+    settles = bool(new.model.inert and not new.model.massive.all())
+    if settles:
+        joined = _settled(new.model, state, now.step_history.span)
+    else:
+        joined = _in_contact(old.model, new.model, now.state, state)
     numbers = {p.name: k for k, p in enumerate(new.model.parts)}
     energies = [m.kinetic(s.start.velocity) + s.start.energy for m, s in ((old.model, now.state), (new.model, joined))]
     taken = energies[0] - energies[1]
     exchanges = {n: _exchange(old, new, now, n, reason, float(taken[numbers[n]])) for n, reason in reasons.items()}
     account = replace(now.account, remeshing=now.account.remeshing + float(taken.sum()))
     return replace(now, state=joined, account=account, memory=OperatorMemory()), exchanges
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Heavy:
+    """Solid with its inertia in a model: mass (n, n) [kg], and velocities (n, n) of all nodes from those with mass."""
+
+    part: DiscreteSolid
+    mass: sp.csr_array
+    follow: sp.csr_array
+
+    @classmethod
+    def of(cls, model: Model, part: DiscreteSolid) -> "Heavy":
+        """A solid of a model."""
+        mass, follow = (matrix[part.nodes][:, part.nodes] for matrix in (model.mass, model.follow))
+        return cls(part=part, mass=mass, follow=follow)
+
+    @property
+    def points(self) -> Array:
+        """Reference places (n, d) of the nodes [m]."""
+        return self.part.mesh.points
+
+    def kinetic(self, velocity: Array) -> float:
+        """Kinetic energy [J] at a velocity (n, d) [m/s]."""
+        return 0.5 * float((velocity * (self.mass @ velocity)).sum())
+
+    def following(self, velocity: Array) -> Array:
+        """Velocity (n, d) in which massless nodes move as the nodes behind them, but for their supports."""
+        moved = np.asarray(self.follow @ velocity)
+        return np.asarray(moved + self.part.dofs.supported(velocity - moved))
+
+
+def _moved(before: Heavy, after: Heavy, displacement: Array, field: Array, closes: bool) -> Array:
+    """Velocity or acceleration (m, d) on the new mesh from that (n, d) on the old one; if it ``closes``, with the
+    momentum, spin and kinetic energy before.
+    """
+    if not field.any():
+        return np.zeros(after.points.shape)
+    heavy, places = before.mass.nnz > 0, before.points + displacement
+    given = before.following(field) if heavy else field
+    found = projected(before.part, places, after.part, given)
+    if not (heavy and closes):
+        return found
+    rigid = rigid_motions_of(before, after, (places, after.points))
+    momenta = rigid.before.T @ (before.mass @ field).ravel()
+    return after.following(balanced(after, rigid.after, after.following(found), momenta, before.kinetic(field))[0])
 
 
 def _in_contact(before: Model, model: Model, now: ModelState, state: State) -> ModelState:
@@ -109,6 +161,30 @@ def _in_contact(before: Model, model: Model, now: ModelState, state: State) -> M
     return replace(joined, closed=closed, pressure=normal, traction=traction, sliding=sliding, span=now.span)
 
 
+def _settled(model: Model, state: State, span: float) -> ModelState:
+    """State with massless nodes in equilibrium with the contacts, without friction, the others fixed."""
+    u = model.join(state.displacement)
+    there = model.during(tuple(state.memory.get(p.name) for p in model.parts), span)
+    rest = equilibrium(there, u, model.dofs.only(~model.massive), model.loads.at(state.time), state.time)
+    reached = committed(there.parts, rest.displacement)
+    memory = {p.name: m for p, m in zip(model.parts, reached, strict=True) if m is not None}
+    pressure = {label: rest.pressure[mine] for label, mine in _slices(model)}
+    none = {label: np.zeros((len(p), model.shape[1])) for label, p in pressure.items()} if state.traction else {}
+    return join_states(
+        model,
+        replace(
+            state,
+            displacement=model.split(rest.displacement),
+            memory=memory,
+            pressure=pressure,
+            closed={label: p > 0.0 for label, p in pressure.items()},
+            traction=none,
+            sliding={label: p > 0.0 for label, p in pressure.items()} if state.sliding else {},
+            slip={},
+        ),
+    )
+
+
 def _balanced(model: Model, force: Array, contact: Array, time: float) -> Array:
     """Internal forces (n, d) of a slab's start that balance the forces of contacts and loads on massless nodes.
 
@@ -131,9 +207,6 @@ def _slices(model: Model) -> list[tuple[str, slice]]:
 
 def _exchange(old: FormedScene, new: FormedScene, now: MarchState, name: str, reason: str, energy: float) -> Exchange:
     """What a new mesh has changed."""
-    from softway.adaptivity.rezoning.quality import cell_quality
-    from softway.adaptivity.rezoning.volume import volume_of
-
     mesh, part = old.part(name).mesh, new.part(name)
     places, section = old.places(now, name), part.internal.section
     before, after = volume_of(mesh.blocks, section, places), volume_of(part.mesh.blocks, section, part.mesh.points)
