@@ -188,4 +188,3 @@ def _relaxed(found: Distortion, places: Array, inside: IntArray, solve: Callable
         if done:
             break
     return np.asarray(now)
-

@@ -53,9 +53,9 @@ class ControlVolumes:
 def control_volumes(blocks: Mapping[str, IntArray], places: Array, points: Mapping[str, int]) -> ControlVolumes:
     """Control volumes of a mesh of one type of cell.
 
-    A quadrilateral with k times k points has the images of k times k rectangles whose areas are the weights, a triangle with three points those of the
-    three parts that the lines from its centre to the middles of its sides cut off; other cells are one control volume,
-    with the mean of their points.
+    A quadrilateral with k times k points has the images of k times k rectangles whose areas are the weights, a triangle
+    with three points those of the three parts that the lines from its centre to the middles of its sides cut off; other
+    cells are one control volume, with the mean of their points.
 
     Parameters
     ----------

@@ -85,7 +85,8 @@ def overlap(old: ControlVolumes, new: ControlVolumes, *, radial: bool = False) -
 
     Examples
     --------
-    >>> whole = ControlVolumes(corners=np.array([[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]]), point=np.array([0]))
+    >>> box = np.array([[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]])
+    >>> whole = ControlVolumes(corners=box, point=np.array([0]))
     >>> left = whole.corners * [0.5, 1.0]
     >>> halves = ControlVolumes(corners=np.concatenate([left, left + [1.0, 0.0]]), point=np.array([0, 1]))
     >>> overlap(halves, whole).means(np.array([[1.0], [3.0]])).tolist()
@@ -103,7 +104,7 @@ def overlap(old: ControlVolumes, new: ControlVolumes, *, radial: bool = False) -
         pairs=pairs[:, ::-1],
         measure=found[:, 0],
         arm=found[:, 1:] - found[:, :1] * centroid[pairs[:, 0]],
-        covered=np.bincount(pairs[:, 1], found[:, 0], minlength=len(new.corners)),
+        covered=np.asarray(np.bincount(pairs[:, 1], found[:, 0], minlength=len(new.corners)), dtype=float),
         nearest=cKDTree(old.centre).query(new.centre)[1].astype(np.int64),
         slopes=_slopes(centroid, around),
         reach=old.corners - centroid[:, None],
@@ -113,10 +114,10 @@ def overlap(old: ControlVolumes, new: ControlVolumes, *, radial: bool = False) -
 
 def _moments(one: Array, other: Array, pairs: IntArray, radial: bool) -> Array:
     """Measure and first moments (k, 1 + d) of the intersections of pairs (k, 2)."""
-    one, other, pairs = (np.ascontiguousarray(a) for a in (one, other, pairs))
-    if one.shape[2] == 2:
-        return np.asarray(polygon_overlaps(one, other, pairs, radial))
-    return np.asarray(tetrahedron_overlaps(one, other, pairs))
+    ours, theirs, which = np.ascontiguousarray(one), np.ascontiguousarray(other), np.ascontiguousarray(pairs)
+    if ours.shape[2] == 2:
+        return np.asarray(polygon_overlaps(ours, theirs, which, radial))
+    return np.asarray(tetrahedron_overlaps(ours, theirs, which))
 
 
 def _candidates(old: ControlVolumes, new: ControlVolumes) -> IntArray:

@@ -20,8 +20,8 @@ from softway.march.model_state import ModelState, join_states, split_states
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.remeshing.forming.formed_scene import FormedScene
-from softway.solve.static_equilibrium import equilibrium
 from softway.solve.operators.operator_memory import OperatorMemory
+from softway.solve.static_equilibrium import equilibrium
 
 CLOSED = 1e-10
 """Gap, relative to the extent of the scene, up to which a contact row starts closed."""
@@ -63,7 +63,7 @@ def carried_on(
     """
     state = split_states(old.model, now.state)
     memory, displacement = dict(state.memory), dict(state.displacement)
-    fields = {key: dict(getattr(state, key)) for key in ("velocity", "acceleration")}
+    velocity, acceleration = dict(state.velocity), dict(state.acceleration)
     for name in reasons:
         before, after = old.part(name), new.part(name)
         u = state.displacement[name]
@@ -72,9 +72,9 @@ def carried_on(
         memory[name] = recast_state(cast, state.memory[name], np.asarray(before.internal.sampling.volume))
         displacement[name] = np.zeros((after.mesh.n_nodes, after.mesh.dim))
         pair = Heavy.of(old.model, before), Heavy.of(new.model, after)
-        for key, found in fields.items():
-            found[name] = _moved(*pair, u, found[name], key == "velocity")
-    state = replace(state, displacement=displacement, memory=memory, **fields)
+        velocity[name] = _moved(*pair, u, velocity[name], True)
+        acceleration[name] = _moved(*pair, u, acceleration[name], False)
+    state = replace(state, displacement=displacement, memory=memory, velocity=velocity, acceleration=acceleration)
     settles = bool(new.model.inert and not new.model.massive.all())
     if settles:
         joined = _settled(new.model, state, now.step_history.span)

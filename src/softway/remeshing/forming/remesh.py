@@ -7,7 +7,7 @@ from softway.adaptivity.rezoning.quality import CellQuality
 from softway.errors import InputError
 from softway.units import Pure
 
-Way = Literal["rezone", "triangles", "mmg"]
+Way = Literal["rezone"]
 """How a mesh is replaced."""
 WORSE = 0.8
 """Quality, relative to that of the last new mesh, below which a measure that the mesh cannot reach counts again."""
@@ -24,8 +24,7 @@ class Remesh:
     Parameters
     ----------
     by
-        ``rezone``: the same cells with their nodes in other places; ``triangles``: new triangles by Delaunay's
-        criterion; ``mmg``: new triangles or tetrahedra by Mmg, which the extra ``remesh`` installs.
+        ``rezone``: the same cells with their nodes in other places.
     quality
         Least scaled Jacobian of the cells.
     angle
