@@ -30,9 +30,9 @@ from softway.laws.bulk import J2, Hypoelastic, LinearElastic, NeoHookean
 from softway.laws.cohesive_law import BilinearCohesive
 from softway.laws.friction import Coulomb
 from softway.march.march import march
-from softway.march.march_state import MarchState
 from softway.march.results.step import Certificate, Event, Ledger, Step
-from softway.march.step_control import StepControl
+from softway.march.state.march_state import MarchState
+from softway.march.state.step_control import StepControl
 from softway.meshes.mesh import Mesh
 from softway.model.scene import Scene, State
 from softway.record.run import Run

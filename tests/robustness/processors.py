@@ -40,7 +40,7 @@ LEFT = (
     "unit/march/motion/test_free_bodies.py",
     "unit/march/motion/test_path_dependent_laws.py",
     "unit/march/rules/test_central_difference.py",
-    "unit/march/test_march_state.py",
+    "unit/march/state/test_march_state.py",
     "unit/mechanisms/test_couplings.py",
     "unit/mechanisms/test_forces.py",
     "unit/mechanisms/test_march_state.py",

@@ -16,6 +16,7 @@ ELSEWHERE = {
     "G02",
     "G03",
     "G04",
+    "I03",
 }
 """Computed by a dedicated test, which says more about the same marches."""
 DEAR = 10.0

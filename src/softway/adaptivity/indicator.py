@@ -13,10 +13,10 @@ from softway.meshes.adaptive.leaves import DEPTH
 from softway.meshes.adaptive.refinement import AdaptedMesh
 from softway.meshes.cells import CELLS
 
-FINER = (1.0, 3.0)
-"""Indicators, relative to the threshold, above which a cell wants one level and two levels more."""
-COARSER = (0.35, 0.15)
-"""Indicators, relative to the threshold, below which it wants one level and two levels less."""
+FINER = {1: (1.0, 3.0), 2: (1.0, 6.0), 3: (1.0, 8.0)}
+"""Indicators, relative to the threshold, above which a cell wants one cut and two cuts more, by the levels of a cut."""
+COARSER = {1: (0.35, 0.15), 2: (0.15, 0.04), 3: (0.1, 0.02)}
+"""Indicators, relative to the threshold, below which it wants one cut and two cuts less, by the levels of a cut."""
 
 
 def indicator(solid: AdaptedSolid, motion: Motion) -> Array:
@@ -64,12 +64,21 @@ def _spread(adapted: AdaptedMesh, owner: IntArray, volume: Array, values: Array)
     np.add.at(total, nodes, (volume[:, None] * values)[:, None])
     np.add.at(weight, nodes, volume[:, None])
     recovered = total[nodes] / weight[nodes][:, :, None]
-    apart, c = recovered - values[:, None], rows.shape[1]
-    return np.asarray(((apart**2).sum(axis=(1, 2)) + (apart.sum(axis=1) ** 2).sum(axis=1)) / (c * (c + 1)))
+    apart = recovered - values[:, None]
+    return np.asarray(np.einsum("eak,ab,ebk->e", apart, _products(adapted), apart))
+
+
+def _products(adapted: AdaptedMesh) -> Array:
+    """Means (c, c) of the products of the linear shape functions over a cell of constant thickness and area."""
+    corners = CELLS[adapted.cell].corners
+    if adapted.step > 1:
+        apart = np.abs(CELLS[adapted.cell].nodes[:corners, None] - CELLS[adapted.cell].nodes[None, :corners])
+        return np.asarray((1.0 / 3.0 - apart / 6.0).prod(axis=2))
+    return (np.ones((corners, corners)) + np.eye(corners)) / (corners * (corners + 1))
 
 
 def wanted_levels(adapted: AdaptedMesh, indicated: Array, threshold: float, greatest: int) -> IntArray:
-    """Wanted levels (e,) on the leaves of a mesh: up to two more or less than they have, 0 to ``greatest``.
+    """Wanted levels (e,) on the leaves of a mesh: up to two cuts more or less than they have, 0 to ``greatest``.
 
     Parameters
     ----------
@@ -90,6 +99,6 @@ def wanted_levels(adapted: AdaptedMesh, indicated: Array, threshold: float, grea
     >>> wanted_levels(found, np.array([4.0, 1.5, 0.5, 0.1]), 1.0, 9).tolist()
     [4, 3, 2, 0]
     """
-    ratio = indicated / threshold
-    change = (ratio[:, None] > np.array(FINER)).sum(axis=1) - (ratio[:, None] < np.array(COARSER)).sum(axis=1)
-    return np.asarray(np.clip(adapted.leaves.level + change, 0, min(greatest, DEPTH)))
+    ratio, step, most = indicated[:, None] / threshold, adapted.step, min(greatest, DEPTH)
+    change = (ratio > np.array(FINER[step])).sum(axis=1) - (ratio < np.array(COARSER[step])).sum(axis=1)
+    return np.asarray(np.clip(adapted.leaves.level + step * change, 0, most - most % step))

@@ -12,6 +12,8 @@ from softway.arrays import Array, BoolArray
 from softway.meshes.adaptive.leaf_nodes import shape_functions
 from softway.meshes.adaptive.leaves import DEPTH, Leaves, finest, same
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
+from softway.meshes.adaptive.squares.balanced import BALANCED, cut, square_cells
+from softway.meshes.adaptive.squares.cut_nodes import CutNodes
 from softway.meshes.adaptive.tree_cells import TreeCells, base_cells, children, joined
 from softway.meshes.cells import CELLS
 from softway.meshes.mesh import Mesh
@@ -50,7 +52,8 @@ def refined_near(adapted: AdaptedMesh, marks: Sequence[Mark], reach: float) -> A
     >>> refined_near(whole, [(3, np.array([[1.0]]))], 0.05).leaves.level.tolist()
     [1, 2, 3, 3]
     """
-    trees, found = [(level, cKDTree(points)) for level, points in marks if len(points)], adapted
+    step = adapted.step
+    trees, found = [(level - level % step, cKDTree(points)) for level, points in marks if len(points)], adapted
     while trees:
         leaves = _bisected_near(adapted.base, found.leaves, trees, reach)
         if same(leaves, found.leaves):
@@ -61,19 +64,25 @@ def refined_near(adapted: AdaptedMesh, marks: Sequence[Mark], reach: float) -> A
 
 def _bisected_near(base: Mesh, given: Leaves, trees: Sequence[tuple[int, cKDTree]], reach: float) -> Leaves:
     """Leaves ``given`` (e,), bisected near the points of the marks; the result may be no conforming mesh."""
-    cells = base_cells(base)
+    whole = next(iter(base.blocks)) in BALANCED
+    cells, parts = (square_cells(base), _parts) if whole else (base_cells(base), _halves)
     while (coarse := finest(cells.leaves, given, given.level) > cells.level).any():
-        cells = joined(cells.some(~coarse), *_halves(cells.some(coarse)))
+        cells = joined(cells.some(~coarse), *parts(cells.some(coarse)))
     done = []
     while (late := _late(base, cells, trees, reach)).any():
         done.append(cells.some(~late))
-        cells = joined(*_halves(cells.some(late)))
+        cells = joined(*parts(cells.some(late)))
     return joined(*done, cells).leaves
 
 
-def _halves(cells: TreeCells) -> tuple[TreeCells, TreeCells]:
+def _halves(cells: TreeCells) -> tuple[TreeCells, ...]:
     """Both halves of each cell, without numbers of their nodes."""
     return children(cells, np.zeros(len(cells.level), dtype=np.int64))
+
+
+def _parts(cells: TreeCells) -> tuple[TreeCells, ...]:
+    """The four or eight parts of each cell, without numbers of their nodes."""
+    return cut(cells, CutNodes.none(0))[1]
 
 
 def _late(base: Mesh, cells: TreeCells, trees: Sequence[tuple[int, cKDTree]], reach: float) -> BoolArray:

@@ -109,7 +109,7 @@ def projection(before: AdaptedSolid, after: AdaptedSolid) -> Projection | Unchan
     dofs = after.part.dofs
     return Projection(
         after=after,
-        at_nodes=sp.csr_array(theirs[_node_rows(ours)]),
+        at_nodes=_at_nodes(ours, theirs, after),
         common=common,
         mass=mass,
         stiff=stiff,
@@ -144,10 +144,16 @@ def _wide(mass: sp.csr_array, d: int) -> sp.csc_array:
     return sp.csc_array(sp.kron(mass, sp.eye_array(d), format="csc"))
 
 
+def _at_nodes(ours: sp.csr_array, theirs: sp.csr_array, after: AdaptedSolid) -> sp.csr_array:
+    """Values (m, n) at the nodes of a mesh from those of another one by both embeddings; hanging nodes follow."""
+    found, hanging = sp.csr_array(theirs[_node_rows(ours)]), after.adapted.mesh.hanging
+    return found if hanging is None else sp.csr_array(hanging.follow(found.shape[0]) @ found)
+
+
 def _node_rows(into: sp.csr_array) -> np.ndarray:
-    """Row of an embedding (n, m) at each of the m nodes: the one whose only value is one."""
+    """Row of an embedding (n, m) at each of the m nodes: the one whose only value is one; any for hanging nodes."""
     entries = into.tocoo()
     own = entries.data == 1.0  # a shape function is one at its node alone; its values here are exact
-    rows = np.empty(into.shape[1], dtype=np.int64)
+    rows = np.zeros(into.shape[1], dtype=np.int64)
     rows[entries.col[own]] = entries.row[own]
     return rows

@@ -26,6 +26,7 @@ from softway.bodies.setup.directions import (
     directions,
     held_directions,
     solid_dofs,
+    with_hanging,
 )
 from softway.bodies.setup.initial_fields import sample
 from softway.bodies.setup.placement import placed
@@ -145,16 +146,21 @@ def discretise(name: str, solid: Solid, first: int) -> DiscreteSolid:
 
 
 def initial(part: DiscreteSolid, solid: Solid) -> tuple[Array, Array]:
-    """Initial displacement [m] and velocity [m/s] (n, d)."""
+    """Initial displacement [m] and velocity [m/s] (n, d); hanging nodes follow their parents."""
     with within(f"bodies.{part.name}.displacement"):
         displacement = sample(solid.displacement, part.mesh)
     with within(f"bodies.{part.name}.velocity"):
-        return displacement, sample(solid.velocity, part.mesh)
+        velocity = sample(solid.velocity, part.mesh)
+    hanging = part.mesh.hanging
+    return (
+        (displacement, velocity) if hanging is None else (hanging.following(displacement), hanging.following(velocity))
+    )
 
 
 def dofs_of(supports: tuple[Support, ...], mesh: Mesh) -> DofMap:
     """Degrees of freedom of a mesh with these supports; errors as of :func:`free_components`."""
-    return solid_dofs(_held(supports, mesh), free_components(supports, mesh))
+    own = solid_dofs(_held(supports, mesh), free_components(supports, mesh))
+    return own if mesh.hanging is None else with_hanging(own, mesh.hanging.follow(mesh.n_nodes))
 
 
 def free_components(supports: tuple[Support, ...], mesh: Mesh) -> BoolArray:

@@ -195,8 +195,8 @@ class NodalDofs:
 class CombinedDofs:
     """Unknowns that move several components: ``jacobian`` (n d, f) of full column rank, for nodes (n,) in ``d``
     dimensions.  A component with an empty row is supported; supports along other directions of nodes have their
-    projector ``inclined`` (n d, n d), whose range no unknown moves.  Nodes that follow others have their motion from
-    that of all nodes, ``follow`` (n d, n d).
+    projector ``inclined`` (n d, n d), whose range no unknown moves, and nodes that hang between supported ones their
+    share of it.  Nodes that follow others have their motion from that of all nodes, ``follow`` (n d, n d).
 
     Examples
     --------
@@ -251,7 +251,8 @@ class CombinedDofs:
 
     def unknowns(self, field: Array) -> Array:
         """Unknowns (f,) of the nearest field, by least squares."""
-        return np.asarray(self.normal.solve(self.forces(field)))
+        own = field if self.follow is None else field - self.supported(field)
+        return np.asarray(self.normal.solve(self.forces(own)))
 
     def forces(self, force: Array) -> Array:
         """Forces (f,) on the unknowns."""

@@ -26,6 +26,7 @@ from softway.bodies.setup.supports import Guided as Guided
 from softway.bodies.setup.supports import Support as Support
 from softway.errors import InputError
 from softway.laws.law import Material, RateLaw
+from softway.meshes.adaptive.adapt import Adapting
 from softway.meshes.generators.recipes import MeshSource
 from softway.meshes.mesh import Mesh
 from softway.obstacles.primitives import Shape
@@ -65,6 +66,8 @@ class Solid:
         Mirror, rotation and translation of the mesh into the scene.
     group
         Placements of groups that the solid belongs to, applied after its own, in order.
+    adapt
+        Adaption of the mesh to waves and contacts: ``auto``, or its numbers; the mesh stays by default.
     """
 
     mesh: MeshSource | Mesh
@@ -81,6 +84,7 @@ class Solid:
     thermal: Thermal | None = None
     place: Placement = Placement()
     group: tuple[Placement, ...] = ()
+    adapt: Adapting = None
 
     def __post_init__(self) -> None:
         if isinstance(self.force, EnergyMomentum) and isinstance(self.section, Axisymmetric):

@@ -12,8 +12,6 @@ from softway.march.audit.certificate import balance, certify, violation
 from softway.march.audit.ledger import audit
 from softway.march.friction.slip_end import slip_end
 from softway.march.friction.slip_start import slip_start
-from softway.march.march_state import MarchState, StepHistory
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.results.step import Certificate, Ledger
 from softway.march.results.trying import watched
@@ -23,7 +21,9 @@ from softway.march.slab.slab_step import Stepper, advance
 from softway.march.start.knots import slab_end
 from softway.march.start.ladder import before_event, fault
 from softway.march.start.slab_length import proposed
-from softway.march.step_control import CRAWL, ENDLESS, above
+from softway.march.state.march_state import MarchState, StepHistory
+from softway.march.state.model_state import ModelState
+from softway.march.state.step_control import CRAWL, ENDLESS, above
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks, TimeWeight

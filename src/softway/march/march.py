@@ -1,35 +1,23 @@
-"""March: propose a slab (time step), solve and audit it, and yield the step."""
+"""March of a scene: accepted slabs (time steps), on meshes that stay or that adapt."""
 
-import logging
 from collections.abc import Iterator
 from typing import Literal
 
-import numpy as np
-
 from softway.errors import Cancel
 from softway.heat.coupled.build import build
-from softway.march.attempts import DAMPED, AcceptedSlab, accept_slab, recent_rejections, require_progress
-from softway.march.audit.ledger import update_account
-from softway.march.march_state import MarchState, Settings, StepHistory
-from softway.march.model_state import split_states
-from softway.march.results.step import Report, Step
+from softway.march.remeshing.adaptive_march import adaptive_march, adapts
+from softway.march.results.step import Step
 from softway.march.results.trying import TryWatch
 from softway.march.rules.slab_rule import Method
-from softway.march.slab.slab_step import Stepper
-from softway.march.start.knots import slab_length
-from softway.march.start.ladder import Quality, fastest, next_rung, on_ladder
+from softway.march.slabs import slabs
 from softway.march.start.preparation import prepare
-from softway.march.step_control import StepControl, crushing, may_grow
+from softway.march.state.march_state import MarchState, Settings
+from softway.march.state.step_control import StepControl
 from softway.model.model import Model
 from softway.model.scene import Scene, State
 from softway.model.time_weight import EndPeaks, TimeWeight
-from softway.solve.equations.energy_balance import SLIGHT
 from softway.solve.methods.fixed_point import FixedPoint
 from softway.units import Second
-
-log = logging.getLogger(__name__)
-STRAINED = 0.2
-"""Fraction of the requested length below which a large scalar does not shorten slabs further."""
 
 
 def march(
@@ -50,7 +38,8 @@ def march(
     Parameters
     ----------
     scene
-        Scene, or a built model.
+        Scene, or a built model.  Meshes of solids with :class:`~softway.meshes.adaptive.adapt.Adapt` change between
+        slabs (docs/theory/bodies/adaptive.md); each step has its model.
     until
         End time [s].
     step
@@ -100,102 +89,7 @@ def march(
     """
     model = scene if isinstance(scene, Model) else build(scene)
     settings = Settings(until=until, step=step, weight=weight, method=method, control=control, tolerance=tolerance)
+    if adapts(model.scene):
+        return adaptive_march(model, settings, state, cancel, trying)
     prepared = prepare(model, settings, state, cancel, trying)
-    return _steps(prepared.stepper, prepared.march_state)
-
-
-def _steps(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
-    model, settings, span = stepper.model, march_state.settings, march_state.step_history.span
-    until, memory, before = settings.until, march_state.memory, split_states(model, march_state.state)
-    cells = crushing(model, stepper.method)
-    while march_state.state.time < until - 1e-9 * span:
-        length = slab_length(stepper.ends, march_state)
-        require_progress(stepper, march_state, length)
-        found = accept_slab(stepper, march_state, length, memory)
-        if memory.choice is None and found.memory.choice is not None:
-            log.info("operator %s: %s", found.memory.choice.operator, found.memory.choice.reason)
-        following, smooth = _next(model, march_state, found)
-        if cells.edges:
-            following = min(following, span * cells.shortest_ratio(found.after.start.displacement))
-        march_state = MarchState(
-            settings=settings,
-            state=found.after,
-            account=update_account(march_state.account, found.ledger),
-            step_history=StepHistory(
-                span=span,
-                length=following,
-                energy_along_motion=found.energy_along_motion,
-                halted=found.halted,
-                recent_rejections=recent_rejections(
-                    march_state.step_history,
-                    found.slab.span,
-                    len(found.rejections),
-                    (until - found.after.time) / found.slab.span,
-                ),
-                last_rejection=[march_state.step_history.last_rejection, *found.rejections][-1],
-                smooth=smooth,
-                fastest=_fastest(model, march_state, found),
-            ),
-            memory=found.memory.bare(),
-            slabs=march_state.slabs + 1,
-        )
-        step = _step(model, before, found, march_state)
-        log.debug("slab %d to t = %.6g s: %d iterations", march_state.slabs, found.after.time, found.out.iterations)
-        yield step
-        before, memory = step.after, found.memory
-
-
-def _fastest(model: Model, march_state: MarchState, found: AcceptedSlab) -> float:
-    """Greatest velocity so far [m/s]; zero without a tolerance."""
-    history = march_state.step_history
-    return 0.0 if march_state.settings.tolerance is None else fastest(model, history, march_state.state, found.after)
-
-
-def _next(model: Model, march_state: MarchState, found: AcceptedSlab) -> tuple[float, int]:
-    """Length of the next slab, and the number of successive smooth slabs of this length under a tolerance."""
-    settings, history, now = march_state.settings, march_state.step_history, march_state.state
-    control, span, length = settings.control, history.span, found.slab.span
-    if found.halted:
-        return span * float(np.sqrt(0.5)), 0
-    if found.slab.weight == DAMPED:
-        return span, 0
-    end = found.out.solution.end
-    strained = (
-        model.inert
-        and ((np.abs(end.scalar) > control.scalar) & (end.missing_work > SLIGHT)).any()
-        and not found.out.events
-    )
-    if strained and length > STRAINED * span:
-        log.info("next slab after t = %.6g s halved: large scalar of the energy balance", found.after.time)
-        return 0.5 * length, 0
-    if on_ladder(settings, history, length):
-        quality = Quality.of(model, history, now, found.slab, found.after)
-        return next_rung(settings, history, length, quality, bool(found.rejections or found.out.events))
-    if found.rejections or length >= span:
-        return min(span, length), 0
-    return (min(span, 2.0 * length) if may_grow(model, control, length, now, found.after) else length), 0
-
-
-def _step(model: Model, before: State, found: AcceptedSlab, march_state: MarchState) -> Step:
-    out = found.out
-    names = [p.name for p in model.parts]
-    return Step(
-        before=before,
-        after=split_states(model, found.after),
-        slab=found.slab,
-        ledger=found.ledger,
-        certificate=found.certificate,
-        events=out.events,
-        reactions=model.split(out.support),
-        report=Report(
-            iterations=out.iterations,
-            pairs=out.pairs,
-            factorisations=found.memory.factorisations,
-            renewals=found.memory.renewals,
-            passes=out.passes,
-            contraction=out.solution.contraction,
-            rejections=found.rejections,
-            scalars=dict(zip(names, out.solution.end.scalar.tolist(), strict=True)),
-        ),
-        march_state=march_state,
-    )
+    return slabs(prepared.stepper, prepared.march_state)

@@ -1,5 +1,6 @@
 """Meshes: cells, their generators and mesh files."""
 
+from softway.meshes.adaptive.adapt import Adapt as Adapt
 from softway.meshes.generators.recipes import Ball as Ball
 from softway.meshes.generators.recipes import Box as Box
 from softway.meshes.generators.recipes import Cylinder as Cylinder
@@ -13,6 +14,7 @@ from softway.meshes.generators.zones import InBox as InBox
 from softway.meshes.mesh import Mesh as Mesh
 
 __all__ = [
+    "Adapt",
     "Ball",
     "Box",
     "Cylinder",

@@ -44,7 +44,8 @@ def examined(mesh: Mesh, glued: Sequence[tuple[str, str]] = ()) -> tuple[Note, .
     surface = np.unique(np.concatenate([facets.ravel() for facets in mesh.boundary().values()]))
     pairs = cKDTree(mesh.points[surface]).query_pairs(COINCIDENT * mesh.edge(), output_type="ndarray")
     same = surface[pairs.astype(np.int64)]
-    touching = _touching(mesh, part, surface) if mesh.dim > 1 else np.zeros(0, int)
+    apart = surface if mesh.hanging is None else np.setdiff1d(surface, mesh.hanging.node)
+    touching = _touching(mesh, part, apart) if mesh.dim > 1 else np.zeros(0, int)
     other = part[same[:, 0]] != part[same[:, 1]]
     free = np.setdiff1d(np.append(same[other].ravel(), touching), _tagged(mesh, glued))
     notes = _loose_parts(_joined(mesh, part, glued), free)
@@ -146,7 +147,7 @@ def _cracks(mesh: Mesh, nodes: IntArray) -> tuple[Note, ...]:
 
 def _hinges(mesh: Mesh) -> tuple[Note, ...]:
     """Note on nodes and edges at which cells meet that share no facet there."""
-    nodes = hinges(mesh) if mesh.dim > 1 else np.zeros(0, int)
+    nodes = hinges(mesh) if mesh.dim > 1 and mesh.hanging is None else np.zeros(0, int)
     if not len(nodes):
         return ()
     what = "nodes" if mesh.dim == 2 else "nodes and edges"

@@ -12,7 +12,7 @@ from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError
 from softway.meshes.cells import CELLS, FACETS
 from softway.meshes.element import element
-from softway.meshes.topology import check_topology
+from softway.meshes.topology import HangingNodes, check_topology
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 
@@ -41,6 +41,8 @@ class Mesh:
     regions
         Name -> cell numbers in the order of the blocks, kept sorted and unique: tags of volumes, such as the parts of
         the body with one material. The region ``all`` need not be given.
+    hanging
+        Nodes in the middle of edges and faces of larger cells, which follow their corners; None in a conforming mesh.
 
     Examples
     --------
@@ -57,6 +59,7 @@ class Mesh:
     blocks: Mapping[str, IntArray]
     tags: Mapping[str, IntArray] = field(default_factory=dict)
     regions: Mapping[str, IntArray] = field(default_factory=dict)
+    hanging: HangingNodes | None = None
 
     def __post_init__(self) -> None:
         points = _frozen(np.array(self.points, dtype=float))
@@ -115,11 +118,11 @@ class Mesh:
         for name, cells in self.blocks.items():
             for facet, local in FACETS[name]:
                 parts.setdefault(facet, []).append(cells[:, local])
-        return {
-            facet: found
-            for facet, part in parts.items()
-            if len(found := _single(np.concatenate(part), CELLS[facet].corners))
-        }
+        single = {facet: _single(np.concatenate(part), CELLS[facet].corners) for facet, part in parts.items()}
+        if self.hanging is not None:
+            inside = self.hanging.inside
+            single = {name: found[~inside(found[:, : CELLS[name].corners])] for name, found in single.items()}
+        return {facet: found for facet, found in single.items() if len(found)}
 
     def facets_on(self, tag: str) -> Mapping[str, IntArray]:
         """Boundary facets with all nodes in the tag."""

@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from softway.arrays import IntArray
 from softway.bodies.assembled.nodal_loads import dead_load
 from softway.bodies.assembled.nodal_masses import Massless, inertia_of
+from softway.bodies.assembled.tangent import assembled_tangent
 from softway.bodies.discretised import (
     DiscreteSolid,
     Moved,
@@ -22,12 +23,13 @@ from softway.bodies.setup.loads import Gravity, Traction
 from softway.bodies.solid import Solid, Tool
 from softway.contact.assembly.declared import at_declared, resolved
 from softway.contact.impact_rule import Energy, ImpactRule
-from softway.errors import InputError
+from softway.errors import InputError, within
+from softway.meshes.topology import require_none
 from softway.model.cohesive_ties import CohesiveTies, intact
 from softway.model.field import FieldEquations
 from softway.model.initial_displacement import at_start, given_fields
 from softway.model.layout import Layout, laid_out, solids_of
-from softway.model.model import Model, assembled_tangent
+from softway.model.model import Model
 from softway.model.rigid.rigid_bodies import RigidBodies, rigid_bodies
 from softway.model.rigid.rigid_refusals import require_fitting
 from softway.model.scene import Scene
@@ -219,11 +221,14 @@ def with_field(model: Model, equations: FieldEquations) -> Model:
     Raises
     ------
     InputError
-        If there is a field of this name, or the initial values do not fit.
+        If there is a field of this name, the initial values do not fit, or nodes hang.
     """
     new, shape = equations.field, equations.initial().shape
     if new.name in {f.name for f in model.fields} or new.name in ("velocity", "contact_force"):
         raise InputError(f"fields.{new.name}", "a second field of this name", "another name")
     if shape != (model.shape[0], new.components):
         raise InputError(f"fields.{new.name}", f"initial values {shape}", f"{(model.shape[0], new.components)}")
+    for part in model.parts:
+        with within(f"bodies.{part.name}"):
+            require_none(part.mesh.hanging, f"companion field {new.name}")
     return replace(model, companions=(*model.companions, equations))

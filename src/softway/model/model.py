@@ -1,14 +1,16 @@
 """Model: constant data of a march as arrays."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.assembled.following_nodes import driven_field
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent, during, end_force, scaled
 from softway.bodies.assembled.nodal_loads import DeadLoads
+from softway.bodies.assembled.tangent import assembled_tangent
 from softway.bodies.assembled.vector_space import VectorSpace
 from softway.bodies.discretised import DiscreteSolid, Moved
 from softway.bodies.dof_map import DofMap, MatrixSum
@@ -20,6 +22,7 @@ from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import ContactSet
 from softway.contact.friction_rows import FrictionRows
 from softway.contact.impact_rule import ImpactRule
+from softway.meshes.adaptive.refinement import AdaptedMesh
 from softway.meshes.mesh import Mesh
 from softway.model.cohesive_ties import CohesiveTies, damaged
 from softway.model.field import Field, FieldEquations, FieldState, stiffness_factor
@@ -87,6 +90,8 @@ class Model:
         Rigid bodies; None without.
     declared
         Number in the scene as it was given of each contact.
+    adapted
+        Adapted meshes of the solids whose meshes change in a march, by name.
     """
 
     scene: Scene
@@ -120,6 +125,7 @@ class Model:
     tools: Mapping[str, Tool | RigidShape] = field(default_factory=dict)
     rigid: RigidBodies | None = None
     declared: tuple[int, ...] = ()
+    adapted: Mapping[str, AdaptedMesh] = field(default_factory=dict)
 
     @property
     def free(self) -> BoolArray:
@@ -159,7 +165,7 @@ class Model:
         out = np.zeros(self.shape)
         for support, where in self.driven:
             out[where] = support.at(time)
-        return out
+        return driven_field(self.parts, self.dofs, out)
 
     def bends(self, start: float, end: float) -> tuple[tuple[float, Array], ...]:
         """Bends of the prescribed velocities inside a slab, see
@@ -172,7 +178,7 @@ class Model:
             for tau, change in support.bends(start, end):
                 found.append((tau, np.zeros(self.shape)))
                 found[-1][1][where] = change
-        return tuple(found)
+        return tuple((tau, driven_field(self.parts, self.dofs, change)) for tau, change in found)
 
     @property
     def meshes(self) -> Mapping[str, Mesh]:
@@ -292,9 +298,3 @@ class Model:
     def kinetic(self, v: Array) -> Array:
         """Kinetic energy of each solid (parts,) [J]."""
         return 0.5 * self.space.totals(v * (self.mass @ v))
-
-
-def assembled_tangent(parts: Sequence[DiscreteSolid], u: Array) -> sp.csc_array:
-    """Tangent stiffness (n d, n d) of all solids [N/m]."""
-    blocks = [part.tangent(u[part.nodes]) for part in parts]
-    return blocks[0] if len(blocks) == 1 else sp.csc_array(sp.block_diag(blocks, format="csc"))

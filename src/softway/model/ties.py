@@ -176,13 +176,22 @@ def joined(maps: Sequence[DofMap]) -> DofMap:
     if all(m.components is not None for m in maps):
         return NodalDofs(np.concatenate([m.free for m in maps]))
     none = [sp.csr_array((m.free.size, m.free.size)) for m in maps]
-    found = [getattr(m, "inclined", None) for m in maps]
-    inclined = [empty if one is None else one for one, empty in zip(found, none, strict=True)]
+    whole = [sp.csr_array(sp.eye_array(m.free.size)) for m in maps]
     return CombinedDofs(
         sp.csr_array(sp.block_diag([m.jacobian for m in maps], format="csr")),
         maps[0].free.shape[1],
-        None if all(one is None for one in found) else sp.csr_array(sp.block_diag(inclined, format="csr")),
+        _together(maps, "inclined", none),
+        _together(maps, "follow", whole),
     )
+
+
+def _together(maps: Sequence[DofMap], name: str, others: Sequence[sp.csr_array]) -> sp.csr_array | None:
+    """Matrix of all maps by its name, with that of ``others`` for maps that have none; None if no map has one."""
+    found = [getattr(m, name, None) for m in maps]
+    if all(one is None for one in found):
+        return None
+    blocks = [other if one is None else one for one, other in zip(found, others, strict=True)]
+    return sp.csr_array(sp.block_diag(blocks, format="csr"))
 
 
 def linked_parts(part_of: IntArray, parts: int, dofs: DofMap, bonds: Sequence[CohesiveTies] = ()) -> IntArray:

@@ -25,6 +25,9 @@ def shown(run: Records, found: Mapping[str, Any], status: str, message: str) -> 
         }
         if "penetration_worst" in found:
             rows["deepest penetration"] = f"{found['penetration_worst']:.2g} m"
+    if found.get("mesh"):
+        changed = found["mesh"]
+        rows["meshes"] = f"{changed['changes']} changes, at most {changed['most_nodes']} nodes"
     if found.get("findings"):
         rows["findings"] = "\n".join(sentences(found["findings"]))
     events = run.events["kind"]

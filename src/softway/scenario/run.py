@@ -2,23 +2,26 @@
 
 import logging
 import tomllib
-from collections.abc import Iterator, Mapping
-from functools import partial
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from functools import cache, lru_cache, partial
 from pathlib import Path
 from typing import cast
 
 from softway.arrays import Array
 from softway.bodies.discretised import DiscreteSolid
-from softway.contact.surfaces.nodal_tractions import TractionMap, traction_map
+from softway.contact.surfaces.nodal_tractions import traction_map
 from softway.errors import Cancel, InputError
 from softway.heat.coupled.solid_temperature import temperatures_of
 from softway.march.audit.balances import balances, contact_forces
 from softway.march.audit.ledger import initial_ledger as audit
 from softway.march.march import march
-from softway.march.march_state import MarchState
-from softway.march.model_state import ModelState, join_states, split_states
-from softway.march.results.step import Step
+from softway.march.remeshing.adapted_scene import adapted_scene
+from softway.march.results.step import Ledger, Step
+from softway.march.start.initial_state import without_contact
 from softway.march.start.stored_state import require_of_model
+from softway.march.state.march_state import MarchState
+from softway.march.state.model_state import ModelState, join_states, split_states
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.record.conduct import continue_run, record_run
@@ -152,6 +155,9 @@ def _require_state(model: Model, pattern: ModelState, state: object) -> None:
     """Refuse a state that is not one of this model."""
     if not isinstance(state, MarchState):
         raise InputError("state", f"is a {type(state).__name__}", "a checkpoint of this run")
+    if state.adapted is not None:
+        model = adapted_scene(model).at(state.adapted.leaves).model
+        pattern = without_contact(model)
     require_of_model(model, pattern, state)
 
 
@@ -177,27 +183,35 @@ def stored(folder: Path, allow_python: bool = False) -> Scenario:
 
 def _opening(checked: Checked) -> RunStart:
     """Start of the run of a checked scenario."""
-    given, model, start = checked.scenario, checked.model, checked.march_state.state
-    initial, met = split_states(model, start), model.contacts
+    model, start = checked.model, checked.march_state.state
+    given, initial, ledger = checked.scenario, split_states(model, start), audit(model, start)
+    if not model.adapted:
+        return _start(given, initial, ledger, model)
+    on_meshes = lru_cache(maxsize=1)(partial(_start, given, initial, ledger))
+    return replace(_start(given, initial, ledger, model), on_meshes=on_meshes)
+
+
+def _start(given: Scenario, initial: State, ledger: Ledger, model: Model) -> RunStart:
+    """Start of the run of a scenario, with what is read from states on the meshes of a model."""
+    met = model.contacts
     return RunStart(
         scene=model.scene,
         meshes=model.meshes,
         stresses={name: partial(_stress, model, name) for name in model.meshes},
         remembered={part.name: partial(_remembered, model, part) for part in model.parts},
-        spread=partial(_spread, model, traction_map(model.scene.contacts, model.parts))
-        if model.scene.contacts
-        else None,
+        spread=_spreading(model) if model.scene.contacts else None,
         touching={label: met.node[met.rows_of(k)] for k, label in enumerate(met.labels)},
         initial=initial,
-        ledger=audit(model, start),
+        ledger=ledger,
         until=given.time.end,
         fields_every=_every(given),
-        readings=probe_readings(given, model.meshes, model.scene.mechanism),
+        readings=probe_readings(given, model.meshes, model.scene.mechanism, model.adapted),
         fields=model.fields,
         audit=given.output.audit,
         balances=partial(balances, model),
         pushed=partial(contact_forces, model),
         rounding=float(model.floor.sum()),
+        model=model,
     )
 
 
@@ -242,9 +256,10 @@ def _remembered(model: Model, part: DiscreteSolid, state: State) -> Mapping[str,
     return found
 
 
-def _spread(model: Model, surfaces: TractionMap, state: State, force: Array) -> Array:
-    """Nodal contact forces (n, k) [N] per current area, (n, k) [Pa]."""
-    return surfaces.at(model.join(state.displacement), force)
+def _spreading(model: Model) -> Callable[[State, Array], Array]:
+    """Nodal contact forces (n, k) [N] per current area, (n, k) [Pa], as a function of state and forces."""
+    surfaces = cache(partial(traction_map, model.scene.contacts, model.parts))
+    return lambda state, force: surfaces().at(model.join(state.displacement), force)
 
 
 def _every(scenario: Scenario) -> float:

@@ -16,7 +16,7 @@ from softway.contact.contact import Contact
 from softway.errors import InputError, real
 from softway.heat.heat_contact import HeatContact
 from softway.html_tables import table as html_table
-from softway.march.step_control import StepControl
+from softway.march.state.step_control import StepControl
 from softway.mechanisms.members.couplings import Gear, HeatLink
 from softway.mechanisms.members.joints import Joint
 from softway.mechanisms.members.motors import Motor
@@ -90,8 +90,8 @@ class Probe:
     tag
         Tag of the nodes; the mean over the nodes is recorded, or the sum for a reaction.
     at
-        Reference point whose nearest node is recorded, instead of a tag; of a rigid body the point itself, by default
-        its centre [m].
+        Reference point whose nearest node is recorded, instead of a tag; of a rigid body, and of a solid whose mesh
+        adapts, the point itself; for a rigid body by default its centre [m].
     quantity
         Recorded quantity; rotation and spin (angular velocity) belong to rigid bodies, temperature to conductors
         and to solids with heat.

@@ -9,6 +9,7 @@ from turning import around, balances, moving, on_levels, solid
 import softway as sw
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.transfer import Motion, Transferred, transfer
+from softway.meshes.adaptive.squares.balanced import BALANCED
 from softway.meshes.generators.shapes import box, disc, interval, rectangle
 from softway.meshes.mesh import Mesh
 
@@ -26,9 +27,17 @@ def kept(before: AdaptedSolid, motion: Motion, after: AdaptedSolid, found: Trans
 
 
 @pytest.mark.parametrize("light", ["", "bottom"])
-@pytest.mark.parametrize("law", [sw.laws.StVenantKirchhoff(E=1.0, nu=0.3), sw.NeoHookean(E=1.0, nu=0.3)])
-def test_ten_remeshings_of_a_turning_square(law: object, light: str) -> None:
-    body = solid(rectangle((1.0, 1.0), (5, 5), cell="tri3"), law)
+@pytest.mark.parametrize(
+    ("cell", "law"),
+    [
+        ("tri3", sw.laws.StVenantKirchhoff(E=1.0, nu=0.3)),
+        ("tri3", sw.NeoHookean(E=1.0, nu=0.3)),
+        ("quad4", sw.laws.StVenantKirchhoff(E=1.0, nu=0.3)),
+        ("quad8", sw.NeoHookean(E=1.0, nu=0.3)),
+    ],
+)
+def test_ten_remeshings_of_a_turning_square(cell: str, law: object, light: str) -> None:
+    body = solid(rectangle((1.0, 1.0), (5, 5), cell=cell), law)
     before = on_levels(body, around(body, np.array([0.8, 0.5]), 4), light)
     motion = moving(before)
     for k in range(1, 11):
@@ -49,13 +58,21 @@ def test_ten_remeshings_of_a_turning_square(law: object, light: str) -> None:
         disc(1.0, 4, cell="tri6"),
         box((1.0, 1.0, 1.0), (2, 2, 2), cell="tet4"),
         box((1.0, 1.0, 1.0), (2, 1, 1), cell="tet10"),
+        disc(1.0, 4, cell="quad4"),
+        disc(1.0, 4, cell="quad9"),
+        rectangle((1.0, 1.0), (3, 3), cell="quad8"),
+        box((1.0, 1.0, 1.0), (2, 2, 1), cell="hex8"),
+        box((1.0, 1.0, 1.0), (2, 1, 1), cell="hex20"),
+        box((1.0, 1.0, 1.0), (2, 1, 1), cell="hex27"),
     ],
     ids=lambda mesh: next(iter(mesh.blocks)),
 )
 def test_all_cells(mesh: Mesh) -> None:
     body = solid(mesh)
     ends = np.array([mesh.points.min(axis=0), mesh.points.max(axis=0)])
-    before, after = (on_levels(body, around(body, place, 3, 0.6)) for place in ends)
+    deep = 2 * mesh.dim if next(iter(mesh.blocks)) in BALANCED else 3
+    before, after = (on_levels(body, around(body, place, deep, 0.75)) for place in ends)
+    assert before.adapted.mesh.n_cells != np.ldexp(mesh.n_cells, deep)
     motion = moving(before)
     found = transfer(before, after, motion)
     kept(before, motion, after, found)
@@ -68,8 +85,10 @@ def test_all_cells(mesh: Mesh) -> None:
         (rectangle((1.0, 1.0), (4, 4), cell="tri3"), sw.NeoHookean(E=1.0, nu=0.3)),
         (rectangle((1.0, 1.0), (3, 3), cell="tri6"), sw.LinearElastic(E=1.0, nu=0.3)),
         (box((1.0, 1.0, 1.0), (2, 2, 2), cell="tet4"), sw.NeoHookean(E=1.0, nu=0.3)),
+        (rectangle((1.0, 1.0), (3, 3), cell="quad9"), sw.LinearElastic(E=1.0, nu=0.3)),
+        (rectangle((1.0, 1.0), (3, 3), cell="quad8"), sw.LinearElastic(E=1.0, nu=0.3)),
     ],
-    ids=["bar2", "tri3", "tri6", "tet4"],
+    ids=["bar2", "tri3", "tri6", "tet4", "quad9", "quad8"],
 )
 def test_nothing_changes_on_a_finer_mesh(mesh: Mesh, law: object) -> None:
     body = solid(mesh, law)
@@ -112,10 +131,11 @@ def test_a_body_at_rest_has_the_difference_booked() -> None:
     assert found.booked > 0.0
 
 
-@pytest.mark.parametrize("cell", ["tri3", "tri6"])
+@pytest.mark.parametrize("cell", ["tri3", "tri6", "quad4", "quad8"])
 def test_a_coarser_mesh_never_raises_the_energy_of_a_linear_body(cell: str) -> None:
     body = solid(rectangle((1.0, 1.0), (4, 4), cell=cell))
-    fine, coarse = on_levels(body, np.full(32, 4)), on_levels(body, np.full(32, 2))
+    cells = body.mesh.n_cells
+    fine, coarse = on_levels(body, np.full(cells, 4)), on_levels(body, 2 * (np.arange(cells) % 2))
     rng = np.random.default_rng(0)
     for _ in range(4):
         motion = Motion(displacement=0.01 * rng.normal(size=fine.points.shape), velocity=0.0 * fine.points)

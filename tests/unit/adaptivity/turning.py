@@ -7,6 +7,7 @@ import numpy as np
 import softway as sw
 from softway.adaptivity.adapted_solid import AdaptedSolid, adapted_solid
 from softway.adaptivity.balances import spin
+from softway.adaptivity.even_surface import even
 from softway.adaptivity.transfer import Motion
 from softway.arrays import Array
 from softway.meshes.adaptive.refinement import refined
@@ -31,8 +32,8 @@ def solid(mesh: Mesh, law: object = sw.LinearElastic(E=1.0, nu=0.3), **others: o
 
 
 def on_levels(body: sw.Solid, levels: Array, light: str = "", spread: int = 5) -> AdaptedSolid:
-    """Solid on a refinement of its mesh, with massless nodes on a tag."""
-    fine = refined(body.mesh, np.asarray(levels, dtype=np.int64))
+    """Solid on a refinement of its mesh, with massless nodes on a tag, on which no node hangs."""
+    fine = even(refined(body.mesh, np.asarray(levels, dtype=np.int64)), [light] if light else [])
     return adapted_solid("body", body, fine, fine.mesh.nodes(light) if light else NONE, spread)
 
 

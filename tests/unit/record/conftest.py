@@ -103,7 +103,7 @@ class Fake:
             min_gap=0.5, min_force=1.5, complementarity=2.5, power_residual=3.5, momentum_error=4.5, energy_error=5.5
         )
         return Step(
-            certificate=certificate, before=before, after=after, slab=Slab(start=begin, end=end),
+            model=None, certificate=certificate, before=before, after=after, slab=Slab(start=begin, end=end),
             ledger=self.ledger(after), events=events,
             reactions={"part": np.ones_like(self.mesh.points)},
             report=Report(iterations=3, pairs=4, factorisations=1, passes=1), march_state=None,

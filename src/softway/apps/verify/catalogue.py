@@ -73,6 +73,9 @@ CASES: Mapping[str, tuple[float, str]] = {
     "G02": (0.6, "heat.g02_adiabatic_compression"),
     "G03": (0.5, "heat.g03_braking_block"),
     "G04": (1.8, "heat.g04_closing_gap"),
+    "I01": (3.0, "refinement.i01_contact_times"),
+    "I02": (2.0, "refinement.i02_standing_wave"),
+    "I03": (20.0, "refinement.i03_adapted_bar"),
     "classic": (1.0, "classic"),
     "peers": (3.0, "peers"),
 }

@@ -8,6 +8,7 @@ from softway.record.run import Run
 from softway.record.view.bodies.bodies import Stage, instant
 from softway.record.view.plots.panels import Drawing, curves, world
 from softway.record.view.style import stops
+from softway.record.write.events import MESH
 
 MOST = 2000
 """Greatest number of events in the list."""
@@ -37,8 +38,9 @@ def pictures_of(run: Run) -> dict[str, Any]:
 
 
 def events_of(run: Run) -> list[dict[str, Any]]:
-    """Contact events (touch and release) in order of time."""
+    """Contact events (touch and release) and findings in order of time, without changes of meshes."""
     table = run.events
+    rows = [row for row, kind in enumerate(table["kind"]) if kind != MESH]
     return [
         {
             "time": float(table["time"][row]),
@@ -49,7 +51,7 @@ def events_of(run: Run) -> list[dict[str, Any]]:
             "before": f"{table['normal_velocity_before'][row]:.4g}",
             "after": f"{table['normal_velocity_after'][row]:.4g}",
         }
-        for row in range(min(len(table["time"]), MOST))
+        for row in rows[:MOST]
     ]
 
 

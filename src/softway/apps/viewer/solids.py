@@ -10,7 +10,7 @@ from softway.bodies.prescribed_motion import PlacedShape
 from softway.errors import InputError
 from softway.record.read.frames import Frame
 from softway.record.run import Run
-from softway.record.view.bodies.bodies import Stage, stage_of
+from softway.record.view.bodies.bodies import Shown, Stage, stage_of
 from softway.record.view.bodies.colour_field import Colour
 from softway.record.view.bodies.surroundings import plane, sides
 
@@ -36,12 +36,12 @@ class Solids:
     def show(self, stage: Stage, frame: Frame, enlarged: bool) -> None:
         """Show a frame, with deformations enlarged or to scale."""
         shown = (stage if enlarged else stage.to_scale()).shown(frame)
-        points, triangles, values = _surface(stage, shown.place.points, shown.values)
+        points, triangles, values = _surface(shown)
         _fill(self.skin, points, faces=_padded(triangles))
         self.skin.point_data.clear()
         self.skin.point_data["field"] = values
         self.skin.set_active_scalars("field")
-        _fill(self.lines, shown.place.points, lines=_padded(_edges(stage)))
+        _fill(self.lines, shown.place.points, lines=_padded(_edges(shown)))
         obstacles = [_obstacle(tool, stage.bounds) for tool in shown.tools.values()]
         seen = [o for o in obstacles if o.n_points] or [_dot(stage.bounds.mean(axis=0))]
         self.tools.copy_from(_library().merge(seen))
@@ -121,18 +121,17 @@ def _padded(cells: IntArray) -> IntArray:
     return np.insert(cells, 0, cells.shape[1], axis=1).ravel()
 
 
-def _surface(stage: Stage, points: Array, values: Array) -> tuple[Array, IntArray, Array]:
+def _surface(shown: Shown) -> tuple[Array, IntArray, Array]:
     """Points (k, 3), triangles (t, 3) and values (k,) of surfaces; bars are ribbons."""
-    bars = [nodes for name, nodes in stage.cells.blocks().items() if name.startswith("bar")]
-    parts = (
-        [(stage.skin.lattice(points), stage.skin.triangles, stage.skin.lattice(values))] if stage.skin.patches else []
-    )
+    cells, skin, points, values = shown.surface.cells, shown.surface.skin, shown.place.points, shown.values
+    bars = [nodes for name, nodes in cells.blocks().items() if name.startswith("bar")]
+    parts = [(skin.lattice(points), skin.triangles, skin.lattice(values))] if skin.patches else []
     for nodes in bars:
         ends = points[nodes[:, :2]]
         along = ends[:, 1] - ends[:, 0]
         across = np.cross([0.0, 0.0, 1.0], along)
         across[np.abs(across).max(axis=1) == 0.0] = [1.0, 0.0, 0.0]
-        wide = 0.04 * float(np.linalg.norm(np.ptp(stage.cells.reference, axis=0)))
+        wide = 0.04 * float(np.linalg.norm(np.ptp(cells.reference, axis=0)))
         across *= wide / np.linalg.norm(across, axis=1, keepdims=True)
         corners = np.stack([ends + across[:, None], ends - across[:, None]], axis=2).reshape(-1, 3)
         first = 4 * np.arange(len(nodes))[:, None, None]
@@ -143,10 +142,10 @@ def _surface(stage: Stage, points: Array, values: Array) -> tuple[Array, IntArra
     return np.concatenate([p[0] for p in parts]), np.concatenate(joined), np.concatenate([p[2] for p in parts])
 
 
-def _edges(stage: Stage) -> IntArray:
+def _edges(shown: Shown) -> IntArray:
     """Edges (k, 3) of all visible cells: end, middle, end."""
     found = [np.zeros((1, 3), int)]
-    for patch in stage.skin.patches:
+    for patch in shown.surface.skin.patches:
         width = patch.facets.shape[1]
         found.append(sides(patch.facets, 3 if width in (3, 6) else 4).reshape(-1, 3))
     return np.unique(np.concatenate(found), axis=0)

@@ -30,6 +30,7 @@ def solid_mass(part: DiscreteSolid, solid: Solid, candidates: IntArray, spread: 
         for region, one in zip(part.materials.regions, part.materials.densities, strict=True):
             _require_numbers(part, one, f"density.{region}" if region else "density")
         if len(candidates):
+            _require_even(part, candidates)
             if not solid.supports:
                 _require_inertia(part, candidates)
             return redistribute_mass(part.mesh, density, section, solid.mass, candidates, spread, part.name)
@@ -44,6 +45,17 @@ def _require_numbers(part: DiscreteSolid, density: float, where: str) -> None:
     if not least < mass < greatest:
         problem = f"{density:g} kg/m^3 gives nodes a mass of about {mass:.2g} kg, beyond the range of numbers"
         raise InputError(where, problem, "the density of a material, such as 1000 kg/m^3")
+
+
+def _require_even(part: DiscreteSolid, candidates: IntArray) -> None:
+    """Refuse massless nodes that hang, or on which nodes hang: a hanging node would give them its mass."""
+    hanging = part.mesh.hanging
+    if hanging is None:
+        return
+    wrong = np.isin(np.column_stack([hanging.node, hanging.parents]), candidates).any(axis=1)
+    if wrong.any():
+        problem = f"{int(wrong.sum())} hanging nodes at contact nodes"
+        raise InputError("mesh", problem, "cells of one size along the surface, softway.adaptivity.even_surface.even")
 
 
 def _require_inertia(part: DiscreteSolid, candidates: IntArray) -> None:

@@ -13,6 +13,7 @@ from softway.bodies.setup.initial_fields import Affine, FieldSum, OnTag, Profile
 from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid
 from softway.errors import within
+from softway.meshes.topology import require_none
 from softway.meshes.walls.division import divided_at
 from softway.meshes.walls.wall_edges import wall_edges
 
@@ -41,6 +42,8 @@ def layered(part: DiscreteSolid, solid: Solid, touching: IntArray) -> Layered | 
     edges = wall_edges(part.mesh, own)
     if not len(edges) or not free_components(solid.supports, part.mesh).any():
         return None
+    with within(f"bodies.{part.name}"):
+        require_none(part.mesh.hanging, "walls one cell thick that may touch")
     with within(f"bodies.{part.name}.mesh"):
         found = divided_at(part.mesh, edges)
     velocity, displacement = (_between(field, found.weights) for field in (solid.velocity, solid.displacement))

@@ -219,3 +219,34 @@ def directed_motion(
     if not where.any():
         return None
     return DirectedMotion(supports=tuple(s for s, _ in moving), shares=np.array([s[where] for _, s in moving])), where
+
+
+def with_hanging(own: DofMap, follow: sp.csr_array) -> CombinedDofs:
+    """Map of nodes some of which hang: they have no unknowns of their own, and follow others.
+
+    Parameters
+    ----------
+    own
+        Map of the nodes without regard to what they follow.
+    follow
+        (n, n) motion of all nodes from that of those that hang nowhere, whose rows are those of the identity.
+
+    Examples
+    --------
+    The middle of three nodes on a line follows the others, the last of which has a support:
+
+    >>> follow = sp.csr_array(np.array([[1.0, 0, 0], [0.5, 0, 0.5], [0, 0, 1]]))
+    >>> dofs = with_hanging(NodalDofs(np.array([[True], [True], [False]])), follow)
+    >>> dofs.nodes(np.array([2.0]), np.array([[0.0], [0.0], [4.0]])).ravel().tolist()
+    [2.0, 3.0, 4.0]
+    """
+    d = own.free.shape[1]
+    wide = sp.csr_array(sp.kron(follow, sp.eye_array(d), format="csr"))
+    moved = sp.csc_array(wide @ own.jacobian)
+    jacobian = sp.csr_array(moved[:, np.flatnonzero(np.diff(moved.indptr))])
+    inclined = getattr(own, "inclined", None)
+    held = sp.csr_array(sp.diags_array((~own.free).ravel().astype(float)))
+    held = held if inclined is None else sp.csr_array(held + inclined)
+    ahead = sp.diags_array((wide.diagonal() == 1.0).astype(float))  # exact: rows of the identity
+    still = sp.diags_array((np.diff(jacobian.indptr) == 0).astype(float))
+    return CombinedDofs(jacobian, d, sp.csr_array(wide @ ahead @ held - still), wide)

@@ -29,6 +29,7 @@ from softway.heat.regional_laws import regional_laws
 from softway.laws.heat.stiffness_table import StiffnessCurve
 from softway.laws.law import softens
 from softway.mechanisms.members.rigid import Rigid
+from softway.meshes.topology import require_none
 from softway.model.build import mechanical, with_field
 from softway.model.model import Model
 from softway.model.scene import Scene
@@ -67,6 +68,9 @@ def build(scene: Scene) -> Model:
             problem = f"heat across {contact.label!r}, of bodies without a temperature"
             raise InputError(f"contacts[{k}].heat", problem, "the heat of a solid, thermal, or a contact without heat")
     _require_temperature(scene)
+    for part in (p for p in model.parts if p.name in heated):
+        with within(f"bodies.{part.name}"):
+            require_none(part.mesh.hanging, "conduction of heat")
     require_heated(model, heated)
     return with_temperature(model, heated, loads, lumps) if heated else model
 

@@ -10,8 +10,8 @@ from softway.bodies.discretised import UNSTRAINED
 from softway.bodies.elements.section import Axisymmetric
 from softway.march.audit.ledger import momentum, spin
 from softway.march.audit.rigid_balances import rigid_balances
-from softway.march.model_state import join_states
 from softway.march.results.step import Step
+from softway.march.state.model_state import join_states
 from softway.mechanisms.members.springs import TorsionSpring
 from softway.model.model import Model
 from softway.model.scene import State

@@ -3,14 +3,15 @@
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.assembled.following_nodes import reactions
 from softway.bodies.elements.section import Axisymmetric
 from softway.march.audit.balances import rounding_forces
 from softway.march.audit.heat_audit import fallen
 from softway.march.audit.ledger import resultant
-from softway.march.march_state import EnergyAccount
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.results.step import Certificate, Ledger
+from softway.march.state.march_state import EnergyAccount
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.solve.equations.slab_values import SlabStart
 from softway.tolerances import DEPTH, ENERGY, FORCES, GAINED, MOMENTUM, TENSION, UNSTABLE
@@ -119,8 +120,8 @@ def _unrest(out: SlabResult, after: ModelState) -> Array:
     force = after.start.force - model.load - out.rows.spread(after.pressure, model.shape)
     if out.rows.shear.count:
         force = force - out.rows.shear.spread(after.traction)
-    force = model.dofs.gathered(force)
-    force = np.where(model.massive[:, None], 0.0, force - model.supported(force))
+    force = model.dofs.gathered(force) - reactions(model.dofs, force)
+    force = np.where(model.massive[:, None], 0.0, force)
     return np.asarray(out.system.path.span * model.space.sums(force))
 
 

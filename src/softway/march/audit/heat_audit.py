@@ -6,8 +6,8 @@ from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.heat.coupled.slab_temperature import HeatOfSlab
 from softway.heat.coupled.solid_temperature import temperatures_of
 from softway.heat.operators import liquid_volumes, rigid_temperatures
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 
 FALL = 1e-9

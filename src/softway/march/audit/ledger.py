@@ -11,10 +11,10 @@ from softway.bodies.elements.section import Axisymmetric
 from softway.march.audit.heat_audit import heat_audit, initial_heat
 from softway.march.audit.rigid_balances import rigid_balances
 from softway.march.audit.tie_ledger import tie_ledgers
-from softway.march.march_state import EnergyAccount
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.results.step import ContactLedger, Ledger
+from softway.march.state.march_state import EnergyAccount
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.solve.equations.spin_balance import moment
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.bodies.rigid_motion import rotations
-from softway.march.model_state import ModelState
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.rigid.rigid_state import RigidState
 

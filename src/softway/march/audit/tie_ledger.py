@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from softway.march.model_state import ModelState
 from softway.march.results.step import TieLedger
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 
 

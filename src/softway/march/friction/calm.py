@@ -13,8 +13,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
-from softway.march.model_state import ModelState
+from softway.bodies.assembled.following_nodes import reactions
 from softway.march.results.slab_result import SlabResult
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks
@@ -198,7 +199,7 @@ def _booked(
     support, work = out.support, h * float(every[held.index] @ held.rate)
     if not model.space.every(model.dofs.unsupported):
         inner = model.mass @ (velocity - out.velocity) + held.elastic(relaxed)
-        pull = model.supported(model.dofs.gathered(inner / h - normal - tangential))
+        pull = reactions(model.dofs, inner / h - normal - tangential)
         support, work = support + pull, work + h * model.space.total(pull * model.supported(velocity))
     friction = out.friction
     return replace(

@@ -14,7 +14,7 @@ from scipy.sparse.linalg import LinearOperator, eigs, splu
 from softway.arrays import Array
 from softway.contact.contact_rows import ContactRows
 from softway.contact.stencils import normal_component
-from softway.march.model_state import ModelState
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 
 MODES = 24

@@ -16,8 +16,8 @@ import numpy as np
 from softway.arrays import Array, BoolArray
 from softway.contact.contact_rows import ContactRows
 from softway.contact.slab_motion.trajectory import ContactEvents
-from softway.march.model_state import ModelState
 from softway.march.results.friction_result import RESTED, FrictionResult
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.solve.constraints.return_map import NO_SLIP, SlipConditions
 from softway.solve.methods.iteration import Solution

@@ -4,8 +4,8 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.errors import Halts
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 
 SLOWED = 0.5

@@ -8,8 +8,8 @@ import numpy as np
 from softway.arrays import Array, BoolArray
 from softway.errors import Halts, NoConvergence
 from softway.march.friction.slip_end import EARLY, LATE
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 
 log = logging.getLogger(__name__)

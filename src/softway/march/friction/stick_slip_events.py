@@ -3,10 +3,10 @@
 import numpy as np
 
 from softway.contact.contact_rows import ContactRows
-from softway.march.model_state import ModelState
 from softway.march.results.friction_result import FrictionResult
 from softway.march.results.slab_result import contact_event
 from softway.march.results.step import Event
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.solve.methods.iteration import Solution

@@ -7,11 +7,12 @@ from typing import Literal
 import numpy as np
 
 from softway.arrays import Array, BoolArray
+from softway.bodies.assembled.following_nodes import reactions
 from softway.contact.contact_rows import ContactRows
 from softway.contact.slab_motion.trajectory import Trajectory, bent
-from softway.march.model_state import ModelState
 from softway.march.results.friction_result import FrictionResult
 from softway.march.results.step import Event
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.solve.equations.slab_equations import SlabEquations
@@ -105,7 +106,7 @@ def supports(model: Model, now: ModelState, end: Evaluation, velocity: Array, pu
         return np.zeros(model.shape)
     inertia = model.mass @ ((velocity - now.start.velocity) / span)
     force = inertia + end.mean_force - model.slab_load(end.scalar) - push
-    return model.supported(model.dofs.gathered(force))
+    return reactions(model.dofs, force)
 
 
 def support_work(model: Model, path: Trajectory, support: Array, moved: Array, velocity: Array) -> float:

@@ -6,10 +6,12 @@ from math import nan
 
 import numpy as np
 
+from softway.adaptivity.transfer import Transferred
 from softway.arrays import Array
 from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.html_tables import table
-from softway.march.march_state import MarchState
+from softway.march.state.march_state import MarchState
+from softway.model.model import Model
 from softway.model.scene import State
 from softway.model.slab import Slab
 
@@ -225,6 +227,8 @@ class Step:
 
     Parameters
     ----------
+    model
+        Model on the meshes of the slab.
     before, after
         State at both ends.
     slab
@@ -241,8 +245,11 @@ class Step:
         Iterations, rejections and other data on the solution.
     march_state
         State of the march after the slab, from which another march continues with the same bits.
+    transfers
+        Transfers of the solids whose meshes have changed before the slab, by name.
     """
 
+    model: Model = field(repr=False)
     before: State
     after: State
     slab: Slab
@@ -252,6 +259,7 @@ class Step:
     reactions: Mapping[str, Array]
     report: Report
     march_state: MarchState
+    transfers: Mapping[str, Transferred] = field(default_factory=dict, repr=False)
 
     def _repr_html_(self) -> str:
         """A table for notebooks."""

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.results.step import Event
+from softway.march.state.model_state import ModelState
 from softway.model.cohesive_ties import CohesiveTie
 from softway.model.model import Model
 from softway.model.slab import Slab

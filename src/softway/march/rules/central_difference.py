@@ -19,14 +19,14 @@ from softway.contact.impact_rule import Energy
 from softway.errors import InputError
 from softway.march.explicit.contact_equilibrium import solve_contact_nodes, with_remaining
 from softway.march.explicit.massless_nodes import FollowedNodes, MasslessNodes, handed_forces, pushed_nodes
-from softway.march.model_state import ModelState
 from softway.march.results.friction_result import first_impulses
 from softway.march.results.slab_result import EnergyBalance
 from softway.march.results.step import Event
 from softway.march.rules.equilibrated import EndForceContact
 from softway.march.rules.massless_slab import ContactForces, equations, slab_result, with_prescribed
 from softway.march.rules.slab_rule import Attempt, Solutions, require_motion_alone, require_nodal
-from softway.march.step_control import require_slow
+from softway.march.state.model_state import ModelState
+from softway.march.state.step_control import require_slow
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks, TimeWeight, moments

@@ -6,9 +6,9 @@ from softway.arrays import Array, BoolArray
 from softway.contact.contact_rows import ContactRows
 from softway.kernels.geometry.event_times import fading
 from softway.kernels.linalg.dense import solve_dense
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import contact_event
 from softway.march.results.step import Event
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import moments

@@ -9,7 +9,6 @@ from softway.contact.contact_set import SlabContacts
 from softway.contact.impact_rule import Energy
 from softway.errors import InputError
 from softway.march.friction.calm import calmed
-from softway.march.model_state import ModelState
 from softway.march.results.friction_result import first_impulses
 from softway.march.results.slab_result import EnergyBalance, SlabResult
 from softway.march.results.step import Event
@@ -25,7 +24,8 @@ from softway.march.rules.massless_slab import (
     with_prescribed,
 )
 from softway.march.rules.slab_rule import Attempt, Solutions
-from softway.march.step_control import EARLY, above, require_open, require_slow
+from softway.march.state.model_state import ModelState
+from softway.march.state.step_control import EARLY, above, require_open, require_slow
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks, TimeWeight

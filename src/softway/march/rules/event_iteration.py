@@ -14,9 +14,9 @@ from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import SlabContacts
 from softway.contact.slab_motion.trajectory import ContactEvents, contact_events
 from softway.kernels.geometry.event_times import crossing, fading
-from softway.march.model_state import ModelState
 from softway.march.rules.touch import Touch, VelocityJump
 from softway.march.rules.velocity_jumps import at, instants
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.solve.constraints.impact_multipliers import ImpactMultipliers
 from softway.solve.constraints.impact_sequence import ImpactSequence, contact_order

@@ -7,12 +7,12 @@ import numpy as np
 from softway.arrays import Array, BoolArray
 from softway.contact.slab_motion.exact_instants import ExactInstantMean, exact_instant_mean
 from softway.errors import InputError
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import EnergyBalance, contact_event
 from softway.march.results.step import Event
 from softway.march.rules.equilibrated import Equilibrated
 from softway.march.rules.massless_slab import ContactForces, closed_energy_balance, require_end_points
 from softway.march.rules.slab_rule import Attempt, require_frictionless, require_motion_alone, require_nodal
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import TimeWeight

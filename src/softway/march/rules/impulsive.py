@@ -15,7 +15,6 @@ from softway.contact.impact_rule import Paper
 from softway.contact.slab_motion.trajectory import Trajectory, bent
 from softway.errors import NoConvergence
 from softway.march.friction.impulse_slip import ImpulseSlip, closed_fractions, initial_slip, steady_push
-from softway.march.model_state import ModelState
 from softway.march.rules.event_iteration import (
     EventIteration,
     with_new_events,
@@ -34,7 +33,8 @@ from softway.march.rules.touch import (
     without_own_inertia,
 )
 from softway.march.rules.velocity_jumps import velocity_jumps
-from softway.march.step_control import EARLY, above, require_open, require_slow
+from softway.march.state.model_state import ModelState
+from softway.march.state.step_control import EARLY, above, require_open, require_slow
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import TimeWeight

@@ -8,7 +8,6 @@ import numpy as np
 from softway.arrays import Array
 from softway.march.friction.impulse_slip import ImpulseSlip, impulse_friction, steady_push
 from softway.march.friction.stick_slip_events import stick_slip_events
-from softway.march.model_state import ModelState
 from softway.march.results.friction_result import FrictionResult
 from softway.march.results.slab_result import (
     Balances,
@@ -21,6 +20,7 @@ from softway.march.results.slab_result import (
 from softway.march.results.step import Event
 from softway.march.rules.event_iteration import EventIteration
 from softway.march.rules.touch import Touch, VelocityJump
+from softway.march.state.model_state import ModelState
 from softway.model.slab import Slab
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.methods.iteration import Solution

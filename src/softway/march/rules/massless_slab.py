@@ -10,7 +10,6 @@ from softway.contact.contact_set import SlabContacts
 from softway.contact.slab_motion.trajectory import Trajectory, bent, contact_events
 from softway.errors import InputError
 from softway.march.friction.stick_slip_events import stick_slip_events
-from softway.march.model_state import ModelState
 from softway.march.results.friction_result import friction_result, slipping
 from softway.march.results.slab_result import (
     Balances,
@@ -22,6 +21,7 @@ from softway.march.results.slab_result import (
 )
 from softway.march.results.step import Event
 from softway.march.rules.slab_rule import Attempt
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks, TimeWeight, moments

@@ -7,8 +7,8 @@ from typing import Protocol
 import numpy as np
 
 from softway.errors import Cancel, InputError
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import TimeWeight

@@ -12,7 +12,7 @@ from softway.contact.slab_motion.trajectory import ContactEvents
 from softway.contact.slab_motion.trapezoid_triangle import TrapezoidTriangle
 from softway.errors import InputError
 from softway.kernels.linalg.dense import solve_dense
-from softway.march.model_state import ModelState
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.time_weight import TimeWeight
 from softway.solve.constraints.impact_multipliers import ImpactMultipliers

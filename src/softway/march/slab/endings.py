@@ -3,10 +3,10 @@
 import numpy as np
 
 from softway.laws.bulk import StVenantKirchhoff
-from softway.march.march_state import MarchState
-from softway.march.model_state import ModelState
 from softway.march.slab.slab_step import Stepper
-from softway.march.step_control import CRAWL
+from softway.march.state.march_state import MarchState
+from softway.march.state.model_state import ModelState
+from softway.march.state.step_control import CRAWL
 from softway.model.model import Model
 from softway.solve.methods.newton import Newton
 

@@ -5,8 +5,8 @@ import numpy as np
 from softway.arrays import Array
 from softway.bodies.rigid_motion import CarriedNodes, RigidShape
 from softway.contact.contact_rows import ContactRows
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.slab import Slab
 

@@ -8,10 +8,10 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.bodies.rigid_motion import RigidMotion
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.slab.carried_motion import CarriedMotion, Response
 from softway.march.slab.rigid_forces import carriers, forces_on_rigid
+from softway.march.state.model_state import ModelState
 from softway.model.field import StopsInSlab
 from softway.model.model import Model
 from softway.model.rigid.rigid_bodies import RigidBodies, RigidSlab

@@ -9,7 +9,6 @@ from softway.arrays import Array
 from softway.bodies.assembled import material_states
 from softway.errors import Cancel, InputError, Unbalanced
 from softway.heat.coupled.solid_temperature import temperatures_of
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult, ordered_events
 from softway.march.results.step import Event
 from softway.march.results.tie_breaks import tie_breaks
@@ -17,6 +16,7 @@ from softway.march.results.trying import TryWatch
 from softway.march.rules.declared import slab_rule
 from softway.march.rules.slab_rule import Attempt, Method, SlabRule
 from softway.march.slab.with_rigid import coupled_slabs
+from softway.march.state.model_state import ModelState
 from softway.mechanisms.members.stops import StopEvent
 from softway.model.field import in_slab
 from softway.model.model import Model

@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.errors import NoConvergence
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.rules.slab_rule import Attempt, SlabRule
 from softway.march.slab.rigid_iteration import AGREES, PATIENCE, RigidIteration
+from softway.march.state.model_state import ModelState
 from softway.mechanisms.members.stops import StopEvent
 from softway.model.field import feel_stops, with_stops
 from softway.model.model import Model

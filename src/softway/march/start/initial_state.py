@@ -12,9 +12,9 @@ from softway.bodies.elements.section import Axisymmetric
 from softway.contact.assembly.declared import at_declared
 from softway.contact.contact import NodeToSurface
 from softway.errors import Cancel, InputError
-from softway.march.model_state import ModelState
 from softway.march.results.trying import TryWatch, watched
 from softway.march.start.initial_overlap import deepest, shrunk
+from softway.march.state.model_state import ModelState
 from softway.model.field import in_states
 from softway.model.model import Model
 from softway.model.scene import StaticStart
@@ -56,6 +56,17 @@ def initial_state(
     model = model.during((), span)
     with at_declared(model.declared):
         rest = _resting(model, cancel, Effort(tell=watched(trying)))
+    return _at_rest(model, rest, span)
+
+
+def without_contact(model: Model, span: float = 1.0) -> ModelState:
+    """State at the given displacement, at t = 0, without forces of contacts: it has the sizes of all states."""
+    model = model.during((), span)
+    return _at_rest(model, StaticState.apart(model.displacement, len(model.contacts.contact)), span)
+
+
+def _at_rest(model: Model, rest: StaticState, span: float) -> ModelState:
+    """State at t = 0 with the initial velocities."""
     u, pressure = rest.displacement, rest.pressure
     energy, force = model.energy_and_force(u)
     states = material_states.committed(model.parts, u)

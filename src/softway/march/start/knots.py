@@ -14,8 +14,8 @@ from softway.bodies.setup.directions import DirectedMotion
 from softway.bodies.setup.knots import knots_of_pieces, knots_of_table
 from softway.bodies.setup.supports import Driven, Guided
 from softway.bodies.solid import Tool
-from softway.march.march_state import MarchState, Settings, StepHistory
 from softway.march.start.slab_length import evenly
+from softway.march.state.march_state import MarchState, Settings, StepHistory
 from softway.model.model import Model
 from softway.solve.methods.central_difference import Explicit
 

@@ -13,11 +13,11 @@ from softway.arrays import Array
 from softway.bodies.assembled import material_states
 from softway.bodies.assembled.material_states import any_path_dependent
 from softway.errors import InputError
-from softway.march.march_state import Settings, StepHistory
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.start.slab_length import prescribed_speed
-from softway.march.step_control import EARLY, ROUNDING, above
+from softway.march.state.march_state import Settings, StepHistory
+from softway.march.state.model_state import ModelState
+from softway.march.state.step_control import EARLY, ROUNDING, above
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks

@@ -4,14 +4,14 @@ from dataclasses import dataclass, replace
 
 from softway.errors import Cancel, within
 from softway.march.audit.ledger import initial_ledger, open_account
-from softway.march.march_state import MarchState, Settings, StepHistory
-from softway.march.model_state import join_states
 from softway.march.results.trying import TryWatch
 from softway.march.slab.slab_step import Stepper, stepper
 from softway.march.start.initial_state import initial_state
 from softway.march.start.knots import slab_ends
 from softway.march.start.ladder import require_ladder, rungs, slowest
 from softway.march.start.slab_length import proposed
+from softway.march.state.march_state import MarchState, Settings, StepHistory
+from softway.march.state.model_state import join_states
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.solve.methods.central_difference import Explicit

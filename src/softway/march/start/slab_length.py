@@ -5,10 +5,12 @@ from typing import Literal
 
 import numpy as np
 
+from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.prescribed_motion import Motion, Sliding, Swinging, Table, Translation, Turning, carried_tool
-from softway.bodies.solid import Tool
+from softway.bodies.solid import Solid, Tool
 from softway.errors import InputError
 from softway.march.rules.slab_rule import Method
+from softway.meshes.adaptive.adapt import adaption
 from softway.model.model import Model
 from softway.model.time_weight import TimeWeight
 from softway.solve.methods.central_difference import Explicit
@@ -60,12 +62,22 @@ def proposed(
 
 def _edge(model: Model) -> float:
     """Shortest edge of all solids [m]."""
-    return min(p.mesh.edge() for p in model.parts)
+    return min(finest_edge(model, p) for p in model.parts)
+
+
+def finest_edge(model: Model, part: DiscreteSolid) -> float:
+    """Shortest edge of a solid, of its finest cells if its mesh adapts [m]."""
+    solid = model.scene.bodies[part.name]
+    how = adaption(solid.adapt) if isinstance(solid, Solid) else None
+    if how is None:
+        return part.mesh.edge()
+    found = model.adapted.get(part.name)
+    return how.finest(part.mesh if found is None else found.base)
 
 
 def _crossing(model: Model) -> float:
     """Time in which the fastest wave crosses the shortest edge of its solid, over sqrt(2) [s]."""
-    return float(min(p.mesh.edge() / model.wave_speed(p) for p in model.parts) / np.sqrt(2.0))
+    return float(min(finest_edge(model, p) / model.wave_speed(p) for p in model.parts) / np.sqrt(2.0))
 
 
 def prescribed_speed(model: Model) -> float:

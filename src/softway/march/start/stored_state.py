@@ -10,8 +10,8 @@ from softway.arrays import Array, IntArray
 from softway.bodies.assembled.material_states import MaterialStates
 from softway.contact.contact_rows import ContactRows
 from softway.errors import InputError, within
-from softway.march.march_state import MarchState
-from softway.march.model_state import ModelState
+from softway.march.state.march_state import MarchState
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.solve.equations.slab_values import SlabStart
 from softway.solve.operators.operator_memory import OperatorMemory, OperatorOrigin

@@ -36,7 +36,7 @@ def leaf_nodes(base: Mesh, corners: IntArray, middles: Middles) -> tuple[IntArra
         middles, nodes = middles.with_middles(corners[:, edges].reshape(-1, 2))
         rows = np.concatenate([corners, nodes.reshape(len(corners), len(edges))], axis=1)
         rows = _known_middles(base, middles)[rows]
-    return _numbered(rows, base.n_nodes)
+    return numbered(rows, base.n_nodes)
 
 
 def _known_middles(base: Mesh, middles: Middles) -> IntArray:
@@ -51,7 +51,7 @@ def _known_middles(base: Mesh, middles: Middles) -> IntArray:
     return known
 
 
-def _numbered(rows: IntArray, old: int) -> tuple[IntArray, FirstPlaces]:
+def numbered(rows: IntArray, old: int) -> tuple[IntArray, FirstPlaces]:
     """Nodes (e, a) with new numbers, from ``old`` on, in the order in which they occur first, and where they do."""
     found, first, number = np.unique(rows, return_index=True, return_inverse=True)
     fresh = found >= old
@@ -63,7 +63,9 @@ def _numbered(rows: IntArray, old: int) -> tuple[IntArray, FirstPlaces]:
 
 
 def shape_functions(name: str, place: Array) -> Array:
-    """Shape functions (..., a) of a bar, triangle or tetrahedron at barycentric coordinates (..., c).
+    """Shape functions (..., a) of a cell at barycentric coordinates (..., c).
+
+    Those of quadrilaterals and hexahedra are their linear shape functions.
 
     Examples
     --------
@@ -72,6 +74,9 @@ def shape_functions(name: str, place: Array) -> Array:
     """
     if CELLS[name].order == 1:
         return place
+    if _square(name):
+        at = place @ CELLS[name].nodes[: CELLS[name].corners]
+        return np.asarray((at[..., None, :] ** CELLS[name].powers).prod(axis=-1) @ _coefficients(name))
     i, j = np.array(CELLS[name].edges).T
     return np.concatenate([place * (2.0 * place - 1.0), 4.0 * place[..., i] * place[..., j]], axis=-1)
 
@@ -86,8 +91,28 @@ def node_places(name: str, place: Array) -> Array:
     """
     if CELLS[name].order == 1:
         return place
+    if _square(name):
+        return np.asarray(np.einsum("ac,...cd->...ad", _linear(name), place))
     i, j = np.array(CELLS[name].edges).T
     return np.concatenate([place, (place[..., i, :] + place[..., j, :]) / 2.0], axis=-2)
+
+
+def _square(name: str) -> bool:
+    """True for quadrilaterals and hexahedra."""
+    return CELLS[name].dim > 1 and not CELLS[name].simplex
+
+
+def _coefficients(name: str) -> Array:
+    """Coefficients (k, a) of the monomials of the shape functions of a quadrilateral or hexahedron, whole numbers."""
+    it = CELLS[name]
+    return np.rint(np.linalg.inv((it.nodes[:, None, :] ** it.powers).prod(axis=-1)))
+
+
+def _linear(name: str) -> Array:
+    """Linear shape functions (a, c) at the nodes of a quadrilateral or hexahedron."""
+    own = CELLS[name].nodes
+    corners = own[: CELLS[name].corners]
+    return np.asarray(np.where(corners[None] == 1.0, own[:, None], 1.0 - own[:, None]).prod(axis=-1))
 
 
 def located(base: Mesh, roots: IntArray, place: Array, first: FirstPlaces) -> tuple[Array, IntArray]:

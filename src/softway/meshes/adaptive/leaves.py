@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import BoolArray, IntArray
+from softway.errors import InputError
 
 DEPTH = 40
 """Greatest level of a leaf."""
@@ -55,6 +56,28 @@ class Leaves:
     def around(self, start: IntArray) -> IntArray:
         """Number (k,) of the leaf whose interval contains each ``start`` (k,)."""
         return np.asarray(np.searchsorted(self.start, start, side="right") - 1)
+
+
+def require_cover(leaves: Leaves, count: int) -> None:
+    """Refuse leaves, such as those of a damaged file, that do not cover a base mesh of ``count`` cells.
+
+    Raises
+    ------
+    InputError
+        If an interval is missing, or is none of a cell.
+
+    Examples
+    --------
+    >>> require_cover(roots(2), 2)
+    """
+    start, level = leaves.start, leaves.level
+    whole = start.dtype == level.dtype == np.int64 and start.shape == level.shape == (len(start),) and len(start) > 0
+    if not (whole and ((level >= 0) & (level <= DEPTH)).all()):
+        raise InputError("leaves", "no starts and levels of leaves", "the leaves of an adapted mesh")
+    ends = start + leaves.length
+    together = start[0] == 0 and ends[-1] == count << DEPTH and (start[1:] == ends[:-1]).all()
+    if not (together and (start % leaves.length == 0).all()):
+        raise InputError("leaves", f"{len(start)} leaves that do not cover {count} cells", "those of this mesh")
 
 
 def roots(count: int) -> Leaves:

@@ -6,15 +6,18 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError
-from softway.meshes.adaptive.leaf_nodes import leaf_nodes, located
+from softway.meshes.adaptive.leaf_nodes import FirstPlaces, leaf_nodes, located
 from softway.meshes.adaptive.leaves import DEPTH, MOST_CELLS, Leaves, finest, roots
 from softway.meshes.adaptive.middles import Middles
+from softway.meshes.adaptive.squares.balanced import BALANCED, balanced
+from softway.meshes.adaptive.squares.square_nodes import square_nodes
 from softway.meshes.adaptive.tags import refined_tags
 from softway.meshes.adaptive.tree_cells import TreeCells, base_cells, children, joined
 from softway.meshes.mesh import Mesh
+from softway.meshes.topology import HangingNodes
 
-BISECTED = ("bar2", "bar3", "tri3", "tri6", "tet4", "tet10")
-"""Cells that bisection refines."""
+BISECTED = ("bar2", "bar3", "tri3", "tri6", "tet4", "tet10", *BALANCED)
+"""Cells that bisection refines, quadrilaterals and hexahedra in all directions at once."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -30,7 +33,8 @@ class AdaptedMesh:
     leaves
         Keys of its cells.
     place
-        (e, c, c) barycentric coordinates of the corners of each cell in its base cell.
+        (e, c, c) barycentric coordinates of the corners of each cell in its base cell; in quadrilaterals and hexahedra
+        the values of the linear shape functions of the base cell.
     """
 
     base: Mesh
@@ -43,20 +47,27 @@ class AdaptedMesh:
         """Name of the cells."""
         return next(iter(self.mesh.blocks))
 
+    @property
+    def step(self) -> int:
+        """Levels by which a cell that is cut becomes finer: one; two for quadrilaterals and three for hexahedra."""
+        return self.mesh.cell_dim if self.cell in BALANCED else 1
+
 
 def refined(base: Mesh, want: IntArray, on: Leaves | None = None) -> AdaptedMesh:
     """Coarsest conforming refinement of a base mesh in which no cell is coarser than wanted.
 
     The mesh is a function of the base mesh and the wanted levels at each place; it has no history, so that a mesh is
     made coarser by wanting less.  Triangles and tetrahedra share whole facets; levels of bars that share a node differ
-    by one at most.  Cells of second order keep the exact shape of the base cell, also where it is curved.
+    by one at most.  Quadrilaterals and hexahedra are cut into four and eight, and nodes hang in the middle of edges and
+    faces of larger cells.  Cells of second order keep the exact shape of the base cell, also where it is curved.
 
     Parameters
     ----------
     base
-        Mesh of one type of cell: ``bar2 bar3 tri3 tri6 tet4 tet10``.
+        Mesh of one type of cell: ``bar2 bar3 tri3 tri6 tet4 tet10 quad4 quad8 quad9 hex8 hex20 hex27``.
     want
-        (e,) wanted levels, 0 to 40: of the base cells, or on the leaves ``on``.  A level more halves a cell.
+        (e,) wanted levels, 0 to 40: of the base cells, or on the leaves ``on``.  A level more halves a cell;
+        quadrilaterals have even levels, hexahedra multiples of three.
     on
         Leaves (e,) of an adapted mesh of the same base.
 
@@ -85,8 +96,12 @@ def refined(base: Mesh, want: IntArray, on: Leaves | None = None) -> AdaptedMesh
     ):
         problem = f"array of shape {level.shape} and type {level.dtype}"
         raise InputError("want", problem, f"whole numbers from 0 to {DEPTH} for {len(given.level)} cells")
+    if next(iter(base.blocks)) in BALANCED:
+        cells, cuts = balanced(base, given, level)
+        return _adapted(base, cells, cells.place, square_nodes(base, cells, cuts))
     cells, middles = _bisected(base_cells(base), Middles.none(base.n_nodes), given, level)
-    return _adapted(base, cells, middles)
+    corners, place = _oriented(cells)
+    return _adapted(base, cells, place, (*leaf_nodes(base, corners, middles), None))
 
 
 def _require_bisected(base: Mesh) -> None:
@@ -119,11 +134,14 @@ def _too_coarse(bars: TreeCells) -> BoolArray:
     return np.asarray(greatest[bars.corners].max(axis=1) > bars.level + 1)
 
 
-def _adapted(base: Mesh, cells: TreeCells, middles: Middles) -> AdaptedMesh:
-    """Adapted mesh of the leaves ``cells``."""
+def _adapted(
+    base: Mesh, cells: TreeCells, place: Array, numbered: tuple[IntArray, FirstPlaces, HangingNodes | None]
+) -> AdaptedMesh:
+    """Adapted mesh of the leaves ``cells``, from the places (e, c, c) of their corners, their nodes (e, a), where the
+    new ones occur first, and the hanging ones.
+    """
     name, rows = next(iter(base.blocks.items()))
-    corners, place = _oriented(cells)
-    nodes, first = leaf_nodes(base, corners, middles)
+    nodes, first, hanging = numbered
     points, carriers = located(base, rows[cells.start >> DEPTH], place, first)
     leaves = Leaves(np.array(cells.start), np.array(cells.level))
     regions = {region: np.flatnonzero(np.isin(leaves.root, own)) for region, own in base.regions.items()}
@@ -132,6 +150,7 @@ def _adapted(base: Mesh, cells: TreeCells, middles: Middles) -> AdaptedMesh:
         blocks={name: nodes},
         tags=refined_tags(base, carriers),
         regions=regions,
+        hanging=hanging,
     )
     return AdaptedMesh(base=base, mesh=mesh, leaves=leaves, place=place)
 

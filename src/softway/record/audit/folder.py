@@ -18,11 +18,11 @@ DEEPER = 1e-9
 
 
 def frames_audited(fields: Fields) -> Iterator[Depths]:
-    """Depths and findings of each stored frame after the first."""
-    cells = fields.cells
-    judge = auditor(cells, cells.obstacles(0.0))
-    for k in range(1, len(fields)):
-        frame = fields[k]
+    """Depths and findings of each stored frame after the first, on its own cells."""
+    last = judge = None
+    for frame, cells in fields.with_cells(range(1, len(fields))):
+        if judge is None or cells is not last:
+            last, judge = cells, auditor(cells, cells.obstacles(0.0))
         yield judge.look(frame.time, frame.points[:, : cells.dimension], cells.obstacles(frame.time))
 
 

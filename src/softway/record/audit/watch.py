@@ -2,20 +2,19 @@
 
 import itertools
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from softway.arrays import Array
 from softway.bodies.prescribed_motion import PlacedShape
 from softway.bodies.solid import Tool
 from softway.march.results.step import Event, Step
 from softway.model.scene import State
-from softway.record.audit.auditor import Auditor, auditor
+from softway.record.audit.auditor import Auditor, Depths, auditor
 from softway.record.audit.energy_watch import ENERGIES, RECEIVED, EnergyWatch, given_back, missed, received
 from softway.record.read.findings import ENERGY, MOMENTUM, SPIN, finding
 from softway.record.storage.table import Table
-from softway.record.write.grid.grid_layout import layout
+from softway.record.write.grid.grid_layout import Layout, layout
 from softway.record.write.mechanism.rigid_table import placed_bodies
 from softway.record.write.recorder import RunStart
 
@@ -34,31 +33,37 @@ TURNED = 0.1
 """Excess of the resultant over the sum of the row forces that turning normals of mean gaps may explain."""
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Geometry:
+    """Solids on the meshes of a ``start``, as ``cells``, with their geometric audit."""
+
+    start: RunStart
+    cells: Layout
+    auditor: Auditor
+
+    def depths(self, state: State, obstacles: Mapping[str, PlacedShape]) -> Depths:
+        """Depths and findings in a state."""
+        d = self.cells.dimension
+        x = self.cells.reference[:, :d] + self.cells.nodal(state.displacement)[:, :d]
+        return self.auditor.look(state.time, x, obstacles)
+
+
 class Watcher:
     """Audit of the slabs of one march, which it takes in order.
 
     Parameters
     ----------
-    auditor
-        Geometric audit.
-    positions
-        Positions (n, d) of the nodes of all bodies in a state [m].
     obstacles
         Tools and rigid bodies at their places in a state.
     opening
         Start of the run: when frames are stored, and the balances of a state.
     """
 
-    __slots__ = ("_audited", "_energy", "_slabs", "auditor", "obstacles", "opening", "positions")
+    __slots__ = ("_audited", "_energy", "_geometry", "_slabs", "obstacles", "opening")
 
-    def __init__(
-        self,
-        auditor: Auditor,
-        positions: Callable[[State], Array],
-        obstacles: Callable[[State], Mapping[str, PlacedShape]],
-        opening: RunStart,
-    ) -> None:
-        self.auditor, self.positions, self.obstacles, self.opening = auditor, positions, obstacles, opening
+    def __init__(self, obstacles: Callable[[State], Mapping[str, PlacedShape]], opening: RunStart) -> None:
+        self.obstacles, self.opening = obstacles, opening
+        self._geometry = self._geometry_of(opening)
         self._slabs = self._audited = 0
         start = opening.ledger
         self._energy = EnergyWatch(start.energy_kinetic + start.energy_strain, opening.rounding)
@@ -83,10 +88,22 @@ class Watcher:
             found = list(given_back(self._energy, gained, step.after.time, step.slab.span))
             seen = step.certificate
             if self._counted(step.before.time, step.after.time):
-                depths = self.auditor.look(step.after.time, self.positions(step.after), self.obstacles(step.after))
+                depths = self._depths(step)
                 seen = replace(seen, gap_nodes=0.0 - depths.nodes, gap_between=0.0 - depths.between)
                 found += [*depths.findings, *self._balanced(step), *self._pushed(step)]
             yield replace(step, certificate=seen, events=(*step.events, *found))
+
+    def _geometry_of(self, start: RunStart) -> "_Geometry":
+        """Solids on the meshes of a start, and their geometric audit."""
+        cells = layout(start.meshes, {})
+        return _Geometry(start=start, cells=cells, auditor=auditor(cells, self.obstacles(self.opening.initial)))
+
+    def _depths(self, step: Step) -> Depths:
+        """Depths and findings at the end of a slab, on its meshes."""
+        start = self.opening.of(step)
+        if start is not self._geometry.start:
+            self._geometry = self._geometry_of(start)
+        return self._geometry.depths(step.after, self.obstacles(step.after))
 
     def _counted(self, before: float, after: float) -> bool:
         """Count a slab between two times; true if it is audited."""
@@ -103,9 +120,10 @@ class Watcher:
         """Findings on balances that miss, and on energies and momenta that do not agree with the fields."""
         ledger, time = step.ledger, step.after.time
         yield from missed(self._energy)
-        if self.opening.balances is None:
+        start = self.opening.of(step)
+        if start.balances is None:
             return
-        again = self.opening.balances(step.after)
+        again = start.balances(step.after)
         energies = (("kinetic", again.kinetic, ledger.energy_kinetic), ("strain", again.strain, ledger.energy_strain))
         for name, found, given in energies:
             if found is not None and not abs(found - given) <= AGREED * self._energy.scale + self.opening.rounding:
@@ -127,10 +145,11 @@ class Watcher:
         The resultant of normal forces is no larger than their sum, whatever their directions are, and their moment no
         larger than the sum times the arm of the body.
         """
-        if self.opening.pushed is None:
+        pushed = self.opening.of(step).pushed
+        if pushed is None:
             return
         contacts = [(c.label, {name.partition(".")[0] for name in c.between}) for c in self.opening.scene.contacts]
-        for group, needed in self.opening.pushed(step).items():
+        for group, needed in pushed(step).items():
             mine = [step.ledger.contacts[label] for label, bodies in contacts if bodies.intersection(group)]
             told = f"'{group[0]}' is" if len(group) == 1 else f"{' and '.join(map(repr, group))} are"
             given = sum(c.force_n + c.force_t for c in mine)
@@ -146,16 +165,10 @@ class Watcher:
 
 def watcher(opening: RunStart) -> Watcher:
     """Audit of a run from its start."""
-    cells = layout(opening.meshes, {})
     tools = {name: body for name, body in opening.scene.bodies.items() if isinstance(body, Tool)}
-    reference = cells.reference[:, : cells.dimension]
-
-    def positions(state: State) -> Array:
-        return np.asarray(reference + cells.nodal(state.displacement)[:, : cells.dimension])
-
     rigid = {} if opening.scene.mechanism is None else opening.scene.mechanism.bodies
 
     def obstacles(state: State) -> Mapping[str, PlacedShape]:
         return {**{name: tool.at(state.time) for name, tool in tools.items()}, **placed_bodies(rigid, state)}
 
-    return Watcher(auditor(cells, obstacles(opening.initial)), positions, obstacles, opening)
+    return Watcher(obstacles, opening)

@@ -1,7 +1,6 @@
 """Stored frames of the fields, read back as plain arrays."""
 
-import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
@@ -9,64 +8,16 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from softway.arrays import Array, IntArray
-from softway.bodies.prescribed_motion import PlacedShape
-from softway.bodies.solid import Tool
 from softway.errors import InputError
-from softway.meshes.cells import CELLS
-from softway.record.read.recorded_bodies import RecordedBody, recorded_bodies
-from softway.record.storage.gate.hdf5_file import BROKEN, reading
+from softway.record.read.cells import Cells, read_cells
+from softway.record.storage.gate.hdf5_file import reading
 from softway.record.write.fields import FILE
-from softway.record.write.grid.grid_layout import VTK, blocks
-from softway.record.write.grid.grid_series import SIZES
-from softway.record.write.shapes.tool_shapes import recovered
+from softway.record.write.grid.geometries import parts_of_frames, rows_of_frame
 
 if TYPE_CHECKING:
     import pyvista
 
 REMEDY = f"a run folder with the complete file {FILE}"
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Cells:
-    """Cells, reference coordinates and rigid obstacles, common to all frames.
-
-    Parameters
-    ----------
-    bodies
-        Names of the solids.
-    tools
-        Rigid obstacles by name.
-    lost
-        Names of the obstacles that are not stored as data: a picture never runs code of a file.
-    dimension
-        Dimension d of space.
-    reference
-        (n, 3) reference coordinates [m].
-    connectivity, offsets, types, body
-        Cells in the format of VTK: (k,), (e + 1,), (e,); and (e,) number of the solid of each cell.
-    rigid
-        Rigid bodies that have a shape, by name.
-    """
-
-    bodies: tuple[str, ...]
-    tools: Mapping[str, Tool]
-    lost: tuple[str, ...]
-    dimension: int
-    reference: Array
-    connectivity: IntArray
-    offsets: IntArray
-    types: IntArray
-    body: IntArray
-    rigid: Mapping[str, RecordedBody] = field(default_factory=dict)
-
-    def blocks(self) -> dict[str, IntArray]:
-        """Connectivity (cells, nodes) by cell name."""
-        return blocks(self)
-
-    def obstacles(self, time: float) -> dict[str, PlacedShape]:
-        """Rigid obstacles and rigid bodies in their positions at a time [s]."""
-        tools = {name: tool.at(time) for name, tool in self.tools.items()}
-        return {**tools, **{name: body.at(time) for name, body in self.rigid.items()}}
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -87,6 +38,8 @@ class Frame:
         Further recorded fields by name: ``contact_pressure`` (n,) and ``tangential_traction`` (n, 3) [Pa],
         ``plastic_strain`` and other scalar history variables (e,) of a law, ``dissipation`` (e,) [J/m^3]; of conductors
         ``temperature`` (n,) [K], ``heat_flux`` (e, 3) [W/m^2] and ``liquid`` (e,), while their stress is ``nan``.
+    geometry
+        Number of its cells and reference coordinates: 0 in runs whose meshes stay.
     """
 
     time: float
@@ -97,6 +50,7 @@ class Frame:
     stress: Array
     von_mises: Array
     more: Mapping[str, Array] = field(default_factory=dict)
+    geometry: int = 0
 
     def __getitem__(self, name: str) -> Array:
         """Field with a given name."""
@@ -156,15 +110,19 @@ class Fields:
             count = _count(root)
             if not -count <= k < count:
                 raise IndexError(f"frame {k} of {count}")
-            n, e = (int(root[name][0]) for name in SIZES[:2])
-            at, k = slice(k % count * n, (k % count + 1) * n), k % count
+            k %= count
+            parts = parts_of_frames(root, k + 1)
+            at, within = rows_of_frame(root, parts)
+            n, e = at.stop - at.start, within.stop - within.start
             point = {name: data[at] for name, data in root["PointData"].items()}
-            cell = {name: d[k * e : (k + 1) * e] for name, d in root["CellData"].items() if name != "body"}
+            cell = {name: data[within] for name, data in root["CellData"].items() if name != "body"}
             data = {**point, **cell}
-            if any(len(values) != rows for part, rows in ((point, n), (cell, e)) for values in part.values()):
+            time, points = float(root["Steps/Values"][k]), root["Points"][at]
+            sizes = ((point, n), (cell, e), ({"Points": points}, n))
+            if any(len(values) != rows for part, rows in sizes for values in part.values()):
                 raise ValueError(f"a field of frame {k} is too short")
             always = {name: data.pop(name, nothing) for name, nothing in _absent(n, e).items()}
-            return Frame(time=float(root["Steps/Values"][k]), points=root["Points"][at], **always, more=data)
+            return Frame(time=time, points=points, **always, more=data, geometry=int(parts[-1]))
 
     @property
     def kinds(self) -> dict[str, Kind]:
@@ -185,34 +143,42 @@ class Fields:
 
     @property
     def cells(self) -> Cells:
-        """Cells, reference coordinates and rigid obstacles, common to all frames."""
+        """Cells, reference coordinates and rigid obstacles of the first frame; of all frames where meshes stay."""
+        return self.geometry(0)
+
+    def cells_of(self, frame: Frame) -> Cells:
+        """Cells of a frame."""
+        return self.geometry(frame.geometry)
+
+    def geometry(self, number: int) -> Cells:
+        """Cells with the number that a frame has as its ``geometry``."""
+        with reading(self.path, REMEDY) as file:
+            return read_cells(file, self.path.parent, number)
+
+    def with_cells(self, numbers: Iterable[int] | None = None) -> Iterator[tuple[Frame, Cells]]:
+        """Frames with the given numbers, by default all of them, each with its cells."""
+        last, cells = -1, None
+        for k in range(len(self)) if numbers is None else numbers:
+            frame = self[k]
+            if cells is None or frame.geometry != last:
+                last, cells = frame.geometry, self.cells_of(frame)
+            yield frame, cells
+
+    @property
+    def geometries(self) -> IntArray:
+        """Number (frames,) of the geometry of each frame, which rises where the meshes of a run change."""
         with reading(self.path, REMEDY) as file:
             root = file["VTKHDF"]
-            whole = {name: np.asarray(root[name.title()][:], int) for name in ("connectivity", "offsets", "types")}
-            dimension = int(file.attrs["dimension"])
-            tools = {name: _tool(data, dimension) for name, data in json.loads(file["tools"][()]).items()}
-            rigid = json.loads(file["rigid"][()]) if "rigid" in file else {}
-            bodies = {name: _tool(data, dimension) for name, data in rigid.items()}
-            found = Cells(
-                bodies=tuple(json.loads(file.attrs["bodies"])),
-                tools={n: tool for n, tool in tools.items() if tool is not None},
-                lost=tuple(n for n, tool in (*tools.items(), *bodies.items()) if tool is None),
-                dimension=dimension,
-                reference=file["reference"][:],
-                body=np.asarray(root["CellData/body"][:], int),
-                rigid=recorded_bodies(self.path.parent, bodies),
-                **whole,
-            )
-            _require_cells(found)
-            return found
+            return parts_of_frames(root, _count(root))
 
     def to_pyvista(self, k: int) -> "pyvista.UnstructuredGrid":
-        """Frame ``k`` as a deformed PyVista grid with all its fields."""
+        """Frame ``k`` as a deformed PyVista grid with its cells and all its fields."""
         try:
             import pyvista
         except ImportError:
             raise InputError("fields", "PyVista is not installed", "pip install pyvista") from None
-        frame, cells = self[k], self.cells
+        frame = self[k]
+        cells = self.cells_of(frame)
         grid = pyvista.UnstructuredGrid(_padded(cells), cells.types.astype(np.uint8), frame.points)
         for name, kind in self.kinds.items():
             (grid.point_data if kind.on == "nodes" else grid.cell_data)[name] = frame[name]
@@ -233,39 +199,6 @@ def _count(root: Any) -> int:
     if not 0 <= count <= stored:
         raise ValueError(f"{count} frames, but {stored} instants")
     return count
-
-
-def _tool(data: Any, dimension: int) -> Tool | None:
-    """Tool from its description; None if it is not plain data that make a tool of this dimension."""
-    try:
-        made = recovered(data)
-        if isinstance(made, Tool) and made.at(0.0).gap(np.zeros((1, dimension))).shape == (1,):
-            return made
-    except (InputError, *BROKEN, ArithmeticError, IndexError):
-        return None
-    return None
-
-
-def _require_cells(cells: Cells) -> None:
-    """Refuse numbers that lead beyond the arrays: what draws them does not look.
-
-    Raises
-    ------
-    ValueError
-        With the array.
-    """
-    n, e, k = len(cells.reference), len(cells.types), len(cells.connectivity)
-    widths = {kind: len(CELLS[name].nodes) for name, kind in VTK.items()}
-    if cells.dimension not in (1, 2, 3) or cells.reference.shape != (n, 3):
-        raise ValueError("dimension or reference coordinates")
-    if not (cells.connectivity.ndim == 1 and ((cells.connectivity >= 0) & (cells.connectivity < n)).all()):
-        raise ValueError("cells with nodes that are not there")
-    if cells.offsets.shape != (e + 1,) or cells.offsets[0] != 0 or cells.offsets[-1] != k:
-        raise ValueError("offsets of cells")
-    if np.diff(cells.offsets).tolist() != [widths.get(int(kind)) for kind in cells.types]:
-        raise ValueError("numbers of nodes of cells")
-    if cells.body.shape != (e,) or not ((cells.body >= 0) & (cells.body < len(cells.bodies))).all():
-        raise ValueError("numbers of bodies")
 
 
 def _padded(cells: Cells) -> IntArray:

@@ -10,6 +10,8 @@ import numpy as np
 from softway.record.read.findings import gathered, stored
 from softway.record.read.heat_summary import dissipated, summarise_solids
 from softway.record.storage.table import Table
+from softway.record.write.events import MESH
+from softway.record.write.history_columns import NODES
 
 FILE = "summary.json"
 ENTRIES: Mapping[str, type] = MappingProxyType({"slabs": int, "contacts": dict})
@@ -57,7 +59,8 @@ def summarise(history: Table, events: Table) -> dict[str, Any]:
     without the column ``heat.reversible`` [J]; ``penetration_worst`` is the largest penetration of a contact row at the
     end of a slab [m]. ``penetration_nodes`` and ``penetration_between`` are the deepest overlaps of any two surfaces,
     at nodes and between them, in the slabs that were audited [m]; ``heat`` is that of solids with a temperature,
-    ``findings`` are those of the audit.
+    ``findings`` are those of the audit.  ``mesh``, in runs whose meshes change, holds the number of the slabs before
+    which a mesh changed, and the greatest and the mean number of the nodes of all solids.
     """
     if history.rows == 0:
         return {"slabs": 0, "contacts": {}, "findings": []}
@@ -79,8 +82,22 @@ def summarise(history: Table, events: Table) -> dict[str, Any]:
         "certificate": _certificate(history),
         "contacts": contacts,
         "heat": summarise_solids(history),
+        "mesh": _changes(history, events),
         "findings": gathered(stored(events)),
         "units": {"time": "s", "energy": "J", "penetration": "m", "impulse": "N s", "force": "N"},
+    }
+
+
+def _changes(history: Table, events: Table) -> dict[str, Any]:
+    """Changes of the meshes of a run; empty where meshes stay."""
+    if NODES.name not in history:
+        return {}
+    nodes = history[NODES.name]
+    changes = len(np.unique(events["time"][events["kind"] == MESH]))
+    return {
+        "changes": changes,
+        "most_nodes": int(nodes.max()),
+        "mean_nodes": float(nodes[min(1, history.rows - 1) :].mean()),
     }
 
 

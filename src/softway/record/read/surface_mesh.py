@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array, IntArray
+from softway.meshes.adaptive.squares.inner_facets import beside_smaller
 from softway.meshes.mesh import Mesh
-from softway.record.read.frames import Cells
+from softway.record.read.cells import Cells
 
 MOST = 60000
 """Maximum number of small triangles on a surface."""
@@ -63,7 +64,10 @@ class Skin:
 def skin_of(cells: Cells, most: int = MOST) -> Skin:
     """Visible surface of all solids together, divided into about ``most`` small triangles."""
     mesh = Mesh(points=cells.reference[:, : cells.dimension], blocks=cells.blocks())
-    boundary = mesh.boundary()
+    owner = np.zeros(len(cells.reference), dtype=np.int64)
+    owner[cells.connectivity] = np.repeat(cells.body, np.diff(cells.offsets))
+    single = mesh.boundary()
+    boundary = {name: facets[~beside_smaller(mesh.points, owner, name, facets)] for name, facets in single.items()}
     seen: Mapping[str, IntArray] = boundary if mesh.dim == 3 else mesh.blocks
     count = sum(len(f) for f in seen.values())
     made = tuple(_patches(name, facets, count, most) for name, facets in seen.items() if name in SHAPES)

@@ -21,10 +21,11 @@ from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.heat.fronts.places import Fronts
 from softway.heat.ledger import HeatLedger
 from softway.heat.march import HeatState
-from softway.march.march_state import EnergyAccount, MarchState, Settings, StepHistory
-from softway.march.model_state import ModelState
-from softway.march.step_control import StepControl
+from softway.march.state.march_state import AdaptedMeshes, EnergyAccount, MarchState, Settings, StepHistory
+from softway.march.state.model_state import ModelState
+from softway.march.state.step_control import StepControl
 from softway.mechanisms.arrays import MechanismState
+from softway.meshes.adaptive.leaves import Leaves
 from softway.model.field import FieldState
 from softway.model.rigid.rigid_state import RigidState
 from softway.model.time_weight import Collocation, EndPeaks, Momentum
@@ -63,6 +64,8 @@ KINDS: Mapping[str, type] = MappingProxyType(
                 OperatorOrigin,
                 OperatorChoice,
                 StepControl,
+                AdaptedMeshes,
+                Leaves,
             ),
             *(ContactRows, TangentialRows, IterationCount, Skin, Near),
             *(FixedPoint, Newton, Explicit, Factored, MatrixFree, Multigrid, Collocation, EndPeaks, Momentum),

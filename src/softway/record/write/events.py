@@ -1,12 +1,14 @@
-"""events.csv: one line for each contact event of a node (touch, release, stick or slip) and each finding."""
+"""events.csv: contact events of nodes (touch, release, stick, slip), changes of meshes, and findings, one line each."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import nan
 from pathlib import Path
 
 import numpy as np
 
-from softway.march.results.step import Ledger, Step
+from softway.adaptivity.projection import Unchanged
+from softway.march.results.step import Event, Ledger, Step
 from softway.record.storage import table
 from softway.record.storage.table import Lines
 from softway.record.write.recorder import RunStart
@@ -27,6 +29,9 @@ COLUMNS = (
 """Columns of every run."""
 EXTRA = (("depth", "m"), ("finding", table.TEXT), ("bodies", table.TEXT))
 """Columns of the findings of the audit, and the bodies that touch; files of earlier versions lack them."""
+MESH = "mesh"
+"""Kind of the event of a solid whose mesh changes, with its name for the contact, no node and no place; the column of
+findings tells the new number of nodes and cells."""
 HEAT = (("heat", "J"),)
 """Column of runs with contacts that pass heat: what has passed from the first body to the end of the slab of the event.
 """
@@ -40,8 +45,8 @@ class Events:
     passing: tuple[str, ...] = ()
 
     def take(self, step: Step) -> None:
-        """Write the events inside one time step (slab), in order of time."""
-        for event in sorted(step.events, key=lambda e: e.time):
+        """Write the changes of meshes before a time step (slab) and the events inside it, in order of time."""
+        for event in sorted((*_changes(step), *step.events), key=lambda e: e.time):
             place = np.zeros(3)
             place[: len(event.position)] = event.position
             numbers = [
@@ -69,6 +74,24 @@ class Events:
     def close(self) -> None:
         """Close the file."""
         self.lines.close()
+
+
+def _changes(step: Step) -> Iterator[Event]:
+    """Changes of meshes before a slab."""
+    for name, passed in step.transfers.items():
+        if not isinstance(passed.projection, Unchanged):
+            mesh, d = step.model.meshes[name], step.model.shape[1]
+            yield Event(
+                time=step.slab.start,
+                contact=name,
+                kind=MESH,
+                node=-1,
+                position=np.zeros(d),
+                velocity_before=0.0,
+                velocity_after=0.0,
+                impulse=0.0,
+                finding=f"{mesh.n_nodes} nodes, {mesh.n_cells} cells",
+            )
 
 
 def open_events(folder: Path, opening: RunStart, mark: int | None = None) -> Events:

@@ -28,6 +28,8 @@ MORE = {"contact_pressure": "Pa", "tangential_traction": "Pa", "dissipation": "J
 class Frames:
     """Open file ``fields.vtkhdf``; a frame is written when the time passes a multiple of ``fields_every``, and at the
     end.
+
+    ``layout`` holds the solids of ``opening``; frames on other meshes have their own.
     """
 
     series: GridSeries
@@ -36,8 +38,11 @@ class Frames:
 
     def take(self, step: Step) -> None:
         """Write a frame if one is due at the end of the slab."""
-        if self.opening.frame_due(step.before.time, step.after.time):
-            self.series.write(_frame(self.layout, self.opening, step.after))
+        if not self.opening.frame_due(step.before.time, step.after.time):
+            return
+        now = self.opening.of(step)
+        cells = self.layout if now is self.opening else layout(now.meshes, now.touching)
+        self.series.write(_frame(cells, now, step.after), cells)
 
     @property
     def mark(self) -> int:
@@ -66,7 +71,7 @@ def open_fields(folder: Path, opening: RunStart, mark: int | None = None) -> Fra
         return Frames(series=continue_series(path, mark), layout=cells, opening=opening)
     units = {**MORE, **POINT_DATA, **CELL_DATA, **{f.name: f.unit for f in opening.fields}}
     shapes = _shapes(opening.scene, cells)
-    series = create_series(path, cells, _frame(cells, opening, opening.initial), units, shapes)
+    series = create_series(path, cells, _frame(cells, opening, opening.initial), units, shapes, opening.adapts)
     return Frames(series=series, layout=cells, opening=opening)
 
 

@@ -7,22 +7,22 @@ from softway.march.results.step import Step
 from softway.record.storage import table
 from softway.record.storage.table import Lines
 from softway.record.write.history_columns import Column, columns
-from softway.record.write.recorder import Readable, RunStart
+from softway.record.write.recorder import RunStart
 
 FILE = "history.csv"
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class History:
-    """Open file ``history.csv``; the probes ``readings`` follow its ``columns``."""
+    """Open file ``history.csv``; the probes of the start of the run follow its ``columns``."""
 
     lines: Lines
     columns: tuple[Column, ...]
-    readings: tuple[Readable, ...]
+    opening: RunStart
 
     def take(self, step: Step) -> None:
         """Write the line of one slab: its energy and momentum audit, and the probes at its end."""
-        probes = [r.value(step.after, step.reactions) for r in self.readings]
+        probes = [r.value(step.after, step.reactions) for r in self.opening.of(step).readings]
         self.lines.write([*(column.value(step) for column in self.columns), *probes])
 
     @property
@@ -50,4 +50,4 @@ def open_history(folder: Path, opening: RunStart, mark: int | None = None) -> Hi
         rows.write(table.header([*((c.name, c.unit) for c in found), *((r.name, r.unit) for r in opening.readings)]))
         probes = [r.value(opening.initial, {}) for r in opening.readings]
         rows.write([*(column.initial(opening) for column in found), *probes])
-    return History(lines=rows, columns=found, readings=opening.readings)
+    return History(lines=rows, columns=found, opening=opening)

@@ -128,7 +128,13 @@ def _of_heat(name: str) -> Callable[[Ledger], float]:
 
 
 REMESHING = of_ledger("remeshing", "J", lambda ledger: ledger.remeshing)
-"""Column of runs in which meshes change: energy that these changes took."""
+NODES = Column(
+    "mesh.nodes",
+    table.COUNT,
+    lambda step: len(step.model.points),
+    lambda start: sum(mesh.n_nodes for mesh in start.meshes.values()),
+)
+"""Columns of runs in which meshes change: energy that these changes took, and number of the nodes of all solids."""
 HEAT = tuple(of_ledger(f"heat.{name}", unit, _of_heat(name)) for name, unit in OF_HEAT)
 """Columns of runs in which solids have a temperature."""
 
@@ -145,7 +151,7 @@ def columns(
     """
     each = (column for label in contacts for column in of_contact(label))
     glued = (column for label in ties for column in of_tie(label))
-    heated, changed = () if heat is None else of_heat(*heat), (REMESHING,) if adapts else ()
+    heated, changed = () if heat is None else of_heat(*heat), (REMESHING, NODES) if adapts else ()
     return (*COLUMNS, *each, *CERTIFICATE, *EXTRA, *glued, *heated, *changed)
 
 

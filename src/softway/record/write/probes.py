@@ -2,16 +2,20 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Protocol
 
 import numpy as np
 
 from softway.arrays import Array, IntArray
 from softway.errors import InputError
+from softway.meshes.adaptive.points import around
+from softway.meshes.adaptive.refinement import AdaptedMesh
 from softway.meshes.mesh import Mesh
 from softway.model.scene import State
 
 UNITS = {"displacement": "m", "position": "m", "velocity": "m/s", "reaction": "N", "temperature": "K"}
+NONE: Mapping[str, AdaptedMesh] = MappingProxyType({})
 COMPONENTS = ("x", "y", "z", "norm")
 
 
@@ -57,6 +61,10 @@ class Probe(Protocol):
 class Reading:
     """Probe resolved on a mesh: the mean over its nodes, or the sum for reactions.
 
+    On meshes that change, a tag has the mean over its nodes of the base mesh, which all meshes have, and a place the
+    value there, between the nodes of its cell: the curves have no jumps where the mesh changes.  Reactions are those of
+    all present nodes of a tag, or of the present node that is nearest to a place.
+
     Parameters
     ----------
     name, unit
@@ -69,6 +77,8 @@ class Reading:
         (k, d) reference coordinates of the nodes [m].
     quantity, component
         Recorded quantity and its component.
+    weights
+        (k,) weights of the nodes; None for the mean.
 
     Examples
     --------
@@ -86,29 +96,36 @@ class Reading:
     reference: Array
     quantity: str
     component: str
+    weights: Array | None = None
 
     def value(self, state: State, reactions: Mapping[str, Array]) -> float:
         """Value at ``state``; a reaction that has not been computed is ``nan``."""
         match self.quantity:
             case "temperature":
-                return float(state.fields["temperature"][self.body][self.nodes].mean())
+                return float(self._mean(state.fields["temperature"][self.body][self.nodes]).mean())
             case "reaction":
                 if self.body not in reactions:
                     return float("nan")
                 vector = reactions[self.body][self.nodes].sum(axis=0)
             case "velocity":
-                vector = state.velocity[self.body][self.nodes].mean(axis=0)
+                vector = self._mean(state.velocity[self.body][self.nodes])
             case "displacement":
-                vector = state.displacement[self.body][self.nodes].mean(axis=0)
+                vector = self._mean(state.displacement[self.body][self.nodes])
             case _:
-                vector = (self.reference + state.displacement[self.body][self.nodes]).mean(axis=0)
+                vector = self._mean(self.reference + state.displacement[self.body][self.nodes])
         if self.component == "norm":
             return float(np.linalg.norm(vector))
         return float(vector["xyz".index(self.component)])
 
+    def _mean(self, values: Array) -> Array:
+        """Mean (...) of values at the nodes (k, ...)."""
+        return np.asarray(values.mean(axis=0) if self.weights is None else self.weights @ values)
 
-def readings(probes: Sequence[Probe], meshes: Mapping[str, Mesh]) -> tuple[Reading, ...]:
-    """Resolve the declared probes.
+
+def readings(
+    probes: Sequence[Probe], meshes: Mapping[str, Mesh], changing: Mapping[str, AdaptedMesh] = NONE
+) -> tuple[Reading, ...]:
+    """Resolve the declared probes; ``changing`` are the present meshes of solids whose mesh changes.
 
     Raises
     ------
@@ -116,7 +133,7 @@ def readings(probes: Sequence[Probe], meshes: Mapping[str, Mesh]) -> tuple[Readi
         For an unknown body, a tag without nodes or a component that does not exist; the path is ``output.probes[k]``.
     """
     require_names(probes)
-    return tuple(solid_reading(f"output.probes[{k}]", probe, meshes) for k, probe in enumerate(probes))
+    return tuple(solid_reading(f"output.probes[{k}]", probe, meshes, (), changing) for k, probe in enumerate(probes))
 
 
 def require_names(probes: Sequence[Probe]) -> None:
@@ -131,8 +148,15 @@ def require_names(probes: Sequence[Probe]) -> None:
             )
 
 
-def solid_reading(path: str, probe: Probe, meshes: Mapping[str, Mesh], others: tuple[str, ...] = ()) -> Reading:
-    """Resolve one probe, whose path in the scenario is given; ``others`` are further bodies that may be named.
+def solid_reading(
+    path: str,
+    probe: Probe,
+    meshes: Mapping[str, Mesh],
+    others: tuple[str, ...] = (),
+    changing: Mapping[str, AdaptedMesh] = NONE,
+) -> Reading:
+    """Resolve one probe, whose path in the scenario is given; ``others`` are further bodies that may be named,
+    ``changing`` the present meshes of solids whose mesh changes.
 
     Raises
     ------
@@ -149,7 +173,9 @@ def solid_reading(path: str, probe: Probe, meshes: Mapping[str, Mesh], others: t
         raise InputError(
             f"{path}.component", f"'{probe.component}' does not exist in {mesh.dim}D", f"one of {list(allowed)}"
         )
-    nodes = probed_nodes(path, probe, mesh)
+    nodes, weights = probed_nodes(path, probe, mesh), None
+    if probe.of in changing and probe.quantity != "reaction":
+        nodes, weights = _lasting(path, probe, changing[probe.of])
     return Reading(
         name=probe.name,
         unit=UNITS[probe.quantity],
@@ -158,7 +184,17 @@ def solid_reading(path: str, probe: Probe, meshes: Mapping[str, Mesh], others: t
         reference=mesh.points[nodes],
         quantity=probe.quantity,
         component=probe.component,
+        weights=weights,
     )
+
+
+def _lasting(path: str, probe: Probe, adapted: AdaptedMesh) -> tuple[IntArray, Array | None]:
+    """Nodes (k,) and their weights (k,), of the same meaning in all meshes: those of the base mesh in a tag, which have
+    the same numbers in each of them, or those around a place.
+    """
+    if probe.at is None:
+        return probed_nodes(path, probe, adapted.base), None
+    return around(adapted, np.atleast_1d(np.asarray(probe.at, float)))
 
 
 def probed_nodes(path: str, probe: Probe, mesh: Mesh) -> IntArray:

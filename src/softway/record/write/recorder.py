@@ -11,6 +11,7 @@ from softway.march.audit.balances import Balances, Pushed
 from softway.march.results.step import Ledger, Step
 from softway.meshes.mesh import Mesh
 from softway.model.field import Field
+from softway.model.model import Model
 from softway.model.scene import Scene, State
 
 
@@ -68,8 +69,10 @@ class RunStart:
         Function from a step to the contact forces that the change of momentum of each body needs.
     rounding
         Energy of strains that are rounding errors [J].
-    adapts
-        True if meshes change between slabs.
+    model
+        Model on these meshes.
+    on_meshes
+        Function from the model of a step to the same start on its meshes; None where meshes stay.
     """
 
     scene: Scene
@@ -88,7 +91,17 @@ class RunStart:
     balances: Callable[[State], Balances] | None = None
     pushed: Callable[[Step], Mapping[tuple[str, ...], Pushed]] | None = None
     rounding: float = 0.0
-    adapts: bool = False
+    model: Model | None = None
+    on_meshes: Callable[[Model], "RunStart"] | None = None
+
+    def of(self, step: Step) -> "RunStart":
+        """Start on the meshes of a step; itself where they are the same."""
+        return self if self.on_meshes is None or step.model is self.model else self.on_meshes(step.model)
+
+    @property
+    def adapts(self) -> bool:
+        """True if meshes change between slabs."""
+        return self.on_meshes is not None
 
     @property
     def passing_heat(self) -> tuple[str, ...]:

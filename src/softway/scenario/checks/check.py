@@ -9,8 +9,9 @@ from softway.bodies.discretised import dofs_of
 from softway.bodies.solid import Solid
 from softway.errors import Cancel, InputError, Note, within
 from softway.heat.coupled.build import build
-from softway.march.march_state import MarchState, Settings
+from softway.march.remeshing.adaptive_march import adapted_start, adapts
 from softway.march.start.preparation import prepare
+from softway.march.state.march_state import MarchState, Settings
 from softway.meshes.files.listed_mesh import LeftOut
 from softway.model.model import Model
 from softway.model.scene import Scene, StaticStart
@@ -148,7 +149,7 @@ def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked
         check_loads(scenario.start.loads, "start.loads", solids)
     scene = (model := _model(scenario, scene)).scene
     bodies = _scales({n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}, scenario)
-    march_state = _begun(scenario, model, cancel)
+    model, march_state = _begun(scenario, model, cancel)
     step = march_state.step_history.span
     contacts = contact_scales(model, bodies)
     flutter = flutter_notes(model, march_state.state, step, scenario.time.end)
@@ -213,8 +214,8 @@ def _require_edges(solids: Mapping[str, Solid]) -> None:
             )
 
 
-def _begun(scenario: Scenario, model: Model, cancel: Cancel | None) -> MarchState:
-    """March state at the start of the run, prepared as by the march itself.
+def _begun(scenario: Scenario, model: Model, cancel: Cancel | None) -> tuple[Model, MarchState]:
+    """Model on its first meshes, and march state at the start of the run, prepared as by the march itself.
 
     Raises
     ------
@@ -232,11 +233,13 @@ def _begun(scenario: Scenario, model: Model, cancel: Cancel | None) -> MarchStat
         control=time.control,
         tolerance=time.tolerance,
     )
+    if adapts(model.scene):
+        model = adapted_start(model, settings).model
     march_state = prepare(model, settings, cancel=cancel).march_state
     slabs, span = time.end / march_state.step_history.span, march_state.step_history.span
     if slabs > MOST:
         raise InputError("time.end", f"needs {slabs:.3g} slabs of {span:.3g} s", "an earlier end, or longer slabs")
-    return march_state
+    return model, march_state
 
 
 def _require_scenario(scenario: object) -> None:

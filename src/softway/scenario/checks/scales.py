@@ -15,6 +15,7 @@ from softway.bodies.internal_force.materials import materials_of
 from softway.bodies.solid import Solid
 from softway.contact.contact_rows import ContactRows
 from softway.march.start.initial_state import SOON
+from softway.meshes.adaptive.adapt import adaption
 from softway.meshes.cells import CELLS
 from softway.meshes.mesh import Mesh
 from softway.model.model import Model
@@ -45,6 +46,8 @@ class BodyScales:
         Length of the smallest edge [m].
     stable_step
         Estimate of the longest stable slab for the weight Momentum [s]; exact for equal two-node bars.
+    finest_edge
+        Length of the smallest edge of the finest cells of a mesh that adapts [m]; None for one that stays.
     """
 
     nodes: int
@@ -55,6 +58,7 @@ class BodyScales:
     transit: float
     edge: float
     stable_step: float
+    finest_edge: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -92,7 +96,7 @@ def body_scales(solid: Solid, mesh: Mesh, free: int, factor: float = 1.0) -> Bod
     """
     speed = max(materials_of(mesh, solid.material, solid.density).speeds(section_of(solid, mesh), factor))
     length = float(np.ptp(mesh.points, axis=0).max())
-    edge = mesh.edge()
+    edge, adapt = mesh.edge(), adaption(solid.adapt)
     order = "quadratic" if any(CELLS[name].order == 2 for name in mesh.blocks) else "linear"
     highest = sqrt(_FREQUENCY[order, isinstance(solid.mass, Lumped)] * mesh.cell_dim) * speed / edge
     return BodyScales(
@@ -104,6 +108,7 @@ def body_scales(solid: Solid, mesh: Mesh, free: int, factor: float = 1.0) -> Bod
         transit=length / speed,
         edge=edge,
         stable_step=limit(Momentum()) / highest,
+        finest_edge=None if adapt is None else adapt.finest(mesh),
     )
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.assembled.following_nodes import reactions
 from softway.bodies.internal_force.slab_average import EnergyMomentum
 from softway.contact.contact_rows import ContactRows
 from softway.model.model import Model
@@ -256,7 +257,7 @@ def _blurred(model: Model, ends: EndForces) -> Array:
 def _support_forces(model: Model, force: Array, rows: ContactRows, push: Array) -> Array:
     """Forces (n, d) of supports on massless components; ``force`` (n, d) are internal forces less loads."""
     out = force - rows.spread(push, model.shape)
-    return np.where(model.massive[:, None], 0.0, model.supported(out))
+    return np.where(model.massive[:, None], 0.0, reactions(model.dofs, out))
 
 
 def _along_motion(model: Model, ends: EndForces, moving: Array, members: BoolArray) -> Array:

@@ -12,10 +12,10 @@ from softway.errors import Cancel, InputError, NumericsError
 from softway.heat.coupled.build import build
 from softway.march.audit.ledger import initial_ledger
 from softway.march.march import march
-from softway.march.model_state import join_states, split_states
 from softway.march.start.initial_state import initial_state
 from softway.march.start.slab_length import proposed
-from softway.march.step_control import StepControl
+from softway.march.state.model_state import join_states, split_states
+from softway.march.state.step_control import StepControl
 from softway.model.model import Model
 from softway.model.scene import Scene, State
 from softway.model.time_weight import EndPeaks, TimeWeight

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import softway as sw
-from softway.march.step_control import crushing
+from softway.march.state.step_control import crushing
 
 
 def bar(law: object, speed: float) -> sw.Scene:

@@ -13,11 +13,11 @@ import softway as sw
 from softway.errors import InputError
 from softway.march.friction.calm import HeldMotion, calmed
 from softway.march.friction.flutter import sliding_flutter
-from softway.march.model_state import ModelState
 from softway.march.results.slab_result import SlabResult
 from softway.march.rules import equilibrated
 from softway.march.rules.slab_rule import Attempt
 from softway.march.start.initial_state import initial_state
+from softway.march.state.model_state import ModelState
 from softway.model.slab import Slab
 from softway.model.time_weight import EndPeaks
 from softway.record.storage.serialisation import packed, unpacked

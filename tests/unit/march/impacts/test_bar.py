@@ -10,7 +10,7 @@ from softway.bodies.inertia.mass_matrix import Consistent, Lumped, MassRule
 from softway.bodies.setup.loads import Gravity
 from softway.contact.impact_rule import Energy, ImpactRule, Impulse, Paper
 from softway.laws.bulk import NeoHookean
-from softway.march.step_control import StepControl
+from softway.march.state.step_control import StepControl
 from softway.model.time_weight import Collocation, EndPeaks, Momentum
 
 RULES = [Energy(), Energy(located=True), Impulse(), Paper(), Paper(approach="extrapolated")]

@@ -10,8 +10,8 @@ from softway.bodies.solid import Fixed
 from softway.contact.contact import Contact
 from softway.contact.impact_rule import Energy, ImpactRule, Impulse, Paper
 from softway.march.march import march
-from softway.march.model_state import split_states
 from softway.march.start.initial_state import initial_state
+from softway.march.state.model_state import split_states
 from softway.model.build import build
 from softway.model.scene import Scene, StaticStart
 from softway.model.time_weight import EndPeaks

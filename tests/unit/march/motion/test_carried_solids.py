@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 import softway as sw
 from softway.march.march import march
-from softway.march.march_state import MarchState
+from softway.march.state.march_state import MarchState
 from softway.mechanisms import Hinge, Mechanism, Rigid, Slider, Weld
 from softway.obstacles.primitives import Sphere
 from softway.record.storage.serialisation import packed, unpacked

@@ -21,7 +21,7 @@ from softway.bodies.solid import Driven, Fixed, Guided, Tool
 from softway.contact.contact import Contact
 from softway.contact.impact_rule import Energy, ImpactRule, Impulse, Paper
 from softway.march.march import march
-from softway.march.step_control import StepControl
+from softway.march.state.step_control import StepControl
 from softway.model.scene import Scene
 from softway.model.time_weight import Momentum
 from softway.obstacles.half_space import HalfSpace

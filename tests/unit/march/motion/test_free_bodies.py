@@ -17,7 +17,7 @@ from softway.bodies.setup.loads import Gravity
 from softway.bodies.solid import Fixed, Solid, Tool
 from softway.laws.bulk import LinearElastic, NeoHookean
 from softway.march.march import march
-from softway.march.step_control import StepControl
+from softway.march.state.step_control import StepControl
 from softway.meshes.generators.recipes import Ring
 from softway.meshes.generators.shapes import interval, rectangle
 from softway.model.scene import Scene

@@ -10,9 +10,9 @@ import softway as sw
 from softway.apps.verify.cases.waves import a09_bouncing_bar as a09
 from softway.apps.verify.exact import bar as waves
 from softway.arrays import Array
-from softway.march.march_state import Settings, StepHistory
 from softway.march.results.step import Step
 from softway.march.start.ladder import Quality, next_rung, rungs, velocity_error
+from softway.march.state.march_state import Settings, StepHistory
 from softway.model.slab import Slab
 from softway.solve.operators.operator_memory import OperatorMemory
 

@@ -19,7 +19,7 @@ from softway.laws.bulk.viscoelastic import Kelvin
 from softway.march.march import march
 from softway.march.start.initial_state import initial_state
 from softway.march.start.slab_length import evenly
-from softway.march.step_control import StepControl
+from softway.march.state.step_control import StepControl
 from softway.meshes.generators.shapes import interval
 from softway.model.build import build
 from softway.model.scene import Scene, StaticStart

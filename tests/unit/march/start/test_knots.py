@@ -8,8 +8,8 @@ import pytest
 import softway as sw
 from softway.bodies import Haversine, RatePolyline, Sine, SmoothSteps, Spline
 from softway.bodies.setup.knots import knots_of_pieces, knots_of_table
-from softway.march.march_state import Settings
 from softway.march.start.knots import slab_ends, slab_length
+from softway.march.state.march_state import Settings
 from softway.mechanisms import Hinge, Mechanism, Motor, Polyline, Rigid
 
 UP_AND_DOWN = RatePolyline(times=(0.0, 0.5, 1.0), rates=(0.0, 1.0, 0.0))

@@ -1,8 +1,10 @@
 """Base meshes, wanted levels and measures for the tests of adapted meshes."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
+import scipy.sparse as sp
 from scipy.spatial import Delaunay
 
 from softway.arrays import Array, IntArray
@@ -25,6 +27,12 @@ def irregular(dim: int, points: int, seed: int) -> Mesh:
     return Mesh(points=places, blocks={{2: "tri3", 3: "tet4"}[dim]: cells})
 
 
+def warped(mesh: Mesh, seed: int) -> Mesh:
+    """The mesh with its nodes moved, so that faces are no longer flat."""
+    rng = np.random.default_rng(seed)
+    return replace(mesh, points=mesh.points + rng.uniform(-0.1, 0.1, mesh.points.shape) * mesh.edge())
+
+
 BASES: Mapping[str, Callable[[], Mesh]] = {
     "bar2": lambda: interval(1.0, cells=3),
     "bar3": lambda: interval(2.0, cells=3, cell="bar3", direction=(1.0, 1.0)),
@@ -36,8 +44,20 @@ BASES: Mapping[str, Callable[[], Mesh]] = {
     "tet4 irregular": lambda: irregular(3, 12, 2),
     "tet10": lambda: box((1.0, 0.8, 0.6), (2, 1, 1), cell="tet10"),
     "tet10 curved": lambda: ball(1.0, 2, cell="tet10"),
+    "quad4": lambda: rectangle((1.0, 0.7), (4, 3), cell="quad4"),
+    "quad4 irregular": lambda: disc(1.0, 4, cell="quad4"),
+    "hex8": lambda: box((1.0, 0.8, 0.6), (3, 2, 2), cell="hex8"),
+    "quad8": lambda: rectangle((1.0, 0.7), (3, 3), cell="quad8"),
+    "quad9 curved": lambda: disc(1.0, 4, cell="quad9"),
+    "hex20": lambda: box((1.0, 0.8, 0.6), (2, 1, 2), cell="hex20"),
+    "hex27 curved": lambda: warped(box((1.0, 0.8, 0.6), (2, 1, 2), cell="hex27"), 3),
+    "hex8 curved": lambda: warped(box((1.0, 0.8, 0.6), (3, 2, 2), cell="hex8"), 3),
 }
 """Base meshes by name."""
+CONFORMING = [name for name in BASES if name[:3] not in ("qua", "hex")]
+"""Those whose refinements have no hanging nodes."""
+HANGING = [name for name in BASES if name not in CONFORMING]
+"""Those whose refinements have hanging nodes."""
 
 
 def some_levels(count: int, seed: int, greatest: int = 6) -> IntArray:
@@ -55,6 +75,12 @@ def adapted(name: str, seed: int, greatest: int = 6) -> AdaptedMesh:
 def cells_of(mesh: Mesh) -> IntArray:
     """Nodes (e, a) of the cells of a mesh of one type."""
     return next(iter(mesh.blocks.values()))
+
+
+def follow(mesh: Mesh) -> sp.csr_array:
+    """Values (n, n) at all nodes from those that do not hang."""
+    count = mesh.n_nodes
+    return sp.csr_array(sp.eye_array(count)) if mesh.hanging is None else mesh.hanging.follow(count)
 
 
 def integrals(mesh: Mesh) -> Array:

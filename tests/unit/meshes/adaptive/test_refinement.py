@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from adapted import (
     BASES,
+    CONFORMING,
     adapted,
     cells_of,
     euler,
@@ -36,7 +37,9 @@ def test_no_cell_is_coarser_than_wanted_and_the_leaves_cover_the_base(found: Ada
     assert np.array_equal(np.append(found.leaves.start, found.base.n_cells << DEPTH), np.append(0, ends))
 
 
-def test_facets_are_shared_whole(found: AdaptedMesh) -> None:
+@pytest.mark.parametrize("name", CONFORMING)
+def test_facets_are_shared_whole(name: str) -> None:
+    found = adapted(name, 3)
     counts = facet_counts(found.mesh)
     assert set(counts) <= {1, 2}
     assert (counts == 1).sum() == sum(len(f) for f in found.mesh.boundary().values())
@@ -56,7 +59,9 @@ def test_the_boundary_keeps_its_measure(name: str) -> None:
     assert surface_measure(found.mesh) == pytest.approx(surface_measure(found.base), rel=1e-13)
 
 
-def test_each_bisection_halves_the_volume(found: AdaptedMesh) -> None:
+@pytest.mark.parametrize("name", CONFORMING)
+def test_each_bisection_halves_the_volume(name: str) -> None:
+    found = adapted(name, 3)
     volume = abs(np.linalg.det(found.place))
     assert volume == pytest.approx(np.ldexp(1.0, -found.leaves.level), rel=1e-12)
 
@@ -158,15 +163,16 @@ def test_curved_cells_keep_their_shape() -> None:
     assert np.array_equal(np.unique(fine), rim)
 
 
-@pytest.mark.parametrize("cell", ["tri3", "tri6"])
+@pytest.mark.parametrize("cell", ["tri3", "tri6", "quad4", "quad8", "quad9"])
 def test_sides_of_a_rectangle(cell: str) -> None:
-    found = refined(rectangle((1.0, 2.0), (3, 4), cell=cell), some_levels(24, 2))
+    base = rectangle((1.0, 2.0), (3, 4), cell=cell)
+    found = refined(base, some_levels(base.n_cells, 2))
     x, y = found.mesh.points.T
     for name, where in {"left": x == 0.0, "right": x == 1.0, "bottom": y == 0.0, "top": y == 2.0}.items():
         assert found.mesh.nodes(name).tolist() == np.flatnonzero(where).tolist(), name
 
 
-@pytest.mark.parametrize("cell", ["tet4", "tet10"])
+@pytest.mark.parametrize("cell", ["tet4", "tet10", "hex8", "hex20", "hex27"])
 def test_sides_of_a_box(cell: str) -> None:
     base = box((1.0, 2.0, 4.0), (2, 2, 2), cell=cell)
     found = refined(base, some_levels(base.n_cells, 2))
@@ -183,7 +189,7 @@ def test_sides_of_a_box(cell: str) -> None:
     assert np.array_equal(found.mesh.nodes("surface"), np.unique(np.concatenate(list(found.mesh.tags.values()))))
 
 
-@pytest.mark.parametrize("cell", ["tri3", "tri6"])
+@pytest.mark.parametrize("cell", ["tri3", "tri6", "quad4", "quad8", "quad9"])
 def test_two_sides_do_not_take_the_diagonal_between_them(cell: str) -> None:
     base = rectangle((1.0, 1.0), (3, 3), cell=cell).with_tag("rim", lambda x: (x % 1.0 == 0.0).any(axis=1))
     found = refined(base, np.full(base.n_cells, 3))
@@ -217,8 +223,9 @@ def test_tagged_facets_stay_complete() -> None:
     assert count["base"][1] < count["fine"][1] < 1.2 * count["base"][1]  # flat triangles of curved facets
 
 
-def test_regions_stay_with_their_cells() -> None:
-    base = rectangle((1.0, 1.0), (4, 4), cell="tri3").with_region("low", lambda x: x[:, 1] < 0.5)
+@pytest.mark.parametrize("cell", ["tri3", "quad4"])
+def test_regions_stay_with_their_cells(cell: str) -> None:
+    base = rectangle((1.0, 1.0), (4, 4), cell=cell).with_region("low", lambda x: x[:, 1] < 0.5)
     found = refined(base, some_levels(base.n_cells, 6))
     assert found.mesh.cells("low").tolist() == np.flatnonzero(found.mesh.centres()[:, 1] < 0.5).tolist()
 
@@ -238,10 +245,16 @@ def test_the_greatest_level_is_reached_at_one_end() -> None:
     assert found.mesh.edge() == np.ldexp(1.0, -DEPTH)
 
 
+def both() -> Mesh:
+    """A quadrilateral and a triangle."""
+    points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.5]])
+    return Mesh(points=points, blocks={"quad4": np.array([[0, 1, 2, 3]]), "tri3": np.array([[1, 4, 2]])})
+
+
 @pytest.mark.parametrize(
     ("mesh", "want", "place"),
     [
-        (rectangle((1.0, 1.0), (2, 2)), np.zeros(4, int), "mesh"),
+        (both(), np.zeros(2, int), "mesh"),
         (interval(1.0, cells=2), np.zeros(3, int), "want"),
         (interval(1.0, cells=2), np.array([0, DEPTH + 1]), "want"),
         (interval(1.0, cells=2), np.array([0, -1]), "want"),

@@ -9,7 +9,8 @@ from softway.bodies.solid import Tool
 from softway.errors import InputError
 from softway.obstacles.primitives import Sphere
 from softway.record.conduct import record_run
-from softway.record.read.frames import Cells, Frame
+from softway.record.read.cells import Cells
+from softway.record.read.frames import Frame
 from softway.record.read.surface_mesh import SHAPES, at_nodes, exaggeration, rigid, skin_of
 from softway.record.storage.run_folder import RunFolder
 from softway.record.view import pictures as view

@@ -210,7 +210,7 @@ def test_the_log_is_silent_until_it_is_configured(caplog):
     with caplog.at_level(logging.DEBUG, "softway"):
         run = sw.run(SCENARIO)
     names = {r.name for r in caplog.records}
-    assert {"softway.march.march", "softway.solve.methods.iteration", "softway.record.conduct"} <= names
+    assert {"softway.march.slabs", "softway.solve.methods.iteration", "softway.record.conduct"} <= names
     assert all(n.startswith("softway.") for n in names)
     told = [r.getMessage() for r in caplog.records if r.levelno == logging.INFO]
     assert any(m.startswith("operator ") for m in told) and any("done after 20 slabs" in m for m in told)

@@ -24,6 +24,7 @@ UNITS = {
     "length": "m",
     "transit": "s",
     "edge": "m",
+    "finest_edge": "m",
     "stable_step": "s",
     "gap": "m",
     "approach": "m/s",
@@ -65,6 +66,7 @@ WORDS = {
     "approach": "approach speed",
     "transit": "wave transit time",
     "edge": "smallest edge",
+    "finest_edge": "smallest edge, adapted",
     "dofs": "free components",
     "wall": "wall time",
     "cpu": "CPU time",
@@ -117,6 +119,8 @@ def summary(run: Run, console: Console) -> None:
     _columns({f"stop {n}": c for n, c in found.get("stops", {}).items()}, console)
     if found.get("heat"):
         _columns({"heat of solids": found["heat"]}, console)
+    if found.get("mesh"):
+        _columns({"meshes that change": found["mesh"]}, console)
     if found.get("certificate"):
         _columns({"certificate (worst slab)": found["certificate"]}, console)
     _notes((Note(**note) for note in found.get("notes", ())), console)
@@ -166,7 +170,8 @@ def _short(value: float | int | None) -> str | int | None:
 
 
 def _numbers(item: Any) -> dict[str, Any]:
-    return {f.name: getattr(item, f.name) for f in fields(item)} if is_dataclass(item) else dict(item)
+    numbers = {f.name: getattr(item, f.name) for f in fields(item)} if is_dataclass(item) else dict(item)
+    return {name: value for name, value in numbers.items() if value is not None}
 
 
 def _merged(what: str, items: Mapping[str, Any]) -> dict[str, dict[str, Any]]:

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.meshes.adaptive.squares.inner_facets import beside_smaller
 from softway.meshes.cells import CELLS, FACETS, FLAT
 from softway.meshes.element import tabulate
 
@@ -174,6 +175,7 @@ def solids(
         owner[nodes] = bodies[name][:, None]
     filling = {name: nodes for name, nodes in blocks.items() if CELLS[name].dim == dim}
     outer = _outer(filling)
+    _leave_out_inner(reference, owner, filling, outer)
     facets: dict[str, list[IntArray]] = {}
     for name, nodes in filling.items():
         for k, (facet, local) in enumerate(FACETS[name]):
@@ -202,6 +204,22 @@ def boxes(points: Array, owner: IntArray, count: int) -> tuple[Array, Array]:
     np.minimum.at(low, owner, points)
     np.maximum.at(high, owner, points)
     return low, high
+
+
+def _leave_out_inner(
+    reference: Array, owner: IntArray, blocks: Mapping[str, IntArray], outer: Mapping[str, BoolArray]
+) -> None:
+    """Change the faces on the boundary, ``outer``, to those that do not lie beside smaller or larger cells."""
+    places: dict[str, list[tuple[str, int, IntArray]]] = {}
+    for name in blocks:
+        for k, (facet, _) in enumerate(FACETS[name]):
+            places.setdefault(facet, []).append((name, k, np.flatnonzero(outer[name][:, k])))
+    for facet, found in places.items():
+        facets = np.concatenate([blocks[name][rows][:, FACETS[name][k][1]] for name, k, rows in found])
+        inner = beside_smaller(reference, owner, facet, facets)
+        ends = np.cumsum([len(rows) for *_, rows in found])[:-1]
+        for (name, k, rows), own in zip(found, np.split(inner, ends), strict=True):
+            outer[name][rows[own], k] = False
 
 
 def _outer(blocks: Mapping[str, IntArray]) -> dict[str, BoolArray]:

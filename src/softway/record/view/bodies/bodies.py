@@ -1,7 +1,8 @@
 """Picture of the deformed bodies, coloured by a field, at one or several instants."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,7 +10,8 @@ import numpy as np
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.prescribed_motion import PlacedShape
 from softway.errors import InputError
-from softway.record.read.frames import Cells, Frame
+from softway.record.read.cells import Cells
+from softway.record.read.frames import Fields, Frame
 from softway.record.read.records import Records
 from softway.record.read.summary import contacts_of
 from softway.record.read.surface_mesh import MOST, Skin, skin_of
@@ -28,6 +30,8 @@ WIDTH = 7.6
 """Width of the picture [inches]."""
 HEATED = "heat.content"
 """Column of runs in which solids have a temperature."""
+KEPT = 4
+"""Number of surfaces of different meshes that a picture keeps in memory."""
 NOTHING = 1e-6
 """Work of stresses that are rounding, relative to the greatest strain energy."""
 LASTING = ("plastic_strain", "dissipation")
@@ -35,10 +39,19 @@ LASTING = ("plastic_strain", "dissipation")
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Surface:
+    """Cells of a geometry, and their visible surface."""
+
+    cells: Cells
+    skin: Skin
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Shown:
-    """Drawn data of one frame, with the nodal ``values`` (n,) of the field."""
+    """Drawn data of one frame on its surface, with the nodal ``values`` (n,) of the field."""
 
     frame: Frame
+    surface: Surface
     tools: Mapping[str, PlacedShape]
     place: BodyPlacement
     values: Array
@@ -46,14 +59,16 @@ class Shown:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Stage:
-    """Common data of all frames of a picture: skin, field and its range, camera, and enlargement of the deformation.
+    """Common data of all frames of a picture: field and its range, camera, and enlargement of the deformation.
 
-    ``box`` (2, 2) holds the corners of the bodies of all frames in the plane of the picture, ``bounds`` (2, 3) those in
-    space.
+    ``cells`` are those of the first frame, ``surfaces`` gives the surface of the geometry with a number, and
+    ``changing`` is True if there are several: then the edges of the cells are drawn, too.  ``box`` (2, 2) holds the
+    corners of the bodies of all frames in the plane of the picture, ``bounds`` (2, 3) those in space.
     """
 
     cells: Cells
-    skin: Skin
+    surfaces: Callable[[int], Surface]
+    changing: bool
     colour: Colour
     range: Range
     view: Camera
@@ -63,9 +78,10 @@ class Stage:
 
     def shown(self, frame: Frame) -> Shown:
         """Prepare a frame, with the bodies placed so that they touch where they really touch."""
-        tools = self.cells.obstacles(frame.time)
-        place = body_placement(self.cells, frame, tools, self.factor)
-        return Shown(frame=frame, tools=tools, place=place, values=self.colour.at_nodes(self.cells, frame))
+        surface, tools = self.surfaces(frame.geometry), self.cells.obstacles(frame.time)
+        place = body_placement(surface.cells, frame, tools, self.factor)
+        values = self.colour.at_nodes(surface.cells, frame)
+        return Shown(frame=frame, surface=surface, tools=tools, place=place, values=values)
 
     def to_scale(self) -> "Stage":
         """Copy without enlargement of the deformation."""
@@ -80,10 +96,11 @@ class Stage:
 
     def draw(self, axis: "Axes", shown: Shown) -> None:
         """Draw one frame with the obstacles and a ruler."""
-        ground(axis, self.skin, shown.place.points, shown.tools, self.view)
+        skin = shown.surface.skin
+        ground(axis, skin, shown.place.points, shown.tools, self.view)
         factor, _ = self.colour.label(self.range.scale)
-        values = factor * self.skin.spread(shown.values).mean(axis=1)
-        paint(axis, self.skin, shown.place, self.view, self.mapped.to_rgba(values)[:, :3])
+        values = factor * skin.spread(shown.values).mean(axis=1)
+        paint(axis, skin, shown.place, self.view, self.mapped.to_rgba(values)[:, :3], self.changing)
         axis.set_aspect("equal")
         axis.set_axis_off()
 
@@ -120,25 +137,26 @@ def bodies(run: Records, look: PictureOptions = STANDARD) -> "Figure":
 
 def stage_of(run: Records, colour: Colour, numbers: Sequence[int], most: int = MOST) -> Stage:
     """Collect the common data of some frames; the frames are read one by one and not kept in memory."""
-    cells = run.fields.cells
+    fields = run.fields
     factors, spots, corners, values = [], [], [], []
-    for number in numbers:
-        frame = run.fields[number]
+    for number, (frame, cells) in zip(numbers, fields.with_cells(numbers), strict=True):
         place = body_placement(cells, frame, cells.obstacles(frame.time))
         low, high = place.points.min(axis=0), place.points.max(axis=0)
         factors.append(place.factor)
         corners.append(np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T)
         values.append(np.quantile(colour.at_nodes(cells, frame), np.linspace(0.0, 1.0, 1001)))
         spots.append((float(frame.contact_force.sum()), number))
-    frame = run.fields[max(spots)[1]]
+    frame = fields[max(spots)[1]]
+    cells = fields.cells_of(frame)
     tools = cells.obstacles(frame.time)
     place = body_placement(cells, frame, tools, min(factors))
     view = camera(cells, place.points, tools, _focus(place, frame))
     everywhere = np.concatenate(corners)
     seen = view.seen(everywhere)[:, :2]
     return Stage(
-        cells=cells,
-        skin=skin_of(cells, most),
+        cells=fields.cells,
+        surfaces=lru_cache(maxsize=KEPT)(partial(_surface, fields, most)),
+        changing=bool(fields.geometries.any()),
         colour=colour,
         range=range_of(np.concatenate(values), colour.name),
         view=view,
@@ -146,6 +164,12 @@ def stage_of(run: Records, colour: Colour, numbers: Sequence[int], most: int = M
         box=np.array([seen.min(axis=0), seen.max(axis=0)]),
         bounds=np.array([everywhere.min(axis=0), everywhere.max(axis=0)]),
     )
+
+
+def _surface(fields: Fields, most: int, geometry: int) -> Surface:
+    """Surface of the geometry with a number, divided into about ``most`` small triangles."""
+    cells = fields.geometry(geometry)
+    return Surface(cells=cells, skin=skin_of(cells, most))
 
 
 def caption(figure: "Figure", run: Records, stage: Stage, shown: Sequence[Shown], when: str) -> None:

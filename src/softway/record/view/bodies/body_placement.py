@@ -8,7 +8,8 @@ from scipy.spatial import cKDTree
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.prescribed_motion import PlacedShape
-from softway.record.read.frames import Cells, Frame
+from softway.record.read.cells import Cells
+from softway.record.read.frames import Frame
 from softway.record.read.surface_mesh import exaggeration, rigid
 
 BENT = 0.1

@@ -7,7 +7,8 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.errors import InputError
-from softway.record.read.frames import Cells, Frame, Kind
+from softway.record.read.cells import Cells
+from softway.record.read.frames import Frame, Kind
 from softway.record.read.records import Records
 from softway.record.read.surface_mesh import at_nodes
 from softway.record.view.style import scaled

@@ -9,7 +9,7 @@ import numpy as np
 from softway.arrays import Array, IntArray
 from softway.bodies.prescribed_motion import PlacedShape
 from softway.obstacles.half_space import HalfSpace
-from softway.record.read.frames import Cells
+from softway.record.read.cells import Cells
 from softway.record.read.surface_mesh import Skin
 from softway.record.view.bodies.obstacle_outline import draw
 from softway.record.view.style import library, scaled

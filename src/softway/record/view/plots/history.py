@@ -16,7 +16,17 @@ from softway.record.storage.table import COUNT, Table
 from softway.record.view.options import STANDARD, PictureOptions
 from softway.record.view.plots.heat_panels import heat_panels, heat_panels_of_solids
 from softway.record.view.style import BLACK, BLUE, CYCLE, GREEN, ORANGE, PURPLE, RED, canvas, scaled
-from softway.record.write.history_columns import CERTIFICATE, COLUMNS, EXTRA, HEAT, LIQUID, THROUGH, of_tie
+from softway.record.write.history_columns import (
+    CERTIFICATE,
+    COLUMNS,
+    EXTRA,
+    HEAT,
+    LIQUID,
+    NODES,
+    REMESHING,
+    THROUGH,
+    of_tie,
+)
 from softway.record.write.mechanism.columns import NEEDED
 
 if TYPE_CHECKING:
@@ -83,6 +93,9 @@ def _panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
     known |= {name for name in table if name.startswith((THROUGH, LIQUID))}
     if HEAT[0].name in table:
         panels += heat_panels_of_solids(table)
+    if NODES.name in table:
+        panels.append(partial(_told, name=NODES.name, title="Nodes of all meshes", word="nodes"))
+        known |= {NODES.name, REMESHING.name}
     ties = ties_of(table)
     if ties:
         panels.append(partial(_broken, ties=ties))

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from softway.arrays import Array
-from softway.record.read.frames import Cells, Frame
+from softway.record.read.cells import Cells
+from softway.record.read.frames import Frame
 from softway.record.read.records import Records
 from softway.record.view.bodies.bodies import instant, nearest
 from softway.record.view.bodies.colour_field import FROM_LEAST, Colour, colour_of

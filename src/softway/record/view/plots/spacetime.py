@@ -4,12 +4,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from softway.arrays import IntArray
+from softway.arrays import Array, IntArray
 from softway.record.read.records import Records
-from softway.record.read.world_lines import kinks, world_lines
+from softway.record.read.world_lines import changes, kinks, mesh_lines, world_lines
 from softway.record.view.bodies.surroundings import plane
 from softway.record.view.options import STANDARD, PictureOptions
-from softway.record.view.plots.paths import marks
+from softway.record.view.plots.paths import marks, space_time_mesh
 from softway.record.view.style import BLACK, canvas, scaled
 
 if TYPE_CHECKING:
@@ -24,14 +24,16 @@ SLABS = 120
 def spacetime(run: Records, look: PictureOptions = STANDARD) -> "Figure":
     """Figure of world lines over the coordinate normal to the obstacle, with the ends of the slabs."""
     cells, axis = run.fields.cells, _axis(run)
-    numbers = _nodes(run)
-    lines = world_lines(run, numbers, axis)
-    times = run.history["time"]
+    changing, times = changes(run), run.history["time"]
+    lines = _lasting(run, axis) if changing else world_lines(run, _nodes(run), axis)
     (second, unit), (metre, length) = scaled(times, "s"), scaled(np.concatenate(lines)[:, 1], "m")
     figure = canvas(*(look.inches or (5.2, 5.6)))
     panel = figure.subplots()
     for time in times[:: -(-len(times) // SLABS)]:
         panel.axhline(second * time, color="#dddddd", lw=0.5, zorder=0)
+    count = len(lines)
+    if changing and cells.dimension == 1:
+        lines, count = [], space_time_mesh(panel, run, axis, second, metre)
     for line in lines:
         panel.plot(metre * line[:, 1], second * line[:, 0], color="#5b7fa3", lw=0.8)
     for tool in cells.tools.values():
@@ -42,9 +44,16 @@ def spacetime(run: Records, look: PictureOptions = STANDARD) -> "Figure":
     marks(panel, run, axis, second, metre)
     panel.grid(False)
     letter = "xyz"[axis]
-    panel.set(title=f"World lines of {len(numbers)} nodes", xlabel=f"{letter} [{length}]", ylabel=f"time [{unit}]")
+    panel.set(title=f"World lines of {count} nodes", xlabel=f"{letter} [{length}]", ylabel=f"time [{unit}]")
     panel.set_ylim(second * times[0], second * times[-1])
     return figure
+
+
+def _lasting(run: Records, axis: int) -> list[Array]:
+    """World lines of some nodes that the meshes of a run have from its start to its end."""
+    lines, times = mesh_lines(run, axis), run.fields.times
+    whole = [line for line in lines if line[0, 0] <= times[0] and line[-1, 0] >= times[-1]]
+    return [whole[k] for k in np.unique(np.linspace(0, len(whole) - 1, min(MOST, len(whole))).astype(int))]
 
 
 def _axis(run: Records) -> int:

@@ -1,8 +1,8 @@
 """Series of frames of one unstructured grid in a file for ParaView, PyVista and h5py.
 
-The file follows VTK's HDF format 2.0 for a transient unstructured grid with constant cells.  Data are written before
-the counts that refer to them, and an incomplete frame is removed.  A run that is killed therefore leaves all complete
-frames.
+The file follows VTK's HDF format 2.0 for a transient unstructured grid; frames share their cells until these change.
+Data are written before the counts that refer to them, and an incomplete frame is removed.  A run that is killed
+therefore leaves all complete frames.
 Reference: VTK documentation, *VTKHDF file format*.
 """
 
@@ -21,12 +21,23 @@ from softway.errors import InputError
 from softway.record.storage.gate.hdf5_file import BROKEN, require_plain
 from softway.record.storage.journal import JournaledFile, undone
 from softway.record.storage.uninterrupted import uninterrupted
+from softway.record.write.grid.geometries import (
+    LEAST,
+    SIZES,
+    add_geometry,
+    create_geometry,
+    cut_geometries,
+    is_last,
+    part,
+    parts_of_frames,
+    put,
+    rows_of_frame,
+    series,
+    shorten,
+)
 from softway.record.write.grid.grid_layout import Grid
 
-PACKED = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
-CHUNK = 65536
 REMEDY = "a new run, or a copy of the file"
-SIZES = ("NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds")
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -54,12 +65,14 @@ class GridSeries:
     guarded: JournaledFile
     before: int
 
-    def write(self, frame: GridFrame) -> None:
-        """Write a frame completely, or not at all."""
-        uninterrupted(lambda: self._write(frame))
+    def write(self, frame: GridFrame, grid: Grid | None = None) -> None:
+        """Write a frame completely, or not at all; with a ``grid`` that may differ from that of the frame before."""
+        uninterrupted(lambda: self._write(frame, grid))
 
-    def _write(self, frame: GridFrame) -> None:
+    def _write(self, frame: GridFrame, grid: Grid | None) -> None:
         with _changing(self.guarded):
+            if grid is not None and not is_last(self.file, grid):
+                add_geometry(self.file, grid)
             _append(self.file, frame)
 
     @property
@@ -84,7 +97,12 @@ class GridSeries:
 
 
 def create_series(
-    path: Path, grid: Grid, first: GridFrame, units: Mapping[str, str], about: Mapping[str, Mapping[str, Any]]
+    path: Path,
+    grid: Grid,
+    first: GridFrame,
+    units: Mapping[str, str],
+    about: Mapping[str, Mapping[str, Any]],
+    grows: bool = False,
 ) -> GridSeries:
     """Create a file with the cells and the first frame.
 
@@ -100,8 +118,10 @@ def create_series(
         Units of the arrays.
     about
         Further plain data by name, such as shapes of tools.
+    grows
+        True if points and cells may change from frame to frame.
     """
-    file, guarded = uninterrupted(lambda: _opened(path, grid, first, units, about), _close_all)
+    file, guarded = uninterrupted(lambda: _opened(path, grid, first, units, about, grows), _close_all)
     return GridSeries(file=file, guarded=guarded, before=0)
 
 
@@ -123,7 +143,12 @@ def _close_all(opened: tuple[h5py.File, JournaledFile]) -> None:
 
 
 def _opened(
-    path: Path, grid: Grid, first: GridFrame, units: Mapping[str, str], about: Mapping[str, Mapping[str, Any]]
+    path: Path,
+    grid: Grid,
+    first: GridFrame,
+    units: Mapping[str, str],
+    about: Mapping[str, Mapping[str, Any]],
+    grows: bool,
 ) -> tuple[h5py.File, JournaledFile]:
     """Open a new file and write its first frame."""
     undone(path)
@@ -133,7 +158,7 @@ def _opened(
         with _changing(guarded):
             file = _file(path, guarded, new=True)
             failing.callback(file.close)
-            _write_cells(file, grid, first, units)
+            _write_start(file, grid, first, units, grows)
             for name, data in about.items():
                 file[name] = json.dumps(data)
             _append(file, first)
@@ -190,86 +215,71 @@ def _cut(path: Path, file: h5py.File, mark: int) -> None:
         raise InputError(str(path), f"is damaged: {error}", REMEDY) from None
     if count < mark:
         raise InputError(str(path), f"has {count} frames, but {mark} at the checkpoint", REMEDY)
+    try:
+        parts = parts_of_frames(root, mark)
+        points, cells = rows_of_frame(root, parts)
+        last = part(root, int(parts[-1]))
+    except BROKEN as error:
+        raise InputError(str(path), f"is damaged: {error}", REMEDY) from None
     steps.attrs["NSteps"] = np.int64(mark)
-    sizes = dict(zip(SIZES, (int(root[name][0]) for name in SIZES), strict=True))
-    _shorten(root["Points"], mark * sizes["NumberOfPoints"])
-    for group, size in (("PointData", "NumberOfPoints"), ("CellData", "NumberOfCells")):
-        for name, series in steps[f"{group}Offsets"].items():
-            _shorten(root[group][name], mark * sizes[size])
-            _shorten(series, mark)
-    for series in steps.values():
-        if isinstance(series, h5py.Dataset):
-            _shorten(series, mark)
+    shorten(root["Points"], points.stop)
+    for group, rows in (("PointData", points), ("CellData", cells)):
+        for name, starts in steps[f"{group}Offsets"].items():
+            if name != "body":
+                shorten(root[group][name], rows.stop)
+            shorten(starts, mark)
+    for starts in steps.values():
+        if isinstance(starts, h5py.Dataset):
+            shorten(starts, mark)
+    if last.number + 1 < len(root[SIZES[0]]):
+        cut_geometries(file, last.number)
     file.flush()
 
 
-def _shorten(series: h5py.Dataset, rows: int) -> None:
-    if len(series) > rows:
-        series.resize(rows, axis=0)
-
-
-def _write_cells(file: h5py.File, grid: Grid, first: GridFrame, units: Mapping[str, str]) -> None:
-    """Write the constant data, and create empty series for the data that change from frame to frame."""
-    n, e = len(grid.reference), len(grid.types)
+def _write_start(file: h5py.File, grid: Grid, first: GridFrame, units: Mapping[str, str], grows: bool) -> None:
+    """Write the first cells, and create empty series for the data that change from frame to frame."""
+    n, e = (max(rows, LEAST) if grows else rows for rows in (len(grid.reference), len(grid.types)))
     root = file.create_group("VTKHDF")
     root.attrs["Version"] = np.array([2, 0])
     root.attrs["Type"] = np.bytes_("UnstructuredGrid")
-    for name, size in zip(SIZES, (n, e, len(grid.connectivity)), strict=True):
-        root[name] = np.array([size])
-    root["Connectivity"], root["Offsets"] = grid.connectivity, grid.offsets
-    root["Types"] = grid.types.astype(np.uint8)
-    _series(root, "Points", (3,), n, "m")
+    series(root, "Points", (3,), n, "m")
     steps = root.create_group("Steps")
-    _series(steps, "Values", (), 1, "s")
+    series(steps, "Values", (), 1, "s")
     for name in ("PartOffsets", "NumberOfParts", "PointOffsets"):
-        _series(steps, name, (), 1, dtype=np.int64)
+        series(steps, name, (), 1, dtype=np.int64)
     for name in ("CellOffsets", "ConnectivityIdOffsets"):
-        _series(steps, name, (1,), 1, dtype=np.int64)
+        series(steps, name, (1,), 1, dtype=np.int64)
     for (group, arrays), rows in zip(first.groups.items(), (n, e), strict=True):
         for name, data in arrays.items():
-            _series(root.require_group(group), name, data.shape[1:], rows, units.get(name, ""))
-            _series(steps.require_group(f"{group}Offsets"), name, (), 1, dtype=np.int64)
-    root["CellData/body"] = grid.body.astype(np.int32)
-    _series(steps["CellDataOffsets"], "body", (), 1, dtype=np.int64)
+            series(root.require_group(group), name, data.shape[1:], rows, units.get(name, ""))
+            series(steps.require_group(f"{group}Offsets"), name, (), 1, dtype=np.int64)
+    create_geometry(file, grid, grows)
+    series(steps["CellDataOffsets"], "body", (), 1, dtype=np.int64)
     file.attrs["bodies"] = json.dumps(list(grid.bodies))
     file.attrs["dimension"] = grid.dimension
-    file["reference"] = grid.reference
     steps.attrs["NSteps"] = np.int64(0)
 
 
-def _series(
-    group: h5py.Group, name: str, shape: tuple[int, ...], rows: int, unit: str = "", dtype: Any = float
-) -> None:
-    """Create an empty array that grows by ``rows`` along its first axis in each frame."""
-    chunks = (max(1, min(rows if rows > 1 else 256, CHUNK)), *shape)
-    packed = PACKED if rows > 1 else {}
-    made = group.create_dataset(name, (0, *shape), dtype, maxshape=(None, *shape), chunks=chunks, **packed)
-    if unit:
-        made.attrs["unit"] = unit
-
-
 def _append(file: h5py.File, frame: GridFrame) -> None:
-    """Write one frame: first the data, then their offsets, then the number of frames."""
+    """Write one frame on the last geometry: first the data, then their offsets, then the number of frames."""
     root = file["VTKHDF"]
     steps, k = root["Steps"], int(root["Steps"].attrs["NSteps"])
-    n, e = (int(root[name][0]) for name in SIZES[:2])
-    _put(root["Points"], k * n, frame.points)
-    for (group, arrays), rows in zip(frame.groups.items(), (n, e), strict=True):
+    own = part(root, len(root[SIZES[0]]) - 1)
+    points, cells = rows_of_frame(root, np.append(parts_of_frames(root, k), own.number))
+    put(root["Points"], points.start, frame.points)
+    for (group, arrays), rows in zip(frame.groups.items(), (points, cells), strict=True):
         for name, data in arrays.items():
-            _put(root[group][name], k * rows, data)
-            _put(steps[f"{group}Offsets"][name], k, np.array([k * rows]))
-    _put(steps["CellDataOffsets/body"], k, np.array([0]))
-    _put(steps["PartOffsets"], k, np.array([0]))
-    _put(steps["NumberOfParts"], k, np.array([1]))
-    _put(steps["PointOffsets"], k, np.array([k * n]))
-    for name in ("CellOffsets", "ConnectivityIdOffsets"):
-        _put(steps[name], k, np.array([[0]]))
-    _put(steps["Values"], k, np.array([frame.time]))
+            if len(data) != rows.stop - rows.start:
+                raise ValueError(f"{len(data)} values of {name} on a grid with {rows.stop - rows.start}")
+            put(root[group][name], rows.start, data)
+            put(steps[f"{group}Offsets"][name], k, np.array([rows.start]))
+    put(steps["CellDataOffsets/body"], k, np.array([own.cells.start]))
+    put(steps["PartOffsets"], k, np.array([own.number]))
+    put(steps["NumberOfParts"], k, np.array([1]))
+    put(steps["PointOffsets"], k, np.array([points.start]))
+    put(steps["CellOffsets"], k, np.array([[own.cells.start]]))
+    put(steps["ConnectivityIdOffsets"], k, np.array([[own.nodes.start]]))
+    put(steps["Values"], k, np.array([frame.time]))
     file.flush()
     steps.attrs["NSteps"] = np.int64(k + 1)
     file.flush()
-
-
-def _put(series: h5py.Dataset, start: int, data: Array) -> None:
-    series.resize(start + len(data), axis=0)
-    series[start:] = data

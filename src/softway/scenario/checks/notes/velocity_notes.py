@@ -11,7 +11,7 @@ from softway.bodies.solid import Driven, Guided, Solid
 from softway.contact.impact_rule import Energy
 from softway.errors import Note
 from softway.march.friction.flutter import Flutter, sliding_flutter
-from softway.march.model_state import ModelState
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.tolerances import MOTION
 

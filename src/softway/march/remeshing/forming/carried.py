@@ -15,11 +15,11 @@ from softway.arrays import Array
 from softway.bodies.assembled.material_states import committed
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
-from softway.march.march_state import MarchState
-from softway.march.model_state import ModelState, join_states, split_states
+from softway.march.remeshing.forming.formed_scene import FormedScene
+from softway.march.state.march_state import MarchState
+from softway.march.state.model_state import ModelState, join_states, split_states
 from softway.model.model import Model
 from softway.model.scene import State
-from softway.remeshing.forming.formed_scene import FormedScene
 from softway.solve.operators.operator_memory import OperatorMemory
 from softway.solve.static_equilibrium import equilibrium
 

@@ -9,7 +9,7 @@ import pytest
 import softway as sw
 from softway.bodies.assembled.vector_space import LocalSpace
 from softway.errors import TooFast
-from softway.march.step_control import may_grow, require_slow
+from softway.march.state.step_control import may_grow, require_slow
 from softway.model.build import build
 
 SOFT, LINEAR = sw.NeoHookean(E=1.0, nu=0.3), sw.LinearElastic(E=1.0, nu=0.3)

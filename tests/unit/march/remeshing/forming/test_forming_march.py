@@ -9,8 +9,8 @@ from softway.adaptivity.rezoning.volume import volume_of
 from softway.arrays import Array
 from softway.errors import InputError
 from softway.laws.law import Material
-from softway.remeshing.forming.forming_march import FormedStep, forming_march
-from softway.remeshing.forming.remesh import Remesh
+from softway.march.remeshing.forming.forming_march import FormedStep, forming_march
+from softway.march.remeshing.forming.remesh import Remesh
 
 HEIGHT = 0.75
 LAW = sw.laws.NortonHoff(K=1.0, m=0.3)

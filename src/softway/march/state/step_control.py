@@ -10,7 +10,7 @@ from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import SlabContacts
 from softway.errors import TooFast, positive
 from softway.kernels.geometry.shortest_edge import shortest
-from softway.march.model_state import ModelState
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.solve.methods.central_difference import Explicit
 

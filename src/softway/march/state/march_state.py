@@ -1,12 +1,14 @@
 """March state: all data that the next slab (time step) needs besides the model."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
 from softway.errors import InputError
 from softway.heat.coupled.heat_of_solids import HeatOfSolids
-from softway.march.model_state import ModelState
-from softway.march.step_control import StepControl
+from softway.march.state.model_state import ModelState
+from softway.march.state.step_control import StepControl
+from softway.meshes.adaptive.leaves import Leaves
 from softway.model.model import Model
 from softway.model.time_weight import TimeWeight
 from softway.solve.methods.central_difference import Explicit
@@ -73,6 +75,19 @@ class StepHistory:
     smooth: int = 0
     fastest: float = 0.0
 
+    @property
+    def longest(self) -> float:
+        """The longer one of the requested slab length and that of the next slab, which is longer on a ladder [s]."""
+        return max(self.span, self.length)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class AdaptedMeshes:
+    """Meshes of a march that adapt: the leaves of each solid by name, and the greatest energy so far [J]."""
+
+    leaves: Mapping[str, Leaves]
+    energy: float
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class MarchState:
@@ -93,6 +108,8 @@ class MarchState:
         Origin and statistics of the operator.
     slabs
         Number of slabs accepted with these settings.
+    adapted
+        Meshes of the state, where meshes adapt.
     """
 
     settings: Settings
@@ -101,6 +118,7 @@ class MarchState:
     step_history: StepHistory
     memory: OperatorMemory = OperatorMemory()
     slabs: int = 0
+    adapted: AdaptedMeshes | None = None
 
     def asked(self, settings: Settings, history: StepHistory, memory: OperatorMemory) -> "MarchState":
         """Initial march state for other ``settings``, with a new ``history`` and an empty ``memory``."""
@@ -119,6 +137,9 @@ class MarchState:
         pasts = [m is not None for m in start.states]
         complete = len(pasts) in (0, len(model.parts))
         fitting = len(start.fields) == len(model.companions)
+        if (self.adapted is None) == bool(model.adapted):
+            problem, remedy = ("without", "with") if self.adapted is None else ("with", "without")
+            raise InputError("state", f"{problem} adapted meshes", f"a state {remedy} adapted meshes")
         if start.displacement.shape != ours or len(closed) != rows or not complete or not fitting:
             found = f"{start.displacement.shape} nodal values and {len(closed)} contact rows"
             raise InputError("state", f"of another scene: {found}", f"one of {ours} and {rows}")

@@ -2,28 +2,31 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
+from softway.adaptivity.even_surface import even
 from softway.adaptivity.projection import projection
 from softway.adaptivity.transfer import Motion, Transferred, transfer
 from softway.arrays import Array, IntArray
 from softway.bodies.assembled.material_states import any_path_dependent
 from softway.bodies.setup.amplitude import Ramp
 from softway.bodies.setup.loads import Traction
-from softway.bodies.setup.placement import Placement, placed
+from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 from softway.heat.coupled.build import build
-from softway.march.march_state import MarchState
-from softway.march.model_state import join_states, split_states
-from softway.meshes.adaptive.leaves import same
+from softway.march.remeshing.wanted_mesh import wanted_mesh
+from softway.march.state.march_state import AdaptedMeshes, MarchState
+from softway.march.state.model_state import join_states, split_states
+from softway.meshes.adaptive.adapt import Adapt, adaption
+from softway.meshes.adaptive.leaves import Leaves, require_cover, same
 from softway.meshes.adaptive.refinement import BISECTED, AdaptedMesh, refined
 from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
-from softway.remeshing.adapt import Adapt
 from softway.solve.operators.operator_memory import OperatorMemory
 from softway.solve.static_equilibrium import StaticState, equilibrium
 
@@ -34,21 +37,26 @@ WHAT = (
 """What may adapt."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class AdaptedScene:
-    """Scene with its adapted meshes.
+    """Scene on adapted meshes: a model with the adapted mesh of each solid of cells that can be bisected."""
 
-    Parameters
-    ----------
-    scene, model
-        The scene on these meshes, and its model.
-    meshes
-        Mesh of each solid of cells that can be bisected.
-    """
-
-    scene: Scene
     model: Model
-    meshes: Mapping[str, AdaptedMesh]
+
+    @property
+    def scene(self) -> Scene:
+        """The scene, with the present meshes."""
+        return self.model.scene
+
+    @property
+    def meshes(self) -> Mapping[str, AdaptedMesh]:
+        """Mesh of each solid of cells that can be bisected."""
+        return self.model.adapted
+
+    @property
+    def leaves(self) -> Mapping[str, Leaves]:
+        """Leaves of these meshes."""
+        return {name: mesh.leaves for name, mesh in self.meshes.items()}
 
     def solid(self, name: str) -> AdaptedSolid:
         """A solid with a mesh in ``meshes``, with its inertia in the model."""
@@ -68,60 +76,76 @@ class AdaptedScene:
             solid = bodies[name]
             assert isinstance(solid, Solid)
             bodies[name] = replace(solid, mesh=mesh.mesh)
-        scene = replace(self.scene, bodies=bodies)
-        return AdaptedScene(scene=scene, model=build(scene), meshes={**self.meshes, **changed})
+        model = build(replace(self.scene, bodies=bodies))
+        meshes = {**self.meshes, **changed}
+        return AdaptedScene(replace(model, adapted=meshes, declared=self.model.declared))
 
-    def wanted(self, adapt: Mapping[str, Adapt], now: MarchState, energy: float, ahead: float) -> "AdaptedScene":
+    def at(self, leaves: Mapping[str, Leaves]) -> "AdaptedScene":
+        """The scene on the meshes of these leaves."""
+        if leaves.keys() != self.meshes.keys():
+            problem = f"adapted meshes of {', '.join(leaves)}"
+            raise InputError("state.adapted", problem, f"a state with those of {', '.join(self.meshes)}")
+        for name, one in leaves.items():
+            with within(f"state.adapted.{name}"):
+                require_cover(one, self.meshes[name].base.n_cells)
+        return self.on({name: refined(self.meshes[name].base, one.level, one) for name, one in leaves.items()})
+
+    def wanted(self, now: MarchState, energy: float, ahead: float) -> "AdaptedScene":
         """The scene on the meshes for the coming slabs, in fine cells what closes or is pushed within ``ahead`` [s]."""
         touching = np.concatenate([_touching(self.model, now, ahead), _pushed(self.model, now.state.time, ahead)])
         meshes = dict(self.meshes)
-        for name, how in adapt.items():
+        for name, how in adaptions(self.scene).items():
             solid = self.solid(name)
             nodes = solid.part.nodes
             motion = _motion(self.model, now, name)
             places = self.model.points[touching[(touching >= nodes.start) & (touching < nodes.stop)]]
-            meshes[name] = how.mesh(solid, motion, energy, places)
+            stretch = now.step_history.longest / now.step_history.span
+            tags = [tag for body, tag in chain(*(c.surfaces for c in self.scene.contacts)) if body == name]
+            meshes[name] = even(wanted_mesh(how, solid, motion, energy, places, stretch), tags)
         return self.on(meshes)
 
 
-def adapted_scene(scene: Scene, adapt: Mapping[str, Adapt]) -> AdaptedScene:
-    """Scene on the base meshes; solids that do not adapt have their base mesh for ever.
+def adaptions(scene: Scene) -> dict[str, Adapt]:
+    """Adaptions of the solids whose meshes adapt, by name."""
+    solids = {name: body for name, body in scene.bodies.items() if isinstance(body, Solid)}
+    return {name: how for name, solid in solids.items() if (how := adaption(solid.adapt)) is not None}
+
+
+def adapted_scene(model: Model) -> AdaptedScene:
+    """Scene of a model, on its adapted meshes, or else on the base meshes of its solids.
 
     Raises
     ------
     InputError
         For bodies whose meshes cannot adapt.
     """
-    bodies = dict(scene.bodies)
-    solids = {name: body for name, body in bodies.items() if isinstance(body, Solid)}
-    bases = {name: placed(_built(solid), solid.place, solid.group) for name, solid in solids.items()}
-    for name in adapt:
-        with within(f"adapt.{name}"):
-            if name not in solids:
-                raise InputError("", "no solid of this name", f"one of: {', '.join(solids)}")
-            if not _bisected(bases[name]) or solids[name].thermal is not None or solids[name].shock is not None:
+    if model.adapted:
+        return AdaptedScene(model)
+    bodies = dict(model.scene.bodies)
+    bases = model.meshes
+    for name in adaptions(model.scene):
+        solid = bodies[name]
+        assert isinstance(solid, Solid)
+        with within(f"bodies.{name}.adapt"):
+            if not _bisected(bases[name]) or solid.thermal is not None or solid.shock is not None:
                 raise InputError("", "a solid whose mesh cannot adapt in a march", WHAT)
     known = {name: base for name, base in bases.items() if _bisected(base)}
-    meshes = {name: refined(base, np.zeros(base.n_cells, dtype=np.int64)) for name, base in known.items()}
-    for name, mesh in meshes.items():
-        bodies[name] = replace(solids[name], mesh=mesh.mesh, place=Placement(), group=())
-    scene = replace(scene, bodies=bodies)
-    model = build(scene)
+    for name, base in known.items():
+        solid = bodies[name]
+        assert isinstance(solid, Solid)
+        bodies[name] = replace(solid, mesh=base, place=Placement(), group=())
     plain = not model.companions and model.rigid is None and all(_own_dofs(model)) and model.friction.frictionless
-    light = model.timing.massless or not scene.contacts
+    light = model.timing.massless or not model.scene.contacts
     if not (plain and light) or any_path_dependent(model.parts):
-        raise InputError("adapt", "a scene in which no mesh can adapt", WHAT)
-    return AdaptedScene(scene=scene, model=model, meshes=meshes)
+        where = f"bodies.{next(iter(adaptions(model.scene)))}.adapt"
+        raise InputError(where, "in a scene in which no mesh can adapt", WHAT)
+    meshes = {name: refined(base, np.zeros(base.n_cells, dtype=np.int64)) for name, base in known.items()}
+    return AdaptedScene(replace(model, scene=replace(model.scene, bodies=bodies), adapted=meshes))
 
 
 def _bisected(mesh: Mesh) -> bool:
     """True for meshes that bisection refines."""
     return len(mesh.blocks) == 1 and next(iter(mesh.blocks)) in BISECTED
-
-
-def _built(solid: Solid) -> Mesh:
-    """Mesh of a solid."""
-    return solid.mesh if isinstance(solid.mesh, Mesh) else solid.mesh.build()
 
 
 def _own_dofs(model: Model) -> list[bool]:
@@ -195,7 +219,11 @@ def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple
         (now.state.start.energy - joined.start.energy)[fixed].sum()
     )
     account = replace(now.account, remeshing=now.account.remeshing + taken)
-    return replace(now, state=joined, account=account, memory=OperatorMemory()), found
+    energy = 0.0 if now.adapted is None else now.adapted.energy
+    adapted = AdaptedMeshes(leaves=new.leaves, energy=energy)
+    return replace(
+        now, state=joined, account=account, memory=OperatorMemory(room=now.memory.room), adapted=adapted
+    ), found
 
 
 def _settled(model: Model, u: Array, time: float) -> StaticState:

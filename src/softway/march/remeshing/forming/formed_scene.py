@@ -17,11 +17,11 @@ from softway.bodies.setup.supports import Carried, Guided
 from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 from softway.heat.coupled.build import build
-from softway.march.march_state import MarchState
+from softway.march.remeshing.forming.remesh import Remesh
+from softway.march.state.march_state import MarchState
 from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
-from softway.remeshing.forming.remesh import Remesh
 
 PASSES = 5
 """Greatest number of corrections of nodes on tools."""

@@ -1,0 +1,1 @@
+"""Cases of group I: orders of convergence, and meshes that adapt."""

@@ -1,0 +1,129 @@
+"""March of a scene in which the meshes of some solids change between slabs (docs/theory/bodies/adaptive.md#march)."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from itertools import islice
+
+from softway.adaptivity.transfer import Transferred
+from softway.errors import Cancel, InputError
+from softway.march.remeshing.adapted_scene import AdaptedScene, adapted_scene, adaptions, carried_over
+from softway.march.results.step import Step
+from softway.march.results.trying import TryWatch
+from softway.march.slabs import slabs
+from softway.march.start.preparation import Preparation, prepare
+from softway.march.state.march_state import AdaptedMeshes, MarchState, Settings
+from softway.model.model import Model
+from softway.model.scene import Scene, State
+from softway.solve.methods.central_difference import Explicit
+
+AHEAD = 2.0
+"""Time within which contacts count as soon closed, in those between two changes of the mesh."""
+
+
+def adapts(scene: Scene) -> bool:
+    """True if the meshes of some solids adapt."""
+    return bool(adaptions(scene))
+
+
+def adaptive_march(
+    model: Model,
+    settings: Settings,
+    state: State | MarchState | None = None,
+    cancel: Cancel | None = None,
+    trying: TryWatch | None = None,
+) -> Iterator[Step]:
+    """Accepted slabs of a march in which the meshes of some solids follow their waves.
+
+    The meshes change between slabs.  Momentum, spin and energy pass from mesh to mesh (:mod:`softway.adaptivity`), and
+    the energy balance of a step is that of the whole march; what changes of the meshes took, and no scalar has closed,
+    is ``ledger.remeshing``.
+
+    Parameters
+    ----------
+    model
+        Model of the scene, on the base mesh of each solid or on the meshes of :func:`adapted_start`.
+    settings, state, cancel, trying
+        As for :func:`~softway.march.start.preparation.prepare`.
+
+    Raises
+    ------
+    InputError
+        For bodies whose meshes cannot adapt, and as for a march.
+    NumericsError, Cancelled
+        As for a march.
+    """
+    if isinstance(settings.method, Explicit):
+        problem = "Explicit, whose stable step the finest cells determine, with meshes that adapt"
+        raise InputError("solver", problem, "FixedPoint or Newton, or meshes that stay")
+    stored = state.adapted if isinstance(state, MarchState) else None
+    if stored is not None:
+        on = adapted_scene(model).at(stored.leaves)
+    else:
+        on = adapted_start(model, settings) if state is None else adapted_scene(model)
+    return _slabs(on, _prepared(on, settings, state, cancel, trying), cancel, trying)
+
+
+def adapted_start(model: Model, settings: Settings) -> AdaptedScene:
+    """Scene on the meshes that its initial state asks for, from the base meshes two levels at a time.
+
+    Raises
+    ------
+    InputError
+        For bodies whose meshes cannot adapt, and as for a march.
+    """
+    on = adapted_scene(model)
+    deepest = max(how.deepest(on.meshes[name].base.cell_dim) for name, how in adaptions(on.scene).items())
+    for _ in range(0 if model.adapted else 1 + deepest // 2):
+        now = prepare(on.model, settings).march_state
+        new = on.wanted(now, _energy(now), _ahead(on, now))
+        if new is on:
+            break
+        on = new
+    return on
+
+
+def _prepared(
+    on: AdaptedScene,
+    settings: Settings,
+    state: State | MarchState | None,
+    cancel: Cancel | None,
+    trying: TryWatch | None,
+) -> Preparation:
+    """Preparation of a march on adapted meshes."""
+    prepared = prepare(on.model, settings, state, cancel, trying)
+    now = prepared.march_state
+    if now.adapted is not None:
+        return prepared
+    adapted = AdaptedMeshes(leaves=on.leaves, energy=now.account.energy_start)
+    return replace(prepared, march_state=replace(now, adapted=adapted))
+
+
+def _slabs(on: AdaptedScene, prepared: Preparation, cancel: Cancel | None, trying: TryWatch | None) -> Iterator[Step]:
+    """Accepted slabs; after every ``every`` slabs the meshes change if the motion asks for it.
+
+    The state after a slab alone decides on the meshes of the next one, so that a resumed march has the same bits.
+    """
+    now, every = prepared.march_state, min(how.every for how in adaptions(on.scene).values())
+    steps, settings = slabs(prepared.stepper, now), now.settings
+    transfers: Mapping[str, Transferred] = {}
+    while now.state.time < settings.until - 1e-9 * now.step_history.span:
+        if now.slabs and now.slabs % every == 0:
+            new = on.wanted(now, _energy(now), _ahead(on, now))
+            if new is not on:
+                now, transfers = carried_over(on, new, now)
+                on = new
+                steps = slabs(prepare(on.model, settings, now, cancel, trying).stepper, now)
+        for step in islice(steps, every - now.slabs % every):
+            now = step.march_state
+            yield replace(step, transfers=transfers) if transfers else step
+            transfers = {}
+
+
+def _energy(now: MarchState) -> float:
+    """Greatest energy of the scene so far [J]."""
+    return now.account.energy_start if now.adapted is None else now.adapted.energy
+
+
+def _ahead(on: AdaptedScene, now: MarchState) -> float:
+    """Time within which contacts close soon [s]."""
+    return AHEAD * min(how.every for how in adaptions(on.scene).values()) * now.step_history.longest

@@ -1,0 +1,84 @@
+"""How the mesh of a solid adapts during a march."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from softway.errors import InputError, positive
+from softway.meshes.adaptive.leaves import DEPTH
+from softway.meshes.mesh import Mesh
+from softway.units import Pure
+
+HALVINGS = 2
+"""Times that ``auto`` halves the edges of the cells."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Adapt:
+    """Adaption of the mesh of a solid of one type of cell: fine cells follow waves and contacts.
+
+    Parameters
+    ----------
+    levels
+        Greatest number of bisections of a cell of the mesh of the solid.  One halves the edges of bars, two those of
+        triangles and quadrilaterals, three those of tetrahedra and hexahedra; ``auto`` halves edges twice.
+    tolerance
+        Factor c of the threshold ``c sqrt(E (h / L)^k)`` of the indicator: E the energy of the scene, the greatest so
+        far, h the shortest edge of the finest cells, L the size of the solid, k its dimension.
+    every
+        Slabs between two changes of the mesh.
+    buffer
+        Finest cells around fine cells that are as fine; at least the way of a wave in ``every`` slabs.
+    contact_cells
+        Finest cells at a contact that is closed or closes soon.
+
+    Examples
+    --------
+    >>> Adapt(levels=5).every
+    4
+    >>> Adapt().deepest(dimension=2)
+    4
+    """
+
+    levels: int | Literal["auto"] = "auto"
+    tolerance: Pure = 0.15
+    every: int = 4
+    buffer: int = 4
+    contact_cells: int = 12
+
+    def __post_init__(self) -> None:
+        positive(tolerance=self.tolerance)
+        if self.levels != "auto" and not 0 <= self.levels <= DEPTH:
+            raise InputError("levels", f"{self.levels} bisections", f"a whole number from 0 to {DEPTH}, or 'auto'")
+        for name in ("every", "buffer", "contact_cells"):
+            if getattr(self, name) < 1:
+                raise InputError(name, f"{getattr(self, name)}", "a whole number from 1 on")
+
+    def deepest(self, dimension: int) -> int:
+        """Greatest number of bisections of a cell of a dimension."""
+        return HALVINGS * dimension if self.levels == "auto" else self.levels
+
+    def finest(self, base: Mesh) -> float:
+        """Shortest edge of the finest cells [m]."""
+        return float(np.ldexp(base.edge(), -(self.deepest(base.cell_dim) // base.cell_dim)))
+
+    def threshold(self, base: Mesh, energy: float) -> float:
+        """Threshold of the indicator [sqrt(J)] in a scene with an energy [J]."""
+        share = (self.finest(base) / float(np.linalg.norm(np.ptp(base.points, axis=0)))) ** base.cell_dim
+        return max(self.tolerance * float(np.sqrt(energy * share)), float(np.finfo(float).tiny))
+
+
+Adapting = Adapt | Literal["auto"] | None
+"""Adaption of the mesh of a solid; ``auto`` is that of ``Adapt()``, None that of a mesh that stays."""
+
+
+def adaption(given: Adapting) -> Adapt | None:
+    """Adaption of a mesh; None if it stays.
+
+    Examples
+    --------
+    >>> adaption("auto") == Adapt(), adaption(None)
+    (True, None)
+    """
+    return Adapt() if given == "auto" else given

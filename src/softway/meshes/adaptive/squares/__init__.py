@@ -1,0 +1,1 @@
+"""Quadrilaterals and hexahedra: balanced trees, and their nodes."""
