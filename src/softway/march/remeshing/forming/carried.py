@@ -4,13 +4,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy.sparse as sp
 
-from softway.adaptivity.balances import balanced, rigid_motions_of
 from softway.adaptivity.rezoning.quality import cell_quality
 from softway.adaptivity.rezoning.volume import volume_of
-from softway.adaptivity.unrelated.fields import projected
 from softway.adaptivity.unrelated.memory import recast, recast_state
+from softway.adaptivity.unrelated.motion import HeavySolid, moved_on
 from softway.arrays import Array
 from softway.bodies.assembled.material_states import committed
 from softway.bodies.discretised import DiscreteSolid
@@ -71,11 +69,11 @@ def carried_on(
         cast = recast(before, u, after)
         memory[name] = recast_state(cast, state.memory[name], np.asarray(before.internal.sampling.volume))
         displacement[name] = np.zeros((after.mesh.n_nodes, after.mesh.dim))
-        pair = Heavy.of(old.model, before), Heavy.of(new.model, after)
-        velocity[name] = _moved(*pair, u, velocity[name], True)
-        acceleration[name] = _moved(*pair, u, acceleration[name], False)
+        pair = _heavy(old.model, before), _heavy(new.model, after)
+        velocity[name] = moved_on(*pair, u, velocity[name], True)
+        acceleration[name] = moved_on(*pair, u, acceleration[name], False)
     state = replace(state, displacement=displacement, memory=memory, velocity=velocity, acceleration=acceleration)
-    settles = bool(new.model.inert and not new.model.massive.all())
+    settles = bool(new.model.inert and not new.model.space.every(new.model.massive))
     if settles:
         joined = _settled(new.model, state, now.step_history.span)
     else:
@@ -88,49 +86,10 @@ def carried_on(
     return replace(now, state=joined, account=account, memory=OperatorMemory()), exchanges
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Heavy:
-    """Solid with its inertia in a model: mass (n, n) [kg], and velocities (n, n) of all nodes from those with mass."""
-
-    part: DiscreteSolid
-    mass: sp.csr_array
-    follow: sp.csr_array
-
-    @classmethod
-    def of(cls, model: Model, part: DiscreteSolid) -> "Heavy":
-        """A solid of a model."""
-        mass, follow = (matrix[part.nodes][:, part.nodes] for matrix in (model.mass, model.follow))
-        return cls(part=part, mass=mass, follow=follow)
-
-    @property
-    def points(self) -> Array:
-        """Reference places (n, d) of the nodes [m]."""
-        return self.part.mesh.points
-
-    def kinetic(self, velocity: Array) -> float:
-        """Kinetic energy [J] at a velocity (n, d) [m/s]."""
-        return 0.5 * float((velocity * (self.mass @ velocity)).sum())
-
-    def following(self, velocity: Array) -> Array:
-        """Velocity (n, d) in which massless nodes move as the nodes behind them, but for their supports."""
-        moved = np.asarray(self.follow @ velocity)
-        return np.asarray(moved + self.part.dofs.supported(velocity - moved))
-
-
-def _moved(before: Heavy, after: Heavy, displacement: Array, field: Array, closes: bool) -> Array:
-    """Velocity or acceleration (m, d) on the new mesh from that (n, d) on the old one; if it ``closes``, with the
-    momentum, spin and kinetic energy before.
-    """
-    if not field.any():
-        return np.zeros(after.points.shape)
-    heavy, places = before.mass.nnz > 0, before.points + displacement
-    given = before.following(field) if heavy else field
-    found = projected(before.part, places, after.part, given)
-    if not (heavy and closes):
-        return found
-    rigid = rigid_motions_of(before, after, (places, after.points))
-    momenta = rigid.before.T @ (before.mass @ field).ravel()
-    return after.following(balanced(after, rigid.after, after.following(found), momenta, before.kinetic(field))[0])
+def _heavy(model: Model, part: DiscreteSolid) -> HeavySolid:
+    """A solid with its inertia in a model."""
+    mass, follow = (matrix[part.nodes][:, part.nodes] for matrix in (model.mass, model.follow))
+    return HeavySolid(part=part, mass=mass, follow=follow)
 
 
 def _in_contact(before: Model, model: Model, now: ModelState, state: State) -> ModelState:

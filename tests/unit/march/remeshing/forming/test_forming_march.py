@@ -1,5 +1,8 @@
 """Forging with rezoned meshes: volume, energy and force, and corners that follow a fold onto the platen."""
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -101,3 +104,17 @@ def test_laws_that_need_the_undeformed_shape(material: Material, words: str) -> 
 def test_wrong_limits(wrong: dict[str, float]) -> None:
     with pytest.raises(InputError, match=next(iter(wrong))):
         Remesh(**wrong)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("remesh", "changed", "words"),
+    [
+        ({}, {}, "no solid"),
+        ({"platen": Remesh()}, {}, "no solid of this name"),
+        ({"body": Remesh()}, {"loads": (sw.Traction(on="body.right", value=(1.0, 0.0)),)}, "a traction on"),
+    ],
+)
+def test_scenes_without_new_meshes(remesh: dict[str, Remesh], changed: dict[str, Any], words: str) -> None:
+    scene = replace(press((2, 2)), **changed)
+    with pytest.raises(InputError, match=words):
+        next(forming_march(scene, remesh, until=1.0, step=0.1))
