@@ -3,12 +3,14 @@
 """
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
+import scipy.sparse as sp
 
-from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.arrays import Array
 from softway.bodies.assembled.rigid_body_modes import motion_names
+from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.elements.section import Axisymmetric
 
 HELD = 1e-9
@@ -19,6 +21,29 @@ SMALL = 1e-13
 """Energy, relative to that of the body, below which the rest of the motion is rounding."""
 
 
+class MassiveSolid(Protocol):
+    """Solid of n nodes with its nodal mass matrix (n, n) [kg]."""
+
+    @property
+    def part(self) -> DiscreteSolid:
+        """Tables of the solid."""
+        ...
+
+    @property
+    def mass(self) -> sp.csr_array:
+        """Mass matrix."""
+        ...
+
+    @property
+    def points(self) -> Array:
+        """Reference places (n, d) of the nodes [m]."""
+        ...
+
+    def kinetic(self, velocity: Array) -> float:
+        """Kinetic energy [J] at a velocity (n, d) [m/s]."""
+        ...
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class RigidMotions:
     """Free rigid motions (n d, m) of a solid on two meshes, at its places there."""
@@ -27,7 +52,7 @@ class RigidMotions:
     after: Array
 
 
-def rigid_motions_of(before: AdaptedSolid, after: AdaptedSolid, places: tuple[Array, Array]) -> RigidMotions:
+def rigid_motions_of(before: MassiveSolid, after: MassiveSolid, places: tuple[Array, Array]) -> RigidMotions:
     """Rigid motions that the supports leave free, the same ones at the ``places`` (n, d) and (m, d) of both meshes."""
     d = after.points.shape[1]
     names = motion_names(d, isinstance(after.part.internal.section, Axisymmetric))
@@ -69,7 +94,7 @@ def spin(places: Array, momenta: Array) -> Array:
 
 
 def balanced(
-    after: AdaptedSolid, motions: Array, velocity: Array, momenta: Array, kinetic: float
+    after: MassiveSolid, motions: Array, velocity: Array, momenta: Array, kinetic: float
 ) -> tuple[Array, float]:
     """Velocity (n, d) with given momenta of the free rigid motions and, where a scalar allows it, kinetic energy.
 
@@ -103,19 +128,19 @@ def balanced(
     return base + (scalar := _scalar(after, base, rest, kinetic)) * rest, scalar
 
 
-def _momenta(after: AdaptedSolid, motions: Array, velocity: Array) -> Array:
+def _momenta(after: MassiveSolid, motions: Array, velocity: Array) -> Array:
     """Momenta (m,) of a velocity (n, d)."""
     return np.asarray(motions.T @ (after.mass @ velocity).ravel())
 
 
-def _rigid(after: AdaptedSolid, motions: Array, momenta: Array) -> Array:
+def _rigid(after: MassiveSolid, motions: Array, momenta: Array) -> Array:
     """Rigid motion (n d,) with given momenta (m,); without those about which a body on a line has no inertia."""
     n, d = after.points.shape
     inertia = motions.T @ (after.mass @ motions.reshape(n, -1)).reshape(n * d, -1)
     return np.asarray(motions @ (np.linalg.pinv(inertia, rcond=HELD, hermitian=True) @ momenta))
 
 
-def _scalar(after: AdaptedSolid, base: Array, rest: Array, kinetic: float) -> float:
+def _scalar(after: MassiveSolid, base: Array, rest: Array, kinetic: float) -> float:
     """Scalar s near one with ``T(base + s rest) = kinetic``; one if there is none."""
     quadratic, constant = after.kinetic(rest), after.kinetic(base) - kinetic
     half = 0.5 * float((base * (after.mass @ rest)).sum())

@@ -37,7 +37,9 @@ def heat_masses(mesh: Mesh, section: Section, density: float | Array, inside: Bo
         if table.cell not in QUADRATIC:
             chosen.append((table, nodes[mine], mass[mine]))
         first += len(nodes)
-    out = np.array(assembled(Body(mesh, tuple(chosen)), Lumped(), np.ones(mesh.n_nodes)).diagonal())
+    out = np.zeros(mesh.n_nodes)
+    if chosen:
+        out += assembled(Body(mesh, tuple(chosen)), Lumped(), np.ones(mesh.n_nodes)).diagonal()
     weight = np.broadcast_to(np.asarray(density, float), mesh.n_cells)
     for nodes, volume in _spread(mesh, section, weight if inside is None else weight * inside):
         np.add.at(out, nodes, volume)

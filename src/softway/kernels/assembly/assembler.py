@@ -98,7 +98,7 @@ def assembler(cells: list[IntArray], nodes: int, components: int) -> Assembler:
     [[1.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]]
     """
     widths = np.concatenate([[0], *(np.full(len(block), block.shape[1]) for block in cells)])
-    numbers = np.concatenate([np.zeros(0, np.int64), *(np.asarray(block, np.int64).ravel() for block in cells)])
+    numbers = np.concatenate([np.asarray(block, np.int64).ravel() for block in cells])
     rows, columns, starts, members = node_pairs(numbers, np.cumsum(widths), nodes)
     sums = csr_array((np.ones(len(members)), members, starts), (len(columns), len(members)))
     order, indices, indptr = expanded(rows, columns, components)

@@ -71,6 +71,7 @@ MODULES = (
 )
 ROBOTS = "an extra that is not always installed: tests/unit/mechanisms/test_robot_files.py"
 INNER = "called inside only, after the check of what the user has given"
+FORGED = "from Python: tests/unit/march/remeshing/forming/test_forming_march.py"
 REASONS = {
     "bodies/setup/directions.py: _held": "nodes that a body carries: tests/unit/bodies/test_directed_supports.py",
     "bodies/assembled/nodal_masses.py: _require_even": "from Python: tests/unit/model/test_hanging_nodes.py",
@@ -119,6 +120,10 @@ REASONS = {
     "march/remeshing/admitted.py: _require_cells": "tests/unit/march/remeshing/test_other_parts.py",
     "march/remeshing/admitted.py: _require_carried": "tests/unit/march/remeshing/test_other_parts.py",
     "march/remeshing/adapted_scene.py: at": "a state of another scene, from Python",
+    "march/remeshing/forming/formed_scene.py: formed_scene": FORGED,
+    "march/remeshing/forming/formed_scene.py: _require_plain": FORGED,
+    "march/remeshing/forming/forming_march.py: forming_march": FORGED,
+    "march/remeshing/forming/remesh.py: __post_init__": FORGED,
     "scenario/files.py: load": "millions of characters",
     "scenario/run.py: _require_state": "of a mechanism: tests/unit/scenario/mechanisms/test_resumed_runs.py",
     "scenario/run_rigid.py: _require_state": "and of solids: the same",

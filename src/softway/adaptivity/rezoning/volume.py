@@ -1,0 +1,109 @@
+"""Volume of a mesh, and its correction by free nodes of the boundary."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.elements.section import Section
+from softway.kernels.geometry.jacobians import cell_geometry
+from softway.meshes.cells import CELLS
+from softway.meshes.element import element, exact_degree
+
+CLOSED = 1e-14
+"""Relative defect of the volume at which the correction ends."""
+ROUNDS = 12
+"""Greatest number of corrections."""
+
+
+def volume_of(blocks: Mapping[str, IntArray], section: Section, places: Array) -> float:
+    """Volume [m^3] of the cells of a section with nodes at the places (n, d) [m].
+
+    Examples
+    --------
+    >>> from softway.bodies.elements.section import Axisymmetric
+    >>> square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    >>> round(volume_of({"quad4": np.array([[0, 1, 2, 3]])}, Axisymmetric(), square) / np.pi, 12)
+    1.0
+    """
+    total = 0.0
+    for cell, cells in blocks.items():
+        table = element(cell, exact_degree(cell, curved=True) + 1)
+        x = places[cells]
+        measures = cell_geometry(x, table.dN, table.weights)[1]
+        total += float((measures * section.measure(np.einsum("qa,ead->eqd", table.N, x))).sum())
+    return total
+
+
+def normals(facets: Mapping[str, IntArray], places: Array) -> Array:
+    """Sums (n, d) over the boundary facets at each node of their area normals by corners [m^(d-1)].
+
+    Examples
+    --------
+    >>> normals({"bar2": np.array([[0, 1]])}, np.array([[0.0, 0.0], [2.0, 0.0]])).tolist()
+    [[0.0, -1.0], [0.0, -1.0]]
+    """
+    out = np.zeros_like(places)
+    for facet, nodes in facets.items():
+        corners = nodes[:, : CELLS[facet].corners]
+        x = places[corners]
+        if places.shape[1] == 2:
+            along = x[:, 1] - x[:, 0]
+            area = np.stack([along[:, 1], -along[:, 0]], axis=1)
+        else:
+            triangle = x.shape[1] == 3
+            area = 0.5 * np.cross(x[:, 2] - x[:, 0], x[:, 1 if triangle else 3] - x[:, 0 if triangle else 1])
+            area = -area if triangle else area
+        np.add.at(out, nodes, area[:, None] / nodes.shape[1])
+    return out
+
+
+def with_volume(
+    blocks: Mapping[str, IntArray],
+    facets: Mapping[str, IntArray],
+    section: Section,
+    places: Array,
+    wanted: float,
+    free: BoolArray,
+) -> Array:
+    """Places (n, d) with a given volume: free nodes of the boundary move along their normals by one length.
+
+    Parameters
+    ----------
+    blocks, facets
+        Cells, and facets of the boundary that face outward.
+    section
+        Section of the cells.
+    places
+        (n, d) places of the nodes [m].
+    wanted
+        Volume [m^3].
+    free
+        (n, d) components that may move.
+
+    Examples
+    --------
+    >>> from softway.bodies.elements.section import PlaneStrain
+    >>> from softway.meshes.generators.shapes import rectangle
+    >>> mesh = rectangle((1.0, 1.0), cells=(2, 2))
+    >>> free = np.repeat(np.isin(np.arange(9), mesh.nodes("right"))[:, None], 2, axis=1) & [True, False]
+    >>> new = with_volume(mesh.blocks, mesh.boundary(), PlaneStrain(), mesh.points, 1.1, free)
+    >>> round(float(new[:, 0].max()), 12)
+    1.1
+    """
+    now, slope = np.array(places), None
+    before = volume_of(blocks, section, now)
+    for _ in range(ROUNDS):
+        defect = wanted - before
+        if abs(defect) <= CLOSED * abs(wanted):
+            break
+        unit = np.where(free, normals(facets, now), 0.0)
+        length = np.linalg.norm(unit, axis=1, keepdims=True)
+        if not length.any():
+            break
+        unit = unit / np.where(length > 0.0, length, 1.0)
+        step = defect / (length.sum() if slope is None else slope)
+        now = now + step * unit
+        after = volume_of(blocks, section, now)
+        slope, before = (after - before) / step, after
+    return now

@@ -1,0 +1,104 @@
+"""Control volumes of the quadrature points of a mesh: parts of the cells that fill it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from softway.arrays import Array, IntArray
+from softway.errors import InputError
+from softway.meshes.cells import CELLS
+from softway.meshes.element import tabulate
+
+SAME = 1e-8
+"""Distance of corners, relative to the size of the mesh, below which they are one."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ControlVolumes:
+    """Control volumes of the points of a mesh.
+
+    Parameters
+    ----------
+    corners
+        (v, k, d) corners: polygons, anticlockwise, in the plane; tetrahedra in space [m].
+    point
+        (p,) control volume of each quadrature point; those of a cell may have one in common.
+    """
+
+    corners: Array
+    point: IntArray
+
+    @property
+    def centre(self) -> Array:
+        """Means (v, d) of the corners [m]."""
+        return np.asarray(self.corners.mean(axis=1))
+
+    def neighbours(self) -> sp.csr_array:
+        """Matrix (v, v) with ones for control volumes that have a corner in common, themselves among them."""
+        count, k, d = self.corners.shape
+        points = self.corners.reshape(-1, d)
+        pairs = cKDTree(points).query_pairs(SAME * float(np.ptp(points, axis=0).max()), output_type="ndarray")
+        links = sp.coo_array((np.ones(len(pairs)), pairs.T), shape=(len(points),) * 2)
+        corner = connected_components(links, directed=False)[1]
+        inside = sp.csr_array((np.ones(count * k), (np.repeat(np.arange(count), k), corner)))
+        both = sp.csr_array(inside @ inside.T)
+        both.data[:] = 1.0
+        return both
+
+
+def control_volumes(blocks: Mapping[str, IntArray], places: Array, points: Mapping[str, int]) -> ControlVolumes:
+    """Control volumes of a mesh of one type of cell.
+
+    A quadrilateral with k times k points has the images of k times k rectangles whose areas are the weights, a triangle
+    with three points those of the three parts that the lines from its centre to the middles of its sides cut off; other
+    cells are one control volume, with the mean of their points.
+
+    Parameters
+    ----------
+    blocks
+        Cell name -> (e, a) node numbers; one type.
+    places
+        (n, d) places of the nodes [m].
+    points
+        Number of quadrature points of each type of cell.
+
+    Raises
+    ------
+    InputError
+        For several types of cells, or hexahedra.
+
+    Examples
+    --------
+    >>> square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    >>> control_volumes({"quad4": np.array([[0, 1, 2, 3]])}, square, {"quad4": 4}).centre.tolist()
+    [[0.25, 0.25], [0.25, 0.75], [0.75, 0.25], [0.75, 0.75]]
+    """
+    ((cell, nodes), *others) = blocks.items()
+    if others or CELLS[cell].dim < 2 or CELLS[cell].corners == 8:
+        raise InputError("mesh", f"cells {', '.join(blocks)}", "one type of triangles, quadrilaterals or tetrahedra")
+    parts = _parts(cell, points[cell])
+    table = tabulate(cell, parts.reshape(-1, CELLS[cell].dim))[0]
+    corners = np.einsum("ka,ead->ekd", table, places[nodes]).reshape(len(nodes) * len(parts), *parts.shape[1:])
+    own = np.arange(len(nodes) * points[cell])
+    return ControlVolumes(corners=corners, point=own if len(parts) > 1 else own // points[cell])
+
+
+def _parts(cell: str, points: int) -> Array:
+    """Corners (v, k, r) of the parts of a reference cell: one for each point, or one for all."""
+    it = CELLS[cell]
+    whole = it.nodes[None, : it.corners]
+    k = round(points**0.5)
+    if it.corners == 4 and it.dim == 2 and k * k == points and k > 1:
+        cuts = np.concatenate([[0.0], np.cumsum(0.5 * np.polynomial.legendre.leggauss(k)[1])])
+        low = np.stack(np.meshgrid(np.arange(k), np.arange(k), indexing="ij"), axis=-1).reshape(-1, 1, 2)
+        return np.asarray(cuts[low + whole.astype(np.int64)])
+    if it.corners == 3 and points == 3:
+        a, b, c = whole[0]
+        middle, centre = (0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)), (a + b + c) / 3.0
+        ends = ((a, middle[0], centre, middle[2]), (c, middle[2], centre, middle[1]), (b, middle[1], centre, middle[0]))
+        return np.array(ends)
+    return np.asarray(whole)

@@ -1,0 +1,50 @@
+"""Motion of a solid on a mesh that replaces another one, with its momentum, spin and kinetic energy."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.adaptivity.balances import balanced, rigid_motions_of
+from softway.adaptivity.unrelated.fields import projected
+from softway.arrays import Array
+from softway.bodies.discretised import DiscreteSolid
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class HeavySolid:
+    """Solid with its inertia in a march: mass (n, n) [kg], and velocities (n, n) of all nodes from those with mass."""
+
+    part: DiscreteSolid
+    mass: sp.csr_array
+    follow: sp.csr_array
+
+    @property
+    def points(self) -> Array:
+        """Reference places (n, d) of the nodes [m]."""
+        return self.part.mesh.points
+
+    def kinetic(self, velocity: Array) -> float:
+        """Kinetic energy [J] at a velocity (n, d) [m/s]."""
+        return 0.5 * float((velocity * (self.mass @ velocity)).sum())
+
+    def following(self, velocity: Array) -> Array:
+        """Velocity (n, d) in which massless nodes move as the nodes behind them, but for their supports."""
+        moved = np.asarray(self.follow @ velocity)
+        return np.asarray(moved + self.part.dofs.supported(velocity - moved))
+
+
+def moved_on(before: HeavySolid, after: HeavySolid, displacement: Array, field: Array, closes: bool) -> Array:
+    """Velocity or acceleration (m, d) on the new mesh from that (n, d) on the old one; if it ``closes``, with the
+    momentum, spin and kinetic energy before.
+    """
+    if not field.any():
+        return np.zeros(after.points.shape)
+    heavy, places = before.mass.nnz > 0, before.points + displacement
+    given = before.following(field) if heavy else field
+    found = projected(before.part, places, after.part, given)
+    if not (heavy and closes):
+        return found
+    rigid = rigid_motions_of(before, after, (places, after.points))
+    momenta = rigid.before.T @ (before.mass @ field).ravel()
+    return after.following(balanced(after, rigid.after, after.following(found), momenta, before.kinetic(field))[0])
