@@ -71,7 +71,8 @@ class Assembler:
         stored = np.diff(self.indptr)[::components]
         first = np.repeat(ends[:-1], stored // components)
         own = first + components * (np.arange(len(first)) - np.repeat(ends[:-1] // components**2, stored // components))
-        return csr_array((values, self.indices[own] // components, ends // components**2))
+        n = len(ends) - 1
+        return csr_array((values, self.indices[own] // components, ends // components**2), (n, n))
 
     def pair_of(self) -> IntArray:
         """Pair of the pattern, (sum e a a,), to which each node pair of each cell belongs."""

@@ -1,11 +1,12 @@
 """March of a scene in which the meshes of some solids change between slabs (docs/theory/bodies/adaptive.md#march)."""
 
+import logging
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import islice
 
 from softway.adaptivity.transfer import Transferred
-from softway.errors import Cancel
+from softway.errors import Cancel, NumericsError
 from softway.march.remeshing.adapted_scene import AdaptedScene, adapted_scene
 from softway.march.remeshing.admitted import adaptions
 from softway.march.remeshing.carrying import carried_over
@@ -17,6 +18,7 @@ from softway.march.state.march_state import AdaptedMeshes, MarchState, Settings
 from softway.model.model import Model
 from softway.model.scene import State
 
+log = logging.getLogger(__name__)
 AHEAD = 2.0
 """Time within which contacts count as soon closed, in those between two changes of the mesh."""
 
@@ -101,15 +103,29 @@ def _slabs(on: AdaptedScene, prepared: Preparation, cancel: Cancel | None, tryin
     transfers: Mapping[str, Transferred] = {}
     while now.state.time < settings.until - 1e-9 * now.step_history.span:
         if now.slabs and now.slabs % every == 0:
-            new = on.wanted(now, _energy(now), _ahead(on, now))
+            new, now, transfers = _changed(on, now)
             if new is not on:
-                now, transfers = carried_over(on, new, now)
                 on = new
                 steps = slabs(prepare(on.model, settings, now, cancel, trying).stepper, now)
         for step in islice(steps, every - now.slabs % every):
             now = step.march_state
             yield replace(step, transfers=transfers) if transfers else step
             transfers = {}
+
+
+def _changed(on: AdaptedScene, now: MarchState) -> tuple[AdaptedScene, MarchState, Mapping[str, Transferred]]:
+    """Scene on the meshes that a state asks for, the state on them, and the transfers; all as they are if they stay.
+
+    Meshes stay where massless nodes find no equilibrium on new ones.
+    """
+    new = on.wanted(now, _energy(now), _ahead(on, now))
+    if new is on:
+        return on, now, {}
+    try:
+        return new, *carried_over(on, new, now)
+    except NumericsError as error:
+        log.info("meshes stay as they are at t = %.6g s: %s", now.state.time, error.what)
+        return on, now, {}
 
 
 def _energy(now: MarchState) -> float:

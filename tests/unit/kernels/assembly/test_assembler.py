@@ -36,3 +36,11 @@ def test_cell_matrices_of_several_blocks_are_summed() -> None:
     assert made.format == "csc"
     assert made.has_sorted_indices
     assert np.allclose(made.toarray(), expected.reshape(nodes * d, nodes * d), atol=1e-14)
+
+
+def test_nodes_without_a_cell_have_empty_rows_and_columns() -> None:
+    pattern = assembler([np.array([[0, 1]])], 4, 1)
+    found = pattern.nodal([np.array([[[2.0, -1.0], [-1.0, 2.0]]])], 1).toarray()
+    assert found.shape == (4, 4)
+    assert found[:2, :2].tolist() == [[2.0, -1.0], [-1.0, 2.0]]
+    assert not found[2:].any() and not found[:, 2:].any()

@@ -7,8 +7,9 @@ import pytest
 from adapting import adapting
 
 import softway as sw
-from softway.errors import InputError
+from softway.errors import InputError, NumericsError
 from softway.march.march import march
+from softway.march.remeshing import adaptive_march
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.generators.shapes import disc
 from softway.record.storage.serialisation import packed, unpacked
@@ -64,3 +65,14 @@ def test_states_of_other_meshes_are_refused(whole: list[sw.Step]) -> None:
     for leaves in ({}, {"ball": replace(state.adapted.leaves["ball"], level=np.zeros(3, dtype=np.int64))}):
         with pytest.raises(InputError, match=r"leaves|adapted"):
             march(SCENE, until=END, step=STEP, state=replace(state, adapted=replace(state.adapted, leaves=leaves)))
+
+
+def test_meshes_stay_where_massless_nodes_find_no_equilibrium(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(*_: object) -> None:
+        raise NumericsError("no static equilibrium", 0.0)
+
+    monkeypatch.setattr(adaptive_march, "carried_over", refused)
+    steps = list(march(SCENE, until=END, step=STEP))
+    assert steps[-1].after.time == pytest.approx(END)
+    assert not any(step.transfers for step in steps)
+    assert {step.model for step in steps} == {steps[0].model}

@@ -107,13 +107,14 @@ def wall_notes(model: Model, solids: Mapping[str, Solid]) -> tuple[Note, ...]:
     """Notes on solids of the scenario with walls one cell thick, which the model has in two layers."""
     notes = []
     for part in model.parts:
-        given = mesh_of(solids[part.name])
-        more = part.mesh.n_nodes - given.n_nodes
+        given, found = mesh_of(solids[part.name]), model.adapted.get(part.name)
+        mesh = part.mesh if found is None else found.base
+        more = mesh.n_nodes - given.n_nodes
         if more:
             ratio, shift = _changes(model, part)
             problem = (
                 f"walls one cell thick that may touch: {more} more nodes at half their thickness carry the mass of "
-                f"their faces; the body is computed and recorded with {part.mesh.n_cells} cells in place of "
+                f"their faces; the body is computed and recorded with {mesh.n_cells} cells in place of "
                 f"{given.n_cells}"
             )
             if abs(ratio - 1.0) > ALIKE:
