@@ -1,8 +1,10 @@
 """Mesh of a solid for the coming slabs."""
 
+import numpy as np
+
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.indicator import indicator, wanted_levels
-from softway.adaptivity.neighbourhood import grown_around, grown_near
+from softway.adaptivity.neighbourhood import grown_near, marks_of
 from softway.adaptivity.transfer import Motion
 from softway.arrays import Array
 from softway.meshes.adaptive.adapt import Adapt
@@ -15,6 +17,9 @@ def wanted_mesh(
     adapt: Adapt, solid: AdaptedSolid, motion: Motion, energy: float, touching: Array, stretch: float = 1.0
 ) -> AdaptedMesh:
     """Mesh for the coming slabs.
+
+    Around fine cells others are as fine.  Cells that become coarser by two cuts have none of these buffers: in space
+    conforming meshes have fine cells far from where they are wanted, and would grow from change to change.
 
     Parameters
     ----------
@@ -32,7 +37,9 @@ def wanted_mesh(
     base = solid.adapted.base
     finest, deepest = adapt.finest(base), adapt.deepest(base.cell_dim)
     levels = wanted_levels(solid.adapted, indicator(solid, motion), adapt.threshold(base, energy), deepest)
-    tree = tree_of(base).grown(solid.adapted.leaves, levels)
-    tree = grown_near(tree, [(deepest, touching)], adapt.contact_cells * finest)
-    tree = grown_around(tree, stretch * adapt.buffer * finest)
+    leaves, contact = solid.adapted.leaves, [(deepest, touching)]
+    kept = np.where(levels >= leaves.level - solid.adapted.step, levels, 0)
+    fine = grown_near(tree_of(base).grown(leaves, kept), contact, adapt.contact_cells * finest)
+    tree = grown_near(tree_of(base).grown(leaves, levels), contact, adapt.contact_cells * finest)
+    tree = grown_near(tree, marks_of(fine), stretch * adapt.buffer * finest)
     return solid.adapted if same(tree.leaves, solid.adapted.leaves) else adapted_mesh(tree)
