@@ -132,7 +132,9 @@ class _Change:
 
     def joined(self) -> ModelState:
         """State in equilibrium, with projected velocities."""
-        found = join_states(self.new.model, self.resting(*self.unsettled().settled()), self.span)
+        unsettled = self.unsettled()
+        rest, states = unsettled.settled()
+        found = join_states(self.new.model, self.resting(rest, states, unsettled.friction), self.span)
         return replace(found, rigid=self.now.rigid)
 
     def with_content(self, found: ModelState) -> "_Change":
@@ -143,11 +145,11 @@ class _Change:
         shifted = {n: with_content(self.new.model, values, before, after) for n, values in self.fields.items()}
         return replace(self, fields=shifted)
 
-    def resting(self, rest: StaticState, states: MaterialStates) -> State:
+    def resting(self, rest: StaticState, states: MaterialStates, friction: SurfaceForces | None) -> State:
         """State in equilibrium, with projected velocities."""
         model, contacts = self.new.model, self.new.model.contacts
         by = {label: contacts.rows_of(k) for k, label in enumerate(contacts.labels)}
-        rough, slips = not model.friction.frictionless, self._slips(rest)
+        rough, slips = not model.friction.frictionless, self._slips(rest, friction)
 
         def of(values: NDArray[Kind]) -> dict[str, NDArray[Kind]]:
             return {label: values[rows] for label, rows in by.items()}
@@ -176,9 +178,8 @@ class _Change:
         """Fields of the solids, projected."""
         return {**fields, **{name: cast.velocity(fields[name]) for name, cast in self.casts.items()}}
 
-    def _slips(self, rest: StaticState) -> Array | None:
+    def _slips(self, rest: StaticState, friction: SurfaceForces | None) -> Array | None:
         """Slip (m, d) of the new rows; None where none is known."""
-        friction = self._friction()
         if friction is None or self.now.slip is None:
             return None
         return friction.slips(standing(self.new.model, self.now).rows(rest.displacement, self.state.time))
