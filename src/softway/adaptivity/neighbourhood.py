@@ -64,12 +64,17 @@ def grown_around(tree: Tree, reach: float) -> Tree:
     """Tree in which a cell that comes within a distance ``reach`` [m] of a finer one is as fine as it, see
     :func:`buffered`.
     """
+    return grown_near(tree, marks_of(tree), reach)
+
+
+def marks_of(tree: Tree) -> list[Mark]:
+    """Levels of the finer cells of a tree, with their corners."""
     marks: list[Mark] = []
     for level in np.unique(tree.cells.level)[1:]:
         cells = tree.cells.some(tree.cells.level == level)
         _, first = np.unique(cells.corners, return_index=True)
         marks.append((int(level), tree.corners(cells).reshape(-1, tree.base.dim)[first]))
-    return grown_near(tree, marks, reach)
+    return marks
 
 
 def grown_near(tree: Tree, marks: Sequence[Mark], reach: float) -> Tree:

@@ -72,6 +72,13 @@ class CohesiveTie:
         traction = stiffness[:, None] * (whole[:, None] * leap + (damage * closed)[:, None] * normal)
         return float(energy), np.asarray(self.jump.rows.T @ traction)
 
+    def held(self, damage: Array, u: Array, x: Array) -> Array:
+        """Derivative (m, d, d) of the tractions times area by the jumps at a constant damage (m,) and normal."""
+        leap, opening, normal = self.opened(u, x)
+        pressed = (damage * (opening < 0.0))[:, None, None] * normal[:, :, None] * normal[:, None, :]
+        whole = (1.0 - damage)[:, None, None] * np.eye(leap.shape[1])
+        return (self.law.stiffness * self.jump.area)[:, None, None] * (whole + pressed)
+
     def stiffness(self, damage: Array, u: Array, x: Array) -> Array:
         """Derivative (m, d, d) of the tractions times area by the jumps, symmetric: at a constant mode and normal."""
         leap, opening, normal = self.opened(u, x)
@@ -152,6 +159,11 @@ class CohesiveTies:
         """Stiffnesses (m, d, d) of the jumps of all ties at the displacement ``u`` (n, d) [N/m]."""
         x = self.points + u
         return np.concatenate([t.stiffness(self.damage[t.jump.node, k], u, x) for k, t in enumerate(self.ties)])
+
+    def held(self, u: Array) -> Array:
+        """Stiffnesses (m, d, d) of the jumps of all ties with the damage that they have [N/m]."""
+        x = self.points + u
+        return np.concatenate([t.held(self.damage[t.jump.node, k], u, x) for k, t in enumerate(self.ties)])
 
     def tangent_product(self, u: Array, w: Array) -> Array:
         """Product (n, d) of the derivative of the force with a field ``w`` (n, d) [N]."""

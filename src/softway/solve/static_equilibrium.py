@@ -105,6 +105,7 @@ def equilibrium(
     friction: InitialFriction = NoInitialSlip(),
     cancel: Cancel | None = None,
     effort: Effort | None = None,
+    glue: tuple[CohesiveTies, ...] = (),
 ) -> StaticState:
     """Solve ``f(u) = load + G^T lambda`` on the unknowns for displacement and contact forces.
 
@@ -124,6 +125,8 @@ def equilibrium(
         Callback at every step that may cancel the computation.
     effort
         Counted work, with progress lines.
+    glue
+        Ties that break, which hold with the damage that they have.
 
     Raises
     ------
@@ -134,9 +137,8 @@ def equilibrium(
     """
     if not dofs.size:
         return StaticState.apart(u, len(model.contacts.contact))
-    return _newton_iteration(
-        model, u, dofs, load, model.contacts.rest(u, time), None, limit, friction, cancel, effort or Effort()
-    )
+    pairs = model.contacts.rest(u, time)
+    return _newton_iteration(model, u, dofs, load, pairs, None, limit, friction, cancel, effort or Effort(), glue)
 
 
 def fitted(
@@ -198,6 +200,7 @@ def _newton_iteration(
     friction: InitialFriction,
     cancel: Cancel | None,
     effort: Effort,
+    glue: tuple[CohesiveTies, ...] = (),
 ) -> StaticState:
     """Newton's method with the contact rows as inequalities; ``lift`` (k, k) is added to the stiffness."""
     last: tuple[Array, BoolArray] | None = None
@@ -209,9 +212,10 @@ def _newton_iteration(
         pairs = pairs.with_kept_facets(u) if count == KEEP_AFTER and pairs.fixed_rows is None else pairs
         rows = pairs.at(u)
         try:
-            stiffness = dofs.matrix(model.tangent(u))
+            stiffness = dofs.matrix(model.tangent(u) if not glue else _with_glue(model.tangent(u), glue, u))
             lifted = stiffness if lift is None else stiffness + lift
-            step, force, active = _step(model, rows, u, dofs, load, lifted, last, friction, effort)
+            pull = load if not glue else load - sum(one.at(one.damage, u).force for one in glue)
+            step, force, active = _step(model, rows, u, dofs, pull, lifted, last, friction, effort)
         except NoConvergence as failure:
             raise NumericsError(f"no static equilibrium at the start: {failure}", 0.0, REMEDY) from None
         u, last = u + dofs.nodes(step), (force, active)
@@ -226,6 +230,18 @@ def _newton_iteration(
         if once or change <= max(1e-13 * size, rounding) or (seen.since >= 2 and change <= WANDERING * size):
             return _rest(u, rows, force, active)
     raise NumericsError("no static equilibrium at the start", 0.0, REMEDY)
+
+
+def _with_glue(tangent: sp.csc_array, glue: tuple[CohesiveTies, ...], u: Array) -> sp.csc_array:
+    """Tangent stiffness (n d, n d) with that of ties that break, with the damage that they have [N/m]."""
+    n, d = u.shape
+    for one in glue:
+        rows = sp.csr_array(sp.kron(one.rows, sp.eye_array(d), format="csr"))
+        blocks = one.held(u)
+        m = len(blocks)
+        springs = sp.bsr_array((blocks, np.arange(m), np.arange(m + 1)), shape=(m * d, m * d))
+        tangent = sp.csc_array(tangent + rows.T @ springs @ rows)
+    return tangent
 
 
 def _rest(u: Array, rows: ContactRows, force: Array, active: BoolArray) -> StaticState:

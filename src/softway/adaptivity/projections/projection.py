@@ -165,7 +165,8 @@ def projection(before: AnyBody, after: AnyBody) -> AnyProjection:
 def _together(values: list[ValuesAtNodes]) -> ValuesAtNodes:
     """Values of the fields of several solids."""
     forward, back = (
-        sp.csr_array(sp.block_diag([getattr(one, name) for one in values], format="csr")) for name in ("forward", "back")
+        sp.csr_array(sp.block_diag([getattr(one, name) for one in values], format="csr"))
+        for name in ("forward", "back")
     )
     return ValuesAtNodes(forward=forward, back=back)
 

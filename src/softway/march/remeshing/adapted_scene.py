@@ -17,8 +17,9 @@ from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 from softway.heat.coupled.build import build
 from softway.march.remeshing.admitted import adaptions, can_be_cut, require_admitted
+from softway.march.remeshing.carried_bonds import tearing
 from softway.march.remeshing.standing import standing
-from softway.march.remeshing.wanted_mesh import wanted_mesh
+from softway.march.remeshing.wanted_mesh import Wanted, wanted_cells
 from softway.march.state.march_state import MarchState
 from softway.meshes.adaptive.leaves import Leaves, require_cover, same
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
@@ -60,13 +61,13 @@ class AdaptedScene:
         changed = {n: mesh for n, mesh in meshes.items() if not same(self.meshes[n].leaves, mesh.leaves)}
         if not changed:
             return self
-        bodies = dict(self.scene.bodies)
-        for name, mesh in changed.items():
+        bodies, meshes = dict(self.scene.bodies), {**self.meshes, **changed}
+        for name, mesh in meshes.items():
             solid = bodies[name]
             assert isinstance(solid, Solid)
-            bodies[name] = replace(solid, mesh=mesh.mesh)
+            if solid.mesh is not mesh.mesh:  # other cells, or nodes that ties have moved
+                bodies[name] = replace(solid, mesh=mesh.mesh)
         model = build(replace(self.scene, bodies=bodies), self.model)
-        meshes = {**self.meshes, **changed}
         return AdaptedScene(replace(model, adapted=meshes, declared=self.model.declared))
 
     def at(self, leaves: Mapping[str, Leaves]) -> "AdaptedScene":
@@ -81,17 +82,28 @@ class AdaptedScene:
 
     def wanted(self, now: MarchState, energy: float, ahead: float) -> "AdaptedScene":
         """The scene on the meshes for the coming slabs, in fine cells what closes or is pushed within ``ahead`` [s]."""
-        touching = np.concatenate([_touching(self.model, now, ahead), _pushed(self.model, now.state.time, ahead)])
-        meshes = dict(self.meshes)
+        model, time = self.model, now.state.time
+        chosen = _touching(model, now, ahead), _pushed(model, time, ahead), tearing(model, now.state.start)
+        touching = np.concatenate(chosen)
+        wanted: dict[str, Wanted] = {}
         for name, how in adaptions(self.scene).items():
             solid = self.solid(name)
             nodes = solid.part.nodes
-            motion = motion_of(self.model, now, name)
-            places = self.model.points[touching[(touching >= nodes.start) & (touching < nodes.stop)]]
-            stretch = now.step_history.longest / now.step_history.span
-            tags = [tag for body, tag in chain(*(c.surfaces for c in self.scene.contacts)) if body == name]
-            meshes[name] = even(wanted_mesh(how, solid, motion, energy, places, stretch), tags)
+            places = model.points[touching[(touching >= nodes.start) & (touching < nodes.stop)]]
+            group = int(model.linked[[part.name for part in model.parts].index(name)])
+            wanted[name] = wanted_cells(how, solid, motion_of(model, now, name), energy, places, group)
+        stretch = now.step_history.longest / now.step_history.span
+        meshes = dict(self.meshes)
+        for name, one in wanted.items():
+            others = [other for other in wanted.values() if other is not one and other.group == one.group]
+            meshes[name] = even(one.mesh(others, stretch), self._smooth(name))
         return self.on(meshes)
+
+    def _smooth(self, name: str) -> list[str]:
+        """Tags of the surfaces of a solid that may touch or are glued."""
+        scene = self.scene
+        ties = ((body, tag) for tie in scene.ties for body, tag in zip(tie.bodies, tie.tags, strict=True))
+        return [tag for body, tag in chain(*(c.surfaces for c in scene.contacts), ties) if body == name]
 
 
 def adapted_scene(model: Model) -> AdaptedScene:

@@ -1,20 +1,60 @@
 """Mesh of a solid for the coming slabs."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.indicator import indicator, wanted_levels
-from softway.adaptivity.neighbourhood import grown_around, grown_near
+from softway.adaptivity.neighbourhood import Mark, grown_near, marks_of
 from softway.adaptivity.transfer import Motion
 from softway.arrays import Array
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.leaves import same
 from softway.meshes.adaptive.refinement import AdaptedMesh, adapted_mesh
-from softway.meshes.adaptive.tree import tree_of
+from softway.meshes.adaptive.tree import Tree, tree_of
 
 
-def wanted_mesh(
-    adapt: Adapt, solid: AdaptedSolid, motion: Motion, energy: float, touching: Array, stretch: float = 1.0
-) -> AdaptedMesh:
-    """Mesh for the coming slabs.
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Wanted:
+    """Cells of a solid for the coming slabs, without a buffer around fine ones.
+
+    Parameters
+    ----------
+    adapt
+        Adaption of the solid.
+    present
+        Its mesh.
+    tree
+        The cells.
+    group
+        Number of the group of linked solids.
+    """
+
+    adapt: Adapt
+    present: AdaptedMesh
+    tree: Tree
+    group: int
+
+    @property
+    def deepest(self) -> int:
+        """Level of the finest cells."""
+        return self.adapt.deepest(self.tree.base.cell_dim)
+
+    def mesh(self, linked: Sequence["Wanted"], stretch: float = 1.0) -> AdaptedMesh:
+        """Mesh with a buffer around the fine cells of the solid and of those that are ``linked`` with it: waves pass
+        through ties.  The coming slabs have the length of ``stretch`` requested ones: fronts go as much further.
+        """
+        marks: list[Mark] = marks_of(self.tree)
+        for other in linked:
+            marks += [(self.deepest - other.deepest + level, places) for level, places in marks_of(other.tree)]
+        tree = grown_near(self.tree, marks, stretch * self.adapt.buffer * self.adapt.finest(self.tree.base))
+        return self.present if same(tree.leaves, self.present.leaves) else adapted_mesh(tree)
+
+
+def wanted_cells(
+    adapt: Adapt, solid: AdaptedSolid, motion: Motion, energy: float, touching: Array, group: int = 0
+) -> Wanted:
+    """Cells of a solid for the coming slabs.
 
     Parameters
     ----------
@@ -26,13 +66,12 @@ def wanted_mesh(
         Energy of the scene [J].
     touching
         (k, d) reference places of its nodes at contacts that are closed or close soon [m].
-    stretch
-        Length of the coming slabs in requested ones: fronts go as much further.
+    group
+        Number of its group of linked solids.
     """
     base = solid.adapted.base
     finest, deepest = adapt.finest(base), adapt.deepest(base.cell_dim)
     levels = wanted_levels(solid.adapted, indicator(solid, motion), adapt.threshold(base, energy), deepest)
     tree = tree_of(base).grown(solid.adapted.leaves, levels)
     tree = grown_near(tree, [(deepest, touching)], adapt.contact_cells * finest)
-    tree = grown_around(tree, stretch * adapt.buffer * finest)
-    return solid.adapted if same(tree.leaves, solid.adapted.leaves) else adapted_mesh(tree)
+    return Wanted(adapt=adapt, present=solid.adapted, tree=tree, group=group)

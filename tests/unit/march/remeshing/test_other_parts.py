@@ -54,15 +54,6 @@ def test_a_shock_with_bulk_viscosity() -> None:
     assert steps[-1].ledger.dissipation == pytest.approx(exact.ledger.dissipation, rel=0.02)
 
 
-def test_ties_are_refused() -> None:
-    other = replace(BLOCK, mesh=rectangle((2.0, 1.0), (4, 2), cell="tri3", origin=(0.0, 1.0)))
-    scene = sw.Scene(bodies={"low": BLOCK, "high": other}, ties=(sw.Tie(between=("low.top", "high.bottom")),))
-    with pytest.raises(InputError) as refusal:
-        next(adaptive_march(scene, {"low": ADAPT}, until=0.1, step=0.01))
-    assert refusal.value.where == "ties"
-    assert refusal.value.remedy
-
-
 def test_contacts_with_massive_nodes_are_refused() -> None:
     floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -0.01), normal=(0.0, 1.0)))
     contact = sw.Contact(between=("block.bottom", "floor"), timing=sw.contact.Impulse())
