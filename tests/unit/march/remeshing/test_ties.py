@@ -18,7 +18,7 @@ from softway.meshes.adaptive.refinement import AdaptedMesh, refined
 from softway.meshes.generators.shapes import box, rectangle
 from softway.meshes.mesh import Mesh
 
-ADAPT = Adapt(levels=4, tolerance=1.0, buffer=2)
+ADAPT = Adapt(levels=4, tolerance=1.0, buffer=2, contact_cells=1)
 CASES = [
     (("tri3", 4), ("tri3", 4)),
     (("tri3", 4), ("tri3", 3)),
