@@ -91,7 +91,7 @@ class AdaptedScene:
             nodes = solid.part.nodes
             places = model.points[touching[(touching >= nodes.start) & (touching < nodes.stop)]]
             group = int(model.linked[[part.name for part in model.parts].index(name)])
-            wanted[name] = wanted_cells(how, solid, motion_of(model, now, name), energy, places, group)
+            wanted[name] = wanted_cells(how, solid, motion_of(model, now, name), energy, places, group, model.inert)
         stretch = now.step_history.longest / now.step_history.span
         meshes = dict(self.meshes)
         for name, one in wanted.items():

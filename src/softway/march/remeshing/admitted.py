@@ -95,8 +95,6 @@ def _require_cells(model: Model, name: str) -> None:
 def _require_carried(model: Model) -> None:
     """Refuse scenes of which something would not pass to other meshes."""
     scene, other = model.scene, "meshes that stay, or a scene without"
-    if not model.inert:
-        raise InputError("inertia", "none, where meshes adapt to waves", "bodies with inertia, or meshes that stay")
     _require_linked(model)
     for k, contact in enumerate(scene.contacts if not model.timing.massless else ()):
         problem = f"{contact.label!r} whose nodes have inertia, where meshes adapt"

@@ -52,7 +52,13 @@ class Wanted:
 
 
 def wanted_cells(
-    adapt: Adapt, solid: AdaptedSolid, motion: Motion, energy: float, touching: Array, group: int = 0
+    adapt: Adapt,
+    solid: AdaptedSolid,
+    motion: Motion,
+    energy: float,
+    touching: Array,
+    group: int = 0,
+    moves: bool = True,
 ) -> Wanted:
     """Cells of a solid for the coming slabs.
 
@@ -68,10 +74,12 @@ def wanted_cells(
         (k, d) reference places of its nodes at contacts that are closed or close soon [m].
     group
         Number of its group of linked solids.
+    moves
+        False without inertia.
     """
     base = solid.adapted.base
     finest, deepest = adapt.finest(base), adapt.deepest(base.cell_dim)
-    levels = wanted_levels(solid.adapted, indicator(solid, motion), adapt.threshold(base, energy), deepest)
+    levels = wanted_levels(solid.adapted, indicator(solid, motion, moves), adapt.threshold(base, energy), deepest)
     tree = tree_of(base).grown(solid.adapted.leaves, levels)
     tree = grown_near(tree, [(deepest, touching)], adapt.contact_cells * finest)
     return Wanted(adapt=adapt, present=solid.adapted, tree=tree, group=group)
