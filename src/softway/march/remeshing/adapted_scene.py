@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import chain
+from math import ceil
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from softway.bodies.setup.amplitude import Ramp
 from softway.bodies.setup.loads import Traction
 from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid
+from softway.contact.assembly.tie import Tie
 from softway.errors import InputError, within
 from softway.heat.coupled.build import build
 from softway.march.remeshing.admitted import adaptions, can_be_cut, require_admitted
@@ -23,6 +25,7 @@ from softway.march.remeshing.wanted_mesh import Wanted, wanted_cells
 from softway.march.state.march_state import MarchState
 from softway.meshes.adaptive.leaves import Leaves, require_cover, same
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
+from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
 
@@ -125,7 +128,18 @@ def adapted_scene(model: Model) -> AdaptedScene:
         assert isinstance(solid, Solid)
         bodies[name] = replace(solid, mesh=base, place=Placement(), group=())
     meshes = {name: refined(base, np.zeros(base.n_cells, dtype=np.int64)) for name, base in known.items()}
-    return AdaptedScene(replace(model, scene=replace(model.scene, bodies=bodies), adapted=meshes))
+    scene = replace(model.scene, bodies=bodies, ties=_ties(model.scene, known))
+    return AdaptedScene(replace(model, scene=scene, adapted=meshes))
+
+
+def _ties(scene: Scene, bases: Mapping[str, Mesh]) -> tuple[Tie, ...]:
+    """Ties whose surfaces may be as far apart in finer cells as they are in those of the base meshes."""
+    halvings = dict.fromkeys(scene.bodies, 0)
+    for name, how in adaptions(scene).items():
+        halvings[name] = ceil(how.deepest(bases[name].cell_dim) / bases[name].cell_dim)
+    return tuple(
+        replace(tie, tolerance=tie.tolerance * 2.0 ** max(halvings[name] for name in tie.bodies)) for tie in scene.ties
+    )
 
 
 def motion_of(model: Model, now: MarchState, name: str) -> Motion:

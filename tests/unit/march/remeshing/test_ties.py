@@ -15,7 +15,7 @@ from softway.march.remeshing.carrying import carried_over
 from softway.march.start.preparation import prepare
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
-from softway.meshes.generators.shapes import box, rectangle
+from softway.meshes.generators.shapes import box, disc, rectangle
 from softway.meshes.mesh import Mesh
 
 ADAPT = Adapt(levels=4, tolerance=1.0, buffer=2, contact_cells=1)
@@ -158,6 +158,43 @@ def torn(step: sw.Step) -> float:
     (tie,) = model.bonds[0].ties
     damage = model.join(step.after.fields["damage"])[tie.jump.node, 0]
     return float(tie.jump.area @ damage / tie.jump.area.sum())
+
+
+@pytest.mark.parametrize("breaks", [None, GLUE], ids=["for good", "breaks"])
+def test_a_resumed_march_has_the_same_bits(breaks: sw.BilinearCohesive | None) -> None:
+    scene = adapting(pushed(*CASES[1], tie=replace(TIE, breaks=breaks)), {"low": ADAPT, "high": ADAPT})
+    whole = list(sw.march(scene, until=0.8, step=0.02))
+    rest = list(sw.march(scene, until=0.8, step=0.02, state=whole[17].march_state))
+    assert sum(bool(taken.transfers) for taken in rest) > 1
+    for one, other in zip(whole[18:], rest, strict=True):
+        for name in ("low", "high"):
+            assert np.array_equal(one.after.displacement[name], other.after.displacement[name])
+            assert np.array_equal(one.after.velocity[name], other.after.velocity[name])
+
+
+@pytest.mark.parametrize("around", [24, 40])
+def test_a_disc_glued_into_a_ring(around: int) -> None:
+    turning = sw.bodies.Affine(value=(0.0, 0.0), gradient=((0.05, 0.02), (0.0, -0.03)))
+    bodies = {
+        name: sw.Solid(mesh=mesh, material=sw.NeoHookean(E=1.0, nu=0.3), density=1.0, velocity=turning)
+        for name, mesh in (("disc", disc(0.5, 6, cell="tri3")), ("ring", ring(0.5, 1.0, 4, around)))
+    }
+    scene = sw.Scene(bodies=bodies, ties=(sw.Tie(between=("disc.boundary", "ring.inner"), tolerance=0.08),))
+    steps = list(adaptive_march(scene, {"disc": ADAPT, "ring": ADAPT}, until=0.8, step=0.02))
+    assert keeps_its_balances(steps) > 4
+    assert abs(steps[-1].ledger.remeshing) < 1e-12 * steps[0].ledger.energy_kinetic
+
+
+def ring(inner: float, outer: float, layers: int, around: int) -> Mesh:
+    """Ring of triangles, whose nodes are not those of a disc."""
+    angle = 2.0 * np.pi * (np.arange(around) + 0.37) / around
+    radii = np.linspace(inner, outer, layers + 1)
+    points = (radii[:, None, None] * np.column_stack([np.cos(angle), np.sin(angle)])).reshape(-1, 2)
+    k = around * np.arange(layers)[:, None] + np.arange(around)
+    n = around * np.arange(layers)[:, None] + (np.arange(around) + 1) % around
+    cells = np.concatenate([np.stack([k, k + around, n + around], -1), np.stack([k, n + around, n], -1)])
+    mesh = Mesh(points=points, blocks={"tri3": cells.reshape(-1, 3)})
+    return mesh.with_tag("inner", lambda x: np.isclose(np.hypot(*x.T), inner))
 
 
 def test_solids_that_adapt_are_not_tied_to_cells_that_cannot() -> None:
