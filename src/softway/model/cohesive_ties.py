@@ -211,6 +211,19 @@ def intact(bonds: tuple[CohesiveTies, ...], u: Array) -> tuple[CohesiveTies, ...
     return bonds
 
 
+def with_glue(tangent: sp.csc_array, glue: Sequence[CohesiveTies], u: Array) -> sp.csc_array:
+    """Tangent stiffness (n d, n d) with that of ties at the displacement ``u`` (n, d), with the damage that they have
+    [N/m].
+    """
+    d = u.shape[1]
+    for one in glue:
+        rows, blocks = sp.csr_array(sp.kron(one.rows, sp.eye_array(d), format="csr")), one.held(u)
+        m = len(blocks)
+        springs = sp.bsr_array((blocks, np.arange(m), np.arange(m + 1)), shape=(m * d, m * d))
+        tangent = sp.csc_array(tangent + rows.T @ springs @ rows)
+    return tangent
+
+
 def _tie(pair: TiedSurfaces, law: BilinearCohesive, parts: Sequence[DiscreteSolid], points: Array) -> CohesiveTie:
     """One tie that breaks."""
     first, second = pair.ordered

@@ -11,7 +11,7 @@ from softway.bodies.dof_map import DofMap
 from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import SlabContacts
 from softway.errors import Cancel, NoConvergence, NumericsError, heed
-from softway.model.cohesive_ties import CohesiveTies
+from softway.model.cohesive_ties import CohesiveTies, with_glue
 from softway.model.field import in_states
 from softway.model.model import Model
 from softway.solve.constraints.compliance import frozen_operator, row_basis
@@ -212,7 +212,7 @@ def _newton_iteration(
         pairs = pairs.with_kept_facets(u) if count == KEEP_AFTER and pairs.fixed_rows is None else pairs
         rows = pairs.at(u)
         try:
-            stiffness = dofs.matrix(model.tangent(u) if not glue else _with_glue(model.tangent(u), glue, u))
+            stiffness = dofs.matrix(model.tangent(u) if not glue else with_glue(model.tangent(u), glue, u))
             lifted = stiffness if lift is None else stiffness + lift
             pull = load if not glue else load - sum(one.at(one.damage, u).force for one in glue)
             step, force, active = _step(model, rows, u, dofs, pull, lifted, last, friction, effort)
@@ -230,18 +230,6 @@ def _newton_iteration(
         if once or change <= max(1e-13 * size, rounding) or (seen.since >= 2 and change <= WANDERING * size):
             return _rest(u, rows, force, active)
     raise NumericsError("no static equilibrium at the start", 0.0, REMEDY)
-
-
-def _with_glue(tangent: sp.csc_array, glue: tuple[CohesiveTies, ...], u: Array) -> sp.csc_array:
-    """Tangent stiffness (n d, n d) with that of ties that break, with the damage that they have [N/m]."""
-    n, d = u.shape
-    for one in glue:
-        rows = sp.csr_array(sp.kron(one.rows, sp.eye_array(d), format="csr"))
-        blocks = one.held(u)
-        m = len(blocks)
-        springs = sp.bsr_array((blocks, np.arange(m), np.arange(m + 1)), shape=(m * d, m * d))
-        tangent = sp.csc_array(tangent + rows.T @ springs @ rows)
-    return tangent
 
 
 def _rest(u: Array, rows: ContactRows, force: Array, active: BoolArray) -> StaticState:
