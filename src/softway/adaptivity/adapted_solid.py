@@ -8,8 +8,11 @@ import scipy.sparse as sp
 from softway.arrays import Array, IntArray
 from softway.bodies.assembled.nodal_masses import Massless, inertia_of
 from softway.bodies.discretised import DiscreteSolid, discretise
+from softway.bodies.dof_map import DofMap
+from softway.bodies.elements.section import Section
 from softway.bodies.inertia.mass_matrix import Consistent, body_of, cell_masses
 from softway.bodies.inertia.mass_redistribution import CELLS
+from softway.bodies.internal_force.node_factors import scaled_product
 from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid
 from softway.meshes.adaptive.refinement import AdaptedMesh
@@ -42,7 +45,22 @@ class AdaptedSolid:
     @property
     def points(self) -> Array:
         """Reference places (n, d) of the nodes [m]."""
-        return self.adapted.mesh.points
+        return self.part.mesh.points
+
+    @property
+    def dofs(self) -> DofMap:
+        """Velocities of the nodes from the unknowns."""
+        return self.part.dofs
+
+    @property
+    def section(self) -> Section:
+        """Section of the solid."""
+        return self.part.internal.section
+
+    @property
+    def crossing(self) -> float:
+        """Time in which the slowest wave crosses the solid [s]."""
+        return float(np.linalg.norm(np.ptp(self.points, axis=0))) / min(self.part.materials.speeds(self.section))
 
     def kinetic(self, velocity: Array) -> float:
         """Kinetic energy [J] at a velocity (n, d) [m/s]."""
@@ -52,6 +70,18 @@ class AdaptedSolid:
         """Velocity (n, d) in which massless nodes move as the nodes behind them, but for their supports."""
         moved = np.asarray(self.follow @ velocity)
         return np.asarray(moved + self.part.dofs.supported(velocity - moved))
+
+    def fitting(self, field: Array) -> Array:
+        """The field (n, d), which fits the unknowns and the supports where its values do."""
+        return field
+
+    def stretched(self, field: Array) -> Array:
+        """Forces (n, d) of a small displacement (n, d) of the undeformed solid [N]."""
+        return scaled_product(self.part.internal, self.part.factor, np.zeros_like(field), field)
+
+    def stiffness(self) -> sp.csc_array:
+        """Stiffness (n d, n d) of the undeformed solid [N/m]."""
+        return self.part.tangent(np.zeros(self.points.shape))
 
     def consistent_mass(self) -> sp.csr_array:
         """Consistent mass matrix (n, n) [kg]."""

@@ -10,8 +10,8 @@ import scipy.sparse as sp
 
 from softway.arrays import Array
 from softway.bodies.assembled.rigid_body_modes import motion_names
-from softway.bodies.discretised import DiscreteSolid
-from softway.bodies.elements.section import Axisymmetric
+from softway.bodies.dof_map import DofMap
+from softway.bodies.elements.section import Axisymmetric, Section
 
 HELD = 1e-9
 """Supported part of a rigid motion, relative to the motion, below which supports leave it free."""
@@ -25,8 +25,13 @@ class MassiveSolid(Protocol):
     """Solid of n nodes with its nodal mass matrix (n, n) [kg]."""
 
     @property
-    def part(self) -> DiscreteSolid:
-        """Tables of the solid."""
+    def dofs(self) -> DofMap:
+        """Velocities of the nodes from the unknowns."""
+        ...
+
+    @property
+    def section(self) -> Section:
+        """Section of the solid."""
         ...
 
     @property
@@ -55,11 +60,11 @@ class RigidMotions:
 def rigid_motions_of(before: MassiveSolid, after: MassiveSolid, places: tuple[Array, Array]) -> RigidMotions:
     """Rigid motions that the supports leave free, the same ones at the ``places`` (n, d) and (m, d) of both meshes."""
     d = after.points.shape[1]
-    names = motion_names(d, isinstance(after.part.internal.section, Axisymmetric))
+    names = motion_names(d, isinstance(after.section, Axisymmetric))
     centre = places[1].mean(axis=0)
     size = float(np.abs(places[1] - centre).max())
     own, others = (_motions(x, names, centre, size) for x in (places[1], places[0]))
-    held = after.part.dofs.supported
+    held = after.dofs.supported
     rows = np.stack([held(mode.reshape(-1, d)).ravel() for mode in own.T], axis=1)
     _, values, right = np.linalg.svd(rows[rows.any(axis=1)], full_matrices=True)
     largest = float(np.sqrt(len(own)))
@@ -118,7 +123,7 @@ def balanced(
     -------
     The velocity, and the scalar s; one where it would have to differ much from one, or the rest is rounding.
     """
-    given = after.part.dofs.supported(velocity)
+    given = after.dofs.supported(velocity)
     rest = velocity - given
     base = given + _rigid(after, motions, momenta - _momenta(after, motions, given)).reshape(given.shape)
     for _ in range(2):  # a second time removes the rounding of the first

@@ -20,13 +20,13 @@ COARSER = {1: (0.35, 0.15), 2: (0.15, 0.04), 3: (0.1, 0.02)}
 """Indicators, relative to the threshold, below which it wants one cut and two cuts less, by the levels of a cut."""
 
 
-def indicator(solid: AdaptedSolid, motion: Motion) -> Array:
+def indicator(solid: AdaptedSolid, motion: Motion, moves: bool = True) -> Array:
     """Indicator (e,) of each cell, the root of an energy [J^(1/2)].
 
     Its square is the integral of ``|s* - s|^2 / (rho c^2) + rho h^2 |l* - l|^2`` over the cell.  The stress s and the
     gradient l of the velocity are means over the cell; s* and l* are linear between recovered values at its corners,
     means over the cells around them by volume, in one material; c is the speed of the fastest wave and h the shortest
-    edge.
+    edge.  Without inertia, where nothing ``moves``, the rate does not count.
 
     Examples
     --------
@@ -52,7 +52,8 @@ def indicator(solid: AdaptedSolid, motion: Motion) -> Array:
     modulus = density * np.array(materials.speeds(part.internal.section))[owner] ** 2
     (edge,) = mesh.cell_edges()
     square = whole / modulus * _spread(solid.adapted, owner, whole, stress)
-    square += density * whole * edge**2 * _spread(solid.adapted, owner, whole, rate)
+    if moves:
+        square += density * whole * edge**2 * _spread(solid.adapted, owner, whole, rate)
     return np.sqrt(square)
 
 

@@ -68,7 +68,7 @@ def grown_around(tree: Tree, reach: float) -> Tree:
 
 
 def marks_of(tree: Tree) -> list[Mark]:
-    """Levels of the cells of a tree above the least, each with the corners of its cells."""
+    """Levels of the finer cells of a tree, with their corners."""
     marks: list[Mark] = []
     for level in np.unique(tree.cells.level)[1:]:
         cells = tree.cells.some(tree.cells.level == level)

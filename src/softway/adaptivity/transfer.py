@@ -6,6 +6,7 @@ import numpy as np
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.balances import balanced, rigid_motions_of, spin
+from softway.adaptivity.linked_solids import AnyBody
 from softway.adaptivity.memory import remembered
 from softway.adaptivity.projections.projection import AnyProjection, projection
 from softway.arrays import Array
@@ -80,13 +81,13 @@ class Transferred:
 
 
 def transfer(
-    before: AdaptedSolid,
-    after: AdaptedSolid,
+    before: AnyBody,
+    after: AnyBody,
     motion: Motion,
     cast: AnyProjection | None = None,
     there: Settled | None = None,
 ) -> Transferred:
-    """Transfer a motion to another mesh of the same base.
+    """Transfer a motion to another mesh of the same base; that of several solids that ties link, as one.
 
     Velocities are projected with the consistent mass, displacements with mass and stiffness.  Then a rigid motion, in
     the mass matrices of the march, gives the momentum and spin before, and a scalar times the rest of the motion the
@@ -96,14 +97,14 @@ def transfer(
     Parameters
     ----------
     before, after
-        The solid on both meshes.
+        The solid, or the solids, on both meshes.
     motion
         Its motion on the mesh before.
     cast
         Projections from one mesh to the other, where they are known.
     there
         The solid on the new mesh, with massless nodes in equilibrium; by default the projected displacement with the
-        memory of the material.
+        memory of the material.  Linked solids need it.
 
     Raises
     ------
@@ -124,7 +125,9 @@ def transfer(
     """
     cast = projection(before, after) if cast is None else cast
     velocity = after.following(cast.velocity(before.following(motion.velocity)))
-    there = _at_once(before, after, motion, cast) if there is None else there
+    if there is None:
+        assert isinstance(before, AdaptedSolid) and isinstance(after, AdaptedSolid)
+        there = _at_once(before, after, motion, cast)
     displacement, new = there.displacement, there.energy
     places = before.points + motion.displacement, after.points + displacement
     momenta = before.mass @ motion.velocity, after.mass @ velocity

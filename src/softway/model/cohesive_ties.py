@@ -72,6 +72,13 @@ class CohesiveTie:
         traction = stiffness[:, None] * (whole[:, None] * leap + (damage * closed)[:, None] * normal)
         return float(energy), np.asarray(self.jump.rows.T @ traction)
 
+    def held(self, damage: Array, u: Array, x: Array) -> Array:
+        """Derivative (m, d, d) of the tractions times area by the jumps at a constant damage (m,) and normal."""
+        leap, opening, normal = self.opened(u, x)
+        pressed = (damage * (opening < 0.0))[:, None, None] * normal[:, :, None] * normal[:, None, :]
+        whole = (1.0 - damage)[:, None, None] * np.eye(leap.shape[1])
+        return (self.law.stiffness * self.jump.area)[:, None, None] * (whole + pressed)
+
     def stiffness(self, damage: Array, u: Array, x: Array) -> Array:
         """Derivative (m, d, d) of the tractions times area by the jumps, symmetric: at a constant mode and normal."""
         leap, opening, normal = self.opened(u, x)
@@ -153,6 +160,11 @@ class CohesiveTies:
         x = self.points + u
         return np.concatenate([t.stiffness(self.damage[t.jump.node, k], u, x) for k, t in enumerate(self.ties)])
 
+    def held(self, u: Array) -> Array:
+        """Stiffnesses (m, d, d) of the jumps of all ties with the damage that they have [N/m]."""
+        x = self.points + u
+        return np.concatenate([t.held(self.damage[t.jump.node, k], u, x) for k, t in enumerate(self.ties)])
+
     def tangent_product(self, u: Array, w: Array) -> Array:
         """Product (n, d) of the derivative of the force with a field ``w`` (n, d) [N]."""
         return np.asarray(self.rows.T @ np.einsum("mij,mj->mi", self.stiffness(u), self.rows @ w))
@@ -197,6 +209,19 @@ def intact(bonds: tuple[CohesiveTies, ...], u: Array) -> tuple[CohesiveTies, ...
             remedy = f"the same displacement on {' and '.join(tie.tie.between)}"
             raise InputError(f"ties[{tie.number}].breaks", problem, remedy)
     return bonds
+
+
+def with_glue(tangent: sp.csc_array, glue: Sequence[CohesiveTies], u: Array) -> sp.csc_array:
+    """Tangent stiffness (n d, n d) with that of ties at the displacement ``u`` (n, d), with the damage that they have
+    [N/m].
+    """
+    d = u.shape[1]
+    for one in glue:
+        rows, blocks = sp.csr_array(sp.kron(one.rows, sp.eye_array(d), format="csr")), one.held(u)
+        m = len(blocks)
+        springs = sp.bsr_array((blocks, np.arange(m), np.arange(m + 1)), shape=(m * d, m * d))
+        tangent = sp.csc_array(tangent + rows.T @ springs @ rows)
+    return tangent
 
 
 def _tie(pair: TiedSurfaces, law: BilinearCohesive, parts: Sequence[DiscreteSolid], points: Array) -> CohesiveTie:

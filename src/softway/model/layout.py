@@ -15,10 +15,9 @@ from softway.bodies.solid import Solid, Tool
 from softway.contact.assembly.assemble import ContactAssembly, assemble_contacts
 from softway.contact.assembly.tied_surfaces import tied_surfaces
 from softway.errors import InputError, within
-from softway.meshes.topology import require_none
 from softway.model.cohesive_ties import CohesiveTies, cohesive_ties
 from softway.model.scene import Scene, StaticStart
-from softway.model.ties import Glue, glued, joined
+from softway.model.ties import Glue, glued, joined, require_even
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -100,12 +99,10 @@ def _laid_out(
     """Solids, ties and contacts of a scene as it is."""
     solids = solids_of(scene)
     parts = _parts(solids, known)
-    for part in parts if scene.ties else ():
-        with within(f"bodies.{part.name}"):
-            require_none(part.mesh.hanging, "ties")
     points = np.concatenate([p.mesh.points for p in parts])
     driven = driven_components(parts, solids, np.zeros_like(points), motions) if scene.ties else ()
     pairs = tied_surfaces(scene.ties, parts, points)
+    require_even(pairs, parts)
     glue = glued([p for p in pairs if p.tie.breaks is None], joined([p.dofs for p in parts]), driven)
     breaking = [p for p in pairs if p.tie.breaks is not None]
     if breaking and isinstance(scene.start, StaticStart):

@@ -42,7 +42,9 @@ class Glue:
             return own
         d = own.free.shape[1]
         follow = sp.csr_array(sp.kron(self.follow, sp.eye_array(d), format="csr"))
-        jacobian = sp.csc_array(follow @ own.jacobian)
+        hanging = getattr(own, "follow", None)  # no node hangs on one of a tie
+        follow = follow if hanging is None else sp.csr_array(follow @ hanging)
+        jacobian = sp.csc_array(sp.kron(self.follow, sp.eye_array(d)) @ own.jacobian)
         moved = np.flatnonzero(np.diff(jacobian.indptr))
         return CombinedDofs(sp.csr_array(jacobian[:, moved]), d, getattr(own, "inclined", None), follow)
 
@@ -169,6 +171,24 @@ def _require_free(node: IntArray, target: sp.csr_array, used: IntArray, own: Dof
     if wrong.any():
         remedy = "the support on the other surface only, or on a tag without nodes of the tie"
         raise InputError("", f"{int(wrong.sum())} of its nodes have a support and would follow free nodes", remedy)
+
+
+def require_even(pairs: Sequence[TiedSurfaces], parts: Sequence[DiscreteSolid]) -> None:
+    """Refuse tied nodes that hang, or on which nodes hang.
+
+    Raises
+    ------
+    InputError
+        With the place of the tie.
+    """
+    hanging = [(part, part.mesh.hanging) for part in parts if part.mesh.hanging is not None]
+    both = [np.column_stack([one.node, one.parents]) + part.nodes.start for part, one in hanging]
+    for pair in pairs if both else ():
+        tied = np.concatenate([surface.side.nodes for surface in pair.surfaces])
+        wrong = sum(int(np.isin(nodes, tied).any(axis=1).sum()) for nodes in both)
+        if wrong:
+            remedy = "cells of one size along the surfaces, softway.adaptivity.even_surface.even"
+            raise InputError(f"ties[{pair.number}].between", f"{wrong} hanging nodes at tied nodes", remedy)
 
 
 def joined(maps: Sequence[DofMap]) -> DofMap:

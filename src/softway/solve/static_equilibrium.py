@@ -11,7 +11,7 @@ from softway.bodies.dof_map import DofMap
 from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import SlabContacts
 from softway.errors import Cancel, NoConvergence, NumericsError, heed
-from softway.model.cohesive_ties import CohesiveTies
+from softway.model.cohesive_ties import CohesiveTies, with_glue
 from softway.model.field import in_states
 from softway.model.model import Model
 from softway.solve.constraints.compliance import frozen_operator, row_basis
@@ -105,6 +105,7 @@ def equilibrium(
     friction: InitialFriction = NoInitialSlip(),
     cancel: Cancel | None = None,
     effort: Effort | None = None,
+    glue: tuple[CohesiveTies, ...] = (),
 ) -> StaticState:
     """Solve ``f(u) = load + G^T lambda`` on the unknowns for displacement and contact forces.
 
@@ -124,6 +125,8 @@ def equilibrium(
         Callback at every step that may cancel the computation.
     effort
         Counted work, with progress lines.
+    glue
+        Ties that break, which hold with the damage that they have.
 
     Raises
     ------
@@ -134,9 +137,8 @@ def equilibrium(
     """
     if not dofs.size:
         return StaticState.apart(u, len(model.contacts.contact))
-    return _newton_iteration(
-        model, u, dofs, load, model.contacts.rest(u, time), None, limit, friction, cancel, effort or Effort()
-    )
+    pairs = model.contacts.rest(u, time)
+    return _newton_iteration(model, u, dofs, load, pairs, None, limit, friction, cancel, effort or Effort(), glue)
 
 
 def fitted(
@@ -198,6 +200,7 @@ def _newton_iteration(
     friction: InitialFriction,
     cancel: Cancel | None,
     effort: Effort,
+    glue: tuple[CohesiveTies, ...] = (),
 ) -> StaticState:
     """Newton's method with the contact rows as inequalities; ``lift`` (k, k) is added to the stiffness."""
     last: tuple[Array, BoolArray] | None = None
@@ -209,9 +212,10 @@ def _newton_iteration(
         pairs = pairs.with_kept_facets(u) if count == KEEP_AFTER and pairs.fixed_rows is None else pairs
         rows = pairs.at(u)
         try:
-            stiffness = dofs.matrix(model.tangent(u))
+            stiffness = dofs.matrix(model.tangent(u) if not glue else with_glue(model.tangent(u), glue, u))
             lifted = stiffness if lift is None else stiffness + lift
-            step, force, active = _step(model, rows, u, dofs, load, lifted, last, friction, effort)
+            pull = load if not glue else load - sum(one.at(one.damage, u).force for one in glue)
+            step, force, active = _step(model, rows, u, dofs, pull, lifted, last, friction, effort)
         except NoConvergence as failure:
             raise NumericsError(f"no static equilibrium at the start: {failure}", 0.0, REMEDY) from None
         u, last = u + dofs.nodes(step), (force, active)

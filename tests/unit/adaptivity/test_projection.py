@@ -67,6 +67,28 @@ def test_displacements_are_near_the_exact_projection_with_its_centre_of_mass(mes
     assert size(ours.T @ form @ ours, found - exact) < 0.02 * size(ours.T @ form @ ours, exact)
 
 
+@pytest.mark.parametrize("cell", ["quad4", "quad8", "quad9", "hex8", "hex20", "hex27"])
+def test_projections_of_cells_with_hanging_nodes_are_exact(cell: str) -> None:
+    flat = cell.startswith("quad")
+    mesh = rectangle((1.0, 1.0), (3, 3), cell=cell) if flat else box((3.0, 1.0, 1.0), (3, 1, 1), cell=cell)
+    body = solid(mesh, sw.LinearElastic(E=1.0, nu=0.3))
+    cut = mesh.dim * (np.arange(mesh.n_cells) == 0)
+    before, after = on_levels(body, (2 if flat else 1) * cut), on_levels(body, cut[::-1])
+    assert before.adapted.mesh.hanging is not None
+    motion, cast, dofs = moving(before), projection(before, after), after.dofs
+    common = common_matrix(overlay(before.adapted, after.adapted), before.element_masses(), after.element_masses())
+    momenta = dofs.forces(common.T @ motion.velocity)
+    found = dofs.forces(after.consistent_mass() @ cast.velocity(motion.velocity))
+    assert found == pytest.approx(momenta, abs=1e-13 * abs(momenta).max())
+    both = united(before.adapted, after.adapted)
+    ours, theirs = (wide(embedding(m.adapted, both), mesh.dim) for m in (after, before))
+    whole = adapted_solid("body", before.solid, both, np.zeros(0, int))
+    form = wide(whole.consistent_mass(), mesh.dim) + cast.time**2 * whole.stiffness()
+    pushed = dofs.forces((ours.T @ (form @ (theirs @ motion.displacement.ravel()))).reshape(after.points.shape))
+    exact = dofs.nodes(spsolve(dofs.matrix(sp.csc_array(ours.T @ form @ ours)), pushed))
+    assert cast.displacement(motion.displacement) == pytest.approx(exact, abs=1e-10 * abs(exact).max())
+
+
 def wide(matrix: sp.csr_array, d: int) -> sp.csr_array:
     """Matrix that acts on each of d components."""
     return sp.csr_array(sp.kron(matrix, sp.eye_array(d), format="csr"))

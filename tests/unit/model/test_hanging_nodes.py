@@ -111,16 +111,34 @@ def test_contact_nodes_on_which_nodes_hang_are_refused() -> None:
     assert build(sw.Scene(bodies={"body": solid(level), "floor": floor}, contacts=(contact,))).parts
 
 
-def test_ties_heat_and_thin_walls_are_refused() -> None:
+def tied(mesh: Mesh) -> sw.Scene:
+    """A block on a mesh on another block."""
+    other = solid(rectangle((1.0, 1.0), (2, 2), origin=(0.0, -1.0)))
+    return sw.Scene(bodies={"body": solid(mesh), "other": other}, ties=(sw.Tie(between=("body.bottom", "other.top")),))
+
+
+def test_tied_nodes_on_which_nodes_hang_are_refused() -> None:
+    found = refined(rectangle((1.0, 1.0), (2, 2)), np.array([0, 2, 0, 0]))
+    with pytest.raises(InputError, match="hanging nodes at tied nodes") as refusal:
+        build(tied(found.mesh))
+    assert "even" in refusal.value.remedy
+    model = build(tied(even(found, ["bottom"]).mesh))
+    field = 0.01 * model.points @ np.array([[1.0, 0.3], [0.2, -0.5]])
+    assert model.dofs.nodes(model.dofs.unknowns(field)) == pytest.approx(field, abs=1e-15)
+    force = model.force(field)
+    inner = ~(np.isclose(model.points, model.points.min(axis=0)) | np.isclose(model.points, model.points.max(axis=0)))
+    gathered = model.dofs.gathered(force)[inner.all(axis=1)]
+    assert abs(gathered).max() < 1e-13 * abs(force).max()
+
+
+def test_heat_and_thin_walls_are_refused() -> None:
     mesh = refined(rectangle((1.0, 1.0), (2, 1)), np.array([0, 2])).mesh
     floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -0.1), normal=(0.0, 1.0)))
-    other = solid(rectangle((1.0, 1.0), (2, 2), origin=(0.0, -1.0)))
     heat = sw.bodies.Thermal(law=sw.heat.Conduction(conductivity=50.0, capacity=500.0), temperature=300.0)
     wall = refined(
         rectangle((3.0, 0.1), (3, 1)).with_tag("end", lambda x: (x[:, 0] < 1.1) & (x[:, 1] == 0.0)), np.array([0, 0, 2])
     )
     for scene in (
-        sw.Scene(bodies={"body": solid(mesh), "other": other}, ties=(sw.Tie(between=("body.bottom", "other.top")),)),
         sw.Scene(bodies={"body": solid(mesh, thermal=heat)}),
         sw.Scene(
             bodies={"body": solid(wall.mesh), "floor": floor}, contacts=(sw.Contact(between=("body.end", "floor")),)

@@ -1,7 +1,7 @@
 """Projection of fields from one adapted mesh of a solid to another (docs/theory/bodies/adaptive.md#transfer).
 
 A field of mesh A goes to mesh B by its values at the nodes of B, and a correction: the projection of the rest, which is
-zero but in cells of B that are larger than those of A.
+zero but in cells of B that are larger than those of A, and of what ties change of the values.
 """
 
 from collections.abc import Callable
@@ -12,10 +12,9 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
+from softway.adaptivity.linked_solids import AnyBody, LinkedSolids, solids_of
 from softway.adaptivity.projections.conjugate_gradients import conjugate_gradients
-from softway.adaptivity.projections.overlay_projection import OverlayProjection, overlay_projection
 from softway.arrays import Array
-from softway.bodies.internal_force.node_factors import scaled_product
 from softway.meshes.adaptive.values_at_nodes import ValuesAtNodes, values_at_nodes, values_of_base
 
 EXACT = 1e-14
@@ -26,14 +25,14 @@ CLOSE = 1e-4
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Projection:
-    """Projections of nodal fields of a solid from its mesh A, n nodes, to its mesh B, m nodes.
+    """Projections of nodal fields of a solid, or of several that ties link, from mesh A, n nodes, to mesh B, m nodes.
 
     Supported components have the values of the field at their nodes.
 
     Parameters
     ----------
     before, after
-        The solid on A and on B.
+        The solid, or the solids, on A and on B.
     values
         Values of fields of each mesh at the nodes of the other.
     masses
@@ -42,8 +41,8 @@ class Projection:
         Time t of the form of the displacements, ``M + t^2 K`` [s].
     """
 
-    before: AdaptedSolid
-    after: AdaptedSolid
+    before: AnyBody
+    after: AnyBody
     values: ValuesAtNodes
     masses: tuple[sp.csr_array, sp.csr_array]
     time: float
@@ -55,26 +54,34 @@ class Projection:
 
     def velocity(self, field: Array) -> Array:
         """Projection (m, d) of a field (n, d) with the mass: velocities, accelerations."""
-        near, rest = self._near(field)
-        right = self.after.part.dofs.forces(np.asarray(self.values.back.T @ (self.masses[0] @ rest)))
-        return near + self._corrected(right)
+        near, rest, change = self._near(field)
+        right = np.asarray(self.values.back.T @ (self.masses[0] @ rest))
+        if change is not None:
+            right += self.masses[1] @ change
+        return near + self._corrected(self.after.dofs.forces(right))
 
     def displacement(self, field: Array) -> Array:
         """Projection (m, d) of a displacement (n, d) [m] with mass and stiffness."""
-        near, rest = self._near(field)
-        part = self.before.part
-        pushed = scaled_product(part.internal, part.factor, np.zeros_like(field), rest)
-        right = self.values.back.T @ (self.masses[0] @ rest + self.time**2 * pushed)
-        return near + self._relaxed(self.after.part.dofs.forces(np.asarray(right)))
+        near, rest, change = self._near(field)
+        square = self.time**2
+        right = np.asarray(self.values.back.T @ (self.masses[0] @ rest + square * self.before.stretched(rest)))
+        if change is not None:
+            right += self.masses[1] @ change + square * self.after.stretched(change)
+        if isinstance(self.after, LinkedSolids):
+            right += square * self.after.pulled(near)
+        return near + self._relaxed(self.after.dofs.forces(right))
 
-    def _near(self, field: Array) -> tuple[Array, Array]:
-        """Values (m, d) of a field (n, d) at the nodes of B, and the rest (n, d) at the nodes of A."""
-        near = np.asarray(self.values.forward @ field)
-        return near, np.asarray(field - self.values.back @ near)
+    def _near(self, field: Array) -> tuple[Array, Array, Array | None]:
+        """Values (m, d) of a field (n, d) at the nodes of B as ties allow, the rest (n, d) at the nodes of A, and the
+        change (m, d) by the ties.
+        """
+        values = np.asarray(self.values.forward @ field)
+        near = self.after.fitting(values)
+        return near, np.asarray(field - self.values.back @ values), None if near is values else values - near
 
     def _corrected(self, right: Array) -> Array:
         """Correction (m, d) with the mass by forces (f,) on the unknowns."""
-        dofs, mass = self.after.part.dofs, self.masses[1]
+        dofs, mass = self.after.dofs, self.masses[1]
         if not right.any():
             return dofs.nodes(right)
         d = self.after.points.shape[1]
@@ -86,15 +93,17 @@ class Projection:
 
     def _relaxed(self, right: Array) -> Array:
         """Correction (m, d) with mass and stiffness by forces (f,) on the unknowns."""
-        part, d = self.after.part, self.after.points.shape[1]
-        dofs = part.dofs
+        dofs, d = self.after.dofs, self.after.points.shape[1]
         if not right.any():
             return dofs.nodes(right)
         wide = sp.csc_array(sp.kron(self.masses[1], sp.eye_array(d), format="csc"))
-        form = sp.csr_array(dofs.matrix(sp.csc_array(wide + self.time**2 * part.tangent(np.zeros(dofs.free.shape)))))
-        diagonal, coarse = 1.0 / form.diagonal(), _coarse(self.after, form)
-        found = conjugate_gradients(lambda x: form @ x, lambda r: diagonal * r + coarse(r), right, CLOSE)
-        return dofs.nodes(found + coarse(right - form @ found))  # with the centre of mass of the exact projection
+        form = dofs.matrix(sp.csc_array(wide + self.time**2 * self.after.stiffness()))
+        if dofs.components is None or isinstance(self.after, LinkedSolids):
+            return dofs.nodes(splu(form).solve(right))
+        rows = sp.csr_array(form)
+        diagonal, coarse = 1.0 / rows.diagonal(), _coarse(self.after, rows)
+        found = conjugate_gradients(lambda x: rows @ x, lambda r: diagonal * r + coarse(r), right, CLOSE)
+        return dofs.nodes(found + coarse(right - rows @ found))  # with the centre of mass of the exact projection
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,12 +119,12 @@ class Unchanged:
         return field
 
 
-AnyProjection = Projection | OverlayProjection | Unchanged
+AnyProjection = Projection | Unchanged
 """Projection of fields from one mesh to another."""
 
 
-def projection(before: AdaptedSolid, after: AdaptedSolid) -> AnyProjection:
-    """Projections of a solid from its mesh ``before`` to its mesh ``after``.
+def projection(before: AnyBody, after: AnyBody) -> AnyProjection:
+    """Projections of a solid, or of several that ties link, from its mesh ``before`` to its mesh ``after``.
 
     Velocities are projected with the mass M, displacements with ``M + t^2 K``: K is the stiffness of the undeformed
     solid, t the time in which its slowest wave crosses it.
@@ -123,7 +132,7 @@ def projection(before: AdaptedSolid, after: AdaptedSolid) -> AnyProjection:
     Parameters
     ----------
     before, after
-        The solid on two meshes of one base.
+        The solid on two meshes of one base, or the solids.
 
     Raises
     ------
@@ -140,25 +149,32 @@ def projection(before: AdaptedSolid, after: AdaptedSolid) -> AnyProjection:
     >>> projection(fine, coarse).velocity(np.array([[0.0], [0.0], [1.0]])).round(12).ravel().tolist()
     [0.5, 0.5]
     """
-    if before.adapted is after.adapted:
+    pairs = list(zip(solids_of(before), solids_of(after), strict=True))
+    if all(one.adapted is other.adapted for one, other in pairs):
         return Unchanged()
-    if after.adapted.step > 1:
-        return overlay_projection(before, after)
-    part, size = after.part, float(np.linalg.norm(np.ptp(after.points, axis=0)))
+    found = [values_at_nodes(one.adapted, other.adapted) for one, other in pairs]
     return Projection(
         before=before,
         after=after,
-        values=values_at_nodes(before.adapted, after.adapted),
+        values=found[0] if len(found) == 1 else _together(found),
         masses=(before.consistent_mass(), after.consistent_mass()),
-        time=size / min(part.materials.speeds(part.internal.section)),
+        time=after.crossing,
     )
+
+
+def _together(values: list[ValuesAtNodes]) -> ValuesAtNodes:
+    """Values of the fields of several solids."""
+    forward, back = (
+        sp.csr_array(sp.block_diag([getattr(one, name) for one in values], format="csr"))
+        for name in ("forward", "back")
+    )
+    return ValuesAtNodes(forward=forward, back=back)
 
 
 def _coarse(after: AdaptedSolid, form: sp.csr_array) -> Callable[[Array], Array]:
     """Correction (f,) in the fields of the base mesh of a residual (f,), with the ``form`` (f, f)."""
-    dofs, base = after.part.dofs, after.adapted.base
-    if dofs.components is None:
-        return np.zeros_like
+    dofs, base = after.dofs, after.adapted.base
+    assert dofs.components is not None
     values = sp.kron(values_of_base(after.adapted), sp.eye_array(base.dim), format="csr")
     into = sp.csr_array(values[dofs.components][:, np.flatnonzero(dofs.free[: base.n_nodes])])
     onto = sp.csr_array(into.T)

@@ -9,6 +9,8 @@ from softway.adaptivity.balances import balanced, rigid_motions_of
 from softway.adaptivity.unrelated.fields import projected
 from softway.arrays import Array
 from softway.bodies.discretised import DiscreteSolid
+from softway.bodies.dof_map import DofMap
+from softway.bodies.elements.section import Section
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -23,6 +25,16 @@ class HeavySolid:
     def points(self) -> Array:
         """Reference places (n, d) of the nodes [m]."""
         return self.part.mesh.points
+
+    @property
+    def dofs(self) -> DofMap:
+        """Velocities of the nodes from the unknowns."""
+        return self.part.dofs
+
+    @property
+    def section(self) -> Section:
+        """Section of the solid."""
+        return self.part.internal.section
 
     def kinetic(self, velocity: Array) -> float:
         """Kinetic energy [J] at a velocity (n, d) [m/s]."""

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import chain
+from math import ceil
 
 import numpy as np
 
@@ -14,14 +15,17 @@ from softway.bodies.setup.amplitude import Ramp
 from softway.bodies.setup.loads import Traction
 from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid
+from softway.contact.assembly.tie import Tie
 from softway.errors import InputError, within
 from softway.heat.coupled.build import build
 from softway.march.remeshing.admitted import adaptions, can_be_cut, require_admitted
+from softway.march.remeshing.carried_bonds import tearing
 from softway.march.remeshing.standing import standing
-from softway.march.remeshing.wanted_mesh import wanted_mesh
+from softway.march.remeshing.wanted_mesh import Wanted, wanted_cells
 from softway.march.state.march_state import MarchState
 from softway.meshes.adaptive.leaves import Leaves, require_cover, same
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
+from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
 
@@ -60,13 +64,13 @@ class AdaptedScene:
         changed = {n: mesh for n, mesh in meshes.items() if not same(self.meshes[n].leaves, mesh.leaves)}
         if not changed:
             return self
-        bodies = dict(self.scene.bodies)
-        for name, mesh in changed.items():
+        bodies, meshes = dict(self.scene.bodies), {**self.meshes, **changed}
+        for name, mesh in meshes.items():
             solid = bodies[name]
             assert isinstance(solid, Solid)
-            bodies[name] = replace(solid, mesh=mesh.mesh)
+            if solid.mesh is not mesh.mesh:  # other cells, or nodes that ties have moved
+                bodies[name] = replace(solid, mesh=mesh.mesh)
         model = build(replace(self.scene, bodies=bodies), self.model)
-        meshes = {**self.meshes, **changed}
         return AdaptedScene(replace(model, adapted=meshes, declared=self.model.declared))
 
     def at(self, leaves: Mapping[str, Leaves]) -> "AdaptedScene":
@@ -81,17 +85,28 @@ class AdaptedScene:
 
     def wanted(self, now: MarchState, energy: float, ahead: float) -> "AdaptedScene":
         """The scene on the meshes for the coming slabs, in fine cells what closes or is pushed within ``ahead`` [s]."""
-        touching = np.concatenate([_touching(self.model, now, ahead), _pushed(self.model, now.state.time, ahead)])
-        meshes = dict(self.meshes)
+        model, time = self.model, now.state.time
+        chosen = _touching(model, now, ahead), _pushed(model, time, ahead), tearing(model, now.state.start)
+        touching = np.concatenate(chosen)
+        wanted: dict[str, Wanted] = {}
         for name, how in adaptions(self.scene).items():
             solid = self.solid(name)
             nodes = solid.part.nodes
-            motion = motion_of(self.model, now, name)
-            places = self.model.points[touching[(touching >= nodes.start) & (touching < nodes.stop)]]
-            stretch = now.step_history.longest / now.step_history.span
-            tags = [tag for body, tag in chain(*(c.surfaces for c in self.scene.contacts)) if body == name]
-            meshes[name] = even(wanted_mesh(how, solid, motion, energy, places, stretch), tags)
+            places = model.points[touching[(touching >= nodes.start) & (touching < nodes.stop)]]
+            group = int(model.linked[[part.name for part in model.parts].index(name)])
+            wanted[name] = wanted_cells(how, solid, motion_of(model, now, name), energy, places, group, model.inert)
+        stretch = now.step_history.longest / now.step_history.span
+        meshes = dict(self.meshes)
+        for name, one in wanted.items():
+            others = [other for other in wanted.values() if other is not one and other.group == one.group]
+            meshes[name] = even(one.mesh(others, stretch), self._smooth(name))
         return self.on(meshes)
+
+    def _smooth(self, name: str) -> list[str]:
+        """Tags of the surfaces of a solid that may touch or are glued."""
+        scene = self.scene
+        ties = ((body, tag) for tie in scene.ties for body, tag in zip(tie.bodies, tie.tags, strict=True))
+        return [tag for body, tag in chain(*(c.surfaces for c in scene.contacts), ties) if body == name]
 
 
 def adapted_scene(model: Model) -> AdaptedScene:
@@ -113,7 +128,18 @@ def adapted_scene(model: Model) -> AdaptedScene:
         assert isinstance(solid, Solid)
         bodies[name] = replace(solid, mesh=base, place=Placement(), group=())
     meshes = {name: refined(base, np.zeros(base.n_cells, dtype=np.int64)) for name, base in known.items()}
-    return AdaptedScene(replace(model, scene=replace(model.scene, bodies=bodies), adapted=meshes))
+    scene = replace(model.scene, bodies=bodies, ties=_ties(model.scene, known))
+    return AdaptedScene(replace(model, scene=scene, adapted=meshes))
+
+
+def _ties(scene: Scene, bases: Mapping[str, Mesh]) -> tuple[Tie, ...]:
+    """Ties whose surfaces may be as far apart in finer cells as they are in those of the base meshes."""
+    halvings = dict.fromkeys(scene.bodies, 0)
+    for name, how in adaptions(scene).items():
+        halvings[name] = ceil(how.deepest(bases[name].cell_dim) / bases[name].cell_dim)
+    return tuple(
+        replace(tie, tolerance=tie.tolerance * 2.0 ** max(halvings[name] for name in tie.bodies)) for tie in scene.ties
+    )
 
 
 def motion_of(model: Model, now: MarchState, name: str) -> Motion:

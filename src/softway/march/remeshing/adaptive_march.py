@@ -98,7 +98,7 @@ def _slabs(on: AdaptedScene, prepared: Preparation, cancel: Cancel | None, tryin
 
     The state after a slab alone decides on the meshes of the next one, so that a resumed march has the same bits.
     """
-    now, every = prepared.march_state, min(how.every for how in adaptions(on.scene).values())
+    now, every = prepared.march_state, _every(on)
     steps, settings = slabs(prepared.stepper, now), now.settings
     transfers: Mapping[str, Transferred] = {}
     while now.state.time < settings.until - 1e-9 * now.step_history.span:
@@ -135,4 +135,9 @@ def _energy(now: MarchState) -> float:
 
 def _ahead(on: AdaptedScene, now: MarchState) -> float:
     """Time within which contacts close soon [s]."""
-    return AHEAD * min(how.every for how in adaptions(on.scene).values()) * now.step_history.longest
+    return AHEAD * _every(on) * now.step_history.longest
+
+
+def _every(on: AdaptedScene) -> int:
+    """Slabs between two changes of the meshes."""
+    return min(how.every for how in adaptions(on.scene).values())

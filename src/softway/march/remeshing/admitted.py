@@ -11,6 +11,7 @@ from softway.march.rules.slab_rule import Method
 from softway.meshes.adaptive.adapt import Adapt, adaption
 from softway.meshes.adaptive.refinement import BISECTED
 from softway.meshes.mesh import Mesh
+from softway.model.cohesive_ties import CohesiveTies
 from softway.model.model import Model
 from softway.model.scene import Scene
 from softway.solve.methods.central_difference import Explicit
@@ -94,10 +95,7 @@ def _require_cells(model: Model, name: str) -> None:
 def _require_carried(model: Model) -> None:
     """Refuse scenes of which something would not pass to other meshes."""
     scene, other = model.scene, "meshes that stay, or a scene without"
-    if not model.inert:
-        raise InputError("inertia", "none, where meshes adapt to waves", "bodies with inertia, or meshes that stay")
-    if not all(_own_dofs(model)) or model.bonds:
-        raise InputError("ties", "surfaces that are glued, where meshes adapt", f"{other} ties")
+    _require_linked(model)
     for k, contact in enumerate(scene.contacts if not model.timing.massless else ()):
         problem = f"{contact.label!r} whose nodes have inertia, where meshes adapt"
         raise InputError(f"contacts[{k}].timing", problem, "Energy, whose contact nodes are massless")
@@ -107,11 +105,19 @@ def _require_carried(model: Model) -> None:
             remedy = "one law without latent heat, or meshes that stay"
             raise InputError(f"bodies.{name}.thermal.law", f"{problem}, where meshes adapt", remedy)
     for field in model.companions:
-        if not isinstance(field, SolidTemperature):
+        if not isinstance(field, SolidTemperature | CohesiveTies):
             problem = f"the field {field.field.name!r}, which does not pass to other meshes"
             raise InputError(f"bodies.{next(iter(adaptions(scene)))}.adapt", problem, f"{other} this field")
 
 
-def _own_dofs(model: Model) -> list[bool]:
-    """True for each solid whose unknowns are its own: no solid is in the group of another one."""
-    return [int((model.linked == group).sum()) == 1 for group in model.linked]
+def _require_linked(model: Model) -> None:
+    """Refuse ties of solids that adapt with those whose cells cannot be cut."""
+    adapts = set(adaptions(model.scene))
+    for k, tie in enumerate(model.scene.ties):
+        group = model.linked[[part.name in tie.bodies for part in model.parts]][0]
+        names = [part.name for part, own in zip(model.parts, model.linked, strict=True) if own == group]
+        for name in names:
+            if adapts.intersection(names) and not can_be_cut(model.meshes[name]):
+                found = ", ".join(model.meshes[name].blocks)
+                problem = f"solids that adapt are glued to {name!r} of cells {found}, which cannot adapt"
+                raise InputError(f"ties[{k}].between", problem, f"{WHAT} in all of them, or meshes that stay")

@@ -4,10 +4,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy.sparse as sp
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.heat import Heated, carried_heat
-from softway.adaptivity.projections.projection import AnyProjection, Unchanged
 from softway.arrays import Array
 from softway.bodies.assembled.material_states import scaled
 from softway.bodies.inertia.nodal_heat import cell_heat_masses
@@ -54,24 +54,26 @@ def _curve(heat: HeatModel, part: HeatPart) -> ContentCurve | None | bool:
 def carried_temperatures(
     models: tuple[Model, Model],
     pairs: Mapping[str, tuple[AdaptedSolid, AdaptedSolid]],
-    casts: Mapping[str, AnyProjection],
+    at_nodes: Mapping[str, sp.csr_array],
     values: Mapping[str, Array],
 ) -> dict[str, Array]:
-    """Temperatures (m, 1) of the solids on new meshes, from those (n, 1) on the old ones [K]; others stay."""
+    """Temperatures (m, 1) of the solids on new meshes, from those (n, 1) on the old ones [K], with the values (m, n) at
+    the new nodes of fields on the old ones for those whose mesh changes; others stay.
+    """
     out = dict(values)
     heats = [found[1].model for model in models if (found := temperature_of(model)) is not None]
-    for name, pair in pairs.items():
-        cast = casts[name]
+    for name, near in at_nodes.items():
         parts = [next((p for p in heat.parts if p.name == name), None) for heat in heats]
-        if isinstance(cast, Unchanged) or any(part is None for part in parts):
-            if not isinstance(cast, Unchanged):
-                out[name] = np.zeros((cast.at_nodes.shape[0], 1))
+        if not parts or any(part is None for part in parts):
+            out[name] = np.zeros((near.shape[0], 1))
             continue
         one, other = (
-            _heated(on, heat, part) for on, heat, part in zip(pair, heats, parts, strict=True) if part is not None
+            _heated(on, heat, part)
+            for on, heat, part in zip(pairs[name], heats, parts, strict=True)
+            if part is not None
         )
         to, back, rule = _measures(heats[0], parts[0])
-        found_values = carried_heat(one, other, cast.at_nodes, to(values[name][:, 0]), rule)
+        found_values = carried_heat(one, other, near, to(values[name][:, 0]), rule)
         out[name] = back(found_values)[:, None]
     return out
 

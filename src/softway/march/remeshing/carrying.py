@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.memory import remembered
-from softway.adaptivity.projections.projection import AnyProjection, Unchanged, projection
 from softway.adaptivity.transfer import Settled, Transferred, transfer
 from softway.arrays import Array, BoolArray
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent
-from softway.march.remeshing.adapted_scene import AdaptedScene, motion_of
+from softway.march.remeshing.adapted_scene import AdaptedScene
+from softway.march.remeshing.carried_bonds import carried_bonds, damages, with_damage
 from softway.march.remeshing.carried_heat import (
     account_of_heat,
     carried_temperatures,
@@ -24,6 +24,7 @@ from softway.march.remeshing.carried_heat import (
     strained,
     with_content,
 )
+from softway.march.remeshing.linked_changes import LinkedChange, all_values, linked_changes, values_between
 from softway.march.remeshing.settling import Unsettled
 from softway.march.remeshing.standing import standing
 from softway.march.remeshing.surface_forces import SurfaceForces, surface_forces
@@ -35,7 +36,7 @@ from softway.solve.static_equilibrium import StaticState
 
 
 def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple[MarchState, Mapping[str, Transferred]]:
-    """State of a march on the new meshes, and the transfers of the solids with meshes of their own.
+    """State of a march on the new meshes, and the transfers of the solids whose meshes change.
 
     Displacements are projected, histories inherited, and frictions pass by their places.  Massless nodes of all solids
     find their equilibrium with the contacts, and then the balances are closed.  What this equilibrium has dissipated,
@@ -54,15 +55,17 @@ def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple
     lost, heats = change.dissipated(joined), (heat_of(old.model, now.state), heat_of(new.model, joined))
     warmed = np.zeros(len(lost)) if heats[0] is None or heats[1] is None else heats[1].contents - heats[0].contents
     before = now.state.start.energy - lost - warmed
-    names = [part.name for part in new.model.parts]
-    found = {}
-    for name, pair in change.pairs.items():
-        there = change.settled(name, joined, float(before[names.index(name)]))
-        found[name] = transfer(*pair, motion_of(old.model, now, name), change.casts[name], there)
-    fixed = np.array([name not in new.meshes for name in names])
-    taken = sum(one.booked for one in found.values()) + float((before - joined.start.energy)[fixed].sum())
-    velocity = {**change.state.velocity, **{name: one.motion.velocity for name, one in found.items()}}
-    state = replace(joined, start=replace(joined.start, velocity=new.model.join(velocity)))
+    names = np.array([part.name for part in new.model.parts])
+    found, taken, velocity, start = {}, 0.0, joined.start.velocity.copy(), now.state.start
+    for one in change.groups:
+        there = change.settled(one, joined, float(before[np.isin(names, one.names)].sum()))
+        passed = transfer(one.before, one.after, one.motion(start.displacement, start.velocity), one.cast, there)
+        velocity[one.nodes[1]] = passed.motion.velocity
+        found.update(dict.fromkeys(one.changed, passed))
+        taken += passed.booked
+    fixed = ~np.isin(names, list(new.meshes))
+    taken += float((before - joined.start.energy)[fixed].sum())
+    state = replace(joined, start=replace(joined.start, velocity=velocity))
     account = replace(
         now.account,
         remeshing=now.account.remeshing + taken,
@@ -77,7 +80,8 @@ def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class _Change:
     """Change of meshes: the scene before and after it, the state before, and for each solid of cells that can be
-    bisected both of its meshes and the projections between them; values of the companion fields after it.
+    bisected both of its meshes; the changes by groups of linked solids; values (m, n) at the new nodes of fields on the
+    old ones; ties that break, and the companion fields after it.
     """
 
     old: AdaptedScene
@@ -86,16 +90,18 @@ class _Change:
     state: State
     span: float
     pairs: Mapping[str, tuple[AdaptedSolid, AdaptedSolid]]
-    casts: Mapping[str, AnyProjection]
+    groups: tuple[LinkedChange, ...]
+    at_nodes: sp.csr_array
     fields: Mapping[str, Mapping[str, Array]]
 
     def unsettled(self) -> Unsettled:
         """Solids on the new meshes with projected displacements and inherited histories."""
         model = self.new.model
-        projected = {name: cast.displacement(self.state.displacement[name]) for name, cast in self.casts.items()}
-        u = model.join({**self.state.displacement, **projected})
+        u = self._alike(self.now.start.displacement)
+        for one in self.groups:
+            one.displacement(self.now.start.displacement, u)
         return Unsettled(
-            model=standing(starting_at(model, self.fields, u), self.now),
+            model=standing(with_damage(starting_at(model, self.fields, u), self.fields), self.now),
             displacement=u,
             states=self._states(u),
             friction=self._friction(),
@@ -117,22 +123,21 @@ class _Change:
         """Friction on the new surfaces; None without."""
         if self.new.model.friction.frictionless:
             return None
-        return surface_forces(self.old.model, self.now).on(self.at_nodes())
+        return surface_forces(self.old.model, self.now).on(self.at_nodes)
 
-    def at_nodes(self) -> sp.csr_array:
-        """Values (m, n) at the new nodes of fields on the old ones."""
-        blocks = []
-        for part in self.new.model.parts:
-            cast = self.casts.get(part.name)
-            if cast is None or isinstance(cast, Unchanged):
-                blocks.append(sp.eye_array(part.mesh.n_nodes, format="csr"))
-            else:
-                blocks.append(cast.at_nodes)
-        return sp.csr_array(sp.block_diag(blocks, format="csr"))
+    def _alike(self, field: Array) -> Array:
+        """Field (m, d) of the solids that keep their nodes, from one (n, d) of all solids; zero for the others."""
+        out = np.zeros(self.new.model.shape)
+        for old, new in zip(self.old.model.parts, self.new.model.parts, strict=True):
+            if new.name not in self.pairs:
+                out[new.nodes] = field[old.nodes]
+        return out
 
     def joined(self) -> ModelState:
         """State in equilibrium, with projected velocities."""
-        found = join_states(self.new.model, self.resting(*self.unsettled().settled()), self.span)
+        unsettled = self.unsettled()
+        rest, states = unsettled.settled()
+        found = join_states(self.new.model, self.resting(rest, states, unsettled.friction), self.span)
         return replace(found, rigid=self.now.rigid)
 
     def with_content(self, found: ModelState) -> "_Change":
@@ -143,11 +148,11 @@ class _Change:
         shifted = {n: with_content(self.new.model, values, before, after) for n, values in self.fields.items()}
         return replace(self, fields=shifted)
 
-    def resting(self, rest: StaticState, states: MaterialStates) -> State:
+    def resting(self, rest: StaticState, states: MaterialStates, friction: SurfaceForces | None) -> State:
         """State in equilibrium, with projected velocities."""
         model, contacts = self.new.model, self.new.model.contacts
         by = {label: contacts.rows_of(k) for k, label in enumerate(contacts.labels)}
-        rough, slips = not model.friction.frictionless, self._slips(rest)
+        rough, slips = not model.friction.frictionless, self._slips(rest, friction)
 
         def of(values: NDArray[Kind]) -> dict[str, NDArray[Kind]]:
             return {label: values[rows] for label, rows in by.items()}
@@ -157,8 +162,8 @@ class _Change:
             self.state,
             displacement=model.split(rest.displacement),
             fields=self.fields,
-            velocity=self._cast(self.state.velocity),
-            acceleration=self._cast(self.state.acceleration),
+            velocity=self._cast(self.now.start.velocity),
+            acceleration=self._cast(self.now.acceleration),
             memory={part.name: state for part, state in parts if state is not None},
             pressure=of(rest.pressure),
             closed=of(rest.pressure > 0.0),
@@ -172,26 +177,27 @@ class _Change:
         bodies = self.new.scene.bodies
         return np.array([getattr(bodies[p.name], "thermal", None) is not None for p in self.new.model.parts])
 
-    def _cast(self, fields: Mapping[str, Array]) -> dict[str, Array]:
-        """Fields of the solids, projected."""
-        return {**fields, **{name: cast.velocity(fields[name]) for name, cast in self.casts.items()}}
+    def _cast(self, field: Array) -> dict[str, Array]:
+        """A velocity or acceleration (n, d) of the solids, projected."""
+        out = self._alike(field)
+        for one in self.groups:
+            one.velocity(field, out)
+        return self.new.model.split(out)
 
-    def _slips(self, rest: StaticState) -> Array | None:
+    def _slips(self, rest: StaticState, friction: SurfaceForces | None) -> Array | None:
         """Slip (m, d) of the new rows; None where none is known."""
-        friction = self._friction()
         if friction is None or self.now.slip is None:
             return None
         return friction.slips(standing(self.new.model, self.now).rows(rest.displacement, self.state.time))
 
-    def settled(self, name: str, found: ModelState, before: float) -> Settled:
-        """A solid in a state, with the stored energy ``before`` that is to pass over [J]."""
-        k = [part.name for part in self.new.model.parts].index(name)
-        states = found.start.states
+    def settled(self, one: LinkedChange, found: ModelState, before: float) -> Settled:
+        """Some solids in a state, with the stored energy ``before`` that is to pass over [J]."""
+        own = np.isin([part.name for part in self.new.model.parts], one.names)
         return Settled(
-            displacement=found.start.displacement[self.new.model.parts[k].nodes],
-            state=states[k] if states else None,
+            displacement=found.start.displacement[one.nodes[1]],
+            state=None,
             before=before,
-            energy=float(found.start.energy[k]),
+            energy=float(found.start.energy[own].sum()),
         )
 
     def dissipated(self, after: ModelState) -> Array:
@@ -208,10 +214,13 @@ class _Change:
 def _change(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> _Change:
     """Change between the meshes of two scenes."""
     pairs = {name: (old.solid(name), new.solid(name)) for name in new.meshes}
-    casts, state = {name: projection(*pair) for name, pair in pairs.items()}, split_states(old.model, now.state)
-    models = old.model, new.model
-    fields = {name: carried_temperatures(models, pairs, casts, values) for name, values in state.fields.items()}
+    state, models = split_states(old.model, now.state), (old.model, new.model)
+    values = values_between(pairs)
+    at_nodes = all_values(new.model, values)
+    fields = {name: carried_temperatures(models, pairs, values, field) for name, field in state.fields.items()}
+    groups, bonds = linked_changes(old, new), carried_bonds(*models, now.state, at_nodes)
     return _Change(
-        old=old, new=new, now=now.state, state=state, span=now.step_history.span, pairs=pairs, casts=casts,
-        fields=fields,
+        old=old, new=new, now=now.state, state=state, span=now.step_history.span, pairs=pairs,
+        groups=tuple(one.glued([b.glue(one.nodes[1]) for b in bonds if b.links(one.nodes[1])]) for one in groups),
+        at_nodes=at_nodes, fields={**fields, **damages(new.model, bonds)},
     )  # fmt: skip

@@ -73,11 +73,12 @@ class Unsettled:
         u, dofs, load = self.displacement, model.dofs.only(~model.massive), model.loads.at(self.time)
         carried = self.friction
         if carried is None or not dofs.size:
-            return equilibrium(model, u, dofs, load, self.time)
+            return equilibrium(model, u, dofs, load, self.time, glue=model.bonds)
         rows, friction = model.rows(u, self.time), model.friction.at(u)
         traction, sliding = carried.first(rows, friction), np.zeros(len(rows.node), bool)
         for _ in range(ROUNDS):
-            rest = equilibrium(model, u, dofs, load + rows.shear.spread(traction), self.time)
+            pushed = load + rows.shear.spread(traction)
+            rest = equilibrium(model, u, dofs, pushed, self.time, glue=model.bonds)
             u, last = rest.displacement, traction
             rows, friction = model.rows(u, self.time), model.friction.at(u)
             traction, sliding = carried.forces(rows, friction, rest.pressure)

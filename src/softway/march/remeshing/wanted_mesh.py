@@ -1,25 +1,73 @@
 """Mesh of a solid for the coming slabs."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.indicator import indicator, wanted_levels
-from softway.adaptivity.neighbourhood import grown_near, marks_of
+from softway.adaptivity.neighbourhood import Mark, grown_near, marks_of
 from softway.adaptivity.transfer import Motion
 from softway.arrays import Array
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.leaves import same
 from softway.meshes.adaptive.refinement import AdaptedMesh, adapted_mesh
-from softway.meshes.adaptive.tree import tree_of
+from softway.meshes.adaptive.tree import Tree, tree_of
 
 
-def wanted_mesh(
-    adapt: Adapt, solid: AdaptedSolid, motion: Motion, energy: float, touching: Array, stretch: float = 1.0
-) -> AdaptedMesh:
-    """Mesh for the coming slabs.
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Wanted:
+    """Cells of a solid for the coming slabs, without a buffer around fine ones.
 
-    Around fine cells others are as fine.  Cells that become coarser by two cuts have none of these buffers: in space
-    conforming meshes have fine cells far from where they are wanted, and would grow from change to change.
+    Parameters
+    ----------
+    adapt
+        Adaption of the solid.
+    present
+        Its mesh.
+    tree
+        The cells.
+    fine
+        The same without cells that become coarser by two cuts: what has a buffer.  Conforming meshes have fine cells
+        far from where they are wanted, in space above all; with buffers around those they would grow from change to
+        change.
+    group
+        Number of the group of linked solids.
+    """
+
+    adapt: Adapt
+    present: AdaptedMesh
+    tree: Tree
+    fine: Tree
+    group: int
+
+    @property
+    def deepest(self) -> int:
+        """Level of the finest cells."""
+        return self.adapt.deepest(self.tree.base.cell_dim)
+
+    def mesh(self, linked: Sequence["Wanted"], stretch: float = 1.0) -> AdaptedMesh:
+        """Mesh with a buffer around the fine cells of the solid and of those that are ``linked`` with it: waves pass
+        through ties.  The coming slabs have the length of ``stretch`` requested ones: fronts go as much further.
+        """
+        marks: list[Mark] = marks_of(self.fine)
+        for other in linked:
+            marks += [(self.deepest - other.deepest + level, places) for level, places in marks_of(other.fine)]
+        tree = grown_near(self.tree, marks, stretch * self.adapt.buffer * self.adapt.finest(self.tree.base))
+        return self.present if same(tree.leaves, self.present.leaves) else adapted_mesh(tree)
+
+
+def wanted_cells(
+    adapt: Adapt,
+    solid: AdaptedSolid,
+    motion: Motion,
+    energy: float,
+    touching: Array,
+    group: int = 0,
+    moves: bool = True,
+) -> Wanted:
+    """Cells of a solid for the coming slabs.
 
     Parameters
     ----------
@@ -31,15 +79,18 @@ def wanted_mesh(
         Energy of the scene [J].
     touching
         (k, d) reference places of its nodes at contacts that are closed or close soon [m].
-    stretch
-        Length of the coming slabs in requested ones: fronts go as much further.
+    group
+        Number of its group of linked solids.
+    moves
+        False without inertia.
     """
     base = solid.adapted.base
     finest, deepest = adapt.finest(base), adapt.deepest(base.cell_dim)
-    levels = wanted_levels(solid.adapted, indicator(solid, motion), adapt.threshold(base, energy), deepest)
+    levels = wanted_levels(solid.adapted, indicator(solid, motion, moves), adapt.threshold(base, energy), deepest)
     leaves, contact = solid.adapted.leaves, [(deepest, touching)]
     kept = np.where(levels >= leaves.level - solid.adapted.step, levels, 0)
-    fine = grown_near(tree_of(base).grown(leaves, kept), contact, adapt.contact_cells * finest)
-    tree = grown_near(tree_of(base).grown(leaves, levels), contact, adapt.contact_cells * finest)
-    tree = grown_near(tree, marks_of(fine), stretch * adapt.buffer * finest)
-    return solid.adapted if same(tree.leaves, solid.adapted.leaves) else adapted_mesh(tree)
+    tree, fine = (
+        grown_near(tree_of(base).grown(leaves, wanted), contact, adapt.contact_cells * finest)
+        for wanted in (levels, kept)
+    )
+    return Wanted(adapt=adapt, present=solid.adapted, tree=tree, fine=fine, group=group)

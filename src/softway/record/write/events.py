@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from softway.adaptivity.projections.projection import Unchanged
 from softway.march.results.step import Event, Ledger, Step
 from softway.record.storage import table
 from softway.record.storage.table import Lines
@@ -78,20 +77,19 @@ class Events:
 
 def _changes(step: Step) -> Iterator[Event]:
     """Changes of meshes before a slab."""
-    for name, passed in step.transfers.items():
-        if not isinstance(passed.projection, Unchanged):
-            mesh, d = step.model.meshes[name], step.model.shape[1]
-            yield Event(
-                time=step.slab.start,
-                contact=name,
-                kind=MESH,
-                node=-1,
-                position=np.zeros(d),
-                velocity_before=0.0,
-                velocity_after=0.0,
-                impulse=0.0,
-                finding=f"{mesh.n_nodes} nodes, {mesh.n_cells} cells",
-            )
+    for name in step.transfers:
+        mesh, d = step.model.meshes[name], step.model.shape[1]
+        yield Event(
+            time=step.slab.start,
+            contact=name,
+            kind=MESH,
+            node=-1,
+            position=np.zeros(d),
+            velocity_before=0.0,
+            velocity_after=0.0,
+            impulse=0.0,
+            finding=f"{mesh.n_nodes} nodes, {mesh.n_cells} cells",
+        )
 
 
 def open_events(folder: Path, opening: RunStart, mark: int | None = None) -> Events:

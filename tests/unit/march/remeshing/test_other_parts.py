@@ -1,11 +1,12 @@
 """Rigid bodies, bulk viscosity, and what is refused, where meshes change."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from adapting import adaptive_march
-from passing import keeps_its_balances
+from passing import finest, keeps_its_balances
 
 import softway as sw
 from softway.errors import InputError
@@ -15,6 +16,7 @@ from softway.meshes.generators.shapes import rectangle
 from softway.meshes.mesh import Mesh
 
 ADAPT = Adapt(levels=3, tolerance=1.0, buffer=1, contact_cells=2)
+HARDENING = sw.laws.LinearHardening(modulus=0.1)
 BLOCK = sw.Solid(
     mesh=rectangle((2.0, 1.0), (4, 2), cell="tri3"), material=sw.NeoHookean(E=10.0, nu=0.3), density=1.0,
 )  # fmt: skip
@@ -54,15 +56,6 @@ def test_a_shock_with_bulk_viscosity() -> None:
     assert steps[-1].ledger.dissipation == pytest.approx(exact.ledger.dissipation, rel=0.02)
 
 
-def test_ties_are_refused() -> None:
-    other = replace(BLOCK, mesh=rectangle((2.0, 1.0), (4, 2), cell="tri3", origin=(0.0, 1.0)))
-    scene = sw.Scene(bodies={"low": BLOCK, "high": other}, ties=(sw.Tie(between=("low.top", "high.bottom")),))
-    with pytest.raises(InputError) as refusal:
-        next(adaptive_march(scene, {"low": ADAPT}, until=0.1, step=0.01))
-    assert refusal.value.where == "ties"
-    assert refusal.value.remedy
-
-
 def test_contacts_with_massive_nodes_are_refused() -> None:
     floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -0.01), normal=(0.0, 1.0)))
     contact = sw.Contact(between=("block.bottom", "floor"), timing=sw.contact.Impulse())
@@ -71,6 +64,71 @@ def test_contacts_with_massive_nodes_are_refused() -> None:
         next(adaptive_march(scene, {"block": ADAPT}, until=0.1, step=0.01))
     assert refusal.value.where == "contacts[0].timing"
     assert refusal.value.remedy
+
+
+@pytest.mark.parametrize("cell", ["tri3", "quad4"])
+@pytest.mark.parametrize(
+    "law",
+    [sw.NeoHookean(E=1.0, nu=0.3), sw.J2(E=1.0, nu=0.3, yield_stress=0.05, hardening=HARDENING)],
+    ids=["elastic", "plastic"],
+)
+def test_a_beam_without_inertia_bends_as_on_the_finest_mesh(cell: str, law: object) -> None:
+    ramp = sw.bodies.Ramp(times=(0.0, 1.0), factors=(0.0, 1.0))
+    body = sw.Solid(
+        mesh=rectangle((2.0, 1.0), (8, 4), cell=cell), material=law, density=1.0, supports=(sw.Fixed(on="bottom"),)
+    )
+    load = sw.Traction(on="block.right", value=(0.0, -0.05), ramp=ramp)
+    scene = sw.Scene(bodies={"block": body}, loads=(load,), inertia=sw.bodies.Off())
+    steps = list(adaptive_march(scene, {"block": replace(ADAPT, levels=4, every=2)}, until=1.0, step=0.1))
+    *_, fine = sw.march(finest(scene, 4, "block"), until=1.0, step=0.1)
+    *_, base = sw.march(scene, until=1.0, step=0.1)
+    assert sum(bool(taken.transfers) for taken in steps) >= 1
+    assert steps[-1].model.shape[0] < 0.7 * fine.model.shape[0]
+    _in_equilibrium(steps)
+    energy = fine.ledger.work_external
+    assert abs(steps[-1].ledger.remeshing) < 5e-3 * energy
+    assert abs(steps[-1].ledger.work_external - energy) < 0.05 * abs(base.ledger.work_external - energy)
+
+
+@pytest.mark.parametrize("cell", ["tri3", "quad4"])
+def test_a_block_without_inertia_meets_a_round_tool(cell: str) -> None:
+    moved = sw.Driven(on="bottom", components="y", velocity=(0.05,)), sw.Fixed(on="bottom", components="x")
+    body = sw.Solid(
+        mesh=rectangle((2.0, 1.0), (8, 4), cell=cell), material=sw.NeoHookean(E=1.0, nu=0.3), density=1.0,
+        supports=moved,
+    )  # fmt: skip
+    tool = sw.Tool(shape=sw.obstacles.Sphere(centre=(1.0, 2.01), radius=1.0))
+    scene = sw.Scene(
+        bodies={"block": body, "tool": tool}, contacts=(sw.Contact(between=("block.top", "tool")),),
+        inertia=sw.bodies.Off(),
+    )  # fmt: skip
+    adapt = Adapt(levels=4, tolerance=1.0, buffer=1, every=2, contact_cells=3)
+    steps = list(adaptive_march(scene, {"block": adapt}, until=1.0, step=0.1))
+    fine, base = (list(sw.march(one, until=1.0, step=0.1)) for one in (finest(scene, 4, "block"), scene))
+    assert sum(bool(taken.transfers) for taken in steps) >= 3
+    _in_equilibrium(steps)
+    forces = [[taken.ledger.contacts["block.top-tool"].force_n for taken in some] for some in (steps, fine, base)]
+    assert forces[0] == pytest.approx(forces[1], rel=0.02)
+    assert abs(forces[2][-1] - forces[1][-1]) > 5.0 * abs(forces[0][-1] - forces[1][-1])
+
+
+def _in_equilibrium(steps: Sequence[sw.Step]) -> None:
+    """The energy is closed, and each slab begins in equilibrium on its mesh but at its supports."""
+    most = max(abs(taken.ledger.work_external) for taken in steps)
+    for taken in steps:
+        assert abs(taken.ledger.energy_error) < 1e-12 * most
+        if taken.transfers:
+            start = taken.before
+            model, u = taken.model, taken.model.join(start.displacement)
+            (state,) = start.memory.values() or (None,)
+            internal = model.parts[0].internal
+            force = internal.force(u) if state is None else internal.stored_force(state, u)[1]
+            pressed = model.loads.at(start.time)
+            if start.pressure:
+                rows = model.rows(u, start.time)
+                pressed = pressed + rows.spread(np.concatenate(list(start.pressure.values())), model.shape)
+            left = model.dofs.forces(force - pressed)
+            assert abs(left).max() < 1e-9 * abs(force).max() + 1e-15
 
 
 MIXED = Mesh(

@@ -119,6 +119,8 @@ REASONS = {
     "meshes/adaptive/adapt.py: __post_init__": "from Python: tests/unit/march/remeshing/test_adaptive_march.py",
     "march/remeshing/admitted.py: _require_implicit": "tests/unit/march/remeshing/test_adaptive_march.py",
     "march/remeshing/admitted.py: _require_cells": "tests/unit/march/remeshing/test_other_parts.py",
+    "march/remeshing/admitted.py: _require_linked": "tests/unit/march/remeshing/test_ties.py",
+    "model/ties.py: require_even": "from Python: tests/unit/model/test_hanging_nodes.py",
     "march/remeshing/admitted.py: _require_carried": "tests/unit/march/remeshing/test_other_parts.py",
     "march/remeshing/adapted_scene.py: at": "a state of another scene, from Python",
     "march/remeshing/forming/formed_scene.py: formed_scene": FORGED,
