@@ -23,23 +23,18 @@ def elastic(bodies, u, force, energy):
     """
     d = bodies.dimension
     for part in range(len(bodies.floor)):
-        pairs, own = 0.0, 0.0
+        total, origin = 0.0, bodies.first[part] * d
         for i in range(bodies.first[part], bodies.first[part + 1]):
             for a in range(d):
-                total = 0.0
-                for b in range(d):
-                    total += bodies.row_sum[i, a, b] * u[i * d + b]
-                own += total * u[i * d + a]
-                force[i * d + a] = total
+                force[i * d + a] = 0.0
             for e in range(bodies.stiff_start[i], bodies.stiff_start[i + 1]):
                 j = bodies.stiff_node[e]
                 for a in range(d):
-                    total = 0.0
                     for b in range(d):
-                        total += bodies.stiff[e, a, b] * (u[j * d + b] - u[i * d + b])
-                    force[i * d + a] += total
-                    pairs += total * (u[j * d + a] - u[i * d + a])
-        energy[part] = 0.5 * own - 0.25 * pairs
+                        force[i * d + a] += bodies.stiff[e, a, b] * (u[j * d + b] - u[i * d + b])
+            for a in range(d):
+                total += force[i * d + a] * (u[i * d + a] - u[origin + a])
+        energy[part] = 0.5 * total
 
 
 @uncounted

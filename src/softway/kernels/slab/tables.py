@@ -12,8 +12,8 @@ class Bodies(NamedTuple):
     unknowns; ``heavy`` (N,) are components with inertia, ``place`` (N,) the places of the components in the band, -1
     for a supported one.  ``mass`` and ``stiff`` are sparse rows of nodes: ``mass_start`` (n + 1,), ``mass_node``
     (z,), ``mass`` (z,) and the row sums ``weight`` (n,); ``stiff_start`` (n + 1,), ``stiff_node`` (y,) and ``stiff``
-    (y, d, d) without the diagonal, ``row_sum`` (n, d, d) with it, zero where translations cause no force.  ``points``,
-    ``load`` (N,); ``floor`` (parts,) as in the model.
+    (y, d, d) without the diagonal, as translations cause no force.  ``points``, ``load`` (N,) and ``floor`` (parts,) as
+    in the model.
     """
 
     dimension: int
@@ -28,7 +28,6 @@ class Bodies(NamedTuple):
     stiff_start: IntArray
     stiff_node: IntArray
     stiff: Array
-    row_sum: Array
     points: Array
     load: Array
     floor: Array

@@ -125,16 +125,21 @@ def compiled_model(stepper: Stepper, settings: Settings, span: float) -> Compile
     band[i, i - j] = entries.data
     if not factor(band, lower, pivot):
         return None
-    rows = _rows(model, settings)
+    bodies, rows = _bodies(model, place), _rows(model, settings)
+    if bodies is None:
+        return None
     assert isinstance(stepper.method, FixedPoint)
     tolerance = stepper.method.tolerance
     return CompiledModel(
-        model=model, bodies=_bodies(model, place), rows=rows, span=span, lower=lower, pivot=pivot, tolerance=tolerance
+        model=model, bodies=bodies, rows=rows, span=span, lower=lower, pivot=pivot, tolerance=tolerance
     )
 
 
-def _bodies(model: Model, place: IntArray) -> Bodies:
-    """Arrays of the solids; ``place`` (f,) are the places of the unknowns in the band."""
+def _bodies(model: Model, place: IntArray) -> Bodies | None:
+    """Arrays of the solids; ``place`` (f,) are the places of the unknowns in the band.
+
+    None where translations cause forces.
+    """
     (n, d), own = model.shape, np.full(model.free.size, -1)
     own[model.dofs.components] = place
     mass, stiff = sp.csr_array(model.mass), sp.bsr_array(sp.csr_array(model.tangent(np.zeros((n, d)))), blocksize=(d, d))
@@ -142,7 +147,8 @@ def _bodies(model: Model, place: IntArray) -> Bodies:
     sums, sizes = np.zeros((n, d, d)), np.zeros(n)
     np.add.at(sums, node, stiff.data)
     np.maximum.at(sizes, node, np.abs(stiff.data).max(axis=(1, 2)))
-    sums[np.abs(sums).max(axis=(1, 2)) <= TRANSLATED * sizes] = 0.0
+    if (np.abs(sums).max(axis=(1, 2)) > TRANSLATED * sizes).any():
+        return None
     others = stiff.indices != node
     return Bodies(
         dimension=d,
@@ -157,7 +163,6 @@ def _bodies(model: Model, place: IntArray) -> Bodies:
         stiff_start=_whole(np.concatenate([[0], np.cumsum(np.bincount(node[others], minlength=n))])),
         stiff_node=_whole(stiff.indices[others]),
         stiff=np.ascontiguousarray(stiff.data[others]),
-        row_sum=sums,
         points=np.ascontiguousarray(model.points, float).ravel(),
         load=np.ascontiguousarray(model.load, float).ravel(),
         floor=np.asarray(model.floor, float),
