@@ -11,7 +11,7 @@ from softway.kernels.jit.compilation import uncounted, uncounted_kernel
 from softway.kernels.multibody.band import factor_band, solve_band
 from softway.kernels.slab.audit import audited, closes
 from softway.kernels.slab.products import along, elastic, extent, greatest, momenta
-from softway.kernels.slab.tables import FIRST, ITERATIONS, LAST, SPEED
+from softway.kernels.slab.tables import FIRST, ITERATIONS, LAST
 
 SURE = 0.5
 """Part of a limit within which a decision is certain."""
@@ -90,7 +90,7 @@ def _slab(bodies, rows, operator, course, work, tolerance, s):
             break
         if count == 2 or change <= tolerance * scale / SURE:
             return False
-    course.sums[s, ITERATIONS], course.sums[s, LAST], course.sums[s, SPEED] = count, change, scale
+    course.sums[s, ITERATIONS], course.sums[s, LAST] = count, change
     arrive(bodies, course.u[s], course.v[s], work.q, h, course.u[s + 1])
     elastic(bodies, course.u[s + 1], course.force[s + 1], course.energy[s + 1])
     for r in range(len(rows.offset)):

@@ -91,13 +91,12 @@ class Work(NamedTuple):
     group: Array
 
 
-KINETIC, STRAIN, WORK, ERROR, MOMENTUM, SPIN, UNCLOSED, COMPLEMENTARITY, POWER, ITERATIONS, FIRST, LAST, SPEED = (
-    0, 1, 2, 3, 4, 7, 10, 11, 12, 13, 14, 15, 16,
+KINETIC, STRAIN, WORK, ERROR, MOMENTUM, SPIN, UNCLOSED, COMPLEMENTARITY, POWER, ITERATIONS, FIRST, LAST = (
+    0, 1, 2, 3, 4, 7, 10, 11, 12, 13, 14, 15,
 )  # fmt: skip
 """Columns of the sums of a slab: energies and works as in the ledger, momentum and spin (3 each), momentum error,
-complementarity and power of the certificate, number of iterations, the first and the last change, and greatest velocity
-in the last iterate [m/s]."""
-SUMS = 17
+complementarity and power of the certificate, number of iterations, and the first and the last change [m/s]."""
+SUMS = 16
 FORCE, GAP, CLOSED_POWER, COUNT = range(4)
 """Columns of a contact: force, least gap, power residual, and number of closed rows."""
 MET = 4

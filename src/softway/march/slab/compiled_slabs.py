@@ -22,7 +22,6 @@ from softway.kernels.slab.tables import (
     MET,
     MOMENTUM,
     POWER,
-    SPEED,
     SPIN,
     STRAIN,
     SUMS,
@@ -40,7 +39,6 @@ from softway.march.state.model_state import ModelState, split_states
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.model.slab import Slab
-from softway.solve.effort import Effort
 from softway.solve.equations.slab_values import SlabStart
 from softway.solve.methods.iteration import contraction
 from softway.solve.operators.operator_memory import USUAL, WORN, OperatorMemory
@@ -230,11 +228,12 @@ def steps(stepper: Stepper, found: Stretch) -> Iterator[Step]:
     pairs, scalars = model.contacts.rest(model.displacement, 0.0).found, dict.fromkeys(names, 0.0)
     count = len(found.iterations)
     time, sums, met = course.time.tolist(), course.sums[:count].tolist(), course.met[:count].tolist()
-    account, error, active = begun.account, begun.account.energy_error, int(np.count_nonzero(begun.state.pressure))
+    account, error = begun.account, begun.account.energy_error
+    _told(stepper, found)
     for k in range(count):
         row = sums[k]
         slab = Slab(start=time[k], end=time[k + 1], weight=begun.settings.weight)
-        _told(stepper, begun.slabs + k + 1, slab, row, active)
+        heed(stepper.cancel, slab.start)
         ledger = Ledger(
             energy_kinetic=row[KINETIC],
             energy_strain=row[STRAIN],
@@ -280,11 +279,7 @@ def steps(stepper: Stepper, found: Stretch) -> Iterator[Step]:
         )
 
 
-def _told(stepper: Stepper, number: int, slab: Slab, row: list[float], active: int) -> None:
-    """Tell the iterates of a slab, and end a march that is cancelled."""
-    heed(stepper.cancel, slab.start)
-    if stepper.trying is None:
-        return
-    effort, scale = Effort(tell=watched(stepper.trying, number, slab.start, slab.span)), row[SPEED]
-    for count in range(1, int(row[ITERATIONS]) + 1):
-        effort.iterated(count, (row[FIRST] if count == 1 else row[LAST]) / scale, active)
+def _told(stepper: Stepper, found: Stretch) -> None:
+    """Tell that slabs begin: one call computes all of them."""
+    slab = found.begun.slabs + 1
+    watched(stepper.trying, slab, found.begun.state.time, float(found.course.time[1] - found.course.time[0]))
