@@ -11,7 +11,7 @@ from softway.march.audit.ledger import update_account
 from softway.march.results.step import Ledger, Report, Step
 from softway.march.results.step_states import KnownStates
 from softway.march.slab.compiled_model import compiled_model
-from softway.march.slab.compiled_slabs import steps, stretch
+from softway.march.slab.compiled_slabs import next_batch, steps
 from softway.march.slab.slab_step import Stepper
 from softway.march.start.knots import slab_length
 from softway.march.start.ladder import Quality, fastest, next_rung, on_ladder
@@ -33,7 +33,7 @@ def slabs(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
     until, memory, before = settings.until, march_state.memory, split_states(model, march_state.state)
     cells, compiled = crushing(model, stepper.method), compiled_model(stepper, settings, span)
     while march_state.state.time < until - 1e-9 * span:
-        some = None if compiled is None else stretch(compiled, march_state, before, memory)
+        some = None if compiled is None else next_batch(compiled, march_state, before, memory)
         if some is not None:
             yield from steps(stepper, some)
             count = len(some.iterations)

@@ -19,17 +19,11 @@ from softway.kernels.slab.tables import (
     UNCLOSED,
     WORK,
 )
-from softway.tolerances import DEPTH, ENERGY
+from softway.tolerances import AT_REST, BEQUEST, DEPTH, ENERGY, SUMS
 from softway.tolerances import MOMENTUM as MISSED
 
 SURE = 0.5
 """Part of a limit within which a balance certainly holds."""
-SUMS = 2e-15
-"""Rounding error of sums of works and energies, relative to their magnitudes."""
-AT_REST = 1e10
-"""Energies, relative to the rounding error of the stored energy, below which bodies are at rest."""
-BEQUEST = 0.5
-"""Fraction of the admissible momentum error that a slab may leave to the next one."""
 
 
 @uncounted
@@ -56,10 +50,10 @@ def closes(bodies, rows, course, work, unit, s):
     for r in range(len(rows.offset)):
         g = bodies.group[rows.part[r]]
         work.group[g, 1] += blur * (abs(course.pressure[s, r]) + abs(unit * course.pressure[s + 1, r]))
+    closed = True
     for g in range(len(work.group)):
-        if not abs(work.group[g, 0]) <= SURE * work.group[g, 1]:
-            return False
-    return True
+        closed = closed and abs(work.group[g, 0]) <= SURE * work.group[g, 1]
+    return closed
 
 
 @uncounted
@@ -97,7 +91,7 @@ def audited(bodies, rows, course, work, account, s):
 @uncounted
 def _touching(rows, course, work, s):
     """Sums over the contacts; the least gap.  ``work.row`` are the mean forces of the rows."""
-    least, touching = np.inf, 0.0
+    least = np.inf
     course.sums[s, COMPLEMENTARITY] = course.sums[s, POWER] = 0.0
     for r in range(len(rows.offset)):
         met, p0, p1 = course.met[s, rows.contact[r]], course.pressure[s, r], course.pressure[s + 1, r]

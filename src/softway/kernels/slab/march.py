@@ -27,10 +27,10 @@ UNIT = 0.5
 def factor(matrix, lower, pivot):
     """Factor an operator in a band; false if it is not positive definite."""
     factor_band(matrix, lower, pivot)
+    positive = True
     for i in range(len(pivot)):
-        if not pivot[i] > 0.0:
-            return False
-    return True
+        positive = positive and pivot[i] > 0.0
+    return positive
 
 
 @uncounted_kernel
@@ -106,10 +106,10 @@ def _expect(bodies, rows, course, work, h, s):
         rate = v[c] + h * slope[c]
         work.q[c] = 0.0 if bodies.place[c] < 0 else rate if bodies.heavy[c] else 2.0 * rate
         end[c] = u[c] + h * (0.5 * (v[c] + rate) if bodies.heavy[c] else rate)
+    slow = True
     for r in range(len(rows.offset)):
-        if rows.offset[r] + along(rows, r, end) < -rows.allowed[r]:
-            return False
-    return True
+        slow = slow and rows.offset[r] + along(rows, r, end) >= -rows.allowed[r]
+    return slow
 
 
 @uncounted

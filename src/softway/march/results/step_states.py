@@ -45,6 +45,4 @@ class KnownStates:
     @classmethod
     def of(cls, states: StepStates) -> "KnownStates":
         """The same states, to replace one of them."""
-        return cls(
-            before=states.before, after=states.after, reactions=states.reactions, march_state=states.march_state
-        )
+        return cls(before=states.before, after=states.after, reactions=states.reactions, march_state=states.march_state)

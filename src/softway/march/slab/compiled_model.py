@@ -1,5 +1,4 @@
-"""Model with linear laws on fixed contact rows as arrays for its compiled slabs (docs/theory/solver/compiled_slabs.md).
-"""
+"""Model with linear laws on fixed contact rows as arrays for compiled slabs (docs/theory/solver/compiled_slabs.md)."""
 
 from dataclasses import dataclass, field
 
@@ -142,7 +141,10 @@ def _bodies(model: Model, place: IntArray) -> Bodies | None:
     """
     (n, d), own = model.shape, np.full(model.free.size, -1)
     own[model.dofs.components] = place
-    mass, stiff = sp.csr_array(model.mass), sp.bsr_array(sp.csr_array(model.tangent(np.zeros((n, d)))), blocksize=(d, d))
+    mass, stiff = (
+        sp.csr_array(model.mass),
+        sp.bsr_array(sp.csr_array(model.tangent(np.zeros((n, d)))), blocksize=(d, d)),
+    )
     node = np.repeat(np.arange(n), np.diff(stiff.indptr))
     sums, sizes = np.zeros((n, d, d)), np.zeros(n)
     np.add.at(sums, node, stiff.data)

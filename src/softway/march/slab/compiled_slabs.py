@@ -50,7 +50,7 @@ AHEAD = 2.0
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Stretch:
+class SlabBatch:
     """Successive compiled slabs.
 
     Parameters
@@ -121,35 +121,37 @@ class Stretch:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class StretchStates:
-    """States of the slab ``number`` of a stretch, see :class:`~softway.march.results.step_states.StepStates`."""
+class BatchStates:
+    """States of the slab ``number`` of a batch, see :class:`~softway.march.results.step_states.StepStates`."""
 
-    stretch: Stretch
+    batch: SlabBatch
     number: int
 
     @property
     def before(self) -> State:
         """State at the start."""
-        return self.stretch.state(self.number)
+        return self.batch.state(self.number)
 
     @property
     def after(self) -> State:
         """State at the end."""
-        return self.stretch.state(self.number + 1)
+        return self.batch.state(self.number + 1)
 
     @property
     def march_state(self) -> MarchState:
         """State of the march after the slab."""
-        return self.stretch.march_state(self.number + 1)
+        return self.batch.march_state(self.number + 1)
 
     @property
     def reactions(self) -> Mapping[str, Array]:
         """Body -> (n, d) mean force of the supports on the nodes [N]."""
-        model, support = self.stretch.model, self.stretch.course.support
+        model, support = self.batch.model, self.batch.course.support
         return model.split(support[self.number].reshape(model.shape) if len(support) else np.zeros(model.shape))
 
 
-def stretch(compiled: CompiledModel, march_state: MarchState, before: State, memory: OperatorMemory) -> Stretch | None:
+def next_batch(
+    compiled: CompiledModel, march_state: MarchState, before: State, memory: OperatorMemory
+) -> SlabBatch | None:
     """Slabs from a march state on, up to one in which something happens; None if that is the next one.
 
     The state alone decides which slabs are compiled, so that a resumed march has the same bits.
@@ -173,7 +175,7 @@ def stretch(compiled: CompiledModel, march_state: MarchState, before: State, mem
     if not count:
         return None
     iterations = tuple(int(i) for i in course.sums[:count, ITERATIONS].tolist())
-    return Stretch(
+    return SlabBatch(
         model=model, begun=march_state, memory=memory, course=course, iterations=iterations, states={0: before}
     )
 
@@ -221,8 +223,8 @@ def _work(compiled: CompiledModel) -> Work:
     )
 
 
-def steps(stepper: Stepper, found: Stretch) -> Iterator[Step]:
-    """Steps of a stretch."""
+def steps(stepper: Stepper, found: SlabBatch) -> Iterator[Step]:
+    """Steps of a batch; each asks as often if the march is cancelled as if it were solved alone."""
     course, model, begun, memory = found.course, found.model, found.begun, found.memory
     names, labels = [p.name for p in model.parts], model.contacts.labels
     pairs, scalars = model.contacts.rest(model.displacement, 0.0).found, dict.fromkeys(names, 0.0)
@@ -233,7 +235,8 @@ def steps(stepper: Stepper, found: Stretch) -> Iterator[Step]:
     for k in range(count):
         row = sums[k]
         slab = Slab(start=time[k], end=time[k + 1], weight=begun.settings.weight)
-        heed(stepper.cancel, slab.start)
+        for _ in range(0 if stepper.cancel is None else 1 + found.iterations[k]):
+            heed(stepper.cancel, slab.start)
         ledger = Ledger(
             energy_kinetic=row[KINETIC],
             energy_strain=row[STRAIN],
@@ -275,11 +278,11 @@ def steps(stepper: Stepper, found: Stretch) -> Iterator[Step]:
             certificate=certificate,
             events=(),
             report=report,
-            states=StretchStates(stretch=found, number=k),
+            states=BatchStates(batch=found, number=k),
         )
 
 
-def _told(stepper: Stepper, found: Stretch) -> None:
+def _told(stepper: Stepper, found: SlabBatch) -> None:
     """Tell that slabs begin: one call computes all of them."""
     slab = found.begun.slabs + 1
     watched(stepper.trying, slab, found.begun.state.time, float(found.course.time[1] - found.course.time[0]))

@@ -12,7 +12,6 @@ from softway.piles.state import PileState
 from softway.record.storage.checkpoint import RARE, Checkpoint, Checkpoints, save
 from softway.record.storage.uninterrupted import uninterrupted
 
-
 State = MarchState | MechanismState | PileState | HeatState
 """State of a march after a step."""
 

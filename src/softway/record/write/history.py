@@ -14,9 +14,7 @@ FILE = "history.csv"
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class History:
-    """Open file ``history.csv``; the probes of the start of the run follow its ``columns``.  ``line`` is the format of a
-    line.
-    """
+    """Open file ``history.csv``; the probes of the start of the run follow its ``columns``.  ``line`` is its format."""
 
     lines: Lines
     columns: tuple[Column, ...]

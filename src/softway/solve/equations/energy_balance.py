@@ -17,17 +17,14 @@ from softway.model.model import Model
 from softway.solve.equations.end_forces import EndForces
 from softway.solve.equations.friction_work import FrictionWork, friction_work
 from softway.solve.equations.spin_balance import middle, moment, spin_balance
+from softway.tolerances import AT_REST, SUMS
 
-SUMS = 2e-15
-"""Rounding error of sums of works and energies, relative to their magnitudes."""
 TINY = 1e-10
 """Residual energy, relative to the energy, below which the balance may always be closed along the motion."""
 BOUND = 0.5
 """Greatest scalar: with |a| <= 1/2 the mean force stays between those at the two ends."""
 WEIGHING = 2.0
 """Greatest scalar without inertia, where it only weights the works at the two ends."""
-AT_REST = 1e10
-"""Stored energy, relative to that of rounding errors, below which no work is missing: strains of 1e-9."""
 SLIGHT = 1e-2
 """Residual, relative to the work of the internal forces, that is closed along the motion if the scalar is bounded."""
 
