@@ -17,7 +17,7 @@ from softway.march.start.knots import slab_length
 from softway.march.start.ladder import Quality, fastest, next_rung, on_ladder
 from softway.march.state.march_state import AdaptedMeshes, MarchState, StepHistory
 from softway.march.state.model_state import split_states
-from softway.march.state.step_control import above, crushing, may_grow
+from softway.march.state.step_control import Crushing, above, crushing, may_grow
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.solve.equations.energy_balance import SLIGHT
@@ -44,36 +44,42 @@ def slabs(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
         found = accept_slab(stepper, march_state, length, memory)
         if memory.choice is None and found.memory.choice is not None:
             log.info("operator %s: %s", found.memory.choice.operator, found.memory.choice.reason)
-        following, smooth = _next(model, march_state, found)
-        if cells.edges:
-            following = min(following, span * cells.shortest_ratio(found.after.start.displacement))
-        march_state = MarchState(
-            settings=settings,
-            state=found.after,
-            account=update_account(march_state.account, found.ledger),
-            step_history=StepHistory(
-                span=span,
-                length=following,
-                energy_along_motion=found.energy_along_motion,
-                halted=found.halted,
-                recent_rejections=recent_rejections(
-                    march_state.step_history,
-                    found.slab.span,
-                    len(found.rejections),
-                    (until - found.after.time) / found.slab.span,
-                ),
-                last_rejection=[march_state.step_history.last_rejection, *found.rejections][-1],
-                smooth=smooth,
-                fastest=_fastest(model, march_state, found),
-            ),
-            memory=found.memory.bare(),
-            slabs=march_state.slabs + 1,
-            adapted=_adapted(march_state.adapted, found.ledger),
-        )
+        march_state = _after(model, march_state, found, cells)
         step = _step(model, before, found, march_state)
         log.debug("slab %d to t = %.6g s: %d iterations", march_state.slabs, found.after.time, found.out.iterations)
         yield step
         before, memory = step.after, found.memory
+
+
+def _after(model: Model, march_state: MarchState, found: AcceptedSlab, cells: Crushing) -> MarchState:
+    """State of the march after a slab."""
+    span, until = march_state.step_history.span, march_state.settings.until
+    following, smooth = _next(model, march_state, found)
+    if cells.edges:
+        following = min(following, span * cells.shortest_ratio(found.after.start.displacement))
+    return MarchState(
+        settings=march_state.settings,
+        state=found.after,
+        account=update_account(march_state.account, found.ledger),
+        step_history=StepHistory(
+            span=span,
+            length=following,
+            energy_along_motion=found.energy_along_motion,
+            halted=found.halted,
+            recent_rejections=recent_rejections(
+                march_state.step_history,
+                found.slab.span,
+                len(found.rejections),
+                (until - found.after.time) / found.slab.span,
+            ),
+            last_rejection=[march_state.step_history.last_rejection, *found.rejections][-1],
+            smooth=smooth,
+            fastest=_fastest(model, march_state, found),
+        ),
+        memory=found.memory.bare(),
+        slabs=march_state.slabs + 1,
+        adapted=_adapted(march_state.adapted, found.ledger),
+    )
 
 
 def _adapted(meshes: AdaptedMeshes | None, ledger: Ledger) -> AdaptedMeshes | None:

@@ -34,7 +34,7 @@ from softway.march.results.step import Certificate, ContactLedger, Ledger, Repor
 from softway.march.results.trying import watched
 from softway.march.slab.compiled_model import CompiledModel
 from softway.march.slab.slab_step import Stepper
-from softway.march.state.march_state import MarchState
+from softway.march.state.march_state import EnergyAccount, MarchState
 from softway.march.state.model_state import ModelState, split_states
 from softway.model.model import Model
 from softway.model.scene import State
@@ -226,60 +226,68 @@ def _work(compiled: CompiledModel) -> Work:
 def steps(stepper: Stepper, found: SlabBatch) -> Iterator[Step]:
     """Steps of a batch; each asks as often if the march is cancelled as if it were solved alone."""
     course, model, begun, memory = found.course, found.model, found.begun, found.memory
-    names, labels = [p.name for p in model.parts], model.contacts.labels
-    pairs, scalars = model.contacts.rest(model.displacement, 0.0).found, dict.fromkeys(names, 0.0)
-    count = len(found.iterations)
+    pairs, scalars = model.contacts.rest(model.displacement, 0.0).found, {p.name: 0.0 for p in model.parts}
+    labels, count, error = model.contacts.labels, len(found.iterations), begun.account.energy_error
     time, sums, met = course.time.tolist(), course.sums[:count].tolist(), course.met[:count].tolist()
-    account, error = begun.account, begun.account.energy_error
     _told(stepper, found)
-    for k in range(count):
-        row = sums[k]
+    for k, (row, iterations) in enumerate(zip(sums, found.iterations, strict=True)):
         slab = Slab(start=time[k], end=time[k + 1], weight=begun.settings.weight)
-        for _ in range(0 if stepper.cancel is None else 1 + found.iterations[k]):
+        for _ in range(0 if stepper.cancel is None else 1 + iterations):
             heed(stepper.cancel, slab.start)
-        ledger = Ledger(
-            energy_kinetic=row[KINETIC],
-            energy_strain=row[STRAIN],
-            work_external=row[WORK],
-            dissipation=account.dissipation,
-            energy_error=row[ERROR],
-            momentum=course.sums[k, MOMENTUM : MOMENTUM + 3],
-            spin=course.sums[k, SPIN : SPIN + 3],
-            contacts={
-                label: ContactLedger(
-                    force_n=c[FORCE], force_t=0.0, min_gap=c[GAP], power_residual=c[CLOSED_POWER], count=int(c[COUNT])
-                )
-                for label, c in zip(labels, met[k], strict=True)
-            },
-            remeshing=account.remeshing,
-        )
-        certificate = Certificate(
-            min_gap=min((c[GAP] for c in met[k]), default=np.inf),
-            min_force=0.0,
-            complementarity=row[COMPLEMENTARITY],
-            power_residual=row[POWER],
-            momentum_error=row[UNCLOSED],
-            energy_error=row[ERROR] - error,
-        )
-        error = row[ERROR]
+        contacts = {label: _contact(c) for label, c in zip(labels, met[k], strict=True)}
         report = Report(
-            iterations=found.iterations[k],
+            iterations=iterations,
             pairs=pairs,
             factorisations=memory.factorisations,
             renewals=memory.renewals,
             passes=1,
-            contraction=contraction(row[FIRST], row[LAST], found.iterations[k]),
+            contraction=contraction(row[FIRST], row[LAST], iterations),
             scalars=scalars,
         )
         yield Step(
             model=model,
             slab=slab,
-            ledger=ledger,
-            certificate=certificate,
+            ledger=_ledger(begun.account, row, course.sums[k], contacts),
+            certificate=_certificate(row, error, contacts),
             events=(),
             report=report,
             states=BatchStates(batch=found, number=k),
         )
+        error = row[ERROR]
+
+
+def _contact(met: list[float]) -> ContactLedger:
+    """Audit of a contact from its sums."""
+    return ContactLedger(
+        force_n=met[FORCE], force_t=0.0, min_gap=met[GAP], power_residual=met[CLOSED_POWER], count=int(met[COUNT])
+    )
+
+
+def _ledger(account: EnergyAccount, row: list[float], sums: Array, contacts: Mapping[str, ContactLedger]) -> Ledger:
+    """Ledger after a slab from its sums, as numbers and as an array."""
+    return Ledger(
+        energy_kinetic=row[KINETIC],
+        energy_strain=row[STRAIN],
+        work_external=row[WORK],
+        dissipation=account.dissipation,
+        energy_error=row[ERROR],
+        momentum=sums[MOMENTUM : MOMENTUM + 3],
+        spin=sums[SPIN : SPIN + 3],
+        contacts=contacts,
+        remeshing=account.remeshing,
+    )
+
+
+def _certificate(row: list[float], error: float, contacts: Mapping[str, ContactLedger]) -> Certificate:
+    """Certificate of a slab from its sums; ``error`` is that of the energy balance before it [J]."""
+    return Certificate(
+        min_gap=min((c.min_gap for c in contacts.values()), default=np.inf),
+        min_force=0.0,
+        complementarity=row[COMPLEMENTARITY],
+        power_residual=row[POWER],
+        momentum_error=row[UNCLOSED],
+        energy_error=row[ERROR] - error,
+    )
 
 
 def _told(stepper: Stepper, found: SlabBatch) -> None:
