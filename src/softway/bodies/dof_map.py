@@ -162,7 +162,8 @@ class NodalDofs:
 
     def squares(self, gradient: sp.csr_array) -> Array:
         """Squares (m,) of the magnitudes of the rows on the free components."""
-        return np.asarray(gradient.power(2) @ self.free.ravel().astype(float))
+        row = np.repeat(np.arange(gradient.shape[0]), np.diff(gradient.indptr))
+        return np.bincount(row, gradient.data**2 * self.free.ravel()[gradient.indices], minlength=gradient.shape[0])
 
     def matrix(self, nodal: sp.csc_array) -> sp.csc_array:
         """Rows and columns (f, f) of the free components."""

@@ -83,9 +83,12 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
             den[g] -= spin.work(moving) @ spin.solve(spin.slope)
     rounding = SUMS * level + floor + np.bincount(label, weights=_blurred(model, ends))
     rubbing = friction_work(ends.tangential, ends.u1 - ends.u0, label[model.part_of[ends.rows0.node]], len(members))
-    num, den, reset = _without_created_energy((num, den), rounding, rubbing, model.inert)
+    reset = np.zeros(len(members), bool)
+    if ends.rows0.shear.count:
+        num, den, reset = _without_created_energy((num, den), rounding, rubbing, model.inert)
     strained = np.bincount(label, weights=np.abs(ends.V0) + np.abs(ends.V1)) > AT_REST * floor
-    touched = np.isin(np.arange(len(members)), label[model.part_of[ends.rows0.node[touching]]])
+    touched = np.zeros(len(members), bool)
+    touched[label[model.part_of[ends.rows0.node[touching]]]] = True
     supply = _viscous_work(model, ends, moving, label) * np.array([spin is None for spin in spins])
     viscous, num = _by_viscous_forces(num, den, supply)
     wanted = np.where(strained | touched, _quotient(num, den, rounding), 0.0)
