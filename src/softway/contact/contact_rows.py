@@ -77,7 +77,7 @@ class ContactRows:
         """Nodal field (n, d) ``G^T values`` of row values (m,)."""
         rows = self.gradient
         weights = rows.data * np.repeat(values, np.diff(rows.indptr))
-        return np.bincount(rows.indices, weights, minlength=rows.shape[1]).reshape(shape)
+        return np.asarray(np.bincount(rows.indices, weights, minlength=rows.shape[1]), float).reshape(shape)
 
     def matrix(self, dofs: DofMap) -> sp.csr_array:
         """Rows (m, f) on the unknowns, ``G J``; with friction, the tangential rows follow below."""
