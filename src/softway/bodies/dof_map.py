@@ -162,9 +162,7 @@ class NodalDofs:
 
     def squares(self, gradient: sp.csr_array) -> Array:
         """Squares (m,) of the magnitudes of the rows on the free components."""
-        row = np.repeat(np.arange(gradient.shape[0]), np.diff(gradient.indptr))
-        squares = gradient.data**2 * self.free.ravel()[gradient.indices]
-        return np.asarray(np.bincount(row, squares, minlength=gradient.shape[0]), float)
+        return np.asarray(gradient.power(2) @ self.free.ravel().astype(float))
 
     def matrix(self, nodal: sp.csc_array) -> sp.csc_array:
         """Rows and columns (f, f) of the free components."""

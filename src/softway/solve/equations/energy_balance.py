@@ -83,12 +83,9 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
             den[g] -= spin.work(moving) @ spin.solve(spin.slope)
     rounding = SUMS * level + floor + np.bincount(label, weights=_blurred(model, ends))
     rubbing = friction_work(ends.tangential, ends.u1 - ends.u0, label[model.part_of[ends.rows0.node]], len(members))
-    reset = np.zeros(len(members), bool)
-    if ends.rows0.shear.count:
-        num, den, reset = _without_created_energy((num, den), rounding, rubbing, model.inert)
+    num, den, reset = _without_created_energy((num, den), rounding, rubbing, model.inert)
     strained = np.bincount(label, weights=np.abs(ends.V0) + np.abs(ends.V1)) > AT_REST * floor
-    touched = np.zeros(len(members), bool)
-    touched[label[model.part_of[ends.rows0.node[touching]]]] = True
+    touched = np.bincount(label[model.part_of[ends.rows0.node[touching]]], minlength=len(members)) > 0
     supply = _viscous_work(model, ends, moving, label) * np.array([spin is None for spin in spins])
     viscous, num = _by_viscous_forces(num, den, supply)
     wanted = np.where(strained | touched, _quotient(num, den, rounding), 0.0)
@@ -179,6 +176,8 @@ def _without_created_energy(
     The third array marks these groups: there the dissipated energy is zero, and the scalar closes the balance with it.
     """
     num, den = balance
+    if not (rubbing.first.any() or rubbing.last.any()):
+        return num, den, np.zeros(len(num), bool)
     created = rubbing.dissipated(_bounded(_quotient(num, den, rounding), inert)) < -rounding
     num = np.where(created, num - rubbing.dissipated(np.zeros(len(num))), num)
     return num, np.where(created, den + rubbing.slope, den), created
