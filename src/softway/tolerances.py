@@ -11,6 +11,12 @@ UNSTABLE = 0.1
 beyond the stability limit has; of the rule Impulse, growth in all slabs together that makes a march worthless."""
 GAINED = 3e-3
 """Growth of the energy in one slab of the rule Impulse with touches, relative to the energies that take part."""
+SUMS = 2e-15
+"""Rounding error of sums of works and energies, relative to their magnitudes."""
+AT_REST = 1e10
+"""Energies, relative to the rounding error of the stored energy, below which bodies are at rest: strains of 1e-9."""
+BEQUEST = 0.5
+"""Fraction of the admissible momentum error that a slab may leave to the next one."""
 MOMENTUM = 1e-9
 """Greatest error of the momentum balance of one slab, relative to the momenta that take part."""
 MOTION = 1e-12

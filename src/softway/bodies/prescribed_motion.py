@@ -106,11 +106,11 @@ class Table:
 
     def at(self, time: float) -> Pose:
         """Pose at a time [s]."""
-        knots = np.reshape(np.asarray(self.displacements, float), (len(self.times), self.dim))
         after = min(bisect_right(self.times, time), len(self.times) - 1)
         before = max(after - 1, 0)
+        first, last = (np.atleast_1d(np.asarray(self.displacements[k], float)) for k in (before, after))
         share = np.interp(time, (self.times[before], self.times[after]), (0.0, 1.0)) if after > before else 0.0
-        return Pose(rotation=np.array(1.0), shift=(1.0 - share) * knots[before] + share * knots[after])
+        return Pose(rotation=np.array(1.0), shift=(1.0 - share) * first + share * last)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

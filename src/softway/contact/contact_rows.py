@@ -75,7 +75,9 @@ class ContactRows:
 
     def spread(self, values: Array, shape: tuple[int, int]) -> Array:
         """Nodal field (n, d) ``G^T values`` of row values (m,)."""
-        return np.asarray(self.gradient.T @ values).reshape(shape)
+        rows = self.gradient
+        weights = rows.data * np.repeat(values, np.diff(rows.indptr))
+        return np.asarray(np.bincount(rows.indices, weights, minlength=rows.shape[1]), float).reshape(shape)
 
     def matrix(self, dofs: DofMap) -> sp.csr_array:
         """Rows (m, f) on the unknowns, ``G J``; with friction, the tangential rows follow below."""

@@ -9,12 +9,15 @@ import numpy as np
 from softway.march.attempts import DAMPED, AcceptedSlab, accept_slab, recent_rejections, require_progress
 from softway.march.audit.ledger import update_account
 from softway.march.results.step import Ledger, Report, Step
+from softway.march.results.step_states import KnownStates
+from softway.march.slab.compiled_model import compiled_model
+from softway.march.slab.compiled_slabs import next_batch, steps
 from softway.march.slab.slab_step import Stepper
 from softway.march.start.knots import slab_length
 from softway.march.start.ladder import Quality, fastest, next_rung, on_ladder
 from softway.march.state.march_state import AdaptedMeshes, MarchState, StepHistory
 from softway.march.state.model_state import split_states
-from softway.march.state.step_control import crushing, may_grow
+from softway.march.state.step_control import Crushing, above, crushing, may_grow
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.solve.equations.energy_balance import SLIGHT
@@ -28,43 +31,55 @@ def slabs(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
     """Accepted slabs from a march state to the end of the march."""
     model, settings, span = stepper.model, march_state.settings, march_state.step_history.span
     until, memory, before = settings.until, march_state.memory, split_states(model, march_state.state)
-    cells = crushing(model, stepper.method)
+    cells, compiled = crushing(model, stepper.method), compiled_model(stepper, settings, span)
     while march_state.state.time < until - 1e-9 * span:
+        some = None if compiled is None else next_batch(compiled, march_state, before, memory)
+        if some is not None:
+            yield from steps(stepper, some)
+            count = len(some.iterations)
+            march_state, memory, before = some.march_state(count), some.memory_after(count), some.state(count)
+            continue
         length = slab_length(stepper.ends, march_state)
         require_progress(stepper, march_state, length)
         found = accept_slab(stepper, march_state, length, memory)
         if memory.choice is None and found.memory.choice is not None:
             log.info("operator %s: %s", found.memory.choice.operator, found.memory.choice.reason)
-        following, smooth = _next(model, march_state, found)
-        if cells.edges:
-            following = min(following, span * cells.shortest_ratio(found.after.start.displacement))
-        march_state = MarchState(
-            settings=settings,
-            state=found.after,
-            account=update_account(march_state.account, found.ledger),
-            step_history=StepHistory(
-                span=span,
-                length=following,
-                energy_along_motion=found.energy_along_motion,
-                halted=found.halted,
-                recent_rejections=recent_rejections(
-                    march_state.step_history,
-                    found.slab.span,
-                    len(found.rejections),
-                    (until - found.after.time) / found.slab.span,
-                ),
-                last_rejection=[march_state.step_history.last_rejection, *found.rejections][-1],
-                smooth=smooth,
-                fastest=_fastest(model, march_state, found),
-            ),
-            memory=found.memory.bare(),
-            slabs=march_state.slabs + 1,
-            adapted=_adapted(march_state.adapted, found.ledger),
-        )
+        march_state = _after(model, march_state, found, cells)
         step = _step(model, before, found, march_state)
         log.debug("slab %d to t = %.6g s: %d iterations", march_state.slabs, found.after.time, found.out.iterations)
         yield step
         before, memory = step.after, found.memory
+
+
+def _after(model: Model, march_state: MarchState, found: AcceptedSlab, cells: Crushing) -> MarchState:
+    """State of the march after a slab."""
+    span, until = march_state.step_history.span, march_state.settings.until
+    following, smooth = _next(model, march_state, found)
+    if cells.edges:
+        following = min(following, span * cells.shortest_ratio(found.after.start.displacement))
+    return MarchState(
+        settings=march_state.settings,
+        state=found.after,
+        account=update_account(march_state.account, found.ledger),
+        step_history=StepHistory(
+            span=span,
+            length=following,
+            energy_along_motion=found.energy_along_motion,
+            halted=found.halted,
+            recent_rejections=recent_rejections(
+                march_state.step_history,
+                found.slab.span,
+                len(found.rejections),
+                (until - found.after.time) / found.slab.span,
+            ),
+            last_rejection=[march_state.step_history.last_rejection, *found.rejections][-1],
+            smooth=smooth,
+            fastest=_fastest(model, march_state, found),
+        ),
+        memory=found.memory.bare(),
+        slabs=march_state.slabs + 1,
+        adapted=_adapted(march_state.adapted, found.ledger),
+    )
 
 
 def _adapted(meshes: AdaptedMeshes | None, ledger: Ledger) -> AdaptedMeshes | None:
@@ -100,8 +115,10 @@ def _next(model: Model, march_state: MarchState, found: AcceptedSlab) -> tuple[f
     if on_ladder(settings, history, length):
         quality = Quality.of(model, history, now, found.slab, found.after)
         return next_rung(settings, history, length, quality, bool(found.rejections or found.out.events))
-    if found.rejections or length >= span:
+    if found.rejections:
         return min(span, length), 0
+    if not above(span, length):
+        return span, 0
     return (min(span, 2.0 * length) if may_grow(model, control, length, now, found.after) else length), 0
 
 
@@ -110,13 +127,10 @@ def _step(model: Model, before: State, found: AcceptedSlab, march_state: MarchSt
     names = [p.name for p in model.parts]
     return Step(
         model=model,
-        before=before,
-        after=split_states(model, found.after),
         slab=found.slab,
         ledger=found.ledger,
         certificate=found.certificate,
         events=out.events,
-        reactions=model.split(out.support),
         report=Report(
             iterations=out.iterations,
             pairs=out.pairs,
@@ -127,5 +141,10 @@ def _step(model: Model, before: State, found: AcceptedSlab, march_state: MarchSt
             rejections=found.rejections,
             scalars=dict(zip(names, out.solution.end.scalar.tolist(), strict=True)),
         ),
-        march_state=march_state,
+        states=KnownStates(
+            before=before,
+            after=split_states(model, found.after),
+            reactions=model.split(out.support),
+            march_state=march_state,
+        ),
     )

@@ -180,7 +180,7 @@ def _opened(folder: Path, opening: RunStart, marks: Mapping[str, int]) -> dict[s
 def _take(recorders: Mapping[str, Recorder], keeper: CheckpointWriter, step: Step) -> None:
     for recorder in recorders.values():
         recorder.take(step)
-    keeper.took(step.march_state)
+    keeper.took(lambda: step.march_state)
 
 
 def _finish(

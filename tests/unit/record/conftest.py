@@ -10,6 +10,7 @@ from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact
 from softway.laws.bulk.linear_elastic import LinearElastic
 from softway.march.results.step import Certificate, ContactLedger, Event, Ledger, Report, Step
+from softway.march.results.step_states import KnownStates
 from softway.meshes.generators import shapes
 from softway.meshes.mesh import Mesh
 from softway.model.scene import Scene, State
@@ -103,10 +104,12 @@ class Fake:
             min_gap=0.5, min_force=1.5, complementarity=2.5, power_residual=3.5, momentum_error=4.5, energy_error=5.5
         )
         return Step(
-            model=None, certificate=certificate, before=before, after=after, slab=Slab(start=begin, end=end),
+            model=None, certificate=certificate, slab=Slab(start=begin, end=end),
             ledger=self.ledger(after), events=events,
-            reactions={"part": np.ones_like(self.mesh.points)},
-            report=Report(iterations=3, pairs=4, factorisations=1, passes=1), march_state=None,
+            report=Report(iterations=3, pairs=4, factorisations=1, passes=1),
+            states=KnownStates(
+                before=before, after=after, reactions={"part": np.ones_like(self.mesh.points)}, march_state=None
+            ),
         )  # fmt: skip
 
 

@@ -90,8 +90,11 @@ class Driven:
 
     def at(self, time: float) -> float:
         """Velocity at a time [m/s]."""
-        values = np.atleast_1d(np.asarray(self.velocity, float))
-        return float(np.interp(time, self.times, values)) if self.times else float(values[0])
+        if not isinstance(self.velocity, tuple) or not self.times:
+            return float(np.ravel(self.velocity)[0])
+        after = min(bisect_right(self.times, time), len(self.times) - 1)
+        near = slice(max(after - 1, 0), after + 1)
+        return float(np.interp(time, self.times[near], self.velocity[near]))
 
     def bends(self, start: float, end: float) -> tuple[tuple[float, float], ...]:
         """Bends of the velocity inside a slab: instants tau in (0, 1), and changes of its slope [m/s per slab].

@@ -52,6 +52,10 @@ _SHARED = (
     "pile/sweeps.py",
     "pile/tables.py",
     "pile/through.py",
+    "slab/audit.py",
+    "slab/products.py",
+    "slab/tables.py",
+    "../tolerances.py",
 )
 _SOURCES = b"".join((Path(__file__).parents[1] / name).read_bytes() for name in _SHARED)
 _ENDING = f"_{sha256(_SOURCES).hexdigest()[:12]}"

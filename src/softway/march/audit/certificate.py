@@ -14,12 +14,8 @@ from softway.march.state.march_state import EnergyAccount
 from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.solve.equations.slab_values import SlabStart
-from softway.tolerances import DEPTH, ENERGY, FORCES, GAINED, MOMENTUM, TENSION, UNSTABLE
+from softway.tolerances import AT_REST, BEQUEST, DEPTH, ENERGY, FORCES, GAINED, MOMENTUM, TENSION, UNSTABLE
 
-AT_REST = 1e10
-"""Energies, relative to the rounding error of the stored energy, below which bodies are at rest: strains of 1e-9."""
-BEQUEST = 0.5
-"""Fraction of the admissible momentum error that a slab may leave to the next one."""
 INTERNAL = 1e-4
 """Fraction of the impulses of internal forces, which cancel up to rounding, in the scale of momentum."""
 

@@ -10,6 +10,7 @@ from softway.adaptivity.transfer import Transferred
 from softway.arrays import Array
 from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.html_tables import table
+from softway.march.results.step_states import StepStates
 from softway.march.state.march_state import MarchState
 from softway.model.model import Model
 from softway.model.scene import State
@@ -229,8 +230,6 @@ class Step:
     ----------
     model
         Model on the meshes of the slab.
-    before, after
-        State at both ends.
     slab
         Time interval of the slab.
     ledger
@@ -239,27 +238,42 @@ class Step:
         Residuals of the contact conditions and the balances.
     events
         Contact events inside the slab, in order.
-    reactions
-        Body -> (n, d) mean force of the supports on the nodes [N].
     report
         Iterations, rejections and other data on the solution.
-    march_state
-        State of the march after the slab, from which another march continues with the same bits.
+    states
+        States at both ends, and forces of the supports; after compiled slabs they are made when they are asked for.
     transfers
         Transfers of the solids whose meshes have changed before the slab, by name.
     """
 
     model: Model = field(repr=False)
-    before: State
-    after: State
     slab: Slab
     ledger: Ledger
     certificate: Certificate
     events: tuple[Event, ...]
-    reactions: Mapping[str, Array]
     report: Report
-    march_state: MarchState
+    states: StepStates = field(repr=False)
     transfers: Mapping[str, Transferred] = field(default_factory=dict, repr=False)
+
+    @property
+    def before(self) -> State:
+        """State at the start."""
+        return self.states.before
+
+    @property
+    def after(self) -> State:
+        """State at the end."""
+        return self.states.after
+
+    @property
+    def reactions(self) -> Mapping[str, Array]:
+        """Body -> (n, d) mean force of the supports on the nodes [N]."""
+        return self.states.reactions
+
+    @property
+    def march_state(self) -> MarchState:
+        """State of the march after the slab, from which another march continues with the same bits."""
+        return self.states.march_state
 
     def _repr_html_(self) -> str:
         """A table for notebooks."""

@@ -84,14 +84,15 @@ class Watcher:
         """Steps with the findings among their events, and the gaps that were seen in their certificates."""
         for step in steps:
             energies = (getattr(step.ledger, name) for name in ENERGIES)
-            gained = self._energy.took(step.after.time, *energies, received=received(step.ledger))
-            found = list(given_back(self._energy, gained, step.after.time, step.slab.span))
+            gained = self._energy.took(step.slab.end, *energies, received=received(step.ledger))
+            found = list(given_back(self._energy, gained, step.slab.end, step.slab.span))
             seen = step.certificate
-            if self._counted(step.before.time, step.after.time):
+            if self._counted(step.slab.start, step.slab.end):
                 depths = self._depths(step)
                 seen = replace(seen, gap_nodes=0.0 - depths.nodes, gap_between=0.0 - depths.between)
                 found += [*depths.findings, *self._balanced(step), *self._pushed(step)]
-            yield replace(step, certificate=seen, events=(*step.events, *found))
+            changed = bool(found) or seen is not step.certificate
+            yield replace(step, certificate=seen, events=(*step.events, *found)) if changed else step
 
     def _geometry_of(self, start: RunStart) -> "_Geometry":
         """Solids on the meshes of a start, and their geometric audit."""

@@ -123,6 +123,17 @@ class Lines:
         self.file.close()
 
 
+def line_format(units: Sequence[str]) -> str:
+    r"""Format of a line of numbers as :meth:`Lines.write` writes it; the columns have these ``units``.
+
+    Examples
+    --------
+    >>> line_format(["s", COUNT]) % (0.1, 2)
+    '0.10000000000000001,2\n'
+    """
+    return ",".join("%d" if unit == COUNT else "%.17g" for unit in units) + "\n"
+
+
 def _line(cells: Cells) -> bytes:
     """Line of cells in a file."""
     text = io.StringIO()
@@ -173,13 +184,35 @@ def read(path: Path, needed: Sequence[tuple[str, str]] = ()) -> Table:
 
 def parse(text: str) -> Table:
     """Parse the table in a text."""
-    lines = list(csv.reader(text[: text.rfind("\n") + 1].splitlines()))
-    if not lines:
+    whole = text[: text.rfind("\n") + 1]
+    first, _, body = whole.partition("\n")
+    heads = next(csv.reader([first]), [])
+    if not heads:
         return Table({})
-    names, units = zip(*(_split(cell) for cell in lines[0]), strict=True)
-    rows = [line for line in lines[1:] if len(line) == len(names)]
-    columns = {name: _column([row[k] for row in rows], units[k]) for k, name in enumerate(names)}
+    names, units = zip(*(_split(cell) for cell in heads), strict=True)
+    columns = None if TEXT in units else _numbers(body, names, units)
+    if columns is None:
+        rows = [line for line in csv.reader(body.splitlines()) if len(line) == len(names)]
+        columns = {name: _column([row[k] for row in rows], units[k]) for k, name in enumerate(names)}
     return Table(MappingProxyType(columns), MappingProxyType(dict(zip(names, units, strict=True))))
+
+
+def _numbers(body: str, names: Sequence[str], units: Sequence[str]) -> dict[str, NDArray[Any]] | None:
+    """Columns of a table of numbers, whose cells are converted together; None if a line has other cells."""
+    cells = body.rstrip("\n").replace("\n", ",").split(",") if body else []
+    if len(cells) != body.count("\n") * len(names) or any(
+        line.count(",") != len(names) - 1 for line in body.splitlines()
+    ):
+        return None
+    try:
+        values = np.fromiter(map(float, cells), float, len(cells)).reshape(-1, len(names)).T
+    except ValueError:
+        return None
+    found = {}
+    for name, unit, column in zip(names, units, values, strict=True):
+        found[name] = np.array(column, np.int64 if unit == COUNT else float)
+        found[name].flags.writeable = False
+    return found
 
 
 def _split(cell: str) -> tuple[str, str]:

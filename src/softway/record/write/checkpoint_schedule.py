@@ -1,7 +1,7 @@
 """Schedule of the checkpoints of a run: when the next one is due, and its content."""
 
 import time as clock
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Protocol
 
@@ -11,6 +11,9 @@ from softway.mechanisms.arrays import MechanismState
 from softway.piles.state import PileState
 from softway.record.storage.checkpoint import RARE, Checkpoint, Checkpoints, save
 from softway.record.storage.uninterrupted import uninterrupted
+
+State = MarchState | MechanismState | PileState | HeatState
+"""State of a march after a step."""
 
 
 class Marked(Protocol):
@@ -47,7 +50,7 @@ class CheckpointWriter:
         self.folder, self.plan, self.recorders, self.before = folder, plan, recorders, before
         self.begun = clock.perf_counter()
         self.due = self.begun + plan.every
-        self._latest: tuple[MarchState | MechanismState | PileState | HeatState, dict[str, int]] | None = None
+        self._latest: tuple[State | Callable[[], State], dict[str, int]] | None = None
         self._saved = -1
 
     @property
@@ -55,8 +58,9 @@ class CheckpointWriter:
         """Wall-clock time of the run so far [s]."""
         return self.before + clock.perf_counter() - self.begun
 
-    def took(self, march_state: MarchState | MechanismState | PileState | HeatState) -> None:
-        """Take the state of the march after its last step was recorded, and write a checkpoint if one is due.
+    def took(self, march_state: State | Callable[[], State]) -> None:
+        """Take the state of the march after its last step was recorded, or a function that makes it, and write a
+        checkpoint if one is due.
 
         Raises
         ------
@@ -77,7 +81,8 @@ class CheckpointWriter:
         """
         if self._latest is None or not self.plan.keep:
             return
-        march_state, marks = self._latest
+        reached, marks = self._latest
+        march_state = reached() if callable(reached) else reached
         if march_state.slabs == self._saved:
             return
         start = clock.perf_counter()

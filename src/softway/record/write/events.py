@@ -45,6 +45,8 @@ class Events:
 
     def take(self, step: Step) -> None:
         """Write the changes of meshes before a time step (slab) and the events inside it, in order of time."""
+        if not (step.events or step.transfers):
+            return
         for event in sorted((*_changes(step), *step.events), key=lambda e: e.time):
             place = np.zeros(3)
             place[: len(event.position)] = event.position

@@ -38,7 +38,7 @@ class Frames:
 
     def take(self, step: Step) -> None:
         """Write a frame if one is due at the end of the slab."""
-        if not self.opening.frame_due(step.before.time, step.after.time):
+        if not self.opening.frame_due(step.slab.start, step.slab.end):
             return
         now = self.opening.of(step)
         cells = self.layout if now is self.opening else layout(now.meshes, now.touching)

@@ -14,16 +14,19 @@ FILE = "history.csv"
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class History:
-    """Open file ``history.csv``; the probes of the start of the run follow its ``columns``."""
+    """Open file ``history.csv``; the probes of the start of the run follow its ``columns``.  ``line`` is its format."""
 
     lines: Lines
     columns: tuple[Column, ...]
     opening: RunStart
+    line: str
 
     def take(self, step: Step) -> None:
         """Write the line of one slab: its energy and momentum audit, and the probes at its end."""
-        probes = [r.value(step.after, step.reactions) for r in self.opening.of(step).readings]
-        self.lines.write([*(column.value(step) for column in self.columns), *probes])
+        values = [column.value(step) for column in self.columns]
+        if self.opening.readings:
+            values += [r.value(step.after, step.reactions) for r in self.opening.of(step).readings]
+        self.lines.write((self.line % tuple(values)).encode())
 
     @property
     def mark(self) -> int:
@@ -50,4 +53,5 @@ def open_history(folder: Path, opening: RunStart, mark: int | None = None) -> Hi
         rows.write(table.header([*((c.name, c.unit) for c in found), *((r.name, r.unit) for r in opening.readings)]))
         probes = [r.value(opening.initial, {}) for r in opening.readings]
         rows.write([*(column.initial(opening) for column in found), *probes])
-    return History(lines=rows, columns=found, opening=opening)
+    line = table.line_format([*(c.unit for c in found), *(r.unit for r in opening.readings)])
+    return History(lines=rows, columns=found, opening=opening, line=line)

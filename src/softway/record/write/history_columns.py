@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import nan
+from operator import attrgetter
 
 from softway.march.results.step import Ledger, Step
 from softway.record.storage import table
@@ -39,14 +40,19 @@ def of_ledger(name: str, unit: str, read: Callable[[Ledger], float]) -> Column:
     return Column(name, unit, lambda step: float(read(step.ledger)), lambda start: float(read(start.ledger)))
 
 
+def of_energy(name: str) -> Column:
+    """Column of an energy or a work of the ledger."""
+    return Column(name, "J", attrgetter(f"ledger.{name}"), attrgetter(f"ledger.{name}"))
+
+
 def of_certificate(name: str, unit: str) -> Column:
     """Column of a number of the certificate; zero at the start."""
-    return Column(f"certificate.{name}", unit, lambda step: float(getattr(step.certificate, name)))
+    return Column(f"certificate.{name}", unit, attrgetter(f"certificate.{name}"))
 
 
 def of_contact(label: str) -> tuple[Column, ...]:
     """Columns of a contact."""
-    return tuple(of_ledger(f"contact.{label}.{name}", unit, _number(label, name)) for name, unit in CONTACT)
+    return tuple(Column(f"contact.{label}.{name}", unit, *_number(label, name)) for name, unit in CONTACT)
 
 
 def of_tie(label: str) -> tuple[Column, ...]:
@@ -58,8 +64,10 @@ def _of_tie(label: str, name: str) -> Callable[[Ledger], float]:
     return lambda ledger: float(getattr(ledger.ties[label], name))
 
 
-def _number(label: str, name: str) -> Callable[[Ledger], float]:
-    return lambda ledger: float(getattr(ledger.contacts[label], name))
+def _number(label: str, name: str) -> tuple[Callable[[Step], float], Callable[[RunStart], float]]:
+    """Number of a contact after a step, and at the start of a run."""
+    read = attrgetter(name)
+    return lambda step: read(step.ledger.contacts[label]), lambda start: read(start.ledger.contacts[label])
 
 
 CONTACT = (("force_n", "N"), ("force_t", "N"), ("min_gap", "m"), ("power_residual", "J"))
@@ -73,16 +81,16 @@ rigid bodies.
 """
 TIE = (("broken", table.RATIO), ("opening", "m"), ("dissipated", "J"))
 COLUMNS = (
-    Column("time", "s", lambda step: step.after.time, lambda start: start.initial.time),
-    Column("h", "s", lambda step: step.slab.span),
-    Column("iterations", table.COUNT, lambda step: step.report.iterations, lambda start: 0),
-    Column("pairs", table.COUNT, lambda step: step.report.pairs, lambda start: 0),
-    Column("contraction", table.RATIO, lambda step: step.report.contraction),
-    of_ledger("energy_kinetic", "J", lambda ledger: ledger.energy_kinetic),
-    of_ledger("energy_strain", "J", lambda ledger: ledger.energy_strain),
-    of_ledger("work_external", "J", lambda ledger: ledger.work_external),
-    of_ledger("dissipation", "J", lambda ledger: ledger.dissipation),
-    of_ledger("energy_error", "J", lambda ledger: ledger.energy_error),
+    Column("time", "s", attrgetter("slab.end"), lambda start: start.initial.time),
+    Column("h", "s", attrgetter("slab.span")),
+    Column("iterations", table.COUNT, attrgetter("report.iterations"), lambda start: 0),
+    Column("pairs", table.COUNT, attrgetter("report.pairs"), lambda start: 0),
+    Column("contraction", table.RATIO, attrgetter("report.contraction")),
+    of_energy("energy_kinetic"),
+    of_energy("energy_strain"),
+    of_energy("work_external"),
+    of_energy("dissipation"),
+    of_energy("energy_error"),
     of_ledger("momentum_x", "kg m/s", lambda ledger: ledger.momentum[0]),
     of_ledger("momentum_y", "kg m/s", lambda ledger: ledger.momentum[1]),
     of_ledger("momentum_z", "kg m/s", lambda ledger: ledger.momentum[2]),
@@ -95,7 +103,7 @@ CERTIFICATE = (
     Column(
         "certificate.min_gap",
         "m",
-        lambda step: float(step.certificate.min_gap),
+        attrgetter("certificate.min_gap"),
         lambda start: min((c.min_gap for c in start.ledger.contacts.values()), default=float("inf")),
     ),
     of_certificate("min_force", "N"),
@@ -105,8 +113,8 @@ CERTIFICATE = (
     of_certificate("energy_error", "J"),
 )
 EXTRA: tuple[Column, ...] = (
-    Column("certificate.gap_nodes", "m", lambda step: float(step.certificate.gap_nodes), lambda start: nan),
-    Column("certificate.gap_between", "m", lambda step: float(step.certificate.gap_between), lambda start: nan),
+    Column("certificate.gap_nodes", "m", attrgetter("certificate.gap_nodes"), lambda start: nan),
+    Column("certificate.gap_between", "m", attrgetter("certificate.gap_between"), lambda start: nan),
 )
 """Columns after those of the certificate; files of earlier versions lack them."""
 
@@ -127,7 +135,7 @@ def _of_heat(name: str) -> Callable[[Ledger], float]:
     return lambda ledger: float(getattr(ledger.heat, name))
 
 
-REMESHING = of_ledger("remeshing", "J", lambda ledger: ledger.remeshing)
+REMESHING = of_energy("remeshing")
 NODES = Column(
     "mesh.nodes",
     table.COUNT,

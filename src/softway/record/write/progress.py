@@ -46,7 +46,7 @@ class Progress:
     @property
     def time(self) -> float:
         """Time at the end of the slab [s]."""
-        return self.step.after.time
+        return self.step.slab.end
 
     @property
     def fraction(self) -> float:
@@ -198,6 +198,6 @@ class Meter:
 
     def took(self, step: Step) -> None:
         """Take a recorded slab and report the progress."""
-        now, pace = self._pace.at(step.after.time)
+        now, pace = self._pace.at(step.slab.end)
         self._slabs += 1
         self._watch(Progress(step=step, until=self._until, slabs=self._slabs, wall=now, pace=pace))

@@ -17,17 +17,14 @@ from softway.model.model import Model
 from softway.solve.equations.end_forces import EndForces
 from softway.solve.equations.friction_work import FrictionWork, friction_work
 from softway.solve.equations.spin_balance import middle, moment, spin_balance
+from softway.tolerances import AT_REST, SUMS
 
-SUMS = 2e-15
-"""Rounding error of sums of works and energies, relative to their magnitudes."""
 TINY = 1e-10
 """Residual energy, relative to the energy, below which the balance may always be closed along the motion."""
 BOUND = 0.5
 """Greatest scalar: with |a| <= 1/2 the mean force stays between those at the two ends."""
 WEIGHING = 2.0
 """Greatest scalar without inertia, where it only weights the works at the two ends."""
-AT_REST = 1e10
-"""Stored energy, relative to that of rounding errors, below which no work is missing: strains of 1e-9."""
 SLIGHT = 1e-2
 """Residual, relative to the work of the internal forces, that is closed along the motion if the scalar is bounded."""
 
@@ -88,7 +85,7 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
     rubbing = friction_work(ends.tangential, ends.u1 - ends.u0, label[model.part_of[ends.rows0.node]], len(members))
     num, den, reset = _without_created_energy((num, den), rounding, rubbing, model.inert)
     strained = np.bincount(label, weights=np.abs(ends.V0) + np.abs(ends.V1)) > AT_REST * floor
-    touched = np.isin(np.arange(len(members)), label[model.part_of[ends.rows0.node[touching]]])
+    touched = np.bincount(label[model.part_of[ends.rows0.node[touching]]], minlength=len(members)) > 0
     supply = _viscous_work(model, ends, moving, label) * np.array([spin is None for spin in spins])
     viscous, num = _by_viscous_forces(num, den, supply)
     wanted = np.where(strained | touched, _quotient(num, den, rounding), 0.0)
@@ -179,6 +176,8 @@ def _without_created_energy(
     The third array marks these groups: there the dissipated energy is zero, and the scalar closes the balance with it.
     """
     num, den = balance
+    if not (rubbing.first.any() or rubbing.last.any()):
+        return num, den, np.zeros(len(num), bool)
     created = rubbing.dissipated(_bounded(_quotient(num, den, rounding), inert)) < -rounding
     num = np.where(created, num - rubbing.dissipated(np.zeros(len(num))), num)
     return num, np.where(created, den + rubbing.slope, den), created

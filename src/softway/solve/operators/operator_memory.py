@@ -4,6 +4,7 @@ The operator itself is a cache: :class:`OperatorOrigin` describes how it was mad
 :func:`softway.solve.operators.operator_refresh.restored` makes it again with the same bits.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from softway.arrays import Array, IntArray
@@ -106,6 +107,24 @@ class IterationCount:
         least = min(self.least, iterations) if self.slabs else iterations
         last = (*self.last[-1:], iterations)
         return IterationCount(slabs=self.slabs + 1, total=self.total + iterations, least=least, last=last)
+
+    def with_slabs(self, iterations: Sequence[int]) -> "IterationCount":
+        """Iteration count with several more slabs, as :meth:`with_slab` for each of them.
+
+        Examples
+        --------
+        >>> IterationCount().with_slab(7).with_slabs([5, 6])
+        IterationCount(slabs=3, total=18, least=5, last=(5, 6))
+        """
+        if not iterations:
+            return self
+        least = min(self.least, *iterations) if self.slabs else min(iterations)
+        return IterationCount(
+            slabs=self.slabs + len(iterations),
+            total=self.total + sum(iterations),
+            least=least,
+            last=(*self.last, *iterations)[-2:],
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -10,6 +10,7 @@ import pytest
 from softway.arrays import Array
 from softway.march.march import march
 from softway.march.results.step import Event, Step
+from softway.march.results.step_states import KnownStates
 from softway.record.audit.watch import APART, watcher
 from softway.record.read.findings import DISSIPATION, INVERTED, KINDS, MOMENTUM, OVERLAP
 from softway.scenario.checks.check import Checked, check
@@ -103,7 +104,7 @@ def test_a_body_whose_rows_are_lost_falls_into_the_other_one(world: str) -> None
     def fallen(step: Step) -> Step:
         u = dict(step.after.displacement)
         u["above"] = u["above"] - 0.02 * up(u["above"].shape[1])
-        return replace(step, after=replace(step.after, displacement=u))
+        return replace(step, states=replace(KnownStates.of(step.states), after=replace(step.after, displacement=u)))
 
     (seen,) = (e for e in told(world, fallen) if e.kind == OVERLAP)
     assert seen.contact == "below-above" and seen.depth == pytest.approx(0.02, rel=0.5)
@@ -124,7 +125,7 @@ def test_a_cell_that_is_turned_inside_out(world: str) -> None:
     def turned(step: Step) -> Step:
         u = {name: field.copy() for name, field in step.after.displacement.items()}
         u["above"][corner] += 0.9 * (points.mean(axis=0) - points[corner]) / 0.5
-        return replace(step, after=replace(step.after, displacement=u))
+        return replace(step, states=replace(KnownStates.of(step.states), after=replace(step.after, displacement=u)))
 
     assert ("above",) in {(e.contact,) for e in told(world, turned) if e.kind == INVERTED}
 

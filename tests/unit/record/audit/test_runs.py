@@ -16,6 +16,7 @@ from softway.arrays import Array
 from softway.march.audit.balances import Balances, balances
 from softway.march.march import march
 from softway.march.results.step import Event, Step
+from softway.march.results.step_states import KnownStates
 from softway.model.scene import State
 from softway.record.audit.energy_watch import ENERGIES
 from softway.record.audit.watch import APART, watcher
@@ -240,7 +241,7 @@ def kicked(velocity) -> list[Event]:
                 )
                 now = balances(checked.model, after)
                 ledger = replace(step.ledger, energy_kinetic=now.kinetic, momentum=now.momentum, spin=now.spin)
-                step = replace(step, after=after, ledger=ledger)
+                step = replace(step, states=replace(KnownStates.of(step.states), after=after), ledger=ledger)
             yield step
 
     seen = itertools.islice(watcher(opening).watched(steps()), 25)

@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 import pytest
 
+from softway.march.results.step_states import KnownStates
 from softway.model.field import Field
 from softway.record.read.frames import Fields
 from softway.record.write.fields import open_fields
@@ -164,7 +165,8 @@ def test_companion_fields_are_written_with_their_units(fake, tmp_path):
     start = replace(opening.initial, fields={"heat": {"part": heat}})
     recorder = open_fields(tmp_path, replace(opening, initial=start, fields=fields))
     for step in fake.steps():
-        recorder.take(replace(step, after=replace(step.after, fields={"heat": {"part": heat + step.after.time}})))
+        after = replace(step.after, fields={"heat": {"part": heat + step.after.time}})
+        recorder.take(replace(step, states=replace(KnownStates.of(step.states), after=after)))
     recorder.close()
     with h5py.File(tmp_path / "fields.vtkhdf") as file:
         found = file["VTKHDF/PointData/heat"]

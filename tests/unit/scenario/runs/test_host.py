@@ -82,16 +82,16 @@ def test_the_pace_is_that_of_the_last_half_minute(monkeypatch):
     meter = Meter(seen.append, until=100.0, start=0.0)
 
     @dataclass
-    class After:
-        time: float
+    class Interval:
+        end: float
 
     @dataclass
     class Slab:
-        after: After
+        slab: Interval
 
     for second in range(1, 61):
         now[0] = float(second)
-        meter.took(Slab(After(float(min(second, 30)) + 0.1 * max(second - 30, 0))))
+        meter.took(Slab(Interval(float(min(second, 30)) + 0.1 * max(second - 30, 0))))
     assert seen[29].pace == pytest.approx(1.0) and seen[29].left == pytest.approx(70.0)
     assert seen[-1].pace == pytest.approx(0.1, rel=0.05) and seen[-1].left == pytest.approx(670.0, rel=0.05)
 

@@ -1,0 +1,1 @@
+"""Compiled slabs (time steps) of bodies with linear laws on fixed contact rows."""

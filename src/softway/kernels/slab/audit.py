@@ -1,0 +1,193 @@
+"""Balances of a solved slab (time step), and whether they certainly hold: sums in loops over nodes and rows."""
+
+import numpy as np
+
+from softway.kernels.jit.compilation import uncounted
+from softway.kernels.slab.products import add_forces, along, extent, momenta
+from softway.kernels.slab.tables import (
+    CLOSED_POWER,
+    COMPLEMENTARITY,
+    COUNT,
+    ERROR,
+    FORCE,
+    GAP,
+    KINETIC,
+    MOMENTUM,
+    POWER,
+    SPIN,
+    STRAIN,
+    UNCLOSED,
+    WORK,
+)
+from softway.tolerances import AT_REST, BEQUEST, DEPTH, ENERGY, SUMS
+from softway.tolerances import MOMENTUM as MISSED
+
+SURE = 0.5
+"""Part of a limit within which a balance certainly holds."""
+
+
+@uncounted
+def closes(bodies, rows, course, work, unit, s):
+    """True if the energy of every group closes to rounding without a scalar; ``unit`` makes forces of impulses."""
+    u0, u1, f0, f1, d = course.u[s], course.u[s + 1], course.force[s], course.force[s + 1], bodies.dimension
+    blur = 4.0 * np.finfo(np.float64).eps * extent(bodies, u1)
+    work.group[:] = 0.0
+    for part in range(len(bodies.floor)):
+        V0, V1 = course.energy[s, part], course.energy[s + 1, part]
+        missing, level, kinetic = V1 - V0, abs(V0) + abs(V1), 0.0
+        for c in range(bodies.first[part] * d, bodies.first[part + 1] * d):
+            moved, mean, load = u1[c] - u0[c], 0.5 * (f0[c] + f1[c]), bodies.load[c]
+            kinetic += 0.5 * course.v[s, c] * work.before[c]
+            level += abs(load * moved)
+            if bodies.heavy[c]:
+                missing -= mean * moved
+                level += abs(mean * moved)
+            else:
+                missing -= load * moved
+        g = bodies.group[part]
+        work.group[g, 0] += missing
+        work.group[g, 1] += SUMS * (level + kinetic) + bodies.floor[part]
+    for r in range(len(rows.offset)):
+        g = bodies.group[rows.part[r]]
+        work.group[g, 1] += blur * (abs(course.pressure[s, r]) + abs(unit * course.pressure[s + 1, r]))
+    closed = True
+    for g in range(len(work.group)):
+        closed = closed and abs(work.group[g, 0]) <= SURE * work.group[g, 1]
+    return closed
+
+
+@uncounted
+def audited(bodies, rows, course, work, account, s):
+    """Complete the state after a slab and its sums; false if a balance does not certainly hold."""
+    h = course.time[s + 1] - course.time[s]
+    for c in range(len(work.q)):
+        v = work.q[c] if bodies.heavy[c] else 0.5 * work.q[c]
+        course.v[s + 1, c] = v
+        course.slope[s + 1, c] = (v - course.v[s, c]) * (1.0 / h)
+        work.push[c] = 0.0
+    momenta(bodies, course.v[s + 1], work.after)
+    course.met[s] = 0.0
+    for k in range(course.met.shape[1]):
+        course.met[s, k, GAP] = np.inf
+    gap = _touching(rows, course, work, s)
+    add_forces(rows, work.row[: len(rows.offset)], work.push)
+    if course.support.shape[0]:
+        _supported(bodies, course, work, h, s)
+    size = _momentum(bodies, course, work, h, s)
+    _spin(bodies, course, work, s)
+    level = _energies(bodies, course, work, account, s)
+    rest = 0.0
+    for part in range(len(bodies.floor)):
+        rest += bodies.floor[part]
+    step = course.sums[s, ERROR] - (course.sums[s - 1, ERROR] if s else account[2])
+    if not abs(step) <= SURE * (ENERGY * level + AT_REST * rest) or not gap >= -SURE * DEPTH * extent(
+        bodies, course.u[s + 1]
+    ):
+        return False
+    limit = SURE * MISSED * size
+    return course.sums[s, UNCLOSED] <= limit and _unrest(bodies, rows, course, work, h, s) <= BEQUEST * limit
+
+
+@uncounted
+def _touching(rows, course, work, s):
+    """Sums over the contacts; the least gap.  ``work.row`` are the mean forces of the rows."""
+    least = np.inf
+    course.sums[s, COMPLEMENTARITY] = course.sums[s, POWER] = 0.0
+    for r in range(len(rows.offset)):
+        met, p0, p1 = course.met[s, rows.contact[r]], course.pressure[s, r], course.pressure[s + 1, r]
+        gap = rows.offset[r] + along(rows, r, course.u[s + 1])
+        before = rows.offset[r] + along(rows, r, course.u[s]) if p0 > 0.0 else 0.0
+        force = 0.5 * p0 + 0.5 * p1
+        work.row[r] = force
+        met[FORCE] += force
+        met[GAP] = min(met[GAP], gap)
+        least = min(least, gap)
+        power = abs(force * ((gap if p1 > 0.0 else 0.0) - before))
+        met[CLOSED_POWER] += power
+        course.sums[s, POWER] += power
+        if p1 > 0.0:
+            met[COUNT] += 1.0
+            course.sums[s, COMPLEMENTARITY] += abs(p1 * gap)
+    return least
+
+
+@uncounted
+def _supported(bodies, course, work, h, s):
+    """Mean forces of the supports."""
+    for c in range(len(work.q)):
+        course.support[s, c] = 0.0
+        if bodies.place[c] < 0:
+            inertia = (work.after[c] - work.before[c]) / h
+            mean = 0.5 * course.force[s, c] + 0.5 * course.force[s + 1, c]
+            course.support[s, c] = inertia + mean - bodies.load[c] - work.push[c]
+
+
+@uncounted
+def _momentum(bodies, course, work, h, s):
+    """Set momentum and its error; the sum of the sizes of its parts."""
+    d, size, held = bodies.dimension, 0.0, course.support.shape[0] > 0
+    course.sums[s, UNCLOSED] = 0.0
+    for a in range(3):
+        course.sums[s, MOMENTUM + a] = 0.0
+    for a in range(d):
+        gained, pushed = 0.0, 0.0
+        for i in range(len(bodies.weight)):
+            c = i * d + a
+            given = bodies.load[c] + work.push[c] + (course.support[s, c] if held else 0.0)
+            gained += bodies.weight[i] * (course.v[s + 1, c] - course.v[s, c])
+            pushed += given
+            size += abs(work.before[c]) + abs(work.after[c]) + h * abs(given)
+            course.sums[s, MOMENTUM + a] += work.after[c]
+        course.sums[s, UNCLOSED] = max(course.sums[s, UNCLOSED], abs(gained - h * pushed))
+    return size
+
+
+@uncounted
+def _spin(bodies, course, work, s):
+    """Set the angular momentum about the origin."""
+    d, u, p, spin = bodies.dimension, course.u[s + 1], work.after, course.sums[s]
+    for a in range(3):
+        spin[SPIN + a] = 0.0
+    for c in range(0, len(u) if d > 1 else 0, d):
+        x, y = bodies.points[c] + u[c], bodies.points[c + 1] + u[c + 1]
+        spin[SPIN + 2] += x * p[c + 1] - y * p[c]
+        if d == 3:
+            z = bodies.points[c + 2] + u[c + 2]
+            spin[SPIN] += y * p[c + 2] - z * p[c + 1]
+            spin[SPIN + 1] += z * p[c] - x * p[c + 2]
+
+
+@uncounted
+def _energies(bodies, course, work, account, s):
+    """Set energies, work and the error of their balance; the energy that takes part.
+
+    ``account`` are the energy at the start less losses, and external work and error before the first slab.
+    """
+    kinetic, strain, level, done = 0.0, 0.0, 0.0, 0.0
+    for c in range(len(work.q)):
+        kinetic += course.v[s + 1, c] * work.after[c]
+        done += bodies.load[c] * (course.u[s + 1, c] - course.u[s, c])
+    for part in range(len(bodies.floor)):
+        strain += course.energy[s + 1, part]
+        level += abs(course.energy[s, part]) + abs(course.energy[s + 1, part])
+    total = (course.sums[s - 1, WORK] if s else account[1]) + done
+    sums = course.sums[s]
+    sums[KINETIC], sums[STRAIN], sums[WORK] = 0.5 * kinetic, strain, total
+    sums[ERROR] = 0.5 * kinetic + strain - account[0] - total
+    return level + 0.5 * kinetic + abs(total)
+
+
+@uncounted
+def _unrest(bodies, rows, course, work, h, s):
+    """Momentum over a slab of the unbalanced forces on massless components at its end."""
+    d, most = bodies.dimension, 0.0
+    for c in range(len(work.q)):
+        work.push[c] = 0.0
+    add_forces(rows, course.pressure[s + 1], work.push)
+    for a in range(d):
+        total = 0.0
+        for c in range(a, len(work.q), d):
+            if not bodies.heavy[c] and bodies.place[c] >= 0:
+                total += course.force[s + 1, c] - bodies.load[c] - work.push[c]
+        most = max(most, abs(h * total))
+    return most

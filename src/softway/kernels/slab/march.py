@@ -1,0 +1,193 @@
+"""Slabs (time steps) of linear laws on contact rows whose status stays, one after the other.
+
+A slab is left to the solver for all models, which computes it from the same state, where a decision is close: a row
+that opens or closes, an iteration that has not converged twice as well as it has to, a scalar of the energy balance
+that is not zero, or a balance within half its limit.  So both take the same decisions, whatever their last digits are.
+"""
+
+import numpy as np
+
+from softway.kernels.jit.compilation import uncounted, uncounted_kernel
+from softway.kernels.multibody.band import factor_band, solve_band
+from softway.kernels.slab.audit import audited, closes
+from softway.kernels.slab.products import along, elastic, extent, greatest, momenta
+from softway.kernels.slab.tables import FIRST, ITERATIONS, LAST
+
+SURE = 0.5
+"""Part of a limit within which a decision is certain."""
+LEAST = 1e-9
+"""Force of a row, relative to the greatest one, above which it stays closed."""
+CLOSE = 1e-14
+"""Difference of velocities, relative to them, that is rounding."""
+UNIT = 0.5
+"""Second moment of the end peaks: the part of the slab in which a force at its end acts."""
+
+
+@uncounted_kernel
+def factor(matrix, lower, pivot):
+    """Factor an operator in a band; false if it is not positive definite."""
+    factor_band(matrix, lower, pivot)
+    positive = True
+    for i in range(len(pivot)):
+        positive = positive and pivot[i] > 0.0
+    return positive
+
+
+@uncounted_kernel
+def answer(bodies, rows, r, lower, pivot, x, out):
+    """Answer (N,) of the operator to a unit impulse on a row; ``x`` (f,) is work space."""
+    x[:] = 0.0
+    for e in range(rows.start[r], rows.start[r + 1]):
+        place = bodies.place[rows.component[e]]
+        if place >= 0:
+            x[place] += rows.value[e]
+    solve_band(lower, pivot, x)
+    for c in range(len(out)):
+        out[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
+
+
+@uncounted_kernel
+def slabs(bodies, rows, operator, course, work, tolerance, account, wanted):
+    """Compute up to ``wanted`` slabs from the first state of a course, and return how many were computed.
+
+    ``account`` (2,) are energy at the start of the march and external work, ``tolerance`` that of the iteration.
+    """
+    momenta(bodies, course.v[0], work.before)
+    for s in range(wanted):
+        if not _slab(bodies, rows, operator, course, work, tolerance, s):
+            return s
+        if not audited(bodies, rows, course, work, account, s):
+            return s
+        for c in range(len(work.q)):
+            work.before[c] = work.after[c]
+    return wanted
+
+
+@uncounted
+def _slab(bodies, rows, operator, course, work, tolerance, s):
+    """Solve a slab; false if it is not certain."""
+    h = course.time[s + 1] - course.time[s]
+    if not _expect(bodies, rows, course, work, h, s):
+        return False
+    for r in range(len(rows.offset)):
+        course.pressure[s + 1, r] = h * UNIT * course.pressure[s, r]
+    size = extent(bodies, course.u[s])
+    rounding = 8.0 * np.finfo(np.float64).eps * size / h
+    for count in range(1, 3):
+        arrive(bodies, course.u[s], course.v[s], work.q, h, course.u[s + 1])
+        elastic(bodies, course.u[s + 1], course.force[s + 1], course.energy[s + 1])
+        if count == 2 and not closes(bodies, rows, course, work, 1.0 / (h * UNIT), s):
+            return False
+        change = _iterated(bodies, rows, operator, course, work, h, s)
+        scale = max(greatest(work.q), greatest(course.v[s]), 1e-300)
+        if count == 1:
+            course.sums[s, FIRST] = change
+        if not (change < np.inf and scale * h <= size):
+            return False
+        if not _stays(bodies, rows, operator, course, work, h, rounding, s):
+            return False
+        if change <= SURE * tolerance * scale:
+            break
+        if count == 2 or change <= tolerance * scale / SURE:
+            return False
+    course.sums[s, ITERATIONS], course.sums[s, LAST] = count, change
+    arrive(bodies, course.u[s], course.v[s], work.q, h, course.u[s + 1])
+    elastic(bodies, course.u[s + 1], course.force[s + 1], course.energy[s + 1])
+    for r in range(len(rows.offset)):
+        course.pressure[s + 1, r] /= h * UNIT
+    return closes(bodies, rows, course, work, 1.0, s)
+
+
+@uncounted
+def _expect(bodies, rows, course, work, h, s):
+    """Set q (N,) to the velocity that goes on as before; false if a row would overlap too far without contact."""
+    u, v, slope, end = course.u[s], course.v[s], course.slope[s], work.x
+    for c in range(len(work.q)):
+        rate = v[c] + h * slope[c]
+        work.q[c] = 0.0 if bodies.place[c] < 0 else rate if bodies.heavy[c] else 2.0 * rate
+        end[c] = u[c] + h * (0.5 * (v[c] + rate) if bodies.heavy[c] else rate)
+    slow = True
+    for r in range(len(rows.offset)):
+        slow = slow and rows.offset[r] + along(rows, r, end) >= -rows.allowed[r]
+    return slow
+
+
+@uncounted
+def arrive(bodies, u, v, q, h, out):
+    """Displacement (N,) at the end of a slab of the length h, for q (N,)."""
+    for c in range(len(q)):
+        out[c] = u[c] + h * (0.5 * (v[c] + q[c]) if bodies.heavy[c] else 0.5 * q[c])
+
+
+@uncounted
+def _iterated(bodies, rows, operator, course, work, h, s):
+    """Correct q (N,) and the impulses (m,) of the active rows by the operator; return the greatest change."""
+    f0, f1, v, x, field = course.force[s], course.force[s + 1], course.v[s], work.x, work.after
+    for c in range(len(field)):
+        field[c] = work.q[c] - v[c]
+    momenta(bodies, field, work.push)
+    for c in range(len(field)):
+        if bodies.place[c] >= 0:
+            load = bodies.load[c]
+            mean = h * (0.5 * f0[c] + 0.5 * f1[c] - load)
+            x[bodies.place[c]] = -(work.push[c] + mean) if bodies.heavy[c] else -h * UNIT * (f1[c] - load)
+    impulse = course.pressure[s + 1]
+    for k in range(len(operator.active)):
+        r = operator.active[k]
+        for e in range(rows.start[r], rows.start[r + 1]):
+            if bodies.place[rows.component[e]] >= 0:
+                x[bodies.place[rows.component[e]]] += rows.value[e] * impulse[r]
+    solve_band(operator.lower, operator.pivot, x[: len(operator.pivot)])
+    for c in range(len(field)):
+        field[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
+    return _pressed(bodies, rows, operator, course, work, h, s)
+
+
+@uncounted
+def _pressed(bodies, rows, operator, course, work, h, s):
+    """Change q (N,) by the correction without new contact forces, and close the active rows; the greatest change."""
+    field, impulse, k = work.after, course.pressure[s + 1], len(operator.active)
+    for a in range(k):
+        r = operator.active[a]
+        missing = _target(bodies, rows, course, h, s, r)
+        for e in range(rows.start[r], rows.start[r + 1]):
+            missing -= rows.value[e] * (work.q[rows.component[e]] + field[rows.component[e]])
+        work.row[a] = missing
+    for a in range(k):
+        total = 0.0
+        for b in range(k):
+            total += operator.inverse[a, b] * work.row[b]
+        impulse[operator.active[a]] += total
+        for c in range(len(field)):
+            field[c] += operator.answer[a, c] * total
+    for c in range(len(field)):
+        work.q[c] += field[c]
+    return greatest(field)
+
+
+@uncounted
+def _target(bodies, rows, course, h, s, r):
+    """Component of q along a row that closes its gap at the end of the slab."""
+    gap = rows.offset[r]
+    for e in range(rows.start[r], rows.start[r + 1]):
+        c = rows.component[e]
+        gap += rows.value[e] * (course.u[s, c] + (h * 0.5 * course.v[s, c] if bodies.heavy[c] else 0.0))
+    return -2.0 * gap / h
+
+
+@uncounted
+def _stays(bodies, rows, operator, course, work, h, rounding, s):
+    """True if closed rows certainly stay closed, and open rows open."""
+    impulse, most = course.pressure[s + 1], 0.0
+    for a in range(len(operator.active)):
+        most = max(most, impulse[operator.active[a]])
+    for a in range(len(operator.active)):
+        if not impulse[operator.active[a]] > LEAST * most:
+            return False
+    for r in range(len(rows.offset)):
+        if rows.move[r] and impulse[r] == 0.0:
+            now = along(rows, r, work.q)
+            slack = now - _target(bodies, rows, course, h, s, r)
+            if not slack > max(rounding, CLOSE * (abs(slack) + abs(now))) / SURE:
+                return False
+    return True

@@ -1,0 +1,102 @@
+"""Arrays of a model for its compiled slabs; nodal fields are flat, component ``i d + a`` of node i."""
+
+from typing import NamedTuple
+
+from softway.arrays import Array, BoolArray, IntArray
+
+
+class Bodies(NamedTuple):
+    """Solids with linear laws: N components of n nodes in d dimensions, f unknowns.
+
+    ``first`` (parts + 1,) are the first nodes of the solids, ``group`` (parts,) the groups of solids that share
+    unknowns; ``heavy`` (N,) are components with inertia, ``place`` (N,) the places of the components in the band, -1
+    for a supported one.  ``mass`` and ``stiff`` are sparse rows of nodes: ``mass_start`` (n + 1,), ``mass_node``
+    (z,), ``mass`` (z,) and the row sums ``weight`` (n,); ``stiff_start`` (n + 1,), ``stiff_node`` (y,) and ``stiff``
+    (y, d, d) without the diagonal, as translations cause no force.  ``points``, ``load`` (N,) and ``floor`` (parts,) as
+    in the model.
+    """
+
+    dimension: int
+    first: IntArray
+    group: IntArray
+    heavy: BoolArray
+    place: IntArray
+    mass_start: IntArray
+    mass_node: IntArray
+    mass: Array
+    weight: Array
+    stiff_start: IntArray
+    stiff_node: IntArray
+    stiff: Array
+    points: Array
+    load: Array
+    floor: Array
+
+
+class Rows(NamedTuple):
+    """Contact rows (m,) that never change: sparse rows ``start`` (m + 1,), ``component`` and ``value`` (z,), ``offset``
+    (m,), ``contact`` (m,) and ``part`` (m,) of each, if unknowns ``move`` it (m,), and the overlap ``allowed`` (m,) of
+    the free motion [m].
+    """
+
+    start: IntArray
+    component: IntArray
+    value: Array
+    offset: Array
+    contact: IntArray
+    part: IntArray
+    move: BoolArray
+    allowed: Array
+
+
+class Operator(NamedTuple):
+    """Factor ``lower`` (f, w + 1), ``pivot`` (f,) of the operator in a band, and the ``active`` rows (k,): the answers
+    ``answer`` (k, N) to a unit impulse on each, and the ``inverse`` (k, k) of their compliance.
+    """
+
+    lower: Array
+    pivot: Array
+    active: IntArray
+    answer: Array
+    inverse: Array
+
+
+class Course(NamedTuple):
+    """States of successive slabs: ``time`` (s + 1,); ``u``, ``v``, ``slope`` and ``force`` (s + 1, N), ``pressure``
+    (s + 1, m), ``energy`` (s + 1, parts); ``support`` (s, N), without a row where nothing is supported; ``sums``
+    (s, SUMS) and, of the contacts, ``met`` (s, contacts, MET).
+    """
+
+    time: Array
+    u: Array
+    v: Array
+    slope: Array
+    force: Array
+    pressure: Array
+    energy: Array
+    support: Array
+    sums: Array
+    met: Array
+
+
+class Work(NamedTuple):
+    """Fields (N,) of a slab, and sums (groups, 3): velocity, its correction, momenta at both ends, contact forces."""
+
+    q: Array
+    x: Array
+    before: Array
+    after: Array
+    push: Array
+    row: Array
+    group: Array
+
+
+KINETIC, STRAIN, WORK, ERROR, MOMENTUM, SPIN, UNCLOSED, COMPLEMENTARITY, POWER, ITERATIONS, FIRST, LAST = (
+    0, 1, 2, 3, 4, 7, 10, 11, 12, 13, 14, 15,
+)  # fmt: skip
+"""Columns of the sums of a slab: energies and works as in the ledger, momentum and spin (3 each), momentum error,
+complementarity and power of the certificate, number of iterations, and the first and the last change [m/s]."""
+SUMS = 16
+FORCE, GAP, CLOSED_POWER, COUNT = range(4)
+"""Columns of a contact: force, least gap, power residual, and number of closed rows."""
+MET = 4
