@@ -9,66 +9,26 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from softway.arrays import Array, BoolArray
-from softway.meshes.adaptive.leaves import Leaves, among, same
-from softway.meshes.adaptive.refinement import AdaptedMesh, adapted_mesh
-from softway.meshes.adaptive.tree import Tree, tree_of
+from softway.meshes.adaptive.leaves import Leaves, among
+from softway.meshes.adaptive.tree import Tree
 from softway.meshes.adaptive.tree_cells import TreeCells
 
 Mark = tuple[int, Array]
 """A level, and points (k, d) around which cells have it or a finer one [m]."""
 
 
-def buffered(adapted: AdaptedMesh, reach: float) -> AdaptedMesh:
-    """Mesh in which a cell that comes within a distance ``reach`` [m] of a finer one of ``adapted`` is as fine as it.
-
-    Distances are those of the corners of the finer cell from the ball around the coarser one.
+def marks_of(tree: Tree) -> list[Mark]:
+    """Levels of the finer cells of a tree, with their corners: marks of buffers in which cells are as fine as they.
 
     Examples
     --------
-    >>> from softway.meshes.adaptive.refinement import refined
+    >>> from softway.meshes.adaptive.tree import tree_of
     >>> from softway.meshes.generators.shapes import interval
-    >>> sharp = refined(interval(1.0, cells=4), np.array([3, 0, 0, 0]))
-    >>> sharp.mesh.n_cells, buffered(sharp, 0.1).mesh.n_cells
+    >>> sharp = tree_of(interval(1.0, cells=4))
+    >>> sharp = sharp.grown(sharp.leaves, np.array([3, 0, 0, 0]))
+    >>> len(sharp.leaves.level), len(grown_near(sharp, marks_of(sharp), 0.1).leaves.level)
     (13, 17)
     """
-    return _mesh(adapted, grown_around(_tree(adapted), reach))
-
-
-def refined_near(adapted: AdaptedMesh, marks: Sequence[Mark], reach: float) -> AdaptedMesh:
-    """Mesh in which cells that come within a distance ``reach`` [m] of a point of a mark have its level or more.
-
-    Distances are those from the ball around a cell.
-
-    Examples
-    --------
-    >>> from softway.meshes.adaptive.refinement import refined
-    >>> from softway.meshes.generators.shapes import interval
-    >>> whole = refined(interval(1.0, cells=1), np.array([0]))
-    >>> refined_near(whole, [(3, np.array([[1.0]]))], 0.05).leaves.level.tolist()
-    [1, 2, 3, 3]
-    """
-    return _mesh(adapted, grown_near(_tree(adapted), marks, reach))
-
-
-def _tree(adapted: AdaptedMesh) -> Tree:
-    """Tree of the cells of a mesh."""
-    return tree_of(adapted.base).grown(adapted.leaves, adapted.leaves.level)
-
-
-def _mesh(adapted: AdaptedMesh, tree: Tree) -> AdaptedMesh:
-    """Mesh of a tree; the ``adapted`` one if it has the same leaves."""
-    return adapted if same(tree.leaves, adapted.leaves) else adapted_mesh(tree)
-
-
-def grown_around(tree: Tree, reach: float) -> Tree:
-    """Tree in which a cell that comes within a distance ``reach`` [m] of a finer one is as fine as it, see
-    :func:`buffered`.
-    """
-    return grown_near(tree, marks_of(tree), reach)
-
-
-def marks_of(tree: Tree) -> list[Mark]:
-    """Levels of the finer cells of a tree, with their corners."""
     marks: list[Mark] = []
     for level in np.unique(tree.cells.level)[1:]:
         cells = tree.cells.some(tree.cells.level == level)
@@ -78,8 +38,17 @@ def marks_of(tree: Tree) -> list[Mark]:
 
 
 def grown_near(tree: Tree, marks: Sequence[Mark], reach: float) -> Tree:
-    """Tree in which cells that come within a distance ``reach`` [m] of a point of a mark have its level or more, see
-    :func:`refined_near`.
+    """Tree in which cells that come within a distance ``reach`` [m] of a point of a mark have its level or more.
+
+    Distances are those from the ball around a cell.
+
+    Examples
+    --------
+    >>> from softway.meshes.adaptive.tree import tree_of
+    >>> from softway.meshes.generators.shapes import interval
+    >>> whole = tree_of(interval(1.0, cells=1))
+    >>> grown_near(whole, [(3, np.array([[1.0]]))], 0.05).leaves.level.tolist()
+    [1, 2, 3, 3]
     """
     step = tree.step
     points = [(level - level % step, cKDTree(places)) for level, places in marks if len(places)]

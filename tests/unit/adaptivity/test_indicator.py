@@ -7,9 +7,10 @@ from turning import NONE, on_levels, solid
 import softway as sw
 from softway.adaptivity.adapted_solid import adapted_solid
 from softway.adaptivity.indicator import indicator, wanted_levels
-from softway.adaptivity.neighbourhood import buffered
+from softway.adaptivity.neighbourhood import grown_near, marks_of
 from softway.adaptivity.transfer import Motion
-from softway.meshes.adaptive.refinement import refined
+from softway.meshes.adaptive.refinement import adapted_mesh, refined
+from softway.meshes.adaptive.tree import tree_of
 from softway.meshes.generators.shapes import box, interval, rectangle
 from softway.meshes.mesh import Mesh
 
@@ -82,7 +83,8 @@ def test_the_buffer_is_as_fine_within_its_reach(dim: int, reach: float) -> None:
         3: box((1.0, 1.0, 1.0), (2, 2, 2), cell="tet4"),
     }[dim]
     sharp = refined(mesh, np.where(np.arange(mesh.n_cells) == 1, 4, 0))
-    found = buffered(sharp, reach)
+    tree = tree_of(mesh).grown(sharp.leaves, sharp.leaves.level)
+    found = adapted_mesh(grown_near(tree, marks_of(tree), reach))
     for level in np.unique(sharp.leaves.level):
         cells = next(iter(sharp.mesh.blocks.values()))[sharp.leaves.level >= level]
         source = sharp.mesh.points[np.unique(cells)]
@@ -90,4 +92,4 @@ def test_the_buffer_is_as_fine_within_its_reach(dim: int, reach: float) -> None:
         corners = found.mesh.points[rows]
         apart = np.linalg.norm(corners[:, :, None] - source, axis=3).min(axis=(1, 2))
         assert (found.leaves.level[apart < reach] >= level).all()
-    assert buffered(sharp, 0.0).mesh.n_cells < found.mesh.n_cells
+    assert len(grown_near(tree, marks_of(tree), 0.0).leaves.level) < found.mesh.n_cells
