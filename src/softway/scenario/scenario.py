@@ -53,8 +53,8 @@ class Time:
     tolerance
         Error of the mean velocity of a node in a slab, relative to the greatest velocity so far, up to which slabs grow
         beyond ``step``, to at most ``control.longest`` of it, while nothing touches, parts, sticks or slips.  ``auto``
-        is 0.001 with ``step = "auto"``, where something estimates the error, and ``off`` with a given step; ``off``: all
-        slabs have the length ``step``.  0.01 to 0.1 are fast, where vibrations need not keep their phase.
+        is 0.001 with ``step = "auto"``, where something estimates the error, and ``off`` with a given step; ``off``
+        keeps all slabs at the length ``step``.  0.01 to 0.1 are fast, where vibrations need not keep their phase.
 
     Examples
     --------

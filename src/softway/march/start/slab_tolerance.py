@@ -1,6 +1,8 @@
-"""Tolerance by which slabs (time steps) grow: the given one, or that of automatic slabs, where something estimates it."""
+"""Tolerance by which slabs (time steps) grow: the given one, or that of slabs of automatic length."""
 
 from typing import Literal
+
+import numpy as np
 
 from softway.errors import InputError
 from softway.march.rules.slab_rule import Method
@@ -48,12 +50,13 @@ def slab_tolerance(
     unknown = _unknown(model, weight, method)
     if tolerance == "auto":
         return AUTO if step == "auto" and unknown is None else None
-    if isinstance(tolerance, str) or tolerance is None or not 0.0 < tolerance <= 1.0:
-        told = f"{tolerance:g}" if isinstance(tolerance, float | int) else repr(tolerance)
-        raise InputError("time.tolerance", told, "a number above 0 and up to 1, such as 1e-2, 'auto' or 'off'")
+    number = tolerance if isinstance(tolerance, float | int) else np.nan
+    if not 0.0 < number <= 1.0:
+        told = "a number above 0 and up to 1, such as 1e-2, 'auto' or 'off'"
+        raise InputError("time.tolerance", f"{tolerance}", told)
     if unknown is not None:
         raise InputError("time.tolerance", *unknown)
-    return tolerance
+    return float(number)
 
 
 def _unknown(model: Model, weight: TimeWeight, method: Method) -> tuple[str, str] | None:

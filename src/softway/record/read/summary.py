@@ -57,10 +57,11 @@ def summarise(history: Table, events: Table) -> dict[str, Any]:
     """Summarise a finished or unfinished run in a few numbers.
 
     ``slab_shortest`` and ``slab_longest`` are lengths of slabs (time steps) [s]; ``energy_error_worst`` is the largest
-    ``|energy_error|`` [J]; ``energy_error_relative`` is its ratio to the largest sum of kinetic and strain energy; ``dissipation`` is that of friction and material, in solids with a temperature
-    without the column ``heat.reversible`` [J]; ``penetration_worst`` is the largest penetration of a contact row at the
-    end of a slab [m]. ``penetration_nodes`` and ``penetration_between`` are the deepest overlaps of any two surfaces,
-    at nodes and between them, in the slabs that were audited [m]; ``heat`` is that of solids with a temperature,
+    ``|energy_error|`` [J]; ``energy_error_relative`` is its ratio to the largest sum of kinetic and strain energy;
+    ``dissipation`` is that of friction and material, in solids with a temperature without the column
+    ``heat.reversible`` [J]; ``penetration_worst`` is the largest penetration of a contact row at the end of a slab [m].
+    ``penetration_nodes`` and ``penetration_between`` are the deepest overlaps of any two surfaces, at nodes and between
+    them, in the slabs that were audited [m]; ``heat`` is that of solids with a temperature,
     ``findings`` are those of the audit.  ``mesh``, in runs whose meshes change, holds the number of the slabs before
     which a mesh changed, and the greatest and the mean number of the nodes of all solids.
     """
