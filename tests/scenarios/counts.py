@@ -49,10 +49,11 @@ def counted(scenario: Scenario) -> dict[str, int]:
         for step in march(
             checked.model,
             until=time.end,
-            step=checked.step,
+            step=time.step,
             weight=time.weight,
             method=given.solver,
             control=time.control,
+            tolerance=time.tolerance,
             cancel=going_on,
         )
     ]

@@ -12,6 +12,7 @@ from softway.march.results.trying import TryWatch
 from softway.march.rules.slab_rule import Method
 from softway.march.slabs import slabs
 from softway.march.start.preparation import prepare
+from softway.march.start.slab_tolerance import slab_tolerance
 from softway.march.state.march_state import MarchState, Settings
 from softway.march.state.step_control import StepControl
 from softway.model.model import Model
@@ -30,7 +31,7 @@ def march(
     method: Method = FixedPoint(),
     state: State | MarchState | None = None,
     control: StepControl = StepControl(),
-    tolerance: float | None = None,
+    tolerance: float | Literal["auto", "off"] = "auto",
     cancel: Cancel | None = None,
     trying: TryWatch | None = None,
 ) -> Iterator[Step]:
@@ -61,7 +62,8 @@ def march(
     tolerance
         Error of the mean velocity of a node in a slab, relative to the greatest velocity so far, up to which slabs grow
         beyond ``step``: to two, four, ... ``control.longest`` lengths, in smooth motion without events
-        (docs/theory/time/control.md).  None for slabs of the length ``step``.
+        (docs/theory/time/control.md).  ``auto`` is 1e-3 for the step ``auto``, where something estimates the error,
+        and off for a given step; ``off`` for slabs of the length ``step``.
     cancel
         Callback at every iteration, from the first equilibrium on, that may cancel the march.
     trying
@@ -89,8 +91,9 @@ def march(
     True
     """
     model = scene if isinstance(scene, Model) else build(scene)
-    settings = Settings(until=until, step=step, weight=weight, method=method, control=control, tolerance=tolerance)
     model = admitted(model, method)[0]
+    bound = slab_tolerance(model, step, tolerance, weight, method)
+    settings = Settings(until=until, step=step, weight=weight, method=method, control=control, tolerance=bound)
     if adaptions(model.scene):
         return adaptive_march(model, settings, state, cancel, trying)
     prepared = prepare(model, settings, state, cancel, trying)

@@ -226,7 +226,7 @@ def _steps(checked: Checked, state: State | MarchState, cancel: Cancel | None, t
         method=checked.scenario.solver,
         state=state,
         control=time.control,
-        tolerance=time.tolerance,
+        tolerance=checked.tolerance or "off",
         cancel=cancel,
         trying=Heartbeat(tell),
     )

@@ -52,8 +52,9 @@ class Time:
         Limits for the acceptance of a slab; a rejected slab is repeated with a shorter length.
     tolerance
         Error of the mean velocity of a node in a slab, relative to the greatest velocity so far, up to which slabs grow
-        beyond ``step``, to at most ``control.longest`` of it, while nothing touches, parts, sticks or slips; 0.01 to
-        0.1 are usual.  Without it all slabs have the length ``step``.
+        beyond ``step``, to at most ``control.longest`` of it, while nothing touches, parts, sticks or slips.  ``auto``
+        is 0.001 with ``step = "auto"``, where something estimates the error, and ``off`` with a given step; ``off``
+        keeps all slabs at the length ``step``.  0.01 to 0.1 are fast, where vibrations need not keep their phase.
 
     Examples
     --------
@@ -65,7 +66,7 @@ class Time:
     step: Second | Literal["auto"] = "auto"
     weight: TimeWeight = EndPeaks()
     control: StepControl = StepControl()
-    tolerance: float | None = None
+    tolerance: float | Literal["auto", "off"] = "auto"
 
     def __post_init__(self) -> None:
         real(self.end, "end")

@@ -41,6 +41,8 @@ def test_a_whole_run(fake, tmp_path):
     ]  # fmt: skip
     summary, contact = run.summary, run.summary["contacts"]["part.surface-floor"]
     assert summary["slabs"] == fake.slabs and summary["wall_time"] > 0.0
+    spans = run.history["h"][1:]
+    assert (summary["slab_shortest"], summary["slab_longest"]) == (spans.min(), spans.max())  # as given
     assert summary["energy_error_worst"] == 1e-12  # as given
     assert contact["first_touch"] == 0.4 and contact["last_release"] == 0.6 and contact["touches"] == 1  # as given
     force = run.history["contact.part.surface-floor.force_n"]

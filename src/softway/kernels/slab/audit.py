@@ -32,7 +32,11 @@ def closes(bodies, rows, course, work, unit, s):
     u0, u1, f0, f1, d = course.u[s], course.u[s + 1], course.force[s], course.force[s + 1], bodies.dimension
     blur = 4.0 * np.finfo(np.float64).eps * extent(bodies, u1)
     work.group[:] = 0.0
+    for r in range(len(rows.offset)):
+        if course.pressure[s, r] > 0.0 or course.pressure[s + 1, r] > 0.0:
+            work.group[bodies.group[rows.part[r]], 2] = 1.0
     for part in range(len(bodies.floor)):
+        flies = work.group[bodies.group[part], 2] == 0.0
         V0, V1 = course.energy[s, part], course.energy[s + 1, part]
         missing, level, kinetic = V1 - V0, abs(V0) + abs(V1), 0.0
         for c in range(bodies.first[part] * d, bodies.first[part + 1] * d):
@@ -43,7 +47,7 @@ def closes(bodies, rows, course, work, unit, s):
                 missing -= mean * moved
                 level += abs(mean * moved)
             else:
-                missing -= load * moved
+                missing -= (mean if flies else load) * moved
         g = bodies.group[part]
         work.group[g, 0] += missing
         work.group[g, 1] += SUMS * (level + kinetic) + bodies.floor[part]

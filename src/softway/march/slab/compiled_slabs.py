@@ -219,7 +219,7 @@ def _work(compiled: CompiledModel) -> Work:
         after=fields[3],
         push=fields[4],
         row=np.zeros(len(compiled.rows.offset)),
-        group=np.zeros((groups, 2)),
+        group=np.zeros((groups, 3)),
     )
 
 

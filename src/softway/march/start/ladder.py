@@ -12,7 +12,6 @@ import numpy as np
 from softway.arrays import Array
 from softway.bodies.assembled import material_states
 from softway.bodies.assembled.material_states import any_path_dependent
-from softway.errors import InputError
 from softway.march.results.slab_result import SlabResult
 from softway.march.start.slab_length import prescribed_speed
 from softway.march.state.march_state import Settings, StepHistory
@@ -20,8 +19,6 @@ from softway.march.state.model_state import ModelState
 from softway.march.state.step_control import EARLY, ROUNDING, above
 from softway.model.model import Model
 from softway.model.slab import Slab
-from softway.model.time_weight import EndPeaks
-from softway.solve.methods.central_difference import Explicit
 
 SMOOTH = 3
 """Number of successive slabs with a small error after which slabs grow."""
@@ -29,31 +26,6 @@ UNSTRAINED = 1e-9
 """Strain that is rounding."""
 LEAP = 1.0
 """Greatest way of a node in a slab above the lowest rung, in edges, where surfaces might pass through each other."""
-
-
-def require_ladder(model: Model, settings: Settings) -> None:
-    """Refuse a tolerance where nothing estimates the error of a slab.
-
-    Raises
-    ------
-    InputError
-        With the reason.
-    """
-    if settings.tolerance is None:
-        return
-    if not 0.0 < settings.tolerance <= 1.0:
-        raise InputError("time.tolerance", f"{settings.tolerance:g}", "a number above 0 and up to 1, such as 1e-2")
-    if isinstance(settings.method, Explicit):
-        raise InputError("time.tolerance", "with Explicit, whose stability limits the step", "FixedPoint, or omit it")
-    if not model.inert:
-        raise InputError("time.tolerance", "without inertia, where no acceleration tells the error", "omit it")
-    if settings.weight != EndPeaks():
-        raise InputError("time.tolerance", f"with {settings.weight}", "the weight EndPeaks with theta = 0.5")
-    if model.rigid is not None:
-        raise InputError("time.tolerance", "beside rigid bodies, whose error is not estimated", "omit it")
-    if model.companions:
-        names = ", ".join(c.field.name for c in model.companions)
-        raise InputError("time.tolerance", f"with {names}, whose error is not estimated", "omit it")
 
 
 def rungs(settings: Settings) -> int:

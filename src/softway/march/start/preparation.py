@@ -8,7 +8,7 @@ from softway.march.results.trying import TryWatch
 from softway.march.slab.slab_step import Stepper, stepper
 from softway.march.start.initial_state import initial_state
 from softway.march.start.knots import slab_ends
-from softway.march.start.ladder import require_ladder, rungs, slowest
+from softway.march.start.ladder import rungs, slowest
 from softway.march.start.slab_length import proposed
 from softway.march.state.march_state import MarchState, Settings, StepHistory
 from softway.march.state.model_state import join_states
@@ -57,7 +57,6 @@ def prepare(
         method if isinstance(method, Explicit) else weight,
     )
     require_stable_weight(stepping)
-    require_ladder(model, settings)
     march_state = _begun(model, settings, state, cancel, trying)
     if not march_state.slabs and not (isinstance(stepping, Explicit) and settings.step == "auto"):  # auto is stable
         require_stable(model, march_state.state.start.displacement, stepping, march_state.step_history.span)

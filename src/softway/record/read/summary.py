@@ -22,6 +22,8 @@ LEFT = ("complementarity", "power_residual", "momentum_error", "energy_error")
 UNITS: Mapping[str, str] = MappingProxyType(
     {
         "time_end": "s",
+        "slab_shortest": "s",
+        "slab_longest": "s",
         "energy_error_worst": "J",
         "energy_error_relative": "ratio",
         "dissipation": "J",
@@ -54,11 +56,12 @@ UNITS: Mapping[str, str] = MappingProxyType(
 def summarise(history: Table, events: Table) -> dict[str, Any]:
     """Summarise a finished or unfinished run in a few numbers.
 
-    ``energy_error_worst`` is the largest ``|energy_error|`` [J]; ``energy_error_relative`` is its ratio to the largest
-    sum of kinetic and strain energy; ``dissipation`` is that of friction and material, in solids with a temperature
-    without the column ``heat.reversible`` [J]; ``penetration_worst`` is the largest penetration of a contact row at the
-    end of a slab [m]. ``penetration_nodes`` and ``penetration_between`` are the deepest overlaps of any two surfaces,
-    at nodes and between them, in the slabs that were audited [m]; ``heat`` is that of solids with a temperature,
+    ``slab_shortest`` and ``slab_longest`` are lengths of slabs (time steps) [s]; ``energy_error_worst`` is the largest
+    ``|energy_error|`` [J]; ``energy_error_relative`` is its ratio to the largest sum of kinetic and strain energy;
+    ``dissipation`` is that of friction and material, in solids with a temperature without the column
+    ``heat.reversible`` [J]; ``penetration_worst`` is the largest penetration of a contact row at the end of a slab [m].
+    ``penetration_nodes`` and ``penetration_between`` are the deepest overlaps of any two surfaces, at nodes and between
+    them, in the slabs that were audited [m]; ``heat`` is that of solids with a temperature,
     ``findings`` are those of the audit.  ``mesh``, in runs whose meshes change, holds the number of the slabs before
     which a mesh changed, and the greatest and the mean number of the nodes of all solids.
     """
@@ -69,6 +72,7 @@ def summarise(history: Table, events: Table) -> dict[str, Any]:
     contacts = {label: _contact(label, history, events) for label in contacts_of(history)}
     return {
         "slabs": int((history["h"] > 0.0).sum()),
+        **_lengths(history),
         "time_end": float(history["time"][-1]),
         "iterations": int(history["iterations"].sum()),
         "energy_error_worst": worst,
@@ -86,6 +90,12 @@ def summarise(history: Table, events: Table) -> dict[str, Any]:
         "findings": gathered(stored(events)),
         "units": {"time": "s", "energy": "J", "penetration": "m", "impulse": "N s", "force": "N"},
     }
+
+
+def _lengths(history: Table) -> dict[str, float]:
+    """Lengths of the shortest and of the longest slab [s]; none before the first slab."""
+    spans = history["h"][history["h"] > 0.0]
+    return {"slab_shortest": float(spans.min()), "slab_longest": float(spans.max())} if len(spans) else {}
 
 
 def _changes(history: Table, events: Table) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from softway.heat.coupled.build import build
 from softway.march.remeshing.adaptive_march import adapted_start
 from softway.march.remeshing.admitted import adaptions, admitted
 from softway.march.start.preparation import prepare
+from softway.march.start.slab_tolerance import slab_tolerance
 from softway.march.state.march_state import MarchState, Settings
 from softway.meshes.files.listed_mesh import LeftOut
 from softway.model.model import Model
@@ -90,6 +91,11 @@ class Checked:
     slabs: int
     notes: tuple[Note, ...] = ()
     left_out: Mapping[str, tuple[LeftOut, ...]] = field(default_factory=dict)
+
+    @property
+    def tolerance(self) -> float | None:
+        """Tolerance by which slabs grow beyond ``step``; None if they do not."""
+        return self.march_state.settings.tolerance
 
 
 def check(
@@ -240,7 +246,7 @@ def _begun(scenario: Scenario, model: Model, cancel: Cancel | None) -> tuple[Mod
         weight=time.weight,
         method=scenario.solver,
         control=time.control,
-        tolerance=time.tolerance,
+        tolerance=slab_tolerance(model, time.step, time.tolerance, time.weight, scenario.solver),
     )
     if adaptions(model.scene):
         model = adapted_start(model, settings).model

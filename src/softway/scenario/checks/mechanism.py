@@ -180,7 +180,7 @@ def require_default(scenario: Scenario, foreign: Mapping[str, str], what: str) -
     for key in ("weight", "control", "tolerance"):
         value = getattr(scenario.time, key)
         if value != getattr(standard, key):
-            problem = f"{value if isinstance(value, float) else type(value).__name__} in a scenario of {what}"
+            problem = f"{value if isinstance(value, float | str) else type(value).__name__} in a scenario of {what}"
             raise InputError(f"time.{key}", problem, "omit it: only solids use it")
 
 

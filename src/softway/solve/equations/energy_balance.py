@@ -73,7 +73,8 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
     touching = (ends.force0 > 0.0) | (ends.force1 > 0.0)
     label = body_groups(model, (ends.rows0, ends.force0 > 0.0), (ends.rows1, ends.force1 > 0.0))
     moving = (ends.u1 - ends.u0) * model.massive[:, None]
-    num, den, level = _energies(model, ends, moving)
+    touched = (np.bincount(label[model.part_of[ends.rows0.node[touching]]], minlength=len(label)) > 0)[label]
+    num, den, level = _energies(model, ends, moving, touched)
     num, den, level, floor = (np.asarray(np.bincount(label, weights=v), float) for v in (num, den, level, model.floor))
     members = [label == g for g in range(len(num))]
     spins = [spin_balance(model, ends, m) if _closes_spin(model, m) else None for m in members]
@@ -85,10 +86,10 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
     rubbing = friction_work(ends.tangential, ends.u1 - ends.u0, label[model.part_of[ends.rows0.node]], len(members))
     num, den, reset = _without_created_energy((num, den), rounding, rubbing, model.inert)
     strained = np.bincount(label, weights=np.abs(ends.V0) + np.abs(ends.V1)) > AT_REST * floor
-    touched = np.bincount(label[model.part_of[ends.rows0.node[touching]]], minlength=len(members)) > 0
     supply = _viscous_work(model, ends, moving, label) * np.array([spin is None for spin in spins])
     viscous, num = _by_viscous_forces(num, den, supply)
-    wanted = np.where(strained | touched, _quotient(num, den, rounding), 0.0)
+    met = np.bincount(label, weights=touched) > 0.0
+    wanted = np.where(strained | met, _quotient(num, den, rounding), 0.0)
     wanted, released = _without_snaps(model, ends, label, wanted, num)
     a = _bounded(wanted, model.inert)
     excess = np.where(reset, np.maximum(rubbing.dissipated(a), 0.0), 0.0)
@@ -197,8 +198,11 @@ def end_force_closure(model: Model, ends: EndForces) -> EnergyClosure:
     return EnergyClosure(mean=ends.mean, scalar=half, missing_work=0.0 * half, clipped=False, lost=lost)
 
 
-def _energies(model: Model, ends: EndForces, moving: Array) -> tuple[Array, Array, Array]:
-    """Missing work, its derivative with respect to the scalar a, and the rounding level (parts,)."""
+def _energies(model: Model, ends: EndForces, moving: Array, touched: BoolArray) -> tuple[Array, Array, Array]:
+    """Missing work, its derivative with respect to the scalar a, and the rounding level (parts,).
+
+    Solids that nothing touches, ``touched`` (parts,) False, are balanced by internal forces alone.
+    """
     du = ends.u1 - ends.u0
     work = model.space.totals(ends.mean * moving)
     still = model.space.totals(0.5 * (model.load_before + model.load) * (du - moving))
@@ -210,13 +214,15 @@ def _energies(model: Model, ends: EndForces, moving: Array) -> tuple[Array, Arra
     num = ends.V1 - ends.V0 - work - still - driven
     den = model.space.totals((ends.f1 - ends.f0) * moving) + np.bincount(slave, weights=d1 - d0, minlength=n)
     den = den + model.space.totals((model.load - model.load_before) * (du - moving))
-    if ends.rows0.shear.count or ends.viscous is not None:
-        num, den = _by_internal_forces(model, ends, moving)
-    elif model.driven:
+    rough = bool(ends.rows0.shear.count) or ends.viscous is not None
+    if not rough and model.driven:
         loads = (model.load_before, model.load)
         r0, r1 = (_support_forces(model, f - q, rows, p) for (f, rows, p), q in zip(ends.both, loads, strict=True))
         num = num - model.space.totals(0.5 * (r0 + r1) * du)
         den = den + model.space.totals((r1 - r0) * du)
+    if rough or not touched.all():
+        inner = _by_internal_forces(model, ends, moving)
+        num, den = (np.where(touched & (not rough), a, b) for a, b in zip((num, den), inner, strict=True))
     level = np.abs(ends.V1) + np.abs(ends.V0) + model.kinetic(ends.v0) + ends.cancelled
     level += model.space.totals(np.abs(ends.mean * moving)) + model.space.totals(np.abs(model.load * du))
     level += np.bincount(slave, weights=np.abs(d0) + np.abs(d1), minlength=n)
@@ -224,12 +230,13 @@ def _energies(model: Model, ends: EndForces, moving: Array) -> tuple[Array, Arra
 
 
 def _by_internal_forces(model: Model, ends: EndForces, moving: Array) -> tuple[Array, Array]:
-    """Missing work and its derivative with respect to the scalar a (parts,), with friction or viscosity.
+    """Missing work and its derivative with respect to the scalar a (parts,): with friction, viscosity or no contact.
 
     At both ends the internal forces of massless nodes balance loads, contact and supports.  They contain all forces
     that do work there, including friction; only the work of normal forces in closing or opening a gap is excluded.  The
-    numerator then vanishes up to rounding if a linear body stays in contact, sticking or slipping.  Viscous stresses
-    make the other form grow with the residual of the massless nodes: iterates swing with it.
+    numerator then vanishes up to rounding if a linear body flies or stays in contact, sticking or slipping.  The other
+    form has the work of the residual of the massless nodes over their way, which is rounding on a body that flies far;
+    iterates swing with it, also where viscous stresses make it grow.
     """
     du = ends.u1 - ends.u0
     slave, n = model.part_of[ends.rows0.node], len(model.parts)

@@ -12,6 +12,7 @@ from softway.apps.verify.exact import bar as waves
 from softway.arrays import Array
 from softway.march.results.step import Step
 from softway.march.start.ladder import Quality, next_rung, rungs, velocity_error
+from softway.march.start.slab_tolerance import AUTO
 from softway.march.state.march_state import Settings, StepHistory
 from softway.model.slab import Slab
 from softway.solve.operators.operator_memory import OperatorMemory
@@ -51,7 +52,7 @@ def test_a_falling_bar_takes_long_slabs_and_touches_at_its_instant() -> None:
     """Gravity alone: the slope does not change, so that slabs grow to the longest; the touch at t = 1 is exact."""
     scene = replace(bar(40), loads=(GRAVITY,))
     steps = list(sw.march(scene, until=2.0, tolerance=0.01))
-    equal = list(sw.march(scene, until=2.0))
+    equal = list(sw.march(scene, until=2.0, tolerance="off"))
     touch = next(e.time for s in steps for e in s.events)
     assert abs(touch - 1.0) < 1e-12
     before = [s for s in steps if s.after.time <= 1.0]
@@ -88,10 +89,58 @@ def test_slabs_do_not_grow_without_an_estimate() -> None:
 
 
 def test_without_a_tolerance_slabs_are_equal_and_keep_one_operator() -> None:
-    steps = list(sw.march(replace(bar(), loads=(GRAVITY,)), until=1.5))
+    steps = list(sw.march(replace(bar(), loads=(GRAVITY,)), until=1.5, tolerance="off"))
     assert lengths(steps) == pytest.approx(np.ones(len(steps)))
     memory = steps[-1].march_state.memory
     assert memory.room == 0 and memory.others == ()
+
+
+def test_slabs_of_automatic_length_grow_by_themselves() -> None:
+    """In free fall, with the touch at t = 1 exact; a given length, and ``off``, keep equal slabs."""
+    scene = replace(bar(40), loads=(GRAVITY,))
+    found = list(sw.march(scene, until=1.5))
+    assert lengths(found).max() == pytest.approx(32.0, rel=1e-9)
+    assert found[-1].march_state.settings.tolerance == AUTO  # as given
+    assert abs(next(e.time for s in found for e in s.events) - 1.0) < 1e-12
+    assert max(abs(s.ledger.energy_error) for s in found) < 1e-12 * 500.0
+    for given in (
+        {"step": found[0].slab.span},
+        {"tolerance": "off"},
+        {"step": found[0].slab.span, "tolerance": "auto"},
+    ):
+        equal = list(sw.march(scene, until=1.5, **given))
+        assert lengths(equal) == pytest.approx(np.ones(len(equal))) and len(equal) > 2 * len(found)
+    grown = list(sw.march(scene, until=0.9, step=found[0].slab.span, tolerance=AUTO))
+    assert lengths(grown).max() > 15.0
+
+
+@pytest.mark.parametrize(
+    "given",
+    [{"method": sw.Explicit()}, {"weight": sw.model.Momentum()}],
+    ids=["explicit", "momentum"],
+)
+def test_where_nothing_estimates_the_error_automatic_slabs_stay(given: dict[str, object]) -> None:
+    """Without a word: slabs have the length that stability, or the wave, asks for."""
+    steps = list(sw.march(sw.Scene(bodies={"bar": bar().bodies["bar"]}, loads=(GRAVITY,)), until=0.5, **given))
+    assert steps[-1].march_state.settings.tolerance is None
+    assert lengths(steps) == pytest.approx(np.ones(len(steps)))
+
+
+def test_automatic_slabs_are_as_accurate_as_those_of_the_wave() -> None:
+    """A beam of linear cells that gravity sets swinging, against one of half the cells and half the slabs."""
+    end, tips = 0.25, []
+    for cells, given in ((1, {"tolerance": "off"}), (1, {}), (2, {"tolerance": "off"})):
+        beam = sw.Solid(
+            mesh=sw.meshes.Rectangle(size=(1.0, 0.1), cells=(10 * cells, 2 * cells)), density=1000.0,
+            material=sw.LinearElastic(E=1e7, nu=0.3), supports=(sw.Fixed(on="left"),),
+        )  # fmt: skip
+        scene = sw.Scene(bodies={"beam": beam}, loads=(sw.Gravity(acceleration=(0.0, -9.81)),))
+        steps = list(sw.march(scene, until=end, **given))
+        tip = [s.after.displacement["beam"][-1, 1] for s in steps]
+        tips.append((np.interp(np.linspace(0.0, end, 200), [s.after.time for s in steps], tip), len(steps)))
+    (equal, many), (found, few), (fine, _) = tips
+    assert few < 0.4 * many
+    assert np.linalg.norm(found - fine) < 1.05 * np.linalg.norm(equal - fine)
 
 
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-3, 1e-2])
@@ -200,6 +249,7 @@ def test_the_longest_slab_is_a_power_of_two() -> None:
         ({"tolerance": 0.0}, "above 0"),
         ({"tolerance": np.nan}, "above 0"),
         ({"tolerance": 2.0}, "above 0"),
+        ({"tolerance": "on"}, "'auto' or 'off'"),
         ({"method": sw.Explicit()}, "stability limit"),
         ({"weight": sw.model.Momentum()}, "EndPeaks"),
     ],
@@ -230,7 +280,7 @@ def force_error(steps: list[Step], until: float) -> float:
 def test_the_bouncing_bar_of_a09_needs_fewer_slabs_for_the_same_force() -> None:
     """Two contacts with 100 cells: at most 60 % of the slabs, no greater error, 8 factors; measured 36 %."""
     scene = replace(bar(100), loads=(GRAVITY,))
-    equal = list(sw.march(scene, until=5.0))
+    equal = list(sw.march(scene, until=5.0, tolerance="off"))
     found = list(sw.march(scene, until=5.0, tolerance=0.05))
     assert len(found) <= 0.6 * len(equal)
     assert force_error(found, 5.0) <= force_error(equal, 5.0)

@@ -37,6 +37,7 @@ COLUMNS = (
     TextColumn("ETA {task.fields[left]}"),
     TextColumn("energy error {task.fields[error]}"),
     TextColumn("contacts {task.fields[closed]}"),
+    TextColumn("{task.fields[span]}"),
 )
 
 
@@ -80,7 +81,7 @@ class Watch:
             return
         if not self.display.live.is_started:
             self.display.start()
-        step = progress.step
+        step, span = progress.step, ""
         if isinstance(step, MechanismStep):
             error, closed = step.energy_error, len(step.closed)
         elif isinstance(step, HeatStep):
@@ -89,6 +90,7 @@ class Watch:
             error, closed = step.energy_error, step.closed
         else:
             error, closed = step.ledger.energy_error, sum(c.count for c in step.ledger.contacts.values())
+            span = f"slab {step.slab.span:.3g} s"
         self.display.update(
             self.task,
             description="",
@@ -96,6 +98,7 @@ class Watch:
             left=_clock(progress.left),
             error=f"{error:.1e} J",
             closed=closed,
+            span=span,
         )
 
 
@@ -106,7 +109,7 @@ def progress_of(checked: Checked | CheckedRigid, console: Console) -> Iterator[W
         yield None
         return
     display = Display(*COLUMNS, console=console, transient=True)
-    task = display.add_task(FIRST, total=checked.scenario.time.end, left="-", error="-", closed=0)
+    task = display.add_task(FIRST, total=checked.scenario.time.end, left="-", error="-", closed=0, span="")
     with delayed(display):
         yield Watch(display=display, task=task)
 

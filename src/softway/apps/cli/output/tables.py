@@ -9,6 +9,7 @@ from rich.markup import escape
 from rich.table import Table as Grid
 
 from softway.errors import Note
+from softway.march.start.ladder import rungs
 from softway.record.pile.summary import told_of_pile
 from softway.record.read.findings import sentences
 from softway.record.read.heat_summary import told_of_heat
@@ -74,6 +75,7 @@ WORDS = {
     "slab_cpu": "CPU time of a slab (median)",
     "energy_drift": "energy error (relative)",
     "distance": "distance at the end",
+    "peak_force": "peak force (mean of a slab)",
 }
 RACE = (
     "slabs",
@@ -104,8 +106,18 @@ def scales(checked: Any, console: Console, most: int | None = None) -> None:
     _columns(_merged("contact", getattr(checked, "contacts", {})), console)
     end = checked.scenario.time.end
     some = f"{most} of " if most is not None and most < checked.slabs else ""
-    console.print(f"{some}{checked.slabs} slabs of {checked.step:.6g} s until {end:.6g} s\n", markup=False)
+    longer = _growth(checked) if most is None else ""
+    console.print(f"{some}{checked.slabs} slabs of {checked.step:.6g} s until {end:.6g} s{longer}\n", markup=False)
     _notes(checked.notes, console)
+
+
+def _growth(checked: Any) -> str:
+    """How far slabs grow under a tolerance; empty where all have the length that is told."""
+    bound = getattr(checked, "tolerance", None)
+    if bound is None:
+        return ""
+    longest = 2 ** rungs(checked.march_state.settings)
+    return f"; smooth ones grow up to {longest} times (tolerance {bound:g})"
 
 
 def summary(run: Run, console: Console) -> None:
