@@ -24,8 +24,9 @@ def slab_tolerance(
 ) -> float | None:
     """Tolerance of the slabs of a march; None if all have the requested length.
 
-    ``auto`` is ``AUTO`` for slabs of automatic length, where something estimates the error of a slab, and none for
-    slabs of a given length.
+    ``auto`` is ``AUTO`` for slabs of automatic length in the plane and in space, where something estimates the error
+    of a slab, and none for slabs of a given length.  Bars keep equal slabs: their waves do not spread, and the phase of
+    what an impact leaves determines the next touch.
 
     Parameters
     ----------
@@ -40,8 +41,9 @@ def slab_tolerance(
     Examples
     --------
     >>> import softway as sw
-    >>> bar = sw.Solid(mesh=sw.meshes.Interval(length=1.0, cells=2), material=sw.LinearElastic(E=1.0), density=1.0)
-    >>> given = sw.build(sw.Scene(bodies={"bar": bar})), "auto", "auto", EndPeaks()
+    >>> mesh = sw.meshes.Rectangle(size=(1.0, 1.0), cells=(2, 2))
+    >>> block = sw.Solid(mesh=mesh, material=sw.LinearElastic(E=1.0, nu=0.3), density=1.0)
+    >>> given = sw.build(sw.Scene(bodies={"block": block})), "auto", "auto", EndPeaks()
     >>> slab_tolerance(*given, sw.FixedPoint()), slab_tolerance(*given, sw.Explicit())
     (0.001, None)
     """
@@ -49,7 +51,8 @@ def slab_tolerance(
         return None
     unknown = _unknown(model, weight, method)
     if tolerance == "auto":
-        return AUTO if step == "auto" and unknown is None else None
+        grows = step == "auto" and unknown is None and model.shape[1] > 1
+        return AUTO if grows else None
     number = tolerance if isinstance(tolerance, float | int) else np.nan
     if not 0.0 < number <= 1.0:
         told = "a number above 0 and up to 1, such as 1e-2, 'auto' or 'off'"
