@@ -70,17 +70,16 @@ def overlay_projection(before: AdaptedSolid, after: AdaptedSolid) -> OverlayProj
     both = _on_united(before, after)
     ours, theirs = embedding(after.adapted, both.adapted), embedding(before.adapted, both.adapted)
     d = after.points.shape[1]
-    form = _form(both)
+    nodal = _mass(both)
+    form = _form(both, nodal)
     wide, wide_before = (sp.csr_array(sp.kron(m, sp.eye_array(d))) for m in (ours, theirs))
     stiff = sp.csc_array(wide.T @ form @ wide)
-    masses = after.element_masses()
-    common = common_matrix(overlay(before.adapted, after.adapted), before.element_masses(), masses)
-    mass = common_matrix(overlay(after.adapted, after.adapted), masses, masses)
+    mass = sp.csr_array(ours.T @ nodal @ ours)
     dofs = after.part.dofs
     return OverlayProjection(
         after=after,
         at_nodes=_at_nodes(ours, theirs, after),
-        common=common,
+        common=sp.csr_array(theirs.T @ nodal @ ours),
         mass=mass,
         stiff=stiff,
         stiff_common=sp.csr_array(wide.T @ form @ wide_before),
@@ -100,10 +99,15 @@ def _on_united(before: AdaptedSolid, after: AdaptedSolid) -> AdaptedSolid:
     return AdaptedSolid(solid=solid, adapted=found, part=discretise("", solid, 0), mass=none, follow=none)
 
 
-def _form(both: AdaptedSolid) -> sp.csc_array:
+def _mass(both: AdaptedSolid) -> sp.csr_array:
+    """Consistent mass matrix (n, n) [kg]."""
+    masses = both.element_masses()
+    return common_matrix(overlay(both.adapted, both.adapted), masses, masses)
+
+
+def _form(both: AdaptedSolid, mass: sp.csr_array) -> sp.csc_array:
     """Mass plus the stiffness of the undeformed solid times the square of a time, (n d, n d) [kg]."""
-    masses, part = both.element_masses(), both.part
-    mass = common_matrix(overlay(both.adapted, both.adapted), masses, masses)
+    part = both.part
     size = float(np.linalg.norm(np.ptp(both.points, axis=0)))
     time = size / min(part.materials.speeds(part.internal.section))
     return sp.csc_array(_wide(mass, both.points.shape[1]) + time**2 * part.tangent(np.zeros(both.points.shape)))

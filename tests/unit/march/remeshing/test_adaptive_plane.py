@@ -14,6 +14,7 @@ from softway.arrays import Array
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.overlay import embedding
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
+from softway.meshes.adaptive.rounded.surface import rounded
 from softway.meshes.generators.shapes import box, disc, rectangle
 from softway.meshes.mesh import Mesh
 from softway.record.write.history_columns import columns
@@ -33,7 +34,7 @@ def dropped(mesh: Mesh, surface: str, law: object = sw.NeoHookean(E=1.0, nu=0.3)
 def on_finest(scene: sw.Scene, name: str, levels: int) -> tuple[sw.Scene, AdaptedMesh]:
     """The scene with a solid on the uniform mesh of the finest cells."""
     body = scene.bodies[name]
-    fine = refined(body.mesh, np.full(body.mesh.n_cells, levels))
+    fine = refined(rounded(body.mesh), np.full(body.mesh.n_cells, levels))
     return replace(scene, bodies={**scene.bodies, name: replace(body, mesh=fine.mesh)}), fine
 
 
