@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError
 from softway.kernels.geometry.jacobians import determinants
-from softway.meshes.adaptive.rounded.rounding import Rounding
 from softway.meshes.cells import CELLS, FACETS
 from softway.meshes.element import element
-from softway.meshes.topology import HangingNodes, check_topology
+from softway.meshes.topology import HangingNodes, Rounding, check_topology
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 

@@ -9,8 +9,8 @@ from turning import around, balances, moving, on_levels, solid
 import softway as sw
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.transfer import Motion, Transferred, transfer
-from softway.meshes.adaptive.rounded.surface import ROUND, rounded
 from softway.meshes.adaptive.squares.balanced import BALANCED
+from softway.meshes.adaptive.surfaces.surface import ROUND, rounded
 from softway.meshes.generators.shapes import ball, box, disc, interval, rectangle
 from softway.meshes.mesh import Mesh
 

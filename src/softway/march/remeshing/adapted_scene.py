@@ -21,7 +21,7 @@ from softway.march.state.march_state import MarchState
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.leaves import Leaves, require_cover, same
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
-from softway.meshes.adaptive.rounded.surface import ROUND, rounded
+from softway.meshes.adaptive.surfaces.surface import ROUND, rounded
 from softway.meshes.generators.recipes import Ball, Cylinder, Disc, Divided, GradedDisc, Ring
 from softway.meshes.mesh import Mesh
 from softway.model.model import Model

@@ -16,7 +16,7 @@ from softway.errors import InputError
 from softway.meshes.adaptive.leaves import Leaves, nested
 from softway.meshes.adaptive.nodes.leaf_nodes import node_places, shape_functions
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
-from softway.meshes.adaptive.rounded.extended import extended
+from softway.meshes.adaptive.surfaces.extended import extended
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -77,7 +77,7 @@ def refined(base: Mesh, want: IntArray, on: Leaves | None = None) -> AdaptedMesh
     by one at most.  Quadrilaterals and hexahedra are cut into four and eight, and nodes hang in the middle of edges and
     faces of larger cells.  Cells of second order keep the exact shape of the base cell, also where it is curved; on
     linear cells new nodes lie on the smooth surface of a base mesh
-    (:func:`~softway.meshes.adaptive.rounded.surface.rounded`).
+    (:func:`~softway.meshes.adaptive.surfaces.surface.rounded`).
 
     Parameters
     ----------

@@ -10,7 +10,7 @@ from softway.meshes.adaptive.leaves import Leaves, among
 from softway.meshes.adaptive.nodes.leaf_nodes import node_places, shape_functions
 from softway.meshes.adaptive.overlay import chosen_pairs, require_one_base
 from softway.meshes.adaptive.refinement import AdaptedMesh
-from softway.meshes.adaptive.rounded.extended import extended
+from softway.meshes.adaptive.surfaces.extended import extended
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

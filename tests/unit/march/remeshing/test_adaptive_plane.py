@@ -14,7 +14,7 @@ from softway.arrays import Array
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.overlay import embedding
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
-from softway.meshes.adaptive.rounded.surface import rounded
+from softway.meshes.adaptive.surfaces.surface import rounded
 from softway.meshes.generators.shapes import box, disc, rectangle
 from softway.meshes.mesh import Mesh
 from softway.record.write.history_columns import columns

@@ -8,8 +8,8 @@ from softway.arrays import Array
 from softway.bodies.elements.section import Axisymmetric, PlaneStrain, Section, Volume
 from softway.bodies.inertia.mass_matrix import Consistent, nodal_mass
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
-from softway.meshes.adaptive.rounded.surface import ROUND, rounded
 from softway.meshes.adaptive.rounded.volumes import cell_moments
+from softway.meshes.adaptive.surfaces.surface import ROUND, rounded
 from softway.meshes.adaptive.values_at_nodes import values_at_nodes
 from softway.meshes.generators.graded import ring
 from softway.meshes.generators.shapes import ball, box, cylinder, disc, rectangle

@@ -1,5 +1,5 @@
 """Middles of curved edges from the directions at their ends, exact on circles, spheres and cylinders
-(docs/theory/bodies/adaptive.md#rounded).
+(docs/theory/bodies/adaptive.md#curved-boundaries).
 
 Directions that are no numbers are unknown: the edge is then an arc with the known one at the other end.
 """

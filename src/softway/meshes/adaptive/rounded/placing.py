@@ -10,7 +10,7 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.meshes.adaptive.rounded.bulges import over_normals, over_tangents
-from softway.meshes.adaptive.rounded.rounding import Rounding
+from softway.meshes.topology import Rounding
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -36,10 +36,11 @@ class Origins:
         return Origins(edges=number[self.edges], faces=number[self.faces], cubes=number[self.cubes])
 
 
-@dataclass(slots=True, eq=False, kw_only=True)
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class _Nodes:
-    """Nodes as far as their places are known: places, patches, normals, tangents, and the patches ``sides`` (n, 2) of
-    the edge or facet in which they lie.
+    """Nodes, in arrays that are filled as their places become known.
+
+    They have places, patches, normals, tangents, and the patches ``sides`` (n, 2) of the edge or facet around them.
     """
 
     points: Array

@@ -10,7 +10,7 @@ from softway.apps.verify.case import Outcome
 from softway.arrays import Array
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.refinement import refined
-from softway.meshes.adaptive.rounded.surface import rounded
+from softway.meshes.adaptive.surfaces.surface import rounded
 from softway.meshes.generators.shapes import disc
 from softway.meshes.mesh import Mesh
 from softway.record.view.plots.curves import Curve, Panel

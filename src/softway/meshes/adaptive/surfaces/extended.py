@@ -47,7 +47,7 @@ def _in_leaves(values: sp.csr_array, one: AdaptedMesh, other: AdaptedMesh, nodes
     leaf, local = leaf[nodes], local[nodes]
     around = one.leaves.around(other.leaves.start[leaf])
     own = node_places(other.cell, other.place[leaf])[np.arange(len(leaf)), local]
-    place = np.linalg.solve(one.place[around].swapaxes(1, 2), own[:, :, None])[:, :, 0]
+    place = np.asarray(np.linalg.solve(one.place[around].swapaxes(1, 2), own[:, :, None])[:, :, 0], float)
     outer = other.leaves.level[leaf] < one.leaves.level[around]  # a node of both meshes
     if outer.any():
         known, corner = _first(one)

@@ -1,4 +1,4 @@
-"""Smooth surface through the boundary nodes of a mesh (docs/theory/bodies/adaptive.md#rounded)."""
+"""Smooth surface through the boundary nodes of a mesh (docs/theory/bodies/adaptive.md#curved-boundaries)."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -10,19 +10,19 @@ from softway.arrays import Array, BoolArray, IntArray
 from softway.meshes.adaptive.adapt import SMOOTH
 from softway.meshes.adaptive.nodes.middles import edge_codes
 from softway.meshes.adaptive.refinement import BISECTED, leaf_places
-from softway.meshes.adaptive.rounded.fitted import fitted_normals
-from softway.meshes.adaptive.rounded.patches import (
+from softway.meshes.adaptive.rounded.volumes import moments_by_root, stretches
+from softway.meshes.adaptive.surfaces.fitted import fitted_normals
+from softway.meshes.adaptive.surfaces.patches import (
     Patches,
     around_nodes,
     corner_normals,
     crease_tangents,
     patches_of,
 )
-from softway.meshes.adaptive.rounded.rounding import NONE, Rounding
-from softway.meshes.adaptive.rounded.volumes import moments_by_root, stretches
 from softway.meshes.adaptive.tree import tree_of
 from softway.meshes.cells import CELLS
 from softway.meshes.mesh import Mesh
+from softway.meshes.topology import Rounding
 
 FLAT = 1e-9
 """Angle between an edge and the surface below which it is straight [rad]."""
@@ -81,7 +81,7 @@ def _surface(mesh: Mesh, smooth: float, radial: bool) -> Rounding:
     n, d = mesh.points.shape
     slot = np.arange(len(node)) - np.searchsorted(node, node)
     slots = int(slot.max()) + 1
-    patches, by_slot = np.full((n, slots), NONE), np.full((n, slots, d), np.nan)
+    patches, by_slot = np.full((n, slots), -1), np.full((n, slots, d), np.nan)
     patches[node, slot], by_slot[node, slot] = patch, normals
     rims = found.rims[(found.pairs >= 0).all(axis=1)] if d == 3 else np.zeros((0, 2), dtype=np.int64)
     two = found.patch[found.pairs[(found.pairs >= 0).all(axis=1)]] if d == 3 else np.zeros((0, 2), dtype=np.int64)
@@ -89,11 +89,11 @@ def _surface(mesh: Mesh, smooth: float, radial: bool) -> Rounding:
     tangents = crease_tangents(mesh.points, rims[crease], smooth)
     bent = _bent(mesh, found, normals, number)
     if d == 2:
-        edges, sides = found.facets[bent], np.column_stack([found.patch, np.full(len(found.patch), NONE)])[bent]
+        edges, sides = found.facets[bent], np.column_stack([found.patch, np.full(len(found.patch), -1)])[bent]
         facets, on = np.zeros((0, 2), dtype=np.int64), np.zeros(0, dtype=np.int64)
     else:
         curved = _curved_edges(mesh, found, (rims, two), bent, tangents)
-        edges, sides = rims[curved], np.where((crease[:, None]) | (np.arange(2) == 0), two, NONE)[curved]
+        edges, sides = rims[curved], np.where((crease[:, None]) | (np.arange(2) == 0), two, -1)[curved]
         facets, on = found.facets[bent], found.patch[bent]
     return Rounding(
         patches=patches, normals=by_slot, tangents=tangents, edges=np.sort(edges, axis=1)[:, ::-1], sides=sides,
