@@ -191,7 +191,7 @@ def test_a_wave_from_a_corner(cell: str) -> None:
 @pytest.mark.parametrize("cell", ["tri3", "quad4"])
 def test_the_contact_force_is_that_on_the_finest_mesh(cell: str) -> None:
     scene, levels = dropped(disc(0.5, 4, cell=cell), "boundary"), 6
-    adapt = {"body": Adapt(levels=levels, tolerance=0.5)}
+    adapt = {"body": Adapt(levels=levels, tolerance=0.4)}
     steps = list(adaptive_march(scene, adapt, until=2.8, step=0.04))
     fine = list(sw.march(on_finest(scene, "body", levels)[0], until=2.8, step=0.04))
     one, other = (

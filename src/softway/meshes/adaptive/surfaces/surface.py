@@ -51,7 +51,7 @@ def rounded(mesh: Mesh, smooth: float = SMOOTH, radial: bool = False) -> Mesh:
     --------
     >>> from softway.meshes.adaptive.refinement import refined
     >>> from softway.meshes.generators.shapes import disc
-    >>> fine = refined(rounded(disc(1.0, 4, cell="tri3")), np.full(24, 4)).mesh
+    >>> fine = refined(rounded(disc(1.0, 4, cell="tri3")), np.full(32, 4)).mesh
     >>> np.linalg.norm(fine.points[fine.nodes("boundary")], axis=1).round(12).tolist() == [1.0] * 64
     True
     """
