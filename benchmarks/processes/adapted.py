@@ -21,6 +21,7 @@ from softway.arrays import Array
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.overlay import embedding
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
+from softway.meshes.adaptive.surfaces.surface import rounded
 from softway.meshes.generators.shapes import box, disc, interval, rectangle
 from softway.meshes.mesh import Mesh
 
@@ -56,8 +57,8 @@ class Problem:
 
     @property
     def base(self) -> Mesh:
-        """Base mesh."""
-        return self.scene.bodies["body"].mesh
+        """Base mesh, with the smooth surface that its refinements follow."""
+        return rounded(self.scene.bodies["body"].mesh)
 
     def march(self, level: int, adapts: bool) -> "Run":
         """A run with cells of a level at the finest, which ``adapts``, or has them everywhere."""

@@ -150,6 +150,12 @@ VARIANTS: Mapping[str, Variant] = {
         "quadratic cells, as linear ones would be many",
         held={"tube": {"bottom": (0, 1), "top": (0, 1), "left": (0,), "right": (0,)}},  # clamped ends; buckling faces
     ),
+    "disc_on_block": Variant(
+        changes=("bodies.block.adapt.levels=4", "bodies.disc.adapt.levels=2", "time.end=0.4 ms", "time.step=20 us"),
+        same="the same bodies meet; larger cells at the finest, until the wave has come into the block",
+        held={"disc": {"boundary": (0, 1)}, "block": {"top": (0, 1)}},  # a circle and a line
+        sensitive="which of the equal edges of a base cell is cut first, and with it the mesh, changes",
+    ),
     "elastic_cradle": Variant(
         changes=(*(f"bodies.disc{k}.mesh.cells=8" for k in range(1, 6)), "time.end=5 ms", "time.step=0.5 ms"),
         same="the same discs and rods; coarser discs, until the pulse has reached the third",

@@ -17,6 +17,7 @@ ELSEWHERE = {
     "G03",
     "G04",
     "I03",
+    "I04",
 }
 """Computed by a dedicated test, which says more about the same marches."""
 DEAR = 10.0

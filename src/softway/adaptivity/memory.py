@@ -27,12 +27,20 @@ class Inheritance:
         (b,) leaves that both meshes have; they keep the values of each point.
     own
         (b,) number of the leaf of A around each of B; of any for larger ones.
+    ratio
+        (b,) volume in A over that in B of the larger leaf at each place, where a curved boundary makes them differ.
     """
 
     means: sp.csr_array
     weights: Array
     same: BoolArray
     own: IntArray
+    ratio: Array | float = 1.0
+
+    def sums(self, values: Array) -> Array:
+        """Densities (b q,) at the points of B from those (a q,) of A, with the integrals of A."""
+        found = self.of(values).reshape(len(self.own), -1)
+        return np.asarray((found * np.reshape(self.ratio, (-1, 1))).ravel())
 
     def of(self, values: Array) -> Array:
         """Values (b q, ...) at the points of B from those (a q, ...) of A."""
@@ -44,7 +52,7 @@ class Inheritance:
         return new.reshape(len(new) * points, *values.shape[1:])
 
 
-def inheritance(one: Leaves, other: Leaves, volume: Array) -> Inheritance:
+def inheritance(one: Leaves, other: Leaves, volume: Array, after: Array | None = None) -> Inheritance:
     """Inheritance from leaves of A (a,) to leaves of B (b,) that cover the same places.
 
     Parameters
@@ -53,6 +61,8 @@ def inheritance(one: Leaves, other: Leaves, volume: Array) -> Inheritance:
         Leaves of A and B, or those in one region.
     volume
         (a q,) volumes of the points of A [m^3].
+    after
+        (b q,) those of B, where the cells of both meshes fill other volumes; None where they do not.
 
     Examples
     --------
@@ -73,12 +83,24 @@ def inheritance(one: Leaves, other: Leaves, volume: Array) -> Inheritance:
     rows = np.concatenate([np.flatnonzero(down), parent])
     columns = np.concatenate([own[down], up])
     shares = np.concatenate([np.ones(int(down.sum())), whole[up] / total[parent]])
+    there = None if after is None else after.reshape(len(other.start), -1).sum(axis=1)
     return Inheritance(
         means=sp.csr_array((shares, (rows, columns)), shape=(len(other.start), len(one.start))),
         weights=parts / whole[:, None],
         same=down & (other.level == one.level[own]),
         own=own,
+        ratio=1.0 if there is None else _ratio(whole, there, own, (parent, up)),
     )
+
+
+def _ratio(before: Array, after: Array, own: IntArray, grown: tuple[IntArray, IntArray]) -> Array:
+    """Volume ``before`` (a,) over that ``after`` (b,) of the larger leaf at each place; ``grown`` are leaves of B and
+    those of A in them.
+    """
+    parent, up = grown
+    larger = np.bincount(parent, before[up], minlength=len(after))
+    within = np.bincount(own, np.where(larger > 0.0, 0.0, after), minlength=len(before))
+    return np.where(larger > 0.0, larger / after, before[own] / np.where(within > 0.0, within, 1.0)[own])
 
 
 def remembered(before: AdaptedSolid, after: AdaptedSolid, state: MaterialState, displacement: Array) -> MaterialState:
@@ -95,14 +117,18 @@ def remembered(before: AdaptedSolid, after: AdaptedSolid, state: MaterialState, 
     """
     old, new = before.part.internal, after.part.internal
     ours, theirs = before.adapted.leaves, after.adapted.leaves
+    straight = before.adapted.base.rounding is None
     if not (isinstance(old, RegionForces) and isinstance(new, RegionForces)):
-        return _carried(state, inheritance(ours, theirs, old.sampling.volume), displacement)
+        there = None if straight else new.sampling.volume
+        return _carried(state, inheritance(ours, theirs, old.sampling.volume, there), displacement)
     terms = {term.region: term for term in old.terms}
     regions, elastic = {}, 0.0
     for term in new.terms:
         mine, was = displacement[term.nodes], terms[term.region]
         if term.region in state.regions:
-            found = inheritance(_some(ours, was.cells), _some(theirs, term.cells), was.internal.sampling.volume)
+            there = None if straight else term.internal.sampling.volume
+            leaves = _some(ours, was.cells), _some(theirs, term.cells)
+            found = inheritance(*leaves, was.internal.sampling.volume, there)
             regions[term.region] = _carried(state.regions[term.region], found, mine)
         else:
             elastic += term.internal.energy(mine)
@@ -125,7 +151,7 @@ def _carried(state: MaterialState, found: Inheritance, displacement: Array) -> M
         stress=found.of(state.stress),
         law={name: found.of(values) for name, values in state.law.items()},
         lateral=found.of(state.lateral),
-        stored=found.of(state.stored),
-        dissipated=found.of(state.dissipated),
+        stored=found.sums(state.stored),
+        dissipated=found.sums(state.dissipated),
         **optional,
     )

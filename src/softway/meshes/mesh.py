@@ -13,7 +13,7 @@ from softway.errors import InputError
 from softway.kernels.geometry.jacobians import determinants
 from softway.meshes.cells import CELLS, FACETS
 from softway.meshes.element import element
-from softway.meshes.topology import HangingNodes, check_topology
+from softway.meshes.topology import HangingNodes, Rounding, check_topology
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 
@@ -44,6 +44,11 @@ class Mesh:
         the body with one material. The region ``all`` need not be given.
     hanging
         Nodes in the middle of edges and faces of larger cells, which follow their corners; None in a conforming mesh.
+    filling
+        (e, a) volume of the body per volume of the cell, at the nodes of each cell, where linear cells of one type
+        approximate a curved boundary: a factor of the mass.  None for ones.
+    rounding
+        Smooth surface through the boundary nodes, which a mesh refined in a march follows; None for the facets.
 
     Examples
     --------
@@ -61,6 +66,8 @@ class Mesh:
     tags: Mapping[str, IntArray] = field(default_factory=dict)
     regions: Mapping[str, IntArray] = field(default_factory=dict)
     hanging: HangingNodes | None = None
+    filling: Array | None = None
+    rounding: Rounding | None = None
 
     def __post_init__(self) -> None:
         points = _frozen(np.array(self.points, dtype=float))

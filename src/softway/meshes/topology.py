@@ -1,4 +1,6 @@
-"""Topology of a mesh: cells that occur twice or lie in the same place, facets of more than two cells, hanging nodes."""
+"""Topology of a mesh: cells that occur twice or lie in the same place, facets of more than two cells, hanging nodes,
+and smooth surfaces through the nodes of its boundary.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -66,6 +68,61 @@ class HangingNodes:
         both = np.sort(np.concatenate([self.inner, facets]), axis=1)
         number = np.unique(both, axis=0, return_inverse=True)[1].ravel()
         return np.asarray(np.isin(number[len(self.inner) :], number[: len(self.inner)]))
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Rounding:
+    """Smooth surface through the n nodes of a base mesh with e cells.
+
+    The boundary consists of patches: facets that meet at small angles.
+
+    Parameters
+    ----------
+    patches
+        (n, s) patches at each node; -1 for none.
+    normals
+        (n, s, d) normals of these patches at the node; not a number where unknown.
+    tangents
+        (n, d) tangents of the edges between two patches; not a number where they end, or have a corner.
+    edges, sides
+        (k, 2) corners, the greater number first, of the curved edges on the boundary, and (k, 2) their patches: one and
+        -1, or two where patches meet.
+    facets, on
+        (f, c) corners, in falling order, of the curved facets in space, and (f,) their patch.
+    moments
+        (e, 1 + d) integrals of 1 and the place over the body in each cell, that is the cell with its curved facets, by
+        :func:`~softway.meshes.adaptive.rounded.volumes.moments_by_root`; not a number where it is not curved.
+    bulge
+        (e,) greatest distance of the surface from the facets and edges of each cell [m].
+    radial
+        True for a body of revolution: the integrals are those of the distance from the axis.
+    """
+
+    patches: IntArray
+    normals: Array
+    tangents: Array
+    edges: IntArray
+    sides: IntArray
+    facets: IntArray
+    on: IntArray
+    moments: Array
+    bulge: Array
+    radial: bool = False
+
+    def sides_of(self, carriers: IntArray) -> IntArray:
+        """Patches (k, 2) of new nodes by their ``carriers`` (k, c), corners of the base mesh that they lie between, in
+        falling order and filled with -1; -1 off the curved boundary.
+        """
+        out = np.full((len(carriers), 2), -1)
+        for table, own in ((self.edges, self.sides), (self.facets, self.on[:, None])):
+            wide = np.full((len(table), carriers.shape[1]), -1)
+            wide[:, : table.shape[1]] = table
+            number = np.unique(np.concatenate([wide, carriers]), axis=0, return_inverse=True)[1].ravel()
+            place = np.full(number.max(initial=0) + 1, -1)
+            place[number[: len(table)]] = np.arange(len(table))
+            at = place[number[len(table) :]]
+            out[at >= 0, : own.shape[1]] = own[at[at >= 0]]
+        return out
 
 
 def require_none(hanging: HangingNodes | None, what: str) -> None:

@@ -10,7 +10,8 @@ import softway as sw
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.transfer import Motion, Transferred, transfer
 from softway.meshes.adaptive.squares.balanced import BALANCED
-from softway.meshes.generators.shapes import box, disc, interval, rectangle
+from softway.meshes.adaptive.surfaces.surface import ROUND, rounded
+from softway.meshes.generators.shapes import ball, box, disc, interval, rectangle
 from softway.meshes.mesh import Mesh
 
 ROUNDING = 1e-12
@@ -46,6 +47,29 @@ def test_ten_remeshings_of_a_turning_square(cell: str, law: object, light: str) 
         found = transfer(before, after, motion)
         kept(before, motion, after, found)
         assert abs(found.scalar - 1.0) < (0.02 if light else 0.002)
+        before, motion = after, found.motion
+
+
+@pytest.mark.parametrize(
+    "mesh",
+    [disc(1.0, 4, cell="tri3"), disc(1.0, 8, cell="quad4"), ball(1.0, 4, cell="tet4"), ball(1.0, 4, cell="hex8")],
+    ids=["tri3", "quad4", "tet4", "hex8"],
+)
+def test_ten_remeshings_of_a_turning_round_body(mesh: Mesh) -> None:
+    body = solid(rounded(mesh, ROUND), sw.NeoHookean(E=1.0, nu=0.3))
+    deep, turn = (4 if mesh.dim == 2 else 6), np.zeros((mesh.dim, mesh.dim))
+    turn[:2, :2] = [[-1.0, -1.0], [1.0, -1.0]]
+    before = on_levels(body, around(body, 0.9 * np.eye(mesh.dim)[0], deep, 0.3))
+    motion, mass = moving(before), float(before.mass.sum())
+    for k in range(1, 11 if mesh.dim == 2 else 4):
+        place = 0.9 * (np.cos(k) * np.eye(mesh.dim)[0] + np.sin(k) * np.eye(mesh.dim)[1])
+        after = on_levels(body, around(body, place, deep, 0.3))
+        found = transfer(before, after, motion)
+        kept(before, motion, after, found)
+        assert float(after.mass.sum()) == pytest.approx(mass, rel=ROUNDING)
+        assert abs(found.scalar - 1.0) < 0.005
+        for field in (found.projection.displacement, found.projection.velocity):
+            assert field(before.points @ turn.T) == pytest.approx(after.points @ turn.T, abs=1e-12)
         before, motion = after, found.motion
 
 

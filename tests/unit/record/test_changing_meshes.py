@@ -108,7 +108,11 @@ def test_frames_have_their_own_cells(run):
         assert frame.geometry == part[k] and len(cells.reference) == history["mesh.nodes"][row]
         np.testing.assert_array_equal(frame.points, cells.reference + frame.displacement)
         assert len(frame.stress) == len(cells.types) == len(cells.body)
-        assert (sizes(cells) > 0.0).all() and sizes(cells).sum() == pytest.approx(whole, rel=1e-12)
+        assert (sizes(cells) > 0.0).all()
+        if cells.reference[:, 1].any():  # a disc, which is round where its cells are small
+            assert whole * (1.0 - 1e-12) <= sizes(cells).sum() < np.pi
+        else:
+            assert sizes(cells).sum() == pytest.approx(whole, rel=1e-12)
         np.testing.assert_array_equal(fields.cells_of(frame).connectivity, cells.connectivity)
     assert len({len(frame.points) for frame in fields}) > 2
 

@@ -76,6 +76,7 @@ CASES: Mapping[str, tuple[float, str]] = {
     "I01": (3.0, "refinement.i01_contact_times"),
     "I02": (2.0, "refinement.i02_standing_wave"),
     "I03": (20.0, "refinement.i03_adapted_bar"),
+    "I04": (20.0, "refinement.i04_hertz_ball"),
     "classic": (1.0, "classic"),
     "peers": (3.0, "peers"),
 }

@@ -51,7 +51,7 @@ class Body:
 def body_of(mesh: Mesh, section: Section, density: float | Array) -> Body:
     """Quadrature of a body that is exact for a density linear in space, also around an axis of revolution.
 
-    The density [kg/m^3] is one number, or one for each element (e,).
+    The density [kg/m^3] is one number, or one for each element (e,); it fills the volume of the body in each element.
     """
     given = np.asarray(density, float)
     if not ((given > 0.0) & (given < np.inf)).all():
@@ -64,6 +64,8 @@ def body_of(mesh: Mesh, section: Section, density: float | Array) -> Body:
         corners = mesh.points[cells]
         x = np.einsum("qa,eai->eqi", table.N, corners, optimize=True)
         volume = table.weights * _stretch(corners, table.dN) * section.measure(x)
+        if mesh.filling is not None:
+            volume = volume * (mesh.filling @ table.N.T)
         blocks.append((table, cells, of_cell[start : start + len(cells)] * volume))
         start += len(cells)
     return Body(mesh, tuple(blocks))

@@ -10,9 +10,7 @@ import numpy as np
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.even_surface import even
 from softway.adaptivity.transfer import Motion
-from softway.arrays import IntArray
-from softway.bodies.setup.amplitude import Ramp
-from softway.bodies.setup.loads import Traction
+from softway.bodies.elements.section import Axisymmetric
 from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid
 from softway.contact.assembly.tie import Tie
@@ -20,11 +18,14 @@ from softway.errors import InputError, within
 from softway.heat.coupled.build import build
 from softway.march.remeshing.admitted import adaptions, can_be_cut, require_admitted
 from softway.march.remeshing.carried_bonds import tearing
-from softway.march.remeshing.standing import standing
+from softway.march.remeshing.touching import bulging, least_gaps, pushed, touched
 from softway.march.remeshing.wanted_mesh import Wanted, wanted_cells
 from softway.march.state.march_state import MarchState
+from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.leaves import Leaves, require_cover, same
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
+from softway.meshes.adaptive.surfaces.surface import ROUND, rounded
+from softway.meshes.generators.recipes import Ball, Cylinder, Disc, Divided, GradedDisc, Ring
 from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
@@ -86,15 +87,19 @@ class AdaptedScene:
     def wanted(self, now: MarchState, energy: float, ahead: float) -> "AdaptedScene":
         """The scene on the meshes for the coming slabs, in fine cells what closes or is pushed within ``ahead`` [s]."""
         model, time = self.model, now.state.time
-        chosen = _touching(model, now, ahead), _pushed(model, time, ahead), tearing(model, now.state.start)
+        chosen = touched(model, now, ahead), pushed(model, time, ahead), tearing(model, now.state.start)
         touching = np.concatenate(chosen)
         wanted: dict[str, Wanted] = {}
         for name, how in adaptions(self.scene).items():
             solid = self.solid(name)
             nodes = solid.part.nodes
-            places = model.points[touching[(touching >= nodes.start) & (touching < nodes.stop)]]
+            own = touching[(touching >= nodes.start) & (touching < nodes.stop)] - nodes.start
+            mesh = self.meshes[name]
+            marks = [(how.deepest(mesh.mesh.cell_dim), mesh.flat[own])]
+            if mesh.base.rounding is not None:
+                marks += bulging(mesh, least_gaps(model, now, ahead)[nodes])
             group = int(model.linked[[part.name for part in model.parts].index(name)])
-            wanted[name] = wanted_cells(how, solid, motion_of(model, now, name), energy, places, group, model.inert)
+            wanted[name] = wanted_cells(how, solid, motion_of(model, now, name), energy, marks, group, model.inert)
         stretch = now.step_history.longest / now.step_history.span
         meshes = dict(self.meshes)
         for name, one in wanted.items():
@@ -122,24 +127,36 @@ def adapted_scene(model: Model) -> AdaptedScene:
     bodies = dict(model.scene.bodies)
     bases = model.meshes
     require_admitted(model)
-    known = {name: base for name, base in bases.items() if can_be_cut(base)}
-    for name, base in known.items():
+    asked, meshes, curved = adaptions(model.scene), {}, False
+    for name, base in ((name, base) for name, base in bases.items() if can_be_cut(base)):
         solid = bodies[name]
         assert isinstance(solid, Solid)
-        bodies[name] = replace(solid, mesh=base, place=Placement(), group=())
-    meshes = {name: refined(base, np.zeros(base.n_cells, dtype=np.int64)) for name, base in known.items()}
-    scene = replace(model.scene, bodies=bodies, ties=_ties(model.scene, known))
-    return AdaptedScene(replace(model, scene=scene, adapted=meshes))
+        base = with_surface(base, solid, asked[name]) if name in asked else base
+        meshes[name] = refined(base, np.zeros(base.n_cells, dtype=np.int64))
+        curved |= base.rounding is not None
+        own = base if base.rounding is None else meshes[name].mesh
+        bodies[name] = replace(solid, mesh=own, place=Placement(), group=())
+    scene = replace(model.scene, bodies=bodies, ties=_ties(model.scene, meshes))
+    found = build(scene, model) if curved else replace(model, scene=scene)
+    return AdaptedScene(replace(found, adapted=meshes, declared=model.declared))
 
 
-def _ties(scene: Scene, bases: Mapping[str, Mesh]) -> tuple[Tie, ...]:
+def _ties(scene: Scene, meshes: Mapping[str, AdaptedMesh]) -> tuple[Tie, ...]:
     """Ties whose surfaces may be as far apart in finer cells as they are in those of the base meshes."""
     halvings = dict.fromkeys(scene.bodies, 0)
     for name, how in adaptions(scene).items():
-        halvings[name] = ceil(how.deepest(bases[name].cell_dim) / bases[name].cell_dim)
+        dimension = meshes[name].base.cell_dim
+        halvings[name] = ceil(how.deepest(dimension) / dimension)
     return tuple(
         replace(tie, tolerance=tie.tolerance * 2.0 ** max(halvings[name] for name in tie.bodies)) for tie in scene.ties
     )
+
+
+def with_surface(base: Mesh, solid: Solid, how: Adapt) -> Mesh:
+    """Base mesh with the smooth surface that its refinements follow."""
+    recipe = solid.mesh.mesh if isinstance(solid.mesh, Divided) else solid.mesh
+    round_ = isinstance(recipe, Disc | Cylinder | Ball | Ring | GradedDisc) and how.smooth > 0.0
+    return rounded(base, max(ROUND, how.smooth) if round_ else how.smooth, isinstance(solid.section, Axisymmetric))
 
 
 def motion_of(model: Model, now: MarchState, name: str) -> Motion:
@@ -148,32 +165,3 @@ def motion_of(model: Model, now: MarchState, name: str) -> Motion:
     k = [p.name for p in model.parts].index(name)
     nodes, state = model.parts[k].nodes, start.states[k] if start.states else None
     return Motion(displacement=start.displacement[nodes], velocity=start.velocity[nodes], state=state)
-
-
-def _touching(model: Model, now: MarchState, ahead: float) -> IntArray:
-    """Nodes (k,) of contact rows that are closed, or would close within ``ahead`` [s] at the present velocities, with
-    those of the facets in them.
-    """
-    start, state, model = now.state.start, now.state, standing(model, now.state)
-    coming = start.displacement + ahead * start.velocity
-    here, later = model.rows(start.displacement, state.time), model.rows(coming, state.time + ahead)
-    closing = later.near & (later.gap(coming) <= 0.0)
-    chosen = ((here, state.closed), (later, closing), (here, closing))
-    nodes = [rows.gradient[which].indices // model.shape[1] for rows, which in chosen]
-    return np.unique(np.concatenate(nodes))
-
-
-def _pushed(model: Model, time: float, ahead: float) -> IntArray:
-    """Nodes (k,) of tractions that change within ``ahead`` [s]; of all of them at the start, where they are sudden."""
-    parts, found = {part.name: part for part in model.parts}, [np.zeros(0, dtype=np.int64)]
-    for load in model.scene.loads:
-        if isinstance(load, Traction) and (time <= 0.0 or _changes(load.ramp, time, time + ahead)):
-            part = parts[load.body]
-            found.append(part.nodes.start + part.mesh.nodes(load.tag))
-    return np.concatenate(found)
-
-
-def _changes(ramp: Ramp, start: float, end: float) -> bool:
-    """True if a factor of a load changes between two times."""
-    inner = (time for time in ramp.times if start < time < end)
-    return len({ramp.at(time) for time in (start, *inner, end)}) > 1

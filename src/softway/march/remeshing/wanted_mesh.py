@@ -9,7 +9,6 @@ from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.indicator import indicator, wanted_levels
 from softway.adaptivity.neighbourhood import Mark, grown_near, marks_of
 from softway.adaptivity.transfer import Motion
-from softway.arrays import Array
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.leaves import same
 from softway.meshes.adaptive.refinement import AdaptedMesh, adapted_mesh
@@ -63,7 +62,7 @@ def wanted_cells(
     solid: AdaptedSolid,
     motion: Motion,
     energy: float,
-    touching: Array,
+    marks: Sequence[Mark],
     group: int = 0,
     moves: bool = True,
 ) -> Wanted:
@@ -77,8 +76,9 @@ def wanted_cells(
         The solid and its motion on the present mesh.
     energy
         Energy of the scene [J].
-    touching
-        (k, d) reference places of its nodes at contacts that are closed or close soon [m].
+    marks
+        Levels, at most the deepest, around places on the facets of the base mesh: of nodes at contacts that are closed
+        or close soon, and near ones at a curved boundary.
     group
         Number of its group of linked solids.
     moves
@@ -87,7 +87,7 @@ def wanted_cells(
     base = solid.adapted.base
     finest, deepest = adapt.finest(base), adapt.deepest(base.cell_dim)
     levels = wanted_levels(solid.adapted, indicator(solid, motion, moves), adapt.threshold(base, energy), deepest)
-    leaves, contact = solid.adapted.leaves, [(deepest, touching)]
+    leaves, contact = solid.adapted.leaves, [(min(level, deepest), at) for level, at in marks]
     kept = np.where(levels >= leaves.level - solid.adapted.step, levels, 0)
     tree, fine = (
         grown_near(tree_of(base).grown(leaves, wanted), contact, adapt.contact_cells * finest)

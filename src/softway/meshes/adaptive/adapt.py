@@ -8,8 +8,10 @@ import numpy as np
 from softway.errors import InputError, positive
 from softway.meshes.adaptive.leaves import DEPTH
 from softway.meshes.mesh import Mesh
-from softway.units import Pure
+from softway.units import Pure, Radian
 
+SMOOTH = float(np.pi / 6.0)
+"""Angle between facets up to which a surface is smooth [rad]."""
 HALVINGS = 2
 """Times that ``auto`` halves the edges of the cells."""
 
@@ -32,6 +34,10 @@ class Adapt:
         Finest cells around fine cells that are as fine; at least the way of a wave in ``every`` slabs.
     contact_cells
         Finest cells at a contact that is closed or closes soon.
+    smooth
+        Greatest angle between facets of linear cells that form a smooth surface: new nodes on it lie on a curve through
+        the nodes of the mesh.  Greater angles are corners; 0 keeps all facets flat.  The round shapes of softway, such
+        as :class:`~softway.meshes.generators.recipes.Disc`, are round with any positive angle.
 
     Examples
     --------
@@ -46,9 +52,12 @@ class Adapt:
     every: int = 4
     buffer: int = 4
     contact_cells: int = 12
+    smooth: Radian = SMOOTH
 
     def __post_init__(self) -> None:
         positive(tolerance=self.tolerance)
+        if not 0.0 <= self.smooth < 0.5 * np.pi:
+            raise InputError("smooth", f"{self.smooth:g} rad", "an angle from 0 to less than 90 degrees")
         if self.levels != "auto" and not 0 <= self.levels <= DEPTH:
             raise InputError("levels", f"{self.levels} bisections", f"a whole number from 0 to {DEPTH}, or 'auto'")
         for name in ("every", "buffer", "contact_cells"):

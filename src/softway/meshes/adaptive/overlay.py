@@ -13,9 +13,10 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError
-from softway.meshes.adaptive.leaf_nodes import node_places, shape_functions
 from softway.meshes.adaptive.leaves import Leaves, nested
+from softway.meshes.adaptive.nodes.leaf_nodes import node_places, shape_functions
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
+from softway.meshes.adaptive.surfaces.extended import extended
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -145,6 +146,8 @@ def common_matrix(found: Overlay, one: Array, other: Array) -> sp.csr_array:
 def embedding(coarse: AdaptedMesh, fine: AdaptedMesh) -> sp.csr_array:
     """Values (n, m) at the n nodes of a mesh from those at the m nodes of a coarser one, exactly the same function.
 
+    Where the finer cells of a curved boundary reach beyond those of the coarser mesh, gradients continue the function.
+
     Raises
     ------
     InputError
@@ -170,7 +173,7 @@ def embedding(coarse: AdaptedMesh, fine: AdaptedMesh) -> sp.csr_array:
     places = np.repeat(number, values.shape[1]), columns.ravel()
     out = sp.csr_array((values.ravel(), places), shape=(fine.mesh.n_nodes, coarse.mesh.n_nodes))
     out.eliminate_zeros()
-    return out
+    return extended(out, coarse, fine)
 
 
 def united(one: AdaptedMesh, other: AdaptedMesh) -> AdaptedMesh:

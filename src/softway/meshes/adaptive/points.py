@@ -3,7 +3,7 @@
 import numpy as np
 
 from softway.arrays import Array, IntArray
-from softway.meshes.adaptive.leaf_nodes import shape_functions
+from softway.meshes.adaptive.nodes.leaf_nodes import shape_functions
 from softway.meshes.adaptive.refinement import AdaptedMesh
 from softway.meshes.cells import CELLS
 from softway.meshes.mesh import Mesh

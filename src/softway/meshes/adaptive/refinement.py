@@ -7,12 +7,15 @@ import numpy as np
 from softway.arrays import Array, IntArray
 from softway.errors import InputError
 from softway.kernels.geometry.jacobians import determinants
-from softway.meshes.adaptive.leaf_nodes import FirstPlaces, leaf_nodes, located
 from softway.meshes.adaptive.leaves import DEPTH, MOST_CELLS, Leaves, roots
+from softway.meshes.adaptive.nodes.leaf_nodes import leaf_nodes, located
+from softway.meshes.adaptive.nodes.tags import refined_tags
+from softway.meshes.adaptive.rounded.origins import origins_of
+from softway.meshes.adaptive.rounded.placing import places
+from softway.meshes.adaptive.rounded.volumes import filling_of
 from softway.meshes.adaptive.squares.balanced import BALANCED
 from softway.meshes.adaptive.squares.cut_nodes import CutNodes
 from softway.meshes.adaptive.squares.square_nodes import square_nodes
-from softway.meshes.adaptive.tags import refined_tags
 from softway.meshes.adaptive.tree import Tree, tree_of
 from softway.meshes.adaptive.tree_cells import TreeCells
 from softway.meshes.mesh import Mesh
@@ -50,6 +53,17 @@ class AdaptedMesh:
         return next(iter(self.mesh.blocks))
 
     @property
+    def flat(self) -> Array:
+        """Places (n, d) of the nodes on the facets of the base mesh, where its boundary is curved [m]."""
+        if self.base.rounding is None:
+            return self.mesh.points
+        nodes = next(iter(self.mesh.blocks.values()))
+        out = np.empty_like(self.mesh.points)
+        roots = next(iter(self.base.blocks.values()))[self.leaves.root]
+        out[nodes] = np.einsum("ecb,ebd->ecd", self.place, self.base.points[roots])
+        return out
+
+    @property
     def step(self) -> int:
         """Levels by which a cell that is cut becomes finer: one; two for quadrilaterals and three for hexahedra."""
         return self.mesh.cell_dim if self.cell in BALANCED else 1
@@ -61,7 +75,9 @@ def refined(base: Mesh, want: IntArray, on: Leaves | None = None) -> AdaptedMesh
     The mesh is a function of the base mesh and the wanted levels at each place; it has no history, so that a mesh is
     made coarser by wanting less.  Triangles and tetrahedra share whole facets; levels of bars that share a node differ
     by one at most.  Quadrilaterals and hexahedra are cut into four and eight, and nodes hang in the middle of edges and
-    faces of larger cells.  Cells of second order keep the exact shape of the base cell, also where it is curved.
+    faces of larger cells.  Cells of second order keep the exact shape of the base cell, also where it is curved; on
+    linear cells new nodes lie on the smooth surface of a base mesh
+    (:func:`~softway.meshes.adaptive.surfaces.surface.rounded`).
 
     Parameters
     ----------
@@ -112,33 +128,65 @@ def _require_bisected(base: Mesh) -> None:
         raise InputError("mesh", f"{base.n_cells} cells", f"a base mesh of at most {MOST_CELLS} cells")
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class LeafPlaces:
+    """Nodes of the leaves of a tree.
+
+    Parameters
+    ----------
+    points
+        (n, d) places of all nodes, first those of the base mesh [m].
+    nodes, place
+        (e, a) nodes of the leaves, and barycentric coordinates (e, c, c) of their corners in the base cells.
+    carriers
+        (k, c) corners of the base mesh that each new node lies between.
+    hanging
+        Hanging nodes; None without.
+    """
+
+    points: Array
+    nodes: IntArray
+    place: Array
+    carriers: IntArray
+    hanging: HangingNodes | None
+
+
+def leaf_places(tree: Tree) -> LeafPlaces:
+    """Nodes of the leaves of a tree, on the smooth surface of the base mesh if it has one."""
+    base, cells = tree.base, tree.cells
+    if isinstance(tree.middles, CutNodes):
+        corners, place = cells.corners, cells.place
+        nodes, first, hanging = square_nodes(base, cells, tree.middles)
+    else:
+        corners, place = _oriented(cells)
+        nodes, first = leaf_nodes(base, corners, tree.middles)
+        hanging = None
+    roots = next(iter(base.blocks.values()))[cells.start >> DEPTH]
+    points, carriers = located(base, roots, place, first)
+    points = np.concatenate([base.points, points])
+    if base.rounding is not None:
+        number = np.zeros(tree.middles.count, dtype=np.int64)
+        number[corners] = nodes
+        points = places(base.points, base.rounding, carriers, origins_of(tree.middles).numbered(number))
+        points = points if hanging is None else hanging.following(points)
+    return LeafPlaces(points=points, nodes=nodes, place=place, carriers=carriers, hanging=hanging)
+
+
 def adapted_mesh(tree: Tree) -> AdaptedMesh:
     """Adapted mesh of the cells of a tree."""
-    if isinstance(tree.middles, CutNodes):
-        return _adapted(tree.base, tree.cells, tree.cells.place, square_nodes(tree.base, tree.cells, tree.middles))
-    corners, place = _oriented(tree.cells)
-    return _adapted(tree.base, tree.cells, place, (*leaf_nodes(tree.base, corners, tree.middles), None))
-
-
-def _adapted(
-    base: Mesh, cells: TreeCells, place: Array, numbered: tuple[IntArray, FirstPlaces, HangingNodes | None]
-) -> AdaptedMesh:
-    """Adapted mesh of the leaves ``cells``, from the places (e, c, c) of their corners, their nodes (e, a), where the
-    new ones occur first, and the hanging ones.
-    """
-    name, rows = next(iter(base.blocks.items()))
-    nodes, first, hanging = numbered
-    points, carriers = located(base, rows[cells.start >> DEPTH], place, first)
-    leaves = Leaves(np.array(cells.start), np.array(cells.level))
+    base, found = tree.base, leaf_places(tree)
+    name = next(iter(base.blocks))
+    leaves = Leaves(np.array(tree.cells.start), np.array(tree.cells.level))
     regions = {region: np.flatnonzero(np.isin(leaves.root, own)) for region, own in base.regions.items()}
     mesh = Mesh(
-        points=np.concatenate([base.points, points]),
-        blocks={name: nodes},
-        tags=refined_tags(base, carriers),
+        points=found.points,
+        blocks={name: found.nodes},
+        tags=refined_tags(base, found.carriers),
         regions=regions,
-        hanging=hanging,
+        hanging=found.hanging,
+        filling=filling_of(base, found.points, found.nodes, leaves.root),
     )
-    return AdaptedMesh(base=base, mesh=mesh, leaves=leaves, place=place)
+    return AdaptedMesh(base=base, mesh=mesh, leaves=leaves, place=found.place)
 
 
 def _oriented(cells: TreeCells) -> tuple[IntArray, Array]:

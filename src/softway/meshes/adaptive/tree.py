@@ -6,9 +6,9 @@ import numpy as np
 
 from softway.arrays import Array, IntArray
 from softway.kernels.geometry.bisection import bisected
-from softway.meshes.adaptive.leaf_nodes import shape_functions
 from softway.meshes.adaptive.leaves import Leaves
-from softway.meshes.adaptive.middles import Middles
+from softway.meshes.adaptive.nodes.leaf_nodes import shape_functions
+from softway.meshes.adaptive.nodes.middles import Middles
 from softway.meshes.adaptive.squares.balanced import BALANCED, balanced, cut, square_cells
 from softway.meshes.adaptive.squares.cut_nodes import CutNodes
 from softway.meshes.adaptive.tree_cells import TreeCells, base_cells, joined

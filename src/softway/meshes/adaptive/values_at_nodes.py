@@ -6,10 +6,11 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
-from softway.meshes.adaptive.leaf_nodes import node_places, shape_functions
 from softway.meshes.adaptive.leaves import Leaves, among
+from softway.meshes.adaptive.nodes.leaf_nodes import node_places, shape_functions
 from softway.meshes.adaptive.overlay import chosen_pairs, require_one_base
 from softway.meshes.adaptive.refinement import AdaptedMesh
+from softway.meshes.adaptive.surfaces.extended import extended
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -32,7 +33,8 @@ def values_at_nodes(one: AdaptedMesh, other: AdaptedMesh) -> ValuesAtNodes:
     """Matrices that give the values of fields of each mesh at the nodes of the other, exact in floating point.
 
     Leaves that both meshes have share their nodes.  Where a leaf is cut in the other mesh, its shape functions give the
-    values at the new nodes, and its own nodes are those at which one of its shape functions is one.
+    values at the new nodes, and its own nodes are those at which one of its shape functions is one.  At a
+    curved boundary the gradient carries the values to nodes off the cell.
 
     Raises
     ------
@@ -62,6 +64,7 @@ def values_at_nodes(one: AdaptedMesh, other: AdaptedMesh) -> ValuesAtNodes:
         same[1 - k, inner], same[k, outer] = outer, inner
     sizes = one.mesh.n_nodes, other.mesh.n_nodes
     forward, back = (_matrix(fine[k], same[1 - k, : sizes[1 - k]], (sizes[1 - k], sizes[k])) for k in (0, 1))
+    forward, back = extended(forward, one, other), extended(back, other, one)
     return ValuesAtNodes(forward=_followed(other, forward), back=_followed(one, back))
 
 

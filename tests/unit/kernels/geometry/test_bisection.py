@@ -5,7 +5,7 @@ import pytest
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.meshes.adaptive.leaves import DEPTH, finest
-from softway.meshes.adaptive.middles import Middles, edge_codes
+from softway.meshes.adaptive.nodes.middles import Middles, edge_codes
 from softway.meshes.adaptive.tree import halved, tree_of
 from softway.meshes.adaptive.tree_cells import TreeCells, base_cells
 from softway.meshes.generators.shapes import ball, box, disc, interval, rectangle

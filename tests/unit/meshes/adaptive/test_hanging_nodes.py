@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from adapted import HANGING, adapted, cells_of, some_levels, surface_measure
 
-from softway.meshes.adaptive.leaf_nodes import node_places, shape_functions
+from softway.meshes.adaptive.nodes.leaf_nodes import node_places, shape_functions
 from softway.meshes.adaptive.overlay import embedding
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
 from softway.meshes.cells import CELLS, linear

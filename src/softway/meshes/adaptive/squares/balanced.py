@@ -10,7 +10,7 @@ import numpy as np
 
 from softway.arrays import BoolArray, IntArray
 from softway.meshes.adaptive.leaves import DEPTH, Leaves, finest, roots
-from softway.meshes.adaptive.middles import Middles
+from softway.meshes.adaptive.nodes.middles import Middles
 from softway.meshes.adaptive.squares.cut_nodes import CutNodes, middle
 from softway.meshes.adaptive.tree_cells import TreeCells, joined
 from softway.meshes.cells import CELLS, FACETS

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.arrays import IntArray
-from softway.meshes.adaptive.middles import Middles, edge_codes
+from softway.meshes.adaptive.nodes.middles import Middles, edge_codes
 
 OPPOSITE = {4: np.array([2, 3, 0, 1]), 8: np.array([6, 7, 4, 5, 2, 3, 0, 1])}
 """Corner opposite to each corner of a quadrilateral, in order around, and of a hexahedron."""
@@ -25,6 +25,8 @@ class CutNodes:
         Those of faces and hexahedra, by the diagonal at their corner with the smallest number.
     count
         Number of nodes so far.
+    around
+        Nodes in the middle of faces (f, 5) and hexahedra (e, 9) with their corners, some of them more than once.
 
     Examples
     --------
@@ -37,6 +39,7 @@ class CutNodes:
     faces: Middles
     cubes: Middles
     count: int
+    around: tuple[IntArray, ...] = ()
 
     @classmethod
     def none(cls, count: int) -> "CutNodes":
@@ -53,7 +56,10 @@ class CutNodes:
             return self, corners[:, group[0]]
         kind = KINDS[len(group)]
         found, node = replace(getattr(self, kind), count=self.count).with_middles(_pair(corners[:, group]))
-        return replace(self, count=found.count, **{kind: found}), node
+        around = self.around
+        if len(group) > 2:
+            around = (*around, np.column_stack([node, corners[:, group]]))
+        return replace(self, count=found.count, around=around, **{kind: found}), node
 
     def found(self, corners: IntArray, group: tuple[int, ...]) -> IntArray:
         """Node (e,) in the middle of a ``group`` of the ``corners`` (e, c); -1 where there is none."""

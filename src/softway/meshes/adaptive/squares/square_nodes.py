@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from softway.arrays import IntArray
-from softway.meshes.adaptive.leaf_nodes import FirstPlaces, node_places, numbered, shape_functions
+from softway.meshes.adaptive.nodes.leaf_nodes import FirstPlaces, node_places, numbered, shape_functions
 from softway.meshes.adaptive.squares.balanced import WHOLE, lattice
 from softway.meshes.adaptive.squares.cut_nodes import CutNodes
 from softway.meshes.adaptive.tree_cells import TreeCells

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array, IntArray
-from softway.meshes.adaptive.middles import Middles, edge_codes
+from softway.meshes.adaptive.nodes.middles import Middles, edge_codes
 from softway.meshes.cells import CELLS
 from softway.meshes.mesh import Mesh
 

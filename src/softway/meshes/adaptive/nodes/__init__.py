@@ -1,0 +1,1 @@
+"""Nodes of the leaves of adapted meshes: numbers, places and tags."""
