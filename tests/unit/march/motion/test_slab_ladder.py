@@ -96,7 +96,7 @@ def test_without_a_tolerance_slabs_are_equal_and_keep_one_operator() -> None:
 
 
 def test_slabs_of_automatic_length_grow_by_themselves() -> None:
-    """In free fall, with the touch at t = 1 exact; a given length, ``off``, and bars keep equal slabs."""
+    """In free fall; the touch, at t = 1, is in a short slab.  A given length, ``off``, and bars keep equal slabs."""
     block = sw.Solid(
         mesh=sw.meshes.Rectangle(size=(1.0, 10.0), cells=(1, 20), origin=(0.0, 5.0)),
         material=sw.LinearElastic(E=900.0, nu=0.0), density=1.0,
@@ -107,7 +107,8 @@ def test_slabs_of_automatic_length_grow_by_themselves() -> None:
     found = list(sw.march(scene, until=1.5))
     assert lengths(found).max() > 15.0
     assert found[-1].march_state.settings.tolerance == AUTO  # as given
-    assert abs(next(e.time for s in found for e in s.events) - 1.0) < 1e-12
+    h = found[0].slab.span
+    assert abs(next(e.time for s in found for e in s.events) - 1.0) < 10.0 * h**2 / (8.0 * 10.0)  # a straight path
     assert max(abs(s.ledger.energy_error) for s in found) < 1e-12 * 500.0
     for given in (
         {"step": found[0].slab.span},
