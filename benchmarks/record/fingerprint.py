@@ -59,7 +59,11 @@ BENCHES = {
         "benchmarks/processes/collision.py",
     ),  # fmt: skip
     "slab": (PARTS, "benchmarks/parts/bench_slab.py"),
-    "adapted": ("benchmarks/groups/adapted.py", "benchmarks/processes/adapted.py"),
+    "adapted": (
+        "benchmarks/groups/adapted.py",
+        "benchmarks/processes/adapted.py",
+        "benchmarks/processes/bracket.py",
+    ),
     "heated": ("benchmarks/groups/heated.py", "benchmarks/processes/heated.py"),
     "pile": ("benchmarks/groups/piles.py", "benchmarks/parts/bench_pile.py"),
     "large": THROWN[::3],
