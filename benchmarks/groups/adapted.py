@@ -54,14 +54,14 @@ def _bracket(asked: Asked) -> Iterator[Figure]:
     except Absent as why:
         raise Failed(f"bracket: {why}") from why
     plain, follows = found["uniform"], found["adapted"]
-    yield Figure(name="adapted/bracket, tet10, time", value=follows["cpu"], unit="s of the processor; uniform mesh",
+    yield Figure(name="adapted/bracket, time", value=follows["cpu"], unit="s of the processor; uniform mesh",
                  baseline=plain["cpu"], ratio=follows["cpu"] / plain["cpu"])  # fmt: skip
-    yield Figure(name="adapted/bracket, tet10, nodes times slabs", value=follows["nodes"], unit="uniform mesh",
+    yield Figure(name="adapted/bracket, nodes times slabs", value=follows["nodes"], unit="uniform mesh",
                  baseline=plain["nodes"], ratio=follows["nodes"] / plain["nodes"])  # fmt: skip
     for what in ("stress", "force"):
         ours, theirs = np.array(follows[what]), np.array(plain[what])
         apart = 100.0 * float(np.abs(ours - theirs).max() / theirs.max())
-        yield Figure(name=f"adapted/bracket, tet10, {what}", value=apart, unit="% from the uniform mesh")
+        yield Figure(name=f"adapted/bracket, {what}", value=apart, unit="% from the uniform mesh")
 
 
 def _runs(asked: Asked, name: str) -> list[dict[str, Any]]:

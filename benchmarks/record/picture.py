@@ -19,7 +19,7 @@ def drawn(figures: Iterable[Figure], path: Path) -> None:
     """
     known: dict[str, dict[str, dict[str, Figure]]] = defaultdict(lambda: defaultdict(dict))
     for figure in figures:
-        if figure.name.startswith("adapted/"):
+        if figure.name.startswith("adapted/") and ", cells of " in figure.name:
             problem, cells, kind = figure.name.split("/", 1)[1].rsplit(", ", 2)
             known[problem][cells][kind] = figure
     if not known:
