@@ -38,8 +38,8 @@ def slabs(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
         following, smooth = _next(model, march_state, found)
         if cells.edges:
             following = min(following, span * cells.shortest_ratio(found.after.start.displacement))
-        march_state = MarchState(
-            settings=settings,
+        march_state = replace(
+            march_state,
             state=found.after,
             account=update_account(march_state.account, found.ledger),
             step_history=StepHistory(
@@ -54,6 +54,7 @@ def slabs(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
                     (until - found.after.time) / found.slab.span,
                 ),
                 last_rejection=[march_state.step_history.last_rejection, *found.rejections][-1],
+                rejected=len(found.rejections),
                 smooth=smooth,
                 fastest=_fastest(model, march_state, found),
             ),
@@ -61,9 +62,8 @@ def slabs(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
             slabs=march_state.slabs + 1,
             adapted=_adapted(march_state.adapted, found.ledger),
         )
-        step = _step(model, before, found, march_state)
         log.debug("slab %d to t = %.6g s: %d iterations", march_state.slabs, found.after.time, found.out.iterations)
-        yield step
+        yield (step := _step(model, before, found, march_state))
         before, memory = step.after, found.memory
 
 

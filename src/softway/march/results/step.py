@@ -10,6 +10,7 @@ from softway.adaptivity.transfer import Transferred
 from softway.arrays import Array
 from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.html_tables import table
+from softway.march.results.exchange import Exchange
 from softway.march.state.march_state import MarchState
 from softway.model.model import Model
 from softway.model.scene import State
@@ -230,7 +231,7 @@ class Step:
     model
         Model on the meshes of the slab.
     before, after
-        State at both ends.
+        State at both ends; displacements are those from ``model.points``, the reference of these meshes.
     slab
         Time interval of the slab.
     ledger
@@ -246,7 +247,9 @@ class Step:
     march_state
         State of the march after the slab, from which another march continues with the same bits.
     transfers
-        Transfers of the solids whose meshes have changed before the slab, by name.
+        Transfers of the solids whose adapted meshes have changed before the slab, by name.
+    exchanges
+        What new meshes of solids with ``remesh`` have changed before the slab, by name.
     """
 
     model: Model = field(repr=False)
@@ -260,6 +263,7 @@ class Step:
     report: Report
     march_state: MarchState
     transfers: Mapping[str, Transferred] = field(default_factory=dict, repr=False)
+    exchanges: Mapping[str, Exchange] = field(default_factory=dict, repr=False)
 
     def _repr_html_(self) -> str:
         """A table for notebooks."""

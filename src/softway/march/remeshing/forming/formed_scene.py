@@ -5,21 +5,21 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from softway.adaptivity.rezoning.quality import CellQuality, cell_quality
+from softway.adaptivity.rezoning.quality import cell_quality
 from softway.adaptivity.rezoning.rezone import rezoned
-from softway.adaptivity.unrelated.memory import require_recast
+from softway.adaptivity.unrelated.fields import interpolation
 from softway.arrays import Array, BoolArray
 from softway.bodies.discretised import DiscreteSolid, discretise
 from softway.bodies.setup.initial_fields import Uniform
-from softway.bodies.setup.loads import Traction
 from softway.bodies.setup.placement import Placement
-from softway.bodies.setup.supports import Carried, Guided
 from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 from softway.heat.coupled.build import build
-from softway.march.remeshing.forming.remesh import Remesh
+from softway.march.remeshing.forming.formable import replacements
 from softway.march.state.march_state import MarchState
 from softway.meshes.mesh import Mesh
+from softway.meshes.remeshed.remesh import Quality
+from softway.meshes.remeshed.remeshed_mesh import RemeshedMesh, remeshed_mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
 
@@ -31,22 +31,28 @@ ON_TOOL = 1e-14
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class FormedScene:
-    """Scene with the present meshes of its solids.
+    """Scene with the present meshes of its solids: a model with the mesh of each solid that gets new ones.
 
     Parameters
     ----------
-    scene, model
-        The scene on these meshes, and its model.
-    bases
-        Mesh at the start, of each solid that gets new ones.
+    model
+        Model on these meshes.
     new
         Quality of the cells of each of them when they were new.
     """
 
-    scene: Scene
     model: Model
-    bases: Mapping[str, Mesh]
-    new: Mapping[str, CellQuality]
+    new: Mapping[str, Quality]
+
+    @property
+    def scene(self) -> Scene:
+        """The scene, with the present meshes."""
+        return self.model.scene
+
+    @property
+    def meshes(self) -> Mapping[str, RemeshedMesh]:
+        """Mesh of each solid that gets new ones."""
+        return self.model.remeshed
 
     def part(self, name: str) -> DiscreteSolid:
         """Tables of a solid."""
@@ -57,27 +63,58 @@ class FormedScene:
         part = self.part(name)
         return np.asarray(part.mesh.points + now.state.start.displacement[part.nodes])
 
-    def asks(self, how: Remesh, now: MarchState, name: str) -> str:
-        """The measure by which a solid asks for another mesh; empty if by none."""
-        part = self.part(name)
-        return how.asks(cell_quality(part.mesh.blocks, self.places(now, name)), self.new[name])
+    def asks(self, now: MarchState) -> dict[str, str]:
+        """Solids that ask for another mesh, and the measure by which they do."""
+        since = now.slabs - (0 if now.remeshed is None else now.remeshed.changed)
+        history, found = now.step_history, {}
+        for name, how in replacements(self.scene).items():
+            quality = cell_quality(self.part(name).mesh.blocks, self.places(now, name)).worst
+            short = history.rejected > 0 and now.state.span < how.shortened * history.span
+            reason = how.asks(quality, self.new[name]) or (f"slab of {now.state.span:.3g} s" if short else "")
+            if reason and since >= how.every:
+                found[name] = reason
+        return found
 
-    def on(self, meshes: Mapping[str, Mesh]) -> "FormedScene":
+    def on(self, meshes: Mapping[str, Mesh], now: MarchState) -> "FormedScene":
         """The scene with other meshes of the present shapes; densities keep the masses."""
-        bodies, new = dict(self.scene.bodies), dict(self.new)
-        for name, mesh in meshes.items():
-            solid, part = bodies[name], self.part(name)
-            assert isinstance(solid, Solid)
-            assert isinstance(solid.density, float | int)
-            still = replace(solid, mesh=mesh, place=Placement(), group=(), displacement=Uniform(), velocity=Uniform())
-            volumes = [float(p.internal.sampling.volume.sum()) for p in (part, discretise(name, still, 0))]
-            bodies[name] = replace(still, density=solid.density * volumes[0] / volumes[1])
-            new[name] = cell_quality(mesh.blocks, mesh.points)
-        scene = replace(self.scene, bodies=bodies)
-        return FormedScene(scene=scene, model=build(scene), bases=self.bases, new=new)
+        found = {name: self._followed(name, mesh, self.places(now, name)) for name, mesh in meshes.items()}
+        return self._with({**self.meshes, **found}, found)
 
-    def rezoned(self, now: MarchState, name: str) -> Array | None:
-        """New places (n, d) of the nodes of a solid; None if no cells fit into its shape."""
+    def at(self, meshes: Mapping[str, RemeshedMesh]) -> "FormedScene":
+        """The scene on the meshes of a state.
+
+        Raises
+        ------
+        InputError
+            For meshes of another march.
+        """
+        if meshes.keys() != self.meshes.keys():
+            problem = f"meshes of {', '.join(meshes)}"
+            raise InputError("state.remeshed", problem, f"a state with those of {', '.join(self.meshes)}")
+        for name, mesh in meshes.items():
+            with within(f"state.remeshed.{name}"):
+                mesh.require_of(self.meshes[name].first)
+        return self._with(meshes, meshes)
+
+    def _with(self, meshes: Mapping[str, RemeshedMesh], changed: Mapping[str, RemeshedMesh]) -> "FormedScene":
+        """The scene on meshes, of which some have changed."""
+        solids = {name: _still(self.scene, name, mesh.mesh, mesh.density) for name, mesh in changed.items()}
+        model = build(replace(self.scene, bodies={**self.scene.bodies, **solids}), self.model)
+        new = {**self.new, **{name: _quality(mesh.mesh) for name, mesh in changed.items()}}
+        return FormedScene(model=replace(model, remeshed=meshes, declared=self.model.declared), new=new)
+
+    def _followed(self, name: str, mesh: Mesh, places: Array) -> RemeshedMesh:
+        """The mesh that replaces that of a solid with nodes at ``places`` (n, d)."""
+        part, before = self.part(name), self.meshes[name]
+        still = _still(self.scene, name, mesh, before.density)
+        volumes = [float(p.internal.sampling.volume.sum()) for p in (part, discretise(name, still, 0))]
+        back = interpolation(part.mesh.blocks, places, mesh.points)
+        matter = interpolation(mesh.blocks, mesh.points, before.matter @ places)
+        density = before.density * volumes[0] / volumes[1]
+        return before.followed(mesh, density, np.asarray(back @ before.origin), matter)
+
+    def rezoned(self, now: MarchState, name: str) -> Mesh | None:
+        """New mesh of the present shape of a solid; None if no cells fit into it."""
         closed, kept = self.touching(now, name)
         solid = self.scene.bodies[name]
         assert isinstance(solid, Solid)
@@ -86,7 +123,9 @@ class FormedScene:
         def on_tools(places: Array, touching: BoolArray) -> Array:
             return self.on_tools(now, name, touching & ~kept, places)
 
-        return rezoned(self.part(name), self.bases[name], self.places(now, name), closed, kept, on_tools, tags)
+        part, ideal = self.part(name), self.meshes[name].ideal
+        found = rezoned(part, ideal, self.places(now, name), closed, kept, on_tools, tags)
+        return None if found is None else replace(part.mesh, points=found)
 
     def touching(self, now: MarchState, name: str) -> tuple[BoolArray, BoolArray]:
         """Nodes (n,) of a solid in closed contacts, and those of them in contact with other solids."""
@@ -122,36 +161,41 @@ class FormedScene:
         return places
 
 
-def formed_scene(scene: Scene, remesh: Mapping[str, Remesh]) -> FormedScene:
-    """Scene on its meshes at the start.
-
-    Raises
-    ------
-    InputError
-        For solids whose mesh cannot be replaced: elastic laws, several materials, plane stress, heat, tractions, and
-        supports that measure from the undeformed shape.
-    """
-    bases, new = {}, {}
-    model = build(scene)
-    for name in remesh:
-        with within(f"remesh.{name}"):
-            solid = scene.bodies.get(name)
-            if not isinstance(solid, Solid):
-                solids = ", ".join(n for n, b in scene.bodies.items() if isinstance(b, Solid))
-                raise InputError("", "no solid of this name", f"one of: {solids}")
-            part = next(p for p in model.parts if p.name == name)
-            require_recast(part)
-            _require_plain(scene, name, solid)
-        bases[name] = part.mesh
-        new[name] = cell_quality(part.mesh.blocks, part.mesh.points)
-    return FormedScene(scene=scene, model=model, bases=bases, new=new)
+def formed_scene(model: Model) -> FormedScene:
+    """Scene of a model, on its present meshes, or else on those of the start."""
+    if model.remeshed:
+        meshes = model.remeshed
+    else:
+        meshes = {
+            name: remeshed_mesh(model.meshes[name], _density(model.scene, name)) for name in replacements(model.scene)
+        }
+        bodies = dict(model.scene.bodies)
+        for name, mesh in meshes.items():
+            bodies[name] = replace(_solid(model.scene, name), mesh=mesh.mesh, place=Placement(), group=())
+        model = replace(model, scene=replace(model.scene, bodies=bodies), remeshed=meshes)
+    return FormedScene(model=model, new={name: _quality(mesh.mesh) for name, mesh in meshes.items()})
 
 
-def _require_plain(scene: Scene, name: str, solid: Solid) -> None:
-    """Refuse what does not pass to a new mesh."""
-    if solid.thermal is not None or solid.shock is not None:
-        raise InputError("", "a solid with a temperature or bulk viscosity", "a solid without")
-    if any(isinstance(s, Guided | Carried) for s in solid.supports):
-        raise InputError("supports", "supports that measure from the shape at the start", "Fixed or Driven")
-    if any(isinstance(load, Traction) and load.body == name for load in scene.loads):
-        raise InputError("loads", f"a traction on {name!r}, per area of the shape at the start", "a tool that presses")
+def _quality(mesh: Mesh) -> Quality:
+    """Quality of the worst cells of a mesh at rest."""
+    return cell_quality(mesh.blocks, mesh.points).worst
+
+
+def _solid(scene: Scene, name: str) -> Solid:
+    """A solid of a scene."""
+    solid = scene.bodies[name]
+    assert isinstance(solid, Solid)
+    return solid
+
+
+def _density(scene: Scene, name: str) -> float:
+    """Density of a solid of one material [kg/m^3]."""
+    density = _solid(scene, name).density
+    assert isinstance(density, float | int)
+    return float(density)
+
+
+def _still(scene: Scene, name: str, mesh: Mesh, density: float) -> Solid:
+    """A solid on another mesh, where it is: its motion is in the state."""
+    still = replace(_solid(scene, name), mesh=mesh, place=Placement(), group=(), density=density)
+    return replace(still, displacement=Uniform(), velocity=Uniform())

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from softway.adaptivity.rezoning.quality import CellQuality
 from softway.errors import InputError
 from softway.units import Pure
 
@@ -11,6 +10,8 @@ Way = Literal["rezone"]
 """How a mesh is replaced."""
 WORSE = 0.8
 """Quality, relative to that of the last new mesh, below which a measure that the mesh cannot reach counts again."""
+Quality = tuple[float, float, float]
+"""Least scaled Jacobian of the cells of a mesh, least angle [degrees], greatest ratio of edges."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,18 +60,41 @@ class Remesh:
         if self.every < 1:
             raise InputError("every", f"{self.every}", "a whole number from one on")
 
-    def asks(self, now: CellQuality, last: CellQuality) -> str:
+    def asks(self, now: Quality, last: Quality) -> str:
         """The measure that asks for another mesh, as text; empty if none does.
 
         Parameters
         ----------
         now, last
-            Quality of the cells at present, and when they were new.
+            Quality of the worst cells at present, and when they were new.
+
+        Examples
+        --------
+        >>> Remesh().asks((0.5, 40.0, 3.0), (1.0, 90.0, 1.0)), Remesh().asks((0.2, 40.0, 3.0), (1.0, 90.0, 1.0))
+        ('', 'scaled Jacobian 0.2')
         """
-        found, new = now.worst, last.worst
-        limits = (min(self.quality, WORSE * new[0]), min(self.angle, WORSE * new[1]), max(self.ratio, new[2] / WORSE))
-        if found[0] < limits[0]:
-            return f"scaled Jacobian {found[0]:.3g}"
-        if found[1] < limits[1]:
-            return f"angle of {found[1]:.3g} degrees"
-        return f"ratio of edges {found[2]:.3g}" if found[2] > limits[2] else ""
+        limits = (
+            min(self.quality, WORSE * last[0]),
+            min(self.angle, WORSE * last[1]),
+            max(self.ratio, last[2] / WORSE),
+        )
+        if now[0] < limits[0]:
+            return f"scaled Jacobian {now[0]:.3g}"
+        if now[1] < limits[1]:
+            return f"angle of {now[1]:.3g} degrees"
+        return f"ratio of edges {now[2]:.3g}" if now[2] > limits[2] else ""
+
+
+Remeshing = Remesh | Literal["auto"] | None
+"""Replacement of the mesh of a solid; ``auto`` is that of ``Remesh()``, None that of a mesh that stays."""
+
+
+def replacement(given: Remeshing) -> Remesh | None:
+    """Replacement of a mesh; None if it stays.
+
+    Examples
+    --------
+    >>> replacement("auto") == Remesh(), replacement(None)
+    (True, None)
+    """
+    return Remesh() if given == "auto" else given
