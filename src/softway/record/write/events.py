@@ -31,7 +31,7 @@ EXTRA = (("depth", "m"), ("finding", table.TEXT), ("bodies", table.TEXT))
 """Columns of the findings of the audit, and the bodies that touch; files of earlier versions lack them."""
 MESH = "mesh"
 """Kind of the event of a solid whose mesh changes, with its name for the contact, no node and no place; the column of
-findings tells the new number of nodes and cells."""
+findings tells the new number of nodes and cells, and of meshes that are replaced the measure that asked for it."""
 HEAT = (("heat", "J"),)
 """Column of runs with contacts that pass heat: what has passed from the first body to the end of the slab of the event.
 """
@@ -78,20 +78,21 @@ class Events:
 
 def _changes(step: Step) -> Iterator[Event]:
     """Changes of meshes before a slab."""
-    for name, passed in step.transfers.items():
-        if not isinstance(passed.projection, Unchanged):
-            mesh, d = step.model.meshes[name], step.model.shape[1]
-            yield Event(
-                time=step.slab.start,
-                contact=name,
-                kind=MESH,
-                node=-1,
-                position=np.zeros(d),
-                velocity_before=0.0,
-                velocity_after=0.0,
-                impulse=0.0,
-                finding=f"{mesh.n_nodes} nodes, {mesh.n_cells} cells",
-            )
+    adapted = (name for name, passed in step.transfers.items() if not isinstance(passed.projection, Unchanged))
+    reasons = {**dict.fromkeys(adapted, ""), **{name: f": {one.reason}" for name, one in step.exchanges.items()}}
+    for name, reason in reasons.items():
+        mesh, d = step.model.meshes[name], step.model.shape[1]
+        yield Event(
+            time=step.slab.start,
+            contact=name,
+            kind=MESH,
+            node=-1,
+            position=np.zeros(d),
+            velocity_before=0.0,
+            velocity_after=0.0,
+            impulse=0.0,
+            finding=f"{mesh.n_nodes} nodes, {mesh.n_cells} cells{reason}",
+        )
 
 
 def open_events(folder: Path, opening: RunStart, mark: int | None = None) -> Events:
