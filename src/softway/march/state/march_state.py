@@ -1,7 +1,7 @@
 """March state: all data that the next slab (time step) needs besides the model."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from softway.errors import InputError
@@ -97,7 +97,7 @@ class AdaptedMeshes:
 class RemeshedMeshes:
     """Meshes of a march that replaces them, of each such solid by name, and the number of slabs at the last change."""
 
-    meshes: Mapping[str, RemeshedMesh]
+    meshes: Mapping[str, RemeshedMesh] = field(repr=False)
     changed: int = 0
 
 
