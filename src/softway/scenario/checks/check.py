@@ -13,6 +13,7 @@ from softway.march.remeshing.adaptive_march import adapted_start
 from softway.march.remeshing.admitted import adaptions, admitted
 from softway.march.remeshing.forming.formable import formable
 from softway.march.remeshing.forming.formed_scene import formed_scene
+from softway.march.rules.slab_rule import Method
 from softway.march.start.preparation import prepare
 from softway.march.state.march_state import MarchState, Settings
 from softway.meshes.files.listed_mesh import LeftOut
@@ -150,9 +151,7 @@ def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked
     probe_readings(scenario, {n: mesh_of(s) for n, s in solids.items()}, scene.mechanism)
     if isinstance(scenario.start, StaticStart):
         check_loads(scenario.start.loads, "start.loads", solids)
-    model, coarse = admitted(_model(scenario, scene), scenario.solver)
-    model, stay = formable(model, scenario.solver)
-    staying = (*_staying(coarse, "adapt"), *_staying(stay, "remesh"))
+    model, staying = _admitted(_model(scenario, scene), scenario.solver)
     scene = model.scene
     bodies = _scales({n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}, scenario)
     model, march_state = _begun(scenario, model, cancel)
@@ -167,13 +166,7 @@ def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked
         march_state=march_state,
         step=step,
         slabs=int(np.ceil(scenario.time.end / step * (1.0 - 1e-12))),
-        notes=(
-            *notes,
-            *staying,
-            *wall_notes(model, solids),
-            *_model_notes(model, contacts),
-            *flutter,
-        ),
+        notes=(*notes, *staying, *wall_notes(model, solids), *_model_notes(model, contacts), *flutter),
         left_out=left_out,
     )
 
@@ -196,6 +189,13 @@ def _model(scenario: Scenario, scene: Scene) -> Model:
             raise
         remedy = f"{error.remedy}; a tie of the scenario between the same surfaces takes its place"
         raise InputError("ties", f"{error.problem} (a tie of a mesh file)", remedy) from None
+
+
+def _admitted(model: Model, method: Method) -> tuple[Model, tuple[Note, ...]]:
+    """Model whose solids with ``auto`` adapt, or get new meshes, where they can, and notes on the others."""
+    model, coarse = admitted(model, method)
+    model, stay = formable(model, method)
+    return model, (*_staying(coarse, "adapt"), *_staying(stay, "remesh"))
 
 
 def _staying(meshes: Mapping[str, InputError], key: str) -> Iterator[Note]:
