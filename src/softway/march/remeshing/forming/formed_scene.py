@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from softway.adaptivity.new_cells.sizes import edge_lengths
 from softway.adaptivity.rezoning.quality import CellQuality, cell_quality
-from softway.adaptivity.rezoning.rezone import rezoned
 from softway.adaptivity.unrelated.memory import require_recast
 from softway.arrays import Array, BoolArray
 from softway.bodies.discretised import DiscreteSolid, discretise
@@ -17,7 +17,7 @@ from softway.bodies.setup.supports import Carried, Guided
 from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 from softway.heat.coupled.build import build
-from softway.march.remeshing.forming.remesh import Remesh
+from softway.march.remeshing.forming.remesh import Remesh, require_cells
 from softway.march.state.march_state import MarchState
 from softway.meshes.mesh import Mesh
 from softway.model.model import Model
@@ -30,6 +30,25 @@ ON_TOOL = 1e-14
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Replacement:
+    """Mesh of the present shape of a solid.
+
+    Parameters
+    ----------
+    mesh
+        The mesh.
+    base
+        Mesh with the same cells when they were made.
+    sizes
+        (n,) lengths of the edges asked for at its nodes [m].
+    """
+
+    mesh: Mesh
+    base: Mesh
+    sizes: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class FormedScene:
     """Scene with the present meshes of its solids.
 
@@ -38,7 +57,9 @@ class FormedScene:
     scene, model
         The scene on these meshes, and its model.
     bases
-        Mesh at the start, of each solid that gets new ones.
+        Mesh with the present cells when they were made, of each solid that gets new ones.
+    sizes
+        Lengths of the edges asked for at the nodes of each of them [m].
     new
         Quality of the cells of each of them when they were new.
     """
@@ -46,6 +67,7 @@ class FormedScene:
     scene: Scene
     model: Model
     bases: Mapping[str, Mesh]
+    sizes: Mapping[str, Array]
     new: Mapping[str, CellQuality]
 
     def part(self, name: str) -> DiscreteSolid:
@@ -62,11 +84,12 @@ class FormedScene:
         part = self.part(name)
         return how.asks(cell_quality(part.mesh.blocks, self.places(now, name)), self.new[name])
 
-    def on(self, meshes: Mapping[str, Mesh]) -> "FormedScene":
+    def on(self, meshes: Mapping[str, Replacement]) -> "FormedScene":
         """The scene with other meshes of the present shapes; densities keep the masses."""
-        bodies, new = dict(self.scene.bodies), dict(self.new)
-        for name, mesh in meshes.items():
-            solid, part = bodies[name], self.part(name)
+        bodies, new, bases, sizes = (dict(table) for table in (self.scene.bodies, self.new, self.bases, self.sizes))
+        for name, other in meshes.items():
+            solid, part, mesh = bodies[name], self.part(name), other.mesh
+            bases[name], sizes[name] = other.base, other.sizes
             assert isinstance(solid, Solid)
             assert isinstance(solid.density, float | int)
             still = replace(solid, mesh=mesh, place=Placement(), group=(), displacement=Uniform(), velocity=Uniform())
@@ -74,19 +97,7 @@ class FormedScene:
             bodies[name] = replace(still, density=solid.density * volumes[0] / volumes[1])
             new[name] = cell_quality(mesh.blocks, mesh.points)
         scene = replace(self.scene, bodies=bodies)
-        return FormedScene(scene=scene, model=build(scene), bases=self.bases, new=new)
-
-    def rezoned(self, now: MarchState, name: str) -> Array | None:
-        """New places (n, d) of the nodes of a solid; None if no cells fit into its shape."""
-        closed, kept = self.touching(now, name)
-        solid = self.scene.bodies[name]
-        assert isinstance(solid, Solid)
-        tags = tuple(support.on for support in solid.supports)
-
-        def on_tools(places: Array, touching: BoolArray) -> Array:
-            return self.on_tools(now, name, touching & ~kept, places)
-
-        return rezoned(self.part(name), self.bases[name], self.places(now, name), closed, kept, on_tools, tags)
+        return FormedScene(scene=scene, model=build(scene), bases=bases, sizes=sizes, new=new)
 
     def touching(self, now: MarchState, name: str) -> tuple[BoolArray, BoolArray]:
         """Nodes (n,) of a solid in closed contacts, and those of them in contact with other solids."""
@@ -103,13 +114,15 @@ class FormedScene:
             masks.append(mask[part.nodes])
         return masks[0], masks[1]
 
-    def on_tools(self, now: MarchState, name: str, closed: BoolArray, places: Array) -> Array:
-        """Places (n, d) of the nodes of a solid, out of the tools, with those in contact on them."""
-        part, u = self.part(name), np.array(now.state.start.displacement)
+    def on_tools(self, u: Array, time: float, name: str, closed: BoolArray, places: Array) -> Array:
+        """Places (n, d) of the nodes of a solid, out of the tools, with those in contact on them; with displacements u
+        of all solids.
+        """
+        part, u = self.part(name), np.array(u)
         mine, free = part.nodes, part.dofs.free
         for _ in range(PASSES):
             u[mine] = places - part.mesh.points
-            rows = self.model.rows(u, now.state.time)
+            rows = self.model.rows(u, time)
             gap = rows.gap(u)
             some = rows.near & (rows.node >= mine.start) & (rows.node < mine.stop)
             node = np.clip(rows.node - mine.start, 0, len(places) - 1)
@@ -131,7 +144,7 @@ def formed_scene(scene: Scene, remesh: Mapping[str, Remesh]) -> FormedScene:
         For solids whose mesh cannot be replaced: elastic laws, several materials, plane stress, heat, tractions, and
         supports that measure from the undeformed shape.
     """
-    bases, new = {}, {}
+    bases, sizes, new = {}, {}, {}
     model = build(scene)
     for name in remesh:
         with within(f"remesh.{name}"):
@@ -142,9 +155,10 @@ def formed_scene(scene: Scene, remesh: Mapping[str, Remesh]) -> FormedScene:
             part = next(p for p in model.parts if p.name == name)
             require_recast(part)
             _require_plain(scene, name, solid)
-        bases[name] = part.mesh
+            require_cells(remesh[name], part.mesh, solid)
+        bases[name], sizes[name] = part.mesh, edge_lengths(part.mesh)
         new[name] = cell_quality(part.mesh.blocks, part.mesh.points)
-    return FormedScene(scene=scene, model=model, bases=bases, new=new)
+    return FormedScene(scene=scene, model=model, bases=bases, sizes=sizes, new=new)
 
 
 def _require_plain(scene: Scene, name: str, solid: Solid) -> None:

@@ -2,19 +2,19 @@
 
 import logging
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from softway.errors import Cancel, InputError
 from softway.march.remeshing.forming.carried import Exchange, carried_on
-from softway.march.remeshing.forming.formed_scene import FormedScene, formed_scene
+from softway.march.remeshing.forming.formed_scene import FormedScene, Replacement, formed_scene
 from softway.march.remeshing.forming.remesh import Remesh
+from softway.march.remeshing.forming.replacement import replacement
 from softway.march.results.step import Step
 from softway.march.rules.slab_rule import Method
 from softway.march.slabs import slabs
 from softway.march.start.preparation import prepare
 from softway.march.state.march_state import MarchState, Settings
 from softway.march.state.step_control import StepControl
-from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
 from softway.model.time_weight import EndPeaks, TimeWeight
@@ -110,7 +110,7 @@ def forming_march(
                 break
         assert now is not None
         if reasons and now.state.time < until - 1e-9 * now.step_history.span:
-            on, now, exchanges = _replaced(on, now, reasons)
+            on, now, exchanges = _replaced(on, remesh, now, reasons)
 
 
 def _reasons(on: FormedScene, remesh: Mapping[str, Remesh], taken: Step) -> dict[str, str]:
@@ -124,16 +124,16 @@ def _reasons(on: FormedScene, remesh: Mapping[str, Remesh], taken: Step) -> dict
 
 
 def _replaced(
-    on: FormedScene, now: MarchState, reasons: Mapping[str, str]
+    on: FormedScene, remesh: Mapping[str, Remesh], now: MarchState, reasons: Mapping[str, str]
 ) -> tuple[FormedScene, MarchState, Mapping[str, Exchange]]:
     """Scene and state with new meshes of the solids for which there are any."""
-    meshes: dict[str, Mesh] = {}
+    meshes: dict[str, Replacement] = {}
     for name in reasons:
-        found = on.rezoned(now, name)
+        found = replacement(on, remesh[name], now, name)
         if found is None:
             log.info("no new mesh of %r at t = %.6g s fits", name, now.state.time)
             continue
-        meshes[name] = replace(on.part(name).mesh, points=found)
+        meshes[name] = found
     if not meshes:
         return on, now, {}
     new = on.on(meshes)

@@ -3,12 +3,20 @@
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from softway.adaptivity.rezoning.quality import CellQuality
+from softway.bodies.solid import Solid
 from softway.errors import InputError
+from softway.meshes.mesh import Mesh
 from softway.units import Pure
 
-Way = Literal["rezone"]
+Way = Literal["auto", "rezone", "new cells"]
 """How a mesh is replaced."""
+Generator = Literal["own", "mmg"]
+"""What makes new cells."""
+SIMPLICES = ("tri3", "tri6"), ("tet4", "tet10")
+"""Cells that new ones may replace, in the plane and in space."""
 WORSE = 0.8
 """Quality, relative to that of the last new mesh, below which a measure that the mesh cannot reach counts again."""
 
@@ -24,7 +32,11 @@ class Remesh:
     Parameters
     ----------
     by
-        ``rezone``: the same cells with their nodes in other places.
+        ``rezone``: the same cells with their nodes in other places; ``new cells``: other triangles or tetrahedra, and
+        in the plane a boundary that is spaced anew; ``auto``: new cells where rezoning reaches no mesh within the limits
+        and the cells are triangles or tetrahedra.
+    generator
+        What makes new cells: ``own``, or ``mmg``, which needs the extra ``remesh``.
     quality
         Least scaled Jacobian of the cells.
     angle
@@ -42,7 +54,8 @@ class Remesh:
     15.0
     """
 
-    by: Way = "rezone"
+    by: Way = "auto"
+    generator: Generator = "own"
     quality: Pure = 0.3
     angle: Pure = 15.0
     ratio: Pure = 20.0
@@ -74,3 +87,41 @@ class Remesh:
         if found[1] < limits[1]:
             return f"angle of {found[1]:.3g} degrees"
         return f"ratio of edges {found[2]:.3g}" if found[2] > limits[2] else ""
+
+    def within(self, quality: CellQuality) -> bool:
+        """Whether cells are within the limits."""
+        jacobian, angle, ratio = quality.worst
+        return jacobian >= self.quality and angle >= self.angle and ratio <= self.ratio
+
+
+def makes_cells(how: Remesh, mesh: Mesh) -> bool:
+    """Whether a mesh may get new cells: its cells are triangles or tetrahedra.
+
+    Examples
+    --------
+    >>> from softway.meshes.generators.shapes import rectangle
+    >>> makes_cells(Remesh(), rectangle((1.0, 1.0), cells=(1, 1)))
+    False
+    """
+    return how.by != "rezone" and any(tuple(mesh.blocks) == (cell,) for cell in SIMPLICES[mesh.dim - 2])
+
+
+def require_cells(how: Remesh, mesh: Mesh, solid: Solid) -> None:
+    """Refuse new cells for solids that cannot have them.
+
+    Raises
+    ------
+    InputError
+        For quadrilaterals and hexahedra, and for supports on nodes inside.
+    """
+    if how.by == "new cells" and not makes_cells(how, mesh):
+        cells = ", ".join(mesh.blocks)
+        names = " or ".join(SIMPLICES[mesh.dim - 2])
+        remedy = f'a mesh of {names}, with dilatation = "corner" where the volume stays; or by = "rezone"'
+        raise InputError("by", f"new cells for {cells}", remedy)
+    if not makes_cells(how, mesh):
+        return
+    surface = np.isin(np.arange(mesh.n_nodes), mesh.nodes("surface"))
+    for support in solid.supports:
+        if not surface[mesh.nodes(support.on)].all():
+            raise InputError("by", f"new cells with a support on nodes inside, {support.on!r}", 'by = "rezone"')
