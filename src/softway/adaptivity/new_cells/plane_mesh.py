@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 from softway.adaptivity.new_cells.filling import Filled, filled
 from softway.adaptivity.new_cells.outline import Outline, outline
 from softway.adaptivity.new_cells.sizes import SizeField
-from softway.adaptivity.new_cells.swaps import equilateral
+from softway.adaptivity.new_cells.swaps import regular
 from softway.adaptivity.rezoning.rezone import between
 from softway.adaptivity.rezoning.smoothing import moved
 from softway.arrays import Array, BoolArray, IntArray
@@ -55,7 +55,7 @@ class NewMesh:
         mesh = self.mesh
         boundary = mesh.nodes("surface")
         (cells,) = mesh.blocks.values()
-        found = moved(equilateral(cells[:, : mesh.dim + 1]), mesh.points, boundary, places[boundary])
+        found = moved(regular(cells[:, : mesh.dim + 1]), mesh.points, boundary, places[boundary])
         return None if found is None else moved_mesh(mesh, between(mesh.blocks, found, boundary))
 
 
@@ -110,7 +110,7 @@ def plane_mesh(
     for tag, nodes in old.tags.items():
         if not surface[nodes].any():
             tags[tag] = near.query(places[nodes])[1]
-    mesh = Mesh(points=mesh.points, blocks=mesh.blocks, tags=tags, regions=_regions(old, places, mesh))
+    mesh = Mesh(points=mesh.points, blocks=mesh.blocks, tags=tags, regions=carried_regions(old, places, mesh))
     touching, stays = spread(border.touching, border.touching_sides), spread(border.kept, border.kept_sides)
     return NewMesh(mesh=mesh, sizes=asked.at(mesh.points), touching=touching & ~stays, kept=stays)
 
@@ -141,8 +141,16 @@ def _meshed(cell: str, found: Filled, border: Outline, bent: bool) -> tuple[Mesh
         return None, middles
 
 
-def _regions(old: Mesh, places: Array, new: Mesh) -> dict[str, IntArray]:
-    """Regions of the cells: those of the old cells that are nearest."""
+def carried_regions(old: Mesh, places: Array, new: Mesh) -> dict[str, IntArray]:
+    """Regions of the cells of a new mesh: those of the old cells that are nearest.
+
+    Examples
+    --------
+    >>> from softway.meshes.generators.shapes import rectangle
+    >>> coarse, fine = (rectangle((1.0, 1.0), cells=(n, 1)).with_region("left", lambda x: x[:, 0] < 0.5) for n in (2, 4))
+    >>> carried_regions(coarse, coarse.points, fine)["left"].tolist()
+    [0, 1]
+    """
     if not old.regions:
         return {}
     (cells,) = old.blocks.values()

@@ -10,7 +10,10 @@ ROUNDS = 6
 """Greatest number of times that edges are swapped and points moved."""
 BETTER = 1e-3
 """Least gain of quality by a swap."""
-_IDEAL = np.array([[-1.0, -1.0 / np.sqrt(3.0)], [1.0, -1.0 / np.sqrt(3.0)], [0.0, 2.0 / np.sqrt(3.0)]])
+_IDEAL = {
+    3: np.array([[-1.0, -1.0 / np.sqrt(3.0)], [1.0, -1.0 / np.sqrt(3.0)], [0.0, 2.0 / np.sqrt(3.0)]]),
+    4: np.array([[1.0, 1.0, 1.0], [-1.0, 1.0, -1.0], [1.0, -1.0, -1.0], [-1.0, -1.0, 1.0]]),
+}
 
 
 def improved(points: Array, triangles: IntArray, sides: IntArray) -> tuple[Array, IntArray]:
@@ -39,7 +42,7 @@ def improved(points: Array, triangles: IntArray, sides: IntArray) -> tuple[Array
     points, triangles = _parted(points, triangles, sides)
     for _ in range(ROUNDS):
         before = triangles
-        places = moved(equilateral(triangles), points, rim, points[rim])
+        places = moved(regular(triangles), points, rim, points[rim])
         points = points if places is None else places
         triangles = _swapped(points, triangles, sides)
         if np.array_equal(before, triangles):
@@ -62,21 +65,22 @@ def _parted(points: Array, triangles: IntArray, sides: IntArray) -> tuple[Array,
     return (np.vstack([points, np.array(new)]), triangles_of(edges)) if new else (points, triangles)
 
 
-def equilateral(triangles: IntArray) -> Distortion:
-    """Distortion of triangles (t, 3) from equilateral ones, of any size.
+def regular(simplices: IntArray) -> Distortion:
+    """Distortion of triangles (t, 3) or tetrahedra (t, 4) from regular ones, of any size.
 
     Examples
     --------
-    >>> found = equilateral(np.array([[0, 1, 2]]))
+    >>> found = regular(np.array([[0, 1, 2]]))
     >>> round(found.value(np.array([[0.0, 0.0], [4.0, 0.0], [2.0, 12.0**0.5]])), 12)
     1.0
     """
-    rows = np.linalg.inv((_IDEAL[1:] - _IDEAL[:1])).T
+    count, corners = simplices.shape
+    ideal = _IDEAL[corners]
+    rows = np.linalg.inv(ideal[1:] - ideal[:1]).T
     gradients = np.concatenate([-rows.sum(axis=0, keepdims=True), rows])
-    count = len(triangles)
     return Distortion(
-        simplices=triangles,
-        gradients=np.broadcast_to(gradients, (count, 3, 2)),
+        simplices=simplices,
+        gradients=np.broadcast_to(gradients, (count, *gradients.shape)),
         weights=np.full(count, 1.0 / count),
     )
 

@@ -146,6 +146,7 @@ def moved(found: Distortion, places: Array, boundary: IntArray, targets: Array) 
     for _ in range(TRIES):
         way = goal[rim] - now[rim]
         if not way.any():
+            now[boundary] = targets  # nodes in the middles of edges, too
             return _relaxed(found, now, inside, solve)
         step = np.zeros_like(now)
         step[rim] = way

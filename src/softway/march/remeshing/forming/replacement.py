@@ -1,16 +1,20 @@
 """New mesh of the present shape of a solid: by rezoning, or with other cells."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from softway.adaptivity.new_cells.filling import filled
+from softway.adaptivity.new_cells.mmg import mmg_tetrahedra, mmg_triangles
 from softway.adaptivity.new_cells.plane_mesh import NewMesh, plane_mesh
-from softway.adaptivity.rezoning.quality import cell_quality
+from softway.adaptivity.new_cells.space_mesh import improved_tetrahedra, space_mesh
+from softway.adaptivity.rezoning.quality import CellQuality, cell_quality
 from softway.adaptivity.rezoning.rezone import rezoned
 from softway.adaptivity.rezoning.volume import volume_of, with_volume
-from softway.arrays import Array, BoolArray
+from softway.adaptivity.unrelated.fields import simplices
+from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.solid import Solid
 from softway.march.remeshing.forming.formed_scene import FormedScene, Replacement
 from softway.march.remeshing.forming.remesh import Remesh, makes_cells
@@ -63,7 +67,14 @@ def _with_new_cells(on: FormedScene, how: Remesh, now: MarchState, name: str) ->
     wanted = volume_of(old.blocks, section, places)
     points = with_volume(new.mesh.blocks, new.mesh.boundary(), section, points, wanted, free)
     mesh = new.with_boundary(points)
-    return None if mesh is None else Replacement(mesh=mesh, base=mesh, sizes=new.sizes)
+    if mesh is None or not _better(cell_quality(mesh.blocks, mesh.points), cell_quality(old.blocks, places), how):
+        return None
+    return Replacement(mesh=mesh, base=mesh, sizes=new.sizes)
+
+
+def _better(new: CellQuality, old: CellQuality, how: Remesh) -> bool:
+    """Whether cells are within the limits, or better than others."""
+    return how.within(new) or new.worst[0] > old.worst[0] or new.worst[1] > old.worst[1]
 
 
 def _stays(displacement: Mapping[str, Array], name: str, none: Array) -> dict[str, Array]:
@@ -71,8 +82,26 @@ def _stays(displacement: Mapping[str, Array], name: str, none: Array) -> dict[st
     return {**displacement, name: none}
 
 
+def space_of(blocks: Mapping[str, IntArray], places: Array) -> float:
+    """Area [m^2] or volume [m^3] of cells with straight edges, without the factor of a section.
+
+    Examples
+    --------
+    >>> space_of({"tri3": np.array([[0, 1, 2]])}, np.array([[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]))
+    2.0
+    """
+    x = places[simplices(blocks)]
+    return float(np.abs(np.linalg.det(x[:, 1:] - x[:, :1])).sum() / math.factorial(x.shape[2]))
+
+
 def _made(
     on: FormedScene, how: Remesh, now: MarchState, name: str, closed: BoolArray, kept: BoolArray
 ) -> NewMesh | None:
-    """Mesh of new cells, before its boundary is put on tools."""
-    return plane_mesh(on.part(name).mesh, on.places(now, name), on.sizes[name], closed, kept, filled)
+    """Mesh of about as many new cells as before, before its boundary is put on tools."""
+    mesh, places = on.part(name).mesh, on.places(now, name)
+    spread = space_of(mesh.blocks, places) / space_of(on.bases[name].blocks, on.bases[name].points)
+    sizes = on.sizes[name] * spread ** (1.0 / mesh.dim)
+    mmg = how.generator == "mmg"
+    if mesh.dim == 2:
+        return plane_mesh(mesh, places, sizes, closed, kept, mmg_triangles if mmg else filled)
+    return space_mesh(mesh, places, sizes, closed, kept, mmg_tetrahedra if mmg else improved_tetrahedra)
