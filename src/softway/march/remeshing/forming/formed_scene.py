@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from softway.adaptivity.new_cells.sizes import edge_lengths
 from softway.adaptivity.rezoning.quality import CellQuality, cell_quality
@@ -97,7 +98,12 @@ class FormedScene:
             bodies[name] = replace(still, density=solid.density * volumes[0] / volumes[1])
             new[name] = cell_quality(mesh.blocks, mesh.points)
         scene = replace(self.scene, bodies=bodies)
-        return FormedScene(scene=scene, model=build(scene), bases=bases, sizes=sizes, new=new)
+        model = build(scene)
+        for part in model.parts:
+            if part.name in meshes and part.mesh.n_nodes > bases[part.name].n_nodes:  # walls of one cell are divided
+                near = cKDTree(meshes[part.name].mesh.points).query(part.mesh.points)[1]
+                bases[part.name], sizes[part.name] = part.mesh, sizes[part.name][near]
+        return FormedScene(scene=scene, model=model, bases=bases, sizes=sizes, new=new)
 
     def touching(self, now: MarchState, name: str) -> tuple[BoolArray, BoolArray]:
         """Nodes (n,) of a solid in closed contacts, and those of them in contact with other solids."""
