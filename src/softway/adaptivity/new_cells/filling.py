@@ -62,7 +62,8 @@ def filled(corners: Array, sides: IntArray, field: SizeField) -> Filled | None:
     triangles = triangulated(points, sides)
     if triangles is None:
         return None
-    return Filled(**dict(zip(("points", "triangles"), improved(points, triangles, sides), strict=True)))
+    points, triangles = improved(points, triangles, sides)
+    return Filled(points=points, triangles=triangles)
 
 
 def _new_points(points: Array, corners: Array, sides: IntArray, field: SizeField, size: float) -> Array:

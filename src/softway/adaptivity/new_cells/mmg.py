@@ -32,7 +32,8 @@ def mmg() -> ModuleType:
     try:
         import mmgpy
     except ImportError as error:
-        raise InputError("generator", "mmg needs mmgpy", 'pip install "softway[remesh]", or generator = "own"') from error
+        remedy = "pip install 'softway[remesh]', or generator = 'own'"
+        raise InputError("generator", "mmgpy, which calls Mmg, is not installed", remedy) from error
     return mmgpy  # type: ignore[no-any-return]
 
 

@@ -126,7 +126,10 @@ def _ends(mesh: Mesh, nodes: IntArray) -> BoolArray:
 def _spaced(mesh: Mesh, ring: _Ring, closed: BoolArray, kept: BoolArray, first: int) -> Outline:
     """The outline of one rim, whose corners have numbers from ``first`` on."""
     count, few = len(ring.nodes), {1: 3, 2: 2}.get(len(ring.at), 1)
-    points, middles, flags, sides_of = [], [], [], []
+    points: list[Array] = []
+    middles: list[Array] = []
+    flags: list[tuple[bool, bool]] = []
+    sides_of: list[IntArray] = []
     starts: list[int] = []
     for k, start in enumerate(ring.at.tolist()):
         end = int(ring.at[(k + 1) % len(ring.at)]) + (count if k + 1 == len(ring.at) else 0)
@@ -135,7 +138,7 @@ def _spaced(mesh: Mesh, ring: _Ring, closed: BoolArray, kept: BoolArray, first: 
         bound = bool(kept[nodes].all()) and len(local) == 2
         shares = _shares(x, size, 1 if bound else few)
         found = curve(x, shares, bool(closed[nodes].all()))
-        starts.append(sum(len(p) for p in points))
+        starts.append(len(sides_of))
         points.append(found[0:-1:2])
         middles.append(found[1::2])
         flags += [(bool(closed[nodes].all()), bound)] * len(middles[-1])
@@ -145,7 +148,7 @@ def _spaced(mesh: Mesh, ring: _Ring, closed: BoolArray, kept: BoolArray, first: 
     touching = flat & np.roll(flat, 1) | flat | np.roll(flat, 1)
     touching[starts], stays = closed[at], np.zeros(total, dtype=bool)
     stays[starts] = kept[at]
-    side_tags = {t: np.array([np.isin(n, nodes).all() for n in sides_of]) for t, nodes in mesh.tags.items()}
+    side_tags = {t: np.array([bool(np.isin(n, nodes).all()) for n in sides_of]) for t, nodes in mesh.tags.items()}
     node_tags = {t: side | np.roll(side, 1) for t, side in side_tags.items()}
     for t, nodes in mesh.tags.items():
         node_tags[t][starts] |= np.isin(at, nodes)

@@ -95,10 +95,11 @@ def plane_mesh(
     mesh, middles = curved if curved[0] is not None else straight
     if mesh is None:
         return None
+    count = mesh.n_nodes
     asked = SizeField(blocks=old.blocks, places=places, sizes=sizes, points=places, limits=np.full(len(places), np.inf))
 
     def spread(nodes: BoolArray, sides: BoolArray) -> BoolArray:
-        out = np.zeros(mesh.n_nodes, dtype=bool)
+        out = np.zeros(count, dtype=bool)
         out[: len(nodes)] = nodes
         if len(middles):
             out[middles[sides]] = True
@@ -147,8 +148,8 @@ def carried_regions(old: Mesh, places: Array, new: Mesh) -> dict[str, IntArray]:
     Examples
     --------
     >>> from softway.meshes.generators.shapes import rectangle
-    >>> coarse, fine = (rectangle((1.0, 1.0), cells=(n, 1)).with_region("left", lambda x: x[:, 0] < 0.5) for n in (2, 4))
-    >>> carried_regions(coarse, coarse.points, fine)["left"].tolist()
+    >>> coarse = rectangle((1.0, 1.0), cells=(2, 1)).with_region("left", lambda x: x[:, 0] < 0.5)
+    >>> carried_regions(coarse, coarse.points, rectangle((1.0, 1.0), cells=(4, 1)))["left"].tolist()
     [0, 1]
     """
     if not old.regions:

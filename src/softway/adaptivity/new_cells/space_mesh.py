@@ -24,9 +24,7 @@ LONG, SHORT = 2.0, 0.5
 """Lengths of edges, relative to those asked for, that are halved and collapsed."""
 
 
-def improved_tetrahedra(
-    points: Array, tetrahedra: IntArray, kept: IntArray, sizes: Array
-) -> tuple[Array, IntArray]:
+def improved_tetrahedra(points: Array, tetrahedra: IntArray, kept: IntArray, sizes: Array) -> tuple[Array, IntArray]:
     """Points (m, 3) and tetrahedra (t, 4) within the same boundary, whose points are the first ones.
 
     Rounds of halved and collapsed edges, swaps of faces and edges, and motion of the points inside towards least

@@ -40,7 +40,9 @@ class Tets:
     @classmethod
     def of(cls, points: Array, cells: IntArray) -> "Tets":
         """Points (n, 3) and tetrahedra (t, 4)."""
-        found = cls(points=[(x, y, z) for x, y, z in points.tolist()], cells={}, around={k: set() for k in range(len(points))})
+        found = cls(
+            points=[(x, y, z) for x, y, z in points.tolist()], cells={}, around={k: set() for k in range(len(points))}
+        )
         found.replace((), [(a, b, c, d) for a, b, c, d in cells.tolist()])
         return found
 

@@ -1,4 +1,4 @@
-"""New triangles of bodies in the plane: their shape, their tags, their quality, and the same cells on every processor."""
+"""New triangles of bodies in the plane: shape, tags, quality, and the same cells on every processor."""
 
 from collections.abc import Callable
 

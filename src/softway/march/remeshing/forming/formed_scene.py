@@ -11,6 +11,7 @@ from softway.adaptivity.rezoning.quality import CellQuality, cell_quality
 from softway.adaptivity.unrelated.memory import require_recast
 from softway.arrays import Array, BoolArray
 from softway.bodies.discretised import DiscreteSolid, discretise
+from softway.bodies.elements.section import Axisymmetric
 from softway.bodies.setup.initial_fields import Uniform
 from softway.bodies.setup.loads import Traction
 from softway.bodies.setup.placement import Placement
@@ -26,6 +27,8 @@ from softway.model.scene import Scene
 
 PASSES = 5
 """Greatest number of corrections of nodes on tools."""
+ON_AXIS = 1e-12
+"""Radius, relative to the size of the solid, within which a node is on the axis."""
 ON_TOOL = 1e-14
 """Gap, relative to the size of the solid, at which a node is on its tool."""
 
@@ -78,7 +81,10 @@ class FormedScene:
     def places(self, now: MarchState, name: str) -> Array:
         """Present places (n, d) of the nodes of a solid [m]."""
         part = self.part(name)
-        return np.asarray(part.mesh.points + now.state.start.displacement[part.nodes])
+        found = np.asarray(part.mesh.points + now.state.start.displacement[part.nodes])
+        if isinstance(part.internal.section, Axisymmetric):
+            found[np.abs(found[:, 0]) < ON_AXIS * np.ptp(found), 0] = 0.0
+        return found
 
     def asks(self, how: Remesh, now: MarchState, name: str) -> str:
         """The measure by which a solid asks for another mesh; empty if by none."""
@@ -87,7 +93,8 @@ class FormedScene:
 
     def on(self, meshes: Mapping[str, Replacement]) -> "FormedScene":
         """The scene with other meshes of the present shapes; densities keep the masses."""
-        bodies, new, bases, sizes = (dict(table) for table in (self.scene.bodies, self.new, self.bases, self.sizes))
+        bodies, new = dict(self.scene.bodies), dict(self.new)
+        bases, sizes = dict(self.bases), dict(self.sizes)
         for name, other in meshes.items():
             solid, part, mesh = bodies[name], self.part(name), other.mesh
             bases[name], sizes[name] = other.base, other.sizes

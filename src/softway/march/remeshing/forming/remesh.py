@@ -33,8 +33,8 @@ class Remesh:
     ----------
     by
         ``rezone``: the same cells with their nodes in other places; ``new cells``: other triangles or tetrahedra, and
-        in the plane a boundary that is spaced anew; ``auto``: new cells where rezoning reaches no mesh within the limits
-        and the cells are triangles or tetrahedra.
+        in the plane a boundary that is spaced anew; ``auto``: rezoning, and new cells where no rezoned mesh is within
+        the limits and the cells are triangles or tetrahedra.
     generator
         What makes new cells: ``own``, or ``mmg``, which needs the extra ``remesh``.
     quality
