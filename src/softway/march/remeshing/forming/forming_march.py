@@ -4,7 +4,7 @@ import logging
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from softway.errors import Cancel, InputError
+from softway.errors import Cancel, InputError, NumericsError
 from softway.march.remeshing.forming.carried import Exchange, carried_on
 from softway.march.remeshing.forming.formed_scene import FormedScene, Replacement, formed_scene
 from softway.march.remeshing.forming.remesh import Remesh
@@ -137,7 +137,11 @@ def _replaced(
     if not meshes:
         return on, now, {}
     new = on.on(meshes)
-    now, exchanges = carried_on(on, new, now, {name: reasons[name] for name in meshes})
+    try:
+        now, exchanges = carried_on(on, new, now, {name: reasons[name] for name in meshes})
+    except NumericsError as error:  # contact nodes that find no equilibrium
+        log.info("no new meshes at t = %.6g s: %s", now.state.time, error)
+        return on, now, {}
     for name, one in exchanges.items():
         log.info("new mesh of %r at t = %.6g s: %s", name, now.state.time, one.reason)
     return new, now, exchanges

@@ -124,8 +124,12 @@ def test_auto_takes_new_cells_where_rezoning_is_not_enough() -> None:
 def test_new_tetrahedra_in_a_march(generator: Generator) -> None:
     if generator == "mmg":
         pytest.importorskip("mmgpy")
+    box = sw.meshes.Box(size=(1.0, 1.0, 1.0), cells=(3, 3, 3), cell="tet4").build()
+    inside = np.setdiff1d(np.arange(box.n_nodes), box.nodes("surface"))
+    points = np.array(box.points)
+    points[inside] += [0.1, 0.05, 0.0]
     body = sw.Solid(
-        mesh=sw.meshes.Box(size=(1.0, 1.0, 1.0), cells=(3, 3, 3), cell="tet4"),
+        mesh=replace(box, points=points),
         material=LAW,
         density=1.0,
         dilatation="corner",
@@ -140,7 +144,7 @@ def test_new_tetrahedra_in_a_march(generator: Generator) -> None:
         contacts=(sw.Contact(between=("body.top", "platen")),),
         inertia=sw.bodies.Off(),
     )
-    how = Remesh(by="new cells", generator=generator, quality=0.0, angle=0.0, ratio=1.5, shortened=0.0)
+    how = Remesh(by="new cells", generator=generator, quality=0.9, angle=0.0, ratio=1e9, shortened=0.0)
     steps = list(forming_march(scene, {"body": how}, until=0.3, step=0.05))
     assert any(one.exchanges for one in steps)
     assert volume(steps[-1]) == pytest.approx(1.0, rel=1e-4)
