@@ -50,7 +50,7 @@ def filled(corners: Array, sides: IntArray, field: SizeField) -> Filled | None:
     >>> field = SizeField(blocks={"quad4": np.array([[0, 1, 2, 3]])}, places=square, sizes=np.full(4, 1.0),
     ...                   points=square, limits=np.full(4, 1.0))
     >>> len(filled(square, np.array([[0, 1], [1, 2], [2, 3], [3, 0]]), field).triangles)
-    2
+    4
     """
     size = float(np.ptp(corners, axis=0).max())
     points = np.array(corners)

@@ -148,10 +148,7 @@ def _spaced(mesh: Mesh, ring: _Ring, closed: BoolArray, kept: BoolArray, first: 
     touching = flat & np.roll(flat, 1) | flat | np.roll(flat, 1)
     touching[starts], stays = closed[at], np.zeros(total, dtype=bool)
     stays[starts] = kept[at]
-    side_tags = {t: np.array([bool(np.isin(n, nodes).all()) for n in sides_of]) for t, nodes in mesh.tags.items()}
-    node_tags = {t: side | np.roll(side, 1) for t, side in side_tags.items()}
-    for t, nodes in mesh.tags.items():
-        node_tags[t][starts] |= np.isin(at, nodes)
+    node_tags, side_tags = _tagged(mesh, sides_of, at, starts)
     length = np.linalg.norm(np.roll(corner, -1, axis=0) - corner, axis=1)
     number = first + np.arange(total)
     return Outline(
@@ -166,6 +163,17 @@ def _spaced(mesh: Mesh, ring: _Ring, closed: BoolArray, kept: BoolArray, first: 
         kept=stays,
         kept_sides=bound_sides,
     )
+
+
+def _tagged(
+    mesh: Mesh, sides_of: list[IntArray], at: IntArray, starts: list[int]
+) -> tuple[dict[str, BoolArray], dict[str, BoolArray]]:
+    """Corners and sides in each tag: sides whose part of the old boundary is, their ends, and anchors that are."""
+    sides = {t: np.array([bool(np.isin(n, nodes).all()) for n in sides_of]) for t, nodes in mesh.tags.items()}
+    corners = {t: side | np.roll(side, 1) for t, side in sides.items()}
+    for t, nodes in mesh.tags.items():
+        corners[t][starts] |= np.isin(at, nodes)
+    return corners, sides
 
 
 def _shares(points: Array, sizes: Array, few: int) -> Array:
