@@ -121,7 +121,6 @@ REASONS = {
     "march/remeshing/admitted.py: _require_cells": "tests/unit/march/remeshing/test_other_parts.py",
     "march/remeshing/admitted.py: _require_carried": "tests/unit/march/remeshing/test_other_parts.py",
     "march/remeshing/adapted_scene.py: at": "a state of another scene, from Python",
-    "adaptivity/new_cells/mmg.py: mmg": "Mmg may be installed",
     "march/remeshing/forming/formed_scene.py: formed_scene": FORGED,
     "march/remeshing/forming/formed_scene.py: _require_plain": FORGED,
     "march/remeshing/forming/forming_march.py: forming_march": FORGED,
