@@ -52,18 +52,21 @@ def changing_slabs(
     on, prepared
         Scene on its meshes at the start, and the preparation of the march on them.
     change
-        Change of meshes after a slab; None where they stay.  The state after a slab alone decides, so that a resumed
-        march has the same bits.
+        Change of meshes after a slab, with the same scene where only the state changes; None where they stay.  The
+        state after a slab alone decides, so that a resumed march has the same bits.
     cancel, trying
         As for :func:`~softway.march.start.preparation.prepare`.
     """
     now = prepared.march_state
-    steps, settings = slabs(prepared.stepper, now), now.settings
+    stepper, settings = prepared.stepper, now.settings
+    steps = slabs(stepper, now)
     while now.state.time < settings.until - 1e-9 * now.step_history.span:
         found = change(on, now) if now.slabs else None
         if found is not None:
-            on, now = found.on, found.now
-            steps = slabs(prepare(on.model, settings, now, cancel, trying).stepper, now)
+            now = found.now
+            if found.on is not on:
+                on, stepper = found.on, prepare(found.on.model, settings, now, cancel, trying).stepper
+            steps = slabs(stepper, now)
         step = next(steps)
         now = step.march_state
         yield step if found is None else replace(step, transfers=found.transfers, exchanges=found.exchanges)

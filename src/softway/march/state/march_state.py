@@ -95,10 +95,21 @@ class AdaptedMeshes:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class RemeshedMeshes:
-    """Meshes of a march that replaces them, of each such solid by name, and the number of slabs at the last change."""
+    """Meshes of a march that replaces them, of each such solid by name.
+
+    Parameters
+    ----------
+    meshes
+        The meshes.
+    changed
+        Number of slabs at the last change.
+    failed
+        Quality of the worst cells of the solids for which no new mesh was found, at that time.
+    """
 
     meshes: Mapping[str, RemeshedMesh] = field(repr=False)
     changed: int = 0
+    failed: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -6,10 +6,14 @@ from typing import Literal
 from softway.errors import InputError
 from softway.units import Pure
 
-Way = Literal["rezone"]
-"""How a mesh is replaced."""
 WORSE = 0.8
 """Quality, relative to that of the last new mesh, below which a measure that the mesh cannot reach counts again."""
+Way = Literal["auto", "rezone", "new cells"]
+"""How a mesh is replaced."""
+Generator = Literal["own", "mmg"]
+"""What makes new cells."""
+SIMPLICES = ("tri3", "tri6"), ("tet4", "tet10")
+"""Cells that new ones may replace, in the plane and in space."""
 Quality = tuple[float, float, float]
 """Least scaled Jacobian of the cells of a mesh, least angle [degrees], greatest ratio of edges."""
 
@@ -25,7 +29,11 @@ class Remesh:
     Parameters
     ----------
     by
-        ``rezone``: the same cells with their nodes in other places.
+        ``rezone``: the same cells with their nodes in other places; ``new cells``: other triangles or tetrahedra, and
+        in the plane a boundary that is spaced anew; ``auto``: rezoning, and new cells where no rezoned mesh is within
+        the limits and the cells are triangles or tetrahedra.
+    generator
+        What makes new cells: ``own``, or ``mmg``, which needs the extra ``remesh``.
     quality
         Least scaled Jacobian of the cells.
     angle
@@ -43,7 +51,8 @@ class Remesh:
     15.0
     """
 
-    by: Way = "rezone"
+    by: Way = "auto"
+    generator: Generator = "own"
     quality: Pure = 0.3
     angle: Pure = 15.0
     ratio: Pure = 20.0
@@ -84,17 +93,40 @@ class Remesh:
             return f"angle of {now[1]:.3g} degrees"
         return f"ratio of edges {now[2]:.3g}" if now[2] > limits[2] else ""
 
+    def within(self, quality: Quality) -> bool:
+        """Whether the worst cells are within the limits.
+
+        Examples
+        --------
+        >>> Remesh().within((0.5, 40.0, 3.0)), Remesh().within((0.5, 40.0, 30.0))
+        (True, False)
+        """
+        jacobian, angle, ratio = quality
+        return jacobian >= self.quality and angle >= self.angle and ratio <= self.ratio
+
+
+def worse(now: Quality, last: Quality) -> bool:
+    """Whether a measure is a fifth worse than it was.
+
+    Examples
+    --------
+    >>> worse((0.5, 40.0, 3.0), (0.6, 45.0, 2.5)), worse((-0.5, 40.0, 3.0), (-0.4, 40.0, 3.0))
+    (False, True)
+    """
+    lower = any(a < b - (1.0 - WORSE) * abs(b) for a, b in zip(now[:2], last[:2], strict=True))
+    return lower or now[2] > last[2] / WORSE
+
 
 Remeshing = Remesh | Literal["auto"] | None
 """Replacement of the mesh of a solid; ``auto`` is that of ``Remesh()``, None that of a mesh that stays."""
 
 
-def replacement(given: Remeshing) -> Remesh | None:
+def remesh_of(given: Remeshing) -> Remesh | None:
     """Replacement of a mesh; None if it stays.
 
     Examples
     --------
-    >>> replacement("auto") == Remesh(), replacement(None)
+    >>> remesh_of("auto") == Remesh(), remesh_of(None)
     (True, None)
     """
     return Remesh() if given == "auto" else given

@@ -26,13 +26,15 @@ class RemeshedMesh:
         (n, d) places at the start of the matter that was in the nodes of the present mesh when it was new [m].
     matter
         (k, n) values of nodal fields at the matter that was in the k nodes of the first mesh.
+    sizes
+        (n,) lengths of the edges asked for at the nodes when the cells were made [m].
     base
         Mesh with the same cells, in their best shapes; None where it is the first one.
 
     Examples
     --------
     >>> from softway.meshes.generators.shapes import interval
-    >>> remeshed_mesh(interval(1.0, cells=1), 2.0).origin.tolist()
+    >>> remeshed_mesh(interval(1.0, cells=1), 2.0, np.ones(2)).origin.tolist()
     [[0.0], [1.0]]
     """
 
@@ -41,6 +43,7 @@ class RemeshedMesh:
     density: float
     origin: Array
     matter: sp.csr_array
+    sizes: Array
     base: Mesh | None = None
 
     @property
@@ -48,13 +51,15 @@ class RemeshedMesh:
         """Mesh with the same cells, in their best shapes."""
         return self.first if self.base is None else self.base
 
-    def followed(self, mesh: Mesh, density: float, origin: Array, matter: sp.csr_array) -> "RemeshedMesh":
-        """The mesh that replaces this one; with other cells its best shapes are those that it has now."""
+    def followed(self, mesh: Mesh, sizes: Array) -> "RemeshedMesh":
+        """The mesh that replaces this one, before its matter is known; the best shapes of other cells are those that
+        they have now.
+        """
         same = mesh.blocks.keys() == self.mesh.blocks.keys() and all(
             np.array_equal(cells, self.mesh.blocks[name]) for name, cells in mesh.blocks.items()
         )
         base = self.base if same else mesh
-        return replace(self, mesh=mesh, density=density, origin=origin, matter=matter, base=base)
+        return replace(self, mesh=mesh, sizes=sizes, base=base)
 
     def require_of(self, first: Mesh) -> None:
         """Refuse a mesh, such as one of a damaged file, of a march that began on another mesh.
@@ -72,11 +77,14 @@ class RemeshedMesh:
         numbers = fits and np.isfinite(self.origin).all() and np.isfinite(rows.data).all()
         if not (numbers and np.isfinite(self.density) and self.density > 0.0):
             raise InputError("origin", "no places of the matter at the start, or no density", "those of this march")
+        if self.sizes.shape != (n,) or not (np.isfinite(self.sizes).all() and (self.sizes > 0.0).all()):
+            raise InputError("sizes", "no lengths of edges at the nodes", "those of this march")
         if self.ideal.blocks.keys() != self.mesh.blocks.keys() or self.ideal.n_nodes != n:
             raise InputError("base", "another number of nodes than the mesh", "the mesh of this march")
 
 
-def remeshed_mesh(first: Mesh, density: float) -> RemeshedMesh:
-    """The mesh at the start of a march, which nothing has replaced yet."""
+def remeshed_mesh(first: Mesh, density: float, sizes: Array) -> RemeshedMesh:
+    """The mesh at the start of a march, which nothing has replaced yet, with the lengths (n,) of its edges [m]."""
     matter = sp.csr_array(sp.eye_array(first.n_nodes, format="csr"))
-    return RemeshedMesh(first=first, mesh=first, density=density, origin=np.array(first.points), matter=matter)
+    origin = np.array(first.points)
+    return RemeshedMesh(first=first, mesh=first, density=density, origin=origin, matter=matter, sizes=sizes)

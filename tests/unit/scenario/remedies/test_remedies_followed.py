@@ -122,6 +122,7 @@ REASONS = {
     "march/remeshing/admitted.py: _require_carried": "tests/unit/march/remeshing/test_other_parts.py",
     "march/remeshing/adapted_scene.py: at": "a state of another scene, from Python",
     "march/remeshing/forming/formed_scene.py: at": "a state of another scene, from Python",
+    "march/remeshing/forming/formable.py: _require_new_cells": "tests/unit/march/remeshing/forming/test_new_cells.py",
     "march/remeshing/forming/formable.py: _require_plain": FORGED,
     "march/remeshing/forming/formable.py: _require_alone": FORGED,
     "meshes/remeshed/remeshed_mesh.py: require_of": "damaged: tests/unit/march/remeshing/forming/test_continued.py",

@@ -3,6 +3,9 @@
 import logging
 from dataclasses import replace
 
+import numpy as np
+
+from softway.adaptivity.new_cells.mmg import mmg
 from softway.adaptivity.unrelated.control_volumes import require_cells
 from softway.adaptivity.unrelated.memory import require_recast
 from softway.bodies.setup.loads import Traction
@@ -11,7 +14,8 @@ from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 from softway.march.remeshing.admitted import adaptions
 from softway.march.rules.slab_rule import Method
-from softway.meshes.remeshed.remesh import Remesh, replacement
+from softway.meshes.mesh import Mesh
+from softway.meshes.remeshed.remesh import SIMPLICES, Remesh, remesh_of
 from softway.model.model import Model
 from softway.model.scene import Scene
 from softway.solve.methods.central_difference import Explicit
@@ -22,7 +26,7 @@ log = logging.getLogger(__name__)
 def replacements(scene: Scene) -> dict[str, Remesh]:
     """Replacements of the meshes of the solids that have any, by name."""
     solids = {name: body for name, body in scene.bodies.items() if isinstance(body, Solid)}
-    return {name: how for name, solid in solids.items() if (how := replacement(solid.remesh)) is not None}
+    return {name: how for name, solid in solids.items() if (how := remesh_of(solid.remesh)) is not None}
 
 
 def formable(model: Model, method: Method) -> tuple[Model, dict[str, InputError]]:
@@ -56,13 +60,15 @@ def require_formable(model: Model, name: str, method: Method) -> None:
     ------
     InputError
         With the place in the scene: laws that know the undeformed shape, several materials, plane stress, other cells,
-        heat, bulk viscosity, ties, tractions, supports that measure from the undeformed shape, rigid bodies, solids
+        heat, bulk viscosity, ties, tractions, supports that measure from the undeformed shape, new cells of other
+        shapes or around supports inside, Mmg that is not installed, rigid bodies, solids
         that adapt, or central differences.
     """
     part = next(p for p in model.parts if p.name == name)
     with within(f"bodies.{name}"):
         require_recast(part)
         require_cells(part.mesh.blocks)
+        _require_new_cells(part.mesh, _solid(model, name))
         _require_plain(_solid(model, name))
     _require_alone(model, name, method)
 
@@ -76,6 +82,39 @@ def _require_plain(solid: Solid) -> None:
     if any(isinstance(support, Guided | Carried) for support in solid.supports):
         problem = "Guided or Carried, which measure from the shape at the start"
         raise InputError("supports", problem, "Fixed or Driven, or a mesh that stays")
+
+
+def makes_cells(how: Remesh, mesh: Mesh, solid: Solid) -> bool:
+    """Whether a solid may get new cells: its cells are triangles or tetrahedra, and no support is on nodes inside."""
+    return how.by != "rezone" and _simplices(mesh) and _held_inside(mesh, solid) is None
+
+
+def _require_new_cells(mesh: Mesh, solid: Solid) -> None:
+    """Refuse new cells for a solid that cannot have them, where nothing else is allowed."""
+    how = remesh_of(solid.remesh)
+    if how is None or how.by == "rezone":
+        return
+    if how.generator == "mmg":
+        with within("remesh"):
+            mmg()
+    inside = _held_inside(mesh, solid)
+    if how.by == "new cells" and not _simplices(mesh):
+        names = " or ".join(SIMPLICES[mesh.dim - 2])
+        remedy = f'a mesh of {names}, with dilatation = "corner" where the volume stays; or by = "rezone"'
+        raise InputError("remesh.by", f"new cells for {', '.join(mesh.blocks)}", remedy)
+    if how.by == "new cells" and inside is not None:
+        raise InputError("remesh.by", f"new cells with a support on nodes inside, {inside!r}", 'by = "rezone"')
+
+
+def _simplices(mesh: Mesh) -> bool:
+    """Whether all cells are triangles or tetrahedra."""
+    return any(tuple(mesh.blocks) == (cell,) for cell in SIMPLICES[mesh.dim - 2])
+
+
+def _held_inside(mesh: Mesh, solid: Solid) -> str | None:
+    """Tag of a support on nodes inside a body; None if there is none."""
+    surface = np.isin(np.arange(mesh.n_nodes), mesh.nodes("surface"))
+    return next((held.on for held in solid.supports if not surface[mesh.nodes(held.on)].all()), None)
 
 
 def _require_alone(model: Model, name: str, method: Method) -> None:

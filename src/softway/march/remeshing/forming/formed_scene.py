@@ -5,11 +5,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from softway.adaptivity.new_cells.sizes import edge_lengths
 from softway.adaptivity.rezoning.quality import cell_quality
-from softway.adaptivity.rezoning.rezone import rezoned
 from softway.adaptivity.unrelated.fields import interpolation
 from softway.arrays import Array, BoolArray
 from softway.bodies.discretised import DiscreteSolid, discretise
+from softway.bodies.elements.section import Axisymmetric
 from softway.bodies.setup.initial_fields import Uniform
 from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid
@@ -18,15 +19,33 @@ from softway.heat.coupled.build import build
 from softway.march.remeshing.forming.formable import replacements
 from softway.march.state.march_state import MarchState
 from softway.meshes.mesh import Mesh
-from softway.meshes.remeshed.remesh import Quality
+from softway.meshes.remeshed.remesh import Quality, worse
 from softway.meshes.remeshed.remeshed_mesh import RemeshedMesh, remeshed_mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
 
 PASSES = 5
 """Greatest number of corrections of nodes on tools."""
+ON_AXIS = 1e-12
+"""Radius, relative to the size of the solid, within which a node is on the axis."""
 ON_TOOL = 1e-14
 """Gap, relative to the size of the solid, at which a node is on its tool."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Replacement:
+    """Mesh of the present shape of a solid.
+
+    Parameters
+    ----------
+    mesh
+        The mesh.
+    sizes
+        (n,) lengths of the edges asked for at its nodes, when its cells were made [m].
+    """
+
+    mesh: Mesh
+    sizes: Array
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -61,24 +80,40 @@ class FormedScene:
     def places(self, now: MarchState, name: str) -> Array:
         """Present places (n, d) of the nodes of a solid [m]."""
         part = self.part(name)
-        return np.asarray(part.mesh.points + now.state.start.displacement[part.nodes])
+        found = np.asarray(part.mesh.points + now.state.start.displacement[part.nodes])
+        if isinstance(part.internal.section, Axisymmetric):
+            found[np.abs(found[:, 0]) < ON_AXIS * np.ptp(found), 0] = 0.0
+        return found
+
+    def quality(self, now: MarchState, name: str) -> Quality:
+        """Present quality of the worst cells of a solid."""
+        return cell_quality(self.part(name).mesh.blocks, self.places(now, name)).worst
 
     def asks(self, now: MarchState) -> dict[str, str]:
-        """Solids that ask for another mesh, and the measure by which they do."""
-        since = now.slabs - (0 if now.remeshed is None else now.remeshed.changed)
-        history, found = now.step_history, {}
+        """Solids that ask for another mesh, and the measure by which they do.
+
+        Where none was found, a solid asks again when its cells are a fifth worse than they were then.
+        """
+        stored, history, found = now.remeshed, now.step_history, {}
+        since = now.slabs - (0 if stored is None else stored.changed)
         for name, how in replacements(self.scene).items():
-            quality = cell_quality(self.part(name).mesh.blocks, self.places(now, name)).worst
+            quality = self.quality(now, name)
             short = history.rejected > 0 and now.state.span < how.shortened * history.span
             reason = how.asks(quality, self.new[name]) or (f"slab of {now.state.span:.3g} s" if short else "")
-            if reason and since >= how.every:
+            failed = None if stored is None else stored.failed.get(name)
+            if reason and since >= how.every and (failed is None or worse(quality, failed)):
                 found[name] = reason
         return found
 
-    def on(self, meshes: Mapping[str, Mesh], now: MarchState) -> "FormedScene":
+    def on(self, meshes: Mapping[str, Replacement], now: MarchState) -> "FormedScene":
         """The scene with other meshes of the present shapes; densities keep the masses."""
         found = {name: self._followed(name, mesh, self.places(now, name)) for name, mesh in meshes.items()}
         return self._with({**self.meshes, **found}, found)
+
+    def trial(self, name: str, new: Replacement) -> Model:
+        """Model with another mesh of a solid."""
+        mesh = self.meshes[name].followed(new.mesh, new.sizes)
+        return self._with({**self.meshes, name: mesh}, {name: mesh}).model
 
     def at(self, meshes: Mapping[str, RemeshedMesh]) -> "FormedScene":
         """The scene on the meshes of a state.
@@ -103,29 +138,16 @@ class FormedScene:
         new = {**self.new, **{name: _quality(mesh.mesh) for name, mesh in changed.items()}}
         return FormedScene(model=replace(model, remeshed=meshes, declared=self.model.declared), new=new)
 
-    def _followed(self, name: str, mesh: Mesh, places: Array) -> RemeshedMesh:
+    def _followed(self, name: str, new: Replacement, places: Array) -> RemeshedMesh:
         """The mesh that replaces that of a solid with nodes at ``places`` (n, d)."""
-        part, before = self.part(name), self.meshes[name]
+        part, before, mesh = self.part(name), self.meshes[name], new.mesh
         still = _still(self.scene, name, mesh, before.density)
         volumes = [float(p.internal.sampling.volume.sum()) for p in (part, discretise(name, still, 0))]
         back = interpolation(part.mesh.blocks, places, mesh.points)
         matter = interpolation(mesh.blocks, mesh.points, before.matter @ places)
         density = before.density * volumes[0] / volumes[1]
-        return before.followed(mesh, density, np.asarray(back @ before.origin), matter)
-
-    def rezoned(self, now: MarchState, name: str) -> Mesh | None:
-        """New mesh of the present shape of a solid; None if no cells fit into it."""
-        closed, kept = self.touching(now, name)
-        solid = self.scene.bodies[name]
-        assert isinstance(solid, Solid)
-        tags = tuple(support.on for support in solid.supports)
-
-        def on_tools(places: Array, touching: BoolArray) -> Array:
-            return self.on_tools(now, name, touching & ~kept, places)
-
-        part, ideal = self.part(name), self.meshes[name].ideal
-        found = rezoned(part, ideal, self.places(now, name), closed, kept, on_tools, tags)
-        return None if found is None else replace(part.mesh, points=found)
+        found = before.followed(mesh, new.sizes)
+        return replace(found, density=density, origin=np.asarray(back @ before.origin), matter=matter)
 
     def touching(self, now: MarchState, name: str) -> tuple[BoolArray, BoolArray]:
         """Nodes (n,) of a solid in closed contacts, and those of them in contact with other solids."""
@@ -142,23 +164,26 @@ class FormedScene:
             masks.append(mask[part.nodes])
         return masks[0], masks[1]
 
-    def on_tools(self, now: MarchState, name: str, closed: BoolArray, places: Array) -> Array:
-        """Places (n, d) of the nodes of a solid, out of the tools, with those in contact on them."""
-        part, u = self.part(name), np.array(now.state.start.displacement)
-        mine, free = part.nodes, part.dofs.free
-        for _ in range(PASSES):
-            u[mine] = places - part.mesh.points
-            rows = self.model.rows(u, now.state.time)
-            gap = rows.gap(u)
-            some = rows.near & (rows.node >= mine.start) & (rows.node < mine.stop)
-            node = np.clip(rows.node - mine.start, 0, len(places) - 1)
-            some &= closed[node] | (gap < 0.0)
-            some &= np.abs(gap) > ON_TOOL * np.ptp(places)
-            if not some.any():
-                break
-            places = np.array(places)
-            places[node[some]] -= np.where(free[node[some]], gap[some, None] * rows.normal[some], 0.0)
-        return places
+
+def on_tools(model: Model, u: Array, time: float, name: str, closed: BoolArray, places: Array) -> Array:
+    """Places (n, d) of the nodes of a solid, out of the tools, with those in contact on them; with displacements u of
+    all solids.
+    """
+    part, u = next(p for p in model.parts if p.name == name), np.array(u)
+    mine, free = part.nodes, part.dofs.free
+    for _ in range(PASSES):
+        u[mine] = places - part.mesh.points
+        rows = model.rows(u, time)
+        gap = rows.gap(u)
+        some = rows.near & (rows.node >= mine.start) & (rows.node < mine.stop)
+        node = np.clip(rows.node - mine.start, 0, len(places) - 1)
+        some &= closed[node] | (gap < 0.0)
+        some &= np.abs(gap) > ON_TOOL * np.ptp(places)
+        if not some.any():
+            break
+        places = np.array(places)
+        places[node[some]] -= np.where(free[node[some]], gap[some, None] * rows.normal[some], 0.0)
+    return places
 
 
 def formed_scene(model: Model) -> FormedScene:
@@ -166,9 +191,10 @@ def formed_scene(model: Model) -> FormedScene:
     if model.remeshed:
         meshes = model.remeshed
     else:
-        meshes = {
-            name: remeshed_mesh(model.meshes[name], _density(model.scene, name)) for name in replacements(model.scene)
-        }
+        meshes = {}
+        for name in replacements(model.scene):
+            mesh = model.meshes[name]
+            meshes[name] = remeshed_mesh(mesh, _density(model.scene, name), edge_lengths(mesh))
         bodies = dict(model.scene.bodies)
         for name, mesh in meshes.items():
             bodies[name] = replace(_solid(model.scene, name), mesh=mesh.mesh, place=Placement(), group=())

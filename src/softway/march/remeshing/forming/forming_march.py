@@ -1,18 +1,19 @@
 """March of a scene in which degraded meshes of some solids are replaced between slabs."""
 
 import logging
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from softway.errors import Cancel, NumericsError
 from softway.march.remeshing.changing_slabs import Change, changing_slabs
 from softway.march.remeshing.forming.carried import carried_on
-from softway.march.remeshing.forming.formed_scene import FormedScene, formed_scene
+from softway.march.remeshing.forming.formable import replacements
+from softway.march.remeshing.forming.formed_scene import FormedScene, Replacement, formed_scene
+from softway.march.remeshing.forming.replacement import replacement
 from softway.march.results.step import Step
 from softway.march.results.trying import TryWatch
 from softway.march.start.preparation import prepare
 from softway.march.state.march_state import MarchState, RemeshedMeshes, Settings
-from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.model.scene import State
 
@@ -53,22 +54,37 @@ def forming_march(
 
 
 def _change(on: FormedScene, now: MarchState) -> Change[FormedScene] | None:
-    """Change to new meshes of the solids that ask for them; None if there are none.
+    """Change to new meshes of the solids that ask for them; None if none does.
 
-    Meshes stay where no cells fit into a shape, and where massless nodes find no equilibrium.
+    Meshes stay where no cells fit into a shape, and where massless nodes find no equilibrium; the state then has the
+    quality of their cells.
     """
-    reasons, meshes = on.asks(now), dict[str, Mesh]()
+    reasons, meshes = on.asks(now), dict[str, Replacement]()
+    if not reasons:
+        return None
+    hows = replacements(on.scene)
     for name in reasons:
-        found = on.rezoned(now, name)
+        found = replacement(on, hows[name], now, name)
         if found is None:
             log.info("no new mesh of %r at t = %.6g s fits", name, now.state.time)
         else:
             meshes[name] = found
-    if not meshes:
-        return None
+    changed = _changed(on, now, meshes, {name: reasons[name] for name in meshes}) if meshes else None
+    stay = [name for name in reasons if changed is None or name not in meshes]
+    change = changed or Change(on=on, now=now)
+    assert now.remeshed is not None and change.now.remeshed is not None
+    before = {name: quality for name, quality in now.remeshed.failed.items() if name not in reasons}
+    failed = {**before, **{name: on.quality(now, name) for name in stay}}
+    return replace(change, now=replace(change.now, remeshed=replace(change.now.remeshed, failed=failed)))
+
+
+def _changed(
+    on: FormedScene, now: MarchState, meshes: Mapping[str, Replacement], reasons: Mapping[str, str]
+) -> Change[FormedScene] | None:
+    """Change to new meshes; None if massless nodes find no equilibrium on them."""
     new = on.on(meshes, now)
     try:
-        reached, exchanges = carried_on(on, new, now, {name: reasons[name] for name in meshes})
+        reached, exchanges = carried_on(on, new, now, reasons)
     except NumericsError as error:
         log.info("meshes stay as they are at t = %.6g s: %s", now.state.time, error.what)
         return None

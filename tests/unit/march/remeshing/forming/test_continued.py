@@ -91,6 +91,7 @@ def test_states_of_other_meshes_are_refused(whole: list[sw.Step]) -> None:
 DAMAGES: dict[str, dict[str, Any]] = {
     "origin": {"origin": np.zeros((3, 2))},
     "density": {"density": -1.0},
+    "sizes": {"sizes": np.zeros(42)},
     "base": {"base": sw.meshes.Rectangle(size=(1.0, 1.0), cells=(2, 2)).build()},
 }
 
@@ -112,7 +113,7 @@ def test_meshes_stay_where_none_fits(monkeypatch: pytest.MonkeyPatch, what: str)
         raise NumericsError("no static equilibrium", 0.0)
 
     if what == "no cells":
-        monkeypatch.setattr(forming_march.FormedScene, "rezoned", lambda *_: None)
+        monkeypatch.setattr(forming_march, "replacement", lambda *_: None)
     else:
         monkeypatch.setattr(forming_march, "carried_on", refused)
     steps = forged(HOW, 0.15, 6, (4, 3))
