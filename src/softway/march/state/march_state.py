@@ -9,6 +9,7 @@ from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.march.state.model_state import ModelState
 from softway.march.state.step_control import StepControl
 from softway.meshes.adaptive.leaves import Leaves
+from softway.meshes.remeshed.remesh import Quality
 from softway.meshes.remeshed.remeshed_mesh import RemeshedMesh
 from softway.model.model import Model
 from softway.model.time_weight import TimeWeight
@@ -109,7 +110,7 @@ class RemeshedMeshes:
 
     meshes: Mapping[str, RemeshedMesh] = field(repr=False)
     changed: int = 0
-    failed: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    failed: Mapping[str, Quality] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -193,8 +193,8 @@ def formed_scene(model: Model) -> FormedScene:
     else:
         meshes = {}
         for name in replacements(model.scene):
-            mesh = model.meshes[name]
-            meshes[name] = remeshed_mesh(mesh, _density(model.scene, name), edge_lengths(mesh))
+            first = model.meshes[name]
+            meshes[name] = remeshed_mesh(first, _density(model.scene, name), edge_lengths(first))
         bodies = dict(model.scene.bodies)
         for name, mesh in meshes.items():
             bodies[name] = replace(_solid(model.scene, name), mesh=mesh.mesh, place=Placement(), group=())

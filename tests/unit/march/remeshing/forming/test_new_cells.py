@@ -190,7 +190,7 @@ def test_supports_on_nodes_inside(by: Way) -> None:
         require_formable(model, "body", sw.FixedPoint())
 
 
-SCENE = press(Remesh(by="new cells", quality=0.5))
+SCENE = press(Remesh(by="new cells", quality=0.6))
 
 
 @pytest.fixture(scope="module")
