@@ -171,3 +171,80 @@ def test_notes_on_meshes_that_stay(tmp_path) -> None:
     with pytest.raises(InputError, match=r"bodies\.body\.material: NeoHookean"):
         check(scenario(tmp_path, NEW, ELASTIC))
     assert check(scenario(tmp_path, '"auto"')).model.remeshed.keys() == {"body"}
+
+
+@pytest.fixture(scope="module")
+def renewed(tmp_path_factory):
+    """Triangles with ``remesh = "auto"``, pressed until no rezoned mesh is within the limits."""
+    folder = tmp_path_factory.mktemp("renewed")
+    return sw.run(triangles(folder), folder / "run")
+
+
+def triangles(folder) -> sw.Scenario:
+    """Press of triangles as a file."""
+    text = TEXT.format(remesh='"auto"', **VISCOUS).replace("0.24 s", "0.56 s")
+    text = text.replace("cells = [4, 3]", 'cells = [4, 3], cell = "tri3"').replace('"mean"', '"corner"')
+    (file := folder / "triangles.toml").write_text(text)
+    return sw.load(file)
+
+
+def test_a_run_with_new_cells(renewed) -> None:
+    """Events, audit and frames, whose matter came from the body at the start."""
+    assert renewed.status == "done"
+    nodes = renewed.history["mesh.nodes"]
+    assert nodes[0] == 20 and len(set(nodes)) > 1
+    assert main(["audit", str(renewed.path), "--strict"]) == 0
+    assert not history_audited(renewed.history)
+    assert not any(depths.findings for depths in frames_audited(renewed.fields))
+    assert set(renewed.events["contact"][renewed.events["kind"] == MESH]) == {"body"}
+    for frame, cells in renewed.fields.with_cells():
+        assert len(frame.points) == len(cells.reference)
+        begun = frame.points - frame.displacement
+        for axis, size in enumerate((1.0, 0.75)):
+            assert begun[:, axis].min() == pytest.approx(0.0, abs=0.01)
+            assert begun[:, axis].max() == pytest.approx(size, abs=0.02)
+        np.testing.assert_allclose(frame.displacement[cells.reference[:, 1] == 0.0, 1], 0.0, atol=1e-14)
+
+
+def test_probes_with_new_cells(renewed) -> None:
+    """No jumps, forces that balance, and speeds of the platen at nodes that came from the top."""
+    history = renewed.history
+    for name in ("corner", "gone", "flank"):
+        growth = np.diff(history[name])
+        assert np.abs(np.diff(growth)).max() < 0.5 * growth.max()
+    assert history["gone"][-1] > 0.56
+    assert history["held"][1:] == pytest.approx(history["contact.platen.force_n"][1:], rel=1e-9)
+    assert history["speed"][1:] == pytest.approx(-1.0, abs=1e-9)
+
+
+def test_a_resumed_run_with_new_cells(renewed, tmp_path) -> None:
+    """Stopped after the change of the cells, it goes on with the same bits."""
+    changed = int(np.flatnonzero(np.diff(renewed.history["mesh.nodes"]))[0]) + 1
+    seen = itertools.count(1)
+
+    def stop(progress: object) -> None:
+        if next(seen) == changed + 1:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sw.run(triangles(tmp_path), tmp_path / "stopped", progress=stop)
+    sw.resume(tmp_path / "stopped")
+    assert differences(tmp_path / "stopped", renewed.path) == []
+
+
+def test_pictures_with_new_cells(renewed, tmp_path) -> None:
+    assert main(["plot", str(renewed.path), "--out", str(tmp_path / "picture.png")]) == 0
+    assert (tmp_path / "picture.png").is_file() and (tmp_path / "picture_history.png").is_file()
+
+
+@pytest.mark.slow
+def test_the_page_with_new_cells(renewed) -> None:
+    pytest.importorskip("trame")
+    pytest.importorskip("pyvista")
+    from softway.apps.viewer.app import page
+
+    made = page(renewed)
+    for k in (0, len(renewed.fields) - 1):
+        made.frame(k)
+        x = renewed.fields[k].points[:, 0]
+        assert made.solids.skin.bounds[:2] == pytest.approx((x.min(), x.max()), abs=1e-6)

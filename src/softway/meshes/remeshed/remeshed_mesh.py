@@ -29,7 +29,7 @@ class RemeshedMesh:
     sizes
         (n,) lengths of the edges asked for at the nodes when the cells were made [m].
     base
-        Mesh with the same cells, in their best shapes; None where it is the first one.
+        (n, d) places of the nodes in which the cells have their best shapes; None where it is the first mesh [m].
 
     Examples
     --------
@@ -44,12 +44,12 @@ class RemeshedMesh:
     origin: Array
     matter: sp.csr_array
     sizes: Array
-    base: Mesh | None = None
+    base: Array | None = None
 
     @property
     def ideal(self) -> Mesh:
         """Mesh with the same cells, in their best shapes."""
-        return self.first if self.base is None else self.base
+        return self.first if self.base is None else replace(self.mesh, points=self.base)
 
     def followed(self, mesh: Mesh, sizes: Array) -> "RemeshedMesh":
         """The mesh that replaces this one, before its matter is known; the best shapes of other cells are those that
@@ -58,7 +58,7 @@ class RemeshedMesh:
         same = mesh.blocks.keys() == self.mesh.blocks.keys() and all(
             np.array_equal(cells, self.mesh.blocks[name]) for name, cells in mesh.blocks.items()
         )
-        base = self.base if same else mesh
+        base = self.base if same else np.array(mesh.points)
         return replace(self, mesh=mesh, sizes=sizes, base=base)
 
     def require_of(self, first: Mesh) -> None:
@@ -79,7 +79,8 @@ class RemeshedMesh:
             raise InputError("origin", "no places of the matter at the start, or no density", "those of this march")
         if self.sizes.shape != (n,) or not (np.isfinite(self.sizes).all() and (self.sizes > 0.0).all()):
             raise InputError("sizes", "no lengths of edges at the nodes", "those of this march")
-        if self.ideal.blocks.keys() != self.mesh.blocks.keys() or self.ideal.n_nodes != n:
+        best = self.first.points if self.base is None else self.base
+        if best.shape != self.mesh.points.shape or not np.isfinite(best).all():
             raise InputError("base", "another number of nodes than the mesh", "the mesh of this march")
 
 
