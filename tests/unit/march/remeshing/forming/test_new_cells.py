@@ -1,5 +1,6 @@
 """Marches with new cells: a bar thrown at a wall, presses, and bodies that get none."""
 
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -263,3 +264,10 @@ def test_a_failed_change_waits_until_the_cells_are_a_fifth_worse(monkeypatch: py
     tried.clear()
     rest = list(sw.march(SCENE, state=unpacked(*packed(steps[first + 1].march_state)), **GIVEN))
     assert tried == whole[1:] and np.array_equal(places(rest[-1]), places(steps[-1]))
+
+
+def test_mmg_that_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Told before the march, not at the first change."""
+    monkeypatch.setitem(sys.modules, "mmgpy", None)
+    with pytest.raises(InputError, match=r"bodies\.body\.remesh\.generator: mmgpy"):
+        sw.march(press(Remesh(generator="mmg")), until=0.01, step=0.01)
