@@ -24,8 +24,8 @@ class Remesh:
 
     The mesh is replaced between two slabs when a cell falls below one of the limits, or when a slab had to be much
     shorter than asked for.  Where the shape of the body allows no mesh within a limit, the quality of the last mesh
-    takes its place: the mesh is replaced again when it is a fifth worse than that.  Where no new mesh is found, the next try waits until the
-    cells are a fifth worse.
+    takes its place: the mesh is replaced again when it is a fifth worse than that.  Where no new mesh is found, the
+    next try waits until the cells are a fifth worse.
 
     Parameters
     ----------
