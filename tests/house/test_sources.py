@@ -48,6 +48,7 @@ DOORS = {
     "sksparse": ("softway.solve.linear.backends.cholmod",),
     "distributed": ("softway.studies.sweep.cluster",),
     "mumps": ("softway.solve.linear.backends.mumps",),
+    "mmgpy": ("softway.adaptivity.new_cells.mmg",),
     "mujoco": ("softway.mechanisms.robots.robot_file",),
     "gmsh": (),
     "numba": ("softway.kernels.*",),

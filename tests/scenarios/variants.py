@@ -222,6 +222,16 @@ VARIANTS: Mapping[str, Variant] = {
         same="same platen, friction and slabs; a third of the way down",
         held={"ring": {"bottom": (1,), "top": (1,)}},  # plane of symmetry, contact that starts flush
     ),
+    "upsetting": Variant(
+        changes=(
+            "bodies.cylinder.mesh.cells=[4, 4]",
+            "bodies.cylinder.remesh={ ratio = 1.3 }",
+            "time.end=0.24 s",
+            "time.step=20 ms",
+        ),
+        same="the same press, to a third, with limits of the cells that they reach there: the mesh is replaced",
+        held={"cylinder": {"bottom": (1,), "left": (0,), "top": (1,)}},  # symmetry, axis, contact that starts flush
+    ),
     "phone_drop": Variant(
         changes=(
             "bodies.glass.mesh.cells=[4, 2, 1]",

@@ -99,7 +99,7 @@ def spin(places: Array, momenta: Array) -> Array:
 
 
 def balanced(
-    after: MassiveSolid, motions: Array, velocity: Array, momenta: Array, kinetic: float
+    after: MassiveSolid, motions: Array, velocity: Array, momenta: Array, kinetic: float, most: float = MOST
 ) -> tuple[Array, float]:
     """Velocity (n, d) with given momenta of the free rigid motions and, where a scalar allows it, kinetic energy.
 
@@ -118,6 +118,8 @@ def balanced(
         (m,) momenta ``Z^T M v`` to have.
     kinetic
         Kinetic energy to have [J].
+    most
+        Greatest ``|s^2 - 1|`` of the scalar s.
 
     Returns
     -------
@@ -130,7 +132,7 @@ def balanced(
         rest = rest - _rigid(after, motions, _momenta(after, motions, rest)).reshape(given.shape)
         left = momenta - _momenta(after, motions, base + rest)
         base = base + _rigid(after, motions, left).reshape(given.shape)
-    return base + (scalar := _scalar(after, base, rest, kinetic)) * rest, scalar
+    return base + (scalar := _scalar(after, base, rest, kinetic, most)) * rest, scalar
 
 
 def _momenta(after: MassiveSolid, motions: Array, velocity: Array) -> Array:
@@ -145,7 +147,7 @@ def _rigid(after: MassiveSolid, motions: Array, momenta: Array) -> Array:
     return np.asarray(motions @ (np.linalg.pinv(inertia, rcond=HELD, hermitian=True) @ momenta))
 
 
-def _scalar(after: MassiveSolid, base: Array, rest: Array, kinetic: float) -> float:
+def _scalar(after: MassiveSolid, base: Array, rest: Array, kinetic: float, most: float) -> float:
     """Scalar s near one with ``T(base + s rest) = kinetic``; one if there is none."""
     quadratic, constant = after.kinetic(rest), after.kinetic(base) - kinetic
     half = 0.5 * float((base * (after.mass @ rest)).sum())
@@ -153,4 +155,4 @@ def _scalar(after: MassiveSolid, base: Array, rest: Array, kinetic: float) -> fl
     if quadratic <= SMALL * max(abs(kinetic), after.kinetic(base)) or root < 0.0:
         return 1.0
     found = (-half + float(np.sqrt(root))) / quadratic
-    return found if abs(found**2 - 1.0) <= MOST else 1.0
+    return found if abs(found**2 - 1.0) <= most else 1.0

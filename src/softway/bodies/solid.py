@@ -29,6 +29,7 @@ from softway.laws.law import Material, RateLaw
 from softway.meshes.adaptive.adapt import Adapting
 from softway.meshes.generators.recipes import MeshSource
 from softway.meshes.mesh import Mesh
+from softway.meshes.remeshed.remesh import Remeshing
 from softway.obstacles.primitives import Shape
 from softway.units import KilogramPerCubicMetre
 
@@ -68,6 +69,9 @@ class Solid:
         Placements of groups that the solid belongs to, applied after its own, in order.
     adapt
         Adaption of the mesh to waves and contacts: ``auto``, or its numbers; the mesh stays by default.
+    remesh
+        Replacement of the mesh before its cells degenerate, as in a forging: ``auto``, or its numbers; the mesh stays
+        by default.
     """
 
     mesh: MeshSource | Mesh
@@ -85,6 +89,7 @@ class Solid:
     place: Placement = Placement()
     group: tuple[Placement, ...] = ()
     adapt: Adapting = None
+    remesh: Remeshing = None
 
     def __post_init__(self) -> None:
         if isinstance(self.force, EnergyMomentum) and isinstance(self.section, Axisymmetric):

@@ -1,4 +1,4 @@
-"""March of a scene: accepted slabs (time steps), on meshes that stay or that adapt."""
+"""March of a scene: accepted slabs (time steps), on meshes that stay, adapt or are replaced."""
 
 from collections.abc import Iterator
 from typing import Literal
@@ -7,6 +7,8 @@ from softway.errors import Cancel
 from softway.heat.coupled.build import build
 from softway.march.remeshing.adaptive_march import adaptive_march
 from softway.march.remeshing.admitted import adaptions, admitted
+from softway.march.remeshing.forming.formable import formable, replacements
+from softway.march.remeshing.forming.forming_march import forming_march
 from softway.march.results.step import Step
 from softway.march.results.trying import TryWatch
 from softway.march.rules.slab_rule import Method
@@ -40,8 +42,9 @@ def march(
     Parameters
     ----------
     scene
-        Scene, or a built model.  Meshes of solids with :class:`~softway.meshes.adaptive.adapt.Adapt` change between
-        slabs (docs/theory/bodies/adaptive.md); each step has its model.
+        Scene, or a built model.  Meshes of solids with :class:`~softway.meshes.adaptive.adapt.Adapt`, or with
+        :class:`~softway.meshes.remeshed.remesh.Remesh`, change between slabs (docs/theory/bodies/adaptive.md,
+        docs/theory/bodies/remeshing.md); each step has its model.
     until
         End time [s].
     step
@@ -91,10 +94,12 @@ def march(
     True
     """
     model = scene if isinstance(scene, Model) else build(scene)
-    model = admitted(model, method)[0]
+    model = formable(admitted(model, method)[0], method)[0]
     bound = slab_tolerance(model, step, tolerance, weight, method)
     settings = Settings(until=until, step=step, weight=weight, method=method, control=control, tolerance=bound)
     if adaptions(model.scene):
         return adaptive_march(model, settings, state, cancel, trying)
+    if replacements(model.scene):
+        return forming_march(model, settings, state, cancel, trying)
     prepared = prepare(model, settings, state, cancel, trying)
     return slabs(prepared.stepper, prepared.march_state)

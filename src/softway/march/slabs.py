@@ -47,7 +47,7 @@ def slabs(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
         march_state = _after(model, march_state, found, cells)
         step = _step(model, before, found, march_state)
         log.debug("slab %d to t = %.6g s: %d iterations", march_state.slabs, found.after.time, found.out.iterations)
-        yield step
+        yield (step := _step(model, before, found, march_state))
         before, memory = step.after, found.memory
 
 
@@ -73,12 +73,14 @@ def _after(model: Model, march_state: MarchState, found: AcceptedSlab, cells: Cr
                 (until - found.after.time) / found.slab.span,
             ),
             last_rejection=[march_state.step_history.last_rejection, *found.rejections][-1],
+            rejected=len(found.rejections),
             smooth=smooth,
             fastest=_fastest(model, march_state, found),
         ),
         memory=found.memory.bare(),
         slabs=march_state.slabs + 1,
         adapted=_adapted(march_state.adapted, found.ledger),
+        remeshed=march_state.remeshed,
     )
 
 

@@ -12,6 +12,7 @@ from softway.meshes.generators.recipes import Rectangle as Rectangle
 from softway.meshes.generators.zones import InBall as InBall
 from softway.meshes.generators.zones import InBox as InBox
 from softway.meshes.mesh import Mesh as Mesh
+from softway.meshes.remeshed.remesh import Remesh as Remesh
 
 __all__ = [
     "Adapt",
@@ -26,4 +27,5 @@ __all__ = [
     "Mesh",
     "MeshFile",
     "Rectangle",
+    "Remesh",
 ]

@@ -24,6 +24,7 @@ from softway.contact.friction_rows import FrictionRows
 from softway.contact.impact_rule import ImpactRule
 from softway.meshes.adaptive.refinement import AdaptedMesh
 from softway.meshes.mesh import Mesh
+from softway.meshes.remeshed.remeshed_mesh import RemeshedMesh
 from softway.model.cohesive_ties import CohesiveTies, damaged
 from softway.model.field import Field, FieldEquations, FieldState, stiffness_factor
 from softway.model.rigid.rigid_bodies import RigidBodies
@@ -76,10 +77,8 @@ class Model:
         (parts,) stored energy below which a body is undeformed: a uniform strain of 1e-14 [J].
     total
         Assembly of mass plus tangent stiffness on the unknowns.
-    timing
-        Impact rule of the scene.
-    friction
-        Friction laws of the contact rows.
+    timing, friction
+        Impact rule of the scene, and friction laws of the contact rows.
     space
         Sums, inner products and greatest values of nodal fields.
     companions
@@ -90,8 +89,8 @@ class Model:
         Rigid bodies; None without.
     declared
         Number in the scene as it was given of each contact.
-    adapted
-        Adapted meshes of the solids whose meshes change in a march, by name.
+    adapted, remeshed
+        Meshes of the solids whose meshes adapt in a march, and of those whose meshes are replaced, by name.
     """
 
     scene: Scene
@@ -126,6 +125,7 @@ class Model:
     rigid: RigidBodies | None = None
     declared: tuple[int, ...] = ()
     adapted: Mapping[str, AdaptedMesh] = field(default_factory=dict)
+    remeshed: Mapping[str, RemeshedMesh] = field(default_factory=dict)
 
     @property
     def free(self) -> BoolArray:

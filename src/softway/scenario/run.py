@@ -17,6 +17,7 @@ from softway.march.audit.balances import balances, contact_forces
 from softway.march.audit.ledger import initial_ledger as audit
 from softway.march.march import march
 from softway.march.remeshing.adapted_scene import adapted_scene
+from softway.march.remeshing.forming.formed_scene import formed_scene
 from softway.march.results.step import Ledger, Step
 from softway.march.start.initial_state import without_contact
 from softway.march.start.stored_state import require_of_model
@@ -157,6 +158,9 @@ def _require_state(model: Model, pattern: ModelState, state: object) -> None:
         raise InputError("state", f"is a {type(state).__name__}", "a checkpoint of this run")
     if state.adapted is not None:
         model = adapted_scene(model).at(state.adapted.leaves).model
+    if state.remeshed is not None:
+        model = formed_scene(model).at(state.remeshed.meshes).model
+    if state.adapted is not None or state.remeshed is not None:
         pattern = without_contact(model)
     require_of_model(model, pattern, state)
 
@@ -185,7 +189,7 @@ def _opening(checked: Checked) -> RunStart:
     """Start of the run of a checked scenario."""
     model, start = checked.model, checked.march_state.state
     given, initial, ledger = checked.scenario, split_states(model, start), audit(model, start)
-    if not model.adapted:
+    if not (model.adapted or model.remeshed):
         return _start(given, initial, ledger, model)
     on_meshes = lru_cache(maxsize=1)(partial(_start, given, initial, ledger))
     return replace(_start(given, initial, ledger, model), on_meshes=on_meshes)
@@ -205,7 +209,7 @@ def _start(given: Scenario, initial: State, ledger: Ledger, model: Model) -> Run
         ledger=ledger,
         until=given.time.end,
         fields_every=_every(given),
-        readings=probe_readings(given, model.meshes, model.scene.mechanism, model.adapted),
+        readings=probe_readings(given, model.meshes, model.scene.mechanism, {**model.adapted, **model.remeshed}),
         fields=model.fields,
         audit=given.output.audit,
         balances=partial(balances, model),

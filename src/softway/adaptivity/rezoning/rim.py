@@ -156,22 +156,22 @@ def slid(base: Array, rim: IntArray, places: Array, held: Anchors, closed: BoolA
         end = int(held.at[following]) + (count if following <= k else 0)
         first, last = int(held.target[k]), int(held.target[following]) + (count if following <= k else 0)
         new, old = rim[np.arange(start, end + 1) % count], rim[np.arange(first, last + 1) % count]
-        share = _lengths(base[new])
+        share = lengths_along(base[new])
         flat = bool(closed[old].all())
-        out[np.arange(start, end + 1) % count] = _curve(places[old], share / share[-1], flat)
+        out[np.arange(start, end + 1) % count] = curve(places[old], share / share[-1], flat)
         touching[np.arange(start, end + 1) % count] |= flat
         touching[[start % count, end % count]] |= closed[old[[0, -1]]]
     return out, touching
 
 
-def _lengths(points: Array) -> Array:
+def lengths_along(points: Array) -> Array:
     """Length (k,) of a polygon (k, 2) up to each corner."""
     return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
 
 
-def _curve(points: Array, shares: Sequence[float] | Array, straight: bool) -> Array:
+def curve(points: Array, shares: Sequence[float] | Array, straight: bool) -> Array:
     """Places (m, 2) at shares (m,) of the length of a curve through points (k, 2)."""
-    lengths = _lengths(points)
+    lengths = lengths_along(points)
     at = np.asarray(shares) * lengths[-1]
     if straight or len(points) < 4:
         found = np.stack([np.interp(at, lengths, values) for values in points.T], axis=1)

@@ -54,6 +54,13 @@ class Distortion:
             return float("inf")
         return float(self.weights @ ((F * F).sum(axis=(1, 2)) / (d * det ** (2.0 / d))))
 
+    def values(self, places: Array) -> Array:
+        """Distortions (k,) of the simplices; infinite if degenerate."""
+        F = self.map(places)
+        det, d = np.linalg.det(F), F.shape[1]
+        safe = np.where(det > 0.0, det, np.inf)
+        return np.where(det > 0.0, (F * F).sum(axis=(1, 2)) / (d * safe ** (2.0 / d)), np.inf)
+
     def slope(self, places: Array) -> Array:
         """Derivative (n, d) by the places of the nodes."""
         F = self.map(places)
@@ -146,6 +153,7 @@ def moved(found: Distortion, places: Array, boundary: IntArray, targets: Array) 
     for _ in range(TRIES):
         way = goal[rim] - now[rim]
         if not way.any():
+            now[boundary] = targets  # nodes in the middles of edges, too
             return _relaxed(found, now, inside, solve)
         step = np.zeros_like(now)
         step[rim] = way

@@ -50,6 +50,19 @@ class ControlVolumes:
         return both
 
 
+def require_cells(blocks: Mapping[str, IntArray]) -> None:
+    """Refuse a mesh of bars, of hexahedra, or of several types of cells.
+
+    Raises
+    ------
+    InputError
+        With the cells.
+    """
+    cell, *others = blocks
+    if others or CELLS[cell].dim < 2 or CELLS[cell].corners == 8:
+        raise InputError("mesh", f"cells {', '.join(blocks)}", "one type of triangles, quadrilaterals or tetrahedra")
+
+
 def control_volumes(blocks: Mapping[str, IntArray], places: Array, points: Mapping[str, int]) -> ControlVolumes:
     """Control volumes of a mesh of one type of cell.
 
@@ -77,9 +90,8 @@ def control_volumes(blocks: Mapping[str, IntArray], places: Array, points: Mappi
     >>> control_volumes({"quad4": np.array([[0, 1, 2, 3]])}, square, {"quad4": 4}).centre.tolist()
     [[0.25, 0.25], [0.25, 0.75], [0.75, 0.25], [0.75, 0.75]]
     """
-    ((cell, nodes), *others) = blocks.items()
-    if others or CELLS[cell].dim < 2 or CELLS[cell].corners == 8:
-        raise InputError("mesh", f"cells {', '.join(blocks)}", "one type of triangles, quadrilaterals or tetrahedra")
+    require_cells(blocks)
+    ((cell, nodes),) = blocks.items()
     parts = _parts(cell, points[cell])
     table = tabulate(cell, parts.reshape(-1, CELLS[cell].dim))[0]
     corners = np.einsum("ka,ead->ekd", table, places[nodes]).reshape(len(nodes) * len(parts), *parts.shape[1:])

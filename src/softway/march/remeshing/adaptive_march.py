@@ -1,18 +1,16 @@
 """March of a scene in which the meshes of some solids change between slabs (docs/theory/bodies/adaptive.md#march)."""
 
 import logging
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
-from itertools import islice
 
-from softway.adaptivity.transfer import Transferred
 from softway.errors import Cancel, NumericsError
 from softway.march.remeshing.adapted_scene import AdaptedScene, adapted_scene
 from softway.march.remeshing.admitted import adaptions
 from softway.march.remeshing.carrying import carried_over
+from softway.march.remeshing.changing_slabs import Change, changing_slabs
 from softway.march.results.step import Step
 from softway.march.results.trying import TryWatch
-from softway.march.slabs import slabs
 from softway.march.start.preparation import Preparation, prepare
 from softway.march.state.march_state import AdaptedMeshes, MarchState, Settings
 from softway.model.model import Model
@@ -55,7 +53,7 @@ def adaptive_march(
         on = adapted_scene(model).at(stored.leaves)
     else:
         on = adapted_start(model, settings) if state is None else adapted_scene(model)
-    return _slabs(on, _prepared(on, settings, state, cancel, trying), cancel, trying)
+    return changing_slabs(on, _prepared(on, settings, state, cancel, trying), _change, cancel, trying)
 
 
 def adapted_start(model: Model, settings: Settings) -> AdaptedScene:
@@ -93,39 +91,22 @@ def _prepared(
     return replace(prepared, march_state=replace(now, adapted=adapted))
 
 
-def _slabs(on: AdaptedScene, prepared: Preparation, cancel: Cancel | None, trying: TryWatch | None) -> Iterator[Step]:
-    """Accepted slabs; after every ``every`` slabs the meshes change if the motion asks for it.
-
-    The state after a slab alone decides on the meshes of the next one, so that a resumed march has the same bits.
-    """
-    now, every = prepared.march_state, _every(on)
-    steps, settings = slabs(prepared.stepper, now), now.settings
-    transfers: Mapping[str, Transferred] = {}
-    while now.state.time < settings.until - 1e-9 * now.step_history.span:
-        if now.slabs and now.slabs % every == 0:
-            new, now, transfers = _changed(on, now)
-            if new is not on:
-                on = new
-                steps = slabs(prepare(on.model, settings, now, cancel, trying).stepper, now)
-        for step in islice(steps, every - now.slabs % every):
-            now = step.march_state
-            yield replace(step, transfers=transfers) if transfers else step
-            transfers = {}
-
-
-def _changed(on: AdaptedScene, now: MarchState) -> tuple[AdaptedScene, MarchState, Mapping[str, Transferred]]:
-    """Scene on the meshes that a state asks for, the state on them, and the transfers; all as they are if they stay.
+def _change(on: AdaptedScene, now: MarchState) -> Change[AdaptedScene] | None:
+    """Change to the meshes that a state asks for, after every ``every`` slabs; None if they stay.
 
     Meshes stay where massless nodes find no equilibrium on new ones.
     """
+    if now.slabs % _every(on):
+        return None
     new = on.wanted(now, _energy(now), _ahead(on, now))
     if new is on:
-        return on, now, {}
+        return None
     try:
-        return new, *carried_over(on, new, now)
+        reached, transfers = carried_over(on, new, now)
     except NumericsError as error:
         log.info("meshes stay as they are at t = %.6g s: %s", now.state.time, error.what)
-        return on, now, {}
+        return None
+    return Change(on=new, now=reached, transfers=transfers)
 
 
 def _energy(now: MarchState) -> float:

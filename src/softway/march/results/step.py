@@ -10,6 +10,7 @@ from softway.adaptivity.transfer import Transferred
 from softway.arrays import Array
 from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.html_tables import table
+from softway.march.results.exchange import Exchange
 from softway.march.results.step_states import StepStates
 from softway.march.state.march_state import MarchState
 from softway.model.model import Model
@@ -198,10 +199,8 @@ class Report:
         Number of iterations of this slab.
     pairs
         Number of pairs of nodes, facets or edges that the search found.
-    factorisations
-        Number of factorisations since the start of the march.
-    renewals
-        Number of these that renewed the operator of the fixed point inside a slab.
+    factorisations, renewals
+        Factorisations since the start of the march; those that renewed the operator of the fixed point inside a slab.
     passes
         Number of solutions of the slab with different contact events.
     contraction
@@ -242,8 +241,8 @@ class Step:
         Iterations, rejections and other data on the solution.
     states
         States at both ends, and forces of the supports; after compiled slabs they are made when they are asked for.
-    transfers
-        Transfers of the solids whose meshes have changed before the slab, by name.
+    transfers, exchanges
+        What has changed before the slab, by name: adapted meshes, and those of solids with ``remesh``.
     """
 
     model: Model = field(repr=False)
@@ -254,10 +253,11 @@ class Step:
     report: Report
     states: StepStates = field(repr=False)
     transfers: Mapping[str, Transferred] = field(default_factory=dict, repr=False)
+    exchanges: Mapping[str, Exchange] = field(default_factory=dict, repr=False)
 
     @property
     def before(self) -> State:
-        """State at the start."""
+        """State at the start; displacements are those from ``model.points``, the reference of these meshes."""
         return self.states.before
 
     @property

@@ -1,7 +1,7 @@
 """March state: all data that the next slab (time step) needs besides the model."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from softway.errors import InputError
@@ -9,6 +9,8 @@ from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.march.state.model_state import ModelState
 from softway.march.state.step_control import StepControl
 from softway.meshes.adaptive.leaves import Leaves
+from softway.meshes.remeshed.remesh import Quality
+from softway.meshes.remeshed.remeshed_mesh import RemeshedMesh
 from softway.model.model import Model
 from softway.model.time_weight import TimeWeight
 from softway.solve.methods.central_difference import Explicit
@@ -60,6 +62,8 @@ class StepHistory:
         Number of recent rejections in slabs far below the requested length, and of such slabs without end in sight.
     last_rejection
         Reason of the last rejection.
+    rejected
+        Number of rejected attempts at the last slab.
     smooth
         Number of successive slabs of this length with a small error, under a tolerance.
     fastest
@@ -72,6 +76,7 @@ class StepHistory:
     halted: bool = False
     recent_rejections: float = 0.0
     last_rejection: str = ""
+    rejected: int = 0
     smooth: int = 0
     fastest: float = 0.0
 
@@ -87,6 +92,25 @@ class AdaptedMeshes:
 
     leaves: Mapping[str, Leaves]
     energy: float
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class RemeshedMeshes:
+    """Meshes of a march that replaces them, of each such solid by name.
+
+    Parameters
+    ----------
+    meshes
+        The meshes.
+    changed
+        Number of slabs at the last change.
+    failed
+        Quality of the worst cells of the solids for which no new mesh was found, at that time.
+    """
+
+    meshes: Mapping[str, RemeshedMesh] = field(repr=False)
+    changed: int = 0
+    failed: Mapping[str, Quality] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -110,6 +134,8 @@ class MarchState:
         Number of slabs accepted with these settings.
     adapted
         Meshes of the state, where meshes adapt.
+    remeshed
+        Meshes of the state, where they are replaced.
     """
 
     settings: Settings
@@ -119,10 +145,12 @@ class MarchState:
     memory: OperatorMemory = OperatorMemory()
     slabs: int = 0
     adapted: AdaptedMeshes | None = None
+    remeshed: RemeshedMeshes | None = None
 
     def asked(self, settings: Settings, history: StepHistory, memory: OperatorMemory) -> "MarchState":
         """Initial march state for other ``settings``, with a new ``history`` and an empty ``memory``."""
-        return replace(self, settings=settings, step_history=history, memory=memory, slabs=0)
+        remeshed = None if self.remeshed is None else replace(self.remeshed, changed=0)
+        return replace(self, settings=settings, step_history=history, memory=memory, slabs=0, remeshed=remeshed)
 
     def fitting(self, model: Model) -> "MarchState":
         """Check that the state belongs to this model, and return it.
@@ -137,9 +165,11 @@ class MarchState:
         pasts = [m is not None for m in start.states]
         complete = len(pasts) in (0, len(model.parts))
         fitting = len(start.fields) == len(model.companions)
-        if (self.adapted is None) == bool(model.adapted):
-            problem, remedy = ("without", "with") if self.adapted is None else ("with", "without")
-            raise InputError("state", f"{problem} adapted meshes", f"a state {remedy} adapted meshes")
+        kinds = ("adapted", self.adapted, model.adapted), ("remeshed", self.remeshed, model.remeshed)
+        for kind, mine, others in kinds:
+            if (mine is None) == bool(others):
+                problem, remedy = ("without", "with") if mine is None else ("with", "without")
+                raise InputError("state", f"{problem} {kind} meshes", f"a state {remedy} {kind} meshes")
         if start.displacement.shape != ours or len(closed) != rows or not complete or not fitting:
             found = f"{start.displacement.shape} nodal values and {len(closed)} contact rows"
             raise InputError("state", f"of another scene: {found}", f"one of {ours} and {rows}")

@@ -17,6 +17,8 @@ from softway.record.write.grid.geometries import parts_of_frames, rows_of_frame
 if TYPE_CHECKING:
     import pyvista
 
+ROUNDING = 1e-13
+"""Rounding of places, relative to the greatest coordinate."""
 REMEDY = f"a run folder with the complete file {FILE}"
 
 
@@ -29,7 +31,9 @@ class Frame:
     time
         Instant [s].
     points, displacement, velocity
-        (n, 3) deformed positions [m], displacements [m], velocities [m/s].
+        (n, 3) deformed positions [m], displacements [m], velocities [m/s].  Displacements are those of the matter since
+        the start of the run; where meshes are replaced, ``remesh``, the reference coordinates of the cells are the
+        shape of the body when its mesh was new, and not ``points - displacement``, where the matter was at the start.
     contact_force
         (n,) normal contact force on the slave nodes [N].
     stress, von_mises
@@ -51,6 +55,14 @@ class Frame:
     von_mises: Array
     more: Mapping[str, Array] = field(default_factory=dict)
     geometry: int = 0
+
+    def start(self, cells: Cells) -> Array:
+        """Places (n, 3) at the start of the run of the matter in the nodes [m]: the reference coordinates of its
+        ``cells`` where meshes are not replaced.
+        """
+        found = self.points - self.displacement
+        near = ROUNDING * float(np.abs(self.points).max())
+        return np.where(np.abs(found - cells.reference) <= near, cells.reference, found)
 
     def __getitem__(self, name: str) -> Array:
         """Field with a given name."""

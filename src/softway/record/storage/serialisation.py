@@ -21,11 +21,21 @@ from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.heat.fronts.places import Fronts
 from softway.heat.ledger import HeatLedger
 from softway.heat.march import HeatState
-from softway.march.state.march_state import AdaptedMeshes, EnergyAccount, MarchState, Settings, StepHistory
+from softway.march.state.march_state import (
+    AdaptedMeshes,
+    EnergyAccount,
+    MarchState,
+    RemeshedMeshes,
+    Settings,
+    StepHistory,
+)
 from softway.march.state.model_state import ModelState
 from softway.march.state.step_control import StepControl
 from softway.mechanisms.arrays import MechanismState
 from softway.meshes.adaptive.leaves import Leaves
+from softway.meshes.mesh import Mesh
+from softway.meshes.remeshed.remeshed_mesh import RemeshedMesh
+from softway.meshes.topology import HangingNodes
 from softway.model.field import FieldState
 from softway.model.rigid.rigid_state import RigidState
 from softway.model.time_weight import Collocation, EndPeaks, Momentum
@@ -66,6 +76,10 @@ KINDS: Mapping[str, type] = MappingProxyType(
                 StepControl,
                 AdaptedMeshes,
                 Leaves,
+                RemeshedMeshes,
+                RemeshedMesh,
+                Mesh,
+                HangingNodes,
             ),
             *(ContactRows, TangentialRows, IterationCount, Skin, Near),
             *(FixedPoint, Newton, Explicit, Factored, MatrixFree, Multigrid, Collocation, EndPeaks, Momentum),

@@ -30,7 +30,7 @@ EXTRA = (("depth", "m"), ("finding", table.TEXT), ("bodies", table.TEXT))
 """Columns of the findings of the audit, and the bodies that touch; files of earlier versions lack them."""
 MESH = "mesh"
 """Kind of the event of a solid whose mesh changes, with its name for the contact, no node and no place; the column of
-findings tells the new number of nodes and cells."""
+findings tells the new number of nodes and cells, and of meshes that are replaced the measure that asked for it."""
 HEAT = (("heat", "J"),)
 """Column of runs with contacts that pass heat: what has passed from the first body to the end of the slab of the event.
 """
@@ -45,7 +45,7 @@ class Events:
 
     def take(self, step: Step) -> None:
         """Write the changes of meshes before a time step (slab) and the events inside it, in order of time."""
-        if not (step.events or step.transfers):
+        if not (step.events or step.transfers or step.exchanges):
             return
         for event in sorted((*_changes(step), *step.events), key=lambda e: e.time):
             place = np.zeros(3)
@@ -79,7 +79,8 @@ class Events:
 
 def _changes(step: Step) -> Iterator[Event]:
     """Changes of meshes before a slab."""
-    for name in step.transfers:
+    reasons = {**dict.fromkeys(step.transfers, ""), **{name: f": {one.reason}" for name, one in step.exchanges.items()}}
+    for name, reason in reasons.items():
         mesh, d = step.model.meshes[name], step.model.shape[1]
         yield Event(
             time=step.slab.start,
@@ -90,7 +91,7 @@ def _changes(step: Step) -> Iterator[Event]:
             velocity_before=0.0,
             velocity_after=0.0,
             impulse=0.0,
-            finding=f"{mesh.n_nodes} nodes, {mesh.n_cells} cells",
+            finding=f"{mesh.n_nodes} nodes, {mesh.n_cells} cells{reason}",
         )
 
 

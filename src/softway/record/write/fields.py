@@ -87,19 +87,26 @@ def _shapes(scene: Scene, cells: Layout) -> dict[str, dict[str, Any]]:
 def _frame(cells: Layout, opening: RunStart, state: State) -> GridFrame:
     stress = np.concatenate([opening.stresses[name](state) for name in cells.bodies])
     force = cells.forces(state.pressure)
-    displacement = cells.nodal(state.displacement)
     return GridFrame(
         time=state.time,
-        points=cells.reference + displacement,
+        points=cells.reference + cells.nodal(state.displacement),
         at_points={
             **_tractions(cells, opening, state, force),
-            "displacement": displacement,
+            "displacement": cells.nodal(_since_start(opening, state)),
             "velocity": cells.nodal(state.velocity),
             "contact_force": force,
             **{name: _at_nodes([values[body] for body in cells.bodies]) for name, values in state.fields.items()},
         },
         in_cells={**_past(cells, opening, state), "stress": components(stress), "von_mises": von_mises(stress)},
     )
+
+
+def _since_start(opening: RunStart, state: State) -> dict[str, Array]:
+    """Displacements (n, d) of the matter in the nodes of each solid since the start of the march [m]."""
+    found = dict(state.displacement)
+    for name, mesh in ({} if opening.model is None else opening.model.remeshed).items():
+        found[name] = found[name] + (mesh.mesh.points - mesh.origin)
+    return found
 
 
 def _tractions(cells: Layout, opening: RunStart, state: State, force: Array) -> dict[str, Array]:

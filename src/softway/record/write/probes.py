@@ -6,16 +6,20 @@ from types import MappingProxyType
 from typing import Protocol
 
 import numpy as np
+import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
 from softway.errors import InputError
 from softway.meshes.adaptive.points import around
 from softway.meshes.adaptive.refinement import AdaptedMesh
 from softway.meshes.mesh import Mesh
+from softway.meshes.remeshed.remeshed_mesh import RemeshedMesh
 from softway.model.scene import State
 
 UNITS = {"displacement": "m", "position": "m", "velocity": "m/s", "reaction": "N", "temperature": "K"}
-NONE: Mapping[str, AdaptedMesh] = MappingProxyType({})
+Changing = AdaptedMesh | RemeshedMesh
+"""Present mesh of a solid whose mesh changes."""
+NONE: Mapping[str, Changing] = MappingProxyType({})
 COMPONENTS = ("x", "y", "z", "norm")
 
 
@@ -63,7 +67,8 @@ class Reading:
 
     On meshes that change, a tag has the mean over its nodes of the base mesh, which all meshes have, and a place the
     value there, between the nodes of its cell: the curves have no jumps where the mesh changes.  Reactions are those of
-    all present nodes of a tag, or of the present node that is nearest to a place.
+    all present nodes of a tag, or of the present node that is nearest to a place.  Where meshes are replaced, a tag and
+    a place are the matter that was in these nodes, or in the node nearest to the place, at the start.
 
     Parameters
     ----------
@@ -79,6 +84,8 @@ class Reading:
         Recorded quantity and its component.
     weights
         (k,) weights of the nodes; None for the mean.
+    origin
+        (d,) place from which displacements are measured [m]; None for the reference coordinates.
 
     Examples
     --------
@@ -97,6 +104,7 @@ class Reading:
     quantity: str
     component: str
     weights: Array | None = None
+    origin: Array | None = None
 
     def value(self, state: State, reactions: Mapping[str, Array]) -> float:
         """Value at ``state``; a reaction that has not been computed is ``nan``."""
@@ -109,13 +117,19 @@ class Reading:
                 vector = reactions[self.body][self.nodes].sum(axis=0)
             case "velocity":
                 vector = self._mean(state.velocity[self.body][self.nodes])
+            case "displacement" if self.origin is not None:
+                vector = np.asarray(self._place(state) - self.origin)
             case "displacement":
                 vector = self._mean(state.displacement[self.body][self.nodes])
             case _:
-                vector = self._mean(self.reference + state.displacement[self.body][self.nodes])
+                vector = self._place(state)
         if self.component == "norm":
             return float(np.linalg.norm(vector))
         return float(vector["xyz".index(self.component)])
+
+    def _place(self, state: State) -> Array:
+        """Mean place (d,) [m]."""
+        return self._mean(self.reference + state.displacement[self.body][self.nodes])
 
     def _mean(self, values: Array) -> Array:
         """Mean (...) of values at the nodes (k, ...)."""
@@ -123,7 +137,7 @@ class Reading:
 
 
 def readings(
-    probes: Sequence[Probe], meshes: Mapping[str, Mesh], changing: Mapping[str, AdaptedMesh] = NONE
+    probes: Sequence[Probe], meshes: Mapping[str, Mesh], changing: Mapping[str, Changing] = NONE
 ) -> tuple[Reading, ...]:
     """Resolve the declared probes; ``changing`` are the present meshes of solids whose mesh changes.
 
@@ -153,7 +167,7 @@ def solid_reading(
     probe: Probe,
     meshes: Mapping[str, Mesh],
     others: tuple[str, ...] = (),
-    changing: Mapping[str, AdaptedMesh] = NONE,
+    changing: Mapping[str, Changing] = NONE,
 ) -> Reading:
     """Resolve one probe, whose path in the scenario is given; ``others`` are further bodies that may be named,
     ``changing`` the present meshes of solids whose mesh changes.
@@ -173,9 +187,16 @@ def solid_reading(
         raise InputError(
             f"{path}.component", f"'{probe.component}' does not exist in {mesh.dim}D", f"one of {list(allowed)}"
         )
-    nodes, weights = probed_nodes(path, probe, mesh), None
-    if probe.of in changing and probe.quantity != "reaction":
-        nodes, weights = _lasting(path, probe, changing[probe.of])
+    nodes, weights, origin = probed_nodes(path, probe, mesh), None, None
+    found = changing.get(probe.of)
+    if isinstance(found, RemeshedMesh):
+        own, origin = _matter(path, probe, found)
+        if probe.quantity != "reaction":
+            nodes, weights = own.indices, own.data
+        elif probe.at is not None:
+            nodes = own.indices[[np.argmax(own.data)]]
+    elif found is not None and probe.quantity != "reaction":
+        nodes, weights = _lasting(path, probe, found)
     return Reading(
         name=probe.name,
         unit=UNITS[probe.quantity],
@@ -185,7 +206,17 @@ def solid_reading(
         quantity=probe.quantity,
         component=probe.component,
         weights=weights,
+        origin=origin,
     )
+
+
+def _matter(path: str, probe: Probe, remeshed: RemeshedMesh) -> tuple[sp.csr_array, Array]:
+    """Mean of nodal fields (1, n) over the matter that was in the nodes of a probe at the start, and where that was
+    (d,) [m].
+    """
+    first = probed_nodes(path, probe, remeshed.first)
+    share = np.full((1, len(first)), 1.0 / len(first))
+    return sp.csr_array(sp.csr_array(share) @ remeshed.matter[first]), remeshed.first.points[first].mean(axis=0)
 
 
 def _lasting(path: str, probe: Probe, adapted: AdaptedMesh) -> tuple[IntArray, Array | None]:

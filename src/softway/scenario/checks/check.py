@@ -11,6 +11,9 @@ from softway.errors import Cancel, InputError, Note, within
 from softway.heat.coupled.build import build
 from softway.march.remeshing.adaptive_march import adapted_start
 from softway.march.remeshing.admitted import adaptions, admitted
+from softway.march.remeshing.forming.formable import formable
+from softway.march.remeshing.forming.formed_scene import formed_scene
+from softway.march.rules.slab_rule import Method
 from softway.march.start.preparation import prepare
 from softway.march.start.slab_tolerance import slab_tolerance
 from softway.march.state.march_state import MarchState, Settings
@@ -154,7 +157,7 @@ def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked
     probe_readings(scenario, {n: mesh_of(s) for n, s in solids.items()}, scene.mechanism)
     if isinstance(scenario.start, StaticStart):
         check_loads(scenario.start.loads, "start.loads", solids)
-    model, stay = admitted(_model(scenario, scene), scenario.solver)
+    model, staying = _admitted(_model(scenario, scene), scenario.solver)
     scene = model.scene
     bodies = _scales({n: b for n, b in scene.bodies.items() if isinstance(b, Solid)}, scenario)
     model, march_state = _begun(scenario, model, cancel)
@@ -169,7 +172,7 @@ def check_solids(scenario: Scenario, *, cancel: Cancel | None = None) -> Checked
         march_state=march_state,
         step=step,
         slabs=int(np.ceil(scenario.time.end / step * (1.0 - 1e-12))),
-        notes=(*notes, *_staying(stay), *wall_notes(model, solids), *_model_notes(model, contacts), *flutter),
+        notes=(*notes, *staying, *wall_notes(model, solids), *_model_notes(model, contacts), *flutter),
         left_out=left_out,
     )
 
@@ -194,11 +197,18 @@ def _model(scenario: Scenario, scene: Scene) -> Model:
         raise InputError("ties", f"{error.problem} (a tie of a mesh file)", remedy) from None
 
 
-def _staying(meshes: Mapping[str, InputError]) -> Iterator[Note]:
-    """Notes on meshes with ``auto`` that stay, with the reasons."""
+def _admitted(model: Model, method: Method) -> tuple[Model, tuple[Note, ...]]:
+    """Model whose solids with ``auto`` adapt, or get new meshes, where they can, and notes on the others."""
+    model, coarse = admitted(model, method)
+    model, stay = formable(model, method)
+    return model, (*_staying(coarse, "adapt"), *_staying(stay, "remesh"))
+
+
+def _staying(meshes: Mapping[str, InputError], key: str) -> Iterator[Note]:
+    """Notes on meshes with ``auto`` at a key that stay, with the reasons."""
     for name, error in meshes.items():
         problem = f"'auto', but the mesh stays; {error.where} is {error.problem}"
-        yield Note(where=f"bodies.{name}.adapt", problem=problem, remedy=error.remedy)
+        yield Note(where=f"bodies.{name}.{key}", problem=problem, remedy=error.remedy)
 
 
 def _check_densities(scenario: Scenario) -> None:
@@ -250,6 +260,7 @@ def _begun(scenario: Scenario, model: Model, cancel: Cancel | None) -> tuple[Mod
     )
     if adaptions(model.scene):
         model = adapted_start(model, settings).model
+    model = formed_scene(model).model
     march_state = prepare(model, settings, cancel=cancel).march_state
     slabs, span = time.end / march_state.step_history.span, march_state.step_history.span
     if slabs > MOST:

@@ -5,11 +5,10 @@ from collections.abc import Mapping
 from softway.bodies.solid import Solid
 from softway.errors import InputError
 from softway.mechanisms.members.mechanism import Mechanism
-from softway.meshes.adaptive.refinement import AdaptedMesh
 from softway.meshes.mesh import Mesh
 from softway.record.write.mechanism.probes import body_reading
 from softway.record.write.mechanism.rigid_table import RigidReading
-from softway.record.write.probes import NONE, Reading, readings, require_names, solid_reading
+from softway.record.write.probes import NONE, Changing, Reading, readings, require_names, solid_reading
 from softway.scenario.scenario import Scenario
 
 
@@ -17,9 +16,9 @@ def probe_readings(
     scenario: Scenario,
     meshes: Mapping[str, Mesh],
     mechanism: Mechanism | None,
-    adapted: Mapping[str, AdaptedMesh] = NONE,
+    present: Mapping[str, Changing] = NONE,
 ) -> tuple[Reading | RigidReading, ...]:
-    """Resolve the probes of a scenario; ``adapted`` are the present meshes of solids of cells that can be bisected.
+    """Resolve the probes of a scenario; ``present`` are the meshes of solids that change.
 
     Raises
     ------
@@ -36,8 +35,9 @@ def probe_readings(
             )
             raise InputError(f"output.probes[{k}].quantity", problem, remedy)
     if mechanism is None:
-        adapting = {name for name, body in scenario.bodies.items() if isinstance(body, Solid) and body.adapt}
-        return readings(probes, meshes, {name: mesh for name, mesh in adapted.items() if name in adapting})
+        solids = {name: body for name, body in scenario.bodies.items() if isinstance(body, Solid)}
+        changing = {name for name, solid in solids.items() if solid.adapt or solid.remesh}
+        return readings(probes, meshes, {name: mesh for name, mesh in present.items() if name in changing})
     require_names(probes)
     found: list[Reading | RigidReading] = []
     for k, probe in enumerate(probes):

@@ -201,7 +201,8 @@ def end_force_closure(model: Model, ends: EndForces) -> EnergyClosure:
 def _energies(model: Model, ends: EndForces, moving: Array, touched: BoolArray) -> tuple[Array, Array, Array]:
     """Missing work, its derivative with respect to the scalar a, and the rounding level (parts,).
 
-    Solids that nothing touches, ``touched`` (parts,) False, are balanced by internal forces alone.
+    Linear solids that nothing touches, ``touched`` (parts,) False, are balanced by internal forces alone.  Others are
+    not: there the residual of massless nodes is an error of the iterate, which the balance has to see.
     """
     du = ends.u1 - ends.u0
     work = model.space.totals(ends.mean * moving)
@@ -220,9 +221,10 @@ def _energies(model: Model, ends: EndForces, moving: Array, touched: BoolArray) 
         r0, r1 = (_support_forces(model, f - q, rows, p) for (f, rows, p), q in zip(ends.both, loads, strict=True))
         num = num - model.space.totals(0.5 * (r0 + r1) * du)
         den = den + model.space.totals((r1 - r0) * du)
-    if rough or not touched.all():
+    flying = ~touched & model.linear
+    if rough or flying.any():
         inner = _by_internal_forces(model, ends, moving)
-        num, den = (np.where(touched & (not rough), a, b) for a, b in zip((num, den), inner, strict=True))
+        num, den = (np.where(flying | rough, b, a) for a, b in zip((num, den), inner, strict=True))
     level = np.abs(ends.V1) + np.abs(ends.V0) + model.kinetic(ends.v0) + ends.cancelled
     level += model.space.totals(np.abs(ends.mean * moving)) + model.space.totals(np.abs(model.load * du))
     level += np.bincount(slave, weights=np.abs(d0) + np.abs(d1), minlength=n)
@@ -230,7 +232,7 @@ def _energies(model: Model, ends: EndForces, moving: Array, touched: BoolArray) 
 
 
 def _by_internal_forces(model: Model, ends: EndForces, moving: Array) -> tuple[Array, Array]:
-    """Missing work and its derivative with respect to the scalar a (parts,): with friction, viscosity or no contact.
+    """Missing work and its derivative with respect to the scalar a (parts,): with friction or viscosity, or in flight.
 
     At both ends the internal forces of massless nodes balance loads, contact and supports.  They contain all forces
     that do work there, including friction; only the work of normal forces in closing or opening a gap is excluded.  The

@@ -185,3 +185,16 @@ def test_inverted_cells_are_found_with_their_volume(cell: str) -> None:
     x[corner] = 0.1  # pushed beyond the centre of the body
     ((number, nodes, ratio),) = inverted(body, x)
     assert number == 0 and corner in nodes and ratio < 0.0
+
+
+def test_a_flat_corner_of_a_cell_is_not_inverted() -> None:
+    """As where a flank folds onto a plane tool: both sides of the corner lie on it, up to rounding."""
+    body, x = together(square(1, "quad4")), square(1, "quad4").points.copy()
+    corner = int(np.argmax(x.sum(axis=1)))
+    others = np.flatnonzero((x.sum(axis=1) > 0.5) & (np.arange(4) != corner))
+    for beyond in (-1e-15, 0.0, 1e-15):
+        x[corner] = x[others].mean(axis=0) + beyond
+        assert not inverted(body, x)
+    x[corner] -= 1e-3
+    assert len(inverted(body, x)) == 1
+    assert len(inverted(body, 0.0 * x)) == 1

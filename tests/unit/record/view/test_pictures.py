@@ -148,8 +148,9 @@ def two_squares(gap: float, squeeze: float) -> tuple[Cells, Frame]:
     )  # fmt: skip
     empty, force = np.zeros(0), np.zeros(8)
     force[[1, 2]] = float(gap == 0.0)
+    moved = real - cells.reference
     frame = Frame(
-        time=0.0, points=real, displacement=empty, velocity=empty, contact_force=force, stress=empty, von_mises=empty
+        time=0.0, points=real, displacement=moved, velocity=empty, contact_force=force, stress=empty, von_mises=empty
     )
     return cells, frame
 

@@ -105,9 +105,7 @@ def shares(model: Model, e: EndForces, found: EnergyClosure) -> tuple[np.ndarray
 def gained(model: Model, e: EndForces, found: EnergyClosure) -> np.ndarray:
     """Energy (parts,) that the slab makes from nothing: kinetic and stored, less all work from outside.
 
-    Nodes with inertia change their kinetic energy by the work of load less internal force, whatever their motion.  In
-    groups that nothing touches, which internal forces balance, the work that nodes without inertia, in random states
-    out of equilibrium, do by their residual is no gain.
+    Nodes with inertia change their kinetic energy by the work of load less internal force, whatever their motion.
     """
     du, heavy = e.u1 - e.u0, model.massive[:, None]
     old, new = shares(model, e, found)
@@ -119,10 +117,7 @@ def gained(model: Model, e: EndForces, found: EnergyClosure) -> np.ndarray:
         weights=old * e.rows0.tool_motion + new * e.rows1.tool_motion,
         minlength=len(model.parts),
     )
-    met = body_groups(model, (e.rows0, e.force0 > 0.0), (e.rows1, e.force1 > 0.0))
-    alone = ~np.isin(met, met[model.part_of[e.rows0.node[(e.force0 > 0.0) | (e.force1 > 0.0)]]])
-    left = np.where(heavy | ~model.free, 0.0, found.mean - model.load) * du * model.nodal(1.0 * alone)
-    return kinetic + e.V1 - e.V0 - model.space.totals(model.load * du + left) - support - tools
+    return kinetic + e.V1 - e.V0 - model.space.totals(model.load * du) - support - tools
 
 
 def test_bodies_in_touch_are_one_group() -> None:

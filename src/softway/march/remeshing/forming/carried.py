@@ -1,7 +1,7 @@
 """State of a march on new meshes of the present shapes."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,7 +14,8 @@ from softway.bodies.assembled.material_states import committed
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
 from softway.march.remeshing.forming.formed_scene import FormedScene
-from softway.march.state.march_state import MarchState
+from softway.march.results.exchange import Exchange
+from softway.march.state.march_state import MarchState, RemeshedMeshes
 from softway.march.state.model_state import ModelState, join_states, split_states
 from softway.model.model import Model
 from softway.model.scene import State
@@ -23,32 +24,6 @@ from softway.solve.static_equilibrium import equilibrium
 
 CLOSED = 1e-10
 """Gap, relative to the extent of the scene, up to which a contact row starts closed."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Exchange:
-    """What the new mesh of a solid has changed.
-
-    Parameters
-    ----------
-    reason
-        The measure that asked for it.
-    nodes, cells
-        Numbers of its nodes and cells.
-    quality
-        Least scaled Jacobian before and after.
-    volume
-        Change of the volume, relative to it.
-    energy
-        Energy that the solid has lost, which the ledger has as ``remeshing`` [J].
-    """
-
-    reason: str
-    nodes: int
-    cells: int
-    quality: tuple[float, float]
-    volume: float
-    energy: float
 
 
 def carried_on(
@@ -60,19 +35,19 @@ def carried_on(
     forces that balance the stress.
     """
     state = split_states(old.model, now.state)
-    memory, displacement = dict(state.memory), dict(state.displacement)
+    memories, displacement = dict(state.memory), dict(state.displacement)
     velocity, acceleration = dict(state.velocity), dict(state.acceleration)
     for name in reasons:
         before, after = old.part(name), new.part(name)
         u = state.displacement[name]
         assert isinstance(before.internal, InelasticForce)
         cast = recast(before, u, after)
-        memory[name] = recast_state(cast, state.memory[name], np.asarray(before.internal.sampling.volume))
+        memories[name] = recast_state(cast, state.memory[name], np.asarray(before.internal.sampling.volume))
         displacement[name] = np.zeros((after.mesh.n_nodes, after.mesh.dim))
         pair = _heavy(old.model, before), _heavy(new.model, after)
         velocity[name] = moved_on(*pair, u, velocity[name], True)
         acceleration[name] = moved_on(*pair, u, acceleration[name], False)
-    state = replace(state, displacement=displacement, memory=memory, velocity=velocity, acceleration=acceleration)
+    state = replace(state, displacement=displacement, memory=memories, velocity=velocity, acceleration=acceleration)
     settles = bool(new.model.inert and not new.model.space.every(new.model.massive))
     if settles:
         joined = _settled(new.model, state, now.step_history.span)
@@ -83,7 +58,9 @@ def carried_on(
     taken = energies[0] - energies[1]
     exchanges = {n: _exchange(old, new, now, n, reason, float(taken[numbers[n]])) for n, reason in reasons.items()}
     account = replace(now.account, remeshing=now.account.remeshing + float(taken.sum()))
-    return replace(now, state=joined, account=account, memory=OperatorMemory()), exchanges
+    remeshed = RemeshedMeshes(meshes=new.meshes, changed=now.slabs)
+    memory = OperatorMemory(room=now.memory.room)
+    return replace(now, state=joined, account=account, memory=memory, remeshed=remeshed), exchanges
 
 
 def _heavy(model: Model, part: DiscreteSolid) -> HeavySolid:
@@ -173,7 +150,7 @@ def _exchange(old: FormedScene, new: FormedScene, now: MarchState, name: str, re
         reason=reason,
         nodes=part.mesh.n_nodes,
         cells=part.mesh.n_cells,
-        quality=(cell_quality(mesh.blocks, places).worst[0], new.new[name].worst[0]),
+        quality=(cell_quality(mesh.blocks, places).worst[0], new.new[name][0]),
         volume=after / before - 1.0,
         energy=energy,
     )

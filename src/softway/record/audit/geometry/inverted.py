@@ -7,9 +7,12 @@ from softway.meshes.cells import CELLS
 from softway.meshes.element import tabulate
 from softway.record.audit.geometry.solids import Block, Solids
 
+ROUNDING = 1e-9
+"""Ratio of volumes that is zero: at a corner of a quadrilateral whose sides both lie on a plane tool it is."""
+
 
 def volume_ratios(block: Block, reference: Array, x: Array) -> Array:
-    """Least ratio (e,) of the deformed to the initial volume of the cells, over their corners and their centre.
+    """Ratios (e, k + 1) of the deformed to the initial volume of the cells, at their k corners and their centre.
 
     Parameters
     ----------
@@ -20,8 +23,7 @@ def volume_ratios(block: Block, reference: Array, x: Array) -> Array:
     """
     corners = CELLS[block.cell].nodes[: CELLS[block.cell].corners]
     _, dN = tabulate(block.cell, np.vstack([corners, corners.mean(axis=0)]))
-    ratio = _determinants(x[block.nodes], dN) / _determinants(reference[block.nodes], dN)
-    return np.asarray(ratio.min(axis=1))
+    return np.asarray(_determinants(x[block.nodes], dN) / _determinants(reference[block.nodes], dN))
 
 
 def inverted(solids: Solids, x: Array) -> list[tuple[int, IntArray, float]]:
@@ -31,8 +33,9 @@ def inverted(solids: Solids, x: Array) -> list[tuple[int, IntArray, float]]:
     """
     worst: dict[int, tuple[int, IntArray, float]] = {}
     for block in solids.blocks if solids.dim > 1 else ():
-        ratio = volume_ratios(block, solids.reference, x)
-        for body in np.unique(block.body[ratio <= 0.0]):
+        ratios = volume_ratios(block, solids.reference, x)
+        ratio = ratios.min(axis=1)
+        for body in np.unique(block.body[(ratio < -ROUNDING) | (ratios[:, -1] <= ROUNDING)]):
             mine = np.flatnonzero(block.body == body)
             k = mine[np.argmin(ratio[mine])]
             if int(body) not in worst or ratio[k] < worst[int(body)][2]:

@@ -56,7 +56,8 @@ def fits(value: Any, hint: Any, kinds: Mapping[str, type]) -> bool:
     if origin is Literal:
         return isinstance(value, str) and value in args
     if origin is tuple:
-        return isinstance(value, tuple) and all(fits(item, args[0], kinds) for item in value)
+        count = len(value) if args[-1:] == (...,) and isinstance(value, tuple) else len(args)
+        return isinstance(value, tuple) and len(value) == count and all(fits(item, args[0], kinds) for item in value)
     if origin is not None and issubclass(origin, Mapping):
         return isinstance(value, Mapping) and all(fits(item, args[1], kinds) for item in value.values())
     if origin is np.ndarray:

@@ -37,14 +37,14 @@ def body_placement(cells: Cells, frame: Frame, tools: Mapping[str, PlacedShape],
     The factor is ``most`` at most, and one beside rigid bodies, which are where they are.  The bodies are shifted to
     their real gaps to the obstacles and to each other.
     """
-    real, shape = frame.points, frame.points.copy()
+    real, shape, start = frame.points, frame.points.copy(), frame.start(cells)
     most = min(most, 1.0) if cells.rigid else most
     members = [_nodes_of(cells, number) for number in range(len(cells.bodies))]
     shaped = np.zeros(len(shape), bool)
     factors = [np.inf]
     for mine in members:
-        shape[mine] = rigid(cells.reference[mine], real[mine])
-        size = float(np.linalg.norm(np.ptp(cells.reference[mine], axis=0)))
+        shape[mine] = rigid(start[mine], real[mine])
+        size = float(np.linalg.norm(np.ptp(start[mine], axis=0)))
         depth = float(np.linalg.norm(real[mine] - shape[mine], axis=1).max())
         shaped[mine] = depth < BENT * size
         factors += [exaggeration(size, depth)] if depth > UNDEFORMED * size else []

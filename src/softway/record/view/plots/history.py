@@ -93,9 +93,9 @@ def _panels(table: Table) -> "list[Callable[[Axes, Array, Table], None]]":
     known |= {name for name in table if name.startswith((THROUGH, LIQUID))}
     if HEAT[0].name in table:
         panels += heat_panels_of_solids(table)
-    if NODES.name in table:
+    known |= {NODES.name, REMESHING.name}
+    if NODES.name in table and np.ptp(table[NODES.name]) > 0.0:
         panels.append(partial(_told, name=NODES.name, title="Nodes of all meshes", word="nodes"))
-        known |= {NODES.name, REMESHING.name}
     ties = ties_of(table)
     if ties:
         panels.append(partial(_broken, ties=ties))

@@ -19,8 +19,8 @@ from softway.contact.surfaces.boundary import ContactSurface
 from softway.contact.surfaces.sagitta import Misfit, NodalCurvature, misfit, nodal_curvature
 from softway.errors import Note, within
 from softway.laws.cohesive_law import BilinearCohesive
-from softway.meshes.examination import examined
 from softway.meshes.files.listed_mesh import LeftOut
+from softway.meshes.flaws.examination import examined
 from softway.model.model import Model
 from softway.scenario.checks.locking import locking_notes
 from softway.scenario.checks.names import mesh_of

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from softway.errors import InputError
-from softway.meshes.examination import examined
+from softway.meshes.flaws.examination import examined
+from softway.meshes.flaws.hinges import hinges
+from softway.meshes.flaws.overlapping_cells import check_overlap
 from softway.meshes.generators.graded import ring
 from softway.meshes.generators.shapes import KINDS, ball, box, cylinder, disc, interval, rectangle
-from softway.meshes.hinges import hinges
 from softway.meshes.mesh import Mesh
-from softway.meshes.overlapping_cells import check_overlap
 
 FLAT, SOLID = KINDS[2], KINDS[3]
 

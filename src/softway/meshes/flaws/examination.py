@@ -10,9 +10,9 @@ from scipy.spatial import cKDTree
 from softway.arrays import Array, IntArray
 from softway.errors import InputError, Note
 from softway.meshes.cells import FLAT
-from softway.meshes.hinges import hinges
+from softway.meshes.flaws.hinges import hinges
+from softway.meshes.flaws.overlapping_cells import check_overlap, near_pairs
 from softway.meshes.mesh import Mesh
-from softway.meshes.overlapping_cells import check_overlap, near_pairs
 from softway.meshes.topology import described
 
 COINCIDENT = 1e-6

@@ -1,0 +1,1 @@
+"""Flaws of meshes: cells that overlap, hinges, and parts that nothing holds together."""

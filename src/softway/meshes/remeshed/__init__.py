@@ -1,0 +1,1 @@
+"""Meshes that replace degraded ones: when, and what passes from one to the next."""
