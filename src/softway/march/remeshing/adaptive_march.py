@@ -7,7 +7,7 @@ from dataclasses import replace
 from softway.errors import Cancel, NumericsError
 from softway.march.remeshing.adapted_scene import AdaptedScene, adapted_scene
 from softway.march.remeshing.admitted import adaptions
-from softway.march.remeshing.carrying import carried_over
+from softway.march.remeshing.carried.carrying import carried_over
 from softway.march.remeshing.changing_slabs import Change, changing_slabs
 from softway.march.results.step import Step
 from softway.march.results.trying import TryWatch

@@ -11,8 +11,8 @@ from passing import finest, keeps_its_balances
 import softway as sw
 from softway.heat.coupled.build import build
 from softway.march.remeshing.adapted_scene import adapted_scene
-from softway.march.remeshing.carrying import carried_over
-from softway.march.remeshing.surface_forces import SurfaceForces
+from softway.march.remeshing.carried.carrying import carried_over
+from softway.march.remeshing.carried.surface_forces import SurfaceForces
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.refinement import refined
 from softway.meshes.generators.shapes import disc, rectangle

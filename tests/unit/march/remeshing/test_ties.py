@@ -11,7 +11,7 @@ import softway as sw
 from softway.adaptivity.even_surface import even
 from softway.errors import InputError
 from softway.march.remeshing.adapted_scene import adapted_scene
-from softway.march.remeshing.carrying import carried_over
+from softway.march.remeshing.carried.carrying import carried_over
 from softway.march.start.preparation import prepare
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined

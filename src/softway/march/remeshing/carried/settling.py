@@ -14,7 +14,7 @@ from softway.bodies.internal_force.inelastic.inelastic_force import InelasticFor
 from softway.bodies.internal_force.material_state import OPTIONAL, MaterialState
 from softway.bodies.internal_force.regions import RegionForces
 from softway.laws.law import Damped, Viscous
-from softway.march.remeshing.surface_forces import SurfaceForces
+from softway.march.remeshing.carried.surface_forces import SurfaceForces
 from softway.model.model import Model
 from softway.solve.static_equilibrium import StaticState, equilibrium
 
