@@ -187,7 +187,7 @@ def require_even(pairs: Sequence[TiedSurfaces], parts: Sequence[DiscreteSolid]) 
         tied = np.concatenate([surface.side.nodes for surface in pair.surfaces])
         wrong = sum(int(np.isin(nodes, tied).any(axis=1).sum()) for nodes in both)
         if wrong:
-            remedy = "cells of one size along the surfaces, softway.adaptivity.even_surface.even"
+            remedy = "cells of one size along the surfaces, softway.adaptivity.marking.even_surface.even"
             raise InputError(f"ties[{pair.number}].between", f"{wrong} hanging nodes at tied nodes", remedy)
 
 

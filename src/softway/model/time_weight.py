@@ -10,7 +10,6 @@ Therefore for g >= 0 only peaks at the two ends are stable for every step (docs/
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
 from math import inf, sqrt
 
 import numpy as np
@@ -95,23 +94,18 @@ class EndPeaks:
 TimeWeight = Momentum | Collocation | EndPeaks
 
 
-@lru_cache(maxsize=16)
 def peaks(weight: TimeWeight) -> tuple[Array, Array]:
-    """Instants tau (p,) and weights (p,) by which the force is sampled in the slab; read-only."""
+    """Instants tau (p,) and weights (p,) by which the force is sampled in the slab."""
     match weight:
         case Momentum(points=p):
             x, w = np.polynomial.legendre.leggauss(p)
-            found = 0.5 * (x + 1.0), 0.5 * w
+            return 0.5 * (x + 1.0), 0.5 * w
         case Collocation(at=at, weights=weights):
-            found = np.array(at, float), np.array(weights, float)
+            return np.array(at, float), np.array(weights, float)
         case EndPeaks(theta=theta):
-            found = np.array([0.0, 1.0]), np.array([1.0 - theta, theta])
-    for array in found:
-        array.flags.writeable = False
-    return found
+            return np.array([0.0, 1.0]), np.array([1.0 - theta, theta])
 
 
-@lru_cache(maxsize=16)
 def moments(weight: TimeWeight) -> tuple[float, float]:
     """Moments mu1, mu2 of g."""
     tau, w = peaks(weight)

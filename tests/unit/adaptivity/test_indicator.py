@@ -6,8 +6,8 @@ from turning import NONE, on_levels, solid
 
 import softway as sw
 from softway.adaptivity.adapted_solid import adapted_solid
-from softway.adaptivity.indicator import indicator, wanted_levels
-from softway.adaptivity.neighbourhood import grown_near, marks_of
+from softway.adaptivity.marking.indicator import indicator, wanted_levels
+from softway.adaptivity.marking.neighbourhood import grown_near, marks_of
 from softway.adaptivity.transfer import Motion
 from softway.meshes.adaptive.refinement import adapted_mesh, refined
 from softway.meshes.adaptive.tree import tree_of

@@ -7,7 +7,7 @@ import numpy as np
 import softway as sw
 from softway.adaptivity.adapted_solid import AdaptedSolid, adapted_solid
 from softway.adaptivity.balances import spin
-from softway.adaptivity.even_surface import even
+from softway.adaptivity.marking.even_surface import even
 from softway.adaptivity.transfer import Motion
 from softway.arrays import Array
 from softway.meshes.adaptive.refinement import refined

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import softway as sw
-from softway.adaptivity.even_surface import even
+from softway.adaptivity.marking.even_surface import even
 from softway.arrays import Array
 from softway.errors import InputError
 from softway.meshes.adaptive.refinement import refined

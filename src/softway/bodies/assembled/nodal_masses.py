@@ -55,7 +55,9 @@ def _require_even(part: DiscreteSolid, candidates: IntArray) -> None:
     wrong = np.isin(np.column_stack([hanging.node, hanging.parents]), candidates).any(axis=1)
     if wrong.any():
         problem = f"{int(wrong.sum())} hanging nodes at contact nodes"
-        raise InputError("mesh", problem, "cells of one size along the surface, softway.adaptivity.even_surface.even")
+        raise InputError(
+            "mesh", problem, "cells of one size along the surface, softway.adaptivity.marking.even_surface.even"
+        )
 
 
 def _require_inertia(part: DiscreteSolid, candidates: IntArray) -> None:

@@ -8,7 +8,7 @@ from math import ceil
 import numpy as np
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
-from softway.adaptivity.even_surface import even
+from softway.adaptivity.marking.even_surface import even
 from softway.adaptivity.transfer import Motion
 from softway.bodies.elements.section import Axisymmetric
 from softway.bodies.setup.placement import Placement
@@ -17,7 +17,7 @@ from softway.contact.assembly.tie import Tie
 from softway.errors import InputError, within
 from softway.heat.coupled.build import build
 from softway.march.remeshing.admitted import adaptions, can_be_cut, require_admitted
-from softway.march.remeshing.carried.bonds import tearing
+from softway.march.remeshing.carried_bonds import tearing
 from softway.march.remeshing.touching import bulging, least_gaps, pushed, touched
 from softway.march.remeshing.wanted_mesh import Wanted, wanted_cells
 from softway.march.state.march_state import MarchState

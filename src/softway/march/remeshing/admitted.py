@@ -6,7 +6,7 @@ from dataclasses import replace
 from softway.bodies.solid import Solid
 from softway.errors import InputError
 from softway.heat.coupled.solid_temperature import SolidTemperature
-from softway.march.remeshing.carried.heat import carries_heat
+from softway.march.remeshing.carried_heat import carries_heat
 from softway.march.rules.slab_rule import Method
 from softway.meshes.adaptive.adapt import Adapt, adaption
 from softway.meshes.adaptive.refinement import BISECTED

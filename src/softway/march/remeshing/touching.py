@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from softway.adaptivity.neighbourhood import Mark
+from softway.adaptivity.marking.neighbourhood import Mark
 from softway.arrays import Array, IntArray
 from softway.bodies.setup.amplitude import Ramp
 from softway.bodies.setup.loads import Traction

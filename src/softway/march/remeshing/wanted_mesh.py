@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
-from softway.adaptivity.indicator import indicator, wanted_levels
-from softway.adaptivity.neighbourhood import Mark, grown_near, marks_of
+from softway.adaptivity.marking.indicator import indicator, wanted_levels
+from softway.adaptivity.marking.neighbourhood import Mark, grown_near, marks_of
 from softway.adaptivity.transfer import Motion
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.leaves import same

@@ -15,8 +15,11 @@ from softway.adaptivity.transfer import Settled, Transferred, transfer
 from softway.arrays import Array, BoolArray
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent
 from softway.march.remeshing.adapted_scene import AdaptedScene
-from softway.march.remeshing.carried.bonds import carried_bonds, damages, with_damage
-from softway.march.remeshing.carried.heat import (
+from softway.march.remeshing.carried.linked_changes import LinkedChange, all_values, linked_changes, values_between
+from softway.march.remeshing.carried.settling import Unsettled
+from softway.march.remeshing.carried.surface_forces import SurfaceForces, surface_forces
+from softway.march.remeshing.carried_bonds import carried_bonds, damages, with_damage
+from softway.march.remeshing.carried_heat import (
     account_of_heat,
     carried_temperatures,
     heat_of,
@@ -24,9 +27,6 @@ from softway.march.remeshing.carried.heat import (
     strained,
     with_content,
 )
-from softway.march.remeshing.carried.linked_changes import LinkedChange, all_values, linked_changes, values_between
-from softway.march.remeshing.carried.settling import Unsettled
-from softway.march.remeshing.carried.surface_forces import SurfaceForces, surface_forces
 from softway.march.remeshing.standing import standing
 from softway.march.state.march_state import AdaptedMeshes, MarchState
 from softway.march.state.model_state import Kind, ModelState, join_states, split_states

@@ -8,7 +8,7 @@ from adapting import adapting, adaptive_march
 from passing import finest, keeps_its_balances
 
 import softway as sw
-from softway.adaptivity.even_surface import even
+from softway.adaptivity.marking.even_surface import even
 from softway.errors import InputError
 from softway.march.remeshing.adapted_scene import adapted_scene
 from softway.march.remeshing.carried.carrying import carried_over
