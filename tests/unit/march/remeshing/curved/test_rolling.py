@@ -43,7 +43,7 @@ def test_the_centre_stays_at_the_height_of_the_radius(cell: str, cells: int) -> 
     for levels in (2, 4):
         found, last = heights(cell, cells, coarse(levels))
         sagitta = RADIUS * (1.0 - np.cos(pi / (EDGES * 2 ** (levels // 2))))
-        assert found.min() > -1.1 * sagitta  # that of the finest edges
+        assert found.min() > -1.25 * sagitta  # that of the finest edges, and vibrations from corner to corner
         assert abs(last.ledger.energy_error) < 1e-9
         assert found.max() < 8.0 * sagitta  # it hops from corner to corner of the fine polygon
 
