@@ -112,6 +112,8 @@ def compiled_model(stepper: Stepper, settings: Settings, span: float) -> Compile
     matrix = sp.csr_array(
         model.inertia_and_stiffness(np.zeros(model.shape), 0.5 * span**2 * moments(settings.weight)[1])
     )
+    if not matrix.shape[0]:
+        return None
     order = np.asarray(reverse_cuthill_mckee(matrix, symmetric_mode=True), np.int64)
     place = np.empty(len(order), np.int64)
     place[order] = np.arange(len(order))

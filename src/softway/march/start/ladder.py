@@ -153,6 +153,7 @@ def before_event(slab: Slab, lowest: float, out: SlabResult) -> float:
     Examples
     --------
     >>> from types import SimpleNamespace
+    >>> from softway.model.time_weight import EndPeaks
     >>> told = SimpleNamespace(events=(SimpleNamespace(time=2.6),))
     >>> [before_event(Slab(start=s, end=s + 8.0, weight=EndPeaks()), 1.0, told) for s in (-2.0, 0.0, 2.0)]
     [4.0, 2.0, 1.0]

@@ -31,7 +31,15 @@ def replacement(on: FormedScene, how: Remesh, now: MarchState, name: str) -> Rep
     same = None if makes and how.by == "new cells" else _rezoned(on, now, name)
     if same is not None and (not makes or how.within(cell_quality(same.mesh.blocks, same.mesh.points).worst)):
         return same
-    return (_with_new_cells(on, how, now, name) or same) if makes else None
+    return (_undivided(on, name, _with_new_cells(on, how, now, name)) or same) if makes else None
+
+
+def _undivided(on: FormedScene, name: str, found: Replacement | None) -> Replacement | None:
+    """The replacement; None if the model would divide its cells, since all nodes of some are on contact surfaces."""
+    if found is None:
+        return None
+    part = next(p for p in on.trial(name, found).parts if p.name == name)
+    return found if part.mesh.n_nodes == found.mesh.n_nodes else None
 
 
 def _rezoned(on: FormedScene, now: MarchState, name: str) -> Replacement | None:
@@ -44,7 +52,8 @@ def _rezoned(on: FormedScene, now: MarchState, name: str) -> Replacement | None:
         return on_tools(on.model, now.state.start.displacement, now.state.time, name, touching & ~kept, places)
 
     found = rezoned(part, mesh.ideal, on.places(now, name), closed, kept, put, tags)
-    return None if found is None else Replacement(mesh=replace(part.mesh, points=found), sizes=mesh.sizes)
+    same = None if found is None else Replacement(mesh=replace(part.mesh, points=found), sizes=mesh.sizes)
+    return _undivided(on, name, same)
 
 
 def _with_new_cells(on: FormedScene, how: Remesh, now: MarchState, name: str) -> Replacement | None:
