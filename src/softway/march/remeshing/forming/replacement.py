@@ -2,13 +2,12 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 
 import numpy as np
 
 from softway.adaptivity.new_cells.filling import filled
 from softway.adaptivity.new_cells.mmg import mmg_tetrahedra, mmg_triangles
-from softway.adaptivity.new_cells.plane_mesh import NewMesh, plane_mesh
+from softway.adaptivity.new_cells.plane_mesh import NewMesh, moved_mesh, plane_mesh
 from softway.adaptivity.new_cells.space_mesh import improved_tetrahedra, space_mesh
 from softway.adaptivity.rezoning.quality import CellQuality, cell_quality
 from softway.adaptivity.rezoning.rezone import rezoned
@@ -52,8 +51,8 @@ def _rezoned(on: FormedScene, now: MarchState, name: str) -> Replacement | None:
         return on_tools(on.model, now.state.start.displacement, now.state.time, name, touching & ~kept, places)
 
     found = rezoned(part, mesh.ideal, on.places(now, name), closed, kept, put, tags)
-    same = None if found is None else Replacement(mesh=replace(part.mesh, points=found), sizes=mesh.sizes)
-    return _undivided(on, name, same)
+    moved = None if found is None else moved_mesh(part.mesh, found)
+    return None if moved is None else _undivided(on, name, Replacement(mesh=moved, sizes=mesh.sizes))
 
 
 def _with_new_cells(on: FormedScene, how: Remesh, now: MarchState, name: str) -> Replacement | None:
