@@ -190,13 +190,15 @@ def test_a_wave_from_a_corner(cell: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("cell", ["tri3", "quad4"])
 def test_the_contact_force_is_that_on_the_finest_mesh(cell: str) -> None:
-    scene, levels = dropped(disc(0.5, 4, cell=cell), "boundary"), 6
-    adapt = {"body": Adapt(levels=levels, tolerance=0.4)}
+    """The lower part of the circle may touch: massless nodes in large cells above would spoil the waves."""
+    mesh = disc(0.5, 4, cell=cell).with_tag("under", lambda x: (np.hypot(*x.T) > 0.49) & (x[:, 1] < -0.3))
+    scene, levels = dropped(mesh, "under"), 6
+    adapt = {"body": Adapt(levels=levels, tolerance=0.5)}
     steps = list(adaptive_march(scene, adapt, until=2.8, step=0.04))
     fine = list(sw.march(on_finest(scene, "body", levels)[0], until=2.8, step=0.04))
     one, other = (
-        np.array([step.ledger.contacts["body.boundary-floor"].force_n for step in some]) for some in (steps, fine)
+        np.array([step.ledger.contacts["body.under-floor"].force_n for step in some]) for some in (steps, fine)
     )
     assert len(one) == len(other)
-    assert np.linalg.norm(one - other) < 0.05 * np.linalg.norm(other)
+    assert np.linalg.norm(one - other) < 0.01 * np.linalg.norm(other)
     assert one.sum() == pytest.approx(other.sum(), rel=5e-3)

@@ -18,7 +18,7 @@ from softway.meshes.adaptive.refinement import refined
 from softway.meshes.generators.shapes import disc, rectangle
 
 LEVELS = 4
-ADAPT = Adapt(levels=LEVELS, tolerance=1.0, buffer=2, contact_cells=4)
+ADAPT = Adapt(levels=LEVELS, smooth=0.0, tolerance=1.0, buffer=2, contact_cells=4)
 
 
 def ball(velocity: tuple[float, float], spin: float = 0.0) -> sw.Solid:
@@ -91,7 +91,7 @@ def test_a_block_slides_to_rest() -> None:
     contact = sw.Contact(between=("block.bottom", "floor"), friction=sw.laws.Coulomb(mu=mu))
     weight = sw.Gravity(acceleration=(0.0, -g))
     scene = sw.Scene(bodies={"block": block, "floor": floor}, contacts=(contact,), loads=(weight,))
-    adapt = {"block": Adapt(levels=3, tolerance=0.5, buffer=1, contact_cells=1)}
+    adapt = {"block": Adapt(levels=3, smooth=0.0, tolerance=0.5, buffer=1, contact_cells=1)}
     steps = list(adaptive_march(scene, adapt, until=1.3 * v / (mu * g), step=0.2))
     last = steps[-1]
     way = last.model.weight @ last.after.displacement["block"] / last.model.weight.sum()

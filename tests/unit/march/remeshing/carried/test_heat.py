@@ -14,7 +14,7 @@ from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.generators.shapes import disc, rectangle
 
 LEVELS = 3
-ADAPT = Adapt(levels=LEVELS, tolerance=1.0, buffer=1, contact_cells=2)
+ADAPT = Adapt(levels=LEVELS, smooth=0.0, tolerance=1.0, buffer=1, contact_cells=2)
 ELASTIC = sw.NeoHookean(E=1.0, nu=0.3)
 PLASTIC = sw.J2(E=1.0, nu=0.3, yield_stress=0.01, hardening=sw.laws.LinearHardening(modulus=0.1))
 CONSTANT = sw.heat.Conduction(conductivity=1e-3, capacity=1.0)

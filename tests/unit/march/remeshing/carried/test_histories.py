@@ -47,7 +47,7 @@ def adapted(scene: sw.Scene, until: float, step: float, adapt: Adapt) -> list[sw
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 def test_balances_and_dissipation(law: object) -> None:
     scene = thrown(law)
-    steps = adapted(scene, 2.0, 0.05, Adapt(levels=LEVELS, tolerance=1.0, buffer=2, contact_cells=4))
+    steps = adapted(scene, 2.0, 0.05, Adapt(levels=LEVELS, smooth=0.0, tolerance=1.0, buffer=2, contact_cells=4))
     assert keeps_its_balances(steps) > 4
     *_, fine = sw.march(finest(scene, LEVELS, "body"), until=2.0, step=0.05)
     one, other = steps[-1].ledger, fine.ledger
@@ -57,7 +57,9 @@ def test_balances_and_dissipation(law: object) -> None:
 
 
 def test_stresses_stay_within_the_yield_surface() -> None:
-    steps = adapted(thrown(J2), 1.6, 0.05, Adapt(levels=LEVELS, tolerance=2.0, every=2, buffer=1, contact_cells=1))
+    steps = adapted(
+        thrown(J2), 1.6, 0.05, Adapt(levels=LEVELS, smooth=0.0, tolerance=2.0, every=2, buffer=1, contact_cells=1)
+    )
     changes = 0
     for taken in steps:
         state = taken.before.memory["body"]
@@ -74,7 +76,9 @@ def volumes(taken: sw.Step) -> Array:
 
 
 def test_histories_keep_their_totals_but_for_the_contact() -> None:
-    steps = adapted(thrown(J2), 1.6, 0.05, Adapt(levels=LEVELS, tolerance=2.0, every=2, buffer=1, contact_cells=1))
+    steps = adapted(
+        thrown(J2), 1.6, 0.05, Adapt(levels=LEVELS, smooth=0.0, tolerance=2.0, every=2, buffer=1, contact_cells=1)
+    )
     for last, taken in zip(steps[:-1], steps[1:], strict=True):
         old, new = last.after.memory["body"], taken.before.memory["body"]
         before, after = (float(volumes(s) @ m.law["plastic_strain"]) for s, m in ((last, old), (taken, new)))
@@ -92,7 +96,7 @@ def test_a_taylor_bar() -> None:
     )  # fmt: skip
     wall = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -1e-6), normal=(0.0, 1.0)))
     scene = sw.Scene(bodies={"body": bar, "wall": wall}, contacts=(sw.Contact(between=("body.bottom", "wall")),))
-    steps = adapted(scene, 40e-6, 1e-7, Adapt(levels=levels, every=8, buffer=2, contact_cells=3))
+    steps = adapted(scene, 40e-6, 1e-7, Adapt(levels=levels, smooth=0.0, every=8, buffer=2, contact_cells=3))
     *_, fine = sw.march(finest(scene, levels, "body"), until=40e-6, step=1e-7)
 
     def length(step: sw.Step) -> float:
