@@ -8,7 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import lstsq, lu_factor, lu_solve
+from scipy.linalg import lstsq, lu_solve
+from scipy.linalg.lapack import dgetrf
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import NoConvergence
@@ -99,7 +100,7 @@ class KeptNewton:
     def at(cls, problem: FrictionProblem, x: Array) -> "KeptNewton":
         """Factored linearisation at the solution x (c (1 + k),) of a problem."""
         residual = friction_residual(problem, x)
-        factor = lu_factor(linearised(problem, residual), overwrite_a=True, check_finite=False)
+        factor = _factor(linearised(problem, residual))
         return cls(problem, factor, residual.status)
 
     def solved(
@@ -219,13 +220,19 @@ def _newton(problem: FrictionProblem, x: Array) -> tuple[Array, bool]:
         problem.effort.step(f"friction of {problem.count} rows, step {count} of Newton's method")
         if factor is None or residual.worst > FALLS * before or residual.status != last_status:
             last_status = residual.status
-            factor = lu_factor(linearised(problem, residual), overwrite_a=True, check_finite=False)
+            factor = _factor(linearised(problem, residual))
         step, before = lu_solve(factor, residual.missed, check_finite=False), residual.worst
         if not np.isfinite(step).all():
             break
         steps = [step, *_shortest(problem, x, residual, factor)] if seen.since else [step]
         x, residual = min((_line_searched(problem, x, one, residual) for one in steps), key=lambda it: it[1].worst)
     return x, False
+
+
+def _factor(matrix: Array) -> tuple[Array, IntArray]:
+    """Factors of a matrix (n, n), which may be singular: solutions are not finite then."""
+    factors, swaps, _ = dgetrf(matrix, overwrite_a=True)
+    return factors, swaps
 
 
 def _shortest(
