@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError
@@ -176,6 +175,8 @@ def curve(points: Array, shares: Sequence[float] | Array, straight: bool) -> Arr
     if straight or len(points) < 4:
         found = np.stack([np.interp(at, lengths, values) for values in points.T], axis=1)
     else:
+        from scipy.interpolate import CubicSpline  # slow to load
+
         found = CubicSpline(lengths, points)(at)
     same = (points == points[0]).all(axis=0)
     found[:, same] = points[0, same]

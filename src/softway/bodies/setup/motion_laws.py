@@ -7,7 +7,6 @@ value.  The motion is the change of the value since t = 0.
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline, CubicSpline, PchipInterpolator
 
 from softway.arrays import Array
 from softway.errors import InputError
@@ -86,6 +85,8 @@ class Spline:
     pieces: Array = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        from scipy.interpolate import CubicHermiteSpline, CubicSpline, PchipInterpolator  # slow to load
+
         time, value = _points(self.times, self.points)
         if self.monotone:
             slope = PchipInterpolator(time, value).derivative()(time)

@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.optimize import brentq
 
 from softway.arrays import Array, IntArray
 from softway.errors import NoConvergence
@@ -109,6 +108,8 @@ class Search:
             if span in known:
                 return known[span]
             return self.solved(replace(left, span=span), event).over[event]
+
+        from scipy.optimize import brentq  # slow to load
 
         known = {0.0: self.at_start[event], left.span: whole.over[event]}
         accuracy = {"xtol": SEARCHED * left.span, "rtol": 8.0 * float(np.finfo(float).eps)}
@@ -221,6 +222,8 @@ class Search:
         node, known = ends[int(end)], {start: at_start}
         if at_start == 0.0 or start == end:
             return start, ((node, abs(at_start)) if at_start else None)
+        from scipy.optimize import brentq  # slow to load
+
         known[end] = missing(end)
         if known[end] * at_start >= 0.0:
             return end, (node, abs(known[end]))

@@ -101,6 +101,6 @@ def assembler(cells: list[IntArray], nodes: int, components: int) -> Assembler:
     widths = np.concatenate([[0], *(np.full(len(block), block.shape[1]) for block in cells)])
     numbers = np.concatenate([np.asarray(block, np.int64).ravel() for block in cells])
     rows, columns, starts, members = node_pairs(numbers, np.cumsum(widths), nodes)
-    sums = csr_array((np.ones(len(members)), members, starts), (len(columns), len(members)))
+    sums = csr_array((np.ones(len(members)), members, starts.copy()), (len(columns), len(members)))
     order, indices, indptr = expanded(rows, columns, components)
     return Assembler(sums=sums, order=order, indices=indices, indptr=indptr)

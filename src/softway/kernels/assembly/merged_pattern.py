@@ -25,13 +25,16 @@ def merged_pattern(first_starts, first_rows, first_values, starts, rows, number)
     picked, place
         Stored entries of the second one that are kept, and their places in the union.
     indices, indptr
-        The union in compressed columns.
+        The union in compressed columns.  All but ``indptr`` are the beginnings of longer arrays.
     """
     room = len(first_rows) + len(rows)
-    values, indices = np.zeros(room), np.empty(room, np.int32)
+    values, indices = np.empty(room), np.empty(room, np.int32)
     picked, place = np.empty(len(rows), np.int64), np.empty(len(rows), np.int64)
-    indptr = np.zeros(number.max() + 2, np.int32)
-    end, kept = 0, 0
+    columns = 0
+    for column in range(len(number)):
+        columns = max(columns, number[column] + 1)
+    indptr = np.empty(columns + 1, np.int32)
+    indptr[0], end, kept = 0, 0, 0
     for column in range(len(number)):
         if number[column] < 0:
             continue
@@ -42,8 +45,7 @@ def merged_pattern(first_starts, first_rows, first_values, starts, rows, number)
             row = min(one, two)
             if number[row] >= 0:
                 indices[end] = number[row]
-                if one == row:
-                    values[end] = first_values[i]
+                values[end] = first_values[i] if one == row else 0.0
                 if two == row:
                     picked[kept], place[kept] = j, end
                     kept += 1
@@ -51,4 +53,4 @@ def merged_pattern(first_starts, first_rows, first_values, starts, rows, number)
             i += one == row
             j += two == row
         indptr[number[column] + 1] = end
-    return values[:end].copy(), picked[:kept].copy(), place[:kept].copy(), indices[:end].copy(), indptr
+    return values[:end], picked[:kept], place[:kept], indices[:end], indptr

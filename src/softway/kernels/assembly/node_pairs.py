@@ -31,11 +31,13 @@ def node_pairs(nodes, first, count):
     total = 0
     for k in range(len(first) - 1):
         total += (first[k + 1] - first[k]) ** 2
-    rows, columns = np.zeros(count + 1, np.int64), np.empty(total, np.int64)
+    rows, columns = np.empty(count + 1, np.int64), np.empty(total, np.int64)
     starts, members = np.empty(total + 1, np.int64), np.empty(total, np.int32)
-    seen, place = np.full(count, -1, np.int64), np.empty(count, np.int64)
+    seen, place = np.empty(count, np.int64), np.empty(count, np.int64)
     pairs, done = 0, 0
-    starts[0] = 0
+    rows[0] = starts[0] = 0
+    for node in range(count):
+        seen[node] = -1
     for row in range(count):
         begin = pairs
         for k in range(by_node[row], by_node[row + 1]):
@@ -47,30 +49,33 @@ def node_pairs(nodes, first, count):
                     columns[pairs] = nodes[j]
                     pairs += 1
                 place[nodes[j]] += 1
-        columns[begin:pairs].sort()
+        _sort(columns, begin, pairs)
         for p in range(begin, pairs):
             number = place[columns[p]]
             place[columns[p]] = done
             done += number
             starts[p + 1] = done
         for k in range(by_node[row], by_node[row + 1]):
-            cell, number = entry[k]
+            cell, number = entry[k, 0], entry[k, 1]
             for j in range(first[cell], first[cell + 1]):
                 members[place[nodes[j]]] = number + j - first[cell]
                 place[nodes[j]] += 1
         rows[row + 1] = pairs
-    return rows, columns[:pairs].copy(), starts[: pairs + 1].copy(), members
+    return rows, columns[:pairs], starts[: pairs + 1], members
 
 
 @inlined
 def _rows_of_cells(nodes, first, count):
     """Rows of the pairs of cells by node: where those of each node begin (n + 1,), and cell and first pair of each."""
-    by_node, entry = np.zeros(count + 1, np.int64), np.empty((len(nodes), 2), np.int64)
+    by_node, entry = np.empty(count + 1, np.int64), np.empty((len(nodes), 2), np.int64)
+    for row in range(count + 1):
+        by_node[row] = 0
     for node in nodes:
         by_node[node + 1] += 1
+    fill, number = np.empty(count, np.int64), 0
     for row in range(count):
+        fill[row] = by_node[row]
         by_node[row + 1] += by_node[row]
-    fill, number = by_node[:-1].copy(), 0
     for cell in range(len(first) - 1):
         for i in range(first[cell], first[cell + 1]):
             at = fill[nodes[i]]
@@ -78,6 +83,22 @@ def _rows_of_cells(nodes, first, count):
             entry[at, 0], entry[at, 1] = cell, number
             number += first[cell + 1] - first[cell]
     return by_node, entry
+
+
+@inlined
+def _sort(values, begin, end):
+    """Sort a part of the values; a sort by falling gaps, which compiles in a tenth of the time of that of an array."""
+    gap = 1
+    while 3 * gap + 1 < end - begin:
+        gap = 3 * gap + 1
+    while gap > 0:
+        for k in range(begin + gap, end):
+            value, at = values[k], k
+            while at >= begin + gap and values[at - gap] > value:
+                values[at] = values[at - gap]
+                at -= gap
+            values[at] = value
+        gap //= 3
 
 
 @kernel
@@ -100,7 +121,8 @@ def expanded(rows, columns, components):
     """
     d, n = components, len(rows) - 1
     order, indices = np.empty(len(columns) * d * d, np.int64), np.empty(len(columns) * d * d, np.int32)
-    indptr, at = np.zeros(n * d + 1, np.int32), 0
+    indptr, at = np.empty(n * d + 1, np.int32), 0
+    indptr[0] = 0
     for row in range(n):
         for i in range(d):
             for p in range(rows[row], rows[row + 1]):

@@ -57,5 +57,5 @@ def sum_of(constant: csc_array, other: csc_array, keep: BoolArray) -> Sum:
         two = entries
     pattern = one.indptr, one.indices, one.data, two.indptr, two.indices
     values, picked, place, indices, indptr = merged_pattern(*pattern, number)
-    picked = picked if entries is None else entries.data[picked]
-    return Sum(constant=values, picked=picked, place=place, indices=indices, indptr=indptr)
+    picked = picked.copy() if entries is None else entries.data[picked]
+    return Sum(constant=values.copy(), picked=picked, place=place.copy(), indices=indices.copy(), indptr=indptr)

@@ -2,8 +2,6 @@
 
 from math import log, sqrt
 
-from scipy.optimize import brentq
-
 BAR_STRETCH = 1.0 / sqrt(3.0)
 """Stretch of a bar, or of a volume along one axis, at its greatest compressive force."""
 COLLAPSED = -0.35
@@ -28,6 +26,8 @@ def stable_stretch(lame: float) -> float:
     >>> round(stable_stretch(1.5), 3), round(stable_stretch(9.0), 3), 1.0 - stable_stretch(1e6) < 1e-5
     (0.706, 0.906, True)
     """
+    from scipy.optimize import brentq  # slow to load
+
     strain = brentq(lambda e: _least(e, lame), COLLAPSED, -SAFE / (lame + 2.0), xtol=1e-300)
     return sqrt(1.0 + 2.0 * strain)
 

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from softway.arrays import Array
 from softway.laws.heat.temperature_table import TemperatureTable
@@ -52,6 +51,8 @@ class StiffnessTable:
         knots, values = np.array(self.temperatures), np.array(self.values)
         if len(knots) == 1:
             return StiffnessCurve(knots=knots, cubics=np.zeros((4, 0)), ends=np.array([[values[0], 0.0]] * 2))
+        from scipy.interpolate import PchipInterpolator  # slow to load
+
         made = PchipInterpolator(knots, values)
         slopes = made.derivative()(knots[[0, -1]])
         return StiffnessCurve(knots=knots, cubics=made.c, ends=np.stack([values[[0, -1]], slopes], axis=1))

@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from scipy.optimize import brentq
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError, NumericsError
@@ -161,6 +160,8 @@ class StopMarch:
             used = self.stops.tried(length, extent)
             counted[0] += used
             return float(self.stops.gaps()[~self.stops.closed].min()) if used else -np.inf
+
+        from scipy.optimize import brentq  # slow to load
 
         low, high = 0.5 * span, span
         for _ in range(HALVINGS):

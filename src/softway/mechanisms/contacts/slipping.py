@@ -9,7 +9,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.kernels.rigid_contact.contact import compliances
@@ -111,6 +110,8 @@ def _first_end(
 
     if not moving.any() or not (left(span) < 0.0).any():
         return span, np.zeros(len(moving), bool)
+    from scipy.optimize import brentq  # slow to load
+
     low = min(EARLY * h, span)
     if least(low) <= 0.0:
         return 0.0, left(low) <= 0.0

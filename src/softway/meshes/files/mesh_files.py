@@ -6,8 +6,8 @@ import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import meshio
 import numpy as np
 
 from softway.arrays import Array, IntArray
@@ -19,6 +19,9 @@ from softway.meshes.files.gmsh.mesh import NAMES, gmsh_mesh
 from softway.meshes.files.listed_mesh import FileTie, LeftOut, ListedMesh
 from softway.meshes.files.wavefront import obj_facets
 from softway.meshes.mesh import Mesh
+
+if TYPE_CHECKING:
+    import meshio
 
 LOG = logging.getLogger(__name__)
 _SURFACES = {".stl": "stl", ".ply": "ply", ".vtu": "vtu"}
@@ -162,8 +165,10 @@ def _require_file(path: Path, known: Sequence[str]) -> None:
         raise InputError("path", f"{path.name} has {size} bytes", f"a mesh file of up to {LARGEST:.0e} bytes")
 
 
-def _read(path: Path, readers: Mapping[str, str]) -> meshio.Mesh:
+def _read(path: Path, readers: Mapping[str, str]) -> "meshio.Mesh":
     """Mesh of meshio, whose errors become input errors."""
+    import meshio  # slow to load
+
     reader = readers[path.suffix.lower()]
     with path.open("rb") as opened:
         if reader == "ply" and PLY_ENDS not in opened.read(HEAD):  # meshio would search without end

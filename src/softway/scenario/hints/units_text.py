@@ -3,11 +3,12 @@
 import math
 import re
 from dataclasses import dataclass
-from typing import Any, Self
-
-import pint
+from typing import TYPE_CHECKING, Any, Self
 
 from softway.errors import InputError
+
+if TYPE_CHECKING:
+    import pint
 
 _NUMBER = re.compile(r"^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
 _EXAMPLES = {
@@ -49,11 +50,13 @@ class Units:
     7850.0
     """
 
-    registry: pint.UnitRegistry[Any]
+    registry: "pint.UnitRegistry[Any]"
 
     @classmethod
     def standard(cls) -> Self:
         """Converter with the standard units of pint."""
+        import pint  # slow to load
+
         return cls(pint.UnitRegistry())
 
     def number(self, value: object, unit: str, where: str) -> float:
@@ -137,7 +140,7 @@ def example(unit: str) -> str:
     return f'{name} such as "{sample}", or a bare number in {unit}' if unit else f"{name} such as {sample}"
 
 
-def _angle(registry: pint.UnitRegistry[Any], unit: Any) -> bool:
+def _angle(registry: "pint.UnitRegistry[Any]", unit: Any) -> bool:
     """True if a dimensionless unit measures an angle; angles and pure numbers are not interchangeable."""
     root = registry.get_root_units(unit)[1]
     return any(str(part) == "radian" for part in root._units)

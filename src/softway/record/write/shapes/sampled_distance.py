@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import map_coordinates
 
 from softway.arrays import Array
 from softway.obstacles.half_space import unit_vectors
@@ -53,6 +52,8 @@ class SampledDistance:
         inside = np.clip(x, low, high)
         place = (inside - low) / (high - low) * (np.array(self.values.shape) - 1.0)
         places = place.reshape(-1, self.dim).T
+        from scipy.ndimage import map_coordinates  # slow to load
+
         found = map_coordinates(self.values, places, order=1, mode="nearest").reshape(x.shape[:-1])
         return np.asarray(found + np.linalg.norm(x - inside, axis=-1))
 
