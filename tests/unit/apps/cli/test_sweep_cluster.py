@@ -89,7 +89,7 @@ def test_the_run_of_a_lost_worker_goes_on_with_another(cluster: Cluster, tmp_pat
     cluster.worker()
     thread.join(SECONDS)
     assert not thread.is_alive() and [row.stop.reason for row in found[0].rows] == ["done"] * 2
-    begun = next(row for row in found[0].rows if Run(row.folder).provenance["resumed"])
+    begun = next(row for row in found[0].rows if Run(row.folder).provenance.get("resumed"))
     cells = begun.values["bodies.bar.mesh.cells"]
     whole = sw.run(sw.load(file, [*CHANGES, f"bodies.bar.mesh.cells={cells}"]), tmp_path / "whole")
     for name in ("time", "energy_kinetic", "contact.wall.force_n"):
