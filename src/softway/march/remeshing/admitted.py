@@ -96,9 +96,6 @@ def _require_carried(model: Model) -> None:
     """Refuse scenes of which something would not pass to other meshes."""
     scene, other = model.scene, "meshes that stay, or a scene without"
     _require_linked(model)
-    for k, contact in enumerate(scene.contacts if not model.timing.massless else ()):
-        problem = f"{contact.label!r} whose nodes have inertia, where meshes adapt"
-        raise InputError(f"contacts[{k}].timing", problem, "Energy, whose contact nodes are massless")
     for name in model.meshes:
         if not carries_heat(model, name):
             problem = "latent heat, or capacities of several regions that depend on the temperature"
