@@ -56,16 +56,6 @@ def test_a_shock_with_bulk_viscosity() -> None:
     assert steps[-1].ledger.dissipation == pytest.approx(exact.ledger.dissipation, rel=0.02)
 
 
-def test_contacts_with_massive_nodes_are_refused() -> None:
-    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -0.01), normal=(0.0, 1.0)))
-    contact = sw.Contact(between=("block.bottom", "floor"), timing=sw.contact.Impulse())
-    scene = sw.Scene(bodies={"block": BLOCK, "floor": floor}, contacts=(contact,))
-    with pytest.raises(InputError) as refusal:
-        next(adaptive_march(scene, {"block": ADAPT}, until=0.1, step=0.01))
-    assert refusal.value.where == "contacts[0].timing"
-    assert refusal.value.remedy
-
-
 @pytest.mark.parametrize("cell", ["tri3", "quad4"])
 @pytest.mark.parametrize(
     "law",
