@@ -3,16 +3,13 @@
 """
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
-import scipy.sparse as sp
 
-from softway.adaptivity.projections.conditions import ClosedRows, conditions_of
+from softway.adaptivity.projections.conditions import ClosedRows, MassiveSolid, conditions_of
 from softway.arrays import Array
 from softway.bodies.assembled.rigid_body_modes import motion_names
-from softway.bodies.dof_map import DofMap
-from softway.bodies.elements.section import Axisymmetric, Section
+from softway.bodies.elements.section import Axisymmetric
 
 HELD = 1e-9
 """Supported part of a rigid motion, relative to the motion, below which supports leave it free."""
@@ -20,34 +17,6 @@ MOST = 0.1
 """Greatest ``|s^2 - 1|`` of the scalar s; beyond it the difference of energies is booked."""
 SMALL = 1e-13
 """Energy, relative to that of the body, below which the rest of the motion is rounding."""
-
-
-class MassiveSolid(Protocol):
-    """Solid of n nodes with its nodal mass matrix (n, n) [kg]."""
-
-    @property
-    def dofs(self) -> DofMap:
-        """Velocities of the nodes from the unknowns."""
-        ...
-
-    @property
-    def section(self) -> Section:
-        """Section of the solid."""
-        ...
-
-    @property
-    def mass(self) -> sp.csr_array:
-        """Mass matrix."""
-        ...
-
-    @property
-    def points(self) -> Array:
-        """Reference places (n, d) of the nodes [m]."""
-        ...
-
-    def kinetic(self, velocity: Array) -> float:
-        """Kinetic energy [J] at a velocity (n, d) [m/s]."""
-        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

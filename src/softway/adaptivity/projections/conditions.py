@@ -11,6 +11,7 @@ from scipy.sparse.linalg import SuperLU, splu
 
 from softway.arrays import Array
 from softway.bodies.dof_map import DofMap
+from softway.bodies.elements.section import Section
 
 DEPENDENT = 1e-9
 """Relative inertia below which a condition follows from the others."""
@@ -18,7 +19,7 @@ BATCH = 64
 """Rows whose motions are computed together."""
 
 
-class Inert(Protocol):
+class MassiveSolid(Protocol):
     """Solid of n nodes with its nodal mass matrix (n, n) [kg]."""
 
     @property
@@ -27,8 +28,22 @@ class Inert(Protocol):
         ...
 
     @property
+    def section(self) -> Section:
+        """Section of the solid."""
+        ...
+
+    @property
     def mass(self) -> sp.csr_array:
         """Mass matrix."""
+        ...
+
+    @property
+    def points(self) -> Array:
+        """Reference places (n, d) of the nodes [m]."""
+        ...
+
+    def kinetic(self, velocity: Array) -> float:
+        """Kinetic energy [J] at a velocity (n, d) [m/s]."""
         ...
 
 
@@ -60,7 +75,7 @@ class Conditions:
         Factor of the rows, with which they are of the size of the momenta.
     """
 
-    solid: Inert
+    solid: MassiveSolid
     motions: Array
     rows: sp.csr_array
     factor: SuperLU | None
@@ -82,7 +97,7 @@ class Conditions:
         return np.asarray(out.reshape(self.solid.mass.shape[0], -1))
 
 
-def conditions_of(solid: Inert, motions: Array, closed: ClosedRows | None = None) -> Conditions:
+def conditions_of(solid: MassiveSolid, motions: Array, closed: ClosedRows | None = None) -> Conditions:
     """Conditions on the velocity of a solid with free rigid motions (n d, m) and closed rows.
 
     Examples
@@ -118,12 +133,12 @@ def conditions_of(solid: Inert, motions: Array, closed: ClosedRows | None = None
     return Conditions(solid=solid, motions=motions, rows=rows, factor=factor, inverse=inverse, scale=scale)
 
 
-def _inertia(solid: Inert, motions: Array) -> Array:
+def _inertia(solid: MassiveSolid, motions: Array) -> Array:
     """Inertia (m, m) of rigid motions."""
     n = solid.mass.shape[0]
     return np.asarray(motions.T @ (solid.mass @ motions.reshape(n, -1)).reshape(len(motions), -1))
 
 
-def _moved(solid: Inert, factor: SuperLU, impulse: Array) -> Array:
+def _moved(solid: MassiveSolid, factor: SuperLU, impulse: Array) -> Array:
     """Velocity (n, d) by impulses (n d,)."""
     return solid.dofs.nodes(factor.solve(solid.dofs.forces(impulse.reshape(solid.mass.shape[0], -1))))

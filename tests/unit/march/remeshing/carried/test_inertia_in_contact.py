@@ -81,9 +81,7 @@ def test_two_solids_that_touch_keep_their_momenta() -> None:
     ball = sw.Solid(
         mesh=disc(0.5, 4, cell="tri3"), material=LAW, density=1.0, velocity=sw.bodies.Uniform(value=(0.0, -0.1))
     )
-    block = sw.Solid(
-        mesh=rectangle((1.0, 0.5), (6, 3), cell="tri3", origin=(-0.5, -1.005)), material=LAW, density=2.0
-    )
+    block = sw.Solid(mesh=rectangle((1.0, 0.5), (6, 3), cell="tri3", origin=(-0.5, -1.005)), material=LAW, density=2.0)
     contact = sw.Contact(between=("ball.boundary", "block.top"), timing=sw.contact.Impulse())
     scene = sw.Scene(bodies={"ball": ball, "block": block}, contacts=(contact,))
     steps = list(adaptive_march(scene, {"ball": COARSE, "block": COARSE}, until=1.0, step=0.05))
