@@ -116,7 +116,7 @@ def conditions_of(solid: MassiveSolid, motions: Array, closed: ClosedRows | None
     rows = sp.csr_array((0, len(motions))) if closed is None else closed.gradient
     k = rows.shape[0]
     if not k:
-        inverse = np.linalg.pinv(inertia, rcond=DEPENDENT, hermitian=True)
+        inverse = _pseudo_inverse(inertia)
         return Conditions(solid=solid, motions=motions, rows=rows, factor=None, inverse=inverse, scale=1.0)
     d = len(motions) // n
     factor = splu(solid.dofs.matrix(sp.csc_array(sp.kron(solid.mass, sp.eye_array(d), format="csc"))))
@@ -129,8 +129,13 @@ def conditions_of(solid: MassiveSolid, motions: Array, closed: ClosedRows | None
     size, most = float(felt.diagonal().max()), float(inertia.diagonal().max(initial=0.0))
     scale = float(np.sqrt(most / size)) if most > 0.0 and size > 0.0 else 1.0
     both = np.block([[scale**2 * felt, scale * mixed], [scale * mixed.T, inertia]])
-    inverse = np.linalg.pinv(0.5 * (both + both.T), rcond=DEPENDENT, hermitian=True)
+    inverse = _pseudo_inverse(0.5 * (both + both.T))
     return Conditions(solid=solid, motions=motions, rows=rows, factor=factor, inverse=inverse, scale=scale)
+
+
+def _pseudo_inverse(matrix: Array) -> Array:
+    """Pseudo-inverse (k, k) of a symmetric matrix, without conditions that follow from others."""
+    return np.asarray(np.linalg.pinv(matrix, rcond=DEPENDENT, hermitian=True), dtype=np.float64)
 
 
 def _inertia(solid: MassiveSolid, motions: Array) -> Array:

@@ -60,7 +60,7 @@ def admitted(model: Model, method: Method) -> tuple[Model, dict[str, InputError]
     asked = adaptions(model.scene)
     if not asked:
         return model, {}
-    explicit, lost = (_refusal(partial(*one)) for one in ((_require_implicit, method), (_require_carried, model)))
+    explicit, lost = _refusal(partial(_require_implicit, method)), _refusal(partial(_require_carried, model))
     found = {name: explicit or _refusal(partial(_require_own, model, name)) or lost for name in asked}
     stay = {name: error for name, error in found.items() if error is not None}
     for name, error in stay.items():

@@ -96,6 +96,7 @@ def test_two_solids_that_touch_keep_their_momenta() -> None:
             assert momenta[1] == pytest.approx(momenta[0], abs=1e-13)
 
 
+@pytest.mark.slow
 def test_a_bar_at_a_wall_is_as_on_the_finest_mesh() -> None:
     bar = sw.Solid(
         mesh=sw.meshes.Interval(length=1.0, cells=10), material=sw.LinearElastic(E=1.0, nu=0.0), density=1.0,
