@@ -3,15 +3,13 @@
 """
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
-import scipy.sparse as sp
 
+from softway.adaptivity.projections.conditions import ClosedRows, MassiveSolid, conditions_of
 from softway.arrays import Array
 from softway.bodies.assembled.rigid_body_modes import motion_names
-from softway.bodies.dof_map import DofMap
-from softway.bodies.elements.section import Axisymmetric, Section
+from softway.bodies.elements.section import Axisymmetric
 
 HELD = 1e-9
 """Supported part of a rigid motion, relative to the motion, below which supports leave it free."""
@@ -19,34 +17,6 @@ MOST = 0.1
 """Greatest ``|s^2 - 1|`` of the scalar s; beyond it the difference of energies is booked."""
 SMALL = 1e-13
 """Energy, relative to that of the body, below which the rest of the motion is rounding."""
-
-
-class MassiveSolid(Protocol):
-    """Solid of n nodes with its nodal mass matrix (n, n) [kg]."""
-
-    @property
-    def dofs(self) -> DofMap:
-        """Velocities of the nodes from the unknowns."""
-        ...
-
-    @property
-    def section(self) -> Section:
-        """Section of the solid."""
-        ...
-
-    @property
-    def mass(self) -> sp.csr_array:
-        """Mass matrix."""
-        ...
-
-    @property
-    def points(self) -> Array:
-        """Reference places (n, d) of the nodes [m]."""
-        ...
-
-    def kinetic(self, velocity: Array) -> float:
-        """Kinetic energy [J] at a velocity (n, d) [m/s]."""
-        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -99,12 +69,18 @@ def spin(places: Array, momenta: Array) -> Array:
 
 
 def balanced(
-    after: MassiveSolid, motions: Array, velocity: Array, momenta: Array, kinetic: float, most: float = MOST
+    after: MassiveSolid,
+    motions: Array,
+    velocity: Array,
+    momenta: Array,
+    kinetic: float,
+    most: float = MOST,
+    closed: ClosedRows | None = None,
 ) -> tuple[Array, float]:
     """Velocity (n, d) with given momenta of the free rigid motions and, where a scalar allows it, kinetic energy.
 
-    The velocity is ``g + Z c + s w``: its part g on supports, a rigid one, and the rest w, orthogonal to all free rigid
-    motions in the mass.
+    The velocity is ``g + b + s w``: its part g on supports, the velocity b of least energy with the momenta and the
+    normal velocities of closed rows, and the rest w, which has neither.  Without closed rows b is a rigid motion.
 
     Parameters
     ----------
@@ -120,31 +96,21 @@ def balanced(
         Kinetic energy to have [J].
     most
         Greatest ``|s^2 - 1|`` of the scalar s.
+    closed
+        Contact rows with given normal velocities, of nodes with inertia; None without.
 
     Returns
     -------
     The velocity, and the scalar s; one where it would have to differ much from one, or the rest is rounding.
     """
     given = after.dofs.supported(velocity)
-    rest = velocity - given
-    base = given + _rigid(after, motions, momenta - _momenta(after, motions, given)).reshape(given.shape)
+    rest, conditions = velocity - given, conditions_of(after, motions, closed)
+    wanted = momenta if closed is None else np.concatenate([closed.velocity, momenta])
+    base = given + conditions.change(wanted - conditions.of(given))
     for _ in range(2):  # a second time removes the rounding of the first
-        rest = rest - _rigid(after, motions, _momenta(after, motions, rest)).reshape(given.shape)
-        left = momenta - _momenta(after, motions, base + rest)
-        base = base + _rigid(after, motions, left).reshape(given.shape)
+        rest = rest - conditions.change(conditions.of(rest))
+        base = base + conditions.change(wanted - conditions.of(base + rest))
     return base + (scalar := _scalar(after, base, rest, kinetic, most)) * rest, scalar
-
-
-def _momenta(after: MassiveSolid, motions: Array, velocity: Array) -> Array:
-    """Momenta (m,) of a velocity (n, d)."""
-    return np.asarray(motions.T @ (after.mass @ velocity).ravel())
-
-
-def _rigid(after: MassiveSolid, motions: Array, momenta: Array) -> Array:
-    """Rigid motion (n d,) with given momenta (m,); without those about which a body on a line has no inertia."""
-    n, d = after.points.shape
-    inertia = motions.T @ (after.mass @ motions.reshape(n, -1)).reshape(n * d, -1)
-    return np.asarray(motions @ (np.linalg.pinv(inertia, rcond=HELD, hermitian=True) @ momenta))
 
 
 def _scalar(after: MassiveSolid, base: Array, rest: Array, kinetic: float, most: float) -> float:

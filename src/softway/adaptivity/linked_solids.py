@@ -34,7 +34,7 @@ class Glue:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class LinkedSolids:
-    """Solids that share unknowns, n nodes together in d dimensions.
+    """Solids that share unknowns, or touch with nodes that have inertia; n nodes together in d dimensions.
 
     Parameters
     ----------
@@ -46,6 +46,8 @@ class LinkedSolids:
         As of :class:`~softway.adaptivity.adapted_solid.AdaptedSolid`, for all of them.
     glue
         Their ties that break.
+    touching
+        True for solids that touch: each of them has rigid motions of its own.
     """
 
     solids: tuple[AdaptedSolid, ...]
@@ -53,6 +55,7 @@ class LinkedSolids:
     mass: sp.csr_array
     follow: sp.csr_array
     glue: tuple[Glue, ...] = ()
+    touching: bool = False
 
     @property
     def points(self) -> Array:
@@ -114,7 +117,7 @@ class LinkedSolids:
 
 
 AnyBody = AdaptedSolid | LinkedSolids
-"""A solid by itself, or several that ties link."""
+"""A solid by itself, or several that ties or contacts link."""
 
 
 def solids_of(body: AnyBody) -> Sequence[AdaptedSolid]:

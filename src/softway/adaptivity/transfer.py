@@ -3,11 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
-from softway.adaptivity.balances import balanced, rigid_motions_of, spin
-from softway.adaptivity.linked_solids import AnyBody
+from softway.adaptivity.balances import RigidMotions, balanced, rigid_motions_of, spin
+from softway.adaptivity.linked_solids import AnyBody, LinkedSolids
 from softway.adaptivity.memory import remembered
+from softway.adaptivity.projections.conditions import ClosedRows
 from softway.adaptivity.projections.projection import AnyProjection, projection
 from softway.arrays import Array
 from softway.bodies.internal_force.material_state import MaterialState
@@ -86,6 +88,7 @@ def transfer(
     motion: Motion,
     cast: AnyProjection | None = None,
     there: Settled | None = None,
+    closed: ClosedRows | None = None,
 ) -> Transferred:
     """Transfer a motion to another mesh of the same base; that of several solids that ties link, as one.
 
@@ -105,6 +108,8 @@ def transfer(
     there
         The solid on the new mesh, with massless nodes in equilibrium; by default the projected displacement with the
         memory of the material.  Linked solids need it.
+    closed
+        Contact rows on the new mesh that stay closed, of nodes with inertia; None without.
 
     Raises
     ------
@@ -132,17 +137,29 @@ def transfer(
     places = before.points + motion.displacement, after.points + displacement
     momenta = before.mass @ motion.velocity, after.mass @ velocity
     total = before.kinetic(motion.velocity) + there.before
-    rigid = rigid_motions_of(before, after, places)
-    closed, scalar = balanced(after, rigid.after, velocity, rigid.before.T @ momenta[0].ravel(), total - new)
-    closed = after.following(closed)
+    rigid = _rigid_motions(before, after, places)
+    given = rigid.before.T @ momenta[0].ravel()
+    found, scalar = balanced(after, rigid.after, velocity, given, total - new, closed=closed)
+    found = after.following(found)
     return Transferred(
-        motion=Motion(displacement=displacement, velocity=closed, state=there.state),
+        motion=Motion(displacement=displacement, velocity=found, state=there.state),
         scalar=scalar,
         momentum=np.asarray(momenta[1].sum(axis=0) - momenta[0].sum(axis=0)),
         spin=spin(places[1], momenta[1]) - spin(places[0], momenta[0]),
         energy=after.kinetic(velocity) + new - total,
-        booked=total - after.kinetic(closed) - new,
+        booked=total - after.kinetic(found) - new,
         projection=cast,
+    )
+
+
+def _rigid_motions(before: AnyBody, after: AnyBody, places: tuple[Array, Array]) -> RigidMotions:
+    """Rigid motions that the supports leave free, of each of several solids that touch."""
+    if not (isinstance(before, LinkedSolids) and isinstance(after, LinkedSolids) and after.touching):
+        return rigid_motions_of(before, after, places)
+    own = zip(before.solids, after.solids, before.split(places[0]), after.split(places[1]), strict=True)
+    found = [rigid_motions_of(one, other, (x, y)) for one, other, x, y in own]
+    return RigidMotions(
+        before=block_diag(*(motions.before for motions in found)), after=block_diag(*(m.after for m in found))
     )
 
 

@@ -63,6 +63,10 @@ class HangingNodes:
         """Field (n, k) whose values at the hanging nodes follow their parents."""
         return np.asarray(self.follow(len(field)) @ field)
 
+    def at(self, nodes: IntArray) -> IntArray:
+        """Hanging nodes (k,) that are among some nodes, or follow one of them."""
+        return self.node[np.isin(np.column_stack([self.node, self.parents]), nodes).any(axis=1)]
+
     def inside(self, facets: IntArray) -> BoolArray:
         """True (f,) for facets of one cell, by their corners (f, c), that are no boundary."""
         both = np.sort(np.concatenate([self.inner, facets]), axis=1)

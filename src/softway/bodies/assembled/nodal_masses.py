@@ -52,9 +52,9 @@ def _require_even(part: DiscreteSolid, candidates: IntArray) -> None:
     hanging = part.mesh.hanging
     if hanging is None:
         return
-    wrong = np.isin(np.column_stack([hanging.node, hanging.parents]), candidates).any(axis=1)
-    if wrong.any():
-        problem = f"{int(wrong.sum())} hanging nodes at contact nodes"
+    wrong = hanging.at(candidates)
+    if len(wrong):
+        problem = f"{len(wrong)} hanging nodes at contact nodes"
         raise InputError(
             "mesh", problem, "cells of one size along the surface, softway.adaptivity.marking.even_surface.even"
         )

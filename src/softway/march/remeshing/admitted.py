@@ -1,15 +1,19 @@
 """Which solids may adapt: refusals, and solids with ``auto`` whose meshes stay."""
 
 import logging
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from softway.bodies.solid import Solid
+from softway.contact.impact_rule import Energy
 from softway.errors import InputError
 from softway.heat.coupled.solid_temperature import SolidTemperature
 from softway.march.remeshing.carried_heat import carries_heat
 from softway.march.rules.slab_rule import Method
 from softway.meshes.adaptive.adapt import Adapt, adaption
 from softway.meshes.adaptive.refinement import BISECTED
+from softway.meshes.adaptive.squares.balanced import BALANCED
 from softway.meshes.mesh import Mesh
 from softway.model.cohesive_ties import CohesiveTies
 from softway.model.model import Model
@@ -41,7 +45,7 @@ def require_admitted(model: Model) -> None:
         With the place in the scene.
     """
     for name in adaptions(model.scene):
-        _require_cells(model, name)
+        _require_own(model, name)
     _require_carried(model)
 
 
@@ -53,22 +57,29 @@ def admitted(model: Model, method: Method) -> tuple[Model, dict[str, InputError]
     InputError
         For a solid with numbers of its own, :class:`~softway.meshes.adaptive.adapt.Adapt`, that cannot adapt.
     """
-    stay: dict[str, InputError] = {}
     asked = adaptions(model.scene)
-    for name in asked:
-        try:
-            _require_implicit(method)
-            _require_cells(model, name)
-            _require_carried(model)
-        except InputError as error:
-            if _solid(model, name).adapt != "auto":
-                raise
-            stay[name] = error
-            log.info("the mesh of '%s' stays: %s, %s", name, error.where, error.problem)
+    if not asked:
+        return model, {}
+    explicit, lost = _refusal(partial(_require_implicit, method)), _refusal(partial(_require_carried, model))
+    found = {name: explicit or _refusal(partial(_require_own, model, name)) or lost for name in asked}
+    stay = {name: error for name, error in found.items() if error is not None}
+    for name, error in stay.items():
+        if _solid(model, name).adapt != "auto":
+            raise error
+        log.info("the mesh of '%s' stays: %s, %s", name, error.where, error.problem)
     if not stay:
         return model, {}
     bodies = {name: replace(_solid(model, name), adapt=None) for name in stay}
     return replace(model, scene=replace(model.scene, bodies={**model.scene.bodies, **bodies})), stay
+
+
+def _refusal(check: Callable[[], None]) -> InputError | None:
+    """What a check refuses; None if nothing."""
+    try:
+        check()
+    except InputError as error:
+        return error
+    return None
 
 
 def _require_implicit(method: Method) -> None:
@@ -85,20 +96,34 @@ def _solid(model: Model, name: str) -> Solid:
     return solid
 
 
+def _require_own(model: Model, name: str) -> None:
+    """Refuse a solid whose own mesh cannot change: by its cells, by those that ties join to it, or by the rule."""
+    _require_cells(model, name)
+    _require_linked(model, name)
+    _require_rule(model, name)
+
+
 def _require_cells(model: Model, name: str) -> None:
     """Refuse cells that are not cut into smaller ones."""
-    if not can_be_cut(model.meshes[name]):
-        found = ", ".join(model.meshes[name].blocks)
-        raise InputError(f"bodies.{name}.adapt", f"cells {found}, which cannot adapt", WHAT)
+    mesh = model.meshes[name]
+    if not can_be_cut(mesh):
+        several = " of several types" if len(mesh.blocks) > 1 else ""
+        problem = f"cells {', '.join(mesh.blocks)}{several}, which cannot adapt"
+        remedy = f"{WHAT}; Gmsh makes quad4 or hex8 by Mesh.SubdivisionAlgorithm = {max(mesh.cell_dim - 1, 1)}"
+        raise InputError(f"bodies.{name}.adapt", problem, remedy)
+
+
+def _require_rule(model: Model, name: str) -> None:
+    """Refuse nodes that hang with exact instants, whose nodes move by themselves."""
+    (cell,) = model.meshes[name].blocks
+    if isinstance(model.timing, Energy) and model.timing.located and cell in BALANCED and model.scene.contacts:
+        problem = f"located = true, whose nodes cannot hang on larger cells, where {cell} adapt"
+        raise InputError("contacts[0].timing.located", problem, "located = false, or triangles or tetrahedra")
 
 
 def _require_carried(model: Model) -> None:
     """Refuse scenes of which something would not pass to other meshes."""
     scene, other = model.scene, "meshes that stay, or a scene without"
-    _require_linked(model)
-    for k, contact in enumerate(scene.contacts if not model.timing.massless else ()):
-        problem = f"{contact.label!r} whose nodes have inertia, where meshes adapt"
-        raise InputError(f"contacts[{k}].timing", problem, "Energy, whose contact nodes are massless")
     for name in model.meshes:
         if not carries_heat(model, name):
             problem = "latent heat, or capacities of several regions that depend on the temperature"
@@ -110,14 +135,13 @@ def _require_carried(model: Model) -> None:
             raise InputError(f"bodies.{next(iter(adaptions(scene)))}.adapt", problem, f"{other} this field")
 
 
-def _require_linked(model: Model) -> None:
-    """Refuse ties of solids that adapt with those whose cells cannot be cut."""
-    adapts = set(adaptions(model.scene))
+def _require_linked(model: Model, name: str) -> None:
+    """Refuse a solid that ties join to one whose cells cannot be cut."""
+    groups = {part.name: group for part, group in zip(model.parts, model.linked.tolist(), strict=True)}
     for k, tie in enumerate(model.scene.ties):
-        group = model.linked[[part.name in tie.bodies for part in model.parts]][0]
-        names = [part.name for part, own in zip(model.parts, model.linked, strict=True) if own == group]
-        for name in names:
-            if adapts.intersection(names) and not can_be_cut(model.meshes[name]):
-                found = ", ".join(model.meshes[name].blocks)
-                problem = f"solids that adapt are glued to {name!r} of cells {found}, which cannot adapt"
-                raise InputError(f"ties[{k}].between", problem, f"{WHAT} in all of them, or meshes that stay")
+        if groups[tie.bodies[0]] != groups[name]:
+            continue
+        for other in (one for one in groups if groups[one] == groups[name] and not can_be_cut(model.meshes[one])):
+            found = ", ".join(model.meshes[other].blocks)
+            problem = f"solids that adapt are glued to {other!r} of cells {found}, which cannot adapt"
+            raise InputError(f"ties[{k}].between", problem, f"{WHAT} in all of them, or meshes that stay")

@@ -89,8 +89,10 @@ def wanted_cells(
     levels = wanted_levels(solid.adapted, indicator(solid, motion, moves), adapt.threshold(base, energy), deepest)
     leaves, contact = solid.adapted.leaves, [(min(level, deepest), at) for level, at in marks]
     kept = np.where(levels >= leaves.level - solid.adapted.step, levels, 0)
-    tree, fine = (
+    grown = (
         grown_near(tree_of(base).grown(leaves, wanted), contact, adapt.contact_cells * finest)
-        for wanted in (levels, kept)
+        for wanted in ((levels,) if np.array_equal(kept, levels) else (levels, kept))
     )
+    tree, *others = grown
+    fine = others[0] if others else tree
     return Wanted(adapt=adapt, present=solid.adapted, tree=tree, fine=fine, group=group)

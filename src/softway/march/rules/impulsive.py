@@ -118,9 +118,9 @@ def inelastic_impact(model: Model, method: FixedPoint | Newton, weight: TimeWeig
     Raises
     ------
     InputError
-        If unknowns move several components of nodes.
+        If unknowns move several components of contact nodes.
     """
-    require_nodal(model, str(model.timing))
+    require_nodal(model, str(model.timing), hanging=True)
     inertia = impact_multipliers(model)
     return Impulsive(method=method, inertia=inertia, touch=InelasticImpact(inertia=inertia))
 
@@ -131,9 +131,9 @@ def nodal_stop(model: Model, method: FixedPoint | Newton, weight: TimeWeight) ->
     Raises
     ------
     InputError
-        If unknowns move several components of nodes, or elements that cannot be split are to be split.
+        If unknowns move several components of contact nodes, or elements that cannot be split are to be split.
     """
-    require_nodal(model, str(model.timing))
+    require_nodal(model, str(model.timing), hanging=True)
     declared = cast(Paper, model.timing)
     split = split_elements(model) if declared.split == "triangle" else None
     inertia = impact_multipliers(model)

@@ -6,6 +6,8 @@ from typing import Protocol
 
 import numpy as np
 
+from softway.bodies.setup.directions import directed
+from softway.bodies.solid import Solid
 from softway.errors import Cancel, InputError
 from softway.march.results.slab_result import SlabResult
 from softway.march.state.model_state import ModelState
@@ -116,8 +118,9 @@ def require_frictionless(model: Model, rule: str) -> None:
         raise InputError("contacts[0].friction", f"friction with {rule}", "the rule Energy, located = false")
 
 
-def require_nodal(model: Model, rule: str) -> None:
-    """Refuse unknowns that move several components, for a rule that treats nodes one by one.
+def require_nodal(model: Model, rule: str, hanging: bool = False) -> None:
+    """Refuse unknowns that move several components, for a rule that treats nodes one by one; with ``hanging``, for one
+    that treats contact nodes so: others may hang.
 
     Raises
     ------
@@ -126,11 +129,15 @@ def require_nodal(model: Model, rule: str) -> None:
     """
     remedy = "the rule Energy, located = false, with FixedPoint or Newton"
     for part in model.parts:
-        if part.dofs.components is None:
+        solid, nodes = model.scene.bodies[part.name], part.mesh.hanging
+        if isinstance(solid, Solid) and any(directed(support) for support in solid.supports):
             raise InputError(f"bodies.{part.name}.supports", f"a support along a direction, with {rule}", remedy)
+        if nodes is not None and (not hanging or len(nodes.at(model.touchable - part.nodes.start))):
+            what = "hanging contact nodes" if hanging else "hanging nodes"
+            raise InputError(f"bodies.{part.name}.mesh", f"{what}, with {rule}", remedy)
     if model.scene.ties:
         raise InputError("ties[0]", f"a tie, with {rule}", remedy)
-    if model.dofs.components is None:
+    if model.dofs.components is None and all(part.dofs.components is not None for part in model.parts):
         raise InputError("dofs", f"unknowns that move several components, with {rule}", remedy)
 
 

@@ -20,6 +20,21 @@ def finest(scene: sw.Scene, levels: int, *names: str) -> sw.Scene:
     return replace(scene, bodies=bodies)
 
 
+def begins_as_it_ended(last: sw.Step, taken: sw.Step) -> None:
+    """A slab begins with the momentum, the spin and, less what the change of the mesh took, the energy of the end of
+    the last one.
+    """
+    model, before, ledger = taken.model, taken.before, last.ledger
+    displacement, velocity = (model.join(field) for field in (before.displacement, before.velocity))
+    momenta = model.mass @ velocity
+    energy = 0.5 * float((velocity * momenta).sum()) + float(model.energy_and_force(displacement)[0].sum())
+    scale = ledger.energy_kinetic + ledger.energy_strain
+    assert momenta.sum(axis=0) == pytest.approx(ledger.momentum[: model.shape[1]], abs=1e-12 * abs(momenta).sum())
+    assert spin(model.points + displacement, momenta) == pytest.approx(ledger.spin, abs=1e-12 * abs(momenta).sum())
+    took = taken.ledger.remeshing - ledger.remeshing
+    assert energy == pytest.approx(scale - took, abs=1e-12 * scale)
+
+
 def keeps_its_balances(steps: Sequence[sw.Step], around: bool = False) -> int:
     """Momentum and spin of each slab begin as the last one ended, to rounding; only the momentum along the axis where
     bodies are ``around`` one; the energy of the whole march is in its ledger.  Number of the changes.

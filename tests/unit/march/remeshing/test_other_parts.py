@@ -56,16 +56,6 @@ def test_a_shock_with_bulk_viscosity() -> None:
     assert steps[-1].ledger.dissipation == pytest.approx(exact.ledger.dissipation, rel=0.02)
 
 
-def test_contacts_with_massive_nodes_are_refused() -> None:
-    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -0.01), normal=(0.0, 1.0)))
-    contact = sw.Contact(between=("block.bottom", "floor"), timing=sw.contact.Impulse())
-    scene = sw.Scene(bodies={"block": BLOCK, "floor": floor}, contacts=(contact,))
-    with pytest.raises(InputError) as refusal:
-        next(adaptive_march(scene, {"block": ADAPT}, until=0.1, step=0.01))
-    assert refusal.value.where == "contacts[0].timing"
-    assert refusal.value.remedy
-
-
 @pytest.mark.parametrize("cell", ["tri3", "quad4"])
 @pytest.mark.parametrize(
     "law",
@@ -153,3 +143,29 @@ def test_auto_where_nothing_can_adapt_is_a_mesh_that_stays() -> None:
     assert not steps[-1].model.adapted
     *_, explicit = sw.march(sw.Scene(bodies={"block": replace(BLOCK, adapt="auto")}), until=0.01, method=sw.Explicit())
     assert not explicit.model.adapted
+
+
+def on_a_floor(timing: object, cell: str, adapt: object) -> sw.Scene:
+    """A block above a floor."""
+    block = replace(BLOCK, mesh=rectangle((2.0, 1.0), (4, 2), cell=cell), material=sw.LinearElastic(E=1.0), adapt=adapt)
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -0.01), normal=(0.0, 1.0)))
+    contact = sw.Contact(between=("block.bottom", "floor"), timing=timing)
+    return sw.Scene(bodies={"block": block, "floor": floor}, contacts=(contact,))
+
+
+def test_exact_instants_and_hanging_nodes_do_not_go_together() -> None:
+    located = sw.contact.Energy(located=True)
+    with pytest.raises(InputError) as refusal:
+        sw.march(on_a_floor(located, "quad4", ADAPT), until=0.1, step=0.01)
+    assert refusal.value.where == "contacts[0].timing.located"
+    *_, stays = sw.march(on_a_floor(located, "quad4", "auto"), until=0.1, step=0.01)
+    assert not stays.model.adapted
+    *_, triangles = sw.march(on_a_floor(located, "tri3", ADAPT), until=0.1, step=0.01)
+    assert triangles.model.adapted
+
+
+def test_one_solid_stays_and_another_adapts() -> None:
+    other = replace(BLOCK, mesh=rectangle((2.0, 1.0), (4, 2), cell="tri3", origin=(5.0, 0.0)), adapt="auto")
+    scene = sw.Scene(bodies={"block": replace(BLOCK, mesh=MIXED, adapt="auto"), "other": other})
+    *_, last = sw.march(scene, until=0.1, step=0.01)
+    assert list(last.model.adapted) == ["other"]

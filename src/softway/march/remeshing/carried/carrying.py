@@ -11,11 +11,19 @@ from numpy.typing import NDArray
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.memory import remembered
+from softway.adaptivity.projections.conditions import ClosedRows
 from softway.adaptivity.transfer import Settled, Transferred, transfer
 from softway.arrays import Array, BoolArray
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent
 from softway.march.remeshing.adapted_scene import AdaptedScene
-from softway.march.remeshing.carried.linked_changes import LinkedChange, all_values, linked_changes, values_between
+from softway.march.remeshing.carried.kept_contacts import KeptContacts, kept_contacts
+from softway.march.remeshing.carried.linked_changes import (
+    LinkedChange,
+    all_values,
+    inert_contacts,
+    linked_changes,
+    values_between,
+)
 from softway.march.remeshing.carried.settling import Unsettled
 from softway.march.remeshing.carried.surface_forces import SurfaceForces, surface_forces
 from softway.march.remeshing.carried_bonds import carried_bonds, damages, with_damage
@@ -59,7 +67,8 @@ def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple
     found, taken, velocity, start = {}, 0.0, joined.start.velocity.copy(), now.state.start
     for one in change.groups:
         there = change.settled(one, joined, float(before[np.isin(names, one.names)].sum()))
-        passed = transfer(one.before, one.after, one.motion(start.displacement, start.velocity), one.cast, there)
+        motion, closed = one.motion(start.displacement, start.velocity), change.closed(one, joined)
+        passed = transfer(one.before, one.after, motion, one.cast, there, closed)
         velocity[one.nodes[1]] = passed.motion.velocity
         found.update(dict.fromkeys(one.changed, passed))
         taken += passed.booked
@@ -81,7 +90,7 @@ def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple
 class _Change:
     """Change of meshes: the scene before and after it, the state before, and for each solid of cells that can be
     bisected both of its meshes; the changes by groups of linked solids; values (m, n) at the new nodes of fields on the
-    old ones; ties that break, and the companion fields after it.
+    old ones; ties that break, and the companion fields after it; contacts of nodes with inertia.
     """
 
     old: AdaptedScene
@@ -93,6 +102,7 @@ class _Change:
     groups: tuple[LinkedChange, ...]
     at_nodes: sp.csr_array
     fields: Mapping[str, Mapping[str, Array]]
+    kept: KeptContacts | None
 
     def unsettled(self) -> Unsettled:
         """Solids on the new meshes with projected displacements and inherited histories."""
@@ -105,6 +115,7 @@ class _Change:
             displacement=u,
             states=self._states(u),
             friction=self._friction(),
+            kept=self.kept,
             time=self.state.time,
             span=self.span,
         )
@@ -138,7 +149,15 @@ class _Change:
         unsettled = self.unsettled()
         rest, states = unsettled.settled()
         found = join_states(self.new.model, self.resting(rest, states, unsettled.friction), self.span)
+        found = found if self.kept is None else self.kept.pressed(unsettled.model, found, unsettled.friction)
         return replace(found, rigid=self.now.rigid)
+
+    def closed(self, one: LinkedChange, found: ModelState) -> ClosedRows | None:
+        """Rows on the new meshes of some solids that stay closed; None without nodes that have inertia in contact."""
+        if self.kept is None:
+            return None
+        model, start = standing(self.new.model, found), found.start
+        return self.kept.conditions(model, model.rows(start.displacement, found.time), start.velocity, one.nodes[1])
 
     def with_content(self, found: ModelState) -> "_Change":
         """Change to temperatures with which a state that was found so far would have the heat content before."""
@@ -218,9 +237,10 @@ def _change(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> _Change:
     values = values_between(pairs)
     at_nodes = all_values(new.model, values)
     fields = {name: carried_temperatures(models, pairs, values, field) for name, field in state.fields.items()}
-    groups, bonds = linked_changes(old, new), carried_bonds(*models, now.state, at_nodes)
+    groups, bonds = linked_changes(old, new, now.state.closed), carried_bonds(*models, now.state, at_nodes)
     return _Change(
         old=old, new=new, now=now.state, state=state, span=now.step_history.span, pairs=pairs,
         groups=tuple(one.glued([b.glue(one.nodes[1]) for b in bonds if b.links(one.nodes[1])]) for one in groups),
         at_nodes=at_nodes, fields={**fields, **damages(new.model, bonds)},
+        kept=kept_contacts(standing(old.model, now.state), now.state, at_nodes) if inert_contacts(old.model) else None,
     )  # fmt: skip

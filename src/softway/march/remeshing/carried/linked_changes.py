@@ -1,4 +1,4 @@
-"""Solids whose meshes change, by groups of those that ties link."""
+"""Solids whose meshes change, by groups of those that ties, or contacts of nodes with inertia, link."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -10,7 +10,7 @@ from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.linked_solids import AnyBody, Glue, LinkedSolids, solids_of
 from softway.adaptivity.projections.projection import AnyProjection, Unchanged, projection
 from softway.adaptivity.transfer import Motion
-from softway.arrays import Array, IntArray
+from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.dof_map import CombinedDofs, DofMap, NodalDofs
 from softway.march.remeshing.adapted_scene import AdaptedScene
 from softway.meshes.adaptive.values_at_nodes import values_at_nodes
@@ -66,13 +66,31 @@ class LinkedChange:
         return replace(self, after=after, cast=replace(self.cast, after=after))
 
 
-def linked_changes(old: AdaptedScene, new: AdaptedScene) -> tuple[LinkedChange, ...]:
-    """Changes of the meshes between two scenes, one for each group of linked solids that can change."""
+def linked_changes(old: AdaptedScene, new: AdaptedScene, closed: BoolArray) -> tuple[LinkedChange, ...]:
+    """Changes of the meshes between two scenes, one for each group of linked solids that can change.
+
+    Solids with nodes that have inertia are linked by the ``closed`` rows (m,) of contacts between them, too.
+    """
     groups: dict[int, list[str]] = {}
-    for part, group in zip(new.model.parts, new.model.linked.tolist(), strict=True):
+    linked = _linked(old.model, closed)
+    for part, group in zip(new.model.parts, linked.tolist(), strict=True):
         if part.name in new.meshes:
             groups.setdefault(group, []).append(part.name)
     return tuple(_change(old, new, tuple(names)) for names in groups.values())
+
+
+def _linked(model: Model, closed: BoolArray) -> IntArray:
+    """Number (parts,) of the group of each solid, linked by ties, and by ``closed`` rows of nodes with inertia."""
+    linked = model.linked.copy()
+    for contact in np.unique(model.contacts.contact[closed]) if inert_contacts(model) else ():
+        own = np.isin(linked, linked[list(model.contact_solids[contact])])
+        linked[own] = linked[own].min()
+    return linked
+
+
+def inert_contacts(model: Model) -> bool:
+    """True if nodes that touch have inertia."""
+    return model.inert and not model.timing.massless
 
 
 def _change(old: AdaptedScene, new: AdaptedScene, names: tuple[str, ...]) -> LinkedChange:
@@ -94,7 +112,8 @@ def _body(scene: AdaptedScene, names: Sequence[str], nodes: IntArray) -> AnyBody
     if len(solids) == 1:
         return solids[0]
     mass, follow = (sp.csr_array(m[nodes][:, nodes]) for m in (scene.model.mass, scene.model.follow))
-    return LinkedSolids(solids=solids, dofs=_some(scene.model.dofs, nodes), mass=mass, follow=follow)
+    dofs, touching = _some(scene.model.dofs, nodes), inert_contacts(scene.model)
+    return LinkedSolids(solids=solids, dofs=dofs, mass=mass, follow=follow, touching=touching)
 
 
 def _some(dofs: DofMap, nodes: IntArray) -> DofMap:

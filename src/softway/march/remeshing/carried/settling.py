@@ -14,6 +14,7 @@ from softway.bodies.internal_force.inelastic.inelastic_force import InelasticFor
 from softway.bodies.internal_force.material_state import OPTIONAL, MaterialState
 from softway.bodies.internal_force.regions import RegionForces
 from softway.laws.law import Damped, Viscous
+from softway.march.remeshing.carried.kept_contacts import KeptContacts
 from softway.march.remeshing.carried.surface_forces import SurfaceForces
 from softway.model.model import Model
 from softway.solve.static_equilibrium import StaticState, equilibrium
@@ -40,6 +41,8 @@ class Unsettled:
         Material states there.
     friction
         Friction on the surfaces; None without.
+    kept
+        Contacts of nodes with inertia that stay closed; None where contact nodes have none.
     time, span
         Time, and length of a slab [s].
     """
@@ -48,11 +51,13 @@ class Unsettled:
     displacement: Array
     states: MaterialStates
     friction: SurfaceForces | None
+    kept: KeptContacts | None
     time: float
     span: float
 
     def settled(self) -> tuple[StaticState, MaterialStates]:
-        """Equilibrium of the massless nodes, the others fixed, and the material states there.
+        """Equilibrium of the massless nodes, or contact nodes with inertia in their places, and the material states
+        there; all other nodes are fixed.
 
         Raises
         ------
@@ -64,13 +69,16 @@ class Unsettled:
         parts = zip(self.model.parts, self.states, strict=True)
         model = replace(self.model, parts=tuple(_changing(part, state, self.span) for part, state in parts))
         rest = self._rest(model)
-        light = ~model.massive
+        light = ~model.massive | (rest.displacement != self.displacement).any(axis=1)
         found = (_reached(p, s, rest.displacement, light) for p, s in zip(model.parts, self.states, strict=True))
         return rest, tuple(found)
 
     def _rest(self, model: Model) -> StaticState:
         """Equilibrium of the massless nodes with the friction that passes over."""
         u, dofs, load = self.displacement, model.dofs.only(~model.massive), model.loads.at(self.time)
+        if self.kept is not None:
+            u, rows = self.kept.placed(model, u, self.time)
+            return StaticState.apart(u, len(rows.node))
         carried = self.friction
         if carried is None or not dofs.size:
             return equilibrium(model, u, dofs, load, self.time, glue=model.bonds)

@@ -1,5 +1,7 @@
 """Press of case E02 with meshes that are replaced."""
 
+from typing import Any
+
 import numpy as np
 
 import softway as sw
@@ -7,6 +9,7 @@ from softway.adaptivity.rezoning.volume import volume_of
 from softway.arrays import Array
 from softway.laws.law import Material
 from softway.meshes.remeshed.remesh import Remeshing
+from softway.record.storage.serialisation import packed, unpacked
 
 HEIGHT = 0.75
 LAW = sw.laws.NortonHoff(K=1.0, m=0.3)
@@ -59,3 +62,32 @@ def volume(one: sw.Step) -> float:
 def force(one: sw.Step) -> float:
     """Force of the platen [N]."""
     return sum(c.force_n for c in one.ledger.contacts.values())
+
+
+def changes(steps: list[sw.Step]) -> list[int]:
+    """Numbers of the slabs with a new mesh."""
+    return [k for k, step in enumerate(steps) if step.exchanges]
+
+
+def continues(scene: sw.Scene, whole: list[sw.Step], slabs: int, **given: Any) -> list[sw.Step]:
+    """Slabs of a march from the stored state after some of its slabs; their states have the same bits."""
+    rest = list(sw.march(scene, state=unpacked(*packed(whole[slabs - 1].march_state)), **given))
+    assert len(rest) == len(whole) - slabs
+    for one, other in zip(rest, whole[slabs:], strict=True):
+        (text, arrays), (same, others) = packed(one.march_state), packed(other.march_state)
+        assert text == same and all(np.array_equal(arrays[name], others[name]) for name in others)
+        assert set(one.exchanges) == set(other.exchanges)
+    return rest
+
+
+def has_no_jumps(whole: list[sw.Step], most: float) -> None:
+    """The matter of the nodes of the first mesh is in the same places, but for ``most`` [m], before and after a change
+    of the mesh.
+    """
+    assert changes(whole)
+    for k in changes(whole):
+        old, new = whole[k - 1], whole[k]
+        meshes = old.model.remeshed["body"], new.model.remeshed["body"]
+        before = meshes[0].matter @ places(old)
+        after = meshes[1].matter @ (new.model.points + new.before.displacement["body"])
+        np.testing.assert_allclose(after, before, atol=most)

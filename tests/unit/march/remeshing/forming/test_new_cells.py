@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from forging import HEIGHT, KEPT, LAW, changes, continues, has_no_jumps
 
 import softway as sw
 from softway.adaptivity.rezoning.quality import cell_quality
@@ -20,10 +21,6 @@ from softway.march.state.march_state import MarchState
 from softway.meshes.remeshed.remesh import Generator, Remesh, Way
 from softway.record.storage.serialisation import packed, unpacked
 
-LAW = sw.laws.NortonHoff(K=1.0, m=0.3)
-HEIGHT = 0.75
-KEPT = Remesh(quality=0.0, angle=0.0, ratio=1e9, shortened=0.0)
-"""Limits that no cell reaches."""
 GIVEN: dict[str, float] = {"until": 0.45 * HEIGHT, "step": 0.45 * HEIGHT / 24}
 
 
@@ -202,32 +199,17 @@ def whole() -> list[sw.Step]:
     return list(sw.march(SCENE, **GIVEN))
 
 
-def changes(steps: list[sw.Step]) -> list[int]:
-    """Numbers of the slabs with a new mesh."""
-    return [k for k, step in enumerate(steps) if step.exchanges]
-
-
 @pytest.mark.parametrize("after", [-1, 0, 1])
 def test_the_same_bits(whole: list[sw.Step], after: int) -> None:
     """From the stored states before, at and after the second change."""
     assert len(changes(whole)) >= 2
     slabs = changes(whole)[1] + after
-    rest = list(sw.march(SCENE, state=unpacked(*packed(whole[slabs - 1].march_state)), **GIVEN))
-    assert len(rest) == len(whole) - slabs
-    for one, other in zip(rest, whole[slabs:], strict=True):
-        (text, arrays), (same, others) = packed(one.march_state), packed(other.march_state)
-        assert text == same and all(np.array_equal(arrays[name], others[name]) for name in others)
-        assert set(one.exchanges) == set(other.exchanges)
+    continues(SCENE, whole, slabs, **GIVEN)
 
 
 def test_the_matter_has_no_jumps_on_other_cells(whole: list[sw.Step]) -> None:
     assert len({one.model.parts[0].mesh.n_cells for one in whole}) > 1
-    for k in changes(whole):
-        old, new = whole[k - 1], whole[k]
-        meshes = old.model.remeshed["body"], new.model.remeshed["body"]
-        before = meshes[0].matter @ places(old)
-        after = meshes[1].matter @ (new.model.points + new.before.displacement["body"])
-        np.testing.assert_allclose(after, before, atol=1e-13)
+    has_no_jumps(whole, 1e-13)
 
 
 def matter_errors(whole: list[sw.Step], kept: sw.Step) -> list[float]:
