@@ -49,7 +49,7 @@ def changes(steps: list[sw.Step]) -> int:
 
 @pytest.mark.slow
 def test_the_force_of_case_e02_through_new_cells() -> None:
-    """Force of each slab but the first against the table of quadratic cells; the case allows 1 per cent, the table is read linearly."""
+    """Force of each slab but the first against the table of quadratic cells, read linearly."""
     friction = sw.laws.NortonHoffFriction(alpha=0.3, p=0.3, K=1.0)
     how = Remesh(by="new cells", quality=0.75, ratio=1.5)
     steps = pressed(0.0, (1.0, 0.75), (10, 12), sw.laws.NortonHoff(K=1.0, m=0.3), friction, how, 20)
