@@ -6,7 +6,7 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.elements.section import Section
-from softway.kernels.geometry.jacobians import cell_geometry
+from softway.kernels.geometry.jacobians import determinants
 from softway.meshes.cells import CELLS
 from softway.meshes.element import element, exact_degree
 
@@ -17,7 +17,7 @@ ROUNDS = 12
 
 
 def volume_of(blocks: Mapping[str, IntArray], section: Section, places: Array) -> float:
-    """Volume [m^3] of the cells of a section with nodes at the places (n, d) [m].
+    """Volume [m^3] of the cells of a section with nodes at the places (n, d) [m]; folded parts count as negative.
 
     Examples
     --------
@@ -30,7 +30,7 @@ def volume_of(blocks: Mapping[str, IntArray], section: Section, places: Array) -
     for cell, cells in blocks.items():
         table = element(cell, exact_degree(cell, curved=True) + 1)
         x = places[cells]
-        measures = cell_geometry(x, table.dN, table.weights)[1]
+        measures = determinants(np.einsum("ead,qar->eqrd", x, table.dN)) * table.weights
         total += float((measures * section.measure(np.einsum("qa,ead->eqd", table.N, x))).sum())
     return total
 

@@ -1,18 +1,22 @@
 """Slabs of a march whose meshes change between them."""
 
+import logging
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Generic, Protocol, TypeVar
 
 from softway.adaptivity.transfer import Transferred
-from softway.errors import Cancel
+from softway.errors import Cancel, NumericsError
 from softway.march.results.exchange import Exchange
 from softway.march.results.step import Step
 from softway.march.results.trying import TryWatch
+from softway.march.slab.slab_step import Stepper
 from softway.march.slabs import slabs
 from softway.march.start.preparation import Preparation, prepare
-from softway.march.state.march_state import MarchState
+from softway.march.state.march_state import MarchState, Settings
 from softway.model.model import Model
+
+log = logging.getLogger(__name__)
 
 
 class OnMeshes(Protocol):
@@ -44,6 +48,7 @@ def changing_slabs(
     change: Callable[[On, MarchState], Change[On] | None],
     cancel: Cancel | None,
     trying: TryWatch | None,
+    rescue: Callable[[On, MarchState, bool], Change[On] | None] | None = None,
 ) -> Iterator[Step]:
     """Accepted slabs of a march whose meshes change between them.
 
@@ -56,17 +61,48 @@ def changing_slabs(
         state after a slab alone decides, so that a resumed march has the same bits.
     cancel, trying
         As for :func:`~softway.march.start.preparation.prepare`.
+    rescue
+        Change before another try of a slab that failed at every length, from the state before the slab; True if it
+        failed on new meshes.  None where the march ends with the failure.
+
+    Raises
+    ------
+    NumericsError, Cancelled
+        As for :func:`~softway.march.slabs.slabs`.
     """
-    now = prepared.march_state
-    stepper, settings = prepared.stepper, now.settings
-    steps = slabs(stepper, now)
+    now, settings = prepared.march_state, prepared.march_state.settings
+    here = _OnMeshes(on=on, stepper=prepared.stepper, steps=slabs(prepared.stepper, now))
     while now.state.time < settings.until - 1e-9 * now.step_history.span:
-        found = change(on, now) if now.slabs else None
-        if found is not None:
-            now = found.now
-            if found.on is not on:
-                on, stepper = found.on, prepare(found.on.model, settings, now, cancel, trying).stepper
-            steps = slabs(stepper, now)
-        step = next(steps)
-        now = step.march_state
+        found = change(here.on, now) if now.slabs else None
+        there = here.after(found, settings, cancel, trying)
+        try:
+            step = next(there.steps)
+        except NumericsError as failure:
+            found = None if rescue is None else rescue(here.on, now, there.on is not here.on)
+            if found is None:
+                raise
+            log.info("slab at t = %.6g s tried again on other meshes: %s", now.state.time, failure.what)
+            there = here.after(found, settings, cancel, trying)
+            step = next(there.steps)
+        here, now = there, step.march_state
         yield step if found is None else replace(step, transfers=found.transfers, exchanges=found.exchanges)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _OnMeshes(Generic[On]):
+    """A scene on its present meshes, and its slabs to come."""
+
+    on: On
+    stepper: Stepper
+    steps: Iterator[Step]
+
+    def after(
+        self, found: Change[On] | None, settings: Settings, cancel: Cancel | None, trying: TryWatch | None
+    ) -> "_OnMeshes[On]":
+        """The same after a change; the meshes stay where it has the same scene."""
+        if found is None:
+            return self
+        if found.on is self.on:
+            return replace(self, steps=slabs(self.stepper, found.now))
+        stepper = prepare(found.on.model, settings, found.now, cancel, trying).stepper
+        return _OnMeshes(on=found.on, stepper=stepper, steps=slabs(stepper, found.now))

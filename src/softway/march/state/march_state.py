@@ -106,11 +106,14 @@ class RemeshedMeshes:
         Number of slabs at the last change.
     failed
         Quality of the worst cells of the solids for which no new mesh was found, at that time.
+    rescued
+        Time of the last change for a slab that failed at every length [s]; None without one.
     """
 
     meshes: Mapping[str, RemeshedMesh] = field(repr=False)
     changed: int = 0
     failed: Mapping[str, Quality] = field(default_factory=dict)
+    rescued: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -13,7 +13,8 @@ from softway.march.remeshing.forming.replacement import replacement
 from softway.march.results.step import Step
 from softway.march.results.trying import TryWatch
 from softway.march.start.preparation import prepare
-from softway.march.state.march_state import MarchState, RemeshedMeshes, Settings
+from softway.march.state.march_state import MarchState, RemeshedMeshes, Settings, StepHistory
+from softway.meshes.remeshed.remesh import worse
 from softway.model.model import Model
 from softway.model.scene import State
 
@@ -50,7 +51,7 @@ def forming_march(
     now = prepared.march_state
     if now.remeshed is None:
         prepared = replace(prepared, march_state=replace(now, remeshed=RemeshedMeshes(meshes=on.meshes)))
-    return changing_slabs(on, prepared, _change, cancel, trying)
+    return changing_slabs(on, prepared, _change, cancel, trying, _rescue)
 
 
 def _change(on: FormedScene, now: MarchState) -> Change[FormedScene] | None:
@@ -59,23 +60,54 @@ def _change(on: FormedScene, now: MarchState) -> Change[FormedScene] | None:
     Meshes stay where no cells fit into a shape, and where massless nodes find no equilibrium; the state then has the
     quality of their cells.
     """
-    reasons, meshes = on.asks(now), dict[str, Replacement]()
+    reasons = on.asks(now)
     if not reasons:
         return None
-    hows = replacements(on.scene)
+    changed = _replaced(on, now, reasons)
+    change = changed or Change(on=on, now=now)
+    stay = [name for name in reasons if name not in change.exchanges]
+    return _failing(change, on, now, stay)
+
+
+def _rescue(on: FormedScene, now: MarchState, tried: bool) -> Change[FormedScene] | None:
+    """Change before another try of a slab that failed at every length: new meshes of the solids whose cells are a
+    fifth worse than new ones, or back to the old ones if the slab has failed on new meshes; None if there is none.
+
+    A march is rescued once within a slab of the requested length, so that it ends.
+    """
+    if tried:
+        return _failing(Change(on=on, now=now), on, now, list(on.asks(now)))
+    assert now.remeshed is not None
+    last, span = now.remeshed.rescued, now.step_history.span
+    if last is not None and now.state.time < last + span:
+        return None
+    names = [name for name in replacements(on.scene) if worse(on.quality(now, name), on.new[name])]
+    change = _replaced(on, now, dict.fromkeys(names, "a slab that failed"))
+    if change is None:
+        return None
+    assert change.now.remeshed is not None
+    begun = StepHistory(span=span, length=span, fastest=now.step_history.fastest)
+    remeshed = replace(change.now.remeshed, rescued=now.state.time)
+    return replace(change, now=replace(change.now, step_history=begun, remeshed=remeshed))
+
+
+def _failing(change: Change[FormedScene], on: FormedScene, now: MarchState, stay: list[str]) -> Change[FormedScene]:
+    """The change, whose state has the quality of the cells of the solids that ``stay`` on their meshes."""
+    assert change.now.remeshed is not None
+    failed = {**change.now.remeshed.failed, **{name: on.quality(now, name) for name in stay}}
+    return replace(change, now=replace(change.now, remeshed=replace(change.now.remeshed, failed=failed)))
+
+
+def _replaced(on: FormedScene, now: MarchState, reasons: Mapping[str, str]) -> Change[FormedScene] | None:
+    """Change to new meshes of some solids; None where none fits, or massless nodes find no equilibrium on them."""
+    hows, meshes = replacements(on.scene), dict[str, Replacement]()
     for name in reasons:
         found = replacement(on, hows[name], now, name)
         if found is None:
             log.info("no new mesh of %r at t = %.6g s fits", name, now.state.time)
         else:
             meshes[name] = found
-    changed = _changed(on, now, meshes, {name: reasons[name] for name in meshes}) if meshes else None
-    stay = [name for name in reasons if changed is None or name not in meshes]
-    change = changed or Change(on=on, now=now)
-    assert now.remeshed is not None and change.now.remeshed is not None
-    before = {name: quality for name, quality in now.remeshed.failed.items() if name not in reasons}
-    failed = {**before, **{name: on.quality(now, name) for name in stay}}
-    return replace(change, now=replace(change.now, remeshed=replace(change.now.remeshed, failed=failed)))
+    return _changed(on, now, meshes, {name: reasons[name] for name in meshes}) if meshes else None
 
 
 def _changed(

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -18,7 +19,13 @@ from softway.bodies.solid import Solid
 from softway.march.remeshing.forming.formable import makes_cells
 from softway.march.remeshing.forming.formed_scene import FormedScene, Replacement, on_tools
 from softway.march.state.march_state import MarchState
+from softway.meshes.mesh import Mesh
 from softway.meshes.remeshed.remesh import Remesh
+from softway.meshes.walls.wall_edges import wall_edges
+from softway.model.model import Model
+
+DIVISIONS = 3
+"""Greatest number of divisions of walls one cell thick."""
 
 
 def replacement(on: FormedScene, how: Remesh, now: MarchState, name: str) -> Replacement | None:
@@ -30,15 +37,16 @@ def replacement(on: FormedScene, how: Remesh, now: MarchState, name: str) -> Rep
     same = None if makes and how.by == "new cells" else _rezoned(on, now, name)
     if same is not None and (not makes or how.within(cell_quality(same.mesh.blocks, same.mesh.points).worst)):
         return same
-    return (_undivided(on, name, _with_new_cells(on, how, now, name)) or same) if makes else None
+    return (_with_new_cells(on, how, now, name) or same) if makes else None
 
 
-def _undivided(on: FormedScene, name: str, found: Replacement | None) -> Replacement | None:
-    """The replacement; None if the model would divide its cells, since all nodes of some are on contact surfaces."""
-    if found is None:
-        return None
-    part = next(p for p in on.trial(name, found).parts if p.name == name)
-    return found if part.mesh.n_nodes == found.mesh.n_nodes else None
+def _walled(model: Model, name: str, mesh: Mesh) -> bool:
+    """Whether a model would divide cells of a mesh, since edges cross a wall one cell thick: the mesh has the nodes and
+    tags of that of the solid in ``model``.
+    """
+    nodes = next(p for p in model.parts if p.name == name).nodes
+    touchable = model.touchable[(model.touchable >= nodes.start) & (model.touchable < nodes.stop)] - nodes.start
+    return model.inert and model.timing.massless and len(wall_edges(mesh, touchable)) > 0
 
 
 def _rezoned(on: FormedScene, now: MarchState, name: str) -> Replacement | None:
@@ -52,30 +60,43 @@ def _rezoned(on: FormedScene, now: MarchState, name: str) -> Replacement | None:
 
     found = rezoned(part, mesh.ideal, on.places(now, name), closed, kept, put, tags)
     moved = None if found is None else moved_mesh(part.mesh, found)
-    return None if moved is None else _undivided(on, name, Replacement(mesh=moved, sizes=mesh.sizes))
+    if moved is None or _walled(on.model, name, moved):
+        return None
+    return Replacement(mesh=moved, sizes=mesh.sizes)
 
 
 def _with_new_cells(on: FormedScene, how: Remesh, now: MarchState, name: str) -> Replacement | None:
-    """Other cells, with the boundary on the tools, and the volume as it was."""
+    """Other cells, with the boundary on the tools, and the volume as it was.
+
+    Walls one cell thick get a node inside; the boundary on the tools may have others.
+    """
     closed, kept = on.touching(now, name)
     old, places = on.part(name).mesh, on.places(now, name)
     new = _made(on, how, now, name, closed, kept)
-    if new is None:
-        return None
-    trial, others = on.trial(name, Replacement(mesh=new.mesh, sizes=new.sizes)), now.state.start.displacement
-    part = next(p for p in trial.parts if p.name == name)
-    new = new.divided(part.mesh)
+    for _ in range(DIVISIONS):
+        if new is None:
+            return None
+        trial = on.trial(name, Replacement(mesh=new.mesh, sizes=new.sizes))
+        new = new.divided(next(p for p in trial.parts if p.name == name).mesh)
+        mesh = _on_boundary(on, trial, now, name, new)
+        if mesh is None or not _better(cell_quality(mesh.blocks, mesh.points), cell_quality(old.blocks, places), how):
+            return None
+        if not _walled(trial, name, mesh):
+            return Replacement(mesh=mesh, sizes=new.sizes)
+        new = replace(new, mesh=mesh)
+    return None
+
+
+def _on_boundary(on: FormedScene, trial: Model, now: MarchState, name: str, new: NewMesh) -> Mesh | None:
+    """The mesh of a model with its boundary on the tools, and the volume that the solid has; None if a cell folds."""
+    part, others = next(p for p in trial.parts if p.name == name), now.state.start.displacement
     u = trial.join({**on.model.split(others), name: np.zeros_like(new.mesh.points)})
     points = on_tools(trial, u, now.state.time, name, new.touching, new.mesh.points)
     surface = np.isin(np.arange(new.mesh.n_nodes), new.mesh.nodes("surface"))
     free = part.dofs.free & (surface & ~new.touching & ~new.kept)[:, None]
     section = part.internal.section
-    wanted = volume_of(old.blocks, section, places)
-    points = with_volume(new.mesh.blocks, new.mesh.boundary(), section, points, wanted, free)
-    mesh = new.with_boundary(points)
-    if mesh is None or not _better(cell_quality(mesh.blocks, mesh.points), cell_quality(old.blocks, places), how):
-        return None
-    return Replacement(mesh=mesh, sizes=new.sizes)
+    wanted = volume_of(on.part(name).mesh.blocks, section, on.places(now, name))
+    return new.with_boundary(with_volume(new.mesh.blocks, new.mesh.boundary(), section, points, wanted, free))
 
 
 def _better(new: CellQuality, old: CellQuality, how: Remesh) -> bool:
