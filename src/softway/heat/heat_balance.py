@@ -272,8 +272,9 @@ def rounding(model: HeatModel, before: HeatValues, stage: Stage) -> float:
         total += 2.0 * float((before.capacity / before.stretch) @ before.temperature)
     if model.conduction is not None:
         total += 2.0 * stage.span * float(model.conduction.diagonal() @ np.abs(before.temperature))
+    temperature = model.everywhere(before.temperature)
     for cells in model.cells if model.conduction is None else ():
-        at = np.abs(before.temperature[cells.nodes]).max(axis=1)
+        at = np.abs(temperature[cells.nodes]).max(axis=1)
         k, _ = cells.law.along_axes(at, cells.gradients.shape[-1])
         size = np.einsum("eq,eqar->er", cells.volume, cells.gradients**2)
         total += stage.span * float((size * k).sum(axis=1) @ at)
