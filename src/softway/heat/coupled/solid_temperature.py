@@ -129,7 +129,7 @@ class SolidTemperature:
         damped = sudden or (start.abrupt and not is_weak(factor))
         if damped and not sudden and not self.inert:
             factor = linear_factor(self.model, span)
-        before, jumped, _ = put_at_once(self.model, self._values(start), ends[0])
+        before, jumped, _ = put_at_once(self.model, self.values_of(start), ends[0])
         strained = deformed(self.expansions, self.elastic, u0, initial_states(parts))
         halves, amounts = damped and self.inert, self.of_nodes(strained.amounts())
         if any(point.expands for point in self.points):
@@ -143,11 +143,11 @@ class SolidTemperature:
         )  # fmt: skip
         return replace(self, time=time)
 
-    def at(self, values: Array, u: Array) -> FieldState:
+    def at(self, values: Array, u: Array, exact: HeatValues | None = None) -> FieldState:
         """State with the temperatures ``values`` (n, 1), of rigid bodies the initial ones, at the displacement ``u``
-        (n, d).
+        (n, d); with ``exact`` ones where more digits are known.
         """
-        shape, now = deformed(self.expansions, self.elastic, u, self.states), self.contents(values)
+        shape, now = deformed(self.expansions, self.elastic, u, self.states), exact or self.contents(values)
         found = self.moduli.potentials(now.temperature, now.share)
         energy = self.of_parts((beside_law(found) * self.of_nodes(shape.amounts())).sum(axis=0))
         return FieldState(
@@ -250,7 +250,7 @@ class SolidTemperature:
         """
         return cell_values(self.model, solid, self.contents(values))
 
-    def _values(self, state: FieldState) -> HeatValues:
+    def values_of(self, state: FieldState) -> HeatValues:
         """Temperatures and contents of a state."""
         known = state.unknowns if len(state.unknowns) else unknowns_of(self.model, state.values[self.nodes, 0])
         return heat_values(self.model, known)
@@ -260,7 +260,7 @@ class SolidTemperature:
         if not self.points:
             return states
         assert self.time is not None
-        last = self._values(state)
+        last = self.values_of(state)
         following = after_jumps(self.model, last, self.time.end)
         span = self.time.end - self.time.start
         known = np.inf if self.time.start in knots(self.model) else span

@@ -101,8 +101,8 @@ def _require_carried(model: Model) -> None:
         raise InputError(f"contacts[{k}].timing", problem, "Energy, whose contact nodes are massless")
     for name in model.meshes:
         if not carries_heat(model, name):
-            problem = "latent heat, or capacities of several regions that depend on the temperature"
-            remedy = "one law without latent heat, or meshes that stay"
+            problem = "latent heat, or capacities that depend on the temperature, of several regions"
+            remedy = "one law, constant capacities without latent heat, or meshes that stay"
             raise InputError(f"bodies.{name}.thermal.law", f"{problem}, where meshes adapt", remedy)
     for field in model.companions:
         if not isinstance(field, SolidTemperature | CohesiveTies):
