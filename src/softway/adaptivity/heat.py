@@ -129,8 +129,8 @@ def carried_contents(
     places = _places(*meshes)
     old, place, share, node = places[0][mine.cell], places[1][theirs.cell], theirs.share, theirs.node
     count = int(max(places[0].max(), places[1].max())) + 1
-    content = np.bincount(old, mine.share * before, count)
-    total = np.bincount(old, mine.share * entropy(before), count)
+    content: Array = np.bincount(old, mine.share * before, count).astype(float)
+    total = np.bincount(old, mine.share * entropy(before), count).astype(float)
     least: Array = np.full(count, np.inf)
     most: Array = np.full(count, -np.inf)
     for at, low, high in ((old, before, before), (place, bounds[0][node], bounds[1][node])):

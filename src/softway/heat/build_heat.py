@@ -73,16 +73,15 @@ def heat_model(
     for name, body in bodies.items():
         with within(f"bodies.{name}.{key}".rstrip(".")):
             part, section, laws, mass = _part(name, body, n, e, count)
-            cells.extend(_cells(part, section, laws))
+            cells += _cells(part, section, laws)
             simplices.extend(() if body.latent == "front" else _simplices(part, section, laws))
             with within("temperature"):
                 initial.append(sample_temperature(body.temperature, part.mesh)[part.kept])
         parts.append(part)
         masses.append(mass)
         n, e, count = part.nodes.stop, part.cells.stop, part.places.stop
-    masses.append(np.array([lump.capacity for lump in lumps]))
-    initial.append(np.array([lump.initial for lump in lumps]))
-    n, count = n + len(lumps), count + len(lumps)
+    rigid = np.array([(lump.capacity, lump.initial) for lump in lumps]).reshape(-1, 2).T
+    count += len(lumps)
     hanging = joined_heat([part.mesh for part in parts], len(lumps))
     sections = {part.name: section_of(bodies[part.name], part.mesh) for part in parts}
     surfaces, sources, held = placed_loads(loads, parts, sections, lumps, hanging)
@@ -90,11 +89,10 @@ def heat_model(
     constant = all(c.law.constant for c in cells)
     linear = constant and not any(isinstance(s.load, Radiation) for s in surfaces)
     model = HeatModel(
-        parts=tuple(parts), cells=tuple(cells), simplices=tuple(simplices), mass=np.concatenate(masses),
+        parts=tuple(parts), cells=tuple(cells), simplices=tuple(simplices), mass=np.concatenate([*masses, rigid[0]]),
         pattern=assembler([c.nodes for c in cells], count, 1), surfaces=surfaces, sources=sources, held=held,
-        exchanges=exchanges, ordered=_ordered(loads), lumps=lumps,
-        initial=np.concatenate(initial), linear=linear, latent=_latent(simplices, hanging, count), n_cells=e,
-        hanging=hanging,
+        exchanges=exchanges, ordered=_ordered(loads), lumps=lumps, hanging=hanging, n_cells=e,
+        initial=np.concatenate([*initial, rigid[1]]), linear=linear, latent=_latent(simplices, hanging, count),
     )  # fmt: skip
     if not constant:
         return with_fronts(model, bodies)

@@ -7,8 +7,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array
+from softway.bodies.elements.following_heat import Entries
 from softway.heat.heat_model import HeatModel
-from softway.heat.operators import Entries, HeatValues, heat_flow, heat_values, surface_heat, unknowns_of
+from softway.heat.operators import HeatValues, heat_flow, heat_values, surface_heat, unknowns_of
 
 ROUNDING = 2.0 * float(np.finfo(float).eps)
 """Rounding of the sum of the heats of the nodes, relative to the terms that they are summed from."""

@@ -14,11 +14,11 @@ from softway.bodies.inertia.nodal_heat import cell_heat_masses
 from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.heat.coupled.solid_temperature import SolidTemperature, temperatures_of
 from softway.heat.coupled.strain.deformed import deformed
+from softway.heat.fronts.carried_contents import melting_contents, with_contents
 from softway.heat.heat_model import HeatModel, HeatPart
 from softway.heat.operators import entropy, heat_values, liquid_volumes, rigid_temperatures
 from softway.laws.heat.heat_content import ContentCurve
 from softway.laws.heat.temperature_table import value_at
-from softway.march.remeshing.carried.melting import melting_contents, with_contents
 from softway.march.state.model_state import ModelState
 from softway.model.field import stiffness_factor
 from softway.model.model import Model

@@ -12,7 +12,6 @@ from softway.adaptivity.heat import Heated, HeldByNodes, bounds_at, carried_cont
 from softway.arrays import Array
 from softway.bodies.elements.cut_cells import melted_part
 from softway.errors import NoConvergence, NumericsError
-from softway.heat.build_heat import front_width
 from softway.heat.heat_balance import Stage
 from softway.heat.heat_model import HeatModel, HeatPart
 from softway.heat.heat_slab import solve_stage
@@ -45,7 +44,8 @@ def melting_contents(
         return np.asarray(curve.entropy(temperature) + share * melts.heat / melts.melting)
 
     values = _specific(*both[0], over, held[0]), _specific(*both[1], near, held[1])
-    bounds = curve.content(low - front_width(law) + melts.melting), curve.content(high + melts.melting)
+    width = max((block.width for block in both[1][0].simplices), default=0.0)
+    bounds = curve.content(low - width + melts.melting), curve.content(high + melts.melting)
     found = carried_contents(meshes, held, values, bounds, entropy)[part.kept]
     return np.asarray(both[1][0].mass[part.nodes] * found)
 
