@@ -9,6 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.elements.following_heat import following_heat, kept_nodes
 from softway.meshes.adaptive.overlay import overlay
 from softway.meshes.adaptive.refinement import AdaptedMesh
 
@@ -20,7 +21,10 @@ ROUNDING = 1e-14
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Heated:
-    """Mesh of e cells with heat at its n nodes: the capacities, or masses, (e, a) of the nodes of each cell."""
+    """Mesh of e cells with heat at its n nodes: the capacities, or masses, (e, a) of the nodes of each cell.
+
+    What hanging nodes hold belongs to the nodes that they follow.
+    """
 
     adapted: AdaptedMesh
     shares: Array
@@ -30,6 +34,27 @@ class Heated:
         """Nodes (e, a) of the cells."""
         return next(iter(self.adapted.mesh.blocks.values()))
 
+    def held(self) -> "HeldByNodes":
+        """What the cells have at the nodes that do not hang."""
+        mesh, (count, width) = self.adapted.mesh, self.shares.shape
+        cell, follows = np.repeat(np.arange(count), width), following_heat(mesh)
+        if follows is None:
+            return HeldByNodes(cell=cell, node=self.cells.ravel(), share=self.shares.ravel(), count=count)
+        own = sp.csr_array((self.shares.ravel(), (cell, self.cells.ravel())), shape=(count, mesh.n_nodes))
+        found = sp.coo_array(own @ follows.spread)
+        row, column = (axis.astype(np.int64) for axis in found.coords)
+        return HeldByNodes(cell=row, node=kept_nodes(mesh)[column], share=found.data, count=count)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class HeldByNodes:
+    """Shares (k,) of nodes (k,) in the heat of cells (k,), of which there are ``count``."""
+
+    cell: IntArray
+    node: IntArray
+    share: Array
+    count: int
+
 
 def carried_heat(
     one: Heated, other: Heated, at_nodes: sp.csr_array, values: Array, entropy: Callable[[Array], Array]
@@ -38,8 +63,8 @@ def carried_heat(
 
     Each place, the coarser of two leaves that overlap, keeps its content ``sum c_i T_i``.  Its nodes in B have the
     values of A there, shifted evenly; their differences from the mean are smaller where their entropy
-    ``sum c_i s(T_i)`` would fall or a value would leave the range of the place.  A node takes the mean over the places
-    around it, by their capacities.
+    ``sum c_i s(T_i)`` would fall or a value would leave the range of A around the place.  A node takes the mean over
+    the places around it, by their capacities.
 
     Parameters
     ----------
@@ -64,47 +89,81 @@ def carried_heat(
     >>> carried_heat(one, two, embedding(coarse, fine), np.array([1.0, 3.0, 2.0]), np.log).round(12).tolist()
     [1.0, 3.0, 2.0, 2.0]
     """
-    place, content, total, ends = _places(one, other, values, entropy)
-    near, cells = np.asarray(at_nodes @ values), other.cells
-    count, shares = len(content), other.shares
-    capacity = np.bincount(place, shares.sum(axis=1), count)
+    near, mine, theirs = np.asarray(at_nodes @ values), one.held(), other.held()
+    found = carried_contents(
+        (one, other), (mine, theirs), (values[mine.node], near[theirs.node]), bounds_at(at_nodes, values), entropy
+    )
+    follows = following_heat(other.adapted.mesh)
+    return found if follows is None else np.asarray(follows.follow @ found[kept_nodes(other.adapted.mesh)])
+
+
+def bounds_at(at_nodes: sp.csr_array, values: Array) -> tuple[Array, Array]:
+    """Least and greatest (m,) of the ``values`` (n,) that determine that at each node of B."""
+    if not at_nodes.shape[0]:
+        return np.zeros(0), np.zeros(0)
+    at = values[at_nodes.indices]
+    return np.minimum.reduceat(at, at_nodes.indptr[:-1]), np.maximum.reduceat(at, at_nodes.indptr[:-1])
+
+
+def carried_contents(
+    meshes: tuple[Heated, Heated],
+    held: tuple[HeldByNodes, HeldByNodes],
+    values: tuple[Array, Array],
+    bounds: tuple[Array, Array],
+    entropy: Callable[[Array], Array],
+) -> Array:
+    """Values (m,) at the nodes of B, zero at hanging ones, see :func:`carried_heat`.
+
+    Parameters
+    ----------
+    meshes, held
+        Meshes A and B, and what their cells have at the nodes.
+    values
+        Values on A at the nodes of its cells, and at those of the cells of B, in the order of ``held``.
+    bounds
+        Least and greatest values (m,) of A around the nodes of B.
+    entropy
+        Concave entropy of the values.
+    """
+    (mine, theirs), (before, near) = held, values
+    places = _places(*meshes)
+    old, place, share, node = places[0][mine.cell], places[1][theirs.cell], theirs.share, theirs.node
+    count = int(max(places[0].max(), places[1].max())) + 1
+    content: Array = np.bincount(old, mine.share * before, count).astype(float)
+    total = np.bincount(old, mine.share * entropy(before), count).astype(float)
+    least: Array = np.full(count, np.inf)
+    most: Array = np.full(count, -np.inf)
+    for at, low, high in ((old, before, before), (place, bounds[0][node], bounds[1][node])):
+        np.minimum.at(least, at, low)
+        np.maximum.at(most, at, high)
+    capacity = np.bincount(place, share, count)
     mean = content / capacity
-    found = near[cells] - (np.bincount(place, (shares * near[cells]).sum(axis=1), count) / capacity)[place][:, None]
-    part = _within(found, mean, place, ends)
-    part = _rising(found, mean, place, shares, part, total, entropy)
-    own = mean[place][:, None] + part[place][:, None] * found
-    size = other.adapted.mesh.n_nodes
-    weight = np.bincount(cells.ravel(), shares.ravel(), size)
-    return np.bincount(cells.ravel(), (shares * own).ravel(), size) / weight
+    differ = near - (np.bincount(place, share * near, count) / capacity)[place]
+    part = _within(differ, mean, place, (least, most))
+    part = _rising(differ, mean, place, share, part, total, entropy)
+    own = mean[place] + part[place] * differ
+    size = meshes[1].adapted.mesh.n_nodes
+    weight = np.bincount(node, share, size)
+    return np.bincount(node, share * own, size) / np.where(weight > 0.0, weight, 1.0)
 
 
-def _places(
-    one: Heated, other: Heated, values: Array, entropy: Callable[[Array], Array]
-) -> tuple[IntArray, Array, Array, tuple[Array, Array]]:
-    """Place (f,) of each cell of B, and the content, entropy, least and greatest value of each place in A."""
+def _places(one: Heated, other: Heated) -> tuple[IntArray, IntArray]:
+    """Place of each cell of A (e,) and of B (f,), numbered without gaps."""
     found = overlay(one.adapted, other.adapted)
     count = len(one.shares) + len(other.shares)
     mine, theirs = np.arange(len(one.shares)), np.arange(len(one.shares), count)
     mine[found.inside_other.fine] = len(one.shares) + found.inside_other.coarse
     theirs[found.inside_one.fine] = found.inside_one.coarse
-    used, number = np.unique(np.concatenate([mine, theirs]), return_inverse=True)
-    mine, theirs = number[: len(mine)], number[len(mine) :]
-    at = values[one.cells]
-    content = np.bincount(mine, (one.shares * at).sum(axis=1), len(used)).astype(float)
-    total = np.bincount(mine, (one.shares * entropy(at)).sum(axis=1), len(used)).astype(float)
-    least: Array = np.full(len(used), np.inf)
-    most: Array = np.full(len(used), -np.inf)
-    np.minimum.at(least, mine, at.min(axis=1))
-    np.maximum.at(most, mine, at.max(axis=1))
-    return np.asarray(theirs), content, total, (least, most)
+    number = np.unique(np.concatenate([mine, theirs]), return_inverse=True)[1]
+    return np.asarray(number[: len(mine)]), np.asarray(number[len(mine) :])
 
 
 def _within(found: Array, mean: Array, place: IntArray, ends: tuple[Array, Array]) -> Array:
-    """Greatest share up to one, for each place, of the differences (f, a) from its mean that keeps its range."""
+    """Greatest share up to one, for each place, of the differences (k,) from its mean that keeps its range."""
     out = np.ones(len(mean))
     for end, sign in zip(ends, (-1.0, 1.0), strict=True):
         room, most = np.maximum(sign * (end - mean), 0.0), np.zeros(len(mean))
-        np.maximum.at(most, place, (sign * found).max(axis=1))
+        np.maximum.at(most, place, sign * found)
         over = most > room * (1.0 + ROUNDING)
         out[over] = np.minimum(out[over], room[over] / most[over])
     return out
@@ -117,10 +176,9 @@ def _rising(
     """Greatest share up to ``part``, for each place, with which its entropy does not fall below ``total``."""
 
     def falls(some: Array) -> BoolArray:
-        terms = shares * entropy(mean[place][:, None] + some[place][:, None] * found)
-        now = np.bincount(place, terms.sum(axis=1), len(mean))
-        scale = np.bincount(place, abs(terms).sum(axis=1), len(mean))
-        return np.asarray(now < total - ROUNDING * scale)
+        terms = shares * entropy(mean[place] + some[place] * found)
+        now = np.bincount(place, terms, len(mean))
+        return np.asarray(now < total - ROUNDING * np.bincount(place, abs(terms), len(mean)))
 
     low, high = part.copy(), part.copy()
     wrong = falls(part)

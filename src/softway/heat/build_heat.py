@@ -9,15 +9,15 @@ import scipy.sparse as sp
 from softway.arrays import Array, IntArray
 from softway.bodies.conductor import Conductor, sample_temperature
 from softway.bodies.elements.cut_cells import simplices_of
+from softway.bodies.elements.following_heat import FollowingHeat, following_heat, joined_heat, kept_nodes
 from softway.bodies.elements.section import Axisymmetric, Section, check_section, default_section
 from softway.bodies.inertia.mass_matrix import body_of
-from softway.bodies.inertia.nodal_heat import heated_volumes
-from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, Radiation, Temperature, place_of, surface_points
-from softway.bodies.setup.held_temperatures import held_temperatures
+from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, Radiation, Temperature
 from softway.errors import InputError, within
 from softway.heat.fronts.build_fronts import with_fronts
 from softway.heat.heat_contact import HeatContact, HeatExchange, heat_exchange
-from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, HeatSurface, Lump, Simplices
+from softway.heat.heat_model import HeatCells, HeatModel, HeatPart, HeatScene, Lump, Simplices
+from softway.heat.loads.placed_loads import placed_loads
 from softway.heat.operators import heat_flow, heat_values, unknowns_of
 from softway.heat.regional_laws import RegionalLaws, regional_laws
 from softway.kernels.assembly.assembler import assembler
@@ -69,29 +69,30 @@ def heat_model(
     parts: list[HeatPart] = []
     cells: list[HeatCells] = []
     simplices: list[Simplices] = []
-    masses, initial, n, e = [], [], 0, 0
+    masses, initial, n, e, count = [], [], 0, 0, 0
     for name, body in bodies.items():
         with within(f"bodies.{name}.{key}".rstrip(".")):
-            part, section, laws, mass = _part(name, body, n, e)
-            cells.extend(_cells(part, section, laws))
+            part, section, laws, mass = _part(name, body, n, e, count)
+            cells += _cells(part, section, laws)
             simplices.extend(() if body.latent == "front" else _simplices(part, section, laws))
             with within("temperature"):
-                initial.append(sample_temperature(body.temperature, part.mesh))
+                initial.append(sample_temperature(body.temperature, part.mesh)[part.kept])
         parts.append(part)
         masses.append(mass)
-        n, e = part.nodes.stop, part.cells.stop
-    masses.append(np.array([lump.capacity for lump in lumps]))
-    initial.append(np.array([lump.initial for lump in lumps]))
-    n += len(lumps)
-    surfaces, sources, held = _loads(bodies, loads, {part.name: part for part in parts}, lumps, n)
-    exchanges = _exchanges(bodies, contacts, parts, n)
+        n, e, count = part.nodes.stop, part.cells.stop, part.places.stop
+    rigid = np.array([(lump.capacity, lump.initial) for lump in lumps]).reshape(-1, 2).T
+    count += len(lumps)
+    hanging = joined_heat([part.mesh for part in parts], len(lumps))
+    sections = {part.name: section_of(bodies[part.name], part.mesh) for part in parts}
+    surfaces, sources, held = placed_loads(loads, parts, sections, lumps, hanging)
+    exchanges = _exchanges(sections, contacts, parts, hanging, count)
     constant = all(c.law.constant for c in cells)
     linear = constant and not any(isinstance(s.load, Radiation) for s in surfaces)
     model = HeatModel(
-        parts=tuple(parts), cells=tuple(cells), simplices=tuple(simplices), mass=np.concatenate(masses),
-        pattern=assembler([c.nodes for c in cells], n, 1), surfaces=surfaces, sources=sources, held=held,
-        exchanges=exchanges, ordered=_ordered(loads), lumps=lumps,
-        initial=np.concatenate(initial), linear=linear, latent=_latent(simplices, n), n_cells=e,
+        parts=tuple(parts), cells=tuple(cells), simplices=tuple(simplices), mass=np.concatenate([*masses, rigid[0]]),
+        pattern=assembler([c.nodes for c in cells], count, 1), surfaces=surfaces, sources=sources, held=held,
+        exchanges=exchanges, ordered=_ordered(loads), lumps=lumps, hanging=hanging, n_cells=e,
+        initial=np.concatenate([*initial, rigid[1]]), linear=linear, latent=_latent(simplices, hanging, count),
     )  # fmt: skip
     if not constant:
         return with_fronts(model, bodies)
@@ -107,8 +108,10 @@ def section_of(body: Conductor, mesh: Mesh) -> Section:
     return section
 
 
-def _part(name: str, body: Conductor, n: int, e: int) -> tuple[HeatPart, Section, RegionalLaws, Array]:
-    """Body with its first node ``n`` and its first cell ``e``, and the masses of its nodes [kg]."""
+def _part(name: str, body: Conductor, n: int, e: int, first: int) -> tuple[HeatPart, Section, RegionalLaws, Array]:
+    """Body with its first node ``n``, its first cell ``e``, its ``first`` node with hanging ones, and the masses of its
+    nodes [kg].
+    """
     with within("mesh"):
         mesh = body.mesh if isinstance(body.mesh, Mesh) else body.mesh.build()
     section, laws = section_of(body, mesh), regional_laws(body, mesh)
@@ -117,8 +120,11 @@ def _part(name: str, body: Conductor, n: int, e: int) -> tuple[HeatPart, Section
     if melts is not None and not at_nodes and "hex20" in mesh.blocks:
         raise InputError("latent", "'cell' in hex20, which have no simplices between their nodes", "'node', or hex27")
     quadrature, masses = body_of(mesh, section, laws.density), laws.masses(mesh, section)
+    kept, follows = kept_nodes(mesh), following_heat(mesh)
+    masses = masses if follows is None else tuple(follows.spread.T @ mass for mass in masses)
     part = HeatPart(
-        name=name, mesh=mesh, nodes=slice(n, n + mesh.n_nodes), cells=slice(e, e + mesh.n_cells), law=laws.first,
+        name=name, mesh=mesh, nodes=slice(n, n + len(kept)), cells=slice(e, e + mesh.n_cells), law=laws.first,
+        kept=kept, places=slice(first, first + mesh.n_nodes),
         curve=laws.curve(masses, at_nodes), at_nodes=at_nodes,
         zero=0.0 if melts is None else melts.melting, mixed=melts is not None and "hex20" in mesh.blocks,
         volume=np.concatenate([mass.sum(axis=1) for _, _, mass in quadrature.blocks]) / laws.density,
@@ -149,7 +155,7 @@ def _of_law(
     with within("law"):
         for phase in (law, law.liquid):
             phase.along_axes(np.ones(1), gradients.shape[-1])
-    nodes = nodes + part.nodes.start
+    nodes = nodes + part.places.start
     return HeatCells(law=law, nodes=nodes, N=table.N, gradients=gradients, volume=volume, numbers=numbers)
 
 
@@ -167,13 +173,13 @@ def _simplices(part: HeatPart, section: Section, laws: RegionalLaws) -> list[Sim
     return found
 
 
-def _latent(simplices: list[Simplices], n: int) -> Array:
-    """Latent heats (n,) of the nodes when all cells are liquid [J]."""
-    out = np.zeros(n)
+def _latent(simplices: list[Simplices], hanging: FollowingHeat | None, count: int) -> Array:
+    """Latent heats (n,) of the nodes when all cells are liquid [J]; with hanging nodes they are ``count``."""
+    out = np.zeros(count)
     for block in simplices:
         k = block.nodes.shape[1]
         np.add.at(out, block.nodes, np.repeat(block.heat * block.mass / k, k).reshape(-1, k))
-    return out
+    return out if hanging is None else np.asarray(hanging.spread.T @ out)
 
 
 def _cut_cells(
@@ -188,7 +194,7 @@ def _cut_cells(
     size = np.sqrt(np.linalg.det(edges @ np.swapaxes(edges, -1, -2)))
     size = size * section.measure(corners.mean(axis=2))
     share = size / size.sum(axis=1, keepdims=True)
-    nodes = nodes[:, local].reshape(len(nodes) * len(local), -1) + part.nodes.start
+    nodes = nodes[:, local].reshape(len(nodes) * len(local), -1) + part.places.start
     return Simplices(
         nodes=nodes, mass=(share * mass[:, None]).ravel(), share=share.ravel(), numbers=np.repeat(numbers, len(local)),
         width=front_width(law), heat=0.0 if part.at_nodes else law.latent.heat,
@@ -201,85 +207,20 @@ def front_width(law: Conduction) -> float:
     return FRONT * law.latent.heat / float(value_at(law.capacity, np.array(law.latent.melting)))
 
 
-Loads = tuple[tuple[HeatSurface, ...], tuple[tuple[HeatSource, Array], ...], tuple[tuple[Temperature, IntArray], ...]]
-
-
-def _loads(
-    bodies: Mapping[str, Conductor],
-    loads: Mapping[int, HeatLoad],
-    parts: Mapping[str, HeatPart],
-    lumps: tuple[Lump, ...],
-    n: int,
-) -> Loads:
-    """Surfaces, sources, and nodes with prescribed temperatures, of which each belongs to one load."""
-    rigid = {lump.name: (lump, n - len(lumps) + number) for number, lump in enumerate(lumps)}
-    surfaces: list[HeatSurface] = []
-    sources: list[tuple[HeatSource, Array]] = []
-    held: dict[int, IntArray] = {}
-    for k, load in loads.items():
-        name, _ = place_of(load)
-        with within(f"loads[{k}].{'of' if isinstance(load, HeatSource) else 'on'}"):
-            if name not in parts and name not in rigid:
-                raise InputError("", f"there is no body {name!r}", ", ".join(repr(known) for known in parts))
-            found = _on_rigid(load, *rigid[name], n) if name in rigid else _on_part(load, bodies[name], parts[name], n)
-            match found:
-                case HeatSurface():
-                    surfaces.append(found)
-                case tuple():
-                    sources.append(found)
-                case _:
-                    held[k] = found
-    return tuple(surfaces), tuple(sources), held_temperatures(loads, held)
-
-
-OnBody = HeatSurface | tuple[HeatSource, Array] | IntArray
-"""Load on a body: its surface, its source with nodal volumes, or the nodes with its temperature."""
-
-
-def _on_part(load: HeatLoad, body: Conductor, part: HeatPart, n: int) -> OnBody:
-    """Load on a conductor."""
-    tag, section = place_of(load)[1], section_of(body, part.mesh)
-    match load:
-        case Temperature():
-            return part.nodes.start + part.mesh.nodes(tag)
-        case HeatSource():
-            return load, _source(part, section, tag, n)
-        case _:
-            table, areas = surface_points(part.mesh, section, tag)
-            data = (table.data, table.indices + part.nodes.start, table.indptr)
-            return HeatSurface(load=load, points=sp.csr_array(data, shape=(len(areas), n)), areas=areas)
-
-
-def _on_rigid(load: HeatLoad, lump: Lump, node: int, n: int) -> OnBody:
-    """Load on a rigid body, the node of this number."""
-    if load.on != lump.name:
-        raise InputError("", f"{load.on!r}: a rigid body has one temperature, and no tags", repr(lump.name))
-    one = np.zeros(n)
-    one[node] = 1.0
-    match load:
-        case Temperature():
-            return np.array([node])
-        case HeatSource():
-            if lump.volume is None:
-                problem = f"power per volume of {lump.name!r}, whose density is not given"
-                raise InputError("", problem, f"bodies.{lump.name}.density, or a HeatFlux on its area")
-            return load, lump.volume * one
-        case _:
-            if lump.area is None:
-                problem = f"{type(load).__name__} on {lump.name!r}, whose surface has no area"
-                raise InputError("", problem, f"bodies.{lump.name}.thermal.area, the surface that takes the heat")
-            return HeatSurface(load=load, points=sp.csr_array(one[None]), areas=np.array([lump.area]))
-
-
 def _exchanges(
-    bodies: Mapping[str, Conductor], contacts: tuple[HeatContact, ...], parts: list[HeatPart], n: int
+    sections: Mapping[str, Section],
+    contacts: tuple[HeatContact, ...],
+    parts: list[HeatPart],
+    hanging: FollowingHeat | None,
+    n: int,
 ) -> tuple[HeatExchange, ...]:
     """Exchange of heat of each contact."""
-    known = {p.name: (p.mesh, section_of(bodies[p.name], p.mesh), p.nodes.start) for p in parts}
+    known = {p.name: (p.mesh, sections[p.name], p.places.start) for p in parts}
     found = []
     for k, contact in enumerate(contacts):
         with within(f"contacts[{k}]"):
-            found.append(heat_exchange(contact, known, n))
+            one = heat_exchange(contact, known, n)
+            found.append(one if hanging is None else replace(one, jump=sp.csr_array(one.jump @ hanging.follow)))
     return tuple(found)
 
 
@@ -290,11 +231,3 @@ def _ordered(loads: Mapping[int, HeatLoad]) -> tuple[tuple[int, HeatLoad], ...]:
         return isinstance(item[1], Temperature), isinstance(item[1], HeatSource), item[0]
 
     return tuple(sorted(loads.items(), key=rank))
-
-
-def _source(part: HeatPart, section: Section, region: str, n: int) -> Array:
-    """Volumes (n,) of the nodes in a region [m^3]."""
-    inside, out = np.zeros(part.mesh.n_cells), np.zeros(n)
-    inside[part.mesh.cells(region)] = 1.0
-    out[part.nodes] = heated_volumes(part.mesh, section, inside)
-    return out

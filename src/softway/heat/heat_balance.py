@@ -7,8 +7,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array
+from softway.bodies.elements.following_heat import Entries
 from softway.heat.heat_model import HeatModel
-from softway.heat.operators import Entries, HeatValues, heat_flow, heat_values, surface_heat, unknowns_of
+from softway.heat.operators import HeatValues, heat_flow, heat_values, surface_heat, unknowns_of
 
 ROUNDING = 2.0 * float(np.finfo(float).eps)
 """Rounding of the sum of the heats of the nodes, relative to the terms that they are summed from."""
@@ -272,8 +273,9 @@ def rounding(model: HeatModel, before: HeatValues, stage: Stage) -> float:
         total += 2.0 * float((before.capacity / before.stretch) @ before.temperature)
     if model.conduction is not None:
         total += 2.0 * stage.span * float(model.conduction.diagonal() @ np.abs(before.temperature))
+    temperature = model.everywhere(before.temperature)
     for cells in model.cells if model.conduction is None else ():
-        at = np.abs(before.temperature[cells.nodes]).max(axis=1)
+        at = np.abs(temperature[cells.nodes]).max(axis=1)
         k, _ = cells.law.along_axes(at, cells.gradients.shape[-1])
         size = np.einsum("eq,eqar->er", cells.volume, cells.gradients**2)
         total += stage.span * float((size * k).sum(axis=1) @ at)

@@ -8,6 +8,7 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.conductor import Conductor
+from softway.bodies.elements.following_heat import FollowingHeat
 from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, SurfaceHeat, Temperature
 from softway.heat.heat_contact import HeatContact, HeatExchange
 from softway.kernels.assembly.assembler import Assembler
@@ -53,7 +54,11 @@ class HeatPart:
     mesh
         Its mesh.
     nodes, cells
-        Its nodes and cells among those of all bodies.
+        Its nodes and cells among those of all bodies; hanging nodes have no heat, and are not among them.
+    kept
+        (k,) the nodes among those of the mesh.
+    places
+        All nodes of the mesh among those of all bodies.
     law
         Law of conduction, of several by regions the first one that melts if any does.
     curve
@@ -71,6 +76,8 @@ class HeatPart:
     name: str
     mesh: Mesh
     nodes: slice
+    kept: IntArray
+    places: slice
     cells: slice
     law: Conduction
     curve: ContentCurve | MixedContent
@@ -106,8 +113,8 @@ class Lump:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class HeatCells:
-    """Cells of one type of a body: nodes (e, a), shape functions N (q, a), gradients (e, q, a, r) [1/m], volumes (e, q)
-    [m^3] of the points, and numbers (e,) among all cells.
+    """Cells of one type of a body: nodes (e, a), which may hang, functions N (q, a), gradients (e, q, a, r) [1/m],
+    volumes (e, q) [m^3] of the points, and numbers (e,) among all cells.
     """
 
     law: Conduction
@@ -120,9 +127,9 @@ class HeatCells:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Simplices:
-    """Simplices that the temperature of melting may cut: nodes (s, k), masses (s,) [kg], shares (s,) of their cells,
-    numbers (s,) of these among all cells; their latent heat [J/kg] is zero where it is at the nodes, and matter melts
-    from the temperature of melting over a ``width`` [K].
+    """Simplices that the temperature of melting may cut: nodes (s, k), which may hang, masses (s,) [kg], shares (s,) of
+    their cells, numbers (s,) of these among all cells; their latent heat [J/kg] is zero where it is at the nodes, and
+    matter melts from the temperature of melting over a ``width`` [K].
     """
 
     nodes: IntArray
@@ -198,6 +205,8 @@ class HeatModel:
         Bodies.
     cells
         Their cells by type.
+    hanging
+        Heat of hanging nodes, which are not among the n; None without.
     simplices
         Simplices of the bodies that melt.
     mass
@@ -249,6 +258,7 @@ class HeatModel:
     conduction: sp.csr_array | None = None
     capacity: Array | None = None
     lumps: tuple[Lump, ...] = ()
+    hanging: FollowingHeat | None = None
 
     @property
     def n_nodes(self) -> int:
@@ -259,6 +269,18 @@ class HeatModel:
     def loads(self) -> tuple[HeatLoad, ...]:
         """Loads in the order of the scene."""
         return tuple(load for _, load in sorted(self.ordered, key=lambda item: item[0]))
+
+    def everywhere(self, values: Array) -> Array:
+        """Temperatures (N,) of all nodes, hanging ones among them, from those (n,)."""
+        return values if self.hanging is None else np.asarray(self.hanging.follow @ values)
+
+    def held_by(self, values: Array) -> Array:
+        """Values (N,) at all nodes by which their heat tells its melting, from those (n,)."""
+        return values if self.hanging is None else np.asarray(self.hanging.spread @ values)
+
+    def owned(self, heat: Array) -> Array:
+        """Heat (n,) of the nodes from that (N,) held by all nodes."""
+        return heat if self.hanging is None else np.asarray(self.hanging.spread.T @ heat)
 
     def ledger_places(self) -> tuple[int, ...]:
         """Place of each load of the scene, in its order, among the heats of the ledger."""

@@ -12,9 +12,9 @@ from softway.heat.fronts.front_slab import REMEDY, solve_front_slab
 from softway.heat.fronts.places import Fronts, first_fronts, turned, with_latent
 from softway.heat.heat_balance import Stage, put_at_once
 from softway.heat.heat_model import HeatModel, HeatScene
-from softway.heat.heat_plan import PlannedSlab, planned_slabs
 from softway.heat.heat_slab import solve_slab
 from softway.heat.ledger import HeatLedger, booked, opened
+from softway.heat.loads.heat_plan import PlannedSlab, planned_slabs
 from softway.heat.operators import HeatValues, entropy, heat_values, liquid_volumes, unknowns_of
 from softway.solve.linear.backends.superlu import SuperLU
 from softway.solve.linear.interface import LinearSolver
@@ -250,10 +250,11 @@ class _Told:
 
 def _step(model: HeatModel, state: HeatState, after: HeatValues, told: _Told) -> HeatStep:
     """Step of a slab."""
+    everywhere = model.everywhere(after.temperature)
     return HeatStep(
         time=state.time,
         span=told.span,
-        temperature={part.name: after.temperature[part.nodes] for part in model.parts},
+        temperature={part.name: everywhere[part.places] for part in model.parts},
         liquid={part.name: after.melted[part.cells] for part in model.parts if part.law.latent is not None},
         liquid_volume=liquid_volumes(model, after),
         ledger=state.ledger,

@@ -5,15 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from softway.arrays import Array, BoolArray, IntArray
+from softway.arrays import Array, BoolArray
 from softway.bodies.elements.cut_cells import melted_part
+from softway.bodies.elements.following_heat import Entries, combined
 from softway.bodies.setup.heat_loads import Convection, HeatFlux, Radiation
 from softway.heat.heat_model import HeatCells, HeatModel, HeatSurface
 from softway.laws.heat.contact_heat import STEFAN_BOLTZMANN
 from softway.laws.heat.heat_content import ZERO, ContentCurve
-
-Entries = tuple[tuple[IntArray, IntArray, Array], ...]
-"""Entries of a sparse matrix in groups of rows, columns and values; entries of one place add up."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -111,7 +109,8 @@ def heat_values(model: HeatModel, unknowns: Array, slopes: bool = True) -> HeatV
 
 def _cut(model: HeatModel, over: Array, slopes: bool) -> tuple[Array, Array, Entries, Entries]:
     """Share (E,) of the cells above melting, the latent heat (n,) of that part [J], and their derivatives."""
-    n, E = model.n_nodes, model.n_cells
+    over, E = model.held_by(over), model.n_cells
+    n = len(over)
     liquid, latent = np.zeros(E), np.zeros(n)
     slope, latent_slope = [], []
     for block in model.simplices:
@@ -128,12 +127,16 @@ def _cut(model: HeatModel, over: Array, slopes: bool) -> tuple[Array, Array, Ent
         if block.heat:
             both = np.repeat(nodes, k, axis=1).ravel(), np.tile(nodes, (1, k)).ravel()
             latent_slope.append((*both, (heat[cut, None, None] * grown[cut]).ravel()))
-    return liquid, latent, tuple(slope), tuple(latent_slope)
+    if model.hanging is None:
+        return liquid, latent, tuple(slope), tuple(latent_slope)
+    spread = model.hanging.spread
+    by = combined(sp.eye_array(E, format="csr"), tuple(slope), (E, n), spread)
+    return liquid, model.owned(latent), by, combined(spread, tuple(latent_slope), (n, n), spread)
 
 
 def _mean_shares(model: HeatModel, share: Array) -> Array:
     """Mean liquid shares (E,) of the nodes of the cells, from those of the nodes (n,)."""
-    liquid = np.zeros(model.n_cells)
+    liquid, share = np.zeros(model.n_cells), model.held_by(share)
     for cells in (c for c in model.cells if c.law.latent is not None):
         liquid[cells.numbers] = share[cells.nodes].mean(axis=1)
     return liquid
@@ -141,11 +144,12 @@ def _mean_shares(model: HeatModel, share: Array) -> Array:
 
 def _mean_slopes(model: HeatModel, mixed: BoolArray, slope: Array) -> Entries:
     """Derivative (E, n) of the mean shares of the ``mixed`` cells (E,), from those of the nodes (n,)."""
-    return tuple(
-        (np.repeat(c.numbers, c.nodes.shape[1]), c.nodes.ravel(), slope[c.nodes].ravel() / c.nodes.shape[1])
-        for c in model.cells
-        if mixed[c.numbers].any()
-    )
+    chosen = ((c.nodes, c.numbers) for c in model.cells if mixed[c.numbers].any())
+    found = tuple((np.repeat(e, n.shape[1]), n.ravel(), np.full(n.size, 1.0 / n.shape[1])) for n, e in chosen)
+    if model.hanging is not None:
+        E, spread = model.n_cells, model.hanging.spread
+        found = combined(sp.eye_array(E, format="csr"), found, (E, spread.shape[0]), spread)
+    return tuple((rows, columns, values * slope[columns]) for rows, columns, values in found)
 
 
 def heat_flow(
@@ -177,7 +181,8 @@ def heat_flow(
             over[part.nodes] -= temperature[part.nodes.start]
         over[len(temperature) - len(model.lumps) :] = 0.0
         return model.conduction @ over, model.conduction if slopes else None, ()
-    flow = np.zeros(model.n_nodes)
+    temperature, hanging = model.everywhere(temperature), model.hanging
+    flow = np.zeros(len(temperature))
     blocks: list[Array] = []
     columns = []
     for cells in model.cells:
@@ -196,10 +201,15 @@ def heat_flow(
             column = np.einsum("eqar,eqr->ea", cells.gradients, weight * by_share * falls)
             columns.append((cells.nodes.ravel(), np.repeat(cells.numbers, cells.nodes.shape[1]), column.ravel()))
         blocks.append(block[..., None, None])
+    whole = flow if hanging is None else np.asarray(hanging.follow.T @ flow)
     if not slopes:
-        return flow, None, ()
+        return whole, None, ()
     found = model.pattern.assemble(blocks)
-    return flow, sp.csr_array((found.data, found.indices, found.indptr), shape=found.shape), tuple(columns)
+    matrix = sp.csr_array((found.data, found.indices, found.indptr), shape=found.shape)
+    if hanging is None:
+        return whole, matrix, tuple(columns)
+    shape = len(flow), model.n_cells
+    return whole, hanging.matrix(matrix), combined(hanging.follow, tuple(columns), shape, None)
 
 
 def entropy(model: HeatModel, now: HeatValues) -> float:
@@ -234,9 +244,9 @@ def rigid_temperatures(model: HeatModel, now: HeatValues) -> dict[str, float]:
 
 def heat_flux(model: HeatModel, now: HeatValues) -> Array:
     """Mean heat fluxes (E, 3) of the cells [W/m^2]; zero along axes that the mesh has not."""
-    out = np.zeros((model.n_cells, 3))
+    out, temperature = np.zeros((model.n_cells, 3)), model.everywhere(now.temperature)
     for cells in model.cells:
-        at = now.temperature[cells.nodes]
+        at = temperature[cells.nodes]
         k, _, _ = _conductivity(cells, at @ cells.N.T, now.liquid[cells.numbers])
         flux = -k * np.einsum("eqar,ea->eqr", cells.gradients, at)
         mean = np.einsum("eq,eqr->er", cells.volume, flux) / cells.volume.sum(axis=1)[:, None]
@@ -271,10 +281,8 @@ def surface_heat(surface: HeatSurface, temperature: Array, factor: float) -> tup
 
     Parameters
     ----------
-    surface
-        Surface.
-    temperature
-        (n,) temperatures [K].
+    surface, temperature
+        Surface, and (n,) temperatures [K].
     factor
         Mean factor of the load.
     """

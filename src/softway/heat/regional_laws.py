@@ -15,7 +15,6 @@ from softway.laws.heat.conduction import Conduction
 from softway.laws.heat.heat_content import ContentCurve, content_curve
 from softway.laws.heat.mixed_content import MixedContent
 from softway.meshes.mesh import Mesh
-from softway.meshes.topology import require_none
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -86,8 +85,8 @@ def regional_laws(body: Conductor, mesh: Mesh) -> RegionalLaws:
     Raises
     ------
     InputError
-        With the region: if it does not exist, shares cells with another one, or cells are in none; of latent heat
-        that several laws cannot share; and of hanging nodes.
+        With the region: if it does not exist, shares cells with another one, or cells are in none; and of
+        latent heat that several laws cannot share.
 
     Examples
     --------
@@ -98,7 +97,6 @@ def regional_laws(body: Conductor, mesh: Mesh) -> RegionalLaws:
     3.0
     """
     laws = conduction_laws(body.law)
-    require_none(mesh.hanging, "conduction of heat")
     owner = owners(mesh, tuple(laws), "law") if isinstance(body.law, Mapping) else None
     if owner is not None:
         _require_shared(laws, body.latent, mesh)

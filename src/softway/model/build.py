@@ -26,7 +26,7 @@ from softway.contact.impact_rule import Energy, ImpactRule
 from softway.errors import InputError, within
 from softway.meshes.topology import require_none
 from softway.model.cohesive_ties import CohesiveTies, intact
-from softway.model.field import FieldEquations
+from softway.model.field import FieldEquations, HangingField
 from softway.model.initial_displacement import at_start, given_fields
 from softway.model.known_solids import known_inertias, known_parts
 from softway.model.layout import Layout, laid_out, solids_of
@@ -226,14 +226,15 @@ def with_field(model: Model, equations: FieldEquations) -> Model:
     Raises
     ------
     InputError
-        If there is a field of this name, the initial values do not fit, or nodes hang.
+        If there is a field of this name, the initial values do not fit, or nodes hang that its values do not follow.
     """
     new, shape = equations.field, equations.initial().shape
     if new.name in {f.name for f in model.fields} or new.name in ("velocity", "contact_force"):
         raise InputError(f"fields.{new.name}", "a second field of this name", "another name")
     if shape != (model.shape[0], new.components):
         raise InputError(f"fields.{new.name}", f"initial values {shape}", f"{(model.shape[0], new.components)}")
-    for part in model.parts:
+    follows = isinstance(equations, HangingField) and equations.hangs
+    for part in () if follows else model.parts:
         with within(f"bodies.{part.name}"):
             require_none(part.mesh.hanging, f"companion field {new.name}")
     return replace(model, companions=(*model.companions, equations))

@@ -199,6 +199,16 @@ class FieldOfBodies(Protocol):
         ...
 
 
+@runtime_checkable
+class HangingField(Protocol):
+    """Equations of a companion field whose values at hanging nodes follow those of the larger cells."""
+
+    @property
+    def hangs(self) -> bool:
+        """True if they follow."""
+        ...
+
+
 def stiffness_factor(companions: tuple[FieldEquations, ...], fields: Sequence[FieldState]) -> Array | None:
     """Factor (n,) of the stiffness of the nodes in the operator, from states of the fields; None without."""
     for c, state in zip(companions, fields, strict=True):

@@ -57,6 +57,35 @@ def indicator(solid: AdaptedSolid, motion: Motion, moves: bool = True) -> Array:
     return np.sqrt(square)
 
 
+def warmth_indicator(solid: AdaptedSolid, warmth: Array) -> Array:
+    """Indicator (e,) of the relative temperatures ``warmth`` (n,) of a solid, without unit.
+
+    Its square is the integral of ``h^2 |g* - g|^2`` over the cell and the volume of the solid, with the gradient g of
+    the cell, g* recovered from it as stresses are, and the shortest edge h: the error of the temperature in the mean
+    square, relative to its range.
+
+    Examples
+    --------
+    >>> import softway as sw
+    >>> from softway.adaptivity.adapted_solid import adapted_solid
+    >>> from softway.meshes.adaptive.refinement import refined
+    >>> bar = sw.Solid(mesh=sw.meshes.Interval(length=1.0, cells=4), material=sw.LinearElastic(E=1.0), density=1.0)
+    >>> on = adapted_solid("bar", bar, refined(bar.mesh.build(), np.zeros(4, int)), np.zeros(0, int))
+    >>> warmth_indicator(on, 2.0 * np.maximum(on.points[:, 0] - 0.5, 0.0)).round(3).tolist()
+    [0.0, 0.072, 0.072, 0.0]
+    """
+    part, mesh = solid.part, solid.adapted.mesh
+    field = np.zeros(mesh.points.shape)
+    field[:, 0] = warmth
+    volume = part.internal.sampling.volume.reshape(mesh.n_cells, -1)
+    slopes = part.internal.sampling.plain_derivatives(field).reshape(*volume.shape, -1)
+    whole = volume.sum(axis=1)
+    mean = np.einsum("eq,eqk->ek", volume, slopes) / whole[:, None]
+    owner = np.zeros(mesh.n_cells, dtype=np.int64) if part.materials.owner is None else part.materials.owner
+    (edge,) = mesh.cell_edges()
+    return np.asarray(np.sqrt(whole / whole.sum() * edge**2 * _spread(solid.adapted, owner, whole, mean)))
+
+
 def _spread(adapted: AdaptedMesh, owner: IntArray, volume: Array, values: Array) -> Array:
     """Mean square (e,) over a cell of its values (e, k) less the linear field of those recovered at its corners."""
     rows = next(iter(adapted.mesh.blocks.values()))[:, : CELLS[adapted.cell].corners]

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from softway.arrays import IntArray
+from softway.bodies.assembled.heated_nodes import heated_nodes
 from softway.bodies.assembled.material_states import scaled
 from softway.bodies.conductor import Conductor, RigidThermal, Thermal, conduction_laws
 from softway.bodies.discretised import DiscreteSolid
@@ -29,7 +30,6 @@ from softway.heat.regional_laws import regional_laws
 from softway.laws.heat.stiffness_table import StiffnessCurve
 from softway.laws.law import softens
 from softway.mechanisms.members.rigid import Rigid
-from softway.meshes.topology import require_none
 from softway.model.build import mechanical, with_field
 from softway.model.model import Model
 from softway.model.scene import Scene
@@ -76,9 +76,6 @@ def build(scene: Scene, known: Model | None = None) -> Model:
             problem = f"heat across {contact.label!r}, of bodies without a temperature"
             raise InputError(f"contacts[{k}].heat", problem, "the heat of a solid, thermal, or a contact without heat")
     _require_temperature(scene)
-    for part in (p for p in model.parts if p.name in heated):
-        with within(f"bodies.{part.name}"):
-            require_none(part.mesh.hanging, "conduction of heat")
     require_heated(model, heated)
     return with_temperature(model, heated, loads, lumps) if heated else model
 
@@ -109,17 +106,17 @@ def with_temperature(
                 elastic.extend(elastic_terms(number, part, min(table.values)))
             softened.extend(point_temperatures(number, part, table is not None, expands))
     heat = heat_model(conductors, loads, lumps=lumps, key="thermal")
-    nodes = np.concatenate([np.arange(part.nodes.start, part.nodes.stop) for part in parts.values()])
-    always, stops = through_links(model.scene.mechanism, lumps, len(nodes))
-    heat = replace(heat, exchanges=(*through_ties(model, thermals, nodes, len(lumps)), *always))
+    nodes = heated_nodes(parts, model.shape[0], len(lumps))
+    always, stops = through_links(model.scene.mechanism, lumps, len(nodes.number))
+    heat = replace(heat, exchanges=(*through_ties(model, thermals, nodes), *always))
     pairs = ((part, regional_laws(conductors[part.name], part.mesh)) for part in heat.parts)
     effusivity = {part.name: laws.effusivity(part.mesh, part.volume) for part, laws in pairs}
     equations = SolidTemperature(
         contacts=contact_exchange(model, nodes, effusivity, lumps), inert=model.inert,
-        model=heat, nodes=nodes, count=model.shape[0], parts=len(model.parts), part=model.part_of[nodes],
+        model=heat, heated=nodes, parts=len(model.parts), part=model.part_of[nodes.number],
         moduli=Moduli(free=_free_strain(heat, thermals), curves=tuple(_curves(heat, thermals))),
         expansions=tuple(found), dissipations=tuple(spent), elastic=tuple(elastic), points=tuple(softened),
-        glue=tuple(breaking_glue(model, nodes, len(lumps))), links=tuple(stops),
+        glue=tuple(breaking_glue(model, nodes)), links=tuple(stops),
     )  # fmt: skip
     if softened:
         known = heat_values(heat, unknowns_of(heat, heat.initial))

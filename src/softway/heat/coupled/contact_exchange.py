@@ -7,6 +7,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.assembled.heated_nodes import HeatedNodes
 from softway.contact.contact import Contact, NodeToSurface
 from softway.contact.friction_rows import surfaces_of
 from softway.contact.impact_rule import Energy
@@ -30,8 +31,8 @@ class ContactExchange:
         Contacts across which heat passes.
     part_of
         (n,) number of the solid of each node.
-    nodes
-        (k,) nodes with a temperature.
+    heated
+        The nodes with a temperature.
     effusivity
         (n,) roots of conductivity, density and capacity [W s^(1/2)/(m^2 K)].
     lumps
@@ -40,7 +41,7 @@ class ContactExchange:
 
     contacts: tuple[RowsOfContact, ...]
     part_of: IntArray
-    nodes: IntArray
+    heated: HeatedNodes
     effusivity: Array
     lumps: tuple[Lump, ...] = ()
 
@@ -98,19 +99,18 @@ class ContactExchange:
             here = np.flatnonzero((conductance > 0.0) & ((of.opponent >= 0) | ~np.isnan(tool)))
             if here.size:
                 sign = np.where(self._begins(rows, of), 1.0, -1.0)[here]
-                jump = self._with_rigid((sp.diags_array(sign) @ (of.mine[here] - of.theirs[here]))[:, self.nodes], rows)
+                jump = self._with_rigid(sp.csr_array(sp.diags_array(sign) @ (of.mine[here] - of.theirs[here])), rows)
                 ambient = np.where(np.isnan(tool) | (rows.lump is not None), 0.0, tool)[here]
                 found[k] = HeatExchange(jump=jump, conductances=conductance[here], ambient=ambient)
         return found
 
     def _with_rigid(self, jump: sp.csr_array, rows: RowsOfContact) -> sp.csr_array:
-        """Jumps (p, k + r) of rows whose nodes have the weights ``jump`` (p, k)."""
-        if not self.lumps:
-            return sp.csr_array(jump)
-        theirs = np.zeros((jump.shape[0], len(self.lumps)))
-        if rows.lump is not None:
-            theirs[:, rows.lump] = -1.0
-        return sp.csr_array(sp.hstack([jump, sp.csr_array(theirs)]))
+        """Jumps (p, k + r) of rows whose nodes have the weights ``jump`` (p, n)."""
+        own = self.heated.rows(jump)
+        if rows.lump is None:
+            return own
+        one, at = np.ones(own.shape[0]), len(self.heated.number) + np.full(own.shape[0], rows.lump)
+        return sp.csr_array(own - sp.csr_array((one, (np.arange(len(one)), at)), shape=own.shape))
 
     def spread(self, rubbed: Array, sides: tuple[ContactSides, ...]) -> tuple[Array, Array]:
         """Heat (k + r,) of friction at the nodes and in the rigid bodies, and that which the tools of each contact take
@@ -129,7 +129,9 @@ class ContactExchange:
                     taken[k] = left
                 else:
                     rigid[rows.lump] += left
-        return np.concatenate([out[self.nodes], rigid]), taken
+        own = self.heated.sums(out)
+        own[len(self.heated.number) :] = rigid
+        return own, taken
 
     def entropy_of_tools(self, taken: Array) -> float:
         """Entropy that the tools with a temperature gain with the heat (c,) of friction that they take [J/K]."""
@@ -152,9 +154,9 @@ class ContactExchange:
 
 
 def contact_exchange(
-    model: Model, nodes: IntArray, effusivity: Mapping[str, float | Array], lumps: tuple[Lump, ...] = ()
+    model: Model, heated: HeatedNodes, effusivity: Mapping[str, float | Array], lumps: tuple[Lump, ...] = ()
 ) -> ContactExchange:
-    """Heat across the contacts of a model whose ``nodes`` (k,) and rigid bodies ``lumps`` have a temperature.
+    """Heat across the contacts of a model whose nodes ``heated`` and rigid bodies ``lumps`` have a temperature.
 
     Parameters
     ----------
@@ -196,7 +198,7 @@ def contact_exchange(
                 lump=lump,
             )
         )  # fmt: skip
-    return ContactExchange(contacts=tuple(found), part_of=model.part_of, nodes=nodes, effusivity=by_node, lumps=lumps)
+    return ContactExchange(contacts=tuple(found), part_of=model.part_of, heated=heated, effusivity=by_node, lumps=lumps)
 
 
 def _check(contact: Contact, heat: ContactHeat, tool: bool) -> None:

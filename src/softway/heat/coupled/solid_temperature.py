@@ -7,6 +7,7 @@ from types import MappingProxyType
 import numpy as np
 
 from softway.arrays import Array, IntArray
+from softway.bodies.assembled.heated_nodes import HeatedNodes
 from softway.bodies.assembled.material_states import MaterialStates, committed, initial_states
 from softway.bodies.discretised import DiscreteSolid
 from softway.heat.coupled.contact_exchange import ContactExchange
@@ -20,8 +21,8 @@ from softway.heat.coupled.strain.stored import ElasticTerm
 from softway.heat.coupled.through_ties import BreakingGlue, StopLink, StopsWithHeat, exchanges_of, in_stops
 from softway.heat.heat_balance import Stage, put_at_once
 from softway.heat.heat_model import HeatModel
-from softway.heat.heat_plan import knots
 from softway.heat.heat_slab import is_weak, linear_factor
+from softway.heat.loads.heat_plan import knots
 from softway.heat.operators import HeatValues, cell_values, heat_values, unknowns_of
 from softway.model.field import Field, FieldSlab, FieldSolution, FieldState, StopsInSlab
 
@@ -36,10 +37,8 @@ class SolidTemperature:
     ----------
     model
         Conduction in the solids with heat, of k nodes, and in r rigid bodies, its last nodes.
-    nodes
-        (k,) their numbers among the n nodes of all solids.
-    count, parts
-        Numbers of the nodes n and of the solids.
+    heated, parts
+        The k nodes among the n nodes of all solids, and the number of these.
     part
         (k,) number of the solid of each node.
     moduli
@@ -67,8 +66,7 @@ class SolidTemperature:
     """
 
     model: HeatModel
-    nodes: IntArray
-    count: int
+    heated: HeatedNodes
     parts: int
     part: IntArray
     moduli: Moduli
@@ -85,6 +83,11 @@ class SolidTemperature:
     time: TimeOfSlab | None = None
 
     @property
+    def nodes(self) -> IntArray:
+        """The nodes (k,) with heat among those of all solids, without hanging ones."""
+        return self.heated.number
+
+    @property
     def field(self) -> Field:
         """The temperature."""
         return TEMPERATURE
@@ -96,6 +99,11 @@ class SolidTemperature:
     def in_states(self, states: MaterialStates) -> "SolidTemperature":
         """Equations outside of a slab, of solids in these material states."""
         return replace(self, states=states)
+
+    @property
+    def hangs(self) -> bool:
+        """True: temperatures of hanging nodes follow."""
+        return True
 
     @property
     def feels_stops(self) -> bool:
@@ -121,7 +129,7 @@ class SolidTemperature:
         damped = sudden or (start.abrupt and not is_weak(factor))
         if damped and not sudden and not self.inert:
             factor = linear_factor(self.model, span)
-        before, jumped, _ = put_at_once(self.model, self._values(start), ends[0])
+        before, jumped, _ = put_at_once(self.model, self.values_of(start), ends[0])
         strained = deformed(self.expansions, self.elastic, u0, initial_states(parts))
         halves, amounts = damped and self.inert, self.of_nodes(strained.amounts())
         if any(point.expands for point in self.points):
@@ -135,11 +143,11 @@ class SolidTemperature:
         )  # fmt: skip
         return replace(self, time=time)
 
-    def at(self, values: Array, u: Array) -> FieldState:
+    def at(self, values: Array, u: Array, exact: HeatValues | None = None) -> FieldState:
         """State with the temperatures ``values`` (n, 1), of rigid bodies the initial ones, at the displacement ``u``
-        (n, d).
+        (n, d); with ``exact`` ones where more digits are known.
         """
-        shape, now = deformed(self.expansions, self.elastic, u, self.states), self.contents(values)
+        shape, now = deformed(self.expansions, self.elastic, u, self.states), exact or self.contents(values)
         found = self.moduli.potentials(now.temperature, now.share)
         energy = self.of_parts((beside_law(found) * self.of_nodes(shape.amounts())).sum(axis=0))
         return FieldState(
@@ -168,15 +176,14 @@ class SolidTemperature:
 
     def factor(self, values: Array) -> Array:
         """Factors (n, 1) of the moduli at temperatures ``values`` (n, 1) [K]; one on nodes without."""
-        out = np.ones((self.count, 1))
-        out[self.nodes, 0] = self.moduli.factor(values[self.nodes, 0])[: len(self.nodes)]
-        return out
+        found = self.moduli.factor(values[self.nodes, 0])
+        return self.heated.shared(found, 1.0)[:, None]
 
     def of_points(self, now: HeatValues) -> Array:
         """Temperatures [K], factors of the moduli and free strains (3, n) on all nodes, from those with heat."""
-        values = self.on_all(now.temperature)
-        strain = self.on_all(self.moduli.free.of(now.temperature, now.share))
-        return np.stack([values[:, 0], self.factor(values)[:, 0], strain[:, 0]])
+        strain = self.moduli.free.of(now.temperature, now.share)
+        factor = self.factor(self.on_all(now.temperature))[:, 0]
+        return np.stack([self.heated.shared(now.temperature), factor, self.heated.shared(strain)])
 
     @property
     def solids(self) -> Sequence[DiscreteSolid] | None:
@@ -192,7 +199,7 @@ class SolidTemperature:
         end = deformed(self.expansions, self.elastic, slab.u1, after)
         change = self.of_nodes(end.amounts()) - self.time.amounts
         flow = end.strained.flow(self.time.strained.strained, slab.span)
-        out, spent = np.zeros(self.count), 0.0
+        out, spent = np.zeros(self.heated.count), 0.0
         for dissipation in self.dissipations:
             energy = dissipation.energy(before, after)
             out[dissipation.nodes] += dissipation.share * energy
@@ -243,7 +250,7 @@ class SolidTemperature:
         """
         return cell_values(self.model, solid, self.contents(values))
 
-    def _values(self, state: FieldState) -> HeatValues:
+    def values_of(self, state: FieldState) -> HeatValues:
         """Temperatures and contents of a state."""
         known = state.unknowns if len(state.unknowns) else unknowns_of(self.model, state.values[self.nodes, 0])
         return heat_values(self.model, known)
@@ -253,7 +260,7 @@ class SolidTemperature:
         if not self.points:
             return states
         assert self.time is not None
-        last = self._values(state)
+        last = self.values_of(state)
         following = after_jumps(self.model, last, self.time.end)
         span = self.time.end - self.time.start
         known = np.inf if self.time.start in knots(self.model) else span
@@ -274,24 +281,17 @@ class SolidTemperature:
 
     def of_nodes(self, values: Array) -> Array:
         """Values (..., k + r) at the nodes with heat from those (..., n) of all nodes; zero of rigid bodies."""
-        own = values if len(self.nodes) == self.count else values[..., self.nodes]
-        if not self.model.lumps:
-            return own
-        return np.concatenate([own, np.zeros((*values.shape[:-1], len(self.model.lumps)))], axis=-1)
+        return self.heated.sums(values)
 
     def on_all(self, values: Array) -> Array:
         """Values (n, 1) on all nodes from those (k + r,) with heat."""
-        out = np.zeros((self.count, 1))
-        out[self.nodes, 0] = values[: len(self.nodes)]
-        return out
+        return self.heated.temperatures(values)[:, None]
 
     def on_every(self, potentials: Array) -> Array:
         """Potentials (2, n) on all nodes from those (2, k + r) with heat; on others those of the law."""
-        if len(self.nodes) == self.count:
-            return potentials[:, : self.count]
-        out = np.stack([np.zeros(self.count), np.ones(self.count)])
-        out[:, self.nodes] = potentials[:, : len(self.nodes)]
-        return out
+        if len(self.nodes) == self.heated.count:
+            return potentials[:, : self.heated.count]
+        return np.stack([self.heated.shared(potentials[0]), self.heated.shared(potentials[1], 1.0)])
 
 
 def temperatures_of(companions: Iterable[object]) -> list[tuple[int, SolidTemperature]]:

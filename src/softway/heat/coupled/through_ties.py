@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from softway.arrays import Array, IntArray
+from softway.arrays import Array
+from softway.bodies.assembled.heated_nodes import HeatedNodes
 from softway.bodies.conductor import Thermal, conduction_laws
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.dof_map import CombinedDofs
@@ -76,12 +77,12 @@ class BreakingGlue:
         return GlueInSlab(exchange=exchange, heat=heat)
 
 
-def breaking_glue(model: Model, nodes: IntArray, rigid: int) -> Iterator[BreakingGlue]:
-    """Ties that break and have a conductance, among the ``nodes`` (k,) with a temperature and ``rigid`` bodies."""
+def breaking_glue(model: Model, heated: HeatedNodes) -> Iterator[BreakingGlue]:
+    """Ties that break and have a conductance, among the nodes with a temperature."""
     for bond in model.bonds:
         for number, tie in enumerate(bond.ties):
             if tie.tie.conductance is not None:
-                jump = among(tie.jump.rows, nodes, rigid)
+                jump = heated.rows(tie.jump.rows)
                 yield BreakingGlue(
                     tie=tie, number=number, points=bond.points, jump=jump, conductance=tie.tie.conductance
                 )
@@ -103,17 +104,8 @@ def require_heated(model: Model, heated: Collection[str]) -> None:
             raise InputError(f"ties[{tie.number}].conductance", problem, remedy)
 
 
-def among(rows: sp.csr_array, nodes: IntArray, rigid: int) -> sp.csr_array:
-    """Weights (m, k + r) of the nodes with heat and of ``rigid`` bodies, from those (m, n) of all nodes."""
-    own = sp.csr_array(rows[:, nodes])
-    return sp.csr_array((own.data, own.indices, own.indptr), shape=(own.shape[0], own.shape[1] + rigid))
-
-
-def through_ties(
-    model: Model, thermals: Mapping[str, Thermal], nodes: IntArray, rigid: int = 0
-) -> Iterator[HeatExchange]:
-    """Exchange of heat through the permanent ties of solids with heat, among the ``nodes`` (k,) with a temperature and
-    ``rigid`` bodies.
+def through_ties(model: Model, thermals: Mapping[str, Thermal], heated: HeatedNodes) -> Iterator[HeatExchange]:
+    """Exchange of heat through the permanent ties of solids with heat, among the nodes with a temperature.
 
     The temperature of a node that follows is compared with that of the nodes that it follows, with their weights: where
     meshes do not match, a uniform flux passes exactly.
@@ -128,7 +120,7 @@ def through_ties(
             for name, tag in zip(tie.bodies, tie.tags, strict=True):
                 other = next((n for n in tie.bodies if n != name), name)
                 for jump, area in _of_side(follow, parts[name], tag, parts[other]):
-                    yield HeatExchange(jump=among(jump, nodes, rigid), conductances=conductance * area)
+                    yield HeatExchange(jump=heated.rows(jump), conductances=conductance * area)
 
 
 def _of_side(

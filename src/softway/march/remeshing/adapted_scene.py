@@ -19,7 +19,8 @@ from softway.heat.coupled.build import build
 from softway.march.remeshing.admitted import adaptions, can_be_cut, require_admitted
 from softway.march.remeshing.carried_bonds import tearing
 from softway.march.remeshing.touching import bulging, least_gaps, pushed, touched
-from softway.march.remeshing.wanted_mesh import Wanted, wanted_cells
+from softway.march.remeshing.wanted_mesh import Seen, Wanted, wanted_cells
+from softway.march.remeshing.warming import warmed, warmth
 from softway.march.state.march_state import MarchState
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.leaves import Leaves, require_cover, same
@@ -88,7 +89,7 @@ class AdaptedScene:
         """The scene on the meshes for the coming slabs, in fine cells what closes or is pushed within ``ahead`` [s]."""
         model, time = self.model, now.state.time
         chosen = touched(model, now, ahead), pushed(model, time, ahead), tearing(model, now.state.start)
-        touching = np.concatenate(chosen)
+        touching = np.concatenate([*chosen, warmed(model, now, ahead)])
         wanted: dict[str, Wanted] = {}
         for name, how in adaptions(self.scene).items():
             solid = self.solid(name)
@@ -99,7 +100,8 @@ class AdaptedScene:
             if mesh.base.rounding is not None:
                 marks += bulging(mesh, least_gaps(model, now, ahead)[nodes])
             group = int(model.linked[[part.name for part in model.parts].index(name)])
-            wanted[name] = wanted_cells(how, solid, motion_of(model, now, name), energy, marks, group, model.inert)
+            seen = Seen(motion=motion_of(model, now, name), warmth=warmth(model, now, name, energy), moves=model.inert)
+            wanted[name] = wanted_cells(how, solid, seen, energy, marks, group)
         stretch = now.step_history.longest / now.step_history.span
         meshes = dict(self.meshes)
         for name, one in wanted.items():

@@ -126,8 +126,8 @@ def _require_carried(model: Model) -> None:
     scene, other = model.scene, "meshes that stay, or a scene without"
     for name in model.meshes:
         if not carries_heat(model, name):
-            problem = "latent heat, or capacities of several regions that depend on the temperature"
-            remedy = "one law without latent heat, or meshes that stay"
+            problem = "latent heat, or capacities that depend on the temperature, of several regions"
+            remedy = "one law, constant capacities without latent heat, or meshes that stay"
             raise InputError(f"bodies.{name}.thermal.law", f"{problem}, where meshes adapt", remedy)
     for field in model.companions:
         if not isinstance(field, SolidTemperature | CohesiveTies):

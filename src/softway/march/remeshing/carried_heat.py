@@ -1,6 +1,6 @@
 """Temperature of solids on other meshes, and its account."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,8 +14,9 @@ from softway.bodies.inertia.nodal_heat import cell_heat_masses
 from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.heat.coupled.solid_temperature import SolidTemperature, temperatures_of
 from softway.heat.coupled.strain.deformed import deformed
+from softway.heat.fronts.carried_contents import melting_contents, with_contents
 from softway.heat.heat_model import HeatModel, HeatPart
-from softway.heat.operators import entropy, liquid_volumes, rigid_temperatures
+from softway.heat.operators import entropy, heat_values, liquid_volumes, rigid_temperatures
 from softway.laws.heat.heat_content import ContentCurve
 from softway.laws.heat.temperature_table import value_at
 from softway.march.state.model_state import ModelState
@@ -37,56 +38,97 @@ def strained(model: Model) -> bool:
 def carries_heat(model: Model, name: str) -> bool:
     """True if the heat of a solid can pass to another mesh: content and temperature of its nodes tell each other."""
     found = temperature_of(model)
-    if found is None:
+    if found is None or found[1].model.capacity is not None:
         return True
-    heat = found[1].model
-    parts = [part for part in heat.parts if part.name == name]
-    return all(part.law.latent is None and _curve(heat, part) is not False for part in parts)
+    return all(isinstance(part.curve, ContentCurve) for part in found[1].model.parts if part.name == name)
 
 
-def _curve(heat: HeatModel, part: HeatPart) -> ContentCurve | None | bool:
-    """Content of the nodes of a part; None if it is linear, False if several curves meet there."""
-    if heat.capacity is not None:
-        return None
-    return part.curve if isinstance(part.curve, ContentCurve) else False
-
-
-def carried_temperatures(
+def carried_unknowns(
     models: tuple[Model, Model],
     pairs: Mapping[str, tuple[AdaptedSolid, AdaptedSolid]],
     at_nodes: Mapping[str, sp.csr_array],
-    values: Mapping[str, Array],
-) -> dict[str, Array]:
-    """Temperatures (m, 1) of the solids on new meshes, from those (n, 1) on the old ones [K], with the values (m, n) at
-    the new nodes of fields on the old ones for those whose mesh changes; others stay.
+    now: ModelState,
+) -> Array | None:
+    """Unknowns (k + r,) of the heat on new meshes: temperatures, or specific contents if latent heat is at the nodes.
+
+    Parameters
+    ----------
+    models
+        Models of the old and the new meshes.
+    pairs
+        Solids on both meshes.
+    at_nodes
+        Values (m, n) at the new nodes of fields on the old ones, for the solids whose mesh changes; others keep theirs.
+    now
+        State before.
+
+    Raises
+    ------
+    NumericsError
+        If no temperatures of cut cells have the contents before.
     """
-    out = dict(values)
-    heats = [found[1].model for model in models if (found := temperature_of(model)) is not None]
-    for name, near in at_nodes.items():
-        parts = [next((p for p in heat.parts if p.name == name), None) for heat in heats]
-        if not parts or any(part is None for part in parts):
-            out[name] = np.zeros((near.shape[0], 1))
+    found = [temperature_of(model) for model in models]
+    if found[0] is None or found[1] is None:
+        return None
+    (k, temperature), heat = found[0], found[1][1].model
+    last, old = temperature.values_of(now.start.fields[k]), temperature.model
+    everywhere, out = old.everywhere(last.unknowns), np.empty(heat.n_nodes)
+    out[heat.n_nodes - len(heat.lumps) :] = last.unknowns[old.n_nodes - len(old.lumps) :]
+    wanted: dict[str, Array] = {}
+    parts = {part.name: part for part in old.parts}
+    for part in heat.parts:
+        before, near = parts[part.name], at_nodes.get(part.name)
+        if near is None:
+            out[part.nodes] = last.unknowns[before.nodes]
             continue
-        one, other = (
-            _heated(on, heat, part)
-            for on, heat, part in zip(pairs[name], heats, parts, strict=True)
-            if part is not None
-        )
-        to, back, rule = _measures(heats[0], parts[0])
-        found_values = carried_heat(one, other, near, to(values[name][:, 0]), rule)
-        out[name] = back(found_values)[:, None]
-    return out
+        both = (old, before), (heat, part)
+        meshes = tuple(_heated(on, *one) for on, one in zip(pairs[part.name], both, strict=True))
+        values = everywhere[before.places]
+        if part.law.latent is not None and not part.at_nodes:
+            out[part.nodes] = np.asarray(near @ values)[part.kept]
+            wanted[part.name] = melting_contents(both, (meshes[0], meshes[1]), near, values)
+        else:
+            out[part.nodes] = _carried((meshes[0], meshes[1]), (before, part), heat, near, values)
+    return with_contents(heat, out, wanted)
 
 
-Measure = Callable[[Array], Array]
+def _carried(
+    meshes: tuple[Heated, Heated], parts: tuple[HeatPart, HeatPart], heat: HeatModel, near: sp.csr_array, values: Array
+) -> Array:
+    """Unknowns (k,) of a solid without cut cells, from those (n,) of all its old nodes."""
+    (before, part), curve = parts, parts[1].curve
+    if heat.capacity is not None:
+        return carried_heat(*meshes, near, values, np.log)[part.kept]
+    assert isinstance(curve, ContentCurve)
+    contents = values if part.at_nodes else curve.content(values + part.zero)
+    if before.mesh.hanging is not None:
+        contents = before.mesh.hanging.following(contents[:, None])[:, 0]
+    found = carried_heat(*meshes, near, contents, lambda h: curve.entropy(curve.temperature(h)[0]))[part.kept]
+    return found if part.at_nodes else curve.temperature(found)[0] - part.zero
 
 
-def _measures(heat: HeatModel, part: HeatPart | None) -> tuple[Measure, Measure, Measure]:
-    """What passes over of the temperatures [K], the temperature of it, and its entropy per capacity."""
-    curve = None if part is None else _curve(heat, part)
-    if not isinstance(curve, ContentCurve):
-        return np.array, np.array, np.log
-    return curve.content, lambda h: curve.temperature(h)[0], lambda h: curve.entropy(curve.temperature(h)[0])
+def temperatures_from(model: Model, unknowns: Array | None) -> dict[str, Array] | None:
+    """Temperatures (n, 1) of the solids, and (1, 1) of rigid bodies, from the unknowns (k + r,) of their heat [K]."""
+    found = temperature_of(model)
+    if found is None or unknowns is None:
+        return None
+    temperature, now = found[1], heat_values(found[1].model, unknowns, slopes=False)
+    rigid = zip(temperature.model.lumps, now.temperature[len(temperature.nodes) :], strict=True)
+    return {**model.split(temperature.on_all(now.temperature)), **{lump.name: np.array([[t]]) for lump, t in rigid}}
+
+
+def with_digits(model: Model, state: ModelState, unknowns: Array | None) -> ModelState:
+    """State whose heat has these unknowns (k + r,), of which the temperatures are rounded."""
+    found = temperature_of(model)
+    if found is None or unknowns is None or found[1].model.linear:
+        return state
+    k, temperature = found
+    there = temperature.in_states(state.start.states)
+    last, exact = state.start.fields[k], heat_values(temperature.model, unknowns, slopes=False)
+    field = there.at(there.on_all(exact.temperature), state.start.displacement, exact)
+    fields = (*state.start.fields[:k], field, *state.start.fields[k + 1 :])
+    force, energy = state.start.force + (field.force - last.force), state.start.energy + (field.energy - last.energy)
+    return replace(state, start=replace(state.start, fields=fields, force=force, energy=energy))
 
 
 def _heated(on: AdaptedSolid, heat: HeatModel, part: HeatPart) -> Heated:
@@ -137,7 +179,7 @@ def heat_of(model: Model, now: ModelState) -> HeatOfState | None:
         return None
     k, t = found
     state, u, states = now.start.fields[k], now.start.displacement, now.start.states
-    values = t.contents(state.values, t.of_bodies(state))
+    values = t.values_of(state)
     amounts = t.of_nodes(deformed(t.expansions, t.elastic, u, states).amounts())
     entropies = -t.moduli.slopes(values.temperature, values.share) * amounts
     return HeatOfState(
@@ -149,16 +191,17 @@ def heat_of(model: Model, now: ModelState) -> HeatOfState | None:
     )
 
 
-def with_content(
-    model: Model, values: Mapping[str, Array], before: HeatOfState, after: HeatOfState
-) -> dict[str, Array]:
-    """Temperatures of the solids shifted by as much in each one as keeps its content [K]: the thermal stress of the
+def with_content(model: Model, unknowns: Array, before: HeatOfState, after: HeatOfState) -> Array:
+    """Unknowns (k + r,) of the heat shifted by as much in each solid as keeps its content: the thermal stress of the
     projected strain holds another entropy, which an adiabatic change gives back.
     """
+    found = temperature_of(model)
+    assert found is not None
     gap = before.contents - after.contents
     shift = np.divide(gap, after.capacities, out=np.zeros_like(gap), where=after.capacities > 0.0)
-    shifted = {part.name: values[part.name] + change for part, change in zip(model.parts, shift, strict=True)}
-    return {**values, **shifted}
+    out = unknowns.copy()
+    out[: len(found[1].part)] += shift[found[1].part]
+    return out
 
 
 def account_of_heat(

@@ -65,13 +65,13 @@ def pushed(model: Model, time: float, ahead: float) -> IntArray:
     """Nodes (k,) of tractions that change within ``ahead`` [s]; of all of them at the start, where they are sudden."""
     parts, found = {part.name: part for part in model.parts}, [np.zeros(0, dtype=np.int64)]
     for load in model.scene.loads:
-        if isinstance(load, Traction) and (time <= 0.0 or _changes(load.ramp, time, time + ahead)):
+        if isinstance(load, Traction) and (time <= 0.0 or changes(load.ramp, time, time + ahead)):
             part = parts[load.body]
             found.append(part.nodes.start + part.mesh.nodes(load.tag))
     return np.concatenate(found)
 
 
-def _changes(ramp: Ramp, start: float, end: float) -> bool:
+def changes(ramp: Ramp, start: float, end: float) -> bool:
     """True if a factor of a load changes between two times."""
     inner = (time for time in ramp.times if start < time < end)
     return len({ramp.at(time) for time in (start, *inner, end)}) > 1

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.adaptivity.adapted_solid import AdaptedSolid
-from softway.adaptivity.marking.indicator import indicator, wanted_levels
+from softway.adaptivity.marking.indicator import indicator, wanted_levels, warmth_indicator
 from softway.adaptivity.marking.neighbourhood import Mark, grown_near, marks_of
 from softway.adaptivity.transfer import Motion
+from softway.arrays import Array
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.leaves import same
 from softway.meshes.adaptive.refinement import AdaptedMesh, adapted_mesh
@@ -57,14 +58,27 @@ class Wanted:
         return self.present if same(tree.leaves, self.present.leaves) else adapted_mesh(tree)
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Seen:
+    """What the indicators see of a solid of n nodes.
+
+    Parameters
+    ----------
+    motion
+        Its motion.
+    warmth
+        (n,) temperatures, relative to their range; None without.
+    moves
+        False without inertia.
+    """
+
+    motion: Motion
+    warmth: Array | None = None
+    moves: bool = True
+
+
 def wanted_cells(
-    adapt: Adapt,
-    solid: AdaptedSolid,
-    motion: Motion,
-    energy: float,
-    marks: Sequence[Mark],
-    group: int = 0,
-    moves: bool = True,
+    adapt: Adapt, solid: AdaptedSolid, seen: Seen, energy: float, marks: Sequence[Mark], group: int = 0
 ) -> Wanted:
     """Cells of a solid for the coming slabs.
 
@@ -72,8 +86,8 @@ def wanted_cells(
     ----------
     adapt
         Adaption of the solid.
-    solid, motion
-        The solid and its motion on the present mesh.
+    solid, seen
+        The solid, its motion and temperature on the present mesh.
     energy
         Energy of the scene [J].
     marks
@@ -81,12 +95,14 @@ def wanted_cells(
         or close soon, and near ones at a curved boundary.
     group
         Number of its group of linked solids.
-    moves
-        False without inertia.
     """
     base = solid.adapted.base
     finest, deepest = adapt.finest(base), adapt.deepest(base.cell_dim)
-    levels = wanted_levels(solid.adapted, indicator(solid, motion, moves), adapt.threshold(base, energy), deepest)
+    stressed = indicator(solid, seen.motion, seen.moves)
+    levels = wanted_levels(solid.adapted, stressed, adapt.threshold(base, energy), deepest)
+    if seen.warmth is not None:
+        bent = warmth_indicator(solid, seen.warmth)
+        levels = np.maximum(levels, wanted_levels(solid.adapted, bent, adapt.threshold(base, 1.0), deepest))
     leaves, contact = solid.adapted.leaves, [(min(level, deepest), at) for level, at in marks]
     kept = np.where(levels >= leaves.level - solid.adapted.step, levels, 0)
     grown = (

@@ -9,7 +9,7 @@ from softway.bodies.solid import Solid
 from softway.errors import InputError, Note
 from softway.heat.build_heat import build_heat
 from softway.heat.heat_model import HeatModel, HeatPart, HeatScene
-from softway.heat.heat_plan import heat_slabs
+from softway.heat.loads.heat_plan import heat_slabs
 from softway.record.write.heat.probes import HeatReading, heat_readings
 from softway.scenario.checks.mechanism import require_default, require_no_parts, slabs_of
 from softway.scenario.scenario import Scenario

@@ -15,6 +15,7 @@ from softway.adaptivity.projections.conditions import ClosedRows
 from softway.adaptivity.transfer import Settled, Transferred, transfer
 from softway.arrays import Array, BoolArray
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent
+from softway.heat.coupled.solid_temperature import TEMPERATURE
 from softway.march.remeshing.adapted_scene import AdaptedScene
 from softway.march.remeshing.carried.kept_contacts import KeptContacts, kept_contacts
 from softway.march.remeshing.carried.linked_changes import (
@@ -29,11 +30,13 @@ from softway.march.remeshing.carried.surface_forces import SurfaceForces, surfac
 from softway.march.remeshing.carried_bonds import carried_bonds, damages, with_damage
 from softway.march.remeshing.carried_heat import (
     account_of_heat,
-    carried_temperatures,
+    carried_unknowns,
     heat_of,
     starting_at,
     strained,
+    temperatures_from,
     with_content,
+    with_digits,
 )
 from softway.march.remeshing.standing import standing
 from softway.march.state.march_state import AdaptedMeshes, MarchState
@@ -90,7 +93,7 @@ def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple
 class _Change:
     """Change of meshes: the scene before and after it, the state before, and for each solid of cells that can be
     bisected both of its meshes; the changes by groups of linked solids; values (m, n) at the new nodes of fields on the
-    old ones; ties that break, and the companion fields after it; contacts of nodes with inertia.
+    old ones; the companion fields after it, the unknowns of the heat, and contacts of nodes with inertia.
     """
 
     old: AdaptedScene
@@ -103,6 +106,7 @@ class _Change:
     at_nodes: sp.csr_array
     fields: Mapping[str, Mapping[str, Array]]
     kept: KeptContacts | None
+    heat: Array | None = None
 
     def unsettled(self) -> Unsettled:
         """Solids on the new meshes with projected displacements and inherited histories."""
@@ -150,7 +154,7 @@ class _Change:
         rest, states = unsettled.settled()
         found = join_states(self.new.model, self.resting(rest, states, unsettled.friction), self.span)
         found = found if self.kept is None else self.kept.pressed(unsettled.model, found, unsettled.friction)
-        return replace(found, rigid=self.now.rigid)
+        return with_digits(self.new.model, replace(found, rigid=self.now.rigid), self.heat)
 
     def closed(self, one: LinkedChange, found: ModelState) -> ClosedRows | None:
         """Rows on the new meshes of some solids that stay closed; None without nodes that have inertia in contact."""
@@ -162,10 +166,16 @@ class _Change:
     def with_content(self, found: ModelState) -> "_Change":
         """Change to temperatures with which a state that was found so far would have the heat content before."""
         before, after = heat_of(self.old.model, self.now), heat_of(self.new.model, found)
-        if before is None or after is None:
+        if before is None or after is None or self.heat is None:
             return self
-        shifted = {n: with_content(self.new.model, values, before, after) for n, values in self.fields.items()}
-        return replace(self, fields=shifted)
+        return self.heated_by(with_content(self.new.model, self.heat, before, after))
+
+    def heated_by(self, unknowns: Array | None) -> "_Change":
+        """Change with the unknowns of the heat."""
+        found = temperatures_from(self.new.model, unknowns)
+        return replace(
+            self, heat=unknowns, fields=self.fields if found is None else {**self.fields, TEMPERATURE.name: found}
+        )
 
     def resting(self, rest: StaticState, states: MaterialStates, friction: SurfaceForces | None) -> State:
         """State in equilibrium, with projected velocities."""
@@ -236,11 +246,11 @@ def _change(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> _Change:
     state, models = split_states(old.model, now.state), (old.model, new.model)
     values = values_between(pairs)
     at_nodes = all_values(new.model, values)
-    fields = {name: carried_temperatures(models, pairs, values, field) for name, field in state.fields.items()}
     groups, bonds = linked_changes(old, new, now.state.closed), carried_bonds(*models, now.state, at_nodes)
-    return _Change(
+    change = _Change(
         old=old, new=new, now=now.state, state=state, span=now.step_history.span, pairs=pairs,
         groups=tuple(one.glued([b.glue(one.nodes[1]) for b in bonds if b.links(one.nodes[1])]) for one in groups),
-        at_nodes=at_nodes, fields={**fields, **damages(new.model, bonds)},
+        at_nodes=at_nodes, fields=damages(new.model, bonds),
         kept=kept_contacts(standing(old.model, now.state), now.state, at_nodes) if inert_contacts(old.model) else None,
     )  # fmt: skip
+    return change.heated_by(carried_unknowns(models, pairs, values, now.state))

@@ -1,0 +1,1 @@
+"""Loads of heat on discretised conductors."""
