@@ -1,5 +1,6 @@
 """Placement of a mesh in the scene: mirror, rotation, translation, and height of its lowest node."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Annotated
 
@@ -108,7 +109,7 @@ class Placement:
         Translation (d,) [m]; empty for none.
     bottom
         Coordinate of the lowest node along the last axis [m]; the body is moved along this axis after the rotations and
-        the translation.
+        the translation. That of the lowest place of its curved boundary if the mesh of the solid adapts.
 
     Examples
     --------
@@ -123,8 +124,11 @@ class Placement:
     translation: tuple[Metre, ...] | Metre = ()
     bottom: Metre | None = None
 
-    def applied(self, mesh: Mesh) -> Mesh:
-        """Placed mesh; the mesh itself for the default placement."""
+    def applied(self, mesh: Mesh, lowest: Callable[[Mesh], float] | None = None) -> Mesh:
+        """Placed mesh; the mesh itself for the default placement.
+
+        ``lowest`` gives the coordinate of ``bottom`` of a mesh in another place [m]; that of its lowest node without.
+        """
         if self == Placement():
             return mesh
         dim = mesh.dim
@@ -142,13 +146,16 @@ class Placement:
         if shift.size:
             points = points + shift
         if self.bottom is not None:
+            low = points[:, -1].min() if lowest is None else lowest(replace(mesh, points=points, blocks=blocks))
             points = points.copy()
-            points[:, -1] += self.bottom - points[:, -1].min()
+            points[:, -1] += self.bottom - low
         return replace(mesh, points=points, blocks=blocks)
 
 
-def placed(mesh: Mesh, own: Placement, group: tuple[Placement, ...]) -> Mesh:
-    """Mesh of a solid after its own placement and those of its groups.
+def placed(
+    mesh: Mesh, own: Placement, group: tuple[Placement, ...], lowest: Callable[[Mesh], float] | None = None
+) -> Mesh:
+    """Mesh of a solid after its own placement and those of its groups; ``lowest`` as for :meth:`Placement.applied`.
 
     Raises
     ------
@@ -156,10 +163,10 @@ def placed(mesh: Mesh, own: Placement, group: tuple[Placement, ...]) -> Mesh:
         With the key, and the number of the group.
     """
     with within("place"):
-        mesh = own.applied(mesh)
+        mesh = own.applied(mesh, lowest)
     for k, place in enumerate(group):
         with within(f"group[{k}]"):
-            mesh = place.applied(mesh)
+            mesh = place.applied(mesh, lowest)
     return mesh
 
 

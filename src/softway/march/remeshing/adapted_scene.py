@@ -10,7 +10,7 @@ import numpy as np
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.marking.even_surface import even
 from softway.adaptivity.transfer import Motion
-from softway.bodies.elements.section import Axisymmetric
+from softway.bodies.setup.mesh_in_place import with_surface
 from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid
 from softway.contact.assembly.tie import Tie
@@ -21,12 +21,8 @@ from softway.march.remeshing.carried_bonds import tearing
 from softway.march.remeshing.touching import bulging, least_gaps, pushed, touched
 from softway.march.remeshing.wanted_mesh import Wanted, wanted_cells
 from softway.march.state.march_state import MarchState
-from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.leaves import Leaves, require_cover, same
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
-from softway.meshes.adaptive.surfaces.surface import ROUND, rounded
-from softway.meshes.generators.recipes import Ball, Cylinder, Disc, Divided, GradedDisc, Ring
-from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
 
@@ -131,7 +127,7 @@ def adapted_scene(model: Model) -> AdaptedScene:
     for name, base in ((name, base) for name, base in bases.items() if can_be_cut(base)):
         solid = bodies[name]
         assert isinstance(solid, Solid)
-        base = with_surface(base, solid, asked[name]) if name in asked else base
+        base = with_surface(base, solid.mesh, solid.adapt, solid.section) if name in asked else base
         meshes[name] = refined(base, np.zeros(base.n_cells, dtype=np.int64))
         curved |= base.rounding is not None
         own = base if base.rounding is None else meshes[name].mesh
@@ -150,13 +146,6 @@ def _ties(scene: Scene, meshes: Mapping[str, AdaptedMesh]) -> tuple[Tie, ...]:
     return tuple(
         replace(tie, tolerance=tie.tolerance * 2.0 ** max(halvings[name] for name in tie.bodies)) for tie in scene.ties
     )
-
-
-def with_surface(base: Mesh, solid: Solid, how: Adapt) -> Mesh:
-    """Base mesh with the smooth surface that its refinements follow."""
-    recipe = solid.mesh.mesh if isinstance(solid.mesh, Divided) else solid.mesh
-    round_ = isinstance(recipe, Disc | Cylinder | Ball | Ring | GradedDisc) and how.smooth > 0.0
-    return rounded(base, max(ROUND, how.smooth) if round_ else how.smooth, isinstance(solid.section, Axisymmetric))
 
 
 def motion_of(model: Model, now: MarchState, name: str) -> Motion:

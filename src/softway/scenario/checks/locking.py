@@ -144,7 +144,7 @@ def _volume_note(solid: Solid, law: Material, section: Section) -> tuple[Note, .
     lock = f"{', '.join(kinds)} lock with {type(law).__name__}, {why}"
     problem = f"{lock}: too stiff where they have to deform at constant volume"
     quadratic = f'quadratic cells ({"tri6" if mesh.dim == 2 else "tet10"}) with dilatation = "corner"'
-    quadratic += ', or tri3 with it where the flow is large' if flows else ""
+    quadratic += ", or tri3 with it where the flow is large" if flows else ""
     force = ' and force = { kind = "Weighted" }' if isinstance(solid.force, DiscreteGradient) else ""
     remedy = (quadratic if simplices else 'dilatation = "mean"') + force
     return (Note(where="dilatation", problem=problem, remedy=remedy),)
