@@ -19,8 +19,9 @@ from softway.heat.coupled.build import build
 from softway.march.remeshing.admitted import adaptions, can_be_cut, require_admitted
 from softway.march.remeshing.carried_bonds import tearing
 from softway.march.remeshing.touching import bulging, least_gaps, pushed, touched
-from softway.march.remeshing.wanted_mesh import Wanted, wanted_cells
+from softway.march.remeshing.wanted_mesh import Wanted, affordable, shallower, wanted_cells
 from softway.march.state.march_state import MarchState
+from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.leaves import Leaves, require_cover, same
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
 from softway.model.model import Model
@@ -81,12 +82,30 @@ class AdaptedScene:
         return self.on({name: refined(self.meshes[name].base, one.level, one) for name, one in leaves.items()})
 
     def wanted(self, now: MarchState, energy: float, ahead: float) -> "AdaptedScene":
-        """The scene on the meshes for the coming slabs, in fine cells what closes or is pushed within ``ahead`` [s]."""
+        """The scene on the meshes for the coming slabs, in fine cells what closes or is pushed within ``ahead`` [s].
+
+        Solids with ``auto`` halve edges less often while their meshes would have too many cells.
+        """
+        most = {name: how.most(self.meshes[name].base) for name, how in adaptions(self.scene).items()}
+        hows = {name: affordable(how, self.meshes[name]) for name, how in adaptions(self.scene).items()}
+        stretch = now.step_history.longest / now.step_history.span
+        while True:
+            wanted = self._wanted(now, energy, ahead, hows)
+            many = [name for name, one in wanted.items() if len(one.tree.leaves.level) > most[name]]
+            if not many:
+                meshes = self._buffered(wanted, stretch)
+                many = [name for name, mesh in meshes.items() if mesh.mesh.n_cells > most[name]]
+                if not many:
+                    return self.on({**self.meshes, **meshes})
+            hows |= {name: shallower(hows[name], self.meshes[name].base) for name in many}
+
+    def _wanted(self, now: MarchState, energy: float, ahead: float, hows: Mapping[str, Adapt]) -> dict[str, Wanted]:
+        """Cells of each solid that adapts, for the coming slabs."""
         model, time = self.model, now.state.time
         chosen = touched(model, now, ahead), pushed(model, time, ahead), tearing(model, now.state.start)
         touching = np.concatenate(chosen)
         wanted: dict[str, Wanted] = {}
-        for name, how in adaptions(self.scene).items():
+        for name, how in hows.items():
             solid = self.solid(name)
             nodes = solid.part.nodes
             own = touching[(touching >= nodes.start) & (touching < nodes.stop)] - nodes.start
@@ -96,12 +115,15 @@ class AdaptedScene:
                 marks += bulging(mesh, least_gaps(model, now, ahead)[nodes])
             group = int(model.linked[[part.name for part in model.parts].index(name)])
             wanted[name] = wanted_cells(how, solid, motion_of(model, now, name), energy, marks, group, model.inert)
-        stretch = now.step_history.longest / now.step_history.span
-        meshes = dict(self.meshes)
+        return wanted
+
+    def _buffered(self, wanted: Mapping[str, Wanted], stretch: float) -> dict[str, AdaptedMesh]:
+        """Meshes with buffers, of one size on surfaces that may touch."""
+        meshes: dict[str, AdaptedMesh] = {}
         for name, one in wanted.items():
             others = [other for other in wanted.values() if other is not one and other.group == one.group]
             meshes[name] = even(one.mesh(others, stretch), self._smooth(name))
-        return self.on(meshes)
+        return meshes
 
     def _smooth(self, name: str) -> list[str]:
         """Tags of the surfaces of a solid that may touch or are glued."""
