@@ -133,14 +133,14 @@ def adapted_drops(given: list[dict[str, Any]], found: list[dict[str, Any]]) -> s
 
 {len(found)} of these drops with `adapt = "auto"` in every solid (`--adapt --seconds 60`), the cheapest of the first 100
 ones first. *Slow* is more than a minute of processor time; on the given meshes they took {sum(seconds):.0f} s together,
-and at most {max(seconds):.0f} s. Meshes of bars, of solids with inertia at contacts (rules Impulse and Paper) and of
-cells that are not cut stay or change little.
+and at most {max(seconds):.0f} s. Meshes of solids with inertia at contacts (rules Impulse and Paper) and of cells
+that are not cut stay; small ones are fine from the start where a contact is near.
 
 """
     rows = []
     for name, mine in (
         ("changed", [d for d in found if d["changes"]]),
-        ("stayed", [d for d in found if not d["changes"]]),
+        ("as at the start", [d for d in found if not d["changes"]]),
     ):
         total = sum(d["seconds"] for d in mine), sum(without[d["number"]]["seconds"] for d in mine)
         rows.append([name, *_ends(mine), *(f"{t:.0f}" for t in total), *_worst(mine)])

@@ -29,7 +29,7 @@ from softway.bodies.setup.directions import (
     with_hanging,
 )
 from softway.bodies.setup.initial_fields import sample
-from softway.bodies.setup.mesh_in_place import in_place
+from softway.bodies.setup.placement import in_place
 from softway.bodies.solid import Carried, Driven, Fixed, Guided, Solid, Support
 from softway.errors import InputError, within
 from softway.meshes.cells import CELLS

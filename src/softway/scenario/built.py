@@ -5,8 +5,7 @@ from dataclasses import replace
 from itertools import product
 from pathlib import Path
 
-from softway.bodies.setup.mesh_in_place import in_place
-from softway.bodies.setup.placement import Placement
+from softway.bodies.setup.placement import Placement, in_place
 from softway.bodies.solid import Solid, Tool
 from softway.contact.assembly.tie import Tie
 from softway.errors import InputError, within

@@ -10,8 +10,7 @@ import numpy as np
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.marking.even_surface import even
 from softway.adaptivity.transfer import Motion
-from softway.bodies.setup.mesh_in_place import with_surface
-from softway.bodies.setup.placement import Placement
+from softway.bodies.setup.placement import Placement, with_surface
 from softway.bodies.solid import Solid
 from softway.contact.assembly.tie import Tie
 from softway.errors import InputError, within
