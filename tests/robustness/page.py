@@ -39,6 +39,11 @@ def page(place: Path = PLACE) -> str:
         if (place / f"{name}.jsonl").is_file():
             lines = (place / f"{name}.jsonl").read_text().splitlines()
             parts.append(section([json.loads(line) for line in lines]))
+        if name == "drops" and (place / "adapted_drops.jsonl").is_file():
+            given, found = (place / f"{kind}.jsonl" for kind in ("drops", "adapted_drops"))
+            parts.append(
+                adapted_drops(*([json.loads(line) for line in p.read_text().splitlines()] for p in (given, found)))
+            )
     if (place / "endurance.json").is_file():
         parts.append(endurance(json.loads((place / "endurance.json").read_text())))
     return "\n".join([*parts, KNOWN])
@@ -118,6 +123,38 @@ rules Impulse and Paper give no promise on energy. *Slow* is more than five minu
         out += f"\n{noted} of them are impacts that their law does not bear, as `check` notes before they are marched: "
         out += "[softening](../theory/bodies/softening.md).\n"
     return out + f"\nIn all: {', '.join(f'{ends[e]} {e}' for e in ENDS if ends[e])}.\n"
+
+
+def adapted_drops(given: list[dict[str, Any]], found: list[dict[str, Any]]) -> str:
+    """Random drops on meshes that adapt, how they ended, and what the same drops do without."""
+    without = {d["number"]: d for d in given}
+    seconds = [without[d["number"]]["seconds"] for d in found]
+    text = f"""## Random drops on meshes that adapt
+
+{len(found)} of these drops with `adapt = "auto"` in every solid (`--adapt --seconds 60`), the cheapest of the first 100
+ones first. *Slow* is more than a minute of processor time; on the given meshes they took {sum(seconds):.0f} s together,
+and at most {max(seconds):.0f} s. Meshes of solids with inertia at contacts (rules Impulse and Paper) and of cells
+that are not cut stay; small ones are fine from the start where a contact is near.
+
+"""
+    rows = []
+    for name, mine in (
+        ("changed", [d for d in found if d["changes"]]),
+        ("as at the start", [d for d in found if not d["changes"]]),
+    ):
+        total = sum(d["seconds"] for d in mine), sum(without[d["number"]]["seconds"] for d in mine)
+        rows.append([name, *_ends(mine), *(f"{t:.0f}" for t in total), *_worst(mine)])
+    head = ["meshes", "drops", *ENDS, "time [s]", "given meshes [s]", "depth", "tension", "energy"]
+    text += table(head, rows) + _findings(found) + _unfinished(found)
+    new = [d["number"] for d in found if _more(d, without[d["number"]])]
+    told = f"Drops with a finding that they do not have on the given meshes: {', '.join(map(str, new))}." if new else ""
+    return text + f"\n{told or 'No drop has a kind of finding that it does not have on the given mesh.'}\n"
+
+
+def _more(found: dict[str, Any], given: dict[str, Any]) -> bool:
+    """True if a drop has a kind of finding that another one does not have."""
+    kinds = [{kind for kind in d.get("findings", "").split(", ") if kind} for d in (found, given)]
+    return not kinds[0] <= kinds[1]
 
 
 def rigid_drops(found: list[dict[str, Any]]) -> str:

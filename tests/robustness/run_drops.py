@@ -1,6 +1,7 @@
 """Random drops marched and judged: ``python tests/robustness/run_drops.py COUNT``.
 
-With ``--rigid`` scenes with rigid bodies, with ``--assemblies`` several bodies in contact with each other.
+With ``--rigid`` scenes with rigid bodies, with ``--assemblies`` several bodies in contact with each other; with
+``--adapt`` or ``--remesh`` the meshes of all their solids change.
 """
 
 import argparse
@@ -8,6 +9,9 @@ import collections
 import json
 import signal
 import tempfile
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from time import process_time
 from typing import Any
@@ -43,8 +47,8 @@ class Watch:
 
     def __init__(self) -> None:
         self.worst = {"depth": 0.0, "tension": 0.0, "energy": 0.0}
-        self.slabs = self.rejections = 0
-        self.first = 0.0
+        self.slabs = self.rejections = self.changes = self.nodes = 0
+        self.first = self.share = 0.0
 
     def __call__(self, progress: Progress | MechanismProgress) -> None:
         """Look at an accepted slab."""
@@ -57,6 +61,8 @@ class Watch:
             return
         found, ledger = step.certificate, step.ledger
         self.slabs, self.rejections = self.slabs + 1, self.rejections + len(step.report.rejections)
+        self.changes += bool(step.transfers or step.exchanges)
+        self.nodes, self.share = max(self.nodes, step.model.shape[0]), step.slab.end / progress.until
         self.first = max(self.first, ledger.energy_kinetic + ledger.energy_strain + abs(ledger.dissipation))
         reach = max(float(np.abs(u).max()) for u in step.after.displacement.values()) + 1e-300
         force = max([abs(c.force_n) for c in ledger.contacts.values()] + [1e-300])
@@ -68,11 +74,13 @@ class Watch:
         self.worst[name] = max(self.worst[name], value) if np.isfinite(value) or value < 0 else float("inf")
 
 
-def judged(given: Drop, units: Units) -> dict[str, Any]:
-    """How a drop ends: ``done``, ``stops`` with a reason, ``refused``, ``slow``, or ``defect``; and its figures."""
+def judged(given: Drop, units: Units, seconds: int = SECONDS) -> dict[str, Any]:
+    """How a drop ends: ``done``, ``stops`` with a reason, ``refused``, ``slow`` after ``seconds`` of processor time, or
+    ``defect``; and its figures.
+    """
     watch, begun = Watch(), process_time()
     signal.signal(signal.SIGVTALRM, _stop)
-    signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
     end, why, seen, noted = "done", "", {"findings": "", "given_back": 0.0}, False
     try:
         checked = check(loads(given.text, folder=ROOT, units=units))
@@ -90,14 +98,21 @@ def judged(given: Drop, units: Units) -> dict[str, Any]:
     except InputError as error:
         end, why = "refused", str(error).splitlines()[0]
     except TooLong:
-        end, why = "slow", f"{watch.slabs} slabs in {SECONDS} s"
+        end, why = "slow", f"{watch.slabs} slabs, {100 * watch.share:.0f} % of its time, in {seconds} s"
     except Exception as error:
         end, why = "defect", f"{type(error).__name__}: {error}"
     finally:
         signal.setitimer(signal.ITIMER_VIRTUAL, 0)
     told = {"number": given.number, "end": end, "why": why, "slabs": watch.slabs, "rejections": watch.rejections}
-    seconds = round(process_time() - begun, 2)
-    return {**told, "noted": noted, "seconds": seconds, **watch.worst, **seen, **given.traits}
+    told |= {"changes": watch.changes, "nodes": watch.nodes, "share": round(watch.share, 3)}
+    took = round(process_time() - begun, 2)
+    return {**told, "noted": noted, "seconds": took, **watch.worst, **seen, **given.traits}
+
+
+def asking(given: Drop, lines: Sequence[str]) -> Drop:
+    """The drop with these lines in each of its solids."""
+    solid = 'kind = "Solid"\n'
+    return replace(given, text=given.text.replace(solid, solid + "".join(f"{line}\n" for line in lines)))
 
 
 def _unrecorded(done: Run) -> str:
@@ -132,30 +147,25 @@ def _stop(*_: object) -> None:
     raise TooLong
 
 
-def fall(number: int) -> dict[str, Any]:
-    """The drop of a number, judged."""
-    return judged(drop(number), Units.standard())
+MADE = {"drop": drop, "rigid": rigid_drop, "assembly": assembly}
+"""How a scene of each kind is made."""
 
 
-def fall_rigid(number: int) -> dict[str, Any]:
-    """The drop with rigid bodies of a number, judged."""
-    return judged(rigid_drop(number), Units.standard())
+def fall(number: int, kind: str = "drop", lines: Sequence[str] = (), seconds: int = SECONDS) -> dict[str, Any]:
+    """The scene of a number and a kind, judged, with ``lines`` in each of its solids."""
+    return judged(asking(MADE[kind](number), lines), Units.standard(), seconds)
 
 
 def fall_together(number: int) -> dict[str, Any]:
     """The assembly of a number, judged."""
-    return judged(assembly(number), Units.standard())
+    return fall(number, "assembly")
 
 
-def _dead(given: Drop, how: Complaint) -> dict[str, Any]:
+def _dead(given: Drop, how: Complaint, seconds: int) -> dict[str, Any]:
     """What is told of a drop whose process died."""
     number = given.number
-    told = {"number": number, "end": "defect", "why": how.text, "slabs": 0, "rejections": 0, "seconds": float(SECONDS)}
+    told = {"number": number, "end": "defect", "why": how.text, "slabs": 0, "rejections": 0, "seconds": seconds}
     return {**told, **Watch().worst, "findings": "", "given_back": 0.0, **given.traits}
-
-
-KINDS = {"drop": (fall, drop), "rigid": (fall_rigid, rigid_drop), "assembly": (fall_together, assembly)}
-"""How a scene of each kind is judged, and made."""
 
 
 def main() -> None:
@@ -169,8 +179,18 @@ def main() -> None:
     kind = parser.add_mutually_exclusive_group()
     kind.add_argument("--rigid", dest="kind", action="store_const", const="rigid", default="drop")
     kind.add_argument("--assemblies", dest="kind", action="store_const", const="assembly")
+    parser.add_argument("--seconds", type=int, default=SECONDS, help="processor time of one scene")
+    for name in ("adapt", "remesh"):
+        parser.add_argument(
+            f"--{name}",
+            dest="lines",
+            action="append_const",
+            const=f'{name} = "auto"',
+            default=[],
+            help="in every solid",
+        )
     given = parser.parse_args()
-    falls, made = KINDS[given.kind]
+    falls = partial(fall, kind=given.kind, lines=given.lines, seconds=given.seconds)
     kept = given.out.read_text().splitlines() if given.go_on and given.out.is_file() else []
     found = {line["number"]: line for line in map(json.loads, kept)}
     given.out.parent.mkdir(parents=True, exist_ok=True)
@@ -179,7 +199,9 @@ def main() -> None:
         for number, told, _ in answers(
             [n for n in range(given.first, given.count) if n not in found], falls, given.jobs
         ):
-            found[number] = _dead(made(number), told) if isinstance(told, Complaint) else told
+            found[number] = (
+                _dead(MADE[given.kind](number), told, given.seconds) if isinstance(told, Complaint) else told
+            )
             lines.write(json.dumps(found[number]) + "\n")
             lines.flush()
             if found[number]["end"] != "done":

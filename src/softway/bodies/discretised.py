@@ -29,7 +29,7 @@ from softway.bodies.setup.directions import (
     with_hanging,
 )
 from softway.bodies.setup.initial_fields import sample
-from softway.bodies.setup.placement import placed
+from softway.bodies.setup.placement import in_place
 from softway.bodies.solid import Carried, Driven, Fixed, Guided, Solid, Support
 from softway.errors import InputError, within
 from softway.meshes.cells import CELLS
@@ -120,7 +120,7 @@ def discretise(name: str, solid: Solid, first: int) -> DiscreteSolid:
     """Discretise a solid whose nodes are numbered from ``first``."""
     with within("mesh"):
         mesh = solid.mesh if isinstance(solid.mesh, Mesh) else solid.mesh.build()
-    mesh = placed(mesh, solid.place, solid.group)
+    mesh = in_place(mesh, solid.mesh, (solid.place, *solid.group), solid.adapt, solid.section)
     section = default_section(mesh) if solid.section is None else solid.section
     if solid.dilatation == "mean" and any(CELLS[cell].order > 1 for cell in mesh.blocks):
         problem = (

@@ -5,7 +5,7 @@ from dataclasses import replace
 from itertools import product
 from pathlib import Path
 
-from softway.bodies.setup.placement import Placement, placed
+from softway.bodies.setup.placement import Placement, in_place
 from softway.bodies.solid import Solid, Tool
 from softway.contact.assembly.tie import Tie
 from softway.errors import InputError, within
@@ -89,7 +89,7 @@ def _built(solid: Solid, where: str) -> tuple[Solid, FileMesh]:
     except InputError as error:
         raise error.within(f"{where}.mesh") from None
     with within(where):
-        mesh = placed(read.mesh, solid.place, solid.group)
+        mesh = in_place(read.mesh, solid.mesh, (solid.place, *solid.group), solid.adapt, solid.section)
     return replace(solid, mesh=mesh, place=Placement(), group=()), read
 
 

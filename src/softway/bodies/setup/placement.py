@@ -1,13 +1,19 @@
 """Placement of a mesh in the scene: mirror, rotation, translation, and height of its lowest node."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
 
 from softway.arrays import Array, IntArray
+from softway.bodies.elements.section import Axisymmetric, Section
 from softway.errors import InputError, within
+from softway.meshes.adaptive.adapt import Adapting, adaption
+from softway.meshes.adaptive.surfaces.lowest import lowest
+from softway.meshes.adaptive.surfaces.surface import ROUND, rounded
 from softway.meshes.cells import CELLS
+from softway.meshes.generators.recipes import Ball, Cylinder, Disc, Divided, GradedDisc, MeshSource, Ring
 from softway.meshes.mesh import Mesh
 from softway.units import Metre, Pure
 
@@ -108,7 +114,7 @@ class Placement:
         Translation (d,) [m]; empty for none.
     bottom
         Coordinate of the lowest node along the last axis [m]; the body is moved along this axis after the rotations and
-        the translation.
+        the translation. That of the lowest place of its curved boundary if the mesh of the solid adapts.
 
     Examples
     --------
@@ -123,8 +129,11 @@ class Placement:
     translation: tuple[Metre, ...] | Metre = ()
     bottom: Metre | None = None
 
-    def applied(self, mesh: Mesh) -> Mesh:
-        """Placed mesh; the mesh itself for the default placement."""
+    def applied(self, mesh: Mesh, low: Callable[[Mesh], float] | None = None) -> Mesh:
+        """Placed mesh; the mesh itself for the default placement.
+
+        ``low`` gives the coordinate of ``bottom`` of a mesh in another place [m]; that of its lowest node without.
+        """
         if self == Placement():
             return mesh
         dim = mesh.dim
@@ -142,13 +151,16 @@ class Placement:
         if shift.size:
             points = points + shift
         if self.bottom is not None:
+            least = points[:, -1].min() if low is None else low(replace(mesh, points=points, blocks=blocks))
             points = points.copy()
-            points[:, -1] += self.bottom - points[:, -1].min()
+            points[:, -1] += self.bottom - least
         return replace(mesh, points=points, blocks=blocks)
 
 
-def placed(mesh: Mesh, own: Placement, group: tuple[Placement, ...]) -> Mesh:
-    """Mesh of a solid after its own placement and those of its groups.
+def placed(
+    mesh: Mesh, own: Placement, group: tuple[Placement, ...], low: Callable[[Mesh], float] | None = None
+) -> Mesh:
+    """Mesh of a solid after its own placement and those of its groups; ``low`` as for :meth:`Placement.applied`.
 
     Raises
     ------
@@ -156,11 +168,58 @@ def placed(mesh: Mesh, own: Placement, group: tuple[Placement, ...]) -> Mesh:
         With the key, and the number of the group.
     """
     with within("place"):
-        mesh = own.applied(mesh)
+        mesh = own.applied(mesh, low)
     for k, place in enumerate(group):
         with within(f"group[{k}]"):
-            mesh = place.applied(mesh)
+            mesh = place.applied(mesh, low)
     return mesh
+
+
+def in_place(
+    mesh: Mesh, source: MeshSource | Mesh, places: tuple[Placement, ...], adapt: Adapting, section: Section | None
+) -> Mesh:
+    """Mesh of a solid after its placements.
+
+    The bottom of a solid whose mesh adapts is that of its curved boundary.  The mesh of a round shape of softway keeps
+    this boundary, which its nodes alone do not tell.
+
+    Parameters
+    ----------
+    mesh
+        The mesh before the placements.
+    source
+        What it was built from: a recipe, or the mesh.
+    places
+        Placement of the solid and those of its groups.
+    adapt, section
+        Of the solid.
+
+    Raises
+    ------
+    InputError
+        With the key of the placement, and the number of the group.
+    """
+
+    def surface(base: Mesh) -> Mesh:
+        return with_surface(base, source, adapt, section)
+
+    out = placed(mesh, places[0], places[1:], lambda base: lowest(surface(base)))
+    return surface(out) if is_round(source) else out
+
+
+def with_surface(base: Mesh, source: MeshSource | Mesh, adapt: Adapting, section: Section | None) -> Mesh:
+    """Base mesh with the smooth surface that its refinements follow; itself if it has one or stays as it is."""
+    how = adaption(adapt)
+    if how is None or base.rounding is not None:
+        return base
+    smooth = max(ROUND, how.smooth) if is_round(source) and how.smooth > 0.0 else how.smooth
+    return rounded(base, smooth, isinstance(section, Axisymmetric))
+
+
+def is_round(source: MeshSource | Mesh) -> bool:
+    """True for the round shapes of softway."""
+    recipe = source.mesh if isinstance(source, Divided) else source
+    return isinstance(recipe, Disc | Cylinder | Ball | Ring | GradedDisc)
 
 
 def _turned_over(cell: str) -> IntArray:

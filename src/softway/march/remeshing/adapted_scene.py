@@ -10,8 +10,7 @@ import numpy as np
 from softway.adaptivity.adapted_solid import AdaptedSolid
 from softway.adaptivity.marking.even_surface import even
 from softway.adaptivity.transfer import Motion
-from softway.bodies.elements.section import Axisymmetric
-from softway.bodies.setup.placement import Placement
+from softway.bodies.setup.placement import Placement, with_surface
 from softway.bodies.solid import Solid
 from softway.contact.assembly.tie import Tie
 from softway.errors import InputError, within
@@ -19,15 +18,12 @@ from softway.heat.coupled.build import build
 from softway.march.remeshing.admitted import adaptions, can_be_cut, require_admitted
 from softway.march.remeshing.carried_bonds import tearing
 from softway.march.remeshing.touching import bulging, least_gaps, pushed, touched
-from softway.march.remeshing.wanted_mesh import Seen, Wanted, wanted_cells
+from softway.march.remeshing.wanted_mesh import Seen, Wanted, affordable, shallower, wanted_cells
 from softway.march.remeshing.warming import warmed, warmth
 from softway.march.state.march_state import MarchState
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.leaves import Leaves, require_cover, same
 from softway.meshes.adaptive.refinement import AdaptedMesh, refined
-from softway.meshes.adaptive.surfaces.surface import ROUND, rounded
-from softway.meshes.generators.recipes import Ball, Cylinder, Disc, Divided, GradedDisc, Ring
-from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
 
@@ -86,12 +82,30 @@ class AdaptedScene:
         return self.on({name: refined(self.meshes[name].base, one.level, one) for name, one in leaves.items()})
 
     def wanted(self, now: MarchState, energy: float, ahead: float) -> "AdaptedScene":
-        """The scene on the meshes for the coming slabs, in fine cells what closes or is pushed within ``ahead`` [s]."""
+        """The scene on the meshes for the coming slabs, in fine cells what closes or is pushed within ``ahead`` [s].
+
+        Solids with ``auto`` halve edges less often while their meshes would have too many cells.
+        """
+        most = {name: how.most(self.meshes[name].base) for name, how in adaptions(self.scene).items()}
+        hows = {name: affordable(how, self.meshes[name]) for name, how in adaptions(self.scene).items()}
+        stretch = now.step_history.longest / now.step_history.span
+        while True:
+            wanted = self._wanted(now, energy, ahead, hows)
+            many = [name for name, one in wanted.items() if len(one.tree.leaves.level) > most[name]]
+            if not many:
+                meshes = self._buffered(wanted, stretch)
+                many = [name for name, mesh in meshes.items() if mesh.mesh.n_cells > most[name]]
+                if not many:
+                    return self.on({**self.meshes, **meshes})
+            hows |= {name: shallower(hows[name], self.meshes[name].base) for name in many}
+
+    def _wanted(self, now: MarchState, energy: float, ahead: float, hows: Mapping[str, Adapt]) -> dict[str, Wanted]:
+        """Cells of each solid that adapts, for the coming slabs."""
         model, time = self.model, now.state.time
         chosen = touched(model, now, ahead), pushed(model, time, ahead), tearing(model, now.state.start)
         touching = np.concatenate([*chosen, warmed(model, now, ahead)])
         wanted: dict[str, Wanted] = {}
-        for name, how in adaptions(self.scene).items():
+        for name, how in hows.items():
             solid = self.solid(name)
             nodes = solid.part.nodes
             own = touching[(touching >= nodes.start) & (touching < nodes.stop)] - nodes.start
@@ -102,12 +116,15 @@ class AdaptedScene:
             group = int(model.linked[[part.name for part in model.parts].index(name)])
             seen = Seen(motion=motion_of(model, now, name), warmth=warmth(model, now, name, energy), moves=model.inert)
             wanted[name] = wanted_cells(how, solid, seen, energy, marks, group)
-        stretch = now.step_history.longest / now.step_history.span
-        meshes = dict(self.meshes)
+        return wanted
+
+    def _buffered(self, wanted: Mapping[str, Wanted], stretch: float) -> dict[str, AdaptedMesh]:
+        """Meshes with buffers, of one size on surfaces that may touch."""
+        meshes: dict[str, AdaptedMesh] = {}
         for name, one in wanted.items():
             others = [other for other in wanted.values() if other is not one and other.group == one.group]
             meshes[name] = even(one.mesh(others, stretch), self._smooth(name))
-        return self.on(meshes)
+        return meshes
 
     def _smooth(self, name: str) -> list[str]:
         """Tags of the surfaces of a solid that may touch or are glued."""
@@ -133,7 +150,7 @@ def adapted_scene(model: Model) -> AdaptedScene:
     for name, base in ((name, base) for name, base in bases.items() if can_be_cut(base)):
         solid = bodies[name]
         assert isinstance(solid, Solid)
-        base = with_surface(base, solid, asked[name]) if name in asked else base
+        base = with_surface(base, solid.mesh, solid.adapt, solid.section) if name in asked else base
         meshes[name] = refined(base, np.zeros(base.n_cells, dtype=np.int64))
         curved |= base.rounding is not None
         own = base if base.rounding is None else meshes[name].mesh
@@ -152,13 +169,6 @@ def _ties(scene: Scene, meshes: Mapping[str, AdaptedMesh]) -> tuple[Tie, ...]:
     return tuple(
         replace(tie, tolerance=tie.tolerance * 2.0 ** max(halvings[name] for name in tie.bodies)) for tie in scene.ties
     )
-
-
-def with_surface(base: Mesh, solid: Solid, how: Adapt) -> Mesh:
-    """Base mesh with the smooth surface that its refinements follow."""
-    recipe = solid.mesh.mesh if isinstance(solid.mesh, Divided) else solid.mesh
-    round_ = isinstance(recipe, Disc | Cylinder | Ball | Ring | GradedDisc) and how.smooth > 0.0
-    return rounded(base, max(ROUND, how.smooth) if round_ else how.smooth, isinstance(solid.section, Axisymmetric))
 
 
 def motion_of(model: Model, now: MarchState, name: str) -> Motion:

@@ -1,7 +1,8 @@
 """Mesh of a solid for the coming slabs."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import ceil
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.leaves import same
 from softway.meshes.adaptive.refinement import AdaptedMesh, adapted_mesh
 from softway.meshes.adaptive.tree import Tree, tree_of
+from softway.meshes.mesh import Mesh
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -112,3 +114,29 @@ def wanted_cells(
     tree, *others = grown
     fine = others[0] if others else tree
     return Wanted(adapt=adapt, present=solid.adapted, tree=tree, fine=fine, group=group)
+
+
+def affordable(how: Adapt, present: AdaptedMesh) -> Adapt:
+    """Adaption with which the coming mesh of a solid may have few enough cells.
+
+    Only where there is room for another halving everywhere edges are halved once more than they are, so that meshes
+    with about the greatest number of cells do not change to and fro.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from softway.meshes.adaptive.refinement import refined
+    >>> from softway.meshes.generators.shapes import rectangle
+    >>> base = rectangle((1.0, 1.0), (60, 60))
+    >>> [affordable(Adapt(), refined(base, np.full(3600, level))).deepest(2) for level in (0, 2)]
+    [4, 2]
+    """
+    base, dim = present.base, present.base.cell_dim
+    if present.mesh.n_cells * 2**dim <= how.most(base):
+        return how
+    return shallower(how, base, how.deepest(dim) // dim - max(1, ceil(present.leaves.level.max() / dim)))
+
+
+def shallower(how: Adapt, base: Mesh, times: int = 1) -> Adapt:
+    """Adaption that halves edges so many times less."""
+    return replace(how, levels=max(0, how.deepest(base.cell_dim) - times * base.cell_dim))

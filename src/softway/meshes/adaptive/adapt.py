@@ -14,6 +14,10 @@ SMOOTH = float(np.pi / 6.0)
 """Angle between facets up to which a surface is smooth [rad]."""
 HALVINGS = 2
 """Times that ``auto`` halves the edges of the cells."""
+MOST = 8
+"""Cells that ``auto`` makes of those of the base mesh, at most, or as many as have ``FEW`` nodes."""
+FEW = 4000
+"""Nodes of a mesh that is small."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,7 +28,8 @@ class Adapt:
     ----------
     levels
         Greatest number of bisections of a cell of the mesh of the solid.  One halves the edges of bars, two those of
-        triangles and quadrilaterals, three those of tetrahedra and hexahedra; ``auto`` halves edges twice.
+        triangles and quadrilaterals, three those of tetrahedra and hexahedra; ``auto`` halves edges twice, or less
+        where the mesh would have more than 8 times the cells of that of the solid and more than about 4000 nodes.
     tolerance
         Factor c of the threshold ``c sqrt(E (h / L)^k)`` of the indicator: E the energy of the scene, the greatest so
         far, h the shortest edge of the finest cells, L the size of the solid, k its dimension.
@@ -67,6 +72,11 @@ class Adapt:
     def deepest(self, dimension: int) -> int:
         """Greatest number of bisections of a cell of a dimension."""
         return HALVINGS * dimension if self.levels == "auto" else self.levels
+
+    def most(self, base: Mesh) -> float:
+        """Greatest number of cells of the mesh in a march; infinite but for ``auto``."""
+        few = FEW * base.n_cells / base.n_nodes
+        return max(float(MOST * base.n_cells), few) if self.levels == "auto" else np.inf
 
     def finest(self, base: Mesh) -> float:
         """Shortest edge of the finest cells [m]."""

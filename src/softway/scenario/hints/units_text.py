@@ -80,6 +80,9 @@ class Units:
             raise InputError(where, f"{value!r} is not {expected(unit)}", example(unit))
         factor, zero = self._scale(found[2], unit, value, where)
         number = float(found[1]) * factor
+        if zero and not number + zero > 0.0:
+            coldest = f"{-zero / factor:g} {found[2]}"
+            raise InputError(where, f"{value!r} is not above absolute zero", f"a temperature above {coldest}")
         return _finite(number + zero if zero else number, value, where, unit)
 
     def _scale(self, given: str, unit: str, value: str, where: str) -> tuple[float, float]:

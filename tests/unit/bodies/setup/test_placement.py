@@ -10,6 +10,8 @@ from softway.bodies.setup.directions import directions
 from softway.bodies.setup.placement import Mirror, Placement, Rotation
 from softway.bodies.solid import Fixed, placed_together
 from softway.errors import InputError
+from softway.march.remeshing.adapted_scene import adapted_scene
+from softway.meshes.adaptive.refinement import refined
 from softway.meshes.generators.shapes import box, interval, rectangle
 
 BOX = box((3.0, 2.0, 1.0), (1, 1, 1))
@@ -149,3 +151,21 @@ def test_what_does_not_fit_the_space_is_refused(place, mesh, where):
 def test_an_axis_is_a_direction(axis):
     with pytest.raises(InputError, match="not a direction"):
         Rotation(angle=1.0, axis=axis)
+
+
+@pytest.mark.parametrize("cell", ["tri3", "quad4"])
+def test_bottom_of_a_body_that_adapts_is_that_of_its_curved_boundary(cell: str) -> None:
+    """A disc whose corners are at 17 degrees: in its centre it has the height of its radius above the bottom."""
+    place = Placement(rotations=(Rotation(angle=np.radians(17.0)),), bottom=0.5)
+    disc = sw.Solid(
+        mesh=sw.meshes.Disc(radius=1.0, cells=4, cell=cell), material=sw.LinearElastic(E=1.0, nu=0.3), density=1.0,
+        place=place, adapt="auto",
+    )  # fmt: skip
+    stays = sw.build(sw.Scene(bodies={"disc": replace(disc, adapt=None)})).parts[0].mesh
+    assert stays.points[:, 1].min() == pytest.approx(0.5, abs=1e-14)
+    checked = sw.check(sw.Scenario(bodies={"disc": disc}, time=sw.Time(end=1.0)))
+    for model in (sw.build(sw.Scene(bodies={"disc": disc})), checked.model):
+        base = adapted_scene(model).meshes["disc"].base
+        fine = refined(base, np.full(base.n_cells, 6)).mesh
+        rim = fine.points[fine.nodes("boundary")]
+        np.testing.assert_allclose(np.linalg.norm(rim - [0.0, 1.5], axis=1), 1.0, atol=1e-8)

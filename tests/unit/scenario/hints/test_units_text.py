@@ -77,3 +77,10 @@ def test_temperatures_may_be_in_degrees_celsius():
     assert UNITS.number("-10 °C", "K", "a") == pytest.approx(263.15, abs=1e-12)
     assert UNITS.number("32 degF", "K", "a") == pytest.approx(273.15, abs=1e-9)
     assert UNITS.number("0.5 K", "kelvin", "a") == 0.5
+
+
+@pytest.mark.parametrize(("value", "coldest"), [("-300 degC", "-273.15 degC"), ("-500 degF", "-459.67 degF")])
+def test_temperatures_below_absolute_zero_are_refused_in_the_unit_they_have(value, coldest):
+    with pytest.raises(InputError, match="not above absolute zero") as found:
+        UNITS.number(value, "K", "loads[0].value")
+    assert found.value.remedy == f"a temperature above {coldest}" and value in found.value.problem

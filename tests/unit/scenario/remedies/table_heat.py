@@ -161,6 +161,9 @@ TABLE: Table = {
         'a difference of temperatures such as "0.5 K"',
         "bodies.b.law.latent.half_range=0.5 K",
     ),
+    "a temperature below absolute zero": Try(
+        SCENE, "bodies.b.temperature=-300 degC", "a temperature above -273.15 degC", "bodies.b.temperature=-200 degC"
+    ),
     "conduction of no material": Try(
         SCENE, "bodies.b.law=cooper OFHC", "did you mean 'copper OFHC'", "bodies.b.law=copper OFHC"
     ),
