@@ -30,7 +30,7 @@ class OwnRows:
     filling: RankSpace | None = None
 
     def __matmul__(self, field: Array) -> Array:
-        """Product (n, ...) with a field that is the same in all copies; zero at copies of nodes of others, or filled."""
+        """Product (n, ...) with a field that is the same in all copies; zero at copies of others, or filled."""
         found = np.asarray(self.rows @ field)
         return found if self.filling is None else self.filling.filled(found)
 

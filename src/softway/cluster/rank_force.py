@@ -1,22 +1,21 @@
 """Internal force of a rank: its cells are evaluated one by one, and added at its own nodes in the order of all cells.
 
-The cells of a rank overlap those of its neighbours, so that the forces on its own nodes are complete.  Their sum has the
-same order on every partition: a node sees the same numbers in the same order.
+The cells of a rank overlap those of its neighbours, so that the forces on its own nodes are complete.  Their sum has
+the same order on every partition: a node sees the same numbers in the same order.
 """
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse import csc_array
 
-from softway.arrays import Array, BoolArray, IntArray
+from softway.arrays import Array, IntArray
 from softway.bodies.elements.section import Section
 from softway.bodies.elements.strain_operator import StrainOperator
-from softway.bodies.internal_force.elastic.elastic_force import ElasticForce
+from softway.bodies.internal_force.elastic.elastic_force import ElasticForce, elastic_force
 from softway.bodies.internal_force.elastic.kernel_evaluation import KernelEvaluation
-from softway.bodies.internal_force.slab_average import SlabForce
+from softway.bodies.internal_force.slab_average import AverageField, DiscreteGradient, SlabForce
 from softway.meshes.mesh import Mesh
 from softway.ranks.interface import Ranks
 from softway.ranks.partition import Holding
@@ -78,7 +77,7 @@ class RankForce:
         """Stored energy of the body [J], a sum over all ranks, and force (n, d) [N]."""
         work = self.cells.work
         assert isinstance(work, KernelEvaluation)
-        energies, force = work.energies_and_force(u[self.corner])
+        energies, force = work.energies_and_force(self._at(u))
         return float(totalled(self.ranks, energies[self.lanes].reshape(-1, 1))[0]), self._added(force)
 
     def end_force(self, u: Array) -> tuple[float, Array, None]:
@@ -87,19 +86,21 @@ class RankForce:
 
     def force(self, u: Array) -> Array:
         """Force (n, d) [N]."""
-        return self._added(self.cells.force(u[self.corner]))
+        return self._added(self.cells.force(self._at(u)))
 
     def tangent_product(self, u: Array, w: Array) -> Array:
         """Product (n, d) [N] of the tangent with w (n, d) [m]."""
-        return self._added(self.cells.tangent_product(u[self.corner], w[self.corner]))
+        return self._added(self.cells.tangent_product(self._at(u), self._at(w)))
 
     def tangent_diagonal_blocks(self, u: Array) -> Array:
         """Diagonal blocks (n, d, d) [N/m] of the tangent."""
-        return self._added(self.cells.tangent_diagonal_blocks(u[self.corner]))
+        return self._added(self.cells.tangent_diagonal_blocks(self._at(u)))
 
     def slab_average(self, rule: SlabForce, u0: Array, u1: Array) -> Array | None:
         """Force (n, d) averaged along the chord [N]; None for rules without a chord."""
-        found = self.cells.slab_average(rule, u0[self.corner], u1[self.corner])
+        if not isinstance(rule, AverageField | DiscreteGradient):
+            return None
+        found = self.cells.slab_average(rule, self._at(u0), self._at(u1))
         return None if found is None else self._added(found)
 
     def tangent(self, u: Array) -> csc_array:
@@ -122,7 +123,11 @@ class RankForce:
 
     def volume_ratio(self, u: Array) -> float:
         """Least det F over all points of the body."""
-        return -float(self.ranks.greatest(np.array([-self.cells.volume_ratio(u[self.corner])]))[0])
+        return -float(self.ranks.greatest(np.array([-self.cells.volume_ratio(self._at(u))]))[0])
+
+    def _at(self, u: Array) -> Array:
+        """Values (e a, ...) at the nodes of the cells of a field (n, ...)."""
+        return np.take(u, self.corner, axis=0)
 
     def _added(self, values: Array) -> Array:
         """Values (n, ...) at own nodes from those (e a, ...) of the cells."""
@@ -132,30 +137,28 @@ class RankForce:
 def rank_force(internal: ElasticForce, whole: Mesh, held: Holding, ranks: Ranks) -> RankForce:
     """Force of a rank from that of the whole body; see :class:`RankForce`."""
     ((kind, all_cells),) = whole.blocks.items()
-    cells = held.local(all_cells[held.cells])
-    n, (e, a) = len(held.nodes), cells.shape
-    apart = Mesh(points=whole.points[all_cells[held.cells]].reshape(-1, whole.dim), blocks={kind: np.arange(e * a).reshape(e, a)})
-    own = np.zeros(n, bool)
-    own[held.own] = True
-    return _joined(internal, apart, cells, own, held.counted, ranks)
-
-
-def _joined(internal: Any, apart: Mesh, cells: IntArray, own: BoolArray, counted: BoolArray, ranks: Ranks) -> RankForce:
-    from softway.bodies.internal_force.elastic.elastic_force import elastic_force
-
+    nodes = all_cells[held.cells]
+    corner, n = held.local(nodes.ravel()), len(held.nodes)
+    numbered = np.arange(nodes.size).reshape(nodes.shape)
+    apart = Mesh(points=whole.points[nodes.ravel()], blocks={kind: numbered})
     force = elastic_force(apart, internal.material, internal.section)
     assert isinstance(force.work, KernelEvaluation)
-    corner, n = cells.ravel(), len(own)
-    mine = np.flatnonzero(own[corner])
-    order = mine[np.argsort(corner[mine], kind="stable")]
-    start = np.concatenate([[0], np.cumsum(np.bincount(corner[mine], minlength=n))])
-    adding = sp.csr_array((np.ones(len(order)), order, start), shape=(n, len(corner)))
-    table = sp.csr_array(force.sampling.table @ sp.csr_array((np.ones(len(corner)), corner, np.arange(len(corner) + 1)), shape=(len(corner), n)))
+    onto = sp.csr_array((np.ones(len(corner)), corner, np.arange(len(corner) + 1)), shape=(len(corner), n))
     return RankForce(
         cells=force,
         corner=corner,
-        adding=adding,
-        lanes=force.work.lanes[: len(cells)][counted],
+        adding=_adding(corner, held.own, n),
+        lanes=force.work.lanes[: len(nodes)][held.counted],
         ranks=ranks,
-        sampling=replace(force.sampling, table=table),
+        sampling=replace(force.sampling, table=sp.csr_array(force.sampling.table @ onto)),
     )
+
+
+def _adding(corner: IntArray, own: IntArray, n: int) -> sp.csr_array:
+    """Sums (n, e a) at own nodes of the values at the nodes of the cells, in their order; nothing at other nodes."""
+    mask = np.zeros(n, bool)
+    mask[own] = True
+    mine = np.flatnonzero(mask[corner])
+    order = mine[np.argsort(corner[mine], kind="stable")]
+    start = np.concatenate([[0], np.cumsum(np.bincount(corner[mine], minlength=n))])
+    return sp.csr_array((np.ones(len(order)), order, start), shape=(n, len(corner)))

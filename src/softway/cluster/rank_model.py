@@ -39,7 +39,9 @@ def rank_model(model: Model, held: Holding, ranks: Ranks) -> Model:
     """
     nodes, (part,) = held.nodes, model.parts
     space, dofs = rank_space(model, held, ranks), NodalDofs(model.dofs.free[nodes])
-    loads = DeadLoads(fields=tuple((ramp, f[nodes]) for ramp, f in model.loads.fields), shape=(len(nodes), model.shape[1]))
+    loads = DeadLoads(
+        fields=tuple((ramp, f[nodes]) for ramp, f in model.loads.fields), shape=(len(nodes), model.shape[1])
+    )
     matrices: Any = {name: own_rows(getattr(model, name), held) for name in ("mass", "passing")}
     matrices["follow"] = own_rows(model.follow, held, space)
     names = ("massive", "part_of", "load", "load_before", "weight", "displacement", "velocity", "edge")

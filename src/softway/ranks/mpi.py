@@ -42,7 +42,9 @@ class Processes:
         """Field with the received values."""
         from mpi4py import MPI
 
-        got = {other: np.empty((len(nodes), *field.shape[1:]), field.dtype) for other, nodes in exchange.receive.items()}
+        got = {
+            other: np.empty((len(nodes), *field.shape[1:]), field.dtype) for other, nodes in exchange.receive.items()
+        }
         sent = {other: np.ascontiguousarray(field[nodes]) for other, nodes in exchange.send.items()}
         waits = [self.comm.Irecv(values, source=other, tag=TAG) for other, values in got.items()]
         waits += [self.comm.Isend(values, dest=other, tag=TAG) for other, values in sent.items()]

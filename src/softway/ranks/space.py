@@ -1,7 +1,7 @@
 """Vector space over several ranks: sums that have the same bits for any number of them.
 
-Every rank holds the values of its own nodes and copies of others, with the same bits.  Sums are taken over own nodes, as
-exact integers (:mod:`softway.kernels.linalg.exact_sum`), and rounded once.
+Every rank holds the values of its own nodes and copies of others, with the same bits.  Sums are taken over own nodes,
+as exact integers (:mod:`softway.kernels.linalg.exact_sum`), and rounded once.
 """
 
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""March over ranks: the bits of every number are the same for any number of ranks, and the motion is that of one process."""
+"""March over ranks: every number has the same bits for any number of ranks, and the motion is that of one process."""
 
 from collections.abc import Sequence
 from dataclasses import fields
@@ -16,7 +16,7 @@ from softway.model.model import Model
 from softway.model.time_weight import EndPeaks
 from softway.ranks.alone import Alone
 from softway.ranks.interface import Ranks
-from softway.ranks.threads import Threads, in_threads
+from softway.ranks.threads import in_threads
 from softway.solve.operators import MatrixFree
 
 
@@ -30,7 +30,13 @@ def thrown(cells: int = 3, material: object = None, **more: object) -> Model:
     )
     floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0, -0.02), normal=(0.0, 0.1, 1.0)))
     bodies = {"cube": cube, "floor": floor}
-    return build(sw.Scene(bodies=bodies, contacts=(sw.Contact(between=("cube.bottom", "floor")),), loads=(sw.Gravity(acceleration=(0.0, 0.0, -9.81)),)))
+    return build(
+        sw.Scene(
+            bodies=bodies,
+            contacts=(sw.Contact(between=("cube.bottom", "floor")),),
+            loads=(sw.Gravity(acceleration=(0.0, 0.0, -9.81)),),
+        )
+    )
 
 
 def settings(until: float, step: float) -> Settings:
@@ -42,11 +48,17 @@ def settings(until: float, step: float) -> Settings:
 def told(step: Step) -> list[object]:
     """Every number of a step, as bits."""
     states = step.before, step.after
-    numbers = [getattr(state, name)["cube"] for state in states for name in ("displacement", "velocity", "acceleration")]
+    numbers = [
+        getattr(state, name)["cube"] for state in states for name in ("displacement", "velocity", "acceleration")
+    ]
     numbers += [*step.after.pressure.values(), step.reactions["cube"], step.march_state.state.start.force]
     numbers += [np.array([getattr(step.certificate, f.name) for f in fields(step.certificate)])]
     ledger = step.ledger
-    numbers += [ledger.momentum, ledger.spin, np.array([ledger.energy_kinetic, ledger.energy_strain, ledger.energy_error])]
+    numbers += [
+        ledger.momentum,
+        ledger.spin,
+        np.array([ledger.energy_kinetic, ledger.energy_strain, ledger.energy_error]),
+    ]
     events = [(e.kind, e.node, e.time, e.position.tobytes()) for e in step.events]
     return [step.report.iterations, step.report.factorisations, events, *(x.tobytes() for x in numbers)]
 

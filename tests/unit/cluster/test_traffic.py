@@ -46,7 +46,9 @@ def block(cells: int = 3) -> Model:
         velocity=sw.bodies.Affine(value=(0.0, 0.0, -5.0), gradient=((1.0, 0, 0), (0, 0, 0), (0, 0, 0))),
     )
     floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0, -0.02), normal=(0.0, 0.1, 1.0)))
-    return build(sw.Scene(bodies={"cube": cube, "floor": floor}, contacts=(sw.Contact(between=("cube.bottom", "floor")),)))
+    return build(
+        sw.Scene(bodies={"cube": cube, "floor": floor}, contacts=(sw.Contact(between=("cube.bottom", "floor")),))
+    )
 
 
 def test_an_inner_step_is_one_exchange_and_two_reductions() -> None:

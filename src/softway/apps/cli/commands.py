@@ -171,7 +171,7 @@ def run(
     allow_python
         Allow module:name in the scenario to run code of installed modules, not only of modules next to the file.
     ranks
-        Number of processes that compute it together (docs/how-to/cluster.md); that of mpirun needs not be given.
+        Number of processes that compute it together; after mpirun its number is taken (docs/reference/runs/cluster.md).
     """
     code = begun(ranks, sys.argv[1:])
     if code is not None:

@@ -89,7 +89,10 @@ def nodal(slab: SlabMatrix, u: Array) -> Blocks:
         If a block is singular.
     """
     model, unit = slab.model, np.eye(slab.model.shape[1])
-    blocks = slab.stiffness_factor * model.space.filled(model.tangent_blocks(u)) + model.mass.diagonal()[:, None, None] * unit
+    blocks = (
+        slab.stiffness_factor * model.space.filled(model.tangent_blocks(u))
+        + model.mass.diagonal()[:, None, None] * unit
+    )
     try:
         return Blocks(model.dofs.block_inverse(blocks))
     except np.linalg.LinAlgError:
