@@ -7,12 +7,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import h5py
+import numpy as np
 import pytest
 
 import softway as sw
 from softway.ranks.launch import launcher
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.minutes
 
 SCENE = """
 [bodies.block]
@@ -62,7 +63,7 @@ def records(folder: Path) -> dict[str, bytes]:
 
         def keep(name: str, at: object) -> None:
             if isinstance(at, h5py.Dataset):
-                found[name] = at[()].tobytes()
+                found[name] = np.asarray(at[()]).tobytes()
 
         stored.visititems(keep)
     return {**tables, **found}
