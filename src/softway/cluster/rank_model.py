@@ -9,6 +9,7 @@ from softway.arrays import IntArray
 from softway.bodies.assembled.nodal_loads import DeadLoads
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.dof_map import NodalDofs
+from softway.bodies.internal_force.body_force import BodyForce
 from softway.cluster.admitted import of_kernels
 from softway.cluster.own_rows import columns, own_rows
 from softway.cluster.rank_force import rank_force
@@ -78,7 +79,7 @@ def _part(part: DiscreteSolid, dofs: NodalDofs, held: Holding, ranks: Ranks) -> 
         part,
         mesh=cast(Mesh, rank_mesh(part.mesh, held)),
         nodes=slice(0, len(held.nodes)),
-        internal=rank_force(of_kernels(part), part.mesh, held, ranks),
+        internal=cast(BodyForce, rank_force(of_kernels(part), part.mesh, held, ranks)),
         dofs=dofs,
     )
 

@@ -186,8 +186,8 @@ def run(
     scales(checked, console)
     try:
         with among(team), progress_of(checked, console) as progress:
-            options = {"progress": progress, "tell": teller(console), "overwrite": overwrite, "ranks": team}
-            done = execute(checked, folder, **options)
+            tell = teller(console)
+            done = execute(checked, folder, progress=progress, tell=tell, overwrite=overwrite, ranks=team)
     except (NumericsError, KeyboardInterrupt):
         if folder.is_dir():
             name = escape(str(folder))

@@ -22,7 +22,7 @@ def test_exact_sums_are_those_of_fsum_in_any_grouping(values: list[float], cut: 
 
 def test_the_least_and_the_greatest_doubles() -> None:
     tiny, huge = np.full((7, 1), 5e-324), np.full((2, 1), 1.7e308)
-    assert rounded_sum(digits(tiny)[0]) == 35e-324
+    assert rounded_sum(digits(tiny)[0]) == 35e-324  # as given
     assert rounded_sum(digits(huge)[0]) == inf
     assert rounded_sum(digits(-huge)[0]) == -inf
     assert rounded_sum(digits(np.concatenate([huge, huge, -huge]))[0]) == pytest.approx(3.4e308 - 1.7e308, rel=1e-15)
