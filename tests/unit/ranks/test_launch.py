@@ -71,6 +71,17 @@ def test_a_scenario_for_one_rank_only(file: Path, capsys: pytest.CaptureFixture[
     assert "contacts: runs on one rank only: friction" in capsys.readouterr().err
 
 
+def test_rigid_bodies_run_on_one_rank(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Without solids there are no nodes to share."""
+    file = tmp_path / "pendulum.toml"
+    file.write_text(
+        '[bodies.bob]\nkind = "Rigid"\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\ncentre = [0.0, 0.0, 0.0]\n'
+        "[joints.hinge]\nkind = 'BallJoint'\nbetween = ['ground', 'bob']\nat = [0.0, 0.0, 1.0]\n[time]\nend = 0.1\nstep = 0.01\n"
+    )
+    assert main(["run", str(file), "--ranks", "1"]) == 2
+    assert "scenario: runs on one rank only: rigid bodies" in capsys.readouterr().err
+
+
 def test_an_error_on_one_rank_is_told_on_all() -> None:
     def reads(ranks: Threads) -> str:
         def action() -> None:
