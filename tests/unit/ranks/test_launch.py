@@ -76,7 +76,8 @@ def test_rigid_bodies_run_on_one_rank(tmp_path: Path, capsys: pytest.CaptureFixt
     file = tmp_path / "pendulum.toml"
     file.write_text(
         '[bodies.bob]\nkind = "Rigid"\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\ncentre = [0.0, 0.0, 0.0]\n'
-        "[joints.hinge]\nkind = 'BallJoint'\nbetween = ['ground', 'bob']\nat = [0.0, 0.0, 1.0]\n[time]\nend = 0.1\nstep = 0.01\n"
+        "[joints.hinge]\nkind = 'BallJoint'\nbetween = ['ground', 'bob']\nat = [0.0, 0.0, 1.0]\n"
+        "[time]\nend = 0.1\nstep = 0.01\n"
     )
     assert main(["run", str(file), "--ranks", "1"]) == 2
     assert "scenario: runs on one rank only: rigid bodies" in capsys.readouterr().err
