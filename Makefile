@@ -7,7 +7,7 @@ DOCS := .venv-docs
 # Without bytecode every process would compile all sources again, and pytest all tests.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help demo test test-slow test-pages test-processors test-view coverage check bench bench-page bench-check bench-smoke kills manual fuzz drops endurance docs clean
+.PHONY: help demo test test-slow test-pages test-processors test-mpi test-view coverage check bench bench-page bench-check bench-smoke kills manual fuzz drops endurance docs clean
 
 help:
 	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
@@ -15,6 +15,7 @@ help:
 	@echo "make test-slow  those that take long: many impacts, fine meshes, kills, sweeps, every command of the pages"
 	@echo "make test-pages  what takes minutes: commands of the pages, every scenario as shipped, more seeds and values, a fresh clone to its first picture"
 	@echo "make test-processors  tests that decide by numbers with the instructions of several processors, into docs/verification/processors.md; SETS=nehalem for one"
+	@echo "make test-mpi  installs mpi4py and MPICH, and compares runs on 1, 2 and 4 processes bit by bit"
 	@echo "make test-view the page of softway view in a Chromium without a screen, which has to be there"
 	@echo "make coverage  the same, with the lines and branches that did not run"
 	@echo "make check  ruff, mypy, import-linter, house rules"
@@ -60,6 +61,10 @@ test-pages: $(TEST)/ready
 
 test-processors: $(TEST)/ready
 	$(TEST)/bin/python tests/robustness/processors.py $(SETS) --jobs $(JOBS) --out docs/verification/robustness/processors.json
+
+test-mpi: $(TEST)/ready
+	$(TEST)/bin/python -m pip install --quiet --constraint constraints.txt --editable '.[dev,mpi]' mpich
+	$(TEST)/bin/python -m pytest -q tests/unit/ranks/test_processes.py
 
 test-view: $(TEST)/ready
 	$(TEST)/bin/python -m pip install --quiet --constraint constraints.txt --editable '.[dev,browser]'

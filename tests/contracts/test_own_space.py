@@ -64,6 +64,16 @@ class Halves:
         one, other = self._halves("gather", field)
         return np.concatenate([*one, *other])
 
+    @property
+    def of_unknowns(self) -> "Halves":
+        return self
+
+    def filled(self, field: np.ndarray) -> np.ndarray:
+        return np.concatenate([*self._halves("filled", field)[0], *self._halves("filled", field)[1]])
+
+    def combined(self, weights: np.ndarray, fields: np.ndarray) -> np.ndarray:
+        return self.local.combined(weights, fields)
+
 
 def in_halves(model: Model) -> tuple[Model, Halves]:
     """The model with its sums in two parts."""

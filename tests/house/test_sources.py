@@ -49,6 +49,7 @@ DOORS = {
     "distributed": ("softway.studies.sweep.cluster",),
     "mumps": ("softway.solve.linear.backends.mumps",),
     "mmgpy": ("softway.adaptivity.new_cells.mmg",),
+    "mpi4py": ("softway.ranks.mpi",),
     "mujoco": ("softway.mechanisms.robots.robot_file",),
     "gmsh": (),
     "numba": ("softway.kernels.*",),

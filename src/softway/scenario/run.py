@@ -25,6 +25,8 @@ from softway.march.state.march_state import MarchState
 from softway.march.state.model_state import ModelState, join_states, split_states
 from softway.model.model import Model
 from softway.model.scene import State
+from softway.ranks.interface import Ranks
+from softway.ranks.launch import agreed
 from softway.record.conduct import continue_run, record_run
 from softway.record.run import SCENARIO, Run
 from softway.record.storage import provenance
@@ -38,6 +40,7 @@ from softway.record.write.recorder import RunStart
 from softway.scenario.checks.check import Checked, check
 from softway.scenario.checks.probes import probe_readings
 from softway.scenario.files import dumps, load
+from softway.scenario.run_ranks import require_ranks, steps_of_ranks
 from softway.scenario.run_rigid import CheckedRigid, resume_rigid, run_rigid
 from softway.scenario.scenario import Scenario
 from softway.scenario.text.user_modules import own_sources
@@ -55,6 +58,7 @@ def run(
     cancel: Cancel | None = None,
     tell: Tell = LOG.info,
     overwrite: bool = False,
+    ranks: Ranks | None = None,
 ) -> Run:
     """Run a scenario to its end and record it.
 
@@ -76,6 +80,9 @@ def run(
         what is being tried, and how far it is.  By default the line is logged.
     overwrite
         True if ``out`` may replace an earlier run.
+    ranks
+        Ranks that march together, of which this is rank 0; the others call
+        :func:`~softway.scenario.run_ranks.assist`.
 
     Raises
     ------
@@ -87,13 +94,20 @@ def run(
         the same way.
     """
     place = RunFolder(out=None if out is None else Path(out), overwrite=overwrite)
-    place.check()
+    if ranks is None:
+        place.check()
     checked = check(scenario, cancel=cancel) if isinstance(scenario, Scenario) else scenario
+    if ranks is not None:
+        require_ranks(checked, ranks.size)
+        agreed(ranks, place.check)
     if isinstance(checked, CheckedRigid):
         watch = cast(MechanismWatch | None, progress)
         return run_rigid(checked, place, _texts(checked.scenario), progress=watch, cancel=cancel, tell=tell)
     given, opening = checked.scenario, _opening(checked)
-    steps = _steps(checked, opening.initial, cancel, tell)
+    if ranks is None:
+        steps = _steps(checked, opening.initial, cancel, tell)
+    else:
+        steps = steps_of_ranks(ranks, checked, opening.initial, cancel, Heartbeat(tell))
     plan, watched = given.output.checkpoints, cast(Watch | None, progress)
     texts, notes = _texts(given), checked.notes
     return record_run(steps, opening, place, title=given.title, texts=texts, notes=notes, plan=plan, progress=watched)

@@ -21,7 +21,8 @@ from softway.apps.cli.output.failures import failed, unusable
 from softway.apps.cli.output.folders import free
 from softway.apps.cli.output.log import Verbose, heard, listen
 from softway.apps.cli.output.progress import laps_of, progress_of, teller
-from softway.apps.cli.output.reading import examined
+from softway.apps.cli.output.ranks import among, begun
+from softway.apps.cli.output.reading import examined, of_solids
 from softway.apps.cli.output.tables import ranking, scales, summary
 from softway.apps.cli.plot import plot
 from softway.apps.cli.resume import resume
@@ -31,12 +32,10 @@ from softway.apps.cli.sweep import sweep
 from softway.apps.cli.verify import verify
 from softway.apps.cli.view import view
 from softway.errors import InputError, NumericsError, StorageError
-from softway.scenario.checks.check import Checked
-from softway.scenario.checks.heat import CheckedHeat
-from softway.scenario.checks.pile import CheckedPile
+from softway.ranks.launch import ranks_here
 from softway.scenario.files import dumps
 from softway.scenario.run import run as execute
-from softway.scenario.run_rigid import CheckedRigid
+from softway.scenario.run_ranks import assist
 from softway.scenario.text.templates import headline, templates
 from softway.studies.processes import raised_again
 from softway.studies.race.contest import contest, entrants
@@ -148,6 +147,7 @@ def run(
     overwrite: Annotated[bool, Parameter(negative=())] = False,
     strict: Strict = False,
     allow_python: AllowPython = False,
+    ranks: int | None = None,
 ) -> int:
     """Compute a scenario.
 
@@ -170,14 +170,24 @@ def run(
         code 4 if the audit of the run found overlaps, inverted cells or balances that miss.
     allow_python
         Allow module:name in the scenario to run code of installed modules, not only of modules next to the file.
+    ranks
+        Number of processes that compute it together; after mpirun its number is taken (docs/reference/runs/cluster.md).
     """
+    code = begun(ranks, sys.argv[1:])
+    if code is not None:
+        return code
     listen(verbose)
-    folder, console = out or free(Path("runs") / file.stem), Console(quiet=quiet)
-    checked = examined(file, set_, console, allow_python=allow_python, strict=strict)
+    folder, team = out or free(Path("runs") / file.stem), ranks_here(ranks)
+    console = Console(quiet=quiet or bool(team and team.rank))
+    with among(team):
+        checked = examined(file, set_, console, allow_python=allow_python, strict=strict, ranks=team)
+        if team is not None and team.rank:
+            return assist(team, checked)
     scales(checked, console)
     try:
-        with progress_of(checked, console) as progress:
-            done = execute(checked, folder, progress=progress, tell=teller(console), overwrite=overwrite)
+        with among(team), progress_of(checked, console) as progress:
+            tell = teller(console)
+            done = execute(checked, folder, progress=progress, tell=tell, overwrite=overwrite, ranks=team)
     except (NumericsError, KeyboardInterrupt):
         if folder.is_dir():
             name = escape(str(folder))
@@ -238,7 +248,7 @@ def race(
         Allow module:name in the scenario to run code of installed modules, not only of modules next to the file.
     """
     folder, console = out or free(Path("races") / file.stem), Console(quiet=quiet)
-    checked = _of_solids(file, examined(file, set_, console, allow_python=allow_python))
+    checked = of_solids(file, examined(file, set_, console, allow_python=allow_python))
     scenario = checked.scenario
     if (folder / RACE).exists() and not overwrite:
         raise InputError("--out", f"'{folder}' already holds a race", "another folder, or --overwrite")
@@ -263,15 +273,6 @@ def race(
     ranking(found, console)
     for made in save_race(found, folder):
         console.print(escape(str(made)), soft_wrap=True, highlight=False)
-
-
-def _of_solids(file: Path, checked: Checked | CheckedRigid) -> Checked:
-    """Refuse a scenario of rigid bodies, balls or conductors."""
-    if not isinstance(checked, Checked):
-        words = {CheckedPile: "balls", CheckedHeat: "conductors"}
-        what = words.get(type(checked), "rigid bodies")
-        raise InputError(str(file), f"is a scenario of {what}: there are no methods to compare", "softway run")
-    return checked
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

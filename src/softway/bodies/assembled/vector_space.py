@@ -63,6 +63,19 @@ class VectorSpace(Protocol):
         """Field over the nodes of all processes, for the search of contacts."""
         ...
 
+    @property
+    def of_unknowns(self) -> "VectorSpace":
+        """Space of arrays whose first axis runs over the unknowns; entries beyond are the same in every process."""
+        ...
+
+    def filled(self, field: Array) -> Array:
+        """Field (n, ...) that is complete at a process's own nodes, with the values of the others at all nodes."""
+        ...
+
+    def combined(self, weights: Array, fields: Array) -> Array:
+        """Sum (f,) of fields (k, f) with weights (k,)."""
+        ...
+
 
 @dataclass(frozen=True, slots=True)
 class LocalSpace:
@@ -125,3 +138,16 @@ class LocalSpace:
     def gather(self, field: Array) -> Array:
         """The field itself."""
         return field
+
+    @property
+    def of_unknowns(self) -> "LocalSpace":
+        """The space itself."""
+        return self
+
+    def filled(self, field: Array) -> Array:
+        """The field itself."""
+        return field
+
+    def combined(self, weights: Array, fields: Array) -> Array:
+        """Sum (f,) of weighted fields."""
+        return np.asarray(weights @ fields)

@@ -62,6 +62,26 @@ def force(measure, law, moduli, rows, table, geometry, starts, first, last, u, o
 
 
 @kernel
+def apart(measure, law, moduli, rows, table, geometry, starts, first, last, u, out, energy):
+    """Add nodal forces [N] to ``out`` (n, d), and the energy of each cell [J] to ``energy`` (b, LANES)."""
+    sums = NODES + rows.shape[1] * VECTOR
+    s = scratch(sums + rows.shape[1] * VECTOR)
+    for block in range(starts[first], starts[last]):
+        store(s, TOTAL, spread(0.0))
+        gather(u, rows[block], s, NODES)
+        s[sums:] = 0.0
+        for q in range(table.shape[0]):
+            _respond(measure, law, moduli, s, table[q], geometry[block, q], u.shape[1])
+            store(s, TOTAL, fma(load(geometry[block, q], TENSOR), load(s, ENERGY), load(s, TOTAL)))
+            flux(s)
+            pull(s, geometry[block, q])
+            collect(s, table[q], sums)
+        scatter(s, sums, rows[block], out)
+        for lane in range(LANES):
+            energy[block, lane] += s[TOTAL + lane]
+
+
+@kernel
 def product(measure, law, moduli, rows, table, geometry, starts, first, last, u, w, out):
     """Add the change of the nodal forces [N] due to a change ``w`` (n, d) [m] of the displacement to ``out`` (n, d)."""
     change = NODES + rows.shape[1] * VECTOR

@@ -115,7 +115,7 @@ def contact_forces(model: Model, step: Step) -> Mapping[tuple[str, ...], Pushed]
 
 def rounding_forces(model: Model, u: Array) -> Array:
     """Forces (n,) that the rounding of positions makes at the nodes, with displacements u (n, d) [N]."""
-    stiffness = model.floor / UNSTRAINED**2 / [p.mesh.n_nodes for p in model.parts]
+    stiffness = model.floor / UNSTRAINED**2 / model.space.totals(np.ones(len(model.part_of)))
     return np.asarray(PLACES * model.extent(u) * stiffness[model.part_of] / model.edge**2)
 
 

@@ -37,7 +37,7 @@ def end_of_slab(model: Model, u1: Array) -> SlabEnd:
 def passed_on(model: Model, force: Array) -> Array:
     """Force (n, d) [N] of which the part on massless nodes acts on the nodes that they follow."""
     still = force * ~model.massive[:, None]
-    return np.asarray(force - still + model.passing @ still)
+    return np.asarray(force - still + model.passing @ model.space.filled(still))
 
 
 class MeanForce(Protocol):

@@ -126,7 +126,7 @@ class SlabEquations:
         still = ~model.massive
         residual[still] = h * moments(self.weight)[1] * (force - model.load)[still]
         return Evaluation(
-            residual=residual,
+            residual=model.space.filled(residual),
             displacement=u1,
             force=force,
             energy=energy,

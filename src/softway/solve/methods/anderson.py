@@ -64,7 +64,7 @@ class Anderson:
         kept = min(self.count, self.depth)
         if kept == 0:
             return value
-        return np.asarray(value - self._weights(residual, kept) @ self.values[:kept])
+        return np.asarray(value - self.space.combined(self._weights(residual, kept), self.values[:kept]))
 
     def _keep(self, residual: Array, value: Array) -> None:
         """Replace the oldest differences."""

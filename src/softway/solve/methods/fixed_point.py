@@ -135,7 +135,7 @@ class FixedPoint:
         frozen = memory.frozen.in_iteration()
         dofs, space = system.model.dofs, system.model.space
         system = system.prepared(frozen)
-        mixing = _Mixing(Anderson(self.depth, space), frozen, space)
+        mixing = _Mixing(Anderson(self.depth, space.of_unknowns), frozen, space)
         last, stuck, part = np.inf, 0, 1.0
         for count in itertools.count():
             system = system.with_kept_facets_after(end.displacement, active, count)

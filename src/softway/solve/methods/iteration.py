@@ -93,7 +93,8 @@ SELF_BALANCED = 1e-12
 
 def _pushed(system: SlabEquations, it: Iterate) -> float:
     """Greatest velocity that the magnitudes of internal force and load would cause in one slab [m/s]."""
-    force = system.model.dofs.forces(np.abs(system.start.force) + np.abs(system.model.load))
+    total = np.abs(system.start.force) + np.abs(system.model.load)
+    force = system.model.dofs.forces(system.model.space.filled(total))
     frozen = it.memory.frozen
     return 0.0 if frozen is None else system.model.space.greatest(frozen.solve(system.path.span * force))
 

@@ -36,7 +36,7 @@ class LateMixing:
     @classmethod
     def of(cls, system: SlabEquations) -> "LateMixing":
         """Mixing for the operators of a slab."""
-        return cls(Anderson(DEPTH, system.model.space), system.stiffness.positive_definite)
+        return cls(Anderson(DEPTH, system.model.space.of_unknowns), system.stiffness.positive_definite)
 
     def steady(self, change: float, kept: bool) -> bool:
         """True if the iterate with this change is mixed; ``kept`` if its active rows are those of the one before."""

@@ -7,6 +7,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array
+from softway.bodies.assembled.vector_space import LocalSpace, VectorSpace
 from softway.errors import NoConvergence
 from softway.model.model import Model
 from softway.solve.checks import check_products
@@ -53,11 +54,15 @@ class MatrixFree:
 
         def times(x: Array) -> Array:
             field = dofs.nodes(x)
-            return dofs.forces(model.mass @ field + stiffness_factor * model.tangent_product(u, field))
+            force = model.mass @ field + stiffness_factor * model.tangent_product(u, field)
+            return dofs.forces(model.space.filled(force))
 
         local = nodal(slab, u)
         return BuiltOperator(
-            factor=Gradients(times, local, self.tolerance, self.limit), local=local, analysis=None, price=1.0
+            factor=Gradients(times, local, self.tolerance, self.limit, model.space.of_unknowns),
+            local=local,
+            analysis=None,
+            price=1.0,
         )
 
 
@@ -84,7 +89,10 @@ def nodal(slab: SlabMatrix, u: Array) -> Blocks:
         If a block is singular.
     """
     model, unit = slab.model, np.eye(slab.model.shape[1])
-    blocks = slab.stiffness_factor * model.tangent_blocks(u) + model.mass.diagonal()[:, None, None] * unit
+    blocks = (
+        slab.stiffness_factor * model.space.filled(model.tangent_blocks(u))
+        + model.mass.diagonal()[:, None, None] * unit
+    )
     try:
         return Blocks(model.dofs.block_inverse(blocks))
     except np.linalg.LinAlgError:
@@ -93,12 +101,13 @@ def nodal(slab: SlabMatrix, u: Array) -> Blocks:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Gradients:
-    """Conjugate gradients with a product ``times`` and a ``preconditioner``."""
+    """Conjugate gradients with a product ``times`` and a ``preconditioner``, on unknowns of a ``space``."""
 
     times: Callable[[Array], Array]
     preconditioner: Factor
     tolerance: float
     limit: int
+    space: VectorSpace = LocalSpace(())
     bytes: int = 0
     indefinite: bool = False
 
@@ -108,19 +117,19 @@ class Gradients:
             return np.stack([self.solve(column) for column in b.T], axis=1)
         x, r = np.zeros_like(b), b.copy()
         z = self.preconditioner.solve(r)
-        p, rho = z, float(r @ z)
+        p, rho = z, self.space.dot(r, z)
         goal = self.tolerance**2 * rho
         for _ in range(self.limit):
             if rho <= goal or rho <= 0.0:
                 break
             Ap = self.times(p)
-            curvature = float(p @ Ap)
+            curvature = self.space.dot(p, Ap)
             if curvature <= 0.0:
                 break
             alpha = rho / curvature
             x += alpha * p
             r -= alpha * Ap
             z = self.preconditioner.solve(r)
-            rho, last = float(r @ z), rho
+            rho, last = self.space.dot(r, z), rho
             p = z + (rho / last) * p
         return x

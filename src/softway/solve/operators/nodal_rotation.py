@@ -45,7 +45,7 @@ class NodalRotation:
         n, d = u.shape
         if dofs.components is None:
             return None
-        before, now = self.gradient(reference), self.gradient(u)
+        before, now = space.filled(self.gradient(reference)), space.filled(self.gradient(u))
         if np.sqrt(space.mean((now - before) ** 2) * d) < small:
             return None
         R = rotation(now @ np.linalg.inv(before))
@@ -75,5 +75,5 @@ def _slopes(part: DiscreteSolid) -> list[sp.csr_array]:
         start += points.size
     rows, columns = np.concatenate(row), np.concatenate(column)
     around = sp.csr_array((internal.sampling.volume[columns], (rows, columns)), shape=(n, start))
-    mean = sp.diags_array(1.0 / np.asarray(around.sum(axis=1)).ravel()) @ around
+    mean = sp.diags_array(1.0 / np.maximum(np.asarray(around.sum(axis=1)).ravel(), 1e-300)) @ around
     return [sp.csr_array(mean @ internal.sampling.table[j::d]) for j in range(d)]

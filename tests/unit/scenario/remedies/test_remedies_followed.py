@@ -85,6 +85,7 @@ REASONS = {
     "contact/surfaces/boundary.py: __post_init__": INNER,
     "scenario/checks/check.py: _model": "ties of a mesh file: tests/unit/meshes/files/abaqus/test_ties.py",
     "heat/coupled/strain/expansion.py: thermal_stiffness": "a law of one's own that does not resist a change of volume",
+    "scenario/run_ranks.py: require_ranks": "with --ranks only: tests/unit/ranks/test_launch.py",
     "march/state/march_state.py: fitting": "a state of another scene, from Python",
     "march/state/model_state.py: join_states": "a state of another scene, from Python",
     "march/rules/slab_rule.py: require_nodal": "unknowns from Python: tests/contracts/test_own_dofs.py",

@@ -38,6 +38,20 @@ class KernelEvaluation:
             self._share(elastic.force, block, rows, out, energy)
         return float(np.concatenate(energies).sum()), self.cells.folded(out, len(u))
 
+    def energies_and_force(self, u: Array) -> tuple[Array, Array]:
+        """Stored energy (b LANES,) of each lane [J], zero in empty ones, and force (n, d) [N]."""
+        rows = self.cells.rows(u)
+        out, energies = np.zeros_like(rows), []
+        for block in self.cells.blocks:
+            energies.append(np.zeros(block.points.shape))
+            self._share(elastic.apart, block, rows, out, energies[-1])
+        return np.concatenate([e.ravel() for e in energies]), self.cells.folded(out, len(u))
+
+    @property
+    def lanes(self) -> IntArray:
+        """Lanes (b LANES,) in the order of the cells, then the empty ones."""
+        return np.argsort(np.concatenate([block.points.ravel() for block in self.cells.blocks]), kind="stable")
+
     def tangent(self, u: Array) -> csc_array:
         """Derivative of the force, (n d, n d) [N/m]."""
         rows, d = self.cells.rows(u), u.shape[1]

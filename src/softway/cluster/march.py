@@ -1,0 +1,77 @@
+"""March of a model over ranks (docs/theory/solver/ranks.md)."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from softway.cluster.admitted import method_of_ranks, require_several
+from softway.cluster.rank_model import held_by, rank_model
+from softway.cluster.rank_state import on_all, on_rank
+from softway.errors import Cancel
+from softway.march.results.step import Step
+from softway.march.results.step_states import KnownStates
+from softway.march.results.trying import TryWatch
+from softway.march.slab.slab_step import stepper
+from softway.march.slabs import slabs
+from softway.march.start.preparation import prepare
+from softway.march.state.march_state import MarchState, Settings
+from softway.march.state.model_state import split_states
+from softway.model.model import Model
+from softway.model.scene import State
+from softway.ranks.interface import Ranks
+from softway.ranks.partition import Holding
+
+
+def march_on(
+    ranks: Ranks,
+    model: Model,
+    settings: Settings,
+    state: State | MarchState | None = None,
+    cancel: Cancel | None = None,
+    trying: TryWatch | None = None,
+) -> Iterator[Step | None]:
+    """Accepted slabs of a march over ranks: steps of the whole model on rank 0, None on the others.
+
+    The march is prepared by every rank alike, on the whole model; the slabs are those of the ranks together.  The bits
+    of all numbers are the same for any number of ranks, one included.
+
+    Parameters are those of :func:`~softway.march.start.preparation.prepare`; ``cancel`` is that of rank 0, and
+    ``trying`` is called there.
+
+    Raises
+    ------
+    InputError
+        On all ranks: what :func:`~softway.march.march.march` refuses, and what runs on one rank only.
+    NumericsError, Cancelled
+        On all ranks, as for :func:`~softway.march.march.march`.
+    """
+    require_several(model, settings.method, ranks.size)
+    prepared = prepare(model, settings, state)
+    held = held_by(model, ranks)
+    local = rank_model(model, held, ranks)
+    asked = None if not ranks.told(cancel is not None) else lambda: bool(ranks.told(cancel is not None and cancel()))
+    own = stepper(local, method_of_ranks(settings.method), settings.weight, asked, None if ranks.rank else trying)
+    own = replace(own, ends=prepared.stepper.ends)
+    before = split_states(model, prepared.march_state.state)
+    for step in slabs(own, on_rank(prepared.march_state, held)):
+        whole = _on_whole(step, model, before, held, ranks)
+        before = before if whole is None else whole.after
+        yield whole
+
+
+def _on_whole(step: Step, model: Model, before: State, held: Holding, ranks: Ranks) -> Step | None:
+    """Step of the whole model on rank 0; None on the others."""
+    (name,) = step.reactions
+    found = on_all(step.march_state, held, ranks, np.asarray(step.reactions[name]))
+    if found is None:
+        return None
+    march_state, support = found
+    states = KnownStates(
+        before=before,
+        after=split_states(model, march_state.state),
+        reactions=model.split(support),
+        march_state=march_state,
+    )
+    events = tuple(replace(e, node=int(held.nodes[e.node])) if e.node >= 0 else e for e in step.events)
+    return replace(step, model=model, events=events, states=states)

@@ -1,0 +1,113 @@
+"""Ranks as processes of MPI: the same records as one rank, bit by bit; needs mpi4py and mpiexec (make test-mpi)."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+import softway as sw
+from softway.ranks.launch import launcher
+
+pytestmark = pytest.mark.minutes
+
+SCENE = """
+[bodies.block]
+kind = "Solid"
+mesh = { kind = "Rectangle", size = [1.0, 1.0], cells = [4, 4] }
+material = { kind = "NeoHookean", E = 100.0, nu = 0.3 }
+density = 1.0
+velocity = { kind = "Uniform", value = [0.0, -1.0] }
+[bodies.floor]
+kind = "Tool"
+shape = { kind = "HalfSpace", point = [0.0, -0.05], normal = [0.1, 1.0] }
+[[contacts]]
+between = ["block.bottom", "floor"]
+[time]
+end = 0.2
+step = 0.01
+"""
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    """Scenario of a block thrown at a wall."""
+    out = tmp_path / "block.toml"
+    out.write_text(SCENE)
+    return out
+
+
+def command(arguments: Sequence[str], expected: int = 0) -> str:
+    """What the command told on the terminal."""
+    pytest.importorskip("mpi4py.MPI", exc_type=(ImportError, RuntimeError))
+    try:
+        launcher()
+    except sw.InputError as error:
+        pytest.skip(str(error))
+    given = {**os.environ, "OMP_NUM_THREADS": "1"}
+    words = [sys.executable, "-m", "softway", *arguments]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=300, env=given)
+    assert done.returncode == expected, done.stderr
+    return done.stdout + done.stderr
+
+
+def records(folder: Path) -> dict[str, bytes]:
+    """Tables of a run, and the values of its fields."""
+    tables = {name: (folder / name).read_bytes() for name in ("history.csv", "events.csv")}
+    with h5py.File(folder / "fields.vtkhdf") as stored:
+        found: dict[str, bytes] = {}
+
+        def keep(name: str, at: object) -> None:
+            if isinstance(at, h5py.Dataset):
+                found[name] = np.asarray(at[()]).tobytes()
+
+        stored.visititems(keep)
+    return {**tables, **found}
+
+
+@pytest.mark.parametrize("count", [2, 4])
+def test_records_have_the_same_bits_on_one_rank_and_on_several(count: int, file: Path, tmp_path: Path) -> None:
+    one, several = tmp_path / "one", tmp_path / "several"
+    command(["run", str(file), "--quiet", "--ranks", "1", "--out", str(one)])
+    command(["run", str(file), "--quiet", "--ranks", str(count), "--out", str(several)])
+    assert records(one) == records(several)
+    assert sw.Run(several).events
+
+
+def test_a_folder_that_exists_ends_all_ranks(file: Path, tmp_path: Path) -> None:
+    command(["run", str(file), "--quiet", "--ranks", "2", "--out", str(tmp_path / "run")])
+    told = command(["run", str(file), "--ranks", "2", "--out", str(tmp_path / "run")], expected=2)
+    assert told.count("already holds a run") == 1
+
+
+def test_a_scenario_on_one_rank_only_is_refused_once(file: Path, tmp_path: Path) -> None:
+    rough = "contacts[0].friction={kind='Coulomb', mu=0.3}"
+    told = command(["run", str(file), "--ranks", "2", "--set", rough], expected=2)
+    assert told.count("runs on one rank only: friction") == 1
+
+
+def test_a_rank_that_fails_alone_is_named(file: Path, tmp_path: Path) -> None:
+    """The records of rank 0 meet a folder that nobody may write into."""
+    module = tmp_path / "broken.py"
+    module.write_text(
+        "import os, sys\n"
+        "from softway.cluster import march\n"
+        "real = march.slabs\n"
+        "def slabs(*given):\n"
+        "    for k, step in enumerate(real(*given)):\n"
+        "        if k == 2 and os.environ.get('PMI_RANK', os.environ.get('OMPI_COMM_WORLD_RANK')) == '1':\n"
+        "            raise OSError('the disk of this node is gone')\n"
+        "        yield step\n"
+        "march.slabs = slabs\n"
+        "from softway.__main__ import main\n"
+        "sys.exit(main())\n"
+    )
+    pytest.importorskip("mpi4py.MPI", exc_type=(ImportError, RuntimeError))
+    arguments = [launcher(), "-n", "2", sys.executable, str(module), "run", str(file), "--out", str(tmp_path / "run")]
+    done = subprocess.run(arguments, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 3
+    assert "error rank 1 of 2 ends the run: the disk of this node is gone" in done.stderr
