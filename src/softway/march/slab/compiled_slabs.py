@@ -29,6 +29,7 @@ from softway.kernels.slab.tables import (
     Course,
     Work,
 )
+from softway.kernels.slab.works import WORKS
 from softway.march.results.step import Certificate, ContactLedger, Ledger, Report, Step
 from softway.march.results.trying import watched
 from softway.march.slab.compiled_model import CompiledModel
@@ -119,6 +120,7 @@ def _work(compiled: CompiledModel) -> Work:
         push=fields[4],
         row=np.zeros(len(compiled.rows.offset)),
         group=np.zeros((groups, 3)),
+        works=np.zeros((len(compiled.bodies.floor), WORKS)),
     )
 
 
