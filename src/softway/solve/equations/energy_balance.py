@@ -16,7 +16,7 @@ from softway.model.model import Model
 from softway.solve.equations.end_forces import EndForces
 from softway.solve.equations.friction_work import FrictionWork, friction_work
 from softway.solve.equations.missing_work import blurred_work, missing_work, moving_part
-from softway.solve.equations.spin_balance import middle, moment, spin_balance
+from softway.solve.equations.spin_balance import SpinBalance, middle, moment, spin_balance
 from softway.tolerances import AT_REST, SUMS
 
 TINY = 1e-10
@@ -76,33 +76,31 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
     num, den, level, work = missing_work(model, ends, touched)
     num, den, level, work, floor = (_grouped(label, v) for v in (num, den, level, work, model.floor))
     members = [label == g for g in range(len(num))]
-    spins = [spin_balance(model, ends, m) if _closes_spin(model, m) else None for m in members]
-    for g, spin in enumerate(spins):
-        if spin is not None:
-            moving = moving_part(model, ends)
-            num[g] += spin.work(moving) @ spin.solve(spin.torque)
-            den[g] -= spin.work(moving) @ spin.solve(spin.slope)
+    spins = _closed_spins(model, ends, members, (num, den))
     rounding = SUMS * level + floor
     if touching.any():
         rounding = rounding + _grouped(label, blurred_work(model, ends))
-    rubbing = friction_work(ends.tangential, ends.u1 - ends.u0, label[model.part_of[ends.rows0.node]], len(members))
-    num, den, reset = _without_created_energy((num, den), rounding, rubbing, model.inert)
-    strained = np.bincount(label, weights=np.abs(ends.V0) + np.abs(ends.V1)) > AT_REST * floor
-    viscous: Array | None = None
+    excess, rubbing = np.zeros(len(num)), None
+    if ends.rows0.shear.count:
+        group = label[model.part_of[ends.rows0.node]]
+        rubbing = friction_work(ends.tangential, ends.u1 - ends.u0, group, len(members))
+        num, den, reset = _without_created_energy((num, den), rounding, rubbing, model.inert)
+    strained = _grouped(label, np.abs(ends.V0) + np.abs(ends.V1)) > AT_REST * floor
+    damping = None
     if ends.viscous is not None:
         supply = _grouped(label, model.space.totals(ends.viscous * moving_part(model, ends)))
-        viscous, num = _by_viscous_forces(num, den, supply * np.array([spin is None for spin in spins]))
+        damping, num = _by_viscous_forces(num, den, supply * np.array([g not in spins for g in range(len(num))]))
     met = _grouped(label, touched) > 0.0
     wanted = np.where(strained | met, _quotient(num, den, rounding), 0.0)
     wanted, released = _without_snaps(model, ends, label, wanted, num)
     a = _bounded(wanted, model.inert)
-    excess = np.where(reset, np.maximum(rubbing.dissipated(a), 0.0), 0.0)
+    if rubbing is not None:
+        excess = np.where(reset, np.maximum(rubbing.dissipated(a), 0.0), 0.0)
     mean = ends.mean + model.nodal(a[label]) * (ends.f1 - ends.f0) if a.any() else ends.mean.copy()
-    if viscous is not None and ends.viscous is not None:
-        mean += model.nodal(viscous[label]) * ends.viscous
-    for g, spin in enumerate(spins):
-        if spin is not None:
-            mean += spin.force(-spin.solve(spin.torque + a[g] * spin.slope))
+    if damping is not None and ends.viscous is not None:
+        mean += model.nodal(damping[label]) * ends.viscous
+    for g, spin in spins.items():
+        mean += spin.force(-spin.solve(spin.torque + a[g] * spin.slope))
     missing = np.where(strained, _relative(num, rounding, work), 0.0)
     bounded = a != wanted
     rest = np.where(bounded | (excess > 0.0), num - a * den + excess, 0.0) * model.inert
@@ -113,6 +111,19 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
         mean=mean, scalar=a[label], missing_work=missing[label], lost=released,
         clipped=bool(great.any()), bounded=bool(bounded.any()),
     )  # fmt: skip
+
+
+def _closed_spins(
+    model: Model, ends: EndForces, members: list[BoolArray], balance: tuple[Array, Array]
+) -> dict[int, SpinBalance]:
+    """Balances of spin by the numbers of their groups; their work joins the energy ``balance`` of these groups."""
+    num, den = balance
+    spins = {g: spin_balance(model, ends, m) for g, m in enumerate(members) if _closes_spin(model, m)}
+    for g, spin in spins.items():
+        moving = moving_part(model, ends)
+        num[g] += spin.work(moving) @ spin.solve(spin.torque)
+        den[g] -= spin.work(moving) @ spin.solve(spin.slope)
+    return spins
 
 
 def _relative(num: Array, rounding: Array, work: Array) -> Array:

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from h5py import h5s
 
-from softway.arrays import Array, IntArray
+from softway.arrays import IntArray
+from softway.record.storage.gate.hdf5_file import write_rows
 from softway.record.write.grid.grid_layout import Grid
 
 PACKED = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
@@ -83,13 +83,13 @@ def create_geometry(file: Any, grid: Grid, grows: bool) -> None:
         else:
             rows = 1 if name.endswith(SIZES) else max(len(data), LEAST)
             made = series(file, name, data.shape[1:], rows, dtype=data.dtype)
-            put(made, 0, data)
+            write_rows(made, 0, data)
 
 
 def add_geometry(file: Any, grid: Grid) -> None:
     """Write a further geometry: its data before their sizes."""
     for name, data in _arrays(grid).items():
-        put(file[name], len(file[name]), data)
+        write_rows(file[name], len(file[name]), data)
 
 
 def is_last(file: Any, grid: Grid) -> bool:
@@ -120,19 +120,6 @@ def series(group: Any, name: str, shape: tuple[int, ...], rows: int, unit: str =
     if unit:
         made.attrs["unit"] = unit
     return made
-
-
-def put(rows: Any, start: int, data: Array) -> None:
-    """Write data from a row on, as the end of an array.
-
-    The calls of HDF5 itself: selections of h5py take three times as long as writing the rows of a small frame.
-    """
-    values = np.ascontiguousarray(data)
-    rows.id.set_extent((start + len(values), *rows.shape[1:]))
-    if values.size:
-        place = rows.id.get_space()
-        place.select_hyperslab((start,) + (0,) * (values.ndim - 1), values.shape)
-        rows.id.write(h5s.create_simple(values.shape), place, values)
 
 
 def shorten(rows: Any, count: int) -> None:

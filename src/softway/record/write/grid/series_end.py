@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 from typing import Any
 
-import h5py
 import numpy as np
 
 from softway.arrays import Array
-from softway.record.write.grid.geometries import SIZES, add_geometry, is_last, part, parts_of_frames, put, rows_of_frame
+from softway.record.storage.gate.hdf5_file import kept_number, write_rows
+from softway.record.write.grid.geometries import SIZES, add_geometry, is_last, part, parts_of_frames, rows_of_frame
 from softway.record.write.grid.grid_layout import Grid
 
 STARTS = ("PartOffsets", "NumberOfParts", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets")
@@ -28,11 +28,13 @@ class SeriesEnd:
 
     __slots__ = ("_arrays", "_cells", "_count", "_file", "_grid", "_part", "_points", "_written")
 
-    def __init__(self, file: h5py.File) -> None:
+    def __init__(self, file: Any) -> None:
         root = file["VTKHDF"]
-        self._file, self._grid, self._arrays = file, None, {}
+        self._file = file
+        self._grid: Grid | None = None
+        self._arrays: dict[str, Any] = {}
         self._count = int(root["Steps"].attrs["NSteps"])
-        self._written = h5py.h5a.open(root["Steps"].id, b"NSteps")
+        self._written = kept_number(root["Steps"], "NSteps")
         self._part = part(root, len(root[SIZES[0]]) - 1)
         points, cells = rows_of_frame(root, np.append(parts_of_frames(root, self._count), self._part.number))
         self._points, self._cells = points.start, cells.start
@@ -75,4 +77,4 @@ class SeriesEnd:
         rows = self._arrays.get(name)
         if rows is None:
             rows = self._arrays[name] = self._file["VTKHDF"][name]
-        put(rows, start, data)
+        write_rows(rows, start, data)
