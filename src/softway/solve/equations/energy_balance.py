@@ -80,18 +80,16 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
     rounding = SUMS * level + floor
     if touching.any():
         rounding = rounding + _grouped(label, blurred_work(model, ends))
-    excess, rubbing = np.zeros(len(num)), None
+    excess, rubbing, damping = np.zeros(len(num)), None, None
     if ends.rows0.shear.count:
         group = label[model.part_of[ends.rows0.node]]
         rubbing = friction_work(ends.tangential, ends.u1 - ends.u0, group, len(members))
         num, den, reset = _without_created_energy((num, den), rounding, rubbing, model.inert)
     strained = _grouped(label, np.abs(ends.V0) + np.abs(ends.V1)) > AT_REST * floor
-    damping = None
     if ends.viscous is not None:
         supply = _grouped(label, model.space.totals(ends.viscous * moving_part(model, ends)))
         damping, num = _by_viscous_forces(num, den, supply * np.array([g not in spins for g in range(len(num))]))
-    met = _grouped(label, touched) > 0.0
-    wanted = np.where(strained | met, _quotient(num, den, rounding), 0.0)
+    wanted = np.where(strained | (_grouped(label, touched) > 0.0), _quotient(num, den, rounding), 0.0)
     wanted, released = _without_snaps(model, ends, label, wanted, num)
     a = _bounded(wanted, model.inert)
     if rubbing is not None:
