@@ -112,8 +112,8 @@ class SlabEquations:
         mean = self.average.mean(model, start, self.path, q, end)
         viscous = None if end.viscous is None else passed_on(model, end.viscous)
         lost: Array = np.zeros(len(energy))
-        if any(part.shock is not None for part in model.parts):
-            shock = model.shock_force(0.5 * (start.displacement + u1), u1 - start.displacement, h)
+        shock = model.shock_force(0.5 * (start.displacement + u1), u1 - start.displacement, h)
+        if shock is not None:
             mean, lost = mean + shock, model.space.totals(shock * (u1 - start.displacement))
         rows = self.contact.at(u1)
         ends = self._ends(u1, (force, mean, viscous), energy + lost, rows, impulse)
