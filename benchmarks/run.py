@@ -48,6 +48,7 @@ GROUPS: dict[str, Group] = {
     "pressed": blocks.pressed,
     "blocks": blocks.blocks,
     "slab": parts.slabs,
+    "small": parts.small,
     "heated": heated.heated,
     "adapted": adapted.adapted,
     "pile": piles.pile,

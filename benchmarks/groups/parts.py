@@ -108,3 +108,11 @@ def slabs(asked: Asked) -> Iterator[Figure]:
     for row in alone("slabs", largest=asked.size(asked.pick(8, 12), 4))["result"]:
         of = f"slab/{row['case']}, {row['rule']}"
         yield Figure(name=of, value=row["median"], unit=f"ms, {row['iterations']:.1f} iterations")
+
+
+def small(asked: Asked) -> Iterator[Figure]:
+    """Slabs of small problems that are compiled, with their history, beside the solver for all models."""
+    for row in alone("small", slabs=asked.size(asked.pick(4000, 8000), 100), repeats=asked.size(5, 1))["result"]:
+        of, aims = f"small/{row['case']}", {"2 bars": "<= 30", "200 bars": "<= 60"}
+        yield speedup(f"{of}, march", row["march"], row["python"], "us a slab; solver for all models")
+        yield Figure(name=f"{of}, run", value=row["run"], unit="us a slab", target=aims.get(row["case"]))

@@ -129,6 +129,13 @@ def slabs(largest: int) -> list[dict[str, Any]]:
     return [asdict(cost) for cost in costs(largest)]
 
 
+def small(slabs: int, repeats: int) -> list[dict[str, Any]]:
+    """Slabs of small problems: compiled, with records, and by the solver for all models."""
+    from small_problems import costs
+
+    return [asdict(cost) for cost in costs(slabs, repeats)]
+
+
 def pile(count: list[int], until: float) -> dict[str, Any]:
     """Spheres that fall into a box."""
     from bench_pile import measured
@@ -172,6 +179,7 @@ PROBLEMS: dict[str, Callable[..., Any]] = {
         factor,
         contact,
         slabs,
+        small,
         pile,
         collision,
         pressed,

@@ -27,6 +27,7 @@ CODE = {
     "kernels": CELLS,
     "history": CELLS,
     "pile": PILES,
+    "small": (*MARCH, "src/softway/record", "src/softway/scenario"),
 }
 """What is measured, by group; the slab and all that it is made of where nothing is said."""
 THROWN = (
@@ -59,6 +60,7 @@ BENCHES = {
         "benchmarks/processes/collision.py",
     ),  # fmt: skip
     "slab": (PARTS, "benchmarks/parts/bench_slab.py"),
+    "small": (PARTS, "benchmarks/processes/small_problems.py"),
     "adapted": (
         "benchmarks/groups/adapted.py",
         "benchmarks/processes/adapted.py",

@@ -108,6 +108,8 @@ def peaks(weight: TimeWeight) -> tuple[Array, Array]:
 
 def moments(weight: TimeWeight) -> tuple[float, float]:
     """Moments mu1, mu2 of g."""
+    if isinstance(weight, EndPeaks):
+        return weight.theta, weight.theta
     tau, w = peaks(weight)
     return float(w @ tau), float(w @ tau**2)
 

@@ -55,6 +55,7 @@ _SHARED = (
     "slab/audit.py",
     "slab/products.py",
     "slab/tables.py",
+    "slab/works.py",
     "../tolerances.py",
 )
 _SOURCES = b"".join((Path(__file__).parents[1] / name).read_bytes() for name in _SHARED)

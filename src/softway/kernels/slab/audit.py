@@ -19,6 +19,7 @@ from softway.kernels.slab.tables import (
     UNCLOSED,
     WORK,
 )
+from softway.kernels.slab.works import ENDS, LOADED, MOVING, SIZE, STILL, part_works
 from softway.tolerances import AT_REST, BEQUEST, DEPTH, ENERGY, SUMS
 from softway.tolerances import MOMENTUM as MISSED
 
@@ -32,25 +33,23 @@ def closes(bodies, rows, course, work, unit, s):
     u0, u1, f0, f1, d = course.u[s], course.u[s + 1], course.force[s], course.force[s + 1], bodies.dimension
     blur = 4.0 * np.finfo(np.float64).eps * extent(bodies, u1)
     work.group[:] = 0.0
+    for c in range(len(work.push)):
+        work.push[c] = 0.5 * (f0[c] + f1[c])
+    loads = (bodies.load, bodies.load)
+    part_works(bodies.first, d, bodies.heavy, loads, u0, u1, (f0, f1), work.push, work.works)
     for r in range(len(rows.offset)):
         if course.pressure[s, r] > 0.0 or course.pressure[s + 1, r] > 0.0:
             work.group[bodies.group[rows.part[r]], 2] = 1.0
     for part in range(len(bodies.floor)):
         flies = work.group[bodies.group[part], 2] == 0.0
-        V0, V1 = course.energy[s, part], course.energy[s + 1, part]
-        missing, level, kinetic = V1 - V0, abs(V0) + abs(V1), 0.0
+        V0, V1, found = course.energy[s, part], course.energy[s + 1, part], work.works[part]
+        kinetic = 0.0
         for c in range(bodies.first[part] * d, bodies.first[part + 1] * d):
-            moved, mean, load = u1[c] - u0[c], 0.5 * (f0[c] + f1[c]), bodies.load[c]
             kinetic += 0.5 * course.v[s, c] * work.before[c]
-            level += abs(load * moved)
-            if bodies.heavy[c]:
-                missing -= mean * moved
-                level += abs(mean * moved)
-            else:
-                missing -= (mean if flies else load) * moved
+        level = abs(V0) + abs(V1) + kinetic + found[SIZE] + found[LOADED]
         g = bodies.group[part]
-        work.group[g, 0] += missing
-        work.group[g, 1] += SUMS * (level + kinetic) + bodies.floor[part]
+        work.group[g, 0] += V1 - V0 - found[MOVING] - (found[ENDS] if flies else found[STILL])
+        work.group[g, 1] += SUMS * level + bodies.floor[part]
     for r in range(len(rows.offset)):
         g = bodies.group[rows.part[r]]
         work.group[g, 1] += blur * (abs(course.pressure[s, r]) + abs(unit * course.pressure[s + 1, r]))

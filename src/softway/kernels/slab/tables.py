@@ -80,7 +80,9 @@ class Course(NamedTuple):
 
 
 class Work(NamedTuple):
-    """Fields (N,) of a slab, and sums (groups, 3): velocity, its correction, momenta at both ends, contact forces."""
+    """Fields (N,) of a slab: velocity, its correction, momenta at both ends, contact forces; and sums (groups, 3) and
+    works (parts, WORKS).
+    """
 
     q: Array
     x: Array
@@ -89,6 +91,7 @@ class Work(NamedTuple):
     push: Array
     row: Array
     group: Array
+    works: Array
 
 
 KINETIC, STRAIN, WORK, ERROR, MOMENTUM, SPIN, UNCLOSED, COMPLEMENTARITY, POWER, ITERATIONS, FIRST, LAST = (

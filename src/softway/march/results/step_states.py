@@ -6,7 +6,32 @@ from typing import Protocol
 
 from softway.arrays import Array
 from softway.march.state.march_state import MarchState
+from softway.mechanisms.march import BodyState
 from softway.model.scene import State
+
+
+class Motion(Protocol):
+    """Motion of the solids at an instant, as part of a :class:`~softway.model.scene.State`."""
+
+    @property
+    def displacement(self) -> Mapping[str, Array]:
+        """Solid -> (n, d) displacement [m]."""
+        ...
+
+    @property
+    def velocity(self) -> Mapping[str, Array]:
+        """Solid -> (n, d) velocity [m/s]."""
+        ...
+
+    @property
+    def fields(self) -> Mapping[str, Mapping[str, Array]]:
+        """Companion field -> body -> its values."""
+        ...
+
+    @property
+    def rigid(self) -> Mapping[str, BodyState]:
+        """Rigid body -> its place and motion."""
+        ...
 
 
 class StepStates(Protocol):
@@ -20,6 +45,11 @@ class StepStates(Protocol):
     @property
     def after(self) -> State:
         """State at the end."""
+        ...
+
+    @property
+    def motion(self) -> Motion:
+        """Motion at the end: part of ``after`` that takes less to make."""
         ...
 
     @property
@@ -41,6 +71,11 @@ class KnownStates:
     after: State
     reactions: Mapping[str, Array]
     march_state: MarchState
+
+    @property
+    def motion(self) -> Motion:
+        """Motion at the end."""
+        return self.after
 
     @classmethod
     def of(cls, states: StepStates) -> "KnownStates":

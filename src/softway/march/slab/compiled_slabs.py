@@ -1,7 +1,6 @@
 """Several slabs (time steps) in one compiled call, and the steps that they make."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -30,16 +29,17 @@ from softway.kernels.slab.tables import (
     Course,
     Work,
 )
+from softway.kernels.slab.works import WORKS
 from softway.march.results.step import Certificate, ContactLedger, Ledger, Report, Step
 from softway.march.results.trying import watched
 from softway.march.slab.compiled_model import CompiledModel
+from softway.march.slab.slab_batch import BatchStates, SlabBatch
 from softway.march.slab.slab_step import Stepper
 from softway.march.state.march_state import EnergyAccount, MarchState
-from softway.march.state.model_state import ModelState, split_states
+from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.model.slab import Slab
-from softway.solve.equations.slab_values import SlabStart
 from softway.solve.methods.iteration import contraction
 from softway.solve.operators.operator_memory import USUAL, WORN, OperatorMemory
 
@@ -47,106 +47,6 @@ TOGETHER, NUMBERS = 256, 200_000
 """Greatest number of slabs in a call, and of numbers of their states."""
 AHEAD = 2.0
 """Slabs at the end of a march that are not compiled: the last one ends at a given instant."""
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class SlabBatch:
-    """Successive compiled slabs.
-
-    Parameters
-    ----------
-    model
-        The model.
-    begun
-        State of the march before the first of them, ``memory`` with its operator.
-    course, iterations
-        States and sums of the slabs, and number of iterations of each.
-    states
-        States that were asked for, by the number of slabs before them.
-    """
-
-    model: Model
-    begun: MarchState
-    memory: OperatorMemory
-    course: Course
-    iterations: tuple[int, ...]
-    states: dict[int, State]
-
-    def state(self, count: int) -> State:
-        """State after so many slabs; made when it is asked for, and then kept."""
-        if count not in self.states:
-            self.states[count] = split_states(self.model, self._state(count))
-        return self.states[count]
-
-    def memory_after(self, count: int) -> OperatorMemory:
-        """Operator memory after so many slabs."""
-        return replace(self.memory, taken=self.memory.taken.with_slabs(self.iterations[:count]))
-
-    def march_state(self, count: int) -> MarchState:
-        """State of the march after so many slabs."""
-        if not count:
-            return self.begun
-        begun, sums = self.begun, self.course.sums[count - 1]
-        history = replace(begun.step_history, length=begun.step_history.span, recent_rejections=0.0, smooth=0)
-        return replace(
-            begun,
-            state=self._state(count),
-            account=replace(begun.account, work_external=float(sums[WORK]), energy_error=float(sums[ERROR])),
-            step_history=history,
-            memory=self.memory_after(count).bare(),
-            slabs=begun.slabs + count,
-        )
-
-    def _state(self, count: int) -> ModelState:
-        """State of the model after so many slabs."""
-        course, shape, first = self.course, self.model.shape, self.begun.state
-        start = SlabStart(
-            displacement=course.u[count].reshape(shape),
-            velocity=course.v[count].reshape(shape),
-            force=course.force[count].reshape(shape),
-            energy=course.energy[count],
-            states=(),
-            viscous=None,
-        )
-        return ModelState(
-            time=float(course.time[count]),
-            start=start,
-            acceleration=course.slope[count].reshape(shape),
-            closed=course.pressure[count] > 0.0,
-            pressure=course.pressure[count],
-            traction=np.zeros_like(first.traction),
-            sliding=np.zeros_like(first.sliding),
-            span=float(course.time[count] - course.time[count - 1]),
-        )
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class BatchStates:
-    """States of the slab ``number`` of a batch, see :class:`~softway.march.results.step_states.StepStates`."""
-
-    batch: SlabBatch
-    number: int
-
-    @property
-    def before(self) -> State:
-        """State at the start."""
-        return self.batch.state(self.number)
-
-    @property
-    def after(self) -> State:
-        """State at the end."""
-        return self.batch.state(self.number + 1)
-
-    @property
-    def march_state(self) -> MarchState:
-        """State of the march after the slab."""
-        return self.batch.march_state(self.number + 1)
-
-    @property
-    def reactions(self) -> Mapping[str, Array]:
-        """Body -> (n, d) mean force of the supports on the nodes [N]."""
-        model, support = self.batch.model, self.batch.course.support
-        return model.split(support[self.number].reshape(model.shape) if len(support) else np.zeros(model.shape))
 
 
 def next_batch(
@@ -220,6 +120,7 @@ def _work(compiled: CompiledModel) -> Work:
         push=fields[4],
         row=np.zeros(len(compiled.rows.offset)),
         group=np.zeros((groups, 3)),
+        works=np.zeros((len(compiled.bodies.floor), WORKS)),
     )
 
 

@@ -25,7 +25,8 @@ class History:
         """Write the line of one slab: its energy and momentum audit, and the probes at its end."""
         values = [column.value(step) for column in self.columns]
         if self.opening.readings:
-            values += [r.value(step.after, step.reactions) for r in self.opening.of(step).readings]
+            motion, reactions = step.states.motion, step.reactions
+            values += [r.value(motion, reactions) for r in self.opening.of(step).readings]
         self.lines.write((self.line % tuple(values)).encode())
 
     @property

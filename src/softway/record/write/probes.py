@@ -10,11 +10,11 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
 from softway.errors import InputError
+from softway.march.results.step_states import Motion
 from softway.meshes.adaptive.points import around
 from softway.meshes.adaptive.refinement import AdaptedMesh
 from softway.meshes.mesh import Mesh
 from softway.meshes.remeshed.remeshed_mesh import RemeshedMesh
-from softway.model.scene import State
 
 UNITS = {"displacement": "m", "position": "m", "velocity": "m/s", "reaction": "N", "temperature": "K"}
 Changing = AdaptedMesh | RemeshedMesh
@@ -89,6 +89,7 @@ class Reading:
 
     Examples
     --------
+    >>> from softway.model.scene import State
     >>> reading = Reading(name="tip", unit="m", body="bar", nodes=np.array([1]), reference=np.array([[2.0]]),
     ...                   quantity="position", component="x")
     >>> u = {"bar": np.array([[0.0], [0.5]])}
@@ -106,7 +107,7 @@ class Reading:
     weights: Array | None = None
     origin: Array | None = None
 
-    def value(self, state: State, reactions: Mapping[str, Array]) -> float:
+    def value(self, state: Motion, reactions: Mapping[str, Array]) -> float:
         """Value at ``state``; a reaction that has not been computed is ``nan``."""
         match self.quantity:
             case "temperature":
@@ -127,13 +128,15 @@ class Reading:
             return float(np.linalg.norm(vector))
         return float(vector["xyz".index(self.component)])
 
-    def _place(self, state: State) -> Array:
+    def _place(self, state: Motion) -> Array:
         """Mean place (d,) [m]."""
         return self._mean(self.reference + state.displacement[self.body][self.nodes])
 
     def _mean(self, values: Array) -> Array:
         """Mean (...) of values at the nodes (k, ...)."""
-        return np.asarray(values.mean(axis=0) if self.weights is None else self.weights @ values)
+        if self.weights is not None:
+            return np.asarray(self.weights @ values)
+        return np.asarray(values[0] if len(values) == 1 else values.mean(axis=0))
 
 
 def readings(

@@ -9,6 +9,7 @@ from typing import Protocol
 from softway.arrays import Array, IntArray
 from softway.march.audit.balances import Balances, Pushed
 from softway.march.results.step import Ledger, Step
+from softway.march.results.step_states import Motion
 from softway.meshes.mesh import Mesh
 from softway.model.field import Field
 from softway.model.model import Model
@@ -28,8 +29,8 @@ class Readable(Protocol):
         """Unit of the column."""
         ...
 
-    def value(self, state: State, reactions: Mapping[str, Array]) -> float:
-        """Value at ``state``."""
+    def value(self, state: Motion, reactions: Mapping[str, Array]) -> float:
+        """Value at ``state``, of which a motion is enough."""
         ...
 
 

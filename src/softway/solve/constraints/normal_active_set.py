@@ -89,16 +89,14 @@ def solve_normal_contact(
     active = rows.equal | (guess & rows.unilateral)
     previous = np.zeros(len(count)) if previous is None else previous
     loaded = np.where(count, coefficients.from_basis(frozen.restrict(free)) - rows.target, 0.0)
-    slack = loaded - np.where(
-        count, coefficients.from_basis(frozen.compliance_times(coefficients.spread(previous))), 0.0
-    )
+    slack = loaded - _caused(frozen, coefficients, count, coefficients.spread(previous))
     floor, effort = rows.missable(slack), effort or Effort()
     for sweep in range(most_sweeps(len(active))):
         index = np.flatnonzero(active)
         effort.step(f"contact of {len(active)} rows, {len(index)} active, exchange {sweep}")
         _expect(frozen, coefficients, index, np.where(rows.unilateral, slack, np.inf))
         lifted = coefficients.spread(np.where(active, 0.0, previous))
-        now = loaded - np.where(count, coefficients.from_basis(frozen.compliance_times(lifted)), 0.0)
+        now = loaded - _caused(frozen, coefficients, count, lifted)
         change, push = multipliers(frozen, coefficients.subset(index), -now[index])
         gap = now + coefficients.from_basis(push.sensed)
         multiplier = np.zeros(len(active))
@@ -114,6 +112,13 @@ def solve_normal_contact(
     else:
         raise NoConvergence(f"the {len(active)} contact rows have no solution")
     return free + frozen.solve_push(push.directions - lifted), multiplier, active
+
+
+def _caused(frozen: FrozenOperator, coefficients: RowCoefficients, count: BoolArray, push: Array) -> Array | float:
+    """Components (m,) of the motion that forces ``push`` (b,) along the directions cause, on rows that ``count``."""
+    if not push.any():
+        return 0.0
+    return np.where(count, coefficients.from_basis(frozen.compliance_times(push)), 0.0)
 
 
 def _without_cycles(

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
-from softway.bodies.assembled.following_nodes import reactions
 from softway.bodies.internal_force.slab_average import EnergyMomentum
 from softway.contact.contact_rows import ContactRows
 from softway.model.model import Model
 from softway.solve.equations.end_forces import EndForces
 from softway.solve.equations.friction_work import FrictionWork, friction_work
-from softway.solve.equations.spin_balance import middle, moment, spin_balance
+from softway.solve.equations.missing_work import blurred_work, missing_work, moving_part
+from softway.solve.equations.spin_balance import SpinBalance, middle, moment, spin_balance
 from softway.tolerances import AT_REST, SUMS
 
 TINY = 1e-10
@@ -72,43 +72,56 @@ def close_energy(model: Model, ends: EndForces, fallback: bool) -> EnergyClosure
     """
     touching = (ends.force0 > 0.0) | (ends.force1 > 0.0)
     label = body_groups(model, (ends.rows0, ends.force0 > 0.0), (ends.rows1, ends.force1 > 0.0))
-    moving = (ends.u1 - ends.u0) * model.massive[:, None]
     touched = (np.bincount(label[model.part_of[ends.rows0.node[touching]]], minlength=len(label)) > 0)[label]
-    num, den, level = _energies(model, ends, moving, touched)
-    num, den, level, floor = (np.asarray(np.bincount(label, weights=v), float) for v in (num, den, level, model.floor))
+    num, den, level, work = missing_work(model, ends, touched)
+    num, den, level, work, floor = (_grouped(label, v) for v in (num, den, level, work, model.floor))
     members = [label == g for g in range(len(num))]
-    spins = [spin_balance(model, ends, m) if _closes_spin(model, m) else None for m in members]
-    for g, spin in enumerate(spins):
-        if spin is not None:
-            num[g] += spin.work(moving) @ spin.solve(spin.torque)
-            den[g] -= spin.work(moving) @ spin.solve(spin.slope)
-    rounding = SUMS * level + floor + np.bincount(label, weights=_blurred(model, ends))
-    rubbing = friction_work(ends.tangential, ends.u1 - ends.u0, label[model.part_of[ends.rows0.node]], len(members))
-    num, den, reset = _without_created_energy((num, den), rounding, rubbing, model.inert)
-    strained = np.bincount(label, weights=np.abs(ends.V0) + np.abs(ends.V1)) > AT_REST * floor
-    supply = _viscous_work(model, ends, moving, label) * np.array([spin is None for spin in spins])
-    viscous, num = _by_viscous_forces(num, den, supply)
-    met = np.bincount(label, weights=touched) > 0.0
-    wanted = np.where(strained | met, _quotient(num, den, rounding), 0.0)
+    spins = _closed_spins(model, ends, members, (num, den))
+    rounding = SUMS * level + floor
+    if touching.any():
+        rounding = rounding + _grouped(label, blurred_work(model, ends))
+    excess, rubbing, damping = np.zeros(len(num)), None, None
+    if ends.rows0.shear.count:
+        group = label[model.part_of[ends.rows0.node]]
+        rubbing = friction_work(ends.tangential, ends.u1 - ends.u0, group, len(members))
+        num, den, reset = _without_created_energy((num, den), rounding, rubbing, model.inert)
+    strained = _grouped(label, np.abs(ends.V0) + np.abs(ends.V1)) > AT_REST * floor
+    if ends.viscous is not None:
+        supply = _grouped(label, model.space.totals(ends.viscous * moving_part(model, ends)))
+        damping, num = _by_viscous_forces(num, den, supply * np.array([g not in spins for g in range(len(num))]))
+    wanted = np.where(strained | (_grouped(label, touched) > 0.0), _quotient(num, den, rounding), 0.0)
     wanted, released = _without_snaps(model, ends, label, wanted, num)
     a = _bounded(wanted, model.inert)
-    excess = np.where(reset, np.maximum(rubbing.dissipated(a), 0.0), 0.0)
-    mean = ends.mean + model.nodal(a[label]) * (ends.f1 - ends.f0)
-    mean += 0.0 if ends.viscous is None else model.nodal(viscous[label]) * ends.viscous
-    for g, spin in enumerate(spins):
-        if spin is not None:
-            mean += spin.force(-spin.solve(spin.torque + a[g] * spin.slope))
-    work = np.asarray(np.bincount(label, weights=model.space.totals(np.abs(ends.mean * moving))), float)
+    if rubbing is not None:
+        excess = np.where(reset, np.maximum(rubbing.dissipated(a), 0.0), 0.0)
+    mean = ends.mean + model.nodal(a[label]) * (ends.f1 - ends.f0) if a.any() else ends.mean.copy()
+    if damping is not None and ends.viscous is not None:
+        mean += model.nodal(damping[label]) * ends.viscous
+    for g, spin in spins.items():
+        mean += spin.force(-spin.solve(spin.torque + a[g] * spin.slope))
     missing = np.where(strained, _relative(num, rounding, work), 0.0)
     bounded = a != wanted
     rest = np.where(bounded | (excess > 0.0), num - a * den + excess, 0.0) * model.inert
     great = (np.abs(rest) > np.maximum(SLIGHT * work, TINY * level)) & (not fallback)
     for g in np.flatnonzero(np.where(great, 0.0, rest)).tolist():
-        mean += rest[g] * _along_motion(model, ends, moving, members[g])
+        mean += rest[g] * _along_motion(model, ends, moving_part(model, ends), members[g])
     return EnergyClosure(
         mean=mean, scalar=a[label], missing_work=missing[label], lost=released,
         clipped=bool(great.any()), bounded=bool(bounded.any()),
     )  # fmt: skip
+
+
+def _closed_spins(
+    model: Model, ends: EndForces, members: list[BoolArray], balance: tuple[Array, Array]
+) -> dict[int, SpinBalance]:
+    """Balances of spin by the numbers of their groups; their work joins the energy ``balance`` of these groups."""
+    num, den = balance
+    spins = {g: spin_balance(model, ends, m) for g, m in enumerate(members) if _closes_spin(model, m)}
+    for g, spin in spins.items():
+        moving = moving_part(model, ends)
+        num[g] += spin.work(moving) @ spin.solve(spin.torque)
+        den[g] -= spin.work(moving) @ spin.solve(spin.slope)
+    return spins
 
 
 def _relative(num: Array, rounding: Array, work: Array) -> Array:
@@ -136,10 +149,9 @@ def _without_snaps(
     return np.where(snapped, 0.0, wanted), released
 
 
-def _viscous_work(model: Model, ends: EndForces, moving: Array, label: IntArray) -> Array:
-    """Work (groups,) of the viscous forces [J]."""
-    work = np.zeros(len(ends.V0)) if ends.viscous is None else model.space.totals(ends.viscous * moving)
-    return np.asarray(np.bincount(label, weights=work))
+def _grouped(label: IntArray, values: Array | BoolArray) -> Array:
+    """Sums over the solids (parts,) of each group."""
+    return np.asarray(values if len(label) == 1 else np.bincount(label, weights=values), float)
 
 
 def _by_viscous_forces(num: Array, den: Array, supply: Array) -> tuple[Array, Array]:
@@ -196,76 +208,6 @@ def end_force_closure(model: Model, ends: EndForces) -> EnergyClosure:
     lost = work - gaps - (ends.V1 - ends.V0)
     half = np.full(len(lost), 0.5)
     return EnergyClosure(mean=ends.mean, scalar=half, missing_work=0.0 * half, clipped=False, lost=lost)
-
-
-def _energies(model: Model, ends: EndForces, moving: Array, touched: BoolArray) -> tuple[Array, Array, Array]:
-    """Missing work, its derivative with respect to the scalar a, and the rounding level (parts,).
-
-    Linear solids that nothing touches, ``touched`` (parts,) False, are balanced by internal forces alone.  Others are
-    not: there the residual of massless nodes is an error of the iterate, which the balance has to see.
-    """
-    du = ends.u1 - ends.u0
-    work = model.space.totals(ends.mean * moving)
-    still = model.space.totals(0.5 * (model.load_before + model.load) * (du - moving))
-    slave, n = model.part_of[ends.rows0.node], len(model.parts)
-    with np.errstate(invalid="ignore"):
-        d0 = np.where(ends.force0 > 0.0, ends.force0 * ends.rows0.tool_motion, 0.0)
-        d1 = np.where(ends.force1 > 0.0, ends.force1 * ends.rows1.tool_motion, 0.0)
-    driven = np.bincount(slave, weights=0.5 * (d0 + d1), minlength=n)
-    num = ends.V1 - ends.V0 - work - still - driven
-    den = model.space.totals((ends.f1 - ends.f0) * moving) + np.bincount(slave, weights=d1 - d0, minlength=n)
-    den = den + model.space.totals((model.load - model.load_before) * (du - moving))
-    rough = bool(ends.rows0.shear.count) or ends.viscous is not None
-    if not rough and model.driven:
-        loads = (model.load_before, model.load)
-        r0, r1 = (_support_forces(model, f - q, rows, p) for (f, rows, p), q in zip(ends.both, loads, strict=True))
-        num = num - model.space.totals(0.5 * (r0 + r1) * du)
-        den = den + model.space.totals((r1 - r0) * du)
-    flying = ~touched & model.linear
-    if rough or flying.any():
-        inner = _by_internal_forces(model, ends, moving)
-        num, den = (np.where(flying | rough, b, a) for a, b in zip((num, den), inner, strict=True))
-    level = np.abs(ends.V1) + np.abs(ends.V0) + model.kinetic(ends.v0) + ends.cancelled
-    level += model.space.totals(np.abs(ends.mean * moving)) + model.space.totals(np.abs(model.load * du))
-    level += np.bincount(slave, weights=np.abs(d0) + np.abs(d1), minlength=n)
-    return num, den, level
-
-
-def _by_internal_forces(model: Model, ends: EndForces, moving: Array) -> tuple[Array, Array]:
-    """Missing work and its derivative with respect to the scalar a (parts,): with friction or viscosity, or in flight.
-
-    At both ends the internal forces of massless nodes balance loads, contact and supports.  They contain all forces
-    that do work there, including friction; only the work of normal forces in closing or opening a gap is excluded.  The
-    numerator then vanishes up to rounding if a linear body flies or stays in contact, sticking or slipping.  The other
-    form has the work of the residual of the massless nodes over their way, which is rounding on a body that flies far;
-    iterates swing with it, also where viscous stresses make it grow.
-    """
-    du = ends.u1 - ends.u0
-    slave, n = model.part_of[ends.rows0.node], len(model.parts)
-    gaps = []
-    for rows, force in ((ends.rows0, ends.force0), (ends.rows1, ends.force1)):
-        with np.errstate(invalid="ignore"):
-            change = np.where(force > 0.0, force * (rows.normal_component(du) - rows.tool_motion), 0.0)
-        gaps.append(np.bincount(slave, weights=change, minlength=n))
-    still = du - moving
-    work = model.space.totals(ends.mean * moving + 0.5 * (ends.f0 + ends.f1) * still)
-    return ends.V1 - ends.V0 - work + 0.5 * (gaps[0] + gaps[1]), model.space.totals((ends.f1 - ends.f0) * du) - (
-        gaps[1] - gaps[0]
-    )
-
-
-def _blurred(model: Model, ends: EndForces) -> Array:
-    """Rounding error (parts,) of the energy balance: work of the contact forces over the rounding of positions [J]."""
-    extent = model.extent(ends.u1)
-    slave = model.part_of[ends.rows0.node]
-    force = np.bincount(slave, weights=np.abs(ends.force0) + np.abs(ends.force1), minlength=len(model.parts))
-    return np.asarray(4.0 * np.finfo(float).eps * extent * force)
-
-
-def _support_forces(model: Model, force: Array, rows: ContactRows, push: Array) -> Array:
-    """Forces (n, d) of supports on massless components; ``force`` (n, d) are internal forces less loads."""
-    out = force - rows.spread(push, model.shape)
-    return np.where(model.massive[:, None], 0.0, reactions(model.dofs, out))
 
 
 def _along_motion(model: Model, ends: EndForces, moving: Array, members: BoolArray) -> Array:

@@ -12,7 +12,7 @@ from softway.contact.slab_motion.exact_instants import ExactInstantMean
 from softway.contact.slab_motion.trajectory import Trajectory
 from softway.contact.slab_motion.trapezoid_triangle import TrapezoidTriangle
 from softway.model.model import Model
-from softway.model.time_weight import Momentum, TimeWeight, peaks
+from softway.model.time_weight import EndPeaks, Momentum, TimeWeight, peaks
 from softway.solve.equations.slab_values import SlabStart
 
 
@@ -136,6 +136,8 @@ def first_weight(weight: TimeWeight) -> float:
     >>> first_weight(EndPeaks())
     0.5
     """
+    if isinstance(weight, EndPeaks):
+        return 1.0 - weight.theta
     return sum(float(w) for t, w in zip(*peaks(weight), strict=True) if t == 0.0)
 
 

@@ -116,15 +116,14 @@ class SlabEquations:
         if shock is not None:
             mean, lost = mean + shock, model.space.totals(shock * (u1 - start.displacement))
         rows = self.contact.at(u1)
-        ends = replace(self._ends(u1, force, energy + lost, mean, rows, impulse), viscous=viscous)
+        ends = self._ends(u1, (force, mean, viscous), energy + lost, rows, impulse)
         coupled, completed = self._completed(ends, last)
         for found in coupled:
             energy, force, lost = energy + found.end.energy, force + found.end.force, lost + found.lost
-        residual = (
-            model.mass @ (q - start.velocity - self.unbalanced) + h * (completed.mean - model.load) - self.impulses
-        )
-        still = ~model.massive
-        residual[still] = h * moments(self.weight)[1] * (force - model.load)[still]
+        residual = model.mass @ (q - start.velocity - self.unbalanced)
+        residual += h * (completed.mean - model.load) - self.impulses
+        still = np.flatnonzero(~model.massive)
+        residual[still] = h * moments(self.weight)[1] * (force[still] - model.load[still])
         return Evaluation(
             residual=model.space.filled(residual),
             displacement=u1,
@@ -203,9 +202,9 @@ class SlabEquations:
         return ends + passed_on(self.model, found.mean_force - ends) if self.model.inert else ends
 
     def _ends(
-        self, u1: Array, force: Array, energy: Array, mean: Array, rows: ContactRows, impulse: Array
+        self, u1: Array, found: tuple[Array, Array, Array | None], energy: Array, rows: ContactRows, impulse: Array
     ) -> EndForces:
-        start, m, initial = self.start, len(rows.node), self.contact.initial
+        start, m, initial, (force, mean, viscous) = self.start, len(rows.node), self.contact.initial, found
         forces = impulse / (self.path.span * moments(self.weight)[1])
         return EndForces(
             u0=start.displacement,
@@ -222,6 +221,7 @@ class SlabEquations:
             force1=forces[:m],
             shear0=initial.traction,
             shear1=rows.shear.vectors(rows.shear.components(forces[m:])),
+            viscous=viscous,
         )
 
     def conditions(self, q: Array, end: Evaluation, frozen: FrozenOperator) -> tuple[RowCoefficients, RowConditions]:

@@ -10,7 +10,7 @@ import softway as sw
 from softway.errors import Cancelled
 from softway.heat.coupled.build import build
 from softway.march.results.step import Step
-from softway.march.slab.compiled_slabs import BatchStates
+from softway.march.slab.slab_batch import BatchStates
 from softway.model.model import Model
 
 SLABS = import_module("softway.march.slabs")

@@ -5,7 +5,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import h5py
+import numpy as np
 
+from softway.arrays import Array
 from softway.errors import InputError
 from softway.record.storage.gate.own_files import plain_file
 
@@ -87,3 +89,21 @@ def _require_array(data: h5py.Dataset, where: str) -> None:
         raise ValueError(f"{where} has chunks of {chunk} bytes")
     if data.nbytes > RATIO * data.id.get_storage_size() + SLACK:
         raise ValueError(f"{where} announces {data.shape} numbers, more than it holds")
+
+
+def write_rows(rows: h5py.Dataset, start: int, data: Array) -> None:
+    """Write data from a row on, as the end of an array.
+
+    The calls of HDF5 itself: selections of h5py take three times as long as writing the rows of a small frame.
+    """
+    values = np.ascontiguousarray(data)
+    rows.id.set_extent((start + len(values), *rows.shape[1:]))
+    if values.size:
+        place = rows.id.get_space()
+        place.select_hyperslab((start,) + (0,) * (values.ndim - 1), values.shape)
+        rows.id.write(h5py.h5s.create_simple(values.shape), place, values)
+
+
+def kept_number(group: h5py.Group, name: str) -> h5py.h5a.AttrID:
+    """Attribute of a group that is kept open, and written in place by ``write``."""
+    return h5py.h5a.open(group.id, name.encode())

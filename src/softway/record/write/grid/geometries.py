@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from softway.arrays import Array, IntArray
+from softway.arrays import IntArray
+from softway.record.storage.gate.hdf5_file import write_rows
 from softway.record.write.grid.grid_layout import Grid
 
 PACKED = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
@@ -82,13 +83,13 @@ def create_geometry(file: Any, grid: Grid, grows: bool) -> None:
         else:
             rows = 1 if name.endswith(SIZES) else max(len(data), LEAST)
             made = series(file, name, data.shape[1:], rows, dtype=data.dtype)
-            put(made, 0, data)
+            write_rows(made, 0, data)
 
 
 def add_geometry(file: Any, grid: Grid) -> None:
     """Write a further geometry: its data before their sizes."""
     for name, data in _arrays(grid).items():
-        put(file[name], len(file[name]), data)
+        write_rows(file[name], len(file[name]), data)
 
 
 def is_last(file: Any, grid: Grid) -> bool:
@@ -119,12 +120,6 @@ def series(group: Any, name: str, shape: tuple[int, ...], rows: int, unit: str =
     if unit:
         made.attrs["unit"] = unit
     return made
-
-
-def put(rows: Any, start: int, data: Array) -> None:
-    """Write data from a row on, as the end of an array."""
-    rows.resize(start + len(data), axis=0)
-    rows[start:] = data
 
 
 def shorten(rows: Any, count: int) -> None:

@@ -24,18 +24,16 @@ from softway.record.storage.uninterrupted import uninterrupted
 from softway.record.write.grid.geometries import (
     LEAST,
     SIZES,
-    add_geometry,
     create_geometry,
     cut_geometries,
-    is_last,
     part,
     parts_of_frames,
-    put,
     rows_of_frame,
     series,
     shorten,
 )
 from softway.record.write.grid.grid_layout import Grid
+from softway.record.write.grid.series_end import SeriesEnd
 
 REMEDY = "a new run, or a copy of the file"
 
@@ -59,10 +57,13 @@ class GridFrame:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class GridSeries:
-    """Open file of frames; ``before`` is the number of frames in it before the first change of ``guarded``."""
+    """Open file of frames, with its ``end``; ``before`` is the number of frames in it before the first change of
+    ``guarded``.
+    """
 
     file: h5py.File
     guarded: JournaledFile
+    end: SeriesEnd
     before: int
 
     def write(self, frame: GridFrame, grid: Grid | None = None) -> None:
@@ -71,9 +72,9 @@ class GridSeries:
 
     def _write(self, frame: GridFrame, grid: Grid | None) -> None:
         with _changing(self.guarded):
-            if grid is not None and not is_last(self.file, grid):
-                add_geometry(self.file, grid)
-            _append(self.file, frame)
+            if grid is not None:
+                self.end.on(grid)
+            self.end.append(frame.time, frame.points, frame.groups)
 
     @property
     def mark(self) -> int:
@@ -121,8 +122,7 @@ def create_series(
     grows
         True if points and cells may change from frame to frame.
     """
-    file, guarded = uninterrupted(lambda: _opened(path, grid, first, units, about, grows), _close_all)
-    return GridSeries(file=file, guarded=guarded, before=0)
+    return uninterrupted(lambda: _opened(path, grid, first, units, about, grows), GridSeries.close)
 
 
 def continue_series(path: Path, mark: int) -> GridSeries:
@@ -133,13 +133,7 @@ def continue_series(path: Path, mark: int) -> GridSeries:
     InputError
         If the file has fewer frames.
     """
-    file, guarded = uninterrupted(lambda: _reopened(path, mark), _close_all)
-    return GridSeries(file=file, guarded=guarded, before=mark - 1)
-
-
-def _close_all(opened: tuple[h5py.File, JournaledFile]) -> None:
-    for file in opened:
-        file.close()
+    return uninterrupted(lambda: _reopened(path, mark), GridSeries.close)
 
 
 def _opened(
@@ -149,7 +143,7 @@ def _opened(
     units: Mapping[str, str],
     about: Mapping[str, Mapping[str, Any]],
     grows: bool,
-) -> tuple[h5py.File, JournaledFile]:
+) -> GridSeries:
     """Open a new file and write its first frame."""
     undone(path)
     with ExitStack() as failing:
@@ -161,12 +155,13 @@ def _opened(
             _write_start(file, grid, first, units, grows)
             for name, data in about.items():
                 file[name] = json.dumps(data)
-            _append(file, first)
+            end = SeriesEnd(file)
+            end.append(first.time, first.points, first.groups)
         failing.pop_all()
-    return file, guarded
+    return GridSeries(file=file, guarded=guarded, end=end, before=0)
 
 
-def _reopened(path: Path, mark: int) -> tuple[h5py.File, JournaledFile]:
+def _reopened(path: Path, mark: int) -> GridSeries:
     """Open a file and truncate it to ``mark`` frames."""
     undone(path)
     if not path.is_file():
@@ -178,8 +173,9 @@ def _reopened(path: Path, mark: int) -> tuple[h5py.File, JournaledFile]:
             file = _file(path, guarded, new=False)
             failing.callback(file.close)
             _cut(path, file, mark)
+            end = SeriesEnd(file)
         failing.pop_all()
-    return file, guarded
+    return GridSeries(file=file, guarded=guarded, end=end, before=mark - 1)
 
 
 def _file(path: Path, guarded: JournaledFile, new: bool) -> h5py.File:
@@ -258,28 +254,3 @@ def _write_start(file: h5py.File, grid: Grid, first: GridFrame, units: Mapping[s
     file.attrs["bodies"] = json.dumps(list(grid.bodies))
     file.attrs["dimension"] = grid.dimension
     steps.attrs["NSteps"] = np.int64(0)
-
-
-def _append(file: h5py.File, frame: GridFrame) -> None:
-    """Write one frame on the last geometry: first the data, then their offsets, then the number of frames."""
-    root = file["VTKHDF"]
-    steps, k = root["Steps"], int(root["Steps"].attrs["NSteps"])
-    own = part(root, len(root[SIZES[0]]) - 1)
-    points, cells = rows_of_frame(root, np.append(parts_of_frames(root, k), own.number))
-    put(root["Points"], points.start, frame.points)
-    for (group, arrays), rows in zip(frame.groups.items(), (points, cells), strict=True):
-        for name, data in arrays.items():
-            if len(data) != rows.stop - rows.start:
-                raise ValueError(f"{len(data)} values of {name} on a grid with {rows.stop - rows.start}")
-            put(root[group][name], rows.start, data)
-            put(steps[f"{group}Offsets"][name], k, np.array([rows.start]))
-    put(steps["CellDataOffsets/body"], k, np.array([own.cells.start]))
-    put(steps["PartOffsets"], k, np.array([own.number]))
-    put(steps["NumberOfParts"], k, np.array([1]))
-    put(steps["PointOffsets"], k, np.array([points.start]))
-    put(steps["CellOffsets"], k, np.array([[own.cells.start]]))
-    put(steps["ConnectivityIdOffsets"], k, np.array([[own.nodes.start]]))
-    put(steps["Values"], k, np.array([frame.time]))
-    file.flush()
-    steps.attrs["NSteps"] = np.int64(k + 1)
-    file.flush()

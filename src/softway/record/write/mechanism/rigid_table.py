@@ -7,6 +7,7 @@ from pathlib import Path
 from softway.arrays import Array
 from softway.bodies.prescribed_motion import PlacedShape, Pose
 from softway.march.results.step import Step
+from softway.march.results.step_states import Motion
 from softway.mechanisms.march import BodyState
 from softway.mechanisms.members.rigid import Rigid
 from softway.model.scene import State
@@ -74,7 +75,7 @@ class RigidReading:
         """Unit of the column."""
         return self.of.unit
 
-    def value(self, state: State, reactions: Mapping[str, Array]) -> float:
+    def value(self, state: Motion, reactions: Mapping[str, Array]) -> float:
         """Value at ``state``."""
         return self.of.at(state.rigid)
 
