@@ -7,6 +7,7 @@ import numpy as np
 from softway.arrays import Array, BoolArray
 from softway.solve.constraints.compliance import FrozenOperator
 from softway.solve.elimination.contact_sweeps import Elimination, Equations, normal_sweeps
+from softway.solve.elimination.friction_sweeps import friction_sweeps, served
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.equations.slab_values import Evaluation
 from softway.solve.linear.conjugate_gradients import Gradients
@@ -18,7 +19,7 @@ Steps = Callable[[SlabEquations, FrozenOperator, Array, Evaluation, Array, BoolA
 def eliminated(system: SlabEquations, frozen: FrozenOperator) -> bool:
     """True if closed rows are eliminated: by iterative operators, unless rows of crossing edges are redundant."""
     iterative = isinstance(frozen.factor, Gradients) and frozen.local is not None
-    return iterative and system.contact.conditions.slipping.frictionless and not system.model.contacts.crossing_edges
+    return iterative and not system.model.contacts.crossing_edges
 
 
 def pushed_exactly(system: SlabEquations, frozen: FrozenOperator) -> bool:
@@ -36,19 +37,30 @@ def contact_steps(system: SlabEquations, frozen: FrozenOperator) -> Steps:
     def step(
         system: SlabEquations, frozen: FrozenOperator, q: Array, end: Evaluation, impulse: Array, active: BoolArray
     ) -> ContactStep:
-        return _eliminated_step(elimination, system, frozen, q, end, active)
+        law = system.contact.conditions.slipping
+        if not law.frictionless and not served(law, impulse[: len(law.sliding)]):
+            return contact_step(system, frozen, q, end, impulse, active)
+        return _eliminated_step(elimination, system, frozen, q, end, (active, impulse))
 
     return step
 
 
 def _eliminated_step(
-    elimination: Elimination, system: SlabEquations, frozen: FrozenOperator, q: Array, end: Evaluation, active: BoolArray
+    elimination: Elimination,
+    system: SlabEquations,
+    frozen: FrozenOperator,
+    q: Array,
+    end: Evaluation,
+    guess: tuple[BoolArray, Array],
 ) -> ContactStep:
     dofs = system.model.dofs
     coefficients, conditions = system.conditions(q, end, frozen)
     y, residual = frozen.unturned(dofs.unknowns(q)), frozen.unturned(dofs.forces(end.residual))
     equations = Equations(residual, y, elimination.rows(coefficients, frozen))
-    found = normal_sweeps(elimination, equations, conditions, active, system.effort)
+    if conditions.slipping.frictionless:
+        found = normal_sweeps(elimination, equations, conditions, guess[0], system.effort)
+    else:
+        found = friction_sweeps(elimination, equations, conditions, guess, system.effort)
 
     def bare() -> Array:
         rows = equations.matrix
