@@ -9,6 +9,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array
+from softway.kernels.linalg.dense import solve_dense
+from softway.solve.constraints.compliance import FrozenOperator, RowBasis
+from softway.solve.constraints.normal_active_set import delassus
+from softway.solve.constraints.row_basis import RowCoefficients, UnitRows
 from softway.solve.linear.backends.superlu import SuperLU
 from softway.solve.linear.interface import Factor
 
@@ -81,6 +85,25 @@ class ClosedRows:
     def removed(self, z: Array) -> Array:
         """The field z (f,) without its motion of the rows: its projection on ``G z = 0`` in the norm of D."""
         return z - self.motion(self.matrix @ z)
+
+
+def row_matrix(coefficients: RowCoefficients, basis: RowBasis) -> sp.csr_array:
+    """Rows G (m, f) on the unknowns, in the axes of an operator, from their coefficients along its directions."""
+    if not isinstance(coefficients, UnitRows):
+        return sp.csr_array(coefficients.matrix @ basis.transposed)
+    own = np.flatnonzero(coefficients.index >= 0)
+    shape = (len(coefficients.index), basis.transposed.shape[0])
+    unit = sp.csr_array((np.ones(len(own)), (own, coefficients.index[own])), shape=shape)
+    return sp.csr_array(unit @ basis.transposed)
+
+
+def forces_of_motion(frozen: FrozenOperator, coefficients: RowCoefficients, wanted: Array) -> Array:
+    """Multipliers (k,) that move rows by ``wanted`` (k,) against an operator: by its compliance, or by nodal blocks if
+    its solutions are not reproducible to machine precision.
+    """
+    if frozen.local is None:
+        return solve_dense(delassus(frozen, coefficients), wanted)
+    return ClosedRows.of(row_matrix(coefficients, frozen.basis), frozen.local).forces(wanted)
 
 
 def _lifted(matrix: sp.csc_array) -> Factor:

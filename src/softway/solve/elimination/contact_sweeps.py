@@ -11,7 +11,7 @@ from softway.solve.constraints.compliance import FrozenOperator
 from softway.solve.constraints.normal_active_set import RowConditions
 from softway.solve.constraints.row_basis import RowCoefficients, UnitRows
 from softway.solve.effort import Effort
-from softway.solve.elimination.closed_rows import ClosedRows
+from softway.solve.elimination.closed_rows import ClosedRows, row_matrix
 from softway.solve.linear.conjugate_gradients import Gradients
 from softway.solve.linear.interface import Factor
 
@@ -68,16 +68,12 @@ class Elimination:
 
     def rows(self, coefficients: RowCoefficients, frozen: FrozenOperator) -> sp.csr_array:
         """Rows G (m, f) in the axes of the operator, from their coefficients along its directions."""
-        basis = frozen.basis
         if not isinstance(coefficients, UnitRows):
             self.closed, self.known = None, b""
-            return sp.csr_array(coefficients.matrix @ basis.transposed)
+            return row_matrix(coefficients, frozen.basis)
         key = coefficients.index.tobytes()
         if self.known != key or not self.known:
-            own = np.flatnonzero(coefficients.index >= 0)
-            shape = (len(coefficients.index), basis.transposed.shape[0])
-            unit = sp.csr_array((np.ones(len(own)), (own, coefficients.index[own])), shape=shape)
-            self.closed, self.known, self.matrix = None, key, sp.csr_array(unit @ basis.transposed)
+            self.closed, self.known, self.matrix = None, key, row_matrix(coefficients, frozen.basis)
         return self.matrix
 
     def of(self, matrix: sp.csr_array, index: IntArray) -> ClosedRows:

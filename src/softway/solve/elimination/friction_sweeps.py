@@ -1,8 +1,8 @@
 """Contact with friction by elimination: rows that stick do not move, rows that slip push with the force of the law.
 
 Normals of touching rows and tangents of sticking ones are closed rows.  The forces of slipping rows are those of the
-iterate before; the step gives the slip, and the return map of the trial ``s - slip/c`` the next force, with c the
-compliance of a row against the nodal blocks alone.  A solution is independent of c.
+iterate before; the step gives the slip, and the return map of the trial ``s - slip/c`` the next force, with c a
+part of the compliance of a row against the nodal blocks alone.  A solution is independent of c.
 """
 
 from dataclasses import dataclass, replace
@@ -16,6 +16,9 @@ from softway.solve.constraints.return_map import SlipConditions, return_map
 from softway.solve.constraints.turning_slip import chord_force, end_force
 from softway.solve.effort import Effort
 from softway.solve.elimination.contact_sweeps import SWEEPS, Elimination, Equations, Swept
+
+FIRMER = 0.5
+"""Part of the compliance c in the trial forces: the solution does not depend on it, and the iterations least here."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,7 +87,7 @@ def friction_sweeps(
 def _soft(elimination: Elimination, equations: Equations, m: int) -> Array:
     """Compliance (m,) of the rows along their surface, against the nodal blocks alone."""
     tangents = equations.matrix[m:]
-    felt = tangents.multiply(elimination.local.solve(sp.csc_array(tangents.T)).T)
+    felt = FIRMER * tangents.multiply(elimination.local.solve(sp.csc_array(tangents.T)).T)
     soft = np.asarray(felt.sum(axis=1)).reshape(m, -1).mean(axis=1)
     return np.maximum(soft, 1e-12 * max(float(soft.max(initial=0.0)), 1e-300))
 
