@@ -17,7 +17,7 @@ from softway.solve.operators.multigrid import Multigrid, available
 FILL = {1: (3.0, 1.0), 2: (12.0, 1.15), 3: (19.0, 4.0 / 3.0)}
 """Coefficients (c, p) of the number of factor entries ``c f^p`` of f unknowns, by the dimension of the cells: measured
 with nested dissection."""
-STREAM = 0.016
+STREAM = 0.02
 """Time per factor entry in a solution, relative to the time per unknown in a product with the stored matrix: measured
 in contact slabs of cubes (docs/theory/solver/elimination.md)."""
 STORED = 1000.0
