@@ -120,7 +120,8 @@ def normal_sweeps(
     moved = np.diff(equations.matrix.indptr) > 0
     active = (rows.equal | (guess & rows.unilateral)) & moved
     slack = np.where(rows.unilateral & moved, equations.matrix @ equations.y - rows.target, 0.0)
-    floor, answer = rows.missable(slack), None
+    floor = rows.missable(slack)
+    answer: Answer | None = None
     for sweep in range(SWEEPS):
         index = np.flatnonzero(active)
         effort.step(f"contact of {len(active)} rows, {len(index)} active, exchange {sweep}")
@@ -132,4 +133,5 @@ def normal_sweeps(
         if not wrong.any():
             return Swept(answer.d, multiplier, active, settled=True)
         active = active ^ wrong
+    assert answer is not None
     return Swept(answer.d, np.where(rows.unilateral, np.maximum(multiplier, 0.0), multiplier), active, settled=False)

@@ -15,7 +15,7 @@ from softway.solve.constraints.normal_active_set import RowConditions
 from softway.solve.constraints.return_map import SlipConditions, return_map
 from softway.solve.constraints.turning_slip import chord_force, end_force
 from softway.solve.effort import Effort
-from softway.solve.elimination.contact_sweeps import SWEEPS, Elimination, Equations, Swept
+from softway.solve.elimination.contact_sweeps import SWEEPS, Answer, Elimination, Equations, Swept
 
 FIRMER = 0.5
 """Part of the compliance c in the trial forces: the solution does not depend on it, and the iterations least here."""
@@ -64,8 +64,11 @@ def friction_sweeps(
     moved = np.diff(equations.matrix.indptr) > 0
     offset = np.concatenate([rows.target, rows.slipping.shift.ravel()])
     slack = np.where(moved, equations.matrix @ equations.y - offset, 0.0)
-    law = _Law(rows, moved[:m] & (rows.unilateral | rows.equal), rows.missable(slack[:m]), _soft(elimination, equations, m))
-    status, answer = law.first(*guess), None
+    law = _Law(
+        rows, moved[:m] & (rows.unilateral | rows.equal), rows.missable(slack[:m]), _soft(elimination, equations, m)
+    )
+    status = law.first(*guess)
+    answer: Answer | None = None
     for sweep in range(SWEEPS):
         index = np.flatnonzero(status.closed & moved)
         effort.step(f"friction of {m} rows, {np.count_nonzero(status.touch)} touch, exchange {sweep}")
@@ -73,9 +76,11 @@ def friction_sweeps(
         answer = elimination.solve(pushed, index, offset[index], answer)
         multiplier = status.forces
         multiplier[index] = answer.multiplier
-        now, status = status, law.next(status, multiplier, slack + equations.matrix @ answer.d)
+        motion = slack + equations.matrix @ answer.d
+        now, status = status, law.next(status, multiplier, motion)
         if now.same(status):
             break
+    assert answer is not None
     both = now.slip & status.slip
     missed = float((law.soft[:, None] * np.abs(status.push - now.push))[both].max(initial=0.0))
     tangential = np.where(both[:, None], status.push, multiplier[m:].reshape(m, k))
@@ -94,8 +99,8 @@ def _soft(elimination: Elimination, equations: Equations, m: int) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Law:
-    """Conditions of the rows, those that are ``normal`` (m,) contact, the admissible overlap, and the compliance ``soft``
-    (m,) along the surface.
+    """Conditions of the ``rows``, those that may touch (``normal``, (m,)), the admissible overlap ``floor``, and the
+    compliance ``soft`` (m,) along the surface.
     """
 
     rows: RowConditions

@@ -144,7 +144,11 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
         seen = seen.after(it.change, resolved)
         failure = f"{count} iterations leave a relative change of {it.change / scale:.1e} (tolerance {tolerance:.0e})"
         near = it.change <= tolerance * scale
-        if it.sound and it.change < 0.5 * closest and (near or _stagnates(system, it, seen.since, (scale, resolved), tolerance)):
+        if (
+            it.sound
+            and it.change < 0.5 * closest
+            and (near or _stagnates(system, it, seen.since, (scale, resolved), tolerance))
+        ):
             closest, end = it.change, it.system.evaluate(it.q, it.impulse)
             fell = contraction(first, it.change, count)
             yield Solution(last=it, end=end, predicted=predicted, iterations=count, contraction=fell)

@@ -57,7 +57,10 @@ class MatrixFree:
 
         local = nodal(slab, u)
         return BuiltOperator(
-            factor=Gradients(times, local, self.tolerance, self.limit, model.space), local=local, analysis=None, price=1.0
+            factor=Gradients(times, local, self.tolerance, self.limit, model.space),
+            local=local,
+            analysis=None,
+            price=1.0,
         )
 
 

@@ -65,7 +65,9 @@ class Multigrid:
         levels = pyamg.smoothed_aggregation_solver(
             sp.csr_matrix(matrix), B=motions, smooth=LOCAL, presmoother=SMOOTHER, postsmoother=SMOOTHER
         )
-        gradients = Gradients(matrix.dot, _Cycle(levels.aspreconditioner()), self.tolerance, self.limit, slab.model.space)
+        gradients = Gradients(
+            matrix.dot, _Cycle(levels.aspreconditioner()), self.tolerance, self.limit, slab.model.space
+        )
         return BuiltOperator(factor=gradients, local=nodal(slab, u), analysis=None, price=10.0)
 
 

@@ -85,7 +85,9 @@ def assert_alike(ours: Run, exact: Run) -> None:
     assert abs(ours.last.ledger.energy_error) < 1e-11 * ENERGY
 
 
-@pytest.mark.parametrize(("step", "slabs", "most"), [(5e-4, 100, 770), (2e-3, 25, 270)])
+@pytest.mark.parametrize(
+    ("step", "slabs", "most"), [pytest.param(5e-4, 100, 770, marks=pytest.mark.slow), (2e-3, 25, 270)]
+)
 def test_oblique_impact_takes_the_iterations_of_exact_columns(step: float, slabs: int, most: int) -> None:
     """Nodal blocks alone took 1,211 and 325 iterations."""
     exact, ours = (run(cube(9), step, slabs, o) for o in (Factored(), MatrixFree()))
@@ -93,11 +95,13 @@ def test_oblique_impact_takes_the_iterations_of_exact_columns(step: float, slabs
     assert_alike(ours, exact)
 
 
+@pytest.mark.slow
 def test_exact_inner_solutions_give_the_iterations_of_exact_columns() -> None:
     exact, ours = (run(cube(9), 2e-3, 25, o) for o in (Factored(), ConjugateGradients(tolerance=1e-6)))
     assert ours.iterations == pytest.approx(exact.iterations, rel=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("courant", [1.16, 4.64])
 def test_inner_steps_do_not_grow_with_the_mesh(courant: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """They depend on the cells that a wave crosses in a slab, not on the number of cells."""

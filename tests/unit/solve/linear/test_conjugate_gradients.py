@@ -56,7 +56,7 @@ def test_a_step_has_one_reduction_of_two_numbers(problem: Problem) -> None:
     gradients = problem.gradients(1e-6, Counting(()))
     found = gradients.descend(problem.right, lambda r: (r, gradients.preconditioner.solve(r)))
     assert 3 < found.steps <= 13
-    assert REDUCTIONS == [(12, 2)] * found.steps
+    assert [(12, 2)] * found.steps == REDUCTIONS
 
 
 def test_the_last_step_is_taken_where_its_residual_meets_the_tolerance(problem: Problem) -> None:

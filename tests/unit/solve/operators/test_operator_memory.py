@@ -14,8 +14,8 @@ from softway.model.build import build
 from softway.model.model import Model
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.equations.slab_matrix import SlabMatrix
-from softway.solve.operators import ConjugateGradients, Factored, MatrixFree, Multigrid, choose_operator
 from softway.solve.linear.conjugate_gradients import Gradients
+from softway.solve.operators import ConjugateGradients, Factored, MatrixFree, Multigrid, choose_operator
 from softway.solve.operators.matrix_free import Blocks
 from softway.solve.operators.nodal_rotation import nodal_rotation
 from softway.solve.operators.operator_memory import OperatorMemory
