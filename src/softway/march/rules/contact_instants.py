@@ -5,14 +5,13 @@ import numpy as np
 from softway.arrays import Array, BoolArray
 from softway.contact.contact_rows import ContactRows
 from softway.kernels.geometry.event_times import fading
-from softway.kernels.linalg.dense import solve_dense
 from softway.march.results.slab_result import contact_event
 from softway.march.results.step import Event
 from softway.march.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.slab import Slab
 from softway.model.time_weight import moments
-from softway.solve.constraints.normal_active_set import delassus
+from softway.solve.elimination.closed_rows import forces_of_motion
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.methods.iteration import Solution
 
@@ -57,8 +56,8 @@ def releases(
     frozen = solution.last.memory.frozen
     if not len(left) or frozen is None:
         return []
-    compliance = delassus(frozen, frozen.coefficients(rows, solution.last.system.model.dofs).subset(left))
-    tension = solve_dense(compliance, rows.gap(end)[left]) * 2.0 / h / (h * moments(slab.weight)[1])
+    coefficients = frozen.coefficients(rows, solution.last.system.model.dofs).subset(left)
+    tension = forces_of_motion(frozen, coefficients, rows.gap(end)[left]) * 2.0 / h / (h * moments(slab.weight)[1])
     tau = fading(now.pressure[left], -np.maximum(tension, 1e-300))
     after: Array = 0.5 * rows.normal_component(solution.last.q) - rows.tool_motion / h
     return [

@@ -142,6 +142,14 @@ class FrozenOperator:
             return self._times(self.factor.solve(b))
         return self._times(np.asarray(self.turning @ self.factor.solve(self.turning.T @ b)))
 
+    def unturned(self, field: Array) -> Array:
+        """Field (f,) in the axes in which the operator was made, ``R^T`` times the field."""
+        return field if self.turning is None else np.asarray(self.turning.T @ field)
+
+    def turned_back(self, field: Array) -> Array:
+        """Field (f,) from the axes in which the operator was made, ``R`` times the field."""
+        return field if self.turning is None else np.asarray(self.turning @ field)
+
     @property
     def exact(self) -> bool:
         """True if contact forces are solved for with the operator itself."""

@@ -13,16 +13,15 @@ from softway.bodies.assembled.vector_space import VectorSpace
 from softway.errors import InputError
 from softway.solve.checks import check_accuracy
 from softway.solve.constraints.compliance import FrozenOperator
-from softway.solve.constraints.normal_active_set import without_contact
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.equations.slab_values import Evaluation
 from softway.solve.methods.anderson import Anderson
-from softway.solve.methods.contact_step import contact_step
+from softway.solve.methods.eliminated_step import contact_steps, pushed_exactly
 from softway.solve.methods.facet_check import check_facets
 from softway.solve.methods.iteration import Guess, Iterate, lost
 from softway.solve.methods.newton import Newton
 from softway.solve.methods.renewal import RETREATS, WINDOW, Course
-from softway.solve.operators import Factored, MatrixFree, Multigrid
+from softway.solve.operators import ConjugateGradients, Factored, MatrixFree, Multigrid
 from softway.solve.operators.operator_refresh import refreshed, renewed_inside
 
 POOR = 0.8
@@ -66,7 +65,7 @@ class FixedPoint:
     depth: int = 8
     tolerance: float = 1e-11
     limit: int = 60
-    operator: Factored | MatrixFree | Multigrid | Literal["auto"] = "auto"
+    operator: Factored | ConjugateGradients | MatrixFree | Multigrid | Literal["auto"] = "auto"
     handover: bool = True
 
     def __post_init__(self) -> None:
@@ -135,19 +134,19 @@ class FixedPoint:
         frozen = memory.frozen.in_iteration()
         dofs, space = system.model.dofs, system.model.space
         system = system.prepared(frozen)
-        mixing = _Mixing(Anderson(self.depth, space.of_unknowns), frozen, space)
-        last, stuck, part = np.inf, 0, 1.0
+        steps = contact_steps(system, frozen)
+        mixing = _Mixing(Anderson(self.depth, space.of_unknowns), frozen, space, pushed_exactly(system, frozen))
+        last, stuck, part, plain = np.inf, 0, 1.0, np.zeros(0)
         for count in itertools.count():
             system = system.with_kept_facets_after(end.displacement, active, count)
             if not space.every(np.isfinite(dofs.forces(end.residual))):
                 yield lost(Guess(q=q, impulse=impulse, active=active, memory=memory), system)
                 return
-            step = contact_step(system, frozen, q, end, impulse, active)
-            if count == 0:
-                plain = step.rows.from_basis(without_contact(step.free, frozen, step.rows.spread(impulse)))
+            step = steps(system, frozen, q, end, impulse, active)
+            plain = step.bare() if count == 0 else plain
             before = system.unknowns(q)
             system, new = system.followed(q, step.q, end)
-            change = space.greatest(new - q)
+            change = max(space.greatest(new - q), step.missed)
             sound, completed = check_facets(system, new, change)
             yield Iterate(
                 q=new,
@@ -157,7 +156,7 @@ class FixedPoint:
                 free=plain,
                 memory=memory,
                 system=system,
-                sound=sound,
+                sound=sound and step.settled,
             )
             system = completed
             stuck = stuck + 1 if change > 0.99 * last else 0
@@ -187,17 +186,18 @@ def _starts_flowing(system: SlabEquations) -> bool:
 class _Mixing:
     """Accelerator of velocities and impulses: the residuals and closures of the map depend on both.
 
-    The residual to be minimised contains the impulses only if the operator solves for contact approximately: an exact
-    one gives those of the mixed velocities, up to higher order.
+    The residual to be minimised contains the impulses only if those of an iterate depend on those before: ``exact``
+    ones are those of the mixed velocities, up to higher order.
     """
 
     accelerator: Anderson
     frozen: FrozenOperator
     space: VectorSpace
+    exact: bool
 
     def mixed(self, x: tuple[Array, Array], value: tuple[Array, Array]) -> tuple[Array, Array]:
         """Next velocities (f,) and impulses (m,), from the arguments ``x`` of the map and its ``value``."""
-        if self.frozen.exact:
+        if self.exact:
             found = self.accelerator.mix(x[0], np.concatenate(value))
             return found[: len(x[0])], found[len(x[0]) :]
         unit = self.space.greatest(self.frozen.solve_push(np.ones(self.frozen.basis.directions.shape[1])))

@@ -85,6 +85,9 @@ STANDSTILL = ((6, 1e-9), (12, 1e-8))
 """Numbers of iterations without progress after which a change is accepted, and the change relative to the greatest
 velocity: changes of mixed iterates may stagnate for as many iterations as the mixing uses, and then decrease again.
 """
+ITERATIVE = 10.0
+"""Greatest such change by an operator that solves approximately, relative to the tolerance: its error is not rounding.
+"""
 WILD = 100.0
 """Velocity of an iterate, relative to all that may cause it, beyond which the iteration has gone astray."""
 SELF_BALANCED = 1e-12
@@ -142,7 +145,11 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
         seen = seen.after(it.change, resolved)
         failure = f"{count} iterations leave a relative change of {it.change / scale:.1e} (tolerance {tolerance:.0e})"
         near = it.change <= tolerance * scale
-        if it.sound and it.change < 0.5 * closest and (near or _stagnates(system, it, seen.since, (scale, resolved))):
+        if (
+            it.sound
+            and it.change < 0.5 * closest
+            and (near or _stagnates(system, it, seen.since, (scale, resolved), tolerance))
+        ):
             closest, end = it.change, it.system.evaluate(it.q, it.impulse)
             fell = contraction(first, it.change, count)
             yield Solution(last=it, end=end, predicted=predicted, iterations=count, contraction=fell)
@@ -174,13 +181,14 @@ def _require_reason(system: SlabEquations, it: Iterate, scale: float) -> None:
         raise NoConvergence(f"an iterate moves a node at {scale:.3g} m/s, where all causes give {caused:.3g} m/s")
 
 
-def _stagnates(system: SlabEquations, it: Iterate, since: int, speeds: tuple[float, float]) -> bool:
+def _stagnates(system: SlabEquations, it: Iterate, since: int, speeds: tuple[float, float], tolerance: float) -> bool:
     """True if the iteration stagnates at the rounding level, with ``since`` iterations since the change last halved.
 
     ``speeds`` are the greatest velocity and that of :func:`resolved_speed` [m/s].
     """
     scale, resolved = speeds
-    if any(since >= n and it.change <= fraction * scale for n, fraction in STANDSTILL):
+    most = ITERATIVE * tolerance if it.memory.frozen is not None and not it.memory.frozen.exact else np.inf
+    if any(since >= n and it.change <= min(fraction, most) * scale for n, fraction in STANDSTILL):
         return True
     return since >= 4 and (it.change <= SELF_BALANCED * _pushed(system, it) or it.change <= resolved)
 

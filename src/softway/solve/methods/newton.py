@@ -11,7 +11,6 @@ from softway.arrays import Array
 from softway.bodies.assembled.vector_space import VectorSpace
 from softway.solve.checks import check_accuracy
 from softway.solve.constraints.compliance import FrozenOperator
-from softway.solve.constraints.normal_active_set import without_contact
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.equations.slab_values import Evaluation
 from softway.solve.methods.contact_step import contact_step
@@ -105,7 +104,7 @@ class Newton:
                 change=change,
                 impulse=found.impulse,
                 active=active,
-                free=found.rows.from_basis(without_contact(found.free, frozen, found.rows.spread(impulse))),
+                free=found.bare(),
                 memory=memory,
                 system=system,
                 sound=sound,

@@ -1,18 +1,17 @@
 """Conjugate gradients without a matrix, preconditioned by the diagonal blocks of the nodes."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array
-from softway.bodies.assembled.vector_space import LocalSpace, VectorSpace
 from softway.errors import NoConvergence
 from softway.model.model import Model
 from softway.solve.checks import check_products
 from softway.solve.equations.slab_matrix import SlabMatrix
-from softway.solve.linear.interface import Analysis, Factor
+from softway.solve.linear.conjugate_gradients import Gradients
+from softway.solve.linear.interface import Analysis
 from softway.solve.operators.interface import BuiltOperator
 
 
@@ -97,39 +96,3 @@ def nodal(slab: SlabMatrix, u: Array) -> Blocks:
         return Blocks(model.dofs.block_inverse(blocks))
     except np.linalg.LinAlgError:
         raise NoConvergence("a node has neither inertia nor stiffness") from None
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Gradients:
-    """Conjugate gradients with a product ``times`` and a ``preconditioner``, on unknowns of a ``space``."""
-
-    times: Callable[[Array], Array]
-    preconditioner: Factor
-    tolerance: float
-    limit: int
-    space: VectorSpace = LocalSpace(())
-    bytes: int = 0
-    indefinite: bool = False
-
-    def solve(self, b: Array) -> Array:
-        """Solution (f,) or (f, k) to the tolerance; directions of negative curvature end the iteration."""
-        if b.ndim == 2:
-            return np.stack([self.solve(column) for column in b.T], axis=1)
-        x, r = np.zeros_like(b), b.copy()
-        z = self.preconditioner.solve(r)
-        p, rho = z, self.space.dot(r, z)
-        goal = self.tolerance**2 * rho
-        for _ in range(self.limit):
-            if rho <= goal or rho <= 0.0:
-                break
-            Ap = self.times(p)
-            curvature = self.space.dot(p, Ap)
-            if curvature <= 0.0:
-                break
-            alpha = rho / curvature
-            x += alpha * p
-            r -= alpha * Ap
-            z = self.preconditioner.solve(r)
-            rho, last = self.space.dot(r, z), rho
-            p = z + (rho / last) * p
-        return x

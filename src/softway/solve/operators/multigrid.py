@@ -14,9 +14,10 @@ from softway.errors import InputError
 from softway.model.model import Model
 from softway.solve.checks import check_products
 from softway.solve.equations.slab_matrix import SlabMatrix
+from softway.solve.linear.conjugate_gradients import Gradients
 from softway.solve.linear.interface import Analysis
 from softway.solve.operators.interface import BuiltOperator
-from softway.solve.operators.matrix_free import Gradients, nodal
+from softway.solve.operators.matrix_free import nodal
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,7 +65,9 @@ class Multigrid:
         levels = pyamg.smoothed_aggregation_solver(
             sp.csr_matrix(matrix), B=motions, smooth=LOCAL, presmoother=SMOOTHER, postsmoother=SMOOTHER
         )
-        gradients = Gradients(matrix.dot, _Cycle(levels.aspreconditioner()), self.tolerance, self.limit)
+        gradients = Gradients(
+            matrix.dot, _Cycle(levels.aspreconditioner()), self.tolerance, self.limit, slab.model.space
+        )
         return BuiltOperator(factor=gradients, local=nodal(slab, u), analysis=None, price=10.0)
 
 

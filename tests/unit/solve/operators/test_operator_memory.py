@@ -14,8 +14,9 @@ from softway.model.build import build
 from softway.model.model import Model
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.equations.slab_matrix import SlabMatrix
-from softway.solve.operators import Factored, MatrixFree, Multigrid, choose_operator
-from softway.solve.operators.matrix_free import Blocks, Gradients
+from softway.solve.linear.conjugate_gradients import Gradients
+from softway.solve.operators import ConjugateGradients, Factored, MatrixFree, Multigrid, choose_operator
+from softway.solve.operators.matrix_free import Blocks
 from softway.solve.operators.nodal_rotation import nodal_rotation
 from softway.solve.operators.operator_memory import OperatorMemory
 
@@ -140,7 +141,7 @@ def test_products_are_preferred_where_they_cost_less_than_a_solution_with_the_fa
     assert isinstance(choose_operator(slab(0.1), 1e12).operator, Factored)
     monkeypatch.setattr("softway.solve.operators.choice.STREAM", 1.0)
     chosen = choose_operator(slab(0.1), 1e12)
-    assert isinstance(chosen.operator, MatrixFree) and "cost less than a solution" in chosen.reason
+    assert isinstance(chosen.operator, ConjugateGradients) and "cost less than a solution" in chosen.reason
     assert isinstance(choose_operator(slab(200.0), 1e12).operator, Factored)
 
 

@@ -1,0 +1,1 @@
+"""Contact by elimination of the closed rows inside conjugate gradients."""

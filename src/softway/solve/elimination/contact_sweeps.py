@@ -1,0 +1,137 @@
+"""Contact by elimination: active sets of rows without friction, whose closed rows conjugate gradients respect."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.arrays import Array, BoolArray, IntArray, greatest
+from softway.solve.constraints.compliance import FrozenOperator
+from softway.solve.constraints.normal_active_set import RowConditions
+from softway.solve.constraints.row_basis import RowCoefficients, UnitRows
+from softway.solve.effort import Effort
+from softway.solve.elimination.closed_rows import ClosedRows, row_matrix
+from softway.solve.linear.conjugate_gradients import Gradients
+from softway.solve.linear.interface import Factor
+
+SWEEPS = 4
+"""Greatest number of active sets in one iteration; the next iteration goes on with the last one."""
+CLOSED = 1e-13
+"""Distance of closed rows from their targets, relative to the greatest, that is corrected without a product."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Equations:
+    """Linear equations of one iteration: residual r (f,) at y (f,), and rows G (m, f), in the axes of the operator."""
+
+    residual: Array
+    y: Array
+    matrix: sp.csr_array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Answer:
+    """Step d (f,) with closed rows, its product ``Ad`` (f,), and the multipliers (c,) of these rows."""
+
+    d: Array
+    Ad: Array
+    multiplier: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Swept:
+    """Step d (f,), multipliers (m,), active rows (m,); ``settled`` if they are those of the step; and the velocity that
+    forces of slip still ``miss`` [m/s].
+    """
+
+    d: Array
+    multiplier: Array
+    active: BoolArray
+    settled: bool
+    missed: float = 0.0
+
+
+class Elimination:
+    """Elimination of closed rows for the iterations of one slab.
+
+    It keeps the rows of the last iteration with their factor, which serve again while the active set stays and the rows
+    do not turn.
+    """
+
+    __slots__ = ("closed", "gradients", "key", "known", "local", "matrix")
+
+    def __init__(self, gradients: Gradients, local: Factor) -> None:
+        self.gradients, self.local = gradients, local
+        self.closed: ClosedRows | None = None
+        self.key, self.known, self.matrix = b"", b"", sp.csr_array((0, 0))
+
+    def rows(self, coefficients: RowCoefficients, frozen: FrozenOperator) -> sp.csr_array:
+        """Rows G (m, f) in the axes of the operator, from their coefficients along its directions."""
+        if not isinstance(coefficients, UnitRows):
+            self.closed, self.known = None, b""
+            return row_matrix(coefficients, frozen.basis)
+        key = coefficients.index.tobytes()
+        if self.known != key or not self.known:
+            self.closed, self.known, self.matrix = None, key, row_matrix(coefficients, frozen.basis)
+        return self.matrix
+
+    def of(self, matrix: sp.csr_array, index: IntArray) -> ClosedRows:
+        """Closed rows ``index`` (c,) of the rows (m, f)."""
+        key = index.tobytes()
+        if self.closed is None or key != self.key:
+            self.closed, self.key = ClosedRows.of(sp.csr_array(matrix[index]), self.local), key
+        return self.closed
+
+    def solve(self, equations: Equations, index: IntArray, target: Array, before: Answer | None) -> Answer:
+        """Minimum of ``d.A d/2 + r.d`` with ``G (y + d) = target`` (c,) on the rows ``index`` (c,), by conjugate
+        gradients from the answer ``before`` with other rows; multipliers from ``S^-1 G D^-1 (r + A d)``.
+        """
+        closed, r = self.of(equations.matrix, index), equations.residual
+        d, Ad = (np.zeros_like(r), np.zeros_like(r)) if before is None else (before.d, before.Ad)
+        missing = target - closed.matrix @ (equations.y + d)
+        if greatest(missing) > CLOSED * greatest(target):
+            part = closed.motion(missing)
+            d, Ad = d + part, Ad + self.gradients.times(part)
+        found = self.gradients.descend(-(r + Ad), self._preconditioned(closed))
+        d, Ad = d + found.x, Ad + found.Ax
+        multiplier = closed.multipliers(r + Ad)
+        return Answer(d + closed.motion(target - closed.matrix @ (equations.y + d)), Ad, multiplier)
+
+    def _preconditioned(self, closed: ClosedRows) -> Callable[[Array], tuple[Array, Array]]:
+        """Preconditioner on the fields that do not move the closed rows, and the residual without their multipliers."""
+        outer = self.gradients.preconditioner
+        if not closed.matrix.shape[0]:
+            return lambda r: (r, outer.solve(r))
+
+        def precondition(r: Array) -> tuple[Array, Array]:
+            r = closed.balanced(r)
+            return r, closed.removed(outer.solve(r))
+
+        return precondition
+
+
+def normal_sweeps(
+    elimination: Elimination, equations: Equations, rows: RowConditions, guess: BoolArray, effort: Effort
+) -> Swept:
+    """Step with normal contact: rows with a tension are opened and rows with an overlap are closed, at most ``SWEEPS``
+    times.
+    """
+    moved = np.diff(equations.matrix.indptr) > 0
+    active = (rows.equal | (guess & rows.unilateral)) & moved
+    slack = np.where(rows.unilateral & moved, equations.matrix @ equations.y - rows.target, 0.0)
+    floor = rows.missable(slack)
+    answer: Answer | None = None
+    for sweep in range(SWEEPS):
+        index = np.flatnonzero(active)
+        effort.step(f"contact of {len(active)} rows, {len(index)} active, exchange {sweep}")
+        answer = elimination.solve(equations, index, rows.target[index], answer)
+        gap = slack + equations.matrix @ answer.d
+        multiplier = np.zeros(len(active))
+        multiplier[index] = answer.multiplier
+        wrong = rows.unilateral & moved & ((active & (multiplier < 0.0)) | (~active & (gap < -floor)))
+        if not wrong.any():
+            return Swept(answer.d, multiplier, active, settled=True)
+        active = active ^ wrong
+    assert answer is not None
+    return Swept(answer.d, np.where(rows.unilateral, np.maximum(multiplier, 0.0), multiplier), active, settled=False)
