@@ -51,7 +51,7 @@ def block(cells: int = 3) -> Model:
     )
 
 
-def test_an_inner_step_is_one_exchange_and_two_reductions() -> None:
+def test_an_inner_step_is_one_exchange_and_one_reduction() -> None:
     model = block()
 
     def solve(ranks: Threads) -> tuple[dict[str, int], int]:
@@ -72,7 +72,7 @@ def test_an_inner_step_is_one_exchange_and_two_reductions() -> None:
 
     for calls, products in in_threads(2, solve):
         assert products > 5
-        assert calls == {"exchanged": products, "added": 2 * products + 1}
+        assert calls == {"exchanged": products, "added": products}
 
 
 @pytest.mark.parametrize("cells", [3, pytest.param(6, marks=pytest.mark.slow)])
@@ -89,6 +89,6 @@ def test_the_traffic_of_an_iteration_does_not_depend_on_the_size(cells: int) -> 
 
     calls, iterations, slabs = in_threads(2, march)[0]
     assert iterations > 8 * slabs
-    assert calls["added"] - 2 * calls["exchanged"] < 12 * iterations
+    assert calls["added"] - calls["exchanged"] < 12 * iterations
     assert calls["greatest"] < 7 * iterations
     assert calls["collected"] == 2 * slabs
