@@ -14,7 +14,7 @@ from time import process_time
 import numpy as np
 
 import softway as sw
-from softway.march.results.step import Step
+from softway.marching.results.step import Step
 from softway.model.model import Model
 
 SPEED, STEP = 4.0, 2.5e-4

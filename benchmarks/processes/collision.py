@@ -10,7 +10,7 @@ from problems import noted, now
 
 import softway as sw
 from softway.arrays import Array
-from softway.march.results.step import Step
+from softway.marching.results.step import Step
 from softway.meshes.mesh import Mesh
 
 sys.path.append(str(Path(__file__).parents[1] / "peers"))

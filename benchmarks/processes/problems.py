@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 import softway as sw
-from softway.march.results.step import Step
+from softway.marching.results.step import Step
 from softway.solve.stable_step import stable_step
 
 

@@ -16,7 +16,7 @@ from time import process_time
 
 import softway as sw
 
-SLABS = import_module("softway.march.slabs")
+SLABS = import_module("softway.marching.slabs")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 MARCH = tuple(
     f"src/softway/{part}"
     for part in (
-        "bodies", "contact", "kernels", "laws", "march", "meshes", "model", "obstacles", "solve",
+        "bodies", "contact", "kernels", "laws", "marching", "meshes", "model", "obstacles", "solve",
     )
 )  # fmt: skip
 CELLS = tuple(f"src/softway/{part}" for part in ("bodies", "kernels", "laws", "meshes"))

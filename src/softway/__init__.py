@@ -29,10 +29,10 @@ from softway.heat.coupled.build import build
 from softway.laws.bulk import J2, Hypoelastic, LinearElastic, NeoHookean
 from softway.laws.cohesive_law import BilinearCohesive
 from softway.laws.friction import Coulomb
-from softway.march.march import march
-from softway.march.results.step import Certificate, Event, Ledger, Step
-from softway.march.state.march_state import MarchState
-from softway.march.state.step_control import StepControl
+from softway.marching.march import march
+from softway.marching.results.step import Certificate, Event, Ledger, Step
+from softway.marching.state.march_state import MarchState
+from softway.marching.state.step_control import StepControl
 from softway.meshes.mesh import Mesh
 from softway.model.scene import Scene, State
 from softway.record.run import Run

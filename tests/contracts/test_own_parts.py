@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 import softway as sw
-from softway.march.results.slab_result import SlabResult
-from softway.march.rules.equilibrated import EndForceContact, Equilibrated
-from softway.march.rules.slab_rule import Attempt, Method, SlabRule
+from softway.marching.results.slab_result import SlabResult
+from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
+from softway.marching.rules.slab_rule import Attempt, Method, SlabRule
 from softway.model.model import Model
 from softway.model.time_weight import TimeWeight
 from softway.record.storage.table import RATIO

@@ -209,7 +209,7 @@ BY_SOLID = {"model.kinetic(before.start.velocity).sum()", "model.energy_and_forc
 
 def nodal_reductions(source: Source) -> Iterable[str]:
     """Sums and greatest values over nodes or unknowns beside ``VectorSpace``, in the slab and the march."""
-    if not source.name.startswith(("softway.march", "softway.solve.equations", "softway.solve.methods")):
+    if not source.name.startswith(("softway.marching", "softway.solve.equations", "softway.solve.methods")):
         return
     for node in ast.walk(source.tree):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in REDUCTIONS:

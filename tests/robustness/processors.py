@@ -35,12 +35,12 @@ LEFT = (
     "unit/contact/node_to_surface/test_node_to_facet.py",
     "unit/kernels",
     "unit/laws",
-    "unit/march/audit",
-    "unit/march/friction/test_impulse_laws.py",
-    "unit/march/motion/test_free_bodies.py",
-    "unit/march/motion/test_path_dependent_laws.py",
-    "unit/march/rules/test_central_difference.py",
-    "unit/march/state/test_march_state.py",
+    "unit/marching/audit",
+    "unit/marching/friction/test_impulse_laws.py",
+    "unit/marching/motion/test_free_bodies.py",
+    "unit/marching/motion/test_path_dependent_laws.py",
+    "unit/marching/rules/test_central_difference.py",
+    "unit/marching/state/test_march_state.py",
     "unit/mechanisms/test_couplings.py",
     "unit/mechanisms/test_forces.py",
     "unit/mechanisms/test_march_state.py",
@@ -67,7 +67,7 @@ LEFT = (
 )
 """Tests that decide nothing by numbers that may be rounded either way: they read, refuse, write and show, compute
 forces and laws in closed form, motions without contact, or one march twice; balls of piles are swept until they
-converge. The single bars of the paper and of the waves meet their walls in ``unit/march/impacts``, too.
+converge. The single bars of the paper and of the waves meet their walls in ``unit/marching/impacts``, too.
 """
 QUICK = (
     "-q",

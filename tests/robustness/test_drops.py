@@ -14,8 +14,8 @@ from softway.bodies.inertia.mass_matrix import Consistent
 from softway.bodies.inertia.mass_redistribution import redistribute_mass
 from softway.contact.contact_rows import ContactRows
 from softway.contact.tangential_rows import TangentialRows
-from softway.march.audit.certificate import violation
-from softway.march.march import march
+from softway.marching.audit.certificate import violation
+from softway.marching.march import march
 from softway.meshes.generators.shapes import box
 from softway.model.build import build
 from softway.scenario.hints.units_text import Units

@@ -10,7 +10,7 @@ import json
 from collections.abc import Mapping
 from pathlib import Path
 
-from softway.march.march import march
+from softway.marching.march import march
 from softway.scenario.checks.check import check
 from softway.scenario.scenario import Scenario
 from variants import VARIANTS, small, whole

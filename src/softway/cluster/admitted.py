@@ -11,7 +11,7 @@ from softway.bodies.solid import Driven, Guided
 from softway.contact.impact_rule import Energy
 from softway.contact.node_to_surface.node_to_tool import NodeToTool
 from softway.errors import InputError
-from softway.march.rules.slab_rule import Method
+from softway.marching.rules.slab_rule import Method
 from softway.model.model import Model
 from softway.solve.methods.fixed_point import FixedPoint
 from softway.solve.operators import MatrixFree

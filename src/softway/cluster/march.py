@@ -9,14 +9,14 @@ from softway.cluster.admitted import method_of_ranks, require_several
 from softway.cluster.rank_model import held_by, rank_model
 from softway.cluster.rank_state import on_all, on_rank
 from softway.errors import Cancel
-from softway.march.results.step import Step
-from softway.march.results.step_states import KnownStates
-from softway.march.results.trying import TryWatch
-from softway.march.slab.slab_step import stepper
-from softway.march.slabs import slabs
-from softway.march.start.preparation import prepare
-from softway.march.state.march_state import MarchState, Settings
-from softway.march.state.model_state import split_states
+from softway.marching.results.step import Step
+from softway.marching.results.step_states import KnownStates
+from softway.marching.results.trying import TryWatch
+from softway.marching.slab.slab_step import stepper
+from softway.marching.slabs import slabs
+from softway.marching.start.preparation import prepare
+from softway.marching.state.march_state import MarchState, Settings
+from softway.marching.state.model_state import split_states
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.ranks.interface import Ranks
@@ -36,15 +36,15 @@ def march_on(
     The march is prepared by every rank alike, on the whole model; the slabs are those of the ranks together.  The bits
     of all numbers are the same for any number of ranks, one included.
 
-    Parameters are those of :func:`~softway.march.start.preparation.prepare`; ``cancel`` is that of rank 0, and
+    Parameters are those of :func:`~softway.marching.start.preparation.prepare`; ``cancel`` is that of rank 0, and
     ``trying`` is called there.
 
     Raises
     ------
     InputError
-        On all ranks: what :func:`~softway.march.march.march` refuses, and what runs on one rank only.
+        On all ranks: what :func:`~softway.marching.march.march` refuses, and what runs on one rank only.
     NumericsError, Cancelled
-        On all ranks, as for :func:`~softway.march.march.march`.
+        On all ranks, as for :func:`~softway.marching.march.march`.
     """
     require_several(model, settings.method, ranks.size)
     prepared = prepare(model, settings, state)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from softway.arrays import Array
-from softway.march.state.march_state import MarchState
+from softway.marching.state.march_state import MarchState
 from softway.ranks.interface import Ranks
 from softway.ranks.partition import Holding
 

@@ -10,7 +10,7 @@ class ImpactRule(Protocol):
     """Declared impact rule.
 
     A user-defined rule also has ``slab_rule(model, method, weight)``, which prepares it for a march, see
-    :class:`softway.march.rules.slab_rule.OwnRule`.
+    :class:`softway.marching.rules.slab_rule.OwnRule`.
     """
 
     @property

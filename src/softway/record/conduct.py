@@ -9,7 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from softway.errors import Note
-from softway.march.results.step import Step
+from softway.marching.results.step import Step
 from softway.record.audit.watch import watcher
 from softway.record.first_step import chained, first_step
 from softway.record.read import summary

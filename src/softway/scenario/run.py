@@ -13,16 +13,16 @@ from softway.bodies.discretised import DiscreteSolid
 from softway.contact.surfaces.nodal_tractions import traction_map
 from softway.errors import Cancel, InputError
 from softway.heat.coupled.solid_temperature import temperatures_of
-from softway.march.audit.balances import balances, contact_forces
-from softway.march.audit.ledger import initial_ledger as audit
-from softway.march.march import march
-from softway.march.remeshing.adapted_scene import adapted_scene
-from softway.march.remeshing.forming.formed_scene import formed_scene
-from softway.march.results.step import Ledger, Step
-from softway.march.start.initial_state import without_contact
-from softway.march.start.stored_state import require_of_model
-from softway.march.state.march_state import MarchState
-from softway.march.state.model_state import ModelState, join_states, split_states
+from softway.marching.audit.balances import balances, contact_forces
+from softway.marching.audit.ledger import initial_ledger as audit
+from softway.marching.march import march
+from softway.marching.remeshing.adapted_scene import adapted_scene
+from softway.marching.remeshing.forming.formed_scene import formed_scene
+from softway.marching.results.step import Ledger, Step
+from softway.marching.start.initial_state import without_contact
+from softway.marching.start.stored_state import require_of_model
+from softway.marching.state.march_state import MarchState
+from softway.marching.state.model_state import ModelState, join_states, split_states
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.ranks.interface import Ranks

@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from softway.cluster.admitted import REMEDY, require_several
 from softway.cluster.march import march_on
 from softway.errors import Cancel, InputError
-from softway.march.results.step import Step
-from softway.march.results.trying import TryWatch
-from softway.march.state.march_state import MarchState
+from softway.marching.results.step import Step
+from softway.marching.results.trying import TryWatch
+from softway.marching.state.march_state import MarchState
 from softway.model.scene import State
 from softway.ranks.interface import Ranks
 from softway.ranks.launch import agreed

@@ -16,7 +16,7 @@ from softway.contact.contact import Contact
 from softway.errors import InputError, real
 from softway.heat.heat_contact import HeatContact
 from softway.html_tables import table as html_table
-from softway.march.state.step_control import StepControl
+from softway.marching.state.step_control import StepControl
 from softway.mechanisms.members.couplings import Gear, HeatLink
 from softway.mechanisms.members.joints import Joint
 from softway.mechanisms.members.motors import Motor

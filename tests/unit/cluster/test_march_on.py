@@ -8,9 +8,9 @@ import pytest
 
 import softway as sw
 from softway.cluster.march import march_on
-from softway.march.results.step import Step
-from softway.march.state.march_state import MarchState, Settings
-from softway.march.state.step_control import StepControl
+from softway.marching.results.step import Step
+from softway.marching.state.march_state import MarchState, Settings
+from softway.marching.state.step_control import StepControl
 from softway.model.build import build
 from softway.model.model import Model
 from softway.model.time_weight import EndPeaks

@@ -8,8 +8,8 @@ import pytest
 import softway as sw
 from softway.cluster.march import march_on
 from softway.cluster.rank_model import held_by, rank_model
-from softway.march.state.march_state import Settings
-from softway.march.state.step_control import StepControl
+from softway.marching.state.march_state import Settings
+from softway.marching.state.step_control import StepControl
 from softway.model.build import build
 from softway.model.model import Model
 from softway.model.time_weight import EndPeaks

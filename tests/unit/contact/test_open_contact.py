@@ -14,7 +14,7 @@ from softway.contact.contact import Contact, DualMortar, NodeToSurface
 from softway.contact.contact_set import ContactSet
 from softway.laws.bulk import LinearElastic, NeoHookean
 from softway.laws.friction import Coulomb, Frictionless
-from softway.march.march import march
+from softway.marching.march import march
 from softway.meshes.generators.shapes import box, rectangle
 from softway.model.build import build
 from softway.model.model import Model

@@ -9,8 +9,8 @@ import pytest
 from softway.bodies.solid import Solid, Tool
 from softway.contact.contact import Contact
 from softway.laws.bulk.linear_elastic import LinearElastic
-from softway.march.results.step import Certificate, ContactLedger, Event, Ledger, Report, Step
-from softway.march.results.step_states import KnownStates
+from softway.marching.results.step import Certificate, ContactLedger, Event, Ledger, Report, Step
+from softway.marching.results.step_states import KnownStates
 from softway.meshes.generators import shapes
 from softway.meshes.mesh import Mesh
 from softway.model.scene import Scene, State

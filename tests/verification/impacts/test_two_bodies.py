@@ -11,9 +11,9 @@ import pytest
 import softway as sw
 from orders import order
 from softway.bodies.internal_force.slab_average import SlabForce, Weighted
-from softway.march.audit.ledger import initial_ledger
-from softway.march.results.step import Step
-from softway.march.start.initial_state import initial_state
+from softway.marching.audit.ledger import initial_ledger
+from softway.marching.results.step import Step
+from softway.marching.start.initial_state import initial_state
 from softway.meshes.generators.recipes import MeshSource
 
 pytestmark = pytest.mark.slow

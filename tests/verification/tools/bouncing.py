@@ -12,7 +12,7 @@ import softway as sw
 from softway.arrays import Array
 from softway.bodies.inertia.mass_matrix import MassRule
 from softway.contact.impact_rule import ImpactRule
-from softway.march.results.step import Step
+from softway.marching.results.step import Step
 
 RUBBER = sw.NeoHookean(E=1.0, nu=0.3)
 SPEED = sqrt(0.7 / (1.3 * 0.4))

@@ -8,7 +8,7 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray
 from softway.bodies.prescribed_motion import PlacedShape
-from softway.march.results.step import Event
+from softway.marching.results.step import Event
 from softway.record.audit.geometry.chords import outside
 from softway.record.audit.geometry.inverted import inverted
 from softway.record.audit.geometry.overlap import overlaps

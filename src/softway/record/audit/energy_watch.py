@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from softway.march.results.step import Event, Ledger
+from softway.marching.results.step import Event, Ledger
 from softway.record.read.findings import DISSIPATION, ENERGY, finding
 
 GIVEN_BACK = 1e-12

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from softway.march.results.step import Event
+from softway.marching.results.step import Event
 from softway.record.audit.auditor import Depths, auditor
 from softway.record.audit.watch import AGREED
 from softway.record.read.findings import ENERGY, finding, gathered

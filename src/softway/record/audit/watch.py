@@ -8,7 +8,7 @@ import numpy as np
 
 from softway.bodies.prescribed_motion import PlacedShape
 from softway.bodies.solid import Tool
-from softway.march.results.step import Event, Step
+from softway.marching.results.step import Event, Step
 from softway.model.scene import State
 from softway.record.audit.auditor import Auditor, Depths, auditor
 from softway.record.audit.energy_watch import ENERGIES, RECEIVED, EnergyWatch, given_back, missed, received

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from softway.arrays import Array
-from softway.march.results.step import Event
+from softway.marching.results.step import Event
 
 OVERLAP, BETWEEN, INVERTED = "overlap", "overlap between nodes", "inverted cell"
 DISSIPATION, ENERGY, MOMENTUM, SPIN = "dissipation", "energy", "momentum", "spin"

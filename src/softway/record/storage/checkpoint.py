@@ -17,7 +17,7 @@ import numpy as np
 
 from softway.errors import InputError
 from softway.heat.march import HeatState
-from softway.march.state.march_state import MarchState
+from softway.marching.state.march_state import MarchState
 from softway.mechanisms.arrays import MechanismState
 from softway.piles.state import PileState
 from softway.record.storage.atomic_file import replaced

@@ -21,7 +21,7 @@ from softway.heat.coupled.heat_of_solids import HeatOfSolids
 from softway.heat.fronts.places import Fronts
 from softway.heat.ledger import HeatLedger
 from softway.heat.march import HeatState
-from softway.march.state.march_state import (
+from softway.marching.state.march_state import (
     AdaptedMeshes,
     EnergyAccount,
     MarchState,
@@ -29,8 +29,8 @@ from softway.march.state.march_state import (
     Settings,
     StepHistory,
 )
-from softway.march.state.model_state import ModelState
-from softway.march.state.step_control import StepControl
+from softway.marching.state.model_state import ModelState
+from softway.marching.state.step_control import StepControl
 from softway.mechanisms.arrays import MechanismState
 from softway.meshes.adaptive.leaves import Leaves
 from softway.meshes.mesh import Mesh

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Protocol
 
 from softway.heat.march import HeatState
-from softway.march.state.march_state import MarchState
+from softway.marching.state.march_state import MarchState
 from softway.mechanisms.arrays import MechanismState
 from softway.piles.state import PileState
 from softway.record.storage.checkpoint import RARE, Checkpoint, Checkpoints, save

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from softway.march.results.step import Event, Ledger, Step
+from softway.marching.results.step import Event, Ledger, Step
 from softway.record.storage import table
 from softway.record.storage.table import Lines
 from softway.record.write.recorder import RunStart

@@ -9,7 +9,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.bodies.solid import Tool
-from softway.march.results.step import Step
+from softway.marching.results.step import Step
 from softway.model.scene import Scene, State
 from softway.record.write.grid.grid_layout import Layout, components, layout, von_mises
 from softway.record.write.grid.grid_series import GridFrame, GridSeries, continue_series, create_series

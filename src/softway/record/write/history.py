@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from softway.march.results.step import Step
+from softway.marching.results.step import Step
 from softway.record.storage import table
 from softway.record.storage.table import Lines
 from softway.record.write.history_columns import Column, columns

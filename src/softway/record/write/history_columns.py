@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from math import nan
 from operator import attrgetter
 
-from softway.march.results.step import Ledger, Step
+from softway.marching.results.step import Ledger, Step
 from softway.record.storage import table
 from softway.record.write.recorder import RunStart
 

@@ -10,7 +10,7 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
 from softway.errors import InputError
-from softway.march.results.step_states import Motion
+from softway.marching.results.step_states import Motion
 from softway.meshes.adaptive.points import around
 from softway.meshes.adaptive.refinement import AdaptedMesh
 from softway.meshes.mesh import Mesh

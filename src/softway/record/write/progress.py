@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from math import inf
 
 from softway.heat.march import HeatStep
-from softway.march.results.step import Step
-from softway.march.results.trying import Trying
+from softway.marching.results.step import Step
+from softway.marching.results.trying import Trying
 from softway.mechanisms.march import MechanismStep
 from softway.piles.march import PileStep
 

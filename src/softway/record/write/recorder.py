@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Protocol
 
 from softway.arrays import Array, IntArray
-from softway.march.audit.balances import Balances, Pushed
-from softway.march.results.step import Ledger, Step
-from softway.march.results.step_states import Motion
+from softway.marching.audit.balances import Balances, Pushed
+from softway.marching.results.step import Ledger, Step
+from softway.marching.results.step_states import Motion
 from softway.meshes.mesh import Mesh
 from softway.model.field import Field
 from softway.model.model import Model

@@ -9,14 +9,14 @@ from softway.bodies.discretised import dofs_of
 from softway.bodies.solid import Solid
 from softway.errors import Cancel, InputError, Note, within
 from softway.heat.coupled.build import build
-from softway.march.remeshing.adaptive_march import adapted_start
-from softway.march.remeshing.admitted import adaptions, admitted
-from softway.march.remeshing.forming.formable import formable
-from softway.march.remeshing.forming.formed_scene import formed_scene
-from softway.march.rules.slab_rule import Method
-from softway.march.start.preparation import prepare
-from softway.march.start.slab_tolerance import slab_tolerance
-from softway.march.state.march_state import MarchState, Settings
+from softway.marching.remeshing.adaptive_march import adapted_start
+from softway.marching.remeshing.admitted import adaptions, admitted
+from softway.marching.remeshing.forming.formable import formable
+from softway.marching.remeshing.forming.formed_scene import formed_scene
+from softway.marching.rules.slab_rule import Method
+from softway.marching.start.preparation import prepare
+from softway.marching.start.slab_tolerance import slab_tolerance
+from softway.marching.state.march_state import MarchState, Settings
 from softway.meshes.files.listed_mesh import LeftOut
 from softway.model.model import Model
 from softway.model.scene import Scene, StaticStart

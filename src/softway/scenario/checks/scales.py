@@ -14,7 +14,7 @@ from softway.bodies.inertia.mass_matrix import Lumped
 from softway.bodies.internal_force.materials import materials_of
 from softway.bodies.solid import Solid
 from softway.contact.contact_rows import ContactRows
-from softway.march.start.initial_state import SOON
+from softway.marching.start.initial_state import SOON
 from softway.meshes.adaptive.adapt import adaption
 from softway.meshes.cells import CELLS
 from softway.meshes.mesh import Mesh

@@ -10,12 +10,12 @@ import numpy as np
 from softway.arrays import Array
 from softway.errors import Cancel, InputError, NumericsError
 from softway.heat.coupled.build import build
-from softway.march.audit.ledger import initial_ledger
-from softway.march.march import march
-from softway.march.start.initial_state import initial_state
-from softway.march.start.slab_length import proposed
-from softway.march.state.model_state import join_states, split_states
-from softway.march.state.step_control import StepControl
+from softway.marching.audit.ledger import initial_ledger
+from softway.marching.march import march
+from softway.marching.start.initial_state import initial_state
+from softway.marching.start.slab_length import proposed
+from softway.marching.state.model_state import join_states, split_states
+from softway.marching.state.step_control import StepControl
 from softway.model.model import Model
 from softway.model.scene import Scene, State
 from softway.model.time_weight import EndPeaks, TimeWeight
@@ -63,8 +63,8 @@ def contest(
 ) -> tuple[Result, ...]:
     """Compute a scene by several methods, from the same initial state and with the same slab length.
 
-    A slab (time step) that fails is tried again with half the length, as in :func:`~softway.march.march.march`, down to
-    the fraction ``LEAST``. A method that needs shorter slabs has failed; its result holds the reason.
+    A slab (time step) that fails is tried again with half the length, as in :func:`~softway.marching.march.march`,
+    down to the fraction ``LEAST``. A method that needs shorter slabs has failed; its result holds the reason.
 
     Parameters
     ----------

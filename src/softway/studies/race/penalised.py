@@ -9,8 +9,8 @@ from softway.contact.contact import DualMortar
 from softway.contact.impact_rule import Impulse
 from softway.errors import Cancel, InputError, NoConvergence, NumericsError, heed
 from softway.heat.coupled.build import build
-from softway.march.state.model_state import join_states
-from softway.march.state.step_control import StepControl
+from softway.marching.state.model_state import join_states
+from softway.marching.state.step_control import StepControl
 from softway.model.scene import Scene, State
 from softway.studies.race.penalty import Penalised, Penalty, Pressed, depths, solved
 from softway.studies.race.springs import springs, workshop

@@ -16,7 +16,7 @@ from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import SlabContacts
 from softway.contact.slab_motion.trajectory import bent
 from softway.errors import NoConvergence, positive
-from softway.march.state.step_control import StepControl
+from softway.marching.state.step_control import StepControl
 from softway.model.model import Model
 from softway.solve.stagnation import Stagnation
 from softway.studies.race.springs import Workshop, squeezed

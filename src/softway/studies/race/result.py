@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from softway.arrays import Array
-from softway.march.rules.slab_rule import Method
+from softway.marching.rules.slab_rule import Method
 from softway.studies.race.penalty import Penalty
 from softway.units import Second
 

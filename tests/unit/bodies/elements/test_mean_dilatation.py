@@ -7,7 +7,7 @@ import softway as sw
 from softway.bodies.elements.section import Axisymmetric, PlaneStrain, Section, Volume
 from softway.bodies.internal_force.assembled import force_of
 from softway.errors import InputError
-from softway.march.start.initial_state import initial_state
+from softway.marching.start.initial_state import initial_state
 
 MESHES = {
     "hex8": (sw.meshes.Box(size=(1.0, 1.0, 1.0), cells=(2, 1, 1)), Volume()),

@@ -10,7 +10,7 @@ from softway.bodies.setup.directions import directions
 from softway.bodies.setup.placement import Mirror, Placement, Rotation
 from softway.bodies.solid import Fixed, placed_together
 from softway.errors import InputError
-from softway.march.remeshing.adapted_scene import adapted_scene
+from softway.marching.remeshing.adapted_scene import adapted_scene
 from softway.meshes.adaptive.refinement import refined
 from softway.meshes.generators.shapes import box, interval, rectangle
 

@@ -7,7 +7,7 @@ from softway.contact.assembly.declared import at_declared, resolved
 from softway.contact.contact import Contact
 from softway.errors import InputError
 from softway.laws.friction.coulomb import Coulomb
-from softway.march.start.initial_state import initial_state
+from softway.marching.start.initial_state import initial_state
 from softway.obstacles import HalfSpace
 
 SOLIDS, TOOLS = ("a", "b"), ("floor", "wall")

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 import softway as sw
 from softway.bodies import Driven, Fixed, Thermal
 from softway.laws.law import RateLaw
-from softway.march.start.initial_state import initial_state
+from softway.marching.start.initial_state import initial_state
 from softway.record.storage.serialisation import packed, unpacked
 from softway.scenario.scenario import Scenario, Time
 

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from softway.march.results.step import Event
+from softway.marching.results.step import Event
 from softway.meshes.generators.graded import ring
 from softway.meshes.generators.shapes import rectangle
 from softway.meshes.mesh import Mesh

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from softway.arrays import Array
-from softway.march.march import march
-from softway.march.results.step import Event, Step
-from softway.march.results.step_states import KnownStates
+from softway.marching.march import march
+from softway.marching.results.step import Event, Step
+from softway.marching.results.step_states import KnownStates
 from softway.record.audit.watch import APART, watcher
 from softway.record.read.findings import DISSIPATION, INVERTED, KINDS, MOMENTUM, OVERLAP
 from softway.scenario.checks.check import Checked, check

@@ -13,10 +13,10 @@ import pytest
 import softway as sw
 from softway.apps import cli
 from softway.arrays import Array
-from softway.march.audit.balances import Balances, balances
-from softway.march.march import march
-from softway.march.results.step import Event, Step
-from softway.march.results.step_states import KnownStates
+from softway.marching.audit.balances import Balances, balances
+from softway.marching.march import march
+from softway.marching.results.step import Event, Step
+from softway.marching.results.step_states import KnownStates
 from softway.model.scene import State
 from softway.record.audit.energy_watch import ENERGIES
 from softway.record.audit.watch import APART, watcher

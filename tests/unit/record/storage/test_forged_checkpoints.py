@@ -19,9 +19,9 @@ import pytest
 
 import softway as sw
 from softway.apps.cli import main
-from softway.march.start.initial_state import initial_state
-from softway.march.start.stored_state import require_of_model
-from softway.march.state.march_state import MarchState
+from softway.marching.start.initial_state import initial_state
+from softway.marching.start.stored_state import require_of_model
+from softway.marching.state.march_state import MarchState
 from softway.record.storage.checkpoint import FORMAT, Damaged, last, listed, read
 from softway.scenario.checks.check import check
 from softway.scenario.files import loads

@@ -10,7 +10,7 @@ import h5py
 import numpy as np
 import pytest
 
-from softway.march.results.step_states import KnownStates
+from softway.marching.results.step_states import KnownStates
 from softway.model.field import Field
 from softway.record.read.frames import Fields
 from softway.record.write.fields import open_fields

@@ -5,7 +5,7 @@ from itertools import count
 from types import SimpleNamespace
 
 import softway as sw
-from softway.march.results.trying import Trying
+from softway.marching.results.trying import Trying
 from softway.record.write import progress
 from softway.record.write.progress import BEAT, Heartbeat
 

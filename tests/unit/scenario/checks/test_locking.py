@@ -9,7 +9,7 @@ import softway as sw
 from softway.apps.verify.cases.large_deformation.d07_cooks_membrane import raised
 from softway.bodies.elements.quadrature import Dilating
 from softway.laws.law import Material, initial_moduli
-from softway.march.start.initial_state import initial_state
+from softway.marching.start.initial_state import initial_state
 from softway.scenario.checks.locking import flowing, poisson
 
 pytestmark = pytest.mark.slow

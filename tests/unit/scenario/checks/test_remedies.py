@@ -10,7 +10,7 @@ from itertools import islice, product
 import pytest
 
 from softway.errors import InputError
-from softway.march.march import march
+from softway.marching.march import march
 from softway.model.build import build
 from softway.scenario.checks.check import check
 from softway.scenario.files import loads

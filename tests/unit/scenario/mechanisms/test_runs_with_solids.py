@@ -8,7 +8,7 @@ import pytest
 
 import softway as sw
 from softway.apps.cli.commands import main
-from softway.march.march import march
+from softway.marching.march import march
 from softway.record.audit.among_solids import audited_among_solids
 from softway.record.storage.table import read
 from softway.scenario.checks.check import check

@@ -203,14 +203,14 @@ def test_the_log_is_silent_until_it_is_configured(caplog):
     """INFO has the operator and rejected slabs, DEBUG every iterate; the host says where it goes."""
     code = (
         "import logging, softway as sw, sys; sys.stderr.write(str(logging.getLogger('softway').level)); "
-        "logging.getLogger('softway.march').warning('nobody hears this')"
+        "logging.getLogger('softway.marching').warning('nobody hears this')"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert (done.stdout, done.stderr) == ("", "0") and not logging.getLogger().isEnabledFor(logging.INFO)
     with caplog.at_level(logging.DEBUG, "softway"):
         run = sw.run(SCENARIO)
     names = {r.name for r in caplog.records}
-    assert {"softway.march.slabs", "softway.solve.methods.iteration", "softway.record.conduct"} <= names
+    assert {"softway.marching.slabs", "softway.solve.methods.iteration", "softway.record.conduct"} <= names
     assert all(n.startswith("softway.") for n in names)
     told = [r.getMessage() for r in caplog.records if r.levelno == logging.INFO]
     assert any(m.startswith("operator ") for m in told) and any("done after 20 slabs" in m for m in told)

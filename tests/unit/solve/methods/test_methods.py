@@ -13,7 +13,7 @@ from softway.contact.impact_rule import Impulse
 from softway.contact.slab_motion.trajectory import Trajectory, contact_events
 from softway.errors import Cancelled, InputError, NoConvergence
 from softway.laws.bulk import LinearElastic, NeoHookean
-from softway.march.march import march
+from softway.marching.march import march
 from softway.meshes.generators.shapes import rectangle
 from softway.model.model import Model
 from softway.model.scene import Scene

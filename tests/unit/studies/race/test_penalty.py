@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import softway as sw
-from softway.march.start.initial_state import initial_state
-from softway.march.state.model_state import split_states
+from softway.marching.start.initial_state import initial_state
+from softway.marching.state.model_state import split_states
 from softway.model.build import build
 from softway.studies.race import Penalty
 from softway.studies.race.penalised import penalised

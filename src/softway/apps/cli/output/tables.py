@@ -9,7 +9,7 @@ from rich.markup import escape
 from rich.table import Table as Grid
 
 from softway.errors import Note
-from softway.march.start.ladder import rungs
+from softway.marching.start.ladder import rungs
 from softway.record.pile.summary import told_of_pile
 from softway.record.read.findings import sentences
 from softway.record.read.heat_summary import told_of_heat

@@ -13,7 +13,7 @@ from softway.arrays import Array
 from softway.bodies.inertia.mass_matrix import MassRule
 from softway.contact.impact_rule import ImpactRule
 from softway.laws.law import StoredEnergy
-from softway.march.results.step import Step
+from softway.marching.results.step import Step
 from softway.model.scene import State
 from softway.model.time_weight import TimeWeight
 

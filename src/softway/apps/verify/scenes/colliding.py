@@ -9,7 +9,7 @@ import numpy as np
 
 import softway as sw
 from softway.arrays import Array
-from softway.march.results.step import Step
+from softway.marching.results.step import Step
 
 Method = sw.contact.DualMortar | sw.contact.NodeToSurface | None
 SIDES = {1: (), 2: (("bottom", "y"), ("top", "y")), 3: (("front", "y"), ("back", "y"), ("bottom", "z"), ("top", "z"))}

@@ -11,7 +11,7 @@ import numpy as np
 
 import softway as sw
 from softway.laws.friction_law import FrictionLaw
-from softway.march.results.step import Step
+from softway.marching.results.step import Step
 
 GRAVITY = 9.81
 

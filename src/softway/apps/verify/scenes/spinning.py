@@ -8,7 +8,7 @@ import softway as sw
 from softway.arrays import Array
 from softway.bodies.internal_force.slab_average import SlabForce
 from softway.laws.law import Material
-from softway.march.results.step import Step
+from softway.marching.results.step import Step
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

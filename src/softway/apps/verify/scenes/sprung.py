@@ -17,8 +17,8 @@ import numpy as np
 import softway as sw
 from softway.arrays import Array, IntArray
 from softway.laws.friction_law import FrictionLaw
-from softway.march.results.step import Step
-from softway.march.start.initial_state import initial_state
+from softway.marching.results.step import Step
+from softway.marching.start.initial_state import initial_state
 
 SIDE, HEIGHT = 0.5, 0.1
 COLUMN, THIN = 0.05, 5e-4

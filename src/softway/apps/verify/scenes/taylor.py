@@ -7,7 +7,7 @@ import numpy as np
 import softway as sw
 from softway.bodies.elements.section import free_axes
 from softway.bodies.internal_force.inelastic.material_points import RatePoints
-from softway.march.results.step import Step
+from softway.marching.results.step import Step
 from softway.model.model import Model
 
 LENGTH, RADIUS, SPEED, END = 32.4e-3, 3.2e-3, 227.0, 80e-6

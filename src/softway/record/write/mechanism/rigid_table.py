@@ -6,8 +6,8 @@ from pathlib import Path
 
 from softway.arrays import Array
 from softway.bodies.prescribed_motion import PlacedShape, Pose
-from softway.march.results.step import Step
-from softway.march.results.step_states import Motion
+from softway.marching.results.step import Step
+from softway.marching.results.step_states import Motion
 from softway.mechanisms.march import BodyState
 from softway.mechanisms.members.rigid import Rigid
 from softway.model.scene import State

@@ -10,8 +10,8 @@ from softway.bodies.setup.initial_fields import sample
 from softway.bodies.solid import Driven, Guided, Solid
 from softway.contact.impact_rule import Energy
 from softway.errors import Note
-from softway.march.friction.flutter import Flutter, sliding_flutter
-from softway.march.state.model_state import ModelState
+from softway.marching.friction.flutter import Flutter, sliding_flutter
+from softway.marching.state.model_state import ModelState
 from softway.model.model import Model
 from softway.tolerances import MOTION
 

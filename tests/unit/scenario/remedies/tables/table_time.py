@@ -4,7 +4,7 @@ from try_it import BAR, PLANE, Call, Table, Try
 
 from softway.bodies.solid import Solid
 from softway.laws.bulk.linear_elastic import LinearElastic
-from softway.march.march import march
+from softway.marching.march import march
 from softway.meshes.generators.recipes import Interval
 from softway.model.build import build
 from softway.model.model import Model

@@ -12,7 +12,7 @@ import numpy as np
 import softway as sw
 from softway.apps.verify.case import Outcome
 from softway.arrays import Array
-from softway.march.start.initial_state import initial_state
+from softway.marching.start.initial_state import initial_state
 from softway.meshes.cells import CELLS, linear
 from softway.meshes.element import tabulate
 from softway.record.view.plots.curves import Curve, Panel

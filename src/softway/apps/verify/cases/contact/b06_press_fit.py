@@ -15,8 +15,8 @@ from softway.apps.verify.case import Outcome
 from softway.apps.verify.exact.contact import PressFit, Tube
 from softway.arrays import Array
 from softway.bodies.setup.loads import traction_force
-from softway.march.start.initial_state import initial_state
-from softway.march.state.model_state import ModelState
+from softway.marching.start.initial_state import initial_state
+from softway.marching.state.model_state import ModelState
 from softway.meshes.generators.recipes import Ring
 from softway.model.model import Model
 from softway.record.view.plots.curves import Curve, Panel

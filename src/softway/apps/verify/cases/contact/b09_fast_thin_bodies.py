@@ -16,7 +16,7 @@ import softway as sw
 from softway.apps.verify.case import Outcome
 from softway.apps.verify.scenes.overlap import overlap
 from softway.arrays import Array
-from softway.march.results.step import Step
+from softway.marching.results.step import Step
 from softway.meshes.generators.recipes import MeshSource
 from softway.model.model import Model
 from softway.record.view.plots.curves import Curve, Panel

@@ -12,7 +12,7 @@ import softway as sw
 from softway.apps.verify.case import Outcome
 from softway.apps.verify.scenes import sliding
 from softway.arrays import Array
-from softway.march.results.step import Step
+from softway.marching.results.step import Step
 from softway.record.view.plots.curves import Curve, Panel
 
 MASS, SPEED = 20.0, 3.0

@@ -7,7 +7,7 @@ import numpy as np
 import softway as sw
 from softway.apps.verify.case import Outcome, sheet
 from softway.bodies.elements.quadrature import Dilating
-from softway.march.start.initial_state import initial_state
+from softway.marching.start.initial_state import initial_state
 from softway.record.view.plots.curves import Curve, Panel
 
 

@@ -1,0 +1,121 @@
+"""Friction on other meshes: tractions, sticking and slip pass by the place on the surface.
+
+A row takes the traction of its place times its own area, and in each contact a share in the pressed rows' pressure of
+what is missing in the sum.  So the force of the contact along its surface passes over, whatever the rows.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.arrays import Array, BoolArray
+from softway.contact.contact_rows import ContactRows
+from softway.contact.friction_rows import FrictionRows
+from softway.marching.state.model_state import ModelState
+from softway.model.model import Model
+
+SLIDES = 0.4
+"""Share of sliding rows around a place from which a row there slides."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SurfaceForces:
+    """Friction of c contacts on surfaces with n nodes.
+
+    Parameters
+    ----------
+    traction
+        (c, n, d) friction per area [Pa], zero where nothing touches.
+    closed
+        (c, n) share of what touches there, one on a node with a closed row.
+    sliding, slip
+        (c, n) and (c, n, d) share that slips, and velocity of the slip [m/s], both times ``closed``.
+    total
+        (c, d) sum of the forces of each contact [N].
+    """
+
+    traction: Array
+    closed: Array
+    sliding: Array
+    slip: Array
+    total: Array
+
+    def on(self, at_nodes: sp.csr_array) -> "SurfaceForces":
+        """The same on other nodes (m,), with the values (m, n) there of fields of the n nodes."""
+        near = sp.csr_array(abs(at_nodes))
+
+        def of(matrix: sp.csr_array, values: Array) -> Array:
+            return np.stack([np.asarray(matrix @ one) for one in values]) if len(values) else values
+
+        return replace(
+            self,
+            traction=of(at_nodes, self.traction),
+            closed=of(near, self.closed),
+            sliding=of(near, self.sliding),
+            slip=of(near, self.slip),
+        )
+
+    def first(self, rows: ContactRows, friction: FrictionRows) -> Array:
+        """Tangential forces (r,  d) of rows whose pressure is not known yet [N]."""
+        return _along(rows, friction.area[:, None] * self.traction[rows.contact, rows.node])
+
+    def forces(self, rows: ContactRows, friction: FrictionRows, pressure: Array) -> tuple[Array, BoolArray]:
+        """Tangential forces (r, d) [N] of the rows under normal forces (r,) [N], and the rows that slip.
+
+        Closed rows have the friction of their place; it is cut off at the limit, where they slip.  Rows that slipped
+        have the resistance to their slip.
+        """
+        closed = pressure > 0.0
+        out = self.first(rows, friction) * closed[:, None]
+        for k in range(len(self.total)):
+            here = (rows.contact == k) & closed
+            if here.any():
+                missing = self.total[k] - out[here].sum(axis=0)
+                out[here] += (pressure[here] / pressure[here].sum())[:, None] * missing
+        out = _along(rows, out)
+        size, limit = np.linalg.norm(out, axis=1), friction.limit(pressure)
+        way = self.closed[rows.contact, rows.node]
+        slides = closed & (self.sliding[rows.contact, rows.node] > SLIDES * way) & (way > 0.0)
+        resistance = friction.resistance(np.linalg.norm(self.slips(rows), axis=1), pressure)[0]
+        sliding = slides | (closed & (size > limit) & (limit > 0.0))
+        wanted = np.where(slides, resistance, np.minimum(size, limit))
+        factor = np.divide(wanted, size, out=np.zeros_like(size), where=size > 0.0)
+        return out * factor[:, None], sliding
+
+    def slips(self, rows: ContactRows) -> Array:
+        """Velocities (r, d) of the slip of the rows [m/s]."""
+        way = self.closed[rows.contact, rows.node][:, None]
+        slip = self.slip[rows.contact, rows.node]
+        return _along(rows, np.divide(slip, way, out=np.zeros_like(slip), where=way > 0.0))
+
+
+def surface_forces(model: Model, now: ModelState) -> SurfaceForces:
+    """Friction of a state on the nodes of its model."""
+    (n, d), count = model.shape, len(model.contacts.labels)
+    rows = model.contacts.contact, model.contacts.node
+    area, closed = model.friction.at(now.start.displacement).area, now.closed.astype(float)
+    slip = np.zeros_like(now.traction) if now.slip is None else now.slip
+
+    def on_nodes(values: Array) -> Array:
+        out = np.zeros((count, n, *values.shape[1:]))
+        np.add.at(out, rows, values)
+        return out
+
+    share, areas = on_nodes(closed), on_nodes(closed * area)
+    several = np.where(share > 0.0, share, 1.0)
+    total = np.zeros((count, d))
+    np.add.at(total, rows[0], now.traction)
+    traction = on_nodes(closed[:, None] * now.traction)
+    return SurfaceForces(
+        traction=np.divide(traction, areas[..., None], out=np.zeros_like(traction), where=areas[..., None] > 0.0),
+        closed=np.minimum(share, 1.0),
+        sliding=on_nodes(closed * now.sliding) / several,
+        slip=on_nodes(closed[:, None] * slip) / several[..., None],
+        total=total,
+    )
+
+
+def _along(rows: ContactRows, vectors: Array) -> Array:
+    """Tangential parts (r, d) of vectors (r, d) at the rows."""
+    return rows.shear.vectors(rows.shear.flat(vectors))

@@ -1,0 +1,199 @@
+"""State of a march on new meshes of the present shapes."""
+
+from collections.abc import Collection, Mapping
+from dataclasses import replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from softway.adaptivity.rezoning.quality import cell_quality
+from softway.adaptivity.rezoning.volume import volume_of
+from softway.adaptivity.unrelated.fields import interpolation
+from softway.adaptivity.unrelated.memory import recast, recast_state
+from softway.adaptivity.unrelated.motion import HeavySolid, moved_on
+from softway.arrays import Array
+from softway.bodies.assembled.material_states import committed
+from softway.bodies.discretised import DiscreteSolid
+from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
+from softway.marching.remeshing.carried.surface_forces import SurfaceForces, surface_forces
+from softway.marching.remeshing.forming.formed_scene import FormedScene
+from softway.marching.results.exchange import Exchange
+from softway.marching.state.march_state import MarchState
+from softway.marching.state.model_state import ModelState, join_states, split_states
+from softway.model.model import Model
+from softway.model.scene import State
+from softway.solve.operators.operator_memory import OperatorMemory
+from softway.solve.static_equilibrium import StaticState, equilibrium
+
+CLOSED = 1e-10
+"""Gap, relative to the extent of the scene, up to which a contact row starts closed."""
+ROUNDS = 40
+"""Greatest number of equilibria in search of the friction."""
+EXACT = 1e-11
+"""Change of the friction, relative to the greatest, below which it is found."""
+
+
+def carried_on(
+    old: FormedScene, new: FormedScene, now: MarchState, reasons: Mapping[str, str]
+) -> tuple[MarchState, Mapping[str, Exchange]]:
+    """State of a march on the new meshes of some solids, and what they have changed.
+
+    Memory passes by means over the overlap of the cells, velocities by projection; contact rows are found afresh, with
+    forces that balance the stress.
+    """
+    state = split_states(old.model, now.state)
+    memories, displacement = dict(state.memory), dict(state.displacement)
+    velocity, acceleration = dict(state.velocity), dict(state.acceleration)
+    for name in reasons:
+        before, after = old.part(name), new.part(name)
+        u = state.displacement[name]
+        assert isinstance(before.internal, InelasticForce)
+        cast = recast(before, u, after)
+        memories[name] = recast_state(cast, state.memory[name], np.asarray(before.internal.sampling.volume))
+        displacement[name] = np.zeros((after.mesh.n_nodes, after.mesh.dim))
+        pair = _heavy(old.model, before), _heavy(new.model, after)
+        velocity[name] = moved_on(*pair, u, velocity[name], True)
+        acceleration[name] = moved_on(*pair, u, acceleration[name], False)
+    state = replace(state, displacement=displacement, memory=memories, velocity=velocity, acceleration=acceleration)
+    surface = _surface(old, new, now.state, reasons)
+    settles = bool(new.model.inert and not new.model.space.every(new.model.massive))
+    if settles:
+        joined = _settled(new.model, state, surface, now.step_history.span)
+    else:
+        joined = _in_contact(old.model, new.model, now.state, state, surface)
+    numbers = {p.name: k for k, p in enumerate(new.model.parts)}
+    energies = [m.kinetic(s.start.velocity) + s.start.energy for m, s in ((old.model, now.state), (new.model, joined))]
+    taken = energies[0] - energies[1]
+    exchanges = {n: _exchange(old, new, now, n, reason, float(taken[numbers[n]])) for n, reason in reasons.items()}
+    account = replace(now.account, remeshing=now.account.remeshing + float(taken.sum()))
+    assert now.remeshed is not None
+    failed = {name: quality for name, quality in now.remeshed.failed.items() if name not in reasons}
+    remeshed = replace(now.remeshed, meshes=new.meshes, changed=now.slabs, failed=failed)
+    memory = OperatorMemory(room=now.memory.room)
+    return replace(now, state=joined, account=account, memory=memory, remeshed=remeshed), exchanges
+
+
+def _heavy(model: Model, part: DiscreteSolid) -> HeavySolid:
+    """A solid with its inertia in a model."""
+    mass, follow = (matrix[part.nodes][:, part.nodes] for matrix in (model.mass, model.follow))
+    return HeavySolid(part=part, mass=mass, follow=follow)
+
+
+def _surface(old: FormedScene, new: FormedScene, now: ModelState, changed: Collection[str]) -> SurfaceForces | None:
+    """Friction on the new surfaces, by place; None without."""
+    if new.model.friction.frictionless:
+        return None
+    blocks = []
+    for part in old.model.parts:
+        places = part.mesh.points + now.start.displacement[part.nodes]
+        points = new.part(part.name).mesh.points
+        same = sp.eye_array(len(places), format="csr")
+        blocks.append(interpolation(part.mesh.blocks, places, points) if part.name in changed else same)
+    return surface_forces(old.model, now).on(sp.csr_array(sp.block_diag(blocks, format="csr")))
+
+
+def _in_contact(
+    before: Model, model: Model, now: ModelState, state: State, surface: SurfaceForces | None
+) -> ModelState:
+    """State with contact forces that balance the carried stress, of the same sum in each contact as before, and with
+    the friction of the places.
+    """
+    labels = model.contacts.labels
+    u = model.join(state.displacement)
+    rows = model.rows(u, state.time)
+    closed = rows.near & (rows.gap(u) <= CLOSED * model.extent(u))
+    none = {label: np.zeros(len(rows.node[rows_of]), bool) for label, rows_of in _slices(model)}
+    empty = {label: np.zeros((len(none[label]), model.shape[1])) for label in labels} if state.traction else {}
+    blank = replace(state, closed=none, pressure={label: 1.0 * flags for label, flags in none.items()})
+    blank = replace(blank, traction=empty, sliding=none if state.sliding else {}, slip={})
+    joined = join_states(model, blank)
+    force = joined.start.force
+    share = np.bincount(rows.node[closed], minlength=len(u)).astype(float)[rows.node]
+    pushed = force[rows.node] / np.maximum(share, 1.0)[:, None]
+    normal = np.where(closed, np.maximum((pushed * rows.normal).sum(axis=1), 0.0), 0.0)
+    for k in range(len(labels)):
+        mine, total = rows.contact == k, float(now.pressure[before.contacts.contact == k].sum())
+        found = float(normal[mine].sum())
+        normal[mine] *= total / found if found > 0.0 else 0.0
+    traction, sliding, slip = joined.traction, joined.sliding, None
+    if surface is not None:
+        traction, sliding = surface.forces(rows, model.friction.at(u), normal)
+        slip = None if now.slip is None else surface.slips(rows)
+    force = _balanced(model, force, rows.spread(normal, model.shape) + rows.shear.spread(traction), state.time)
+    joined = replace(joined, start=replace(joined.start, force=force), slip=slip)
+    return replace(joined, closed=normal > 0.0, pressure=normal, traction=traction, sliding=sliding, span=now.span)
+
+
+def _settled(model: Model, state: State, surface: SurfaceForces | None, span: float) -> ModelState:
+    """State with massless nodes in equilibrium with the contacts and the friction of the places, the others fixed."""
+    there = model.during(tuple(state.memory.get(p.name) for p in model.parts), span)
+    rest = _rest(there, model.join(state.displacement), surface, state.time)
+    reached, by = committed(there.parts, rest.displacement), _slices(model)
+    slip = None if surface is None else surface.slips(model.rows(rest.displacement, state.time))
+    return join_states(
+        model,
+        replace(
+            state,
+            displacement=model.split(rest.displacement),
+            memory={p.name: m for p, m in zip(model.parts, reached, strict=True) if m is not None},
+            pressure={label: rest.pressure[mine] for label, mine in by},
+            closed={label: rest.pressure[mine] > 0.0 for label, mine in by},
+            traction={label: rest.traction[mine] for label, mine in by} if state.traction else {},
+            sliding={label: rest.sliding[mine] for label, mine in by} if state.sliding else {},
+            slip={} if slip is None else {label: slip[mine] for label, mine in by},
+        ),
+    )
+
+
+def _rest(model: Model, u: Array, surface: SurfaceForces | None, time: float) -> StaticState:
+    """Equilibrium of the massless nodes from the displacement u (n, d), with the friction of the places under the
+    pressure there.
+    """
+    dofs, load = model.dofs.only(~model.massive), model.loads.at(time)
+    if surface is None or not dofs.size:
+        return equilibrium(model, u, dofs, load, time)
+    rows, friction = model.rows(u, time), model.friction.at(u)
+    traction, sliding = surface.first(rows, friction), np.zeros(len(rows.node), bool)
+    for _ in range(ROUNDS):
+        rest = equilibrium(model, u, dofs, load + rows.shear.spread(traction), time)
+        u, last = rest.displacement, traction
+        rows, friction = model.rows(u, time), model.friction.at(u)
+        traction, sliding = surface.forces(rows, friction, rest.pressure)
+        if model.space.greatest(traction - last) <= EXACT * model.space.greatest(traction):
+            break
+    return replace(rest, traction=traction, sliding=sliding)
+
+
+def _balanced(model: Model, force: Array, contact: Array, time: float) -> Array:
+    """Internal forces (n, d) of a slab's start that balance the forces of contacts and loads on massless nodes.
+
+    What the transfer has left unbalanced there is taken from the supports, so that the forces of a solid have the same
+    sum.
+    """
+    light = model.dofs.free & ~model.massive[:, None]
+    balanced = np.where(light, model.loads.at(time) + contact, force)
+    for part in model.parts:
+        held = ~model.dofs.free[part.nodes]
+        missing = (force - balanced)[part.nodes].sum(axis=0)
+        balanced[part.nodes] += np.where(held, missing / np.maximum(held.sum(axis=0), 1), 0.0)
+    return np.asarray(balanced)
+
+
+def _slices(model: Model) -> list[tuple[str, slice]]:
+    """Contacts with their rows."""
+    return [(label, model.contacts.rows_of(k)) for k, label in enumerate(model.contacts.labels)]
+
+
+def _exchange(old: FormedScene, new: FormedScene, now: MarchState, name: str, reason: str, energy: float) -> Exchange:
+    """What a new mesh has changed."""
+    mesh, part = old.part(name).mesh, new.part(name)
+    places, section = old.places(now, name), part.internal.section
+    before, after = volume_of(mesh.blocks, section, places), volume_of(part.mesh.blocks, section, part.mesh.points)
+    return Exchange(
+        reason=reason,
+        nodes=part.mesh.n_nodes,
+        cells=part.mesh.n_cells,
+        quality=(cell_quality(mesh.blocks, places).worst[0], new.new[name][0]),
+        volume=after / before - 1.0,
+        energy=energy,
+    )

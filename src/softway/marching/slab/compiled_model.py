@@ -1,0 +1,194 @@
+"""Model with linear laws on fixed contact rows as arrays for compiled slabs (docs/theory/solver/compiled_slabs.md)."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.csgraph import reverse_cuthill_mckee
+
+from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.assembled.vector_space import LocalSpace
+from softway.bodies.dof_map import NodalDofs
+from softway.bodies.elements.section import Axisymmetric
+from softway.bodies.internal_force.elastic.elastic_force import ElasticForce
+from softway.bodies.internal_force.slab_average import Weighted
+from softway.kernels.slab.march import answer, factor
+from softway.kernels.slab.tables import Bodies, Operator, Rows
+from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
+from softway.marching.slab.slab_step import Stepper
+from softway.marching.state.march_state import Settings
+from softway.marching.state.step_control import SMALL_STRAIN
+from softway.model.model import Model
+from softway.model.time_weight import EndPeaks, moments
+from softway.solve.methods.fixed_point import FixedPoint
+
+SLABS = 50
+"""Number of slabs of a march from which compiled ones pay."""
+LARGEST = 3e5
+"""Greatest number of entries of the band of a factor: beyond it, sparse factors are faster."""
+TRANSLATED = 1e-12
+"""Force of a translation, relative to the stiffness, that is rounding."""
+INVERTED = 1e-6
+"""Greatest error of the inverse compliance of the closed rows: rows that depend on each other have none."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class CompiledModel:
+    """Arrays of a model for slabs of the length ``span`` [s]; ``lower`` and ``pivot`` are the factor of their operator.
+
+    ``operators`` keeps that of the last closed rows; it depends on these rows only.
+    """
+
+    model: Model
+    bodies: Bodies
+    rows: Rows
+    span: float
+    lower: Array
+    pivot: Array
+    tolerance: float
+    operators: dict[bytes, Operator | None] = field(default_factory=dict)
+
+    def operator(self, closed: BoolArray) -> Operator | None:
+        """Operator with the rows ``closed`` (m,); None if they depend on each other."""
+        key = closed.tobytes()
+        if key not in self.operators:
+            self.operators.clear()
+            self.operators[key] = self._made(np.flatnonzero(closed))
+        return self.operators[key]
+
+    def _made(self, active: IntArray) -> Operator | None:
+        answers, work = np.zeros((len(active), len(self.bodies.heavy))), np.empty(len(self.pivot))
+        for row, out in zip(active, answers, strict=True):
+            answer(self.bodies, self.rows, row, self.lower, self.pivot, work, out)
+        compliance = answers @ _gradient(self.rows, len(self.bodies.heavy))[active].T
+        inverse = np.zeros((len(active), len(active)))
+        if len(active):
+            if not np.linalg.cond(compliance) * np.finfo(float).eps < INVERTED:
+                return None
+            inverse = np.linalg.inv(compliance.T)
+        return Operator(lower=self.lower, pivot=self.pivot, active=active, answer=answers, inverse=inverse)
+
+
+def _gradient(rows: Rows, size: int) -> sp.csr_array:
+    """Rows (m, N) as a sparse matrix."""
+    return sp.csr_array((rows.value, rows.component, rows.start), shape=(len(rows.offset), size))
+
+
+def served(stepper: Stepper, settings: Settings) -> bool:
+    """True if the slabs of a march may be compiled: linear laws, fixed rows without friction, and steady loads."""
+    model, rule = stepper.model, stepper.rule
+    return (
+        isinstance(rule, Equilibrated)
+        and isinstance(rule.method, FixedPoint)
+        and isinstance(rule.contact, EndForceContact)
+        and rule.calm == 0.0
+        and settings.weight == EndPeaks()
+        and settings.tolerance is None
+        and not stepper.ends
+        and _fixed(model)
+        and all(_linear(part.internal) and part.shock is None for part in model.parts)
+        and all(isinstance(part.average, Weighted) for part in model.parts)
+    )
+
+
+def _fixed(model: Model) -> bool:
+    """True if nothing but the motion of solids with inertia changes from slab to slab."""
+    alone = not (model.companions or model.driven or model.adapted) and model.rigid is None
+    plain = isinstance(model.dofs, NodalDofs) and isinstance(model.space, LocalSpace)
+    still = model.loads.steady and np.array_equal(model.load, model.load_before) and model.inert
+    met = model.contacts.fixed and model.friction.frictionless and model.contacts.clearance is None
+    return bool(alone and plain and still and met and model.linear)
+
+
+def _linear(force: object) -> bool:
+    return isinstance(force, ElasticForce) and force.linear and not isinstance(force.section, Axisymmetric)
+
+
+def compiled_model(stepper: Stepper, settings: Settings, span: float) -> CompiledModel | None:
+    """Arrays of a march with slabs of the length ``span`` [s]; None where it is short, large or not :func:`served`."""
+    model = stepper.model
+    if settings.until < SLABS * span or not served(stepper, settings):
+        return None
+    matrix = sp.csr_array(
+        model.inertia_and_stiffness(np.zeros(model.shape), 0.5 * span**2 * moments(settings.weight)[1])
+    )
+    if not matrix.shape[0]:
+        return None
+    order = np.asarray(reverse_cuthill_mckee(matrix, symmetric_mode=True), np.int64)
+    place = np.empty(len(order), np.int64)
+    place[order] = np.arange(len(order))
+    entries = sp.tril(matrix[order][:, order], format="coo")
+    i, j = entries.coords
+    width = int((i - j).max(initial=0)) + 1
+    if width * len(order) > LARGEST:
+        return None
+    band, lower, pivot = np.zeros((len(order), width)), np.zeros((len(order), width)), np.zeros(len(order))
+    band[i, i - j] = entries.data
+    if not factor(band, lower, pivot):
+        return None
+    bodies, rows = _bodies(model, place), _rows(model, settings)
+    if bodies is None:
+        return None
+    assert isinstance(stepper.method, FixedPoint)
+    tolerance = stepper.method.tolerance
+    return CompiledModel(
+        model=model, bodies=bodies, rows=rows, span=span, lower=lower, pivot=pivot, tolerance=tolerance
+    )
+
+
+def _bodies(model: Model, place: IntArray) -> Bodies | None:
+    """Arrays of the solids; ``place`` (f,) are the places of the unknowns in the band.
+
+    None where translations cause forces.
+    """
+    (n, d), own = model.shape, np.full(model.free.size, -1)
+    own[model.dofs.components] = place
+    mass, stiff = (
+        sp.csr_array(model.mass),
+        sp.bsr_array(sp.csr_array(model.tangent(np.zeros((n, d)))), blocksize=(d, d)),
+    )
+    node = np.repeat(np.arange(n), np.diff(stiff.indptr))
+    sums, sizes = np.zeros((n, d, d)), np.zeros(n)
+    np.add.at(sums, node, stiff.data)
+    np.maximum.at(sizes, node, np.abs(stiff.data).max(axis=(1, 2)))
+    if (np.abs(sums).max(axis=(1, 2)) > TRANSLATED * sizes).any():
+        return None
+    others = stiff.indices != node
+    return Bodies(
+        dimension=d,
+        first=_whole([p.nodes.start for p in model.parts] + [n]),
+        group=_whole(model.linked),
+        heavy=np.repeat(model.massive, d),
+        place=_whole(own),
+        mass_start=_whole(mass.indptr),
+        mass_node=_whole(mass.indices),
+        mass=mass.data.astype(float),
+        weight=np.asarray(mass.sum(axis=1)).ravel(),
+        stiff_start=_whole(np.concatenate([[0], np.cumsum(np.bincount(node[others], minlength=n))])),
+        stiff_node=_whole(stiff.indices[others]),
+        stiff=np.ascontiguousarray(stiff.data[others]),
+        points=np.ascontiguousarray(model.points, float).ravel(),
+        load=np.ascontiguousarray(model.load, float).ravel(),
+        floor=np.asarray(model.floor, float),
+    )
+
+
+def _rows(model: Model, settings: Settings) -> Rows:
+    """Arrays of the contact rows."""
+    rows = model.contacts.rest(np.zeros(model.shape), 0.0).start(np.zeros(model.shape))
+    gradient = sp.csr_array(rows.gradient)
+    return Rows(
+        start=_whole(gradient.indptr),
+        component=_whole(gradient.indices),
+        value=gradient.data.astype(float),
+        offset=np.asarray(rows.offset, float),
+        contact=_whole(rows.contact),
+        part=_whole(model.part_of[rows.node]),
+        move=rows.reachable(model.dofs),
+        allowed=max(settings.control.approach, SMALL_STRAIN) * model.edge[rows.node],
+    )
+
+
+def _whole(values: object) -> IntArray:
+    """Integers of one kind, so that kernels are compiled once."""
+    return np.ascontiguousarray(values, dtype=np.int64)

@@ -1,0 +1,133 @@
+"""Successive compiled slabs (time steps), and their states, which are made when they are asked for."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from softway.arrays import Array
+from softway.kernels.slab.tables import ERROR, WORK, Course
+from softway.marching.state.march_state import MarchState
+from softway.marching.state.model_state import ModelState, split_states
+from softway.mechanisms.march import BodyState
+from softway.model.model import Model
+from softway.model.scene import State
+from softway.solve.equations.slab_values import SlabStart
+from softway.solve.operators.operator_memory import OperatorMemory
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SlabBatch:
+    """Successive compiled slabs.
+
+    Parameters
+    ----------
+    model
+        The model.
+    begun
+        State of the march before the first of them, ``memory`` with its operator.
+    course, iterations
+        States and sums of the slabs, and number of iterations of each.
+    states
+        States that were asked for, by the number of slabs before them.
+    """
+
+    model: Model
+    begun: MarchState
+    memory: OperatorMemory
+    course: Course
+    iterations: tuple[int, ...]
+    states: dict[int, State]
+
+    def state(self, count: int) -> State:
+        """State after so many slabs; made when it is asked for, and then kept."""
+        if count not in self.states:
+            self.states[count] = split_states(self.model, self._state(count))
+        return self.states[count]
+
+    def memory_after(self, count: int) -> OperatorMemory:
+        """Operator memory after so many slabs."""
+        return replace(self.memory, taken=self.memory.taken.with_slabs(self.iterations[:count]))
+
+    def march_state(self, count: int) -> MarchState:
+        """State of the march after so many slabs."""
+        if not count:
+            return self.begun
+        begun, sums = self.begun, self.course.sums[count - 1]
+        history = replace(begun.step_history, length=begun.step_history.span, recent_rejections=0.0, smooth=0)
+        return replace(
+            begun,
+            state=self._state(count),
+            account=replace(begun.account, work_external=float(sums[WORK]), energy_error=float(sums[ERROR])),
+            step_history=history,
+            memory=self.memory_after(count).bare(),
+            slabs=begun.slabs + count,
+        )
+
+    def _state(self, count: int) -> ModelState:
+        """State of the model after so many slabs."""
+        course, shape, first = self.course, self.model.shape, self.begun.state
+        start = SlabStart(
+            displacement=course.u[count].reshape(shape),
+            velocity=course.v[count].reshape(shape),
+            force=course.force[count].reshape(shape),
+            energy=course.energy[count],
+            states=(),
+            viscous=None,
+        )
+        return ModelState(
+            time=float(course.time[count]),
+            start=start,
+            acceleration=course.slope[count].reshape(shape),
+            closed=course.pressure[count] > 0.0,
+            pressure=course.pressure[count],
+            traction=np.zeros_like(first.traction),
+            sliding=np.zeros_like(first.sliding),
+            span=float(course.time[count] - course.time[count - 1]),
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class BatchMotion:
+    """Motion after a slab of a batch, see :class:`~softway.marching.results.step_states.Motion`."""
+
+    displacement: Mapping[str, Array]
+    velocity: Mapping[str, Array]
+    fields: Mapping[str, Mapping[str, Array]] = field(default_factory=dict)
+    rigid: Mapping[str, BodyState] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class BatchStates:
+    """States of the slab ``number`` of a batch, see :class:`~softway.marching.results.step_states.StepStates`."""
+
+    batch: SlabBatch
+    number: int
+
+    @property
+    def before(self) -> State:
+        """State at the start."""
+        return self.batch.state(self.number)
+
+    @property
+    def after(self) -> State:
+        """State at the end."""
+        return self.batch.state(self.number + 1)
+
+    @property
+    def march_state(self) -> MarchState:
+        """State of the march after the slab."""
+        return self.batch.march_state(self.number + 1)
+
+    @property
+    def motion(self) -> BatchMotion:
+        """Motion at the end."""
+        model, course, k = self.batch.model, self.batch.course, self.number + 1
+        u, v = (field[k].reshape(model.shape) for field in (course.u, course.v))
+        return BatchMotion(displacement=model.split(u), velocity=model.split(v))
+
+    @property
+    def reactions(self) -> Mapping[str, Array]:
+        """Body -> (n, d) mean force of the supports on the nodes [N]."""
+        model, support = self.batch.model, self.batch.course.support
+        return model.split(support[self.number].reshape(model.shape) if len(support) else np.zeros(model.shape))
