@@ -77,7 +77,7 @@ def test_an_inner_step_is_one_exchange_and_one_reduction() -> None:
 
 @pytest.mark.parametrize("cells", [3, pytest.param(6, marks=pytest.mark.slow)])
 def test_the_traffic_of_an_iteration_does_not_depend_on_the_size(cells: int) -> None:
-    """Besides its inner steps an iteration makes fewer than 12 sums and 7 comparisons; a slab is collected once."""
+    """Besides its inner steps an iteration makes fewer than 13 sums and 7 comparisons; a slab is collected once."""
     model = block(cells)
     method = sw.FixedPoint(operator=MatrixFree(), handover=False)
     given = Settings(until=0.008, step=1e-3, weight=EndPeaks(), method=method, control=StepControl())
@@ -89,6 +89,6 @@ def test_the_traffic_of_an_iteration_does_not_depend_on_the_size(cells: int) -> 
 
     calls, iterations, slabs = in_threads(2, march)[0]
     assert iterations > 5 * slabs
-    assert calls["added"] - calls["exchanged"] < 12 * iterations
+    assert calls["added"] - calls["exchanged"] < 13 * iterations
     assert calls["greatest"] < 7 * iterations
     assert calls["collected"] == 2 * slabs

@@ -37,7 +37,8 @@ def begins_as_it_ended(last: sw.Step, taken: sw.Step) -> None:
 
 def keeps_its_balances(steps: Sequence[sw.Step], around: bool = False) -> int:
     """Momentum and spin of each slab begin as the last one ended, to rounding; only the momentum along the axis where
-    bodies are ``around`` one; the energy of the whole march is in its ledger.  Number of the changes.
+    bodies are ``around`` one; the energy of the whole march is in its ledger, to what iterates at their tolerance leave.
+    Number of the changes.
     """
     ledgers = [taken.ledger for taken in steps]
     energy = max(ledger.energy_kinetic + ledger.energy_strain for ledger in ledgers)
@@ -50,5 +51,5 @@ def keeps_its_balances(steps: Sequence[sw.Step], around: bool = False) -> int:
         assert momenta.sum(axis=0)[axes] == pytest.approx(ledger.momentum[axes], abs=1e-12 * scale)
         if not around:
             assert spin(model.points + u, momenta) == pytest.approx(ledger.spin, abs=1e-12 * scale)
-        assert abs(taken.ledger.energy_error - ledgers[0].energy_error) < 1e-12 * energy
+        assert abs(taken.ledger.energy_error - ledgers[0].energy_error) < 1e-11 * energy
     return sum(bool(taken.transfers) for taken in steps)
