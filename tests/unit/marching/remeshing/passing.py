@@ -37,8 +37,8 @@ def begins_as_it_ended(last: sw.Step, taken: sw.Step) -> None:
 
 def keeps_its_balances(steps: Sequence[sw.Step], around: bool = False) -> int:
     """Momentum and spin of each slab begin as the last one ended, to rounding; only the momentum along the axis where
-    bodies are ``around`` one; the energy of the whole march is in its ledger, to what iterates at their tolerance leave.
-    Number of the changes.
+    bodies are ``around`` one; the energy of the whole march is in its ledger, to what iterates at their tolerance
+    leave.  Number of the changes.
     """
     ledgers = [taken.ledger for taken in steps]
     energy = max(ledger.energy_kinetic + ledger.energy_strain for ledger in ledgers)
