@@ -82,7 +82,7 @@ def run(
         True if ``out`` may replace an earlier run.
     ranks
         Ranks that march together, of which this is rank 0; the others call
-        :func:`~softway.scenario.run_ranks.assist`.
+        ``softway.scenario.run_ranks.assist``.
 
     Raises
     ------
