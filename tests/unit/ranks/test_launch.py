@@ -10,31 +10,6 @@ from softway.errors import InputError
 from softway.ranks import launch
 from softway.ranks.threads import Threads, in_threads
 
-SCENE = """
-[bodies.block]
-kind = "Solid"
-mesh = { kind = "Rectangle", size = [1.0, 1.0], cells = [2, 2] }
-material = { kind = "NeoHookean", E = 100.0, nu = 0.3 }
-density = 1.0
-velocity = { kind = "Uniform", value = [0.0, -1.0] }
-[bodies.floor]
-kind = "Tool"
-shape = { kind = "HalfSpace", point = [0.0, -0.05], normal = [0.1, 1.0] }
-[[contacts]]
-between = ["block.bottom", "floor"]
-[time]
-end = 0.1
-step = 0.01
-"""
-
-
-@pytest.fixture
-def file(tmp_path: Path) -> Path:
-    """Scenario of a block on a wall."""
-    out = tmp_path / "block.toml"
-    out.write_text(SCENE)
-    return out
-
 
 def test_one_rank_needs_no_mpi(file: Path, tmp_path: Path) -> None:
     """The same motion as without ranks, to rounding."""
