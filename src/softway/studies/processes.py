@@ -1,7 +1,6 @@
 """Tasks computed in separate processes: a failure or crash of one task does not affect the others."""
 
 import signal
-import sys
 import time as clock
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -12,14 +11,13 @@ from multiprocessing.context import SpawnProcess
 from typing import Any, TypeVar
 
 from softway.errors import Cancel, Cancelled
+from softway.interrupts import raised_again
 from softway.kernels.jit.threads import threads, use
 
 Task = TypeVar("Task")
 Reply = TypeVar("Reply")
 GRACE = 20.0
 """Seconds that a terminated process has to complete its records."""
-MOMENT = 0.01
-"""Seconds after which a lost interruption is raised again."""
 LOOK = 0.1
 """Seconds between two calls of ``cancel``."""
 
@@ -167,26 +165,6 @@ def _serve(line: Connection, work: Callable[[Any], Any], share: int) -> None:
                     line.send(_answer(line.recv(), work))
         except (EOFError, ConnectionError, KeyboardInterrupt):
             signal.signal(signal.SIGTERM, signal.SIG_IGN)  # it is already ending
-
-
-@contextmanager
-def raised_again() -> Iterator[None]:
-    """Raise interruptions again that are lost in finalisers and callbacks; for a process of our own."""
-    before = sys.unraisablehook
-    sys.unraisablehook = _again
-    try:
-        yield
-    finally:
-        sys.unraisablehook = before
-
-
-def _again(lost: "sys.UnraisableHookArgs") -> None:
-    """Raise an interruption again that was lost where exceptions cannot propagate."""
-    if lost.exc_type is KeyboardInterrupt and hasattr(signal, "setitimer"):
-        signal.signal(signal.SIGALRM, signal.default_int_handler)
-        signal.setitimer(signal.ITIMER_REAL, MOMENT)
-    else:
-        sys.__unraisablehook__(lost)
 
 
 def _answer(task: Any, work: Callable[[Any], Any]) -> Any:

@@ -13,6 +13,7 @@ import pytest
 
 import softway.scenario.run
 from softway.apps import cli
+from softway.apps.cli import commands
 from softway.errors import NumericsError
 from softway.record.run import Run
 
@@ -237,3 +238,19 @@ def test_verbose_tells_what_is_chosen_and_leaves_the_log_as_it_was(file, capsys)
     assert "operator Factored" in told and "done after 80 slabs" in told
     assert cli.main(["resume", "told", "--verbose"]) == 0
     assert tree.handlers == before and tree.level == logging.NOTSET
+
+
+@pytest.mark.parametrize("arguments", [["--version"], ["--help"]])
+def test_what_computes_nothing_loads_no_numbers(arguments):
+    text = f"import sys; from softway.apps.cli import main; main({arguments}); print('numpy' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "False"
+
+
+def test_every_command_is_described_before_it_is_loaded(capsys):
+    assert cli.main(["--help"]) == 0
+    said = " ".join(capsys.readouterr().out.replace("│", " ").split())
+    for name in commands.COMMANDS:
+        assert f"{name} " in said
+    assert "Compute a scenario." in said
+    assert "Show a run in the browser: moving mesh, fields, curves, events." in said

@@ -31,11 +31,14 @@ class Cluster:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.started = [self._dask("scheduler", "--port", "0", "--no-dashboard")]
-        waited(lambda: self._file.exists())
+        waited(self._written)  # the file exists before it has its content
 
     @property
     def _file(self) -> Path:
         return self.folder / "scheduler.json"
+
+    def _written(self) -> bool:
+        return self._file.exists() and self._file.read_text().rstrip().endswith("}")
 
     def _dask(self, *words: str) -> subprocess.Popen[bytes]:
         command = [sys.executable, "-m", "dask", *words, "--host", "127.0.0.1", "--scheduler-file", str(self._file)]

@@ -56,7 +56,7 @@ def test_a_case_that_fails(here: Path, capsys: pytest.CaptureFixture[str], monke
     from softway.apps.verify import Case
 
     monkeypatch.setattr(
-        "softway.apps.cli.verify.chosen", lambda *_, **__: (Case(id="A01", module="nowhere", seconds=1.0),)
+        "softway.apps.cli.computing.verify.chosen", lambda *_, **__: (Case(id="A01", module="nowhere", seconds=1.0),)
     )
     assert main(["verify", "--quiet"]) == 1
     assert "No module named 'nowhere'" in capsys.readouterr().out

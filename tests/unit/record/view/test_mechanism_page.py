@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import softway as sw
-from softway.apps.cli import view as command
 from softway.apps.cli.commands import main
+from softway.apps.cli.results import view as command
 from softway.record.view.page import page
 
 FOLDER = Path(__file__).parents[4] / "scenarios"

@@ -14,11 +14,11 @@ import pytest
 
 import softway as sw
 from softway.apps.cli import main
+from softway.interrupts import raised_again
 from softway.record.storage import checkpoint
 from softway.record.storage.journal import JournaledFile
 from softway.record.storage.uninterrupted import uninterrupted
 from softway.scenario.files import loads
-from softway.studies.processes import raised_again
 
 BAR = """
 [bodies.bar]

@@ -12,6 +12,7 @@ from rich.markup import escape
 from rich.table import Table as Grid
 
 from softway.apps.cli.output.jobs import counted, processes
+from softway.apps.cli.output.options import AllowPython, Quiet, Set
 from softway.studies.sweep.plan import parsed, trials
 from softway.studies.sweep.rows import NAME, Row, Sweep
 from softway.studies.sweep.sweep import Watch
@@ -40,10 +41,10 @@ def sweep(
     jobs: int | None = None,
     out: Path | None = None,
     scheduler: str | None = None,
-    set_: Annotated[tuple[str, ...], Parameter(name="--set", negative=())] = (),
+    set_: Set = (),
     again: Annotated[bool, Parameter(negative=())] = False,
-    quiet: Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())] = False,
-    allow_python: Annotated[bool, Parameter(negative=())] = False,
+    quiet: Quiet = False,
+    allow_python: AllowPython = False,
 ) -> int:
     """Compute a scenario with every combination of some values and write one table. The same command resumes a sweep.
 

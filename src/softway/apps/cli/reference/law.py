@@ -2,13 +2,12 @@
 
 from math import isnan
 from pathlib import Path
-from typing import Annotated
 
-from cyclopts import Parameter
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table as Grid
 
+from softway.apps.cli.output.options import Quiet, Set
 from softway.errors import InputError
 from softway.scenario.example_law import law_named
 from softway.scenario.text.user_modules import Modules
@@ -22,8 +21,8 @@ def check_law(
     law: str,
     /,
     *,
-    set_: Annotated[tuple[str, ...], Parameter(name="--set", negative=())] = (),
-    quiet: Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())] = False,
+    set_: Set = (),
+    quiet: Quiet = False,
 ) -> int:
     """Check a law of softway or your own law: stress, moduli, rotations, accuracy, units, text.
 

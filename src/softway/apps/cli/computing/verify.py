@@ -12,6 +12,7 @@ from rich.markup import escape
 from rich.table import Table as Grid
 
 from softway.apps.cli.output.jobs import counted, processes
+from softway.apps.cli.output.options import Quiet
 from softway.apps.verify.case import Beside, Case
 from softway.apps.verify.catalogue import QUICK, chosen
 from softway.apps.verify.page import page
@@ -31,7 +32,7 @@ def verify(
     json: Path | None = None,
     out: Path = Path("verification.html"),
     jobs: int | None = None,
-    quiet: Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())] = False,
+    quiet: Quiet = False,
 ) -> int:
     """Compute cases with a known solution on this machine and compare: a table, and a page with curves.
 

@@ -3,13 +3,13 @@
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
-from cyclopts import Parameter
 from rich.console import Console
 from rich.markup import escape
 from rich.progress import Progress
 
+from softway.apps.cli.output.options import Quiet, Strict
 from softway.apps.cli.output.tables import findings, summary
 from softway.errors import InputError
 from softway.record.audit.among_solids import audited_among_solids, has_rigid_bodies
@@ -78,8 +78,8 @@ def audit(
     folder: Path,
     /,
     *,
-    strict: Annotated[bool, Parameter(negative=())] = False,
-    quiet: Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())] = False,
+    strict: Strict = False,
+    quiet: Quiet = False,
 ) -> int:
     """Look for overlaps and inverted cells in all stored frames of a run, independently of its contact.
 

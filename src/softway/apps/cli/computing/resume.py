@@ -1,12 +1,11 @@
 """Command resume: resume a run that stopped."""
 
 from pathlib import Path
-from typing import Annotated
 
-from cyclopts import Parameter
 from rich.console import Console
 
 from softway.apps.cli.output.log import Verbose, listen
+from softway.apps.cli.output.options import AllowPython, Quiet
 from softway.apps.cli.output.progress import progress_of, teller, waiting
 from softway.apps.cli.output.tables import summary
 from softway.record.run import Run
@@ -20,9 +19,9 @@ def resume(
     folder: Path,
     /,
     *,
-    quiet: Annotated[bool, Parameter(name=["--quiet", "-q"], negative=())] = False,
+    quiet: Quiet = False,
     verbose: Verbose = False,
-    allow_python: Annotated[bool, Parameter(negative=())] = False,
+    allow_python: AllowPython = False,
 ) -> None:
     """Resume a run that was killed, interrupted or failed. The results are identical to those of an uninterrupted run.
 

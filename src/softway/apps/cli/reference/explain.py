@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table as Grid
 
+from softway.apps.cli.commands import app
 from softway.errors import InputError
 from softway.scenario.class_index import classes, keys
 from softway.scenario.hints.docstrings import described
@@ -19,6 +20,17 @@ from softway.scenario.text import copies
 
 FILE_KEYS = {"copies": copies.MEANING}
 """Keys of scenario files that are no arguments in Python."""
+
+
+def explain(name: str, /) -> None:
+    """Explain a kind, a key or a command: meaning, units, defaults, example.
+
+    Parameters
+    ----------
+    name
+        Kind, key or command, such as Coulomb, density or run.
+    """
+    told(name, {verb: app[verb].default_command for verb in app if not verb.startswith("-")}, Console())
 
 
 def told(name: str, commands: Mapping[str, Callable[..., Any] | None], console: Console) -> None:

@@ -1,0 +1,1 @@
+"""Commands that explain: templates, names, laws, materials, the schema."""
