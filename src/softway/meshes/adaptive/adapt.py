@@ -16,8 +16,8 @@ HALVINGS = 2
 """Times that ``auto`` halves the edges of the cells."""
 MOST = 8
 """Cells that ``auto`` makes of those of the base mesh, at most, or as many as have ``FEW`` nodes."""
-FEW = 4000
-"""Nodes of a mesh that is small."""
+FEW = {1: 4000, 2: 4000, 3: 1000}
+"""Nodes of a mesh that is small, by the dimension of its cells: in space a factor costs as much with a quarter."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -75,7 +75,7 @@ class Adapt:
 
     def most(self, base: Mesh) -> float:
         """Greatest number of cells of the mesh in a march; infinite but for ``auto``."""
-        few = FEW * base.n_cells / base.n_nodes
+        few = FEW[base.cell_dim] * base.n_cells / base.n_nodes
         return max(float(MOST * base.n_cells), few) if self.levels == "auto" else np.inf
 
     def finest(self, base: Mesh) -> float:
