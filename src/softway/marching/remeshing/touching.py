@@ -53,11 +53,12 @@ def closing(model: Model, now: MarchState) -> Array:
     still, limit = standing(model, now.state), now.settings.control.approach
     coming = start.displacement + span * start.velocity
     here, later = still.rows(start.displacement, time), still.rows(coming, time + span)
-    ways = np.column_stack([here.gap(start.displacement)] * 2)
-    ways -= np.column_stack([here.gap(coming), np.where(later.near, later.gap(coming), np.inf)])
+    near, both = here.near, (here.near & later.near)[here.near]
+    before, after = here.gap(start.displacement)[near], here.gap(coming)[near]
+    after[both] = np.minimum(after[both], later.gap(coming)[near][both])
     crushable = np.array([not part.internal.linear for part in model.parts])[model.part_of]
     out = np.zeros(model.shape[0])
-    np.maximum.at(out, here.node[here.near], ways[here.near].max(axis=1))
+    np.maximum.at(out, here.node[near], before - after)
     return out / np.where(crushable, limit, max(limit, SMALL_STRAIN))
 
 
