@@ -84,8 +84,8 @@ class AdaptedScene:
     def wanted(self, now: MarchState, energy: float, ahead: float) -> "AdaptedScene":
         """The scene on the meshes for the coming slabs, in fine cells what closes or is pushed within ``ahead`` [s].
 
-        Solids with ``auto`` halve edges less often where contacts close so fast that their cells would make slabs short,
-        and while their meshes would have too many cells.
+        Solids with ``auto`` halve edges less often where contacts close so fast that their cells would make slabs
+        short, and while their meshes would have too many cells.
         """
         most = {name: how.most(self.meshes[name].base) for name, how in adaptions(self.scene).items()}
         hows = self._hows(now)

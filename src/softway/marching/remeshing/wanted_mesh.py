@@ -149,7 +149,8 @@ def unhurried(how: Adapt, present: AdaptedMesh, way: float) -> Adapt:
     """Adaption of ``auto`` whose finest cells need no slabs shorter than half of the requested ones at a contact.
 
     Surfaces approach by a part of an edge in a slab only, so that cells that are small against the way in a requested
-    slab make slabs short.  Cells become finer than they are only where ``way`` is half of the admissible one.
+    slab make slabs short.  Cells become finer than they are only where requested slabs suffice, so that meshes do not
+    change to and fro.
 
     Parameters
     ----------
