@@ -29,7 +29,8 @@ class Adapt:
     levels
         Greatest number of bisections of a cell of the mesh of the solid.  One halves the edges of bars, two those of
         triangles and quadrilaterals, three those of tetrahedra and hexahedra; ``auto`` halves edges twice, or less
-        where the mesh would have more than 8 times the cells of that of the solid and more than about 4000 nodes.
+        where the mesh would have more than 8 times the cells of that of the solid and more than about 4000 nodes, 1000
+        in space, or where contacts close so fast that finer cells would make slabs short.
     tolerance
         Factor c of the threshold ``c sqrt(E (h / L)^k)`` of the indicator: E the energy of the scene, the greatest so
         far, h the shortest edge of the finest cells, L the size of the solid, k its dimension.
