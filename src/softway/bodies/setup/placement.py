@@ -203,7 +203,7 @@ def in_place(
     def surface(base: Mesh) -> Mesh:
         return with_surface(base, source, adapt, section)
 
-    out = placed(mesh, places[0], places[1:], lambda base: lowest(surface(base)))
+    out = placed(mesh, places[0], places[1:], None if adaption(adapt) is None else lambda base: lowest(surface(base)))
     return surface(out) if is_round(source) else out
 
 

@@ -17,8 +17,8 @@ from softway.errors import InputError, within
 from softway.heat.coupled.build import build
 from softway.marching.remeshing.admitted import adaptions, can_be_cut, require_admitted
 from softway.marching.remeshing.carried_bonds import tearing
-from softway.marching.remeshing.touching import bulging, least_gaps, pushed, touched
-from softway.marching.remeshing.wanted_mesh import Seen, Wanted, affordable, shallower, wanted_cells
+from softway.marching.remeshing.touching import bulging, closing, least_gaps, pushed, touched
+from softway.marching.remeshing.wanted_mesh import Seen, Wanted, affordable, shallower, unhurried, wanted_cells
 from softway.marching.remeshing.warming import warmed, warmth
 from softway.marching.state.march_state import MarchState
 from softway.meshes.adaptive.adapt import Adapt
@@ -84,10 +84,11 @@ class AdaptedScene:
     def wanted(self, now: MarchState, energy: float, ahead: float) -> "AdaptedScene":
         """The scene on the meshes for the coming slabs, in fine cells what closes or is pushed within ``ahead`` [s].
 
-        Solids with ``auto`` halve edges less often while their meshes would have too many cells.
+        Solids with ``auto`` halve edges less often where contacts close so fast that their cells would make slabs
+        short, and while their meshes would have too many cells.
         """
         most = {name: how.most(self.meshes[name].base) for name, how in adaptions(self.scene).items()}
-        hows = {name: affordable(how, self.meshes[name]) for name, how in adaptions(self.scene).items()}
+        hows = self._hows(now)
         stretch = now.step_history.longest / now.step_history.span
         while True:
             wanted = self._wanted(now, energy, ahead, hows)
@@ -98,6 +99,16 @@ class AdaptedScene:
                 if not many:
                     return self.on({**self.meshes, **meshes})
             hows |= {name: shallower(hows[name], self.meshes[name].base) for name in many}
+
+    def _hows(self, now: MarchState) -> dict[str, Adapt]:
+        """Adaptions of the solids, with which their coming meshes may have few enough and large enough cells."""
+        hows, ways = {}, closing(self.model, now)
+        for name, how in adaptions(self.scene).items():
+            mesh = self.meshes[name]
+            hows[name] = affordable(how, mesh)
+            if how.levels == "auto":
+                hows[name] = unhurried(hows[name], mesh, float(ways[self.solid(name).part.nodes].max(initial=0.0)))
+        return hows
 
     def _wanted(self, now: MarchState, energy: float, ahead: float, hows: Mapping[str, Adapt]) -> dict[str, Wanted]:
         """Cells of each solid that adapts, for the coming slabs."""

@@ -8,6 +8,7 @@ from softway.bodies.setup.amplitude import Ramp
 from softway.bodies.setup.loads import Traction
 from softway.marching.remeshing.standing import standing
 from softway.marching.state.march_state import MarchState
+from softway.marching.state.step_control import SMALL_STRAIN
 from softway.meshes.adaptive.leaves import DEPTH
 from softway.meshes.adaptive.refinement import AdaptedMesh
 from softway.model.model import Model
@@ -42,6 +43,23 @@ def least_gaps(model: Model, now: MarchState, ahead: float) -> Array:
         entries = rows.gradient[near].tocoo()
         np.minimum.at(out, entries.col // model.shape[1], rows.gap(u)[near][entries.row])
     return out
+
+
+def closing(model: Model, now: MarchState) -> Array:
+    """Way (n,) that each node goes towards others in its contact rows in a slab of the requested length at the present
+    velocities, relative to the greatest approach that is allowed, in edges, to its cells [m]; zero elsewhere.
+    """
+    start, span, time = now.state.start, now.step_history.span, now.state.time
+    still, limit = standing(model, now.state), now.settings.control.approach
+    coming = start.displacement + span * start.velocity
+    here, later = still.rows(start.displacement, time), still.rows(coming, time + span)
+    near, both = here.near, (here.near & later.near)[here.near]
+    before, after = here.gap(start.displacement)[near], here.gap(coming)[near]
+    after[both] = np.minimum(after[both], later.gap(coming)[near][both])
+    crushable = np.array([not part.internal.linear for part in model.parts])[model.part_of]
+    out = np.zeros(model.shape[0])
+    np.maximum.at(out, here.node[near], before - after)
+    return out / np.where(crushable, limit, max(limit, SMALL_STRAIN))
 
 
 def bulging(mesh: AdaptedMesh, gaps: Array) -> list[Mark]:

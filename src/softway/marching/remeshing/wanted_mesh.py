@@ -17,6 +17,9 @@ from softway.meshes.adaptive.refinement import AdaptedMesh, adapted_mesh
 from softway.meshes.adaptive.tree import Tree, tree_of
 from softway.meshes.mesh import Mesh
 
+SHORT = 2.0
+"""Slabs with the finest cells that ``auto`` makes for one with those of the given mesh."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Wanted:
@@ -140,3 +143,35 @@ def affordable(how: Adapt, present: AdaptedMesh) -> Adapt:
 def shallower(how: Adapt, base: Mesh, times: int = 1) -> Adapt:
     """Adaption that halves edges so many times less."""
     return replace(how, levels=max(0, how.deepest(base.cell_dim) - times * base.cell_dim))
+
+
+def unhurried(how: Adapt, present: AdaptedMesh, way: float) -> Adapt:
+    """Adaption of ``auto`` whose finest cells need no slabs shorter than half of the requested ones at a contact.
+
+    Surfaces approach by a part of an edge in a slab only, so that cells that are small against the way in a requested
+    slab make slabs short.  Cells become finer than they are only where requested slabs suffice, so that meshes do not
+    change to and fro.
+
+    Parameters
+    ----------
+    how, present
+        The adaption, and the present mesh.
+    way
+        Greatest way towards contacts in a requested slab, relative to the allowed approach in edges [m].
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from softway.meshes.adaptive.refinement import refined
+    >>> from softway.meshes.generators.shapes import interval
+    >>> bar = interval(1.0, cells=4)
+    >>> [unhurried(Adapt(), refined(bar, np.full(4, k)), 0.2).deepest(1) for k in (0, 1, 2)]
+    [0, 1, 1]
+    """
+    base, dim = present.base, present.base.cell_dim
+    now = int(present.leaves.level.max()) // dim
+    while (times := how.deepest(dim) // dim) > 0:
+        if way <= (1.0 if times <= now else 0.5) * SHORT * how.finest(base):
+            break
+        how = shallower(how, base)
+    return how

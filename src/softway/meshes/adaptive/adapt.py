@@ -16,8 +16,8 @@ HALVINGS = 2
 """Times that ``auto`` halves the edges of the cells."""
 MOST = 8
 """Cells that ``auto`` makes of those of the base mesh, at most, or as many as have ``FEW`` nodes."""
-FEW = 4000
-"""Nodes of a mesh that is small."""
+FEW = {1: 4000, 2: 4000, 3: 1000}
+"""Nodes of a mesh that is small, by the dimension of its cells: in space a factor costs as much with a quarter."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,7 +29,8 @@ class Adapt:
     levels
         Greatest number of bisections of a cell of the mesh of the solid.  One halves the edges of bars, two those of
         triangles and quadrilaterals, three those of tetrahedra and hexahedra; ``auto`` halves edges twice, or less
-        where the mesh would have more than 8 times the cells of that of the solid and more than about 4000 nodes.
+        where the mesh would have more than 8 times the cells of that of the solid and more than about 4000 nodes, 1000
+        in space, or where contacts close so fast that finer cells would make slabs short.
     tolerance
         Factor c of the threshold ``c sqrt(E (h / L)^k)`` of the indicator: E the energy of the scene, the greatest so
         far, h the shortest edge of the finest cells, L the size of the solid, k its dimension.
@@ -75,7 +76,7 @@ class Adapt:
 
     def most(self, base: Mesh) -> float:
         """Greatest number of cells of the mesh in a march; infinite but for ``auto``."""
-        few = FEW * base.n_cells / base.n_nodes
+        few = FEW[base.cell_dim] * base.n_cells / base.n_nodes
         return max(float(MOST * base.n_cells), few) if self.levels == "auto" else np.inf
 
     def finest(self, base: Mesh) -> float:

@@ -12,6 +12,7 @@ from softway.bodies.solid import Fixed, placed_together
 from softway.errors import InputError
 from softway.marching.remeshing.adapted_scene import adapted_scene
 from softway.meshes.adaptive.refinement import refined
+from softway.meshes.generators.recipes import Ring
 from softway.meshes.generators.shapes import box, interval, rectangle
 
 BOX = box((3.0, 2.0, 1.0), (1, 1, 1))
@@ -169,3 +170,19 @@ def test_bottom_of_a_body_that_adapts_is_that_of_its_curved_boundary(cell: str) 
         fine = refined(base, np.full(base.n_cells, 6)).mesh
         rim = fine.points[fine.nodes("boundary")]
         np.testing.assert_allclose(np.linalg.norm(rim - [0.0, 1.5], axis=1), 1.0, atol=1e-8)
+
+
+@pytest.mark.parametrize("cell", ["tri6", "quad8", "quad9"])
+def test_bottom_of_quadratic_cells_that_adapt_is_the_lowest_place_of_their_edges(cell: str) -> None:
+    """Nodes of finer cells lie on the parabolas of the base cells, below its lowest node."""
+    place = Placement(rotations=(Rotation(angle=np.radians(17.0)),), bottom=0.5)
+    ring = sw.Solid(
+        mesh=Ring(inner=0.6, outer=1.0, cells=(2, 16), cell=cell),
+        material=sw.LinearElastic(E=1.0, nu=0.3), density=1.0, place=place, adapt="auto",
+    )  # fmt: skip
+    stays = sw.build(sw.Scene(bodies={"ring": replace(ring, adapt=None)})).parts[0].mesh
+    assert stays.points[:, 1].min() == pytest.approx(0.5, abs=1e-14)
+    base = adapted_scene(sw.build(sw.Scene(bodies={"ring": ring}))).meshes["ring"].base
+    assert base.points[:, 1].min() > 0.501
+    fine = refined(base, np.full(base.n_cells, 8 if cell != "tri6" else 10)).mesh
+    assert 0.0 <= fine.points[:, 1].min() - 0.5 < 1e-5

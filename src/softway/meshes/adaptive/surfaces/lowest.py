@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from softway.meshes.adaptive.refinement import leaf_places
+from softway.meshes.adaptive.refinement import BISECTED, leaf_places
 from softway.meshes.adaptive.tree import tree_of
+from softway.meshes.cells import CELLS
 from softway.meshes.mesh import Mesh
 
 HALVINGS = 12
@@ -11,9 +12,10 @@ HALVINGS = 12
 
 
 def lowest(base: Mesh) -> float:
-    """Lowest coordinate along the last axis of a base mesh with its smooth surface [m].
+    """Lowest coordinate along the last axis of a base mesh with its smooth surface, or with its quadratic cells [m].
 
-    Cells at the lowest node are cut again and again, as they would be in a march.
+    Cells at the lowest node are cut again and again, as they would be in a march.  A mesh that cannot be cut has its
+    lowest node.
 
     Examples
     --------
@@ -25,7 +27,7 @@ def lowest(base: Mesh) -> float:
     [-0.9950042, -1.0]
     """
     height = float(base.points[:, -1].min())
-    if base.rounding is None:
+    if not _curved(base):
         return height
     tree = tree_of(base)
     for halvings in range(1, 1 + HALVINGS):
@@ -33,3 +35,10 @@ def lowest(base: Mesh) -> float:
         own = (found.nodes == np.argmin(found.points[:, -1])).any(axis=1)
         tree = tree.grown(tree.leaves, np.where(own, halvings * base.cell_dim, 0))
     return min(height, float(leaf_places(tree).points[:, -1].min()))
+
+
+def _curved(base: Mesh) -> bool:
+    """True if cuts of the cells of a base mesh may have lower nodes than it has."""
+    name = next(iter(base.blocks))
+    quadratic = len(base.blocks) == 1 and name in BISECTED and CELLS[name].order > 1 and base.dim > 1
+    return base.rounding is not None or quadratic
