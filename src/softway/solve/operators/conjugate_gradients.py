@@ -51,7 +51,7 @@ class ConjugateGradients:
     def make(self, slab: SlabMatrix, u: Array, analysis: Analysis | None) -> BuiltOperator:
         """The operator of a slab at the displacement ``u`` (n, d)."""
         matrix, local = sp.csr_array(slab.operator(u)), nodal(slab, u)
-        gradients = Gradients(matrix.dot, local, self.tolerance, self.limit, slab.model.space)
+        gradients = Gradients(matrix.dot, local, self.tolerance, self.limit, slab.model.space.of_unknowns)
         return BuiltOperator(factor=gradients, local=local, analysis=None, price=PRICE)
 
 
