@@ -1,22 +1,24 @@
 """A neo-Hookean cube of a million unknowns on one workstation: dropped onto a floor, through its touch.
 
-``python benchmarks/processes/million.py [--cells 69] [--cell tet4] [--operator ConjugateGradients] [--until T]`` prints
+``python benchmarks/processes/million.py [--cells 69] [--cell tet4] [--operator ConjugateGradients] [--slabs N]`` prints
 a line of JSON for the built model and for each slab: time by the clock and of the processors since the last line [s],
-greatest memory so far [MB], iterations, error of the energy relative to that at the start, contact force [N].
+greatest memory so far [MB], iterations, error of the energy relative to that at the start, contact force [N].  The last
+line sums up.
 """
 
 import argparse
 import json
 import resource
+from collections.abc import Iterator
+from statistics import median
 from time import perf_counter, process_time
 from typing import Any
 
 import softway as sw
+from softway.model.model import Model
 
 SPEED, WAVES = 5.0, 116.0
 """Speed of the cube, and of waves of pressure in it [m/s]."""
-CROSSED = 2.0
-"""Cells that a wave of pressure crosses in a slab."""
 KINDS = {"ConjugateGradients": sw.solve.ConjugateGradients(), "MatrixFree": sw.solve.MatrixFree()}
 
 
@@ -32,48 +34,51 @@ def thrown(cells: int, cell: str, gap: float) -> sw.Scene:
     return sw.Scene(bodies={"cube": cube, "floor": floor}, contacts=(sw.Contact(between=("cube.bottom", "floor")),))
 
 
-class Clock:
-    """Costs since the last reading."""
-
-    def __init__(self) -> None:
-        self.last = perf_counter(), process_time()
-
-    def costs(self) -> dict[str, float]:
-        """Seconds by the clock and of the processors, and the greatest memory so far [MB]."""
-        now = perf_counter(), process_time()
-        wall, cpu = (b - a for a, b in zip(self.last, now, strict=True))
-        self.last = now
-        return {"wall": wall, "cpu": cpu, "peak": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0}
+def costs(since: tuple[float, float]) -> dict[str, float]:
+    """Seconds by the clock and of the processors since an instant, and the greatest memory so far [MB]."""
+    wall, cpu = (float(f"{b - a:.4g}") for a, b in zip(since, instant(), strict=True))
+    return {"wall": wall, "cpu": cpu, "peak": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0}
 
 
-def told(name: str, costs: dict[str, float], **facts: Any) -> None:
-    """Print a line."""
-    rounded = {key: float(f"{value:.4g}") for key, value in costs.items()}
-    print(json.dumps({"what": name} | rounded | facts), flush=True)
+def instant() -> tuple[float, float]:
+    """Time by the clock, and that of the processors [s]."""
+    return perf_counter(), process_time()
+
+
+def touch(model: Model, step: float, method: sw.FixedPoint, most: int | None) -> Iterator[dict[str, Any]]:
+    """Facts of each slab, up to the first one after the touch, or to ``most``."""
+    energy, met, last = float(model.kinetic(model.velocity).sum()), False, instant()
+    for k, slab in enumerate(sw.march(model, until=1.0, step=step, method=method), 1):
+        ledger = slab.ledger
+        force = sum(contact.force_n for contact in ledger.contacts.values())
+        facts = {"slab": k, "iterations": slab.report.iterations, "drift": ledger.energy_error / energy, "force": force}
+        yield facts | costs(last)
+        if (met and not force) or k == most:
+            return
+        met, last = met or bool(force), instant()
 
 
 def main() -> None:
-    """March from a quarter of a slab before the touch until it ends, or to ``--slabs``."""
+    """March from a little before the touch."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--cells", type=int, default=69, help="cells along the edge; 69 make 1,029,000 unknowns")
     parser.add_argument("--cell", default="tet4", help="tet4 or hex8")
     parser.add_argument("--operator", default="ConjugateGradients", choices=KINDS)
-    parser.add_argument("--crossed", type=float, default=CROSSED, help="cells that a wave crosses in a slab")
-    parser.add_argument("--slabs", type=int, default=None, help="greatest number of slabs; default: to the end of the touch")
+    parser.add_argument("--crossed", type=float, default=4.0, help="cells that a wave crosses in a slab")
+    parser.add_argument("--slabs", type=int, default=None, help="greatest number of slabs; default: those of the touch")
     given = parser.parse_args()
-    clock, step = Clock(), given.crossed / (given.cells * WAVES)
+    start, step = instant(), given.crossed / (given.cells * WAVES)
     model = sw.build(thrown(given.cells, given.cell, 1.25 * SPEED * step))
-    told("built", clock.costs(), unknowns=model.dofs.size)
-    energy, met = float(model.kinetic(model.velocity).sum()), False
-    method = sw.FixedPoint(operator=KINDS[given.operator])
-    for k, slab in enumerate(sw.march(model, until=1.0, step=step, method=method), 1):
-        ledger = slab.ledger
-        force = sum(found.force_n for found in ledger.contacts.values())
-        facts = {"iterations": slab.report.iterations, "drift": ledger.energy_error / energy, "force": force}
-        told(f"slab {k}", clock.costs(), **facts)
-        if (met and not force) or k == given.slabs:
-            return
-        met = met or bool(force)
+    built = costs(start) | {"unknowns": model.dofs.size}
+    print(json.dumps(built), flush=True)
+    found = []
+    for facts in touch(model, step, sw.FixedPoint(operator=KINDS[given.operator]), given.slabs):
+        print(json.dumps(facts), flush=True)
+        found.append(facts)
+    closed = [facts["cpu"] for facts in found if facts["force"]]
+    drift = max(abs(facts["drift"]) for facts in found)
+    told = {"built": built["cpu"], "slab": median(closed), "drift": drift, "peak": found[-1]["peak"]}
+    print(json.dumps(told | {"unknowns": model.dofs.size, "slabs": len(found)}))
 
 
 if __name__ == "__main__":

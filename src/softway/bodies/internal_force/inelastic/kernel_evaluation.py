@@ -59,7 +59,9 @@ class RateKernelEvaluation:
         given, d = self._given(u, state), u.shape[1]
         out = self.cells.entries(d)
         for block in self.cells.blocks:
-            self._share(self._stiff("tangent"), block, *given, block.pairs, self.cells.at, self.cells.step, out, moduli=True)
+            self._share(
+                self._stiff("tangent"), block, *given, block.pairs, self.cells.at, self.cells.step, out, moduli=True
+            )
         return self.cells.matrix(out, d)
 
     def secant(self, u: Array, state: MaterialState, span: float) -> csc_array:
