@@ -19,7 +19,10 @@ from softway.model.model import Model
 
 SPEED, WAVES = 5.0, 116.0
 """Speed of the cube, and of waves of pressure in it [m/s]."""
-KINDS = {"ConjugateGradients": sw.solve.ConjugateGradients(), "MatrixFree": sw.solve.MatrixFree()}
+KINDS: dict[str, sw.solve.ConjugateGradients | sw.solve.MatrixFree] = {
+    "ConjugateGradients": sw.solve.ConjugateGradients(),
+    "MatrixFree": sw.solve.MatrixFree(),
+}
 
 
 def thrown(cells: int, cell: str, gap: float) -> sw.Scene:

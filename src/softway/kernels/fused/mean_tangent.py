@@ -5,9 +5,9 @@ the second derivatives
 
     r (c - f (a:c)/m + f t/m),     a = f^-T,     t = change of ln theta
 
-for a change c of f.  With the moduli D of the law at F_bar, its flux P_bar on the derivatives, the volume V of the
-point, ``w = D:f``, ``p = r P_bar/m`` and ``o = p:f`` (both times V), and the mean ``k`` of ``o/theta`` over the cell, the
-second derivative of the energy is
+for a change c of f.  With the moduli D of the law at F_bar and its flux P_bar on the derivatives, both times the volume
+V of the point, ``w = D:f``, ``p = r P_bar/m``, ``o = p:f``, and the sum ``k`` of ``o/theta`` over the cell divided by its
+volume, the second derivative of the energy is
 
     N + (b t^T + t b^T) + e t t^T,
     N_ritj = r^2 D_ritj + a_ri y_tj + y_ri a_tj + (g + r^2 (f:w)/m^2 + o/m) a_ri a_tj - (g - o) a_rj a_ti,
