@@ -6,8 +6,8 @@ the second derivatives
     r (c - f (a:c)/m + f t/m),     a = f^-T,     t = change of ln theta
 
 for a change c of f.  With the moduli D of the law at F_bar and its flux P_bar on the derivatives, both times the volume
-V of the point, ``w = D:f``, ``p = r P_bar/m``, ``o = p:f``, and the sum ``k`` of ``o/theta`` over the cell divided by its
-volume, the second derivative of the energy is
+V of the point, ``w = D:f``, ``p = r P_bar/m``, ``o = p:f``, and the sum ``k`` of ``o/theta`` over the cell, divided by
+its volume, the second derivative of the energy is
 
     N + (b t^T + t b^T) + e t t^T,
     N_ritj = r^2 D_ritj + a_ri y_tj + y_ri a_tj + (g + r^2 (f:w)/m^2 + o/m) a_ri a_tj - (g - o) a_rj a_ti,
@@ -78,10 +78,9 @@ def tangent(
         for q in range(table.shape[0]):
             twice = twice + _varied(m, s, kept + q * _KEPT, geometry[block, q], d, moved, quotient)
             _collected(s, spread(1.0), moved + _MIXED, table[q], mixed)
-            _grown(s, kept + q * _KEPT, table[q], slope)
+            _grown(s, kept + q * _KEPT, theta, table[q], slope)
             for node in range(nodes):
                 couple(s, moved, table[q], node, nodes, sums + node * nodes * TENSOR)
-        _shrink(s, slope, nodes, theta)
         for node in range(nodes):
             for two in range(node, nodes):
                 _outer(s, mixed, slope, twice, node, two, sums + (node * nodes + two) * TENSOR)
@@ -106,10 +105,9 @@ def diagonal(m, motion, law, numbers, rows, points, table, geometry, starts, fir
         for q in range(table.shape[0]):
             twice = twice + _varied(m, s, kept + q * _KEPT, geometry[block, q], d, moved, quotient)
             _collected(s, spread(1.0), moved + _MIXED, table[q], mixed)
-            _grown(s, kept + q * _KEPT, table[q], slope)
+            _grown(s, kept + q * _KEPT, theta, table[q], slope)
             for node in range(nodes):
                 couple(s, moved, table[q], node, node + 1, sums)
-        _shrink(s, slope, nodes, theta)
         for node in range(nodes):
             _outer(s, mixed, slope, twice, node, node, sums + node * TENSOR)
         enter_diagonal(s, sums, rows[block], d, out)
@@ -139,10 +137,9 @@ def product(m, motion, law, numbers, rows, points, table, geometry, starts, firs
             twice = twice + _varied(m, s, kept + q * _KEPT, geometry[block, q], d, moved, quotient)
             _changed(s, change, table[q], d)
             along = along + _nine(s, CHANGE, moved + _MIXED)
-            _grown(s, kept + q * _KEPT, table[q], slope)
+            _grown(s, kept + q * _KEPT, theta, table[q], slope)
             _times(s, moved, grown)
             collect(s, table[q], mixed)
-        _shrink(s, slope, nodes, theta)
         along = along + twice * grown
         for row in range(0, nodes * VECTOR, LANES):
             store(s, mixed + row, fma(along, load(s, slope + row), load(s, mixed + row)))
@@ -151,7 +148,7 @@ def product(m, motion, law, numbers, rows, points, table, geometry, starts, firs
 
 @inlined
 def _layout(nodes):
-    """First numbers of: step of the nodes, their b and derivative of theta, N of a point, and data of all points."""
+    """First numbers of: step of the nodes, their b and derivative of ln theta, N of a point, and data of all points."""
     other = PAST + nodes * VECTOR
     mixed = other + nodes * VECTOR
     slope = mixed + nodes * VECTOR
@@ -259,9 +256,9 @@ def _nine(s, one, two):
 
 
 @inlined
-def _grown(s, at, slopes, to):
-    """Add the derivative ``V J a`` of ``V theta`` to the vectors of the nodes."""
-    _collected(s, load(s, at + _VOLUME), at + _SLOPE, slopes, to)
+def _grown(s, at, theta, slopes, to):
+    """Add the derivative of ln theta to the vectors of the nodes; ``theta`` is that of the cell times its volume."""
+    _collected(s, load(s, at + _VOLUME) / theta, at + _SLOPE, slopes, to)
 
 
 @inlined
@@ -269,13 +266,6 @@ def _collected(s, factor, nine, slopes, to):
     for row in range(0, TENSOR, LANES):
         store(s, NATURAL + row, mul(factor, load(s, nine + row)))
     collect(s, slopes, to)
-
-
-@inlined
-def _shrink(s, slope, nodes, theta):
-    """Divide the derivatives of ``V theta`` by ``V theta``."""
-    for row in range(0, nodes * VECTOR, LANES):
-        store(s, slope + row, load(s, slope + row) / theta)
 
 
 @inlined
