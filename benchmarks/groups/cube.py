@@ -1,5 +1,6 @@
 """The peers' problem: time, energy, memory, scaling; the same by several threads; explicit; a large one."""
 
+import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -7,7 +8,7 @@ from statistics import median
 from typing import Any
 
 import numpy as np
-from processes.apart import alone
+from processes.apart import HERE, Absent, Failed, alone, environment, line
 from record.figures import Figure
 
 from groups import peers
@@ -132,7 +133,7 @@ def compact(asked: Asked) -> Iterator[Figure]:
 
 
 def large(asked: Asked) -> Iterator[Figure]:
-    """300k unknowns through the touch: memory and time of a slab."""
+    """300k unknowns through the touch, and a million: memory and time of a slab."""
     found = alone("cube", threads=2, cells=asked.cells("300k"), most=26)
     facts = found["result"]
     closed = [s for s, t in zip(facts["seconds"], facts["touching"], strict=True) if t]
@@ -140,3 +141,19 @@ def large(asked: Asked) -> Iterator[Figure]:
     yield Figure(name="large/first slab", value=facts["seconds"][0], unit="s")
     yield Figure(name="large/slab in contact", value=median(closed), unit=f"s, {facts['iterations']:.1f} iterations")
     yield Figure(name="large/energy", value=facts["drift"], unit="of the energy at the start", target="<= 1e-6")
+    yield from _million(asked)
+
+
+def _million(asked: Asked) -> Iterator[Figure]:
+    """A million unknowns into the touch."""
+    told = [sys.executable, str(HERE / "million.py"), "--cells", str(asked.size(69, 4)), "--slabs", "6"]
+    try:
+        found = line(told, environment(2))
+    except Absent as why:
+        raise Failed(f"million: {why}") from why
+    yield Figure(name="large/peak memory, 1M tet4", value=found["peak"], unit="MB", target=f"<= {20 * 1024}")
+    yield Figure(name="large/built, 1M tet4", value=found["built"], unit="s of the processor")
+    yield Figure(name="large/slab in contact, 1M tet4", value=found["slab"], unit="s of the processor")
+    yield Figure(
+        name="large/energy, 1M tet4", value=found["drift"], unit="of the energy at the start", target="<= 1e-9"
+    )

@@ -83,13 +83,12 @@ def sampled_cells(mesh: Mesh, section: Section, dilatation: Dilating, small: boo
     kinds, rows, directions = zip(*(_cells(mesh, cell, section) for cell in mesh.blocks), strict=True)
     nodes: list[IntArray] = list(mesh.blocks.values())
     tables = [gather_table(c, G, mesh.n_nodes) for c, G in zip(nodes, rows, strict=True)]
-    table = csr_array(vstack(tables, format="csr"))
+    table = tables[0] if len(tables) == 1 else csr_array(vstack(tables, format="csr"))
     volume = np.concatenate([cells.volume.ravel() for cells in kinds])
     sampling = StrainOperator(
         section=section,
         volume=volume,
         table=table,
-        transposed=table.T.tocsr(),
         rows=rows,
         pattern=assembler(nodes, mesh.n_nodes, mesh.dim),
         dilatation=_dilatation(mesh, section, dilatation, small, kinds, rows),

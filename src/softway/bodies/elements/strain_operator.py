@@ -24,8 +24,8 @@ class StrainOperator:
         Section of the elements.
     volume
         (p,) reference volume of each point [m^3].
-    table, transposed
-        Sparse table (p k, n) of the samples, and its transpose.
+    table
+        Sparse table (p k, n) of the samples.
     rows
         Rows (e, q, a, k) of the table, for each cell type.
     pattern
@@ -37,7 +37,6 @@ class StrainOperator:
     section: Section
     volume: Array
     table: csr_array
-    transposed: csr_array
     rows: tuple[Array, ...]
     pattern: Assembler
     dilatation: MeanDilatation | None = None
@@ -61,7 +60,7 @@ class StrainOperator:
     def unweighted(self, flux: Array) -> Array:
         """Nodal forces (n, d) [N] of the flux (p, m, D) [Pa] conjugate to :meth:`plain_derivatives`."""
         q = row_flux(self.section, flux) * self.volume[:, None, None]
-        return self.transposed @ q.reshape(-1, q.shape[-1])
+        return np.asarray(self.table.T @ q.reshape(-1, q.shape[-1]))
 
     def matrix(self, moduli: Array, flux: Array, u: Array) -> csc_array:
         """Derivative (n d, n d) [N/m] of :meth:`nodal` for moduli (p, m, D, m, D) and flux (p, m, D) [Pa]."""

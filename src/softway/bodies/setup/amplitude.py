@@ -1,5 +1,6 @@
 """Amplitude of a load over time."""
 
+from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,12 +45,18 @@ class Ramp:
 
     def at(self, time: float) -> float:
         """Factor at a time [s]."""
-        return float(np.interp(time, self.times, self.factors))
+        near = self._near(time, time)
+        return float(np.interp(time, self.times[near], self.factors[near]))
 
     def mean(self, start: float, end: float) -> float:
         """Mean factor from ``start`` to ``end`` [s]."""
         if end <= start:
             return self.at(start)
-        inner = [t for t in self.times if start < t < end]
-        x = np.array([start, *inner, end])
-        return float(np.trapezoid(np.interp(x, self.times, self.factors), x) / (end - start))
+        near = self._near(start, end)
+        times = self.times[near]
+        x = np.array([start, *(t for t in times if start < t < end), end])
+        return float(np.trapezoid(np.interp(x, times, self.factors[near]), x) / (end - start))
+
+    def _near(self, start: float, end: float) -> slice:
+        """Instants around a span: whole tables would be converted to arrays in every slab."""
+        return slice(max(bisect_right(self.times, start) - 1, 0), bisect_left(self.times, end) + 1)

@@ -82,9 +82,9 @@ class Assembler:
 
     def places(self, components: int) -> tuple[IntArray, IntArray]:
         """Positions of the entries of the pairs: entry (i, j) of pair p is stored at ``at[p] + i step[p] + j``."""
-        place = np.empty(len(self.order), np.int64)
-        place[self.order] = np.arange(len(self.order))
-        at = place[:: components**2]
+        place = np.empty(len(self.order), np.int32)
+        place[self.order] = np.arange(len(self.order), dtype=np.int32)
+        at = place[:: components**2].astype(np.int64)
         return at, place[components :: components**2] - at
 
 

@@ -29,7 +29,7 @@ def merged_pattern(first_starts, first_rows, first_values, starts, rows, number)
     """
     room = len(first_rows) + len(rows)
     values, indices = np.empty(room), np.empty(room, np.int32)
-    picked, place = np.empty(len(rows), np.int64), np.empty(len(rows), np.int64)
+    picked, place = np.empty(len(rows), np.int32), np.empty(len(rows), np.int32)
     columns = 0
     for column in range(len(number)):
         columns = max(columns, number[column] + 1)

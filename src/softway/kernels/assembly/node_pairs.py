@@ -120,7 +120,7 @@ def expanded(rows, columns, components):
         Columns, and first entry of each row.
     """
     d, n = components, len(rows) - 1
-    order, indices = np.empty(len(columns) * d * d, np.int64), np.empty(len(columns) * d * d, np.int32)
+    order, indices = np.empty(len(columns) * d * d, np.int32), np.empty(len(columns) * d * d, np.int32)
     indptr, at = np.empty(n * d + 1, np.int32), 0
     indptr[0] = 0
     for row in range(n):

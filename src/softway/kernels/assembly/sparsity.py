@@ -18,16 +18,16 @@ class Sum:
     constant
         (z,) values of the constant matrix on the common pattern.
     picked
-        Indices of the stored values of the other matrix that are kept.
+        Indices of the stored values of the other matrix that are kept, or all.
     place
-        Their positions among the z entries of the common pattern.
+        Their positions among the z entries of the common pattern, or all.
     indices, indptr
         Common pattern (f, f) in compressed columns with sorted rows.
     """
 
     constant: Array
-    picked: IntArray
-    place: IntArray
+    picked: IntArray | slice
+    place: IntArray | slice
     indices: IntArray
     indptr: IntArray
 
@@ -57,5 +57,16 @@ def sum_of(constant: csc_array, other: csc_array, keep: BoolArray) -> Sum:
         two = entries
     pattern = one.indptr, one.indices, one.data, two.indptr, two.indices
     values, picked, place, indices, indptr = merged_pattern(*pattern, number)
-    picked = picked.copy() if entries is None else entries.data[picked]
-    return Sum(constant=values.copy(), picked=picked, place=place.copy(), indices=indices.copy(), indptr=indptr)
+    kept = picked if entries is None else entries.data[picked]
+    return Sum(
+        constant=values.copy(),
+        picked=_short(kept, other.nnz),
+        place=_short(place, len(values)),
+        indices=indices.copy(),
+        indptr=indptr,
+    )
+
+
+def _short(numbers: IntArray, size: int) -> IntArray | slice:
+    """Numbers (k,) of entries, as all where they are the first to the last of ``size``."""
+    return slice(None) if np.array_equal(numbers, np.arange(size)) else numbers.copy()

@@ -43,26 +43,6 @@ from softway.kernels.jit.simd import call, fma, load, spread, store
 
 @kernel
 def force(measure, law, moduli, rows, table, geometry, starts, first, last, u, out, energy):
-    """Add nodal forces [N] to ``out`` (n, d), and the energy of each part [J] to ``energy``."""
-    sums = NODES + rows.shape[1] * VECTOR
-    s = scratch(sums + rows.shape[1] * VECTOR)
-    for part in range(first, last):
-        store(s, TOTAL, spread(0.0))
-        for block in range(starts[part], starts[part + 1]):
-            gather(u, rows[block], s, NODES)
-            s[sums:] = 0.0
-            for q in range(table.shape[0]):
-                _respond(measure, law, moduli, s, table[q], geometry[block, q], u.shape[1])
-                store(s, TOTAL, fma(load(geometry[block, q], TENSOR), load(s, ENERGY), load(s, TOTAL)))
-                flux(s)
-                pull(s, geometry[block, q])
-                collect(s, table[q], sums)
-            scatter(s, sums, rows[block], out)
-        energy[part] += s[TOTAL : TOTAL + LANES].sum()
-
-
-@kernel
-def apart(measure, law, moduli, rows, table, geometry, starts, first, last, u, out, energy):
     """Add nodal forces [N] to ``out`` (n, d), and the energy of each cell [J] to ``energy`` (b, LANES)."""
     sums = NODES + rows.shape[1] * VECTOR
     s = scratch(sums + rows.shape[1] * VECTOR)

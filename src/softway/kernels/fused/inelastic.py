@@ -142,7 +142,7 @@ def tangent(
         for q in range(table.shape[0]):
             X = geometry[block, q]
             _stiff(motion, law, numbers, s, other, table[q], X, d, points[block], q, past)
-            _moduli(s, X, d, moved)
+            point_moduli(s, X, d, moved)
             for node in range(nodes):
                 couple(s, moved, table[q], node, nodes, sums + node * nodes * TENSOR)
         enter(s, sums, pairs[block], at, width, d, out)
@@ -163,7 +163,7 @@ def diagonal(motion, law, numbers, rows, points, table, geometry, starts, first,
         for q in range(table.shape[0]):
             X = geometry[block, q]
             _stiff(motion, law, numbers, s, other, table[q], X, d, points[block], q, past)
-            _moduli(s, X, d, moved)
+            point_moduli(s, X, d, moved)
             for node in range(nodes):
                 couple(s, moved, table[q], node, node + 1, sums)
         enter_diagonal(s, sums, rows[block], d, out)
@@ -218,7 +218,7 @@ def _stiff(motion, law, numbers, s, other, slopes, X, d, points, q, past):
 
 
 @inlined
-def _moduli(s, X, d, to):
+def point_moduli(s, X, d, to):
     """Derivative of the NATURAL flux by the NATURAL derivatives, as in softway.kernels.fused.elastic."""
     for t in range(3):
         for j in range(3):

@@ -50,13 +50,13 @@ def force(m, motion, law, numbers, rows, points, table, geometry, starts, first,
         for block in range(starts[part], starts[part + 1]):
             gather(u, rows[block], s, PAST)
             gather(step, rows[block], s, other)
-            before, after, size = _means(s, other, kept, table, geometry[block], u.shape[1])
+            before, after, size = means(s, other, kept, _KEPT, table, geometry[block], u.shape[1])
             s[sums:kept] = 0.0
             pressure = spread(0.0)
             for q in range(table.shape[0]):
                 X, at = geometry[block, q], kept + q * _KEPT
                 foresee(points, block, starts[part + 1] - 1, q, table.shape[0], past)
-                x, r = _scaled(s, at, X, before, after, m)
+                x, r = scaled(s, at, X, before, after, m)
                 recall(s, points[block], q, past)
                 answered(motion, law, numbers, s, len(past[2]) > 0)
                 taken = load(X, TENSOR) * load(s, RATIO) * (load(s, STORED) + load(s, LOST))
@@ -82,10 +82,10 @@ def settle(m, motion, law, numbers, rows, points, table, geometry, starts, first
     for block in range(starts[first], starts[last]):
         gather(u, rows[block], s, PAST)
         gather(step, rows[block], s, other)
-        start, end, _ = _means(s, other, kept, table, geometry[block], u.shape[1])
+        start, end, _ = means(s, other, kept, _KEPT, table, geometry[block], u.shape[1])
         for q in range(table.shape[0]):
             foresee(points, block, starts[last] - 1, q, table.shape[0], past)
-            _scaled(s, kept + q * _KEPT, geometry[block, q], start, end, m)
+            scaled(s, kept + q * _KEPT, geometry[block, q], start, end, m)
             recall(s, points[block], q, past)
             answered(motion, law, numbers, s, len(past[2]) > 0)
             turn(s, STRESS)
@@ -95,11 +95,14 @@ def settle(m, motion, law, numbers, rows, points, table, geometry, starts, first
 
 
 @inlined
-def _means(s, other, kept, table, geometry, d):
-    """theta at the start and at the end, and the volume of the cells; store the derivatives at all points."""
+def means(s, other, kept, width, table, geometry, d):
+    """theta at the start and at the end, and the volume of the cells; store the derivatives at all points.
+
+    The data of a point take ``width`` numbers.
+    """
     before, after, size = spread(0.0), spread(0.0), spread(0.0)
     for q in range(table.shape[0]):
-        X, at = geometry[q], kept + q * _KEPT
+        X, at = geometry[q], kept + q * width
         moved(s, other, table[q], X, d)
         for row in range(0, TENSOR, LANES):
             f, change = load(s, FRAME + row), load(s, STEP + row)
@@ -114,7 +117,7 @@ def _means(s, other, kept, table, geometry, d):
 
 
 @inlined
-def _scaled(s, at, X, before, after, m):
+def scaled(s, at, X, before, after, m):
     """Store the derivatives of F_bar at the end and their change; return ``J/theta`` and ``(theta/J)^(1/m)``."""
     ratio = load(X, TENSOR) / load(X, TENSOR + LANES)
     x1, x0 = ratio * load(s, at + 2 * TENSOR) / after, ratio * load(s, at + 2 * TENSOR + LANES) / before

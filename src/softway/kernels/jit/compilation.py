@@ -28,6 +28,7 @@ _SHARED = (
     "jit/simd.py",
     "fused/history_stages.py",
     "fused/inelastic.py",
+    "fused/mean_dilatation.py",
     "fused/stages.py",
     "mortar/simplices.py",
     "mortar/tables.py",

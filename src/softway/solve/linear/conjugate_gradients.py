@@ -7,6 +7,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.bodies.assembled.vector_space import LocalSpace, VectorSpace
+from softway.kernels.linalg.gradient_steps import shared_step
 from softway.solve.linear.interface import Factor
 
 ONE = LocalSpace(())
@@ -84,8 +85,8 @@ class Gradients:
         Comput. 23, 1376).  The tolerance is relative to the squared norm ``reference`` of another right side where that
         is greater.
         """
-        x, Ax, r = np.zeros_like(b), np.zeros_like(b), b
-        p, Ap = np.zeros_like(b), np.zeros_like(b)
+        r = np.array(b)
+        x, Ax, p, Ap = (np.zeros(len(b)) for _ in range(4))
         first, last, alpha, steps = 0.0, np.inf, 1.0, 0
         while steps < self.limit:
             r, z = precondition(r)
@@ -97,10 +98,7 @@ class Gradients:
             if not (rho > 0.0 and bent > 0.0):
                 break
             alpha, last, steps = rho / bent, rho, steps + 1
-            p, Ap = z + beta * p, w + beta * Ap
-            x += alpha * p
-            Ax += alpha * Ap
-            r = r - alpha * Ap
+            shared_step(alpha, beta, z, w, p, Ap, x, Ax, r)
             if rho <= self.tolerance**2 * max(first, reference):
                 break
         return Descent(x=x, Ax=Ax, first=first, steps=steps)

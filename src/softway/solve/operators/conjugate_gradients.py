@@ -1,10 +1,10 @@
 """Conjugate gradients with a stored matrix, preconditioned by the diagonal blocks of the nodes."""
 
 from dataclasses import dataclass
-
-import scipy.sparse as sp
+from functools import partial
 
 from softway.arrays import Array
+from softway.kernels.linalg.gradient_steps import shared_product
 from softway.model.model import Model
 from softway.solve.checks import check_products
 from softway.solve.equations.slab_matrix import SlabMatrix
@@ -50,8 +50,9 @@ class ConjugateGradients:
 
     def make(self, slab: SlabMatrix, u: Array, analysis: Analysis | None) -> BuiltOperator:
         """The operator of a slab at the displacement ``u`` (n, d)."""
-        matrix, local = sp.csr_array(slab.operator(u)), nodal(slab, u)
-        gradients = Gradients(matrix.dot, local, self.tolerance, self.limit, slab.model.space)
+        matrix, local = slab.operator(u), nodal(slab, u)
+        times = partial(shared_product, matrix.indptr, matrix.indices, matrix.data)  # symmetric: columns are rows
+        gradients = Gradients(times, local, self.tolerance, self.limit, slab.model.space.of_unknowns)
         return BuiltOperator(factor=gradients, local=local, analysis=None, price=PRICE)
 
 

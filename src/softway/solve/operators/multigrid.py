@@ -66,7 +66,7 @@ class Multigrid:
             sp.csr_matrix(matrix), B=motions, smooth=LOCAL, presmoother=SMOOTHER, postsmoother=SMOOTHER
         )
         gradients = Gradients(
-            matrix.dot, _Cycle(levels.aspreconditioner()), self.tolerance, self.limit, slab.model.space
+            matrix.dot, _Cycle(levels.aspreconditioner()), self.tolerance, self.limit, slab.model.space.of_unknowns
         )
         return BuiltOperator(factor=gradients, local=nodal(slab, u), analysis=None, price=10.0)
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from softway.bodies.elements.section import Axisymmetric, Bar, PlaneStrain, Volume
+from softway.bodies.setup.amplitude import Ramp
 from softway.bodies.setup.loads import Gravity, Traction, traction_force
 from softway.errors import InputError
 from softway.meshes.generators.shapes import KINDS, ball, box, cylinder, interval, rectangle
@@ -64,3 +65,15 @@ def test_tag_without_facets_is_refused() -> None:
     with pytest.raises(InputError) as caught:
         traction_force(mesh, PlaneStrain(), "corner", (1.0, 0.0))
     assert caught.value.where == "on"
+
+
+def test_ramps_with_many_instants_take_those_around() -> None:
+    rng = np.random.default_rng(0)
+    times = np.cumsum(rng.random(500))
+    ramp = Ramp(times=tuple(times), factors=tuple(rng.random(500)))
+    for start in (-1.0, times[0], times[7], times[-1], *(1.1 * times[-1] * rng.random(50))):
+        end = start + 3.0 * rng.random()
+        knots = np.array([start, *times[(times > start) & (times < end)], end])
+        mean = np.trapezoid(np.interp(knots, ramp.times, ramp.factors), knots) / (end - start)
+        assert ramp.at(start) == pytest.approx(np.interp(start, ramp.times, ramp.factors), rel=1e-15)
+        assert ramp.mean(start, end) == pytest.approx(mean, rel=1e-14)

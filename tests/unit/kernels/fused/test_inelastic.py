@@ -13,7 +13,6 @@ from softway.bodies.elements.section import Axisymmetric, PlaneStrain, PlaneStre
 from softway.bodies.internal_force.inelastic.array_evaluation import RateArrayEvaluation
 from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce, inelastic_force
 from softway.bodies.internal_force.inelastic.kernel_evaluation import RateKernelEvaluation
-from softway.bodies.internal_force.inelastic.mean_dilatation_evaluation import RateMeanEvaluation
 from softway.bodies.internal_force.material_state import MaterialState
 from softway.kernels.jit.threads import use
 from softway.laws.bulk import J2, Hypoelastic
@@ -99,7 +98,7 @@ def test_kernels_agree_with_arrays(law: RateLaw, cell: str, section: Section) ->
 def test_mean_dilatation(name: str, cell: str, section: Section) -> None:
     mesh = irregular_patch(cell)
     body = inelastic_force(mesh, LAWS[name], section, "mean")
-    assert isinstance(body.work, RateMeanEvaluation)
+    assert isinstance(body.work, RateKernelEvaluation)
     for path in paths(mesh, section):
         memory = body.state
         for u in path:
@@ -189,7 +188,7 @@ def test_the_bits_do_not_depend_on_the_threads(cell: str, dilatation: Dilating) 
     n = 16 if cell == "hex8" else 18
     mesh = rectangle((3.0, 1.0), cells=(150, 60)) if cell == "quad4" else box((1.0,) * 3, cells=(n, n, n), cell=cell)
     body = inelastic_force(mesh, LAWS["both"], PlaneStrain() if mesh.dim == 2 else Volume(), dilatation)
-    cells = body.work.kernels.cells if isinstance(body.work, RateMeanEvaluation) else body.work.cells
+    cells = body.work.cells
     assert len(cells.blocks[0].starts) - 1 >= 4
     u = noise(mesh, 0.02)
     body, v = body.during(body.committed(u), 1.0), 1.5 * u

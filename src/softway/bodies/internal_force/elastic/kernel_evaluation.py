@@ -31,12 +31,8 @@ class KernelEvaluation:
 
     def energy_and_force(self, u: Array) -> tuple[float, Array]:
         """Stored energy [J] and its derivative with respect to the displacement, (n, d) [N]."""
-        energies = [np.zeros(len(block.starts) - 1) for block in self.cells.blocks]
-        rows = self.cells.rows(u)
-        out = np.zeros_like(rows)
-        for block, energy in zip(self.cells.blocks, energies, strict=True):
-            self._share(elastic.force, block, rows, out, energy)
-        return float(np.concatenate(energies).sum()), self.cells.folded(out, len(u))
+        energies, force = self.energies_and_force(u)
+        return float(energies.sum()), force
 
     def energies_and_force(self, u: Array) -> tuple[Array, Array]:
         """Stored energy (b LANES,) of each lane [J], zero in empty ones, and force (n, d) [N]."""
@@ -44,7 +40,7 @@ class KernelEvaluation:
         out, energies = np.zeros_like(rows), []
         for block in self.cells.blocks:
             energies.append(np.zeros(block.points.shape))
-            self._share(elastic.apart, block, rows, out, energies[-1])
+            self._share(elastic.force, block, rows, out, energies[-1])
         return np.concatenate([e.ravel() for e in energies]), self.cells.folded(out, len(u))
 
     @property

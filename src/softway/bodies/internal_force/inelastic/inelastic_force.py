@@ -15,7 +15,6 @@ from softway.bodies.internal_force.inelastic.array_evaluation import RateArrayEv
 from softway.bodies.internal_force.inelastic.eigenstrain import free_strain_moduli
 from softway.bodies.internal_force.inelastic.kernel_evaluation import RateKernelEvaluation
 from softway.bodies.internal_force.inelastic.material_points import RatePoints
-from softway.bodies.internal_force.inelastic.mean_dilatation_evaluation import RateMeanEvaluation
 from softway.bodies.internal_force.material_state import MaterialState, initial_history
 from softway.bodies.internal_force.slab_average import SlabForce
 from softway.errors import InputError
@@ -50,7 +49,7 @@ class InelasticForce:
     material: RateLaw
     section: Section
     plain: RateArrayEvaluation
-    work: RateArrayEvaluation | RateKernelEvaluation | RateMeanEvaluation
+    work: RateArrayEvaluation | RateKernelEvaluation
     state: MaterialState
     span: float
 
@@ -216,14 +215,12 @@ def inelastic_force(mesh: Mesh, material: RateLaw, section: Section, dilatation:
 
 def _work(
     plain: RateArrayEvaluation, sampled: SampledCells, dilatation: Dilating, n: int
-) -> RateArrayEvaluation | RateKernelEvaluation | RateMeanEvaluation:
+) -> RateArrayEvaluation | RateKernelEvaluation:
     """Evaluation of a body on n nodes: by kernels if there are any, otherwise by arrays."""
     section, pattern = plain.sampling.section, plain.sampling.pattern
     law = compiled_rate(plain.points.law)
     if law is None or dilatation == "corner" or not isinstance(section, FUSED_SECTIONS):
         return plain
     cells, volume = kernel_cells(section, list(sampled.kinds), pattern, n, path_dependent=True), plain.sampling.volume
-    if dilatation == "point":
-        return RateKernelEvaluation(law=law, cells=cells, volume=volume)
-    m = 2 if isinstance(section, PlaneStrain) else 3
-    return RateMeanEvaluation(kernels=RateKernelEvaluation(law=law, cells=cells, volume=volume, mean=m), arrays=plain)
+    mean = 0 if dilatation == "point" else 2 if isinstance(section, PlaneStrain) else 3
+    return RateKernelEvaluation(law=law, cells=cells, volume=volume, mean=mean)

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from scipy.sparse import csc_array
 from softway.arrays import Array
 from softway.bodies.elements.kernel_cells import Block, KernelCells
 from softway.bodies.internal_force.material_state import MaterialState
-from softway.kernels.fused import inelastic, mean_dilatation
+from softway.kernels.fused import inelastic, mean_dilatation, mean_tangent
 from softway.kernels.jit.compilation import Stage
 from softway.laws.kernel_laws import CompiledRateLaw, resting
 
@@ -34,8 +34,7 @@ class RateKernelEvaluation:
     volume
         (p,) reference volume of each point [m^3].
     mean
-        Number of dimensions of the mean dilatation of an element; 0 for the dilatation of each point.  Tangents are
-        always computed point by point.
+        Number of dimensions of the mean dilatation of an element; 0 for the dilatation of each point.
     """
 
     law: CompiledRateLaw
@@ -60,7 +59,9 @@ class RateKernelEvaluation:
         given, d = self._given(u, state), u.shape[1]
         out = self.cells.entries(d)
         for block in self.cells.blocks:
-            self._share(inelastic.tangent, block, *given, block.pairs, self.cells.at, self.cells.step, out, moduli=True)
+            self._share(
+                self._stiff("tangent"), block, *given, block.pairs, self.cells.at, self.cells.step, out, moduli=True
+            )
         return self.cells.matrix(out, d)
 
     def secant(self, u: Array, state: MaterialState, span: float) -> csc_array:
@@ -72,7 +73,7 @@ class RateKernelEvaluation:
         given, change = self._given(u, state), self.cells.rows(w)
         out = np.zeros_like(change)
         for block in self.cells.blocks:
-            self._share(inelastic.product, block, *given, change, out, moduli=True)
+            self._share(self._stiff("product"), block, *given, change, out, moduli=True)
         return self.cells.folded(out, len(u))
 
     def tangent_diagonal_blocks(self, u: Array, state: MaterialState, span: float) -> Array:
@@ -80,7 +81,7 @@ class RateKernelEvaluation:
         given = self._given(u, state)
         out = np.zeros((*given[0].shape, u.shape[1]))
         for block in self.cells.blocks:
-            self._share(inelastic.diagonal, block, *given, out, moduli=True)
+            self._share(self._stiff("diagonal"), block, *given, out, moduli=True)
         return self.cells.folded(out, len(u))
 
     def committed(self, u: Array, state: MaterialState, span: float) -> MaterialState:
@@ -109,6 +110,11 @@ class RateKernelEvaluation:
             self._share(kernel, block, *given, out, energy, law=law)
         total = float(np.einsum("p,p->", self.volume, state.stored)) + float(np.concatenate(energies).sum())
         return total if np.isfinite(total) else np.inf, self.cells.folded(out, len(u))
+
+    def _stiff(self, name: Literal["tangent", "product", "diagonal"]) -> Callable[..., None]:
+        """Kernel of the tangent, its product or its diagonal blocks."""
+        kernel = getattr(mean_tangent if self.mean else inelastic, name)
+        return partial(kernel, self.mean) if self.mean else kernel
 
     def _given(self, u: Array, state: MaterialState) -> tuple[Array, Array, tuple[Array, ...]]:
         """Displacement, its change in the slab, and the history variables, for kernels."""
