@@ -1,0 +1,32 @@
+"""Model of a march whose method evaluates the internal forces on a device."""
+
+import logging
+from dataclasses import replace
+
+from softway.bodies.internal_force.device_force import on_device
+from softway.errors import within
+from softway.marching.rules.slab_rule import Method
+from softway.model.model import Model
+from softway.solve.device.library import device_named
+from softway.solve.methods.central_difference import Explicit
+from softway.solve.operators.device import Device
+
+log = logging.getLogger(__name__)
+
+
+def placed(model: Model, method: Method) -> Model:
+    """Model with its forces on the device of a method; the model itself without one.
+
+    Raises
+    ------
+    InputError
+        If Warp or the device is missing, or a solid has forces that no device evaluates.
+    """
+    if isinstance(method, Explicit) or not isinstance(method.operator, Device):
+        return model
+    with within("solver.operator"):
+        method.operator.require(model)
+        device = device_named(method.operator.device)
+    log.info("forces and solutions on the device %s", device)
+    parts = tuple(replace(part, internal=on_device(part.internal, device)) for part in model.parts)
+    return replace(model, parts=parts)
