@@ -4,11 +4,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+import numpy as np
 import scipy.sparse as sp
 
-from softway.arrays import Array
+from softway.arrays import Array, IntArray
 from softway.kernels.device import vectors
-from softway.kernels.device.arrays import DeviceMatrix, Sums, fetched, fill, numbers, zeros
+from softway.kernels.device.arrays import DeviceMatrix, Sums, fetched, fill, integers, numbers, zeros
 from softway.kernels.device.door import wp
 
 
@@ -28,7 +29,8 @@ class Fields(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DeviceRows:
-    """Closed rows G (c, f) on a device, see :class:`~softway.solve.elimination.closed_rows.ClosedRows`.
+    """Closed rows G (c, f), with their numbers ``index`` (c,), on a device, see
+    :class:`~softway.solve.elimination.closed_rows.ClosedRows`.
 
     ``inverse`` (c, c) is ``S^-1``, refined ``refinements`` times with the ``compliance`` S; where it would have too
     many entries it is None, and ``answer`` solves on the processor.
@@ -45,6 +47,7 @@ class DeviceRows:
     wanted: Any
     force: Any
     missing: Any
+    index: Any
 
     @classmethod
     def of(
@@ -54,6 +57,7 @@ class DeviceRows:
         refinements: int,
         answer: Callable[[Array], Array],
         device: str,
+        index: IntArray | None = None,
     ) -> "DeviceRows":
         """Copy of G (c, f), ``D^-1 G^T`` (f, c), S (c, c) and its inverse."""
         G, lifted, S = matrices
@@ -61,19 +65,29 @@ class DeviceRows:
         copies = [DeviceMatrix.of(m, device) for m in (G, sp.csr_array(G.T), lifted, sp.csr_array(lifted.T), S)]
         given = None if inverse is None else DeviceMatrix.of(inverse, device)
         room = [zeros(max(c, 1), device) for _ in range(3)]
-        return cls(*copies, given, refinements, answer, *room)
+        which = integers(np.arange(c) if index is None else index, device)
+        return cls(*copies, given, refinements, answer, *room, which)
+
+    def multipliers(self, residual: Any) -> Any:
+        """Forces (c,) of the rows that balance a residual best, in an array that the next solution overwrites."""
+        self.pulled.times(residual, self.wanted)
+        self._solve()
+        return self.force
 
     def balance(self, r: Any) -> None:
         """Take the forces of the rows that balance a residual best out of it."""
-        self.pulled.times(r, self.wanted)
-        self._solve()
-        self.transposed.times(self.force, r, -1.0, 1.0)
+        self.transposed.times(self.multipliers(r), r, -1.0, 1.0)
 
     def remove(self, z: Any) -> None:
         """Take the motion of the rows out of a field."""
         self.matrix.times(z, self.wanted)
         self._solve()
         self.lifted.times(self.force, z, -1.0, 1.0)
+
+    def shortest(self, out: Any) -> None:
+        """Shortest motion (f,) that moves the rows as ``wanted``."""
+        self._solve()
+        self.lifted.times(self.force, out)
 
     def _solve(self) -> None:
         """``force = S^-1 wanted``."""

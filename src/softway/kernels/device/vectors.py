@@ -69,8 +69,8 @@ def decide(sums: wp.array2d(dtype=wp.float64), tolerance: wp.float64, reference:
     begins = numbers[STEPS] == none
     if begins:
         numbers[FIRST] = rho
-    beta = none
-    bent = curvature
+    beta = wp.float64(0.0)
+    bent = sums[1, 0]
     if not begins:
         beta = rho / numbers[LAST]
         bent = curvature - beta * rho / numbers[ALPHA]

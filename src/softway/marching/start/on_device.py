@@ -22,11 +22,17 @@ def placed(model: Model, method: Method) -> Model:
     InputError
         If Warp or the device is missing, or a solid has forces that no device evaluates.
     """
-    if isinstance(method, Explicit) or not isinstance(method.operator, Device):
+    if isinstance(method, Explicit):
+        if method.device is None:
+            return model
+        with within("solver"):
+            device = device_named(method.device)
+    elif isinstance(method.operator, Device):
+        with within("solver.operator"):
+            method.operator.require(model)
+            device = device_named(method.operator.device)
+    else:
         return model
-    with within("solver.operator"):
-        method.operator.require(model)
-        device = device_named(method.operator.device)
-    log.info("forces and solutions on the device %s", device)
+    log.info("forces on the device %s", device)
     parts = tuple(replace(part, internal=on_device(part.internal, device)) for part in model.parts)
     return replace(model, parts=parts)

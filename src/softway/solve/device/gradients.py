@@ -8,7 +8,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from softway.arrays import Array
+from softway.arrays import Array, IntArray
 from softway.solve.device.library import launches
 from softway.solve.elimination.closed_rows import REFINEMENTS, ClosedRows, lift_of
 from softway.solve.elimination.contact_sweeps import Projection
@@ -71,11 +71,18 @@ class DeviceGradients:
     def _rows(self, closed: ClosedRows) -> "DeviceRows":
         """Closed rows on the device; the last ones are kept."""
         if not self.kept or self.kept[0][0] is not closed:
-            matrices = closed.matrix, closed.lifted, sp.csr_array(closed.compliance)
-            refinements = 0 if closed.factor is None else REFINEMENTS
-            rows = launches().DeviceRows.of(matrices, _inverse(closed), refinements, closed.forces, self.descent.device)
-            self.kept[:] = [(closed, rows)]
+            self.kept[:] = [(closed, device_rows(closed, self.descent.device))]
         return self.kept[0][1]
+
+
+def device_rows(closed: ClosedRows, device: str, index: IntArray | None = None) -> "DeviceRows":
+    """Closed rows on a device, with their numbers ``index`` (c,) among all rows."""
+    matrices = closed.matrix, closed.lifted, sp.csr_array(closed.compliance)
+    refinements = 0 if closed.factor is None else REFINEMENTS
+    made: DeviceRows = launches().DeviceRows.of(
+        matrices, _inverse(closed), refinements, closed.forces, device, index
+    )
+    return made
 
 
 def _inverse(closed: ClosedRows) -> sp.csr_array | None:

@@ -54,6 +54,11 @@ def launches() -> Any:
     return importlib.import_module("softway.kernels.device.gradients")
 
 
+def explicit_slabs() -> Any:
+    """Module of central differences on devices; it loads Warp."""
+    return importlib.import_module("softway.kernels.device.explicit_slabs")
+
+
 def cells() -> Any:
     """Module of cells on devices; it loads Warp."""
     return importlib.import_module("softway.kernels.device.device_cells")
