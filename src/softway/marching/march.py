@@ -13,7 +13,6 @@ from softway.marching.results.step import Step
 from softway.marching.results.trying import TryWatch
 from softway.marching.rules.slab_rule import Method
 from softway.marching.slabs import slabs
-from softway.marching.start.on_device import placed
 from softway.marching.start.preparation import prepare
 from softway.marching.start.slab_tolerance import slab_tolerance
 from softway.marching.state.march_state import MarchState, Settings
@@ -102,5 +101,5 @@ def march(
         return adaptive_march(model, settings, state, cancel, trying)
     if replacements(model.scene):
         return forming_march(model, settings, state, cancel, trying)
-    prepared = prepare(placed(model, method), settings, state, cancel, trying)
+    prepared = prepare(model, settings, state, cancel, trying)
     return slabs(prepared.stepper, prepared.march_state)

@@ -8,12 +8,12 @@ import numpy as np
 
 from softway.marching.attempts import DAMPED, AcceptedSlab, accept_slab, recent_rejections, require_progress
 from softway.marching.audit.ledger import update_account
-from softway.marching.explicit.resident import resident_model
-from softway.marching.explicit.resident_slabs import next_resident
 from softway.marching.results.step import Ledger, Report, Step
 from softway.marching.results.step_states import KnownStates
 from softway.marching.slab.compiled_model import compiled_model
 from softway.marching.slab.compiled_slabs import next_batch, steps
+from softway.marching.slab.resident_model import resident_model
+from softway.marching.slab.resident_slabs import next_resident
 from softway.marching.slab.slab_step import Stepper
 from softway.marching.start.knots import slab_length
 from softway.marching.start.ladder import Quality, fastest, next_rung, on_ladder

@@ -15,10 +15,10 @@ class Absent:
         return values[0] if values and callable(values[0]) else self
 
 
-wp: Any
 try:
-    import warp as wp
+    import warp
 except ImportError:
-    wp = Absent()
+    wp: Any = Absent()
 else:
-    wp.config.log_level = wp.LOG_WARNING
+    wp = warp
+    warp.config.log_level = warp.LOG_WARNING

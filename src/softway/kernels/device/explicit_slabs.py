@@ -15,8 +15,8 @@ from softway.kernels.device.gradients import DeviceDescent, DeviceRows, SlabProd
 
 
 class Body(NamedTuple):
-    """Arrays of a model in NumPy: nodal fields (n, d) but for ``mass``, ``light`` and ``edge`` (n,); ``passing`` (n, n);
-    ``ends`` (e, 2) of edges and the shortest initial one ``shortest`` (e,) of their solids, for shortened slabs.
+    """Arrays of a model in NumPy: nodal fields (n, d) but for ``mass``, ``light`` and ``edge`` (n,); ``passing``
+    (n, n); ``ends`` (e, 2) of edges and the ``shortest`` (e,) initial one of their solids, where slabs are shortened.
     """
 
     points: Array
@@ -93,8 +93,8 @@ class Told(NamedTuple):
 class ExplicitSlabs:
     """Slabs of central differences on a device.
 
-    ``extent`` is the greatest coordinate [m], ``corrections`` the number of Newton steps of the massless nodes in a slab, each solved to ``tolerance`` with at
-    most ``limit`` products.
+    ``extent`` is the greatest coordinate [m], ``corrections`` the number of Newton steps of the massless nodes in a
+    slab, each solved to ``tolerance`` with at most ``limit`` products.
     """
 
     cells: DeviceCells
@@ -118,7 +118,9 @@ class ExplicitSlabs:
         """Copy of the arrays of a model to the device of its ``cells``."""
         device, d = cells.device, cells.shape[1]
         placed = Body(
-            *(numbers(a, device) for a in body[:3]),
+            numbers(body.points, device),
+            numbers(body.load, device),
+            numbers(body.inverse, device),
             integers(body.free.astype(int), device),
             numbers(body.mass, device),
             integers(body.light.astype(int), device),

@@ -62,11 +62,20 @@ class DeviceRows:
         """Copy of G (c, f), ``D^-1 G^T`` (f, c), S (c, c) and its inverse."""
         G, lifted, S = matrices
         c = G.shape[0]
-        copies = [DeviceMatrix.of(m, device) for m in (G, sp.csr_array(G.T), lifted, sp.csr_array(lifted.T), S)]
-        given = None if inverse is None else DeviceMatrix.of(inverse, device)
-        room = [zeros(max(c, 1), device) for _ in range(3)]
-        which = integers(np.arange(c) if index is None else index, device)
-        return cls(*copies, given, refinements, answer, *room, which)
+        return cls(
+            matrix=DeviceMatrix.of(G, device),
+            transposed=DeviceMatrix.of(sp.csr_array(G.T), device),
+            lifted=DeviceMatrix.of(lifted, device),
+            pulled=DeviceMatrix.of(sp.csr_array(lifted.T), device),
+            compliance=DeviceMatrix.of(S, device),
+            inverse=None if inverse is None else DeviceMatrix.of(inverse, device),
+            refinements=refinements,
+            answer=answer,
+            wanted=zeros(c, device),
+            force=zeros(c, device),
+            missing=zeros(c, device),
+            index=integers(np.arange(c) if index is None else index, device),
+        )
 
     def multipliers(self, residual: Any) -> Any:
         """Forces (c,) of the rows that balance a residual best, in an array that the next solution overwrites."""
@@ -92,7 +101,7 @@ class DeviceRows:
     def _solve(self) -> None:
         """``force = S^-1 wanted``."""
         if self.inverse is None:
-            fill(self.force, self.answer(fetched(self.wanted)[: self.matrix.rows]))
+            fill(self.force, self.answer(fetched(self.wanted)))
             return
         self.inverse.times(self.wanted, self.force)
         for _ in range(self.refinements):
@@ -136,7 +145,9 @@ class DeviceDescent:
         for array in (*self.fields[3:], self.numbers):
             array.zero_()
 
-    def descend(self, rows: DeviceRows | None, tolerance: float, limit: int, reference: float = 0.0) -> tuple[int, float]:
+    def descend(
+        self, rows: DeviceRows | None, tolerance: float, limit: int, reference: float = 0.0
+    ) -> tuple[int, float]:
         """Iterate from :meth:`begin` to the tolerance; number of steps, and squared norm of the first residual."""
         r, z, w, p, Ap, x, Ax = self.fields
         for _ in range(limit):

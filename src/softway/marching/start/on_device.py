@@ -9,7 +9,7 @@ from softway.marching.rules.slab_rule import Method
 from softway.model.model import Model
 from softway.solve.device.library import device_named
 from softway.solve.methods.central_difference import Explicit
-from softway.solve.operators.device import Device
+from softway.solve.operators.device import Device, require_served
 
 log = logging.getLogger(__name__)
 
@@ -25,11 +25,11 @@ def placed(model: Model, method: Method) -> Model:
     if isinstance(method, Explicit):
         if method.device is None:
             return model
-        with within("solver"):
+        with within("solver.device"):
+            require_served(model, "Explicit on a device", "no device")
             device = device_named(method.device)
     elif isinstance(method.operator, Device):
-        with within("solver.operator"):
-            method.operator.require(model)
+        with within("solver.operator.device"):
             device = device_named(method.operator.device)
     else:
         return model

@@ -79,9 +79,7 @@ def device_rows(closed: ClosedRows, device: str, index: IntArray | None = None) 
     """Closed rows on a device, with their numbers ``index`` (c,) among all rows."""
     matrices = closed.matrix, closed.lifted, sp.csr_array(closed.compliance)
     refinements = 0 if closed.factor is None else REFINEMENTS
-    made: DeviceRows = launches().DeviceRows.of(
-        matrices, _inverse(closed), refinements, closed.forces, device, index
-    )
+    made: DeviceRows = launches().DeviceRows.of(matrices, _inverse(closed), refinements, closed.forces, device, index)
     return made
 
 

@@ -37,11 +37,11 @@ def device_named(device: str) -> str:
         If Warp is missing, or does not know the device.
     """
     if not available():
-        raise InputError("device", "a device without Warp", f"{INSTALL}, or the operator ConjugateGradients")
+        raise InputError("", "a device without Warp", f"{INSTALL}, or the operator ConjugateGradients")
     try:
         return str(arrays().place_of(device))
     except (ValueError, RuntimeError):
-        raise InputError("device", f"'{device}' is no device of this machine", DEVICES) from None
+        raise InputError("", f"'{device}' is no device of this machine", DEVICES) from None
 
 
 def arrays() -> Any:

@@ -7,7 +7,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.bodies.assembled.vector_space import LocalSpace
 from softway.bodies.internal_force.device_force import cell_groups, served
-from softway.errors import InputError
+from softway.errors import InputError, within
 from softway.model.model import Model
 from softway.solve.checks import check_products
 from softway.solve.device.gradients import DeviceGradients
@@ -59,16 +59,14 @@ class Device:
         """Refuse every model without Warp, devices that are missing, and models whose forces no device evaluates."""
         if not available():
             raise InputError("", "Device without Warp", f"{INSTALL}, or the operator ConjugateGradients")
-        device_named(self.device)
+        with within("device"):
+            device_named(self.device)
         remedy = "the operator ConjugateGradients"
         if not isinstance(model.space, LocalSpace):
             raise InputError("", "Device on several ranks", remedy)
         if model.companions:
             raise InputError("", f"Device with {model.companions[0].field.name}", remedy)
-        for part in model.parts:
-            if not served(part.internal):
-                law = "LinearElastic, StVenantKirchhoff or NeoHookean in cells that fill their space or a plane"
-                raise InputError("", f"Device with the solid '{part.name}'", f"{law}, or {remedy}")
+        require_served(model, "Device", remedy)
 
     def make(self, slab: SlabMatrix, u: Array, analysis: Analysis | None) -> BuiltOperator:
         """The operator of a slab at the displacement ``u`` (n, d)."""
@@ -84,3 +82,17 @@ class Device:
         descent = launches().DeviceDescent.of(product, local.matrix, device)
         gradients = DeviceGradients(descent, local, self.tolerance, self.limit)
         return BuiltOperator(factor=gradients, local=local, analysis=None, price=1.0)
+
+
+def require_served(model: Model, what: str, remedy: str) -> None:
+    """Refuse solids with forces that no device evaluates.
+
+    Raises
+    ------
+    InputError
+        With the solid.
+    """
+    for part in model.parts:
+        if not served(part.internal):
+            law = "LinearElastic, StVenantKirchhoff or NeoHookean in cells that fill their space or a plane"
+            raise InputError("", f"{what} with the solid '{part.name}'", f"{law}, or {remedy}")

@@ -13,6 +13,7 @@ from softway.bodies.internal_force.elastic.kernel_evaluation import KernelEvalua
 if TYPE_CHECKING:
     from softway.kernels.device.device_cells import DeviceCells
 
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class DeviceEvaluation:
     """Energy, force and products of the tangent on a device; its entries, on the processor.

@@ -37,8 +37,8 @@ class ElasticForce:
     plain
         Evaluation by arrays over all points.
     work
-        Evaluation of energy, force and tangent: by kernels where the law has them, on a device if the march asks for it,
-        otherwise by arrays.
+        Evaluation of energy, force and tangent: by kernels where the law has them, on a device if a march
+        asks for it, otherwise by arrays.
     """
 
     material: StoredEnergy

@@ -99,7 +99,7 @@ def _resident(model: Model, rule: CentralDifference, method: Explicit, settings:
     layer, blocks = _layer(model, groups, moving, device)
     gradient = sp.csr_array(start.gradient)
     approach = settings.control.approach
-    limits = [approach if not p.internal.linear else max(approach, SMALL_STRAIN) for p in model.parts]
+    limits = [max(approach, SMALL_STRAIN) if p.internal.linear else approach for p in model.parts]
     rows = library.Contacts(
         gradient=gradient,
         offset=np.asarray(start.offset, float),
@@ -137,13 +137,18 @@ def _body(model: Model, rule: CentralDifference, method: Explicit) -> Any:
     )
 
 
+def _around(group: Any, chosen: BoolArray) -> Any:
+    """Cells of a group with one of the ``chosen`` nodes (n,)."""
+    kept = np.flatnonzero(np.asarray(chosen[group.nodes]).any(axis=1))
+    return group._replace(nodes=group.nodes[kept], geometry=group.geometry[kept])
+
+
 def _layer(model: Model, groups: list[Any], moving: BoolArray, device: str) -> tuple[Any, Blocks]:
     """Massless components with the cells around them on the device, and the inverse of their blocks at rest."""
-    chosen, d = moving.any(axis=1), model.shape[1]
+    chosen, d = np.asarray(moving.any(axis=1)), model.shape[1]
     if not chosen.any():
         return None, Blocks(sp.csr_array((0, 0)))
-    own = [g._replace(nodes=g.nodes[k], geometry=g.geometry[k]) for g in groups for k in [chosen[g.nodes].any(axis=1)]]
-    own = [g for g in own if len(g.nodes)]
+    own = [g for g in (_around(group, chosen) for group in groups) if len(g.nodes)]
     nodes = np.unique(np.concatenate([g.nodes.ravel() for g in own]))
     own = [g._replace(nodes=np.searchsorted(nodes, g.nodes)) for g in own]
     shape, library, launched = (len(nodes), d), explicit_slabs(), launches()

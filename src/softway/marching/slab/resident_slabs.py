@@ -28,7 +28,7 @@ from softway.kernels.slab.tables import (
     WORK,
     Course,
 )
-from softway.marching.explicit.resident import ResidentModel
+from softway.marching.slab.resident_model import ResidentModel
 from softway.marching.slab.slab_batch import SlabBatch
 from softway.marching.state.march_state import EnergyAccount, MarchState, Settings
 from softway.marching.state.step_control import above
