@@ -90,7 +90,7 @@ def test_several_materials(device: str) -> None:
 
 def test_what_stays_on_the_processor() -> None:
     mesh = mesh_of("quad4")
-    other = force_on(mesh, MooneyRivlin(c1=1.0, c2=0.2, bulk=5.0))
+    other = force_on(mesh, MooneyRivlin(c10=1.0, c01=0.2, bulk=5.0))
     mean = force_of(mesh, LAWS[2], default_section(mesh), "mean")
     assert not served(other)
     assert not served(mean)
