@@ -42,8 +42,8 @@ def prepare(
     Raises
     ------
     InputError
-        If the contact rule does not fit, an operator or a device is missing, the step is beyond the stability limit, a body starts
-        inside an obstacle, or the state belongs to another scene.
+        If the contact rule does not fit, an operator or a device is missing, the step is beyond the stability limit, a
+        body starts inside an obstacle, or the state belongs to another scene.
     NumericsError
         If there is no static equilibrium at the start.
     Cancelled
