@@ -37,7 +37,7 @@ def device_named(device: str) -> str:
         If Warp is missing, or does not know the device.
     """
     if not available():
-        raise InputError("", "a device without Warp", f"{INSTALL}, or the operator ConjugateGradients")
+        raise InputError("", "a device without Warp", f"{INSTALL}, or no device")
     try:
         return str(arrays().place_of(device))
     except (ValueError, RuntimeError):
