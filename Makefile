@@ -1,13 +1,14 @@
 # Every target makes the environment that it needs from nothing: plain python3 (3.11 or newer) and wheels.
 PYTHON ?= python3
 JOBS ?= 2
+DEVICE ?= cpu
 DEMO := .venv-demo
 TEST := .venv-test
 DOCS := .venv-docs
 # Without bytecode every process would compile all sources again, and pytest all tests.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help demo test test-slow test-pages test-processors test-mpi test-view coverage check bench bench-page bench-check bench-smoke kills manual fuzz drops endurance docs clean
+.PHONY: help demo test test-slow test-pages test-processors test-mpi test-gpu test-view coverage check bench bench-page bench-check bench-smoke kills manual fuzz drops endurance docs clean
 
 help:
 	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
@@ -16,6 +17,7 @@ help:
 	@echo "make test-pages  what takes minutes: commands of the pages, every scenario as shipped, more seeds and values, a fresh clone to its first picture"
 	@echo "make test-processors  tests that decide by numbers with the instructions of several processors, into docs/verification/processors.md; SETS=nehalem for one"
 	@echo "make test-mpi  installs mpi4py and MPICH, and compares runs on 1, 2 and 4 processes bit by bit"
+	@echo "make test-gpu  installs Warp, and compares its kernels with those of the processor: on the processor, or on a CUDA device with DEVICE=cuda:0"
 	@echo "make test-view the page of softway view in a Chromium without a screen, which has to be there"
 	@echo "make coverage  the same, with the lines and branches that did not run"
 	@echo "make check  ruff, mypy, import-linter, house rules"
@@ -65,6 +67,10 @@ test-processors: $(TEST)/ready
 test-mpi: $(TEST)/ready
 	$(TEST)/bin/python -m pip install --quiet --constraint constraints.txt --editable '.[dev,mpi]' mpich
 	$(TEST)/bin/python -m pytest -q tests/unit/ranks/test_processes.py
+
+test-gpu: $(TEST)/ready
+	$(TEST)/bin/python -m pip install --quiet --constraint constraints.txt --editable '.[dev,gpu]'
+	SOFTWAY_TEST_DEVICE=$(DEVICE) $(TEST)/bin/python -m pytest -q tests/unit/solve/device
 
 test-view: $(TEST)/ready
 	$(TEST)/bin/python -m pip install --quiet --constraint constraints.txt --editable '.[dev,browser]'

@@ -12,6 +12,8 @@ from softway.marching.results.step import Ledger, Report, Step
 from softway.marching.results.step_states import KnownStates
 from softway.marching.slab.compiled_model import compiled_model
 from softway.marching.slab.compiled_slabs import next_batch, steps
+from softway.marching.slab.resident_model import resident_model
+from softway.marching.slab.resident_slabs import next_resident
 from softway.marching.slab.slab_step import Stepper
 from softway.marching.start.knots import slab_length
 from softway.marching.start.ladder import Quality, fastest, next_rung, on_ladder
@@ -32,8 +34,10 @@ def slabs(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
     model, settings, span = stepper.model, march_state.settings, march_state.step_history.span
     until, memory, before = settings.until, march_state.memory, split_states(model, march_state.state)
     cells, compiled = crushing(model, stepper.method), compiled_model(stepper, settings, span)
+    resident = resident_model(stepper, settings)
     while march_state.state.time < until - 1e-9 * span:
         some = None if compiled is None else next_batch(compiled, march_state, before, memory)
+        some = some if resident is None else next_resident(resident, march_state, before, memory)
         if some is not None:
             yield from steps(stepper, some)
             count = len(some.iterations)

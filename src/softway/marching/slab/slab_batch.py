@@ -30,6 +30,8 @@ class SlabBatch:
         States and sums of the slabs, and number of iterations of each.
     states
         States that were asked for, by the number of slabs before them.
+    lengths
+        Length of the slab after each of them [s]; by default that of the march.
     """
 
     model: Model
@@ -38,6 +40,7 @@ class SlabBatch:
     course: Course
     iterations: tuple[int, ...]
     states: dict[int, State]
+    lengths: tuple[float, ...] = ()
 
     def state(self, count: int) -> State:
         """State after so many slabs; made when it is asked for, and then kept."""
@@ -54,7 +57,8 @@ class SlabBatch:
         if not count:
             return self.begun
         begun, sums = self.begun, self.course.sums[count - 1]
-        history = replace(begun.step_history, length=begun.step_history.span, recent_rejections=0.0, smooth=0)
+        length = self.lengths[count - 1] if self.lengths else begun.step_history.span
+        history = replace(begun.step_history, length=length, recent_rejections=0.0, smooth=0)
         return replace(
             begun,
             state=self._state(count),

@@ -9,6 +9,7 @@ from softway.marching.slab.slab_step import Stepper, stepper
 from softway.marching.start.initial_state import initial_state
 from softway.marching.start.knots import slab_ends
 from softway.marching.start.ladder import rungs, slowest
+from softway.marching.start.on_device import placed
 from softway.marching.start.slab_length import proposed
 from softway.marching.state.march_state import MarchState, Settings, StepHistory
 from softway.marching.state.model_state import join_states
@@ -41,8 +42,8 @@ def prepare(
     Raises
     ------
     InputError
-        If the contact rule does not fit, an operator is missing, the step is beyond the stability limit, a body starts
-        inside an obstacle, or the state belongs to another scene.
+        If the contact rule does not fit, an operator or a device is missing, the step is beyond the stability limit, a
+        body starts inside an obstacle, or the state belongs to another scene.
     NumericsError
         If there is no static equilibrium at the start.
     Cancelled
@@ -52,6 +53,7 @@ def prepare(
     if not isinstance(method, Explicit) and method.operator != "auto":
         with within("solver.operator"):
             method.operator.require(model)
+    model = placed(model, method)
     prepared, stepping = (
         stepper(model, method, weight, cancel, trying),
         method if isinstance(method, Explicit) else weight,

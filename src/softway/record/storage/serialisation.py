@@ -45,7 +45,7 @@ from softway.solve.equations.slab_values import SlabStart
 from softway.solve.methods.central_difference import Explicit
 from softway.solve.methods.fixed_point import FixedPoint
 from softway.solve.methods.newton import Newton
-from softway.solve.operators import ConjugateGradients, Factored, MatrixFree, Multigrid, OperatorChoice
+from softway.solve.operators import ConjugateGradients, Device, Factored, MatrixFree, Multigrid, OperatorChoice
 from softway.solve.operators.operator_memory import IterationCount, Near, OperatorMemory, OperatorOrigin, Skin
 
 Arrays = dict[str, NDArray[Any]]
@@ -82,7 +82,7 @@ KINDS: Mapping[str, type] = MappingProxyType(
                 HangingNodes,
             ),
             *(ContactRows, TangentialRows, IterationCount, Skin, Near),
-            *(FixedPoint, Newton, Explicit, ConjugateGradients, Factored, MatrixFree, Multigrid),
+            *(FixedPoint, Newton, Explicit, ConjugateGradients, Device, Factored, MatrixFree, Multigrid),
             *(Collocation, EndPeaks, Momentum),
         )
     }

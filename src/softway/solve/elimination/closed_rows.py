@@ -106,7 +106,12 @@ def forces_of_motion(frozen: FrozenOperator, coefficients: RowCoefficients, want
     return ClosedRows.of(row_matrix(coefficients, frozen.basis), frozen.local).forces(wanted)
 
 
+def lift_of(diagonal: Array) -> float:
+    """Number that is added to the diagonal (c,) of a compliance whose rows may depend on each other."""
+    return LIFT * float(np.abs(diagonal).max())
+
+
 def _lifted(matrix: sp.csc_array) -> Factor:
     """Factor of a sparse symmetric matrix whose rows may depend on each other."""
-    lift = LIFT * float(np.abs(matrix.diagonal()).max())
+    lift = lift_of(matrix.diagonal())
     return SuperLU().factor(sp.csc_array(matrix + lift * sp.eye_array(matrix.shape[0], format="csc")))

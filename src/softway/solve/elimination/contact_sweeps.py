@@ -1,6 +1,5 @@
 """Contact by elimination: active sets of rows without friction, whose closed rows conjugate gradients respect."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +11,7 @@ from softway.solve.constraints.normal_active_set import RowConditions
 from softway.solve.constraints.row_basis import RowCoefficients, UnitRows
 from softway.solve.effort import Effort
 from softway.solve.elimination.closed_rows import ClosedRows, row_matrix
-from softway.solve.linear.conjugate_gradients import Gradients
+from softway.solve.linear.conjugate_gradients import Descending
 from softway.solve.linear.interface import Factor
 
 SWEEPS = 4
@@ -61,7 +60,7 @@ class Elimination:
 
     __slots__ = ("closed", "gradients", "key", "known", "local", "matrix")
 
-    def __init__(self, gradients: Gradients, local: Factor) -> None:
+    def __init__(self, gradients: Descending, local: Factor) -> None:
         self.gradients, self.local = gradients, local
         self.closed: ClosedRows | None = None
         self.key, self.known, self.matrix = b"", b"", sp.csr_array((0, 0))
@@ -93,22 +92,33 @@ class Elimination:
         if greatest(missing) > CLOSED * greatest(target):
             part = closed.motion(missing)
             d, Ad = d + part, Ad + self.gradients.times(part)
-        found = self.gradients.descend(-(r + Ad), self._preconditioned(closed))
+        precondition = Projection.of(closed, self.gradients.preconditioner)
+        found = self.gradients.descend(-(r + Ad), precondition)
         d, Ad = d + found.x, Ad + found.Ax
         multiplier = closed.multipliers(r + Ad)
         return Answer(d + closed.motion(target - closed.matrix @ (equations.y + d)), Ad, multiplier)
 
-    def _preconditioned(self, closed: ClosedRows) -> Callable[[Array], tuple[Array, Array]]:
-        """Preconditioner on the fields that do not move the closed rows, and the residual without their multipliers."""
-        outer = self.gradients.preconditioner
-        if not closed.matrix.shape[0]:
-            return lambda r: (r, outer.solve(r))
 
-        def precondition(r: Array) -> tuple[Array, Array]:
-            r = closed.balanced(r)
-            return r, closed.removed(outer.solve(r))
+@dataclass(frozen=True, slots=True, eq=False)
+class Projection:
+    """Preconditioner ``outer`` on the fields that do not move the ``closed`` rows, and residuals without their
+    multipliers.
+    """
 
-        return precondition
+    closed: ClosedRows | None
+    outer: Factor
+
+    @classmethod
+    def of(cls, closed: ClosedRows, outer: Factor) -> "Projection":
+        """Preconditioner for rows; the outer one itself without any."""
+        return cls(closed if closed.matrix.shape[0] else None, outer)
+
+    def __call__(self, r: Array) -> tuple[Array, Array]:
+        """Residual (f,) without the part along the rows, and its preconditioned field (f,)."""
+        if self.closed is None:
+            return r, self.outer.solve(r)
+        r = self.closed.balanced(r)
+        return r, self.closed.removed(self.outer.solve(r))
 
 
 def normal_sweeps(

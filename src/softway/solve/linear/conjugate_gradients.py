@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -23,6 +24,26 @@ class Descent:
     Ax: Array
     first: float
     steps: int
+
+
+@runtime_checkable
+class Descending(Protocol):
+    """Conjugate gradients, wherever their vectors are."""
+
+    @property
+    def preconditioner(self) -> Factor:
+        """Approximation of the matrix that is solved with."""
+        ...
+
+    def times(self, x: Array, /) -> Array:
+        """Product (f,) with the matrix."""
+        ...
+
+    def descend(
+        self, b: Array, precondition: Callable[[Array], tuple[Array, Array]], reference: float = 0.0
+    ) -> Descent:
+        """Solution in the range of a preconditioner, see :meth:`Gradients.descend`."""
+        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from softway.errors import InputError
 from softway.solve.checks import check_accuracy
+from softway.solve.device.library import check_device
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,6 +25,9 @@ class Explicit:
         slab.
     limit
         Number of iterations of the equilibrium after which the slab is rejected.
+    device
+        Device that evaluates the forces, and keeps the state where it can, as for
+        :class:`~softway.solve.Device`; None for the processor.
 
     References
     ----------
@@ -40,8 +44,11 @@ class Explicit:
     safety: float = 0.8
     tolerance: float = 1e-5
     limit: int = 40
+    device: str | None = None
 
     def __post_init__(self) -> None:
         if not 0.0 < self.safety <= 1.0:
             raise InputError("safety", f"{self.safety:g} of the stability limit", "a number above 0, at most 1")
         check_accuracy(self.tolerance, self.limit)
+        if self.device is not None:
+            check_device(self.device)

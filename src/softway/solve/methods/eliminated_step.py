@@ -10,7 +10,7 @@ from softway.solve.elimination.contact_sweeps import Elimination, Equations, nor
 from softway.solve.elimination.friction_sweeps import friction_sweeps, served
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.equations.slab_values import Evaluation
-from softway.solve.linear.conjugate_gradients import Gradients
+from softway.solve.linear.conjugate_gradients import Descending
 from softway.solve.methods.contact_step import ContactStep, contact_step
 
 Steps = Callable[[SlabEquations, FrozenOperator, Array, Evaluation, Array, BoolArray], ContactStep]
@@ -18,7 +18,7 @@ Steps = Callable[[SlabEquations, FrozenOperator, Array, Evaluation, Array, BoolA
 
 def eliminated(system: SlabEquations, frozen: FrozenOperator) -> bool:
     """True if closed rows are eliminated: by iterative operators, unless rows of crossing edges are redundant."""
-    iterative = isinstance(frozen.factor, Gradients) and frozen.local is not None
+    iterative = isinstance(frozen.factor, Descending) and frozen.local is not None
     return iterative and not system.model.contacts.crossing_edges
 
 
@@ -31,7 +31,7 @@ def contact_steps(system: SlabEquations, frozen: FrozenOperator) -> Steps:
     """Step of the iterations of a slab."""
     if not eliminated(system, frozen):
         return contact_step
-    assert isinstance(frozen.factor, Gradients) and frozen.local is not None
+    assert isinstance(frozen.factor, Descending) and frozen.local is not None
     elimination = Elimination(frozen.factor, frozen.local)
 
     def step(

@@ -21,7 +21,7 @@ from softway.solve.methods.facet_check import check_facets
 from softway.solve.methods.iteration import Guess, Iterate, lost
 from softway.solve.methods.newton import Newton
 from softway.solve.methods.renewal import RETREATS, WINDOW, Course
-from softway.solve.operators import ConjugateGradients, Factored, MatrixFree, Multigrid
+from softway.solve.operators import ConjugateGradients, Device, Factored, MatrixFree, Multigrid
 from softway.solve.operators.operator_refresh import refreshed, renewed_inside
 
 POOR = 0.8
@@ -65,7 +65,7 @@ class FixedPoint:
     depth: int = 8
     tolerance: float = 1e-11
     limit: int = 60
-    operator: Factored | ConjugateGradients | MatrixFree | Multigrid | Literal["auto"] = "auto"
+    operator: Factored | ConjugateGradients | Device | MatrixFree | Multigrid | Literal["auto"] = "auto"
     handover: bool = True
 
     def __post_init__(self) -> None:

@@ -73,6 +73,7 @@ ROBOTS = "an extra that is not always installed: tests/unit/mechanisms/test_robo
 INNER = "called inside only, after the check of what the user has given"
 NEW_CELLS = "tests/unit/marching/remeshing/forming/test_new_cells.py"
 FORGED = "from Python: tests/unit/marching/remeshing/forming/test_forming_march.py"
+DEVICE = "devices, with Warp and without: tests/unit/solve/device/test_device_input.py"
 REASONS = {
     "bodies/setup/directions.py: _held": "nodes that a body carries: tests/unit/bodies/test_directed_supports.py",
     "bodies/assembled/nodal_masses.py: _require_even": "from Python: tests/unit/model/test_hanging_nodes.py",
@@ -86,6 +87,10 @@ REASONS = {
     "contact/surfaces/boundary.py: __post_init__": INNER,
     "scenario/checks/check.py: _model": "ties of a mesh file: tests/unit/meshes/files/abaqus/test_ties.py",
     "heat/coupled/strain/expansion.py: thermal_stiffness": "a law of one's own that does not resist a change of volume",
+    "solve/device/library.py: check_device": DEVICE,
+    "solve/device/library.py: device_named": DEVICE,
+    "solve/operators/device.py: require": DEVICE,
+    "solve/operators/device.py: require_served": DEVICE,
     "scenario/run_ranks.py: require_ranks": "with --ranks only: tests/unit/ranks/test_launch.py",
     "marching/state/march_state.py: fitting": "a state of another scene, from Python",
     "marching/state/model_state.py: join_states": "a state of another scene, from Python",

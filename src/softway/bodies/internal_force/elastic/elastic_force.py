@@ -12,6 +12,7 @@ from softway.bodies.elements.section import Section, free_axes
 from softway.bodies.elements.strain_operator import StrainOperator
 from softway.bodies.internal_force.body_force import BodyForce
 from softway.bodies.internal_force.elastic.array_evaluation import ArrayEvaluation
+from softway.bodies.internal_force.elastic.device_evaluation import DeviceEvaluation
 from softway.bodies.internal_force.elastic.kernel_evaluation import KernelEvaluation
 from softway.bodies.internal_force.elastic.material_points import MaterialPoints, chord_average
 from softway.bodies.internal_force.material_state import MaterialState
@@ -36,13 +37,14 @@ class ElasticForce:
     plain
         Evaluation by arrays over all points.
     work
-        Evaluation of energy, force and tangent: by kernels where the law has them, otherwise by arrays.
+        Evaluation of energy, force and tangent: by kernels where the law has them, on a device if a march
+        asks for it, otherwise by arrays.
     """
 
     material: StoredEnergy
     section: Section
     plain: ArrayEvaluation
-    work: ArrayEvaluation | KernelEvaluation
+    work: ArrayEvaluation | KernelEvaluation | DeviceEvaluation
 
     @property
     def linear(self) -> bool:

@@ -1,0 +1,1 @@
+"""Kernels of Warp, which run on a CUDA device and on the processor from the same source."""
