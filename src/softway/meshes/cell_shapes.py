@@ -63,9 +63,9 @@ def cell_shapes(cell: str) -> CellShapes:
 
     The determinant of the map is a polynomial.  Its sign is looked at on a lattice of as many points as it has
     coefficients: one point of a linear simplex, the corners of ``quad4``, three points an edge of ``tri6`` and
-    ``hex8``, four of ``tet10`` and ``quad9``, but three of ``hex20`` and ``hex27``.  In simplices of order one and in ``quad4``
-    it is positive if it is there; in the others it may be negative in a small part between them (Johnen, Remacle,
-    Geuzaine, J. Comput. Phys. 233 (2013) 359-372).
+    ``hex8``, four of ``tet10`` and ``quad9``, but three of ``hex20`` and ``hex27``.  In simplices of order one and in
+    ``quad4`` it is positive if it is there; in the others it may be negative in a small part between them (Johnen,
+    Remacle, Geuzaine, J. Comput. Phys. 233 (2013) 359-372).
     """
     it = CELLS[cell]
     d = it.dim
