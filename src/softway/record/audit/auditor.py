@@ -11,8 +11,8 @@ from softway.bodies.prescribed_motion import PlacedShape
 from softway.marching.results.finding import BETWEEN, FLAT_CELL, INVERTED, OVERLAP, finding
 from softway.marching.results.step import Event
 from softway.meshes.cell_shapes import ROUNDING
+from softway.record.audit.geometry.bad_cells import bad_cells
 from softway.record.audit.geometry.chords import outside
-from softway.record.audit.geometry.inverted import bad_cells
 from softway.record.audit.geometry.overlap import overlaps
 from softway.record.audit.geometry.solids import Solids, solids
 from softway.record.audit.geometry.tools import behind, sunk
