@@ -51,31 +51,35 @@ def test_a_middle_node_may_go_to_the_quarter_of_its_edge(cell: str) -> None:
 @pytest.mark.parametrize("cell", FILLING)
 def test_folded_cells_are_those_of_a_dense_sampling(cell: str) -> None:
     """Random cells: none is called folded that is not, and those are missed whose fold lies between the points, which
-    are deep by less than a tenth of the reference cell.
+    have a determinant of -.1 at most (one cell of ``tri6`` and one of ``hex20``).
     """
     draws, nodes = np.random.default_rng(5), CELLS[cell].nodes
     folded = good = 0
     for _ in range(150):
-        x = nodes + draws.uniform(0.05, 0.5) * draws.uniform(-1.0, 1.0, nodes.shape)
+        x = nodes + draws.uniform(0.05, 0.9) * draws.uniform(-1.0, 1.0, nodes.shape)
         least, found = least_determinant(cell, x), shape(cell, x)
         folded, good = folded + (least < 0.0), good + (least > 0.0)
         if found <= ROUNDING:
             assert least <= 1e-12
         else:
-            assert least > -0.1
-    assert folded > 10 and good > 10
+            assert least > -0.15
+    assert folded > 5 and good > 5
 
 
 def test_a_hexahedron_with_good_corners_may_be_folded_between_them() -> None:
-    """Its least determinant is in the middle of an edge."""
-    draws, nodes = np.random.default_rng(1), CELLS["hex8"].nodes
-    _, slopes = tabulate("hex8", nodes)
-    for _ in range(2000):
-        x = nodes + 0.5 * draws.uniform(-1.0, 1.0, nodes.shape)
-        if determinants(np.einsum("ad,qar->qrd", x, slopes)).min() > 0.02 and least_determinant("hex8", x) < -0.02:
-            assert shape("hex8", x) < 0.0
-            return
-    pytest.fail("no such cell was drawn")
+    """Two parallelograms of area 1 and 1/2, with sides turned by 150 degrees against each other to both sides: in the
+    middle between their corners the sides have the turned order, and the determinant is -cos(75)^2 sin(60).
+    """
+    nodes, x = CELLS["hex8"].nodes, np.array(CELLS["hex8"].nodes)
+    for at, (one, two) in ((0.0, (0.0, 90.0)), (1.0, (150.0, -60.0))):
+        sides = np.radians([one, two])
+        mine = nodes[:, 0] == at
+        x[mine, 1:] = nodes[mine, 1:] @ np.stack([np.cos(sides), np.sin(sides)], axis=1)
+    points = np.vstack([nodes, [[0.5, 0.0, 0.0]]])
+    *corners, middle = determinants(np.einsum("ad,qar->qrd", x, tabulate("hex8", points)[1]))
+    np.testing.assert_allclose(corners, np.where(nodes[:, 0] == 0.0, 1.0, 0.5), rtol=1e-12)
+    assert middle == pytest.approx(-(np.cos(np.radians(75.0)) ** 2) * np.sqrt(0.75))
+    assert shape("hex8", x) < 0.0
 
 
 def test_a_corner_that_lies_flat_on_a_tool_is_good() -> None:
