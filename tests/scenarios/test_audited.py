@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import softway as sw
+from softway.marching.results.finding import BETWEEN, DISSIPATION, ENERGY, INVERTED, MOMENTUM, OVERLAP, SPIN
 from softway.record.audit import watch
 from softway.record.audit.folder import frames_audited
-from softway.record.read.findings import BETWEEN, DISSIPATION, ENERGY, INVERTED, MOMENTUM, OVERLAP, SPIN
 from softway.scenario.files import loads
 from softway.scenario.text.templates import templates
 from variants import SCENARIOS, VARIANTS, each, names, small, whole

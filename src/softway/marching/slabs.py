@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from softway.marching.attempts import DAMPED, AcceptedSlab, accept_slab, recent_rejections, require_progress
+from softway.marching.audit.folded_cells import WatchedCells, watched_cells
 from softway.marching.audit.ledger import update_account
-from softway.marching.results.step import Ledger, Report, Step
+from softway.marching.results.step import Event, Ledger, Report, Step
 from softway.marching.results.step_states import KnownStates
 from softway.marching.slab.compiled_model import compiled_model
 from softway.marching.slab.compiled_slabs import next_batch, steps
@@ -34,7 +35,7 @@ def slabs(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
     model, settings, span = stepper.model, march_state.settings, march_state.step_history.span
     until, memory, before = settings.until, march_state.memory, split_states(model, march_state.state)
     cells, compiled = crushing(model, stepper.method), compiled_model(stepper, settings, span)
-    resident = resident_model(stepper, settings)
+    resident, shapes = resident_model(stepper, settings), watched_cells(model)
     while march_state.state.time < until - 1e-9 * span:
         some = None if compiled is None else next_batch(compiled, march_state, before, memory)
         some = some if resident is None else next_resident(resident, march_state, before, memory)
@@ -48,11 +49,20 @@ def slabs(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
         found = accept_slab(stepper, march_state, length, memory)
         if memory.choice is None and found.memory.choice is not None:
             log.info("operator %s: %s", found.memory.choice.operator, found.memory.choice.reason)
+        found, bad = _looked_at(shapes, march_state, found)
         march_state = _after(model, march_state, found, cells)
-        step = _step(model, before, found, march_state)
         log.debug("slab %d to t = %.6g s: %d iterations", march_state.slabs, found.after.time, found.out.iterations)
-        yield (step := _step(model, before, found, march_state))
+        yield (step := _step(model, before, found, march_state, bad))
         before, memory = step.after, found.memory
+
+
+def _looked_at(
+    shapes: WatchedCells, march_state: MarchState, found: AcceptedSlab
+) -> tuple[AcceptedSlab, tuple[Event, ...]]:
+    """The slab with the shape of its worst cell in the certificate, and findings on cells that have gone bad in it."""
+    certificate = shapes.seen(found.certificate, found.after)
+    bad = tuple(shapes.findings(certificate, march_state.state, found.after))
+    return replace(found, certificate=certificate), bad
 
 
 def _after(model: Model, march_state: MarchState, found: AcceptedSlab, cells: Crushing) -> MarchState:
@@ -128,7 +138,7 @@ def _next(model: Model, march_state: MarchState, found: AcceptedSlab) -> tuple[f
     return (min(span, 2.0 * length) if may_grow(model, control, length, now, found.after) else length), 0
 
 
-def _step(model: Model, before: State, found: AcceptedSlab, march_state: MarchState) -> Step:
+def _step(model: Model, before: State, found: AcceptedSlab, march_state: MarchState, bad: tuple[Event, ...]) -> Step:
     out = found.out
     names = [p.name for p in model.parts]
     return Step(
@@ -136,7 +146,7 @@ def _step(model: Model, before: State, found: AcceptedSlab, march_state: MarchSt
         slab=found.slab,
         ledger=found.ledger,
         certificate=found.certificate,
-        events=out.events,
+        events=(*out.events, *bad) if bad else out.events,
         report=Report(
             iterations=out.iterations,
             pairs=out.pairs,

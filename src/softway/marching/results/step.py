@@ -30,7 +30,7 @@ class Event:
     contact, kind, node
         Contact label; ``touch``, ``release``, ``stick`` or ``slip``; node number in its body. A tie has its label and
         the kind ``break``. A finding of the audit has the names of the bodies for the label and a kind of
-        ``record.read.findings.KINDS``.
+        ``marching.results.finding.KINDS``.
     position
         (d,) position of the node [m].
     velocity_before, velocity_after
@@ -171,6 +171,10 @@ class Certificate:
     gap_nodes, gap_between
         Gap of the nodes and gap between nodes of all surfaces, from the geometry at the end [m]: minus the deepest
         overlap, zero where nothing overlaps; not a number in slabs that were not audited.
+    shape
+        Least scaled Jacobian of the cells at the end, one at best: zero or less where a cell has folded, so that its
+        stress is wrong; not a number where no solid has large strains
+        (:meth:`~softway.meshes.cell_shapes.CellShapes.of`).
     """
 
     min_gap: float
@@ -181,10 +185,11 @@ class Certificate:
     energy_error: float
     gap_nodes: float = nan
     gap_between: float = nan
+    shape: float = nan
 
     def _repr_html_(self) -> str:
         """A table for notebooks."""
-        units = ("m", "N", "J", "J", "kg m/s", "J", "m", "m")
+        units = ("m", "N", "J", "J", "kg m/s", "J", "m", "m", "")
         numbers = zip(fields(self), units, strict=True)
         return table("Certificate", {f.name.replace("_", " "): f"{getattr(self, f.name):.3g} {u}" for f, u in numbers})
 

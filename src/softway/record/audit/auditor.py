@@ -8,13 +8,14 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray
 from softway.bodies.prescribed_motion import PlacedShape
+from softway.marching.results.finding import BETWEEN, FLAT_CELL, INVERTED, OVERLAP, finding
 from softway.marching.results.step import Event
+from softway.meshes.cell_shapes import ROUNDING
+from softway.record.audit.geometry.bad_cells import bad_cells
 from softway.record.audit.geometry.chords import outside
-from softway.record.audit.geometry.inverted import inverted
 from softway.record.audit.geometry.overlap import overlaps
 from softway.record.audit.geometry.solids import Solids, solids
 from softway.record.audit.geometry.tools import behind, sunk
-from softway.record.read.findings import BETWEEN, INVERTED, OVERLAP, finding
 from softway.record.write.grid.grid_layout import Grid, blocks, owners
 
 VISIBLE = 1e-3
@@ -81,12 +82,12 @@ class Auditor:
         return outside(self.solids)
 
     def look(self, time: float, x: Array, tools: Mapping[str, PlacedShape]) -> Depths:
-        """Overlaps and inverted cells at a time [s] with the nodes at x (n, d) [m], and the tools at their places."""
+        """Overlaps and bad cells at a time [s] with the nodes at x (n, d) [m], and the tools at their places."""
         found = [*self._bodies(x), *self._tools(tools, x)]
         nodes = max((f.depth for f in found if f.at_node), default=0.0)
         between = max((f.depth for f in found), default=0.0)
         seen = (self._told(time, f, x) for f in found if f.depth > self._limit(f))
-        return Depths(nodes=nodes, between=between, findings=(*seen, *self._inverted(time, x)))
+        return Depths(nodes=nodes, between=between, findings=(*seen, *self._bad_cells(time, x)))
 
     def _limit(self, found: Overlap) -> float:
         """Depth from which an overlap is a finding [m]."""
@@ -149,13 +150,14 @@ class Auditor:
         part = f"up to {min(chord, found.depth):.3g} m"
         return f"; of this, {part} is the sagitta of facets, and no overlap of the curves through their nodes"
 
-    def _inverted(self, time: float, x: Array) -> Iterator[Event]:
-        """Worst inverted cell of each body."""
-        for body, nodes, ratio in inverted(self.solids, x):
-            name, place = self.solids.names[body], x[nodes].mean(axis=0)
+    def _bad_cells(self, time: float, x: Array) -> Iterator[Event]:
+        """Worst cell of each body that has a folded or a flat one."""
+        for body, nodes, shape in bad_cells(self.solids, x):
+            name, place, folded = self.solids.names[body], x[nodes].mean(axis=0), shape <= ROUNDING
             node = self._number(name, int(nodes[0]))
-            text = f"a cell of '{name}' at its node {node} is inverted: its volume is {ratio:.3g} of that at rest"
-            yield finding(time, INVERTED, (name,), text, node=node, place=place)
+            what = "is folded" if folded else "is flat"
+            text = f"a cell of '{name}' at its node {node} {what}: its scaled Jacobian is {shape:.3g}"
+            yield finding(time, INVERTED if folded else FLAT_CELL, (name,), text, node=node, place=place)
 
     def _order(self, name: str) -> int:
         """Place of a name: bodies in their order, then tools."""

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from softway.marching.results.finding import DISSIPATION, ENERGY, finding
 from softway.marching.results.step import Event, Ledger
-from softway.record.read.findings import DISSIPATION, ENERGY, finding
 
 GIVEN_BACK = 1e-12
 """Dissipation of a slab, relative to the energies, below whose negative it is a finding."""

@@ -5,10 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from softway.marching.results.finding import ENERGY, finding
 from softway.marching.results.step import Event
 from softway.record.audit.auditor import Depths, auditor
 from softway.record.audit.watch import AGREED
-from softway.record.read.findings import ENERGY, finding, gathered
+from softway.record.read.findings import gathered
 from softway.record.read.frames import Fields
 from softway.record.storage.table import Table
 from softway.record.write.history_columns import REMESHING
@@ -55,7 +56,7 @@ def unsaid(found: Iterable[Event], claimed: Iterable[Mapping[str, Any]]) -> list
 
     Examples
     --------
-    >>> from softway.record.read.findings import finding
+    >>> from softway.marching.results.finding import finding
     >>> seen = [finding(0.1, "overlap", ("a", "b"), "node 3 of 'a' is 0.01 m inside 'b'", depth=0.01)]
     >>> unsaid(seen, gathered(seen)), unsaid(seen, [{"kind": "overlap", "between": "a-b", "depth": 0.002}])
     ([], ["summary.json tells 0.002 m of 0.01 m: overlap of 'a-b'"])

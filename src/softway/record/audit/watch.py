@@ -8,11 +8,11 @@ import numpy as np
 
 from softway.bodies.prescribed_motion import PlacedShape
 from softway.bodies.solid import Tool
+from softway.marching.results.finding import ENERGY, MOMENTUM, SPIN, finding
 from softway.marching.results.step import Event, Step
 from softway.model.scene import State
 from softway.record.audit.auditor import Auditor, Depths, auditor
 from softway.record.audit.energy_watch import ENERGIES, RECEIVED, EnergyWatch, given_back, missed, received
-from softway.record.read.findings import ENERGY, MOMENTUM, SPIN, finding
 from softway.record.storage.table import Table
 from softway.record.write.grid.grid_layout import Layout, layout
 from softway.record.write.mechanism.rigid_table import placed_bodies
@@ -91,6 +91,8 @@ class Watcher:
                 depths = self._depths(step)
                 seen = replace(seen, gap_nodes=0.0 - depths.nodes, gap_between=0.0 - depths.between)
                 found += [*depths.findings, *self._balanced(step), *self._pushed(step)]
+            told = {(event.kind, event.contact) for event in step.events}
+            found = [event for event in found if (event.kind, event.contact) not in told]
             changed = bool(found) or seen is not step.certificate
             yield replace(step, certificate=seen, events=(*step.events, *found)) if changed else step
 

@@ -1,74 +1,19 @@
-"""Findings of the audit: the kinds of events that say what is wrong in a run, where and when."""
+"""Findings of a run, gathered by kind and bodies, and as sentences."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 
-from softway.arrays import Array
+from softway.marching.results.finding import FLAT_CELL, INVERTED, KINDS, finding
 from softway.marching.results.step import Event
-
-OVERLAP, BETWEEN, INVERTED = "overlap", "overlap between nodes", "inverted cell"
-DISSIPATION, ENERGY, MOMENTUM, SPIN = "dissipation", "energy", "momentum", "spin"
-KINDS = (OVERLAP, BETWEEN, INVERTED, DISSIPATION, ENERGY, MOMENTUM, SPIN)
-"""Kinds: a node lies inside of another body, of a tool or of its own body; a place between nodes does; a cell is
-inverted; a slab gave dissipated energy back; a balance misses; momentum or spin do not agree with the fields."""
-
-
-def finding(
-    time: float,
-    kind: str,
-    between: Iterable[str],
-    text: str,
-    *,
-    node: int = -1,
-    place: Array | None = None,
-    depth: float = 0.0,
-) -> Event:
-    """Finding as an event.
-
-    Parameters
-    ----------
-    time
-        Instant [s].
-    kind
-        One of ``KINDS``.
-    between
-        Names of what is concerned: two bodies, a body and a tool, or one body; ``all`` for a balance.
-    text
-        One sentence.
-    node
-        Node in the numbering of the first body; -1 if there is none.
-    place
-        (d,) place [m]; by default none.
-    depth
-        Depth of an overlap [m].
-
-    Examples
-    --------
-    >>> found = finding(0.5, "overlap", ("ball", "floor"), "node 3 is 0.01 m inside 'floor'", node=3, depth=0.01)
-    >>> found.contact, found.kind, found.depth
-    ('ball-floor', 'overlap', 0.01)
-    """
-    return Event(
-        time=time,
-        contact="-".join(between),
-        kind=kind,
-        node=node,
-        position=np.zeros(3) if place is None else place,
-        velocity_before=0.0,
-        velocity_after=0.0,
-        impulse=0.0,
-        depth=depth,
-        finding=text,
-    )
 
 
 def gathered(events: Iterable[Event]) -> list[dict[str, Any]]:
     """Findings by kind and pair, the first one first.
 
     An entry has ``kind``, ``between``, ``count``, the times ``first`` and ``last`` [s], the greatest ``depth`` [m], and
-    the sentence ``text`` on the deepest or else the last one.
+    the sentence ``text`` on the deepest or else the last one, of cells on the first one.
 
     Examples
     --------
@@ -83,7 +28,8 @@ def gathered(events: Iterable[Event]) -> list[dict[str, Any]]:
 
 
 def _entry(kind: str, between: str, found: list[Event]) -> dict[str, Any]:
-    worst = max(found, key=lambda event: event.depth) if any(event.depth for event in found) else found[-1]
+    last = found[0] if kind in (INVERTED, FLAT_CELL) else found[-1]
+    worst = max(found, key=lambda event: event.depth) if any(event.depth for event in found) else last
     return {
         "kind": kind,
         "between": between,

@@ -31,6 +31,7 @@ UNITS: Mapping[str, str] = MappingProxyType(
         "penetration_worst": "m",
         "penetration_nodes": "m",
         "penetration_between": "m",
+        "shape_worst": "ratio",
         "power_residual_worst": "J",
         "wall_time": "s",
         "min_gap": "m",
@@ -61,7 +62,8 @@ def summarise(history: Table, events: Table) -> dict[str, Any]:
     ``dissipation`` is that of friction and material, in solids with a temperature without the column
     ``heat.reversible`` [J]; ``penetration_worst`` is the largest penetration of a contact row at the end of a slab [m].
     ``penetration_nodes`` and ``penetration_between`` are the deepest overlaps of any two surfaces, at nodes and between
-    them, in the slabs that were audited [m]; ``heat`` is that of solids with a temperature,
+    them, in the slabs that were audited [m]; ``shape_worst`` is the least scaled Jacobian of the cells of solids
+    of large strain, zero or less where one has folded; ``heat`` is that of solids with a temperature,
     ``findings`` are those of the audit.  ``mesh``, in runs whose meshes change, holds the number of the slabs before
     which a mesh changed, and the greatest and the mean number of the nodes of all solids.
     """
@@ -83,6 +85,7 @@ def summarise(history: Table, events: Table) -> dict[str, Any]:
         "power_residual_worst": max((c["power_residual_worst"] for c in contacts.values()), default=0.0),
         "penetration_nodes": _deepest("certificate.gap_nodes", history),
         "penetration_between": _deepest("certificate.gap_between", history),
+        "shape_worst": _least("certificate.shape", history),
         "certificate": _certificate(history),
         "contacts": contacts,
         "heat": summarise_solids(history),
@@ -124,9 +127,15 @@ def status(reason: str, found: Mapping[str, Any]) -> str:
 
 def _deepest(name: str, history: Table) -> float | None:
     """Deepest overlap that the audit has seen [m]; None if nothing was audited."""
-    gap = history[name] if name in history else np.zeros(0)
-    seen = gap[~np.isnan(gap)]
-    return float(max(0.0, -seen.min())) if len(seen) else None
+    least = _least(name, history)
+    return None if least is None else max(0.0, -least)
+
+
+def _least(name: str, history: Table) -> float | None:
+    """Least of the numbers of a column; None if there is none."""
+    values = history[name] if name in history else np.zeros(0)
+    seen = values[~np.isnan(values)]
+    return float(seen.min()) if len(seen) else None
 
 
 def _certificate(history: Table) -> dict[str, float | None]:

@@ -7,8 +7,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from softway.arrays import Array, IntArray
+from softway.marching.results.finding import KINDS
 from softway.record.read.cells import Cells
-from softway.record.read.findings import KINDS
 from softway.record.read.frames import Frame
 from softway.record.read.records import Records
 from softway.record.write.events import MESH

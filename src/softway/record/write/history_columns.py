@@ -115,6 +115,7 @@ CERTIFICATE = (
 EXTRA: tuple[Column, ...] = (
     Column("certificate.gap_nodes", "m", attrgetter("certificate.gap_nodes"), lambda start: nan),
     Column("certificate.gap_between", "m", attrgetter("certificate.gap_between"), lambda start: nan),
+    Column("certificate.shape", table.RATIO, attrgetter("certificate.shape"), lambda start: nan),
 )
 """Columns after those of the certificate; files of earlier versions lack them."""
 

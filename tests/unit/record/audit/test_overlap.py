@@ -8,7 +8,7 @@ from softway.bodies.prescribed_motion import PlacedShape, Still
 from softway.meshes.generators import recipes
 from softway.meshes.mesh import Mesh
 from softway.obstacles import HalfSpace, Sphere
-from softway.record.audit.geometry.inverted import inverted
+from softway.record.audit.geometry.bad_cells import bad_cells
 from softway.record.audit.geometry.overlap import overlaps
 from softway.record.audit.geometry.solids import Solids, solids
 from softway.record.audit.geometry.tools import behind, sunk
@@ -177,14 +177,14 @@ def test_a_plane_is_checked_at_the_nodes_of_linear_cells_and_between_those_of_qu
 
 
 @pytest.mark.parametrize("cell", PLANE + SPACE)
-def test_inverted_cells_are_found_with_their_volume(cell: str) -> None:
+def test_folded_cells_are_found_with_their_shape(cell: str) -> None:
     body = together(square(2, cell) if cell in PLANE else cube(2, cell))
-    assert not inverted(body, body.reference)
+    assert not bad_cells(body, body.reference)
     corner = int(np.argmax(body.reference.sum(axis=1)))
     x = body.reference.copy()
     x[corner] = 0.1  # pushed beyond the centre of the body
-    ((number, nodes, ratio),) = inverted(body, x)
-    assert number == 0 and corner in nodes and ratio < 0.0
+    ((number, nodes, shape),) = bad_cells(body, x)
+    assert number == 0 and corner in nodes and shape < 0.0
 
 
 def test_a_flat_corner_of_a_cell_is_not_inverted() -> None:
@@ -194,7 +194,7 @@ def test_a_flat_corner_of_a_cell_is_not_inverted() -> None:
     others = np.flatnonzero((x.sum(axis=1) > 0.5) & (np.arange(4) != corner))
     for beyond in (-1e-15, 0.0, 1e-15):
         x[corner] = x[others].mean(axis=0) + beyond
-        assert not inverted(body, x)
+        assert not bad_cells(body, x)
     x[corner] -= 1e-3
-    assert len(inverted(body, x)) == 1
-    assert len(inverted(body, 0.0 * x)) == 1
+    assert len(bad_cells(body, x)) == 1
+    assert len(bad_cells(body, 0.0 * x)) == 1

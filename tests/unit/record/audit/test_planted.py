@@ -9,10 +9,10 @@ import pytest
 
 from softway.arrays import Array
 from softway.marching.march import march
+from softway.marching.results.finding import DISSIPATION, INVERTED, KINDS, MOMENTUM, OVERLAP
 from softway.marching.results.step import Event, Step
 from softway.marching.results.step_states import KnownStates
 from softway.record.audit.watch import APART, watcher
-from softway.record.read.findings import DISSIPATION, INVERTED, KINDS, MOMENTUM, OVERLAP
 from softway.scenario.checks.check import Checked, check
 from softway.scenario.files import loads
 from softway.scenario.run import _opening

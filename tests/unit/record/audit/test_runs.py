@@ -15,12 +15,12 @@ from softway.apps import cli
 from softway.arrays import Array
 from softway.marching.audit.balances import Balances, balances
 from softway.marching.march import march
+from softway.marching.results.finding import KINDS
 from softway.marching.results.step import Event, Step
 from softway.marching.results.step_states import KnownStates
 from softway.model.scene import State
 from softway.record.audit.energy_watch import ENERGIES
 from softway.record.audit.watch import APART, watcher
-from softway.record.read.findings import KINDS
 from softway.record.storage.table import Table
 from softway.scenario.checks.check import check
 from softway.scenario.files import loads

@@ -116,13 +116,21 @@ def _law_changing(internal: BodyForce, state: MaterialState | None, span: float)
 
 
 def _reached(part: DiscreteSolid, state: MaterialState | None, u: Array, light: BoolArray) -> MaterialState | None:
-    """Material state in the equilibrium u (n, d): in cells without a ``light`` node (n,) nothing has happened."""
+    """Material state in the equilibrium u (n, d): in cells without a ``light`` node (n,) nothing has happened.
+
+    Volume changes that are averaged around corners change one ring of cells further.
+    """
     found = part.internal.committed(u[part.nodes])
     if state is None or found is None:
         return found
-    cells = [(block, light[part.nodes][block].any(axis=1)) for block in part.mesh.blocks.values()]
+    blocks, nodes = part.mesh.blocks.values(), light[part.nodes]
+    if part.dilatation == "corner":
+        around = np.zeros_like(nodes)
+        for block in blocks:
+            around[block[nodes[block].any(axis=1)]] = True
+        nodes = around
     counts = [table.shape[1] for table in part.internal.sampling.rows]
-    points = np.concatenate([np.repeat(moved, q) for (_, moved), q in zip(cells, counts, strict=True)])
+    points = np.concatenate([np.repeat(nodes[b].any(axis=1), q) for b, q in zip(blocks, counts, strict=True)])
     if not isinstance(part.internal, RegionForces):
         return _merged(found, state, points)
     terms: Mapping[str, IntArray] = {term.region: term.points for term in part.internal.terms}
