@@ -22,6 +22,7 @@ _PART = _EXACT | {"forceinline": True, "no_cfunc_wrapper": True, "no_cpython_wra
 _UNCOUNTED: dict[str, Any] = {"_nrt": False}
 _POINT = types.void(types.CPointer(types.float64), types.CPointer(types.float64))
 _SHARED = (
+    "jit/by_address.py",
     "jit/compilation.py",
     "jit/elementary.py",
     "jit/lanes.py",
@@ -90,6 +91,13 @@ def uncounted_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
 def uncounted(function: Callable[..., Any]) -> Callable[..., Any]:
     """Make a function that is inlined in kernels, allocates no arrays and counts no references to them."""
     return njit(**_PART, **_UNCOUNTED)(function)
+
+
+def called(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Make a function as ``uncounted``, which is called and not inlined: it is compiled once, for a few nanoseconds
+    more in each call.
+    """
+    return njit(**(_PART | {"forceinline": False}), **_UNCOUNTED)(function)
 
 
 def _kept(compiler: Callable[..., Any], function: Callable[..., Any], options: dict[str, Any]) -> Any:

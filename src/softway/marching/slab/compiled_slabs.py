@@ -3,6 +3,7 @@
 import numpy as np
 
 from softway.arrays import Array
+from softway.kernels.jit.by_address import packed
 from softway.kernels.slab.march import slabs
 from softway.kernels.slab.tables import ITERATIONS, MET, SUMS, Course, Work
 from softway.kernels.slab.works import WORKS
@@ -42,7 +43,9 @@ def next_batch(
     start = account.energy_start - account.dissipation - account.remeshing
     told = np.array([start, account.work_external, account.energy_error])
     work = _work(compiled)
-    count = slabs(compiled.bodies, compiled.rows, operator, course, work, compiled.tolerance, told, wanted)
+    tables = [packed(each) for each in (compiled.bodies, compiled.rows, operator, course, work)]
+    places = np.array([each.ctypes.data for each in tables])
+    count = slabs(places, compiled.tolerance, told, wanted)
     if not count:
         return None
     iterations = tuple(int(i) for i in course.sums[:count, ITERATIONS].tolist())
