@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from numba import cfunc, njit, types
+from numba.extending import register_jitable
 
 Stage = Any
 """Compiled function ``(state, moduli)`` of one point in every lane; both arguments are addresses of numbers."""
@@ -59,6 +60,8 @@ _SHARED = (
     "slab/works.py",
     "../tolerances.py",
 )
+SMALL = 4000
+"""Numbers of entries below which kernels of whole numbers take less time without their compilation."""
 _SOURCES = b"".join((Path(__file__).parents[1] / name).read_bytes() for name in _SHARED)
 _ENDING = f"_{sha256(_SOURCES).hexdigest()[:12]}"
 
@@ -81,6 +84,19 @@ def unfused_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
 def inlined(function: Callable[..., Any]) -> Callable[..., Any]:
     """Make a function that is inlined in stages and kernels."""
     return njit(**_PART)(function)
+
+
+def shared(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Make a part of kernels that also runs as it is, where :func:`interpreted` ones call it."""
+    return register_jitable(**_EXACT)(function)  # type: ignore[no-any-return]
+
+
+def interpreted(kernel: Callable[..., Any], small: bool) -> Callable[..., Any]:
+    """Function of a kernel of whole numbers, not compiled for ``small`` arguments: it takes less than its compilation.
+
+    Kernels of floating-point numbers round differently when compiled.
+    """
+    return kernel.py_func if small else kernel  # type: ignore[attr-defined, no-any-return]
 
 
 def uncounted_kernel(function: Callable[..., Any]) -> Callable[..., Any]:

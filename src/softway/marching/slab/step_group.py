@@ -148,9 +148,9 @@ class StepGroup:
     @property
     def _errors(self) -> Array:
         """Errors of the energy balance before the slabs (slabs,) [J]."""
-        return np.concatenate([[self.batch.begun.account.energy_error], self.batch.course.sums[: self.stop - 1, ERROR]])[
-            self.start :
-        ]
+        return np.concatenate(
+            [[self.batch.begun.account.energy_error], self.batch.course.sums[: self.stop - 1, ERROR]]
+        )[self.start :]
 
     @property
     def _contacts(self) -> Mapping[str, ContactLedger]:
@@ -188,9 +188,7 @@ def _contact(met: Any, count: int) -> ContactLedger:
     )
 
 
-def _ledger(
-    batch: SlabBatch, row: Any, contacts: Mapping[str, ContactLedger], sums: Array | None = None
-) -> Ledger:
+def _ledger(batch: SlabBatch, row: Any, contacts: Mapping[str, ContactLedger], sums: Array | None = None) -> Ledger:
     """Ledger after slabs from their sums; ``sums`` are the same numbers as an array."""
     account, vectors = batch.begun.account, row if sums is None else sums
     return Ledger(
