@@ -17,7 +17,6 @@ from softway.model.field import Field
 from softway.model.model import Model
 from softway.model.scene import Scene, State
 
-
 Times = float | Array
 """A time, or several [s]."""
 
